@@ -1,0 +1,64 @@
+// What the twin tells the world of one step: plain values, before they become ROS messages or LCM
+// types. Units and meanings stand beside each field; a value that can be undefined is NaN then.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace whirl_twin {
+
+/// When a state holds.
+struct Instant {
+  std::int64_t step = 0;   ///< steps since the start
+  double time = 0.0;       ///< [s], simulated
+  std::int64_t stamp = 0;  ///< [ns], what the ROS header carries: wall clock, or simulated time
+};
+
+/// A rotor's disc centre in the frame of its bearings.
+struct WhirlState {
+  Instant at;
+  std::string system;
+  double radius = 0.0;           ///< [m]
+  double phase = 0.0;            ///< [rad], unwrapped lag of the whirl behind the unbalance
+  bool phase_valid = false;      ///< the radius is large enough for an angle
+  double whirl_angle = 0.0;      ///< [rad], -pi..pi
+  double whirl_rate = 0.0;       ///< [rad/s]
+  double speed = 0.0;            ///< [rad/s], of the shaft
+  double shaft_angle = 0.0;      ///< [rad], total
+  double x = 0.0;                ///< [m]
+  double y = 0.0;                ///< [m]
+  double x_rate = 0.0;           ///< [m/s]
+  double y_rate = 0.0;           ///< [m/s]
+  double orbit_major = 0.0;      ///< [m], semi-major axis of the synchronous orbit
+  double orbit_minor = 0.0;      ///< [m], semi-minor axis
+  bool forward = true;           ///< the orbit runs in the direction of rotation
+  double energy_residual = 0.0;  ///< [-]
+};
+
+/// A pendulum or oscillator: one entry per coordinate, in the model's order.
+struct PendulumState {
+  Instant at;
+  std::string system;
+  std::vector<std::string> name;
+  std::vector<double> angle;     ///< [rad], or [m] for a sliding coordinate
+  std::vector<double> rate;      ///< [rad/s] or [m/s]
+  double kinetic = 0.0;          ///< [J]
+  double potential = 0.0;        ///< [J]
+  double energy_residual = 0.0;  ///< [-]
+};
+
+/// A shaft that turns.
+struct DriveState {
+  Instant at;
+  std::string drive;
+  double speed = 0.0;         ///< [rad/s]
+  double acceleration = 0.0;  ///< [rad/s^2]
+  double jerk = 0.0;          ///< [rad/s^3]
+  double target_speed = 0.0;  ///< [rad/s], where the present move ends
+  std::int64_t turns = 0;     ///< whole turns since angle 0
+  double remainder = 0.0;     ///< [rad], 0..2 pi
+  double shaft_angle = 0.0;   ///< [rad], total
+};
+
+}  // namespace whirl_twin
