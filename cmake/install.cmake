@@ -1,0 +1,45 @@
+# What `make install` copies. Message headers, message definitions and package.xml are catkin's own.
+set(whirl_twin_node_names
+  simulation_node monitor_node visualization_node lcm_bridge_node terminal_node)
+
+if(WHIRL_TWIN_ROS)
+  set(whirl_twin_library_dir ${CATKIN_PACKAGE_LIB_DESTINATION})
+  set(whirl_twin_share_dir ${CATKIN_PACKAGE_SHARE_DESTINATION})
+  set(whirl_twin_node_dir ${CATKIN_PACKAGE_BIN_DESTINATION})
+else()
+  include(GNUInstallDirs)
+  set(whirl_twin_library_dir ${CMAKE_INSTALL_LIBDIR})
+endif()
+
+# The programs, and what rostopic needs to print their messages: all that a demo needs of a build.
+add_custom_target(whirl_twin_programs)
+if(TARGET whirl_twin_generate_messages_py)
+  add_dependencies(whirl_twin_programs whirl_twin_generate_messages_py)
+endif()
+
+# A program finds the library beside it wherever the whole was installed, with no LD_LIBRARY_PATH.
+foreach(node ${whirl_twin_node_names})
+  if(TARGET ${node})
+    add_dependencies(whirl_twin_programs ${node})
+    file(RELATIVE_PATH to_library /${whirl_twin_node_dir} /${whirl_twin_library_dir})
+    set_target_properties(${node} PROPERTIES INSTALL_RPATH "$ORIGIN/${to_library}")
+    install(TARGETS ${node} RUNTIME DESTINATION ${whirl_twin_node_dir})
+  endif()
+endforeach()
+if(TARGET twin)
+  add_dependencies(whirl_twin_programs twin)
+  set_target_properties(twin PROPERTIES INSTALL_RPATH "$ORIGIN/../${whirl_twin_library_dir}")
+  install(TARGETS twin RUNTIME DESTINATION bin)
+endif()
+
+install(TARGETS whirl_twin_core
+  ARCHIVE DESTINATION ${whirl_twin_library_dir}
+  LIBRARY DESTINATION ${whirl_twin_library_dir})
+foreach(room realtime control mechanics integration analysis scene monitoring)
+  install(DIRECTORY src/${room} DESTINATION include/whirl_twin FILES_MATCHING PATTERN *.h)
+endforeach()
+
+if(WHIRL_TWIN_ROS)
+  install(DIRECTORY launch config DESTINATION ${whirl_twin_share_dir})
+  install(DIRECTORY msg DESTINATION ${whirl_twin_share_dir} FILES_MATCHING PATTERN *.lcm)
+endif()

@@ -5,7 +5,7 @@
 #include <limits>
 #include <string>
 
-namespace whirl_twin {
+namespace whirl_twin::state {
 
 enum class Severity : std::uint8_t { kInfo = 0, kWarning = 1, kDanger = 2 };
 
@@ -19,6 +19,7 @@ struct Alert {
   bool raised = true;                         ///< in the active list
   double raised_time = 0.0;                   ///< [s], simulated
   double time = 0.0;                          ///< [s], simulated
+  std::int64_t stamp = 0;                     ///< [ns], of the state it was last judged on
   double speed = kNone;                       ///< [rad/s]
   double acceleration = kNone;                ///< [rad/s^2]
   double critical_speed = kNone;              ///< [rad/s]
@@ -30,4 +31,4 @@ struct Alert {
   std::string text;                           ///< one sentence for a person
 };
 
-}  // namespace whirl_twin
+}  // namespace whirl_twin::state

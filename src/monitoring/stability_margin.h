@@ -8,7 +8,7 @@
 
 #include "scene/states.h"
 
-namespace whirl_twin {
+namespace whirl_twin::state {
 
 /// A critical speed seen from the present running speed (API 617/684).
 struct CriticalSpeedMargin {
@@ -43,4 +43,4 @@ struct StabilityMargin {
   std::vector<CriticalSpeedMargin> critical_speeds;
 };
 
-}  // namespace whirl_twin
+}  // namespace whirl_twin::state

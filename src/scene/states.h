@@ -1,12 +1,13 @@
 // What the twin tells the world of one step: plain values, before they become ROS messages or LCM
 // types. Units and meanings stand beside each field; a value that can be undefined is NaN then.
+// (In a namespace of their own: the generated ROS messages are whirl_twin::WhirlState and so on.)
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
-namespace whirl_twin {
+namespace whirl_twin::state {
 
 /// When a state holds.
 struct Instant {
@@ -61,4 +62,4 @@ struct DriveState {
   double shaft_angle = 0.0;   ///< [rad], total
 };
 
-}  // namespace whirl_twin
+}  // namespace whirl_twin::state

@@ -1,0 +1,65 @@
+// The Routh-Hurwitz test, exact: how many roots of a polynomial lie right of, on and left of the
+// imaginary axis, without computing any of them.
+//
+// Real coefficients: Routh's table (Routh 1877), row_i[j] = row_{i-2}[j+1] - (row_{i-2}[0] /
+// row_{i-1}[0]) row_{i-1}[j+1], with both special cases made exact:
+//  - a row that begins with m zeros: row += (-1)^m (row shifted left by m) (Benidir and Picinbono,
+//    IEEE Trans. Automatic Control 35, 1990); no small number epsilon, which can miscount;
+//  - a row of zeros: the derivative of the auxiliary polynomial, the row above, takes its place.
+// Complex coefficients (isotropic rotors in z = x + i y): the generalised test of Frank (1946) and
+// Bilharz (1944) as the Sturm sequence of Re and Im of p(jx)/j^n.
+//
+// What a polynomial cannot say: a repeated imaginary root grows like t^(m-1) unless the matrix it
+// comes from is semisimple there, as an isotropic undamped rotor in x and y is.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "analysis/exact_number.h"
+
+namespace whirl_twin {
+
+enum class Verdict : std::uint8_t {
+  kAsymptoticallyStable = 0,  ///< every root left of the imaginary axis
+  kMarginal,                  ///< none right of it, some on it, all of those simple
+  kRepeatedImaginary,         ///< none right of it, a repeated one on it
+  kUnstable,                  ///< at least one right of it
+  kUncertain                  ///< cannot be told from the numbers at hand; never said by routh()
+};
+
+/// "asymptotically_stable", "marginal", "repeated_imaginary", "unstable" or "uncertain".
+const char* name(Verdict verdict);
+
+struct RouthResult {
+  Verdict verdict = Verdict::kAsymptoticallyStable;
+  int right = 0;
+  int imaginary = 0;  ///< every root on the imaginary axis, zeros included
+  int left = 0;
+  int largest_imaginary_multiplicity = 0;
+  /// Real coefficients: the first column of Routh's table of the polynomial divided by its roots at
+  /// zero, times -1 if its leading coefficient is negative; its sign changes are the right roots.
+  /// Complex ones: the leading coefficients of the Sturm sequence, each times (-1)^(n - degree). In
+  /// the regular case (n + 1 entries) their sign changes are the right roots, and for a real
+  /// polynomial they are the column above; a shorter column means roots on the axis or in pairs
+  /// symmetric to it, or a degree that dropped by more than one.
+  std::vector<double> first_column;
+};
+
+/// Roots of a real polynomial, coefficients highest power first; leading zeros are dropped.
+/// Exact for the numbers given, whatever their size. A non-zero constant is asymptotically stable.
+/// Throws std::invalid_argument without a non-zero coefficient or with one that is not finite.
+/// Not real-time safe (allocates).
+RouthResult routh(const std::vector<Rational>& coefficients);
+RouthResult routh(const std::vector<double>& coefficients);
+
+/// The same for complex coefficients. The sequence is that of the polynomial times -1 if the
+/// leading coefficient is real and negative, times its conjugate if it is not real.
+RouthResult routh(const std::vector<ComplexRational>& coefficients);
+
+/// Hurwitz determinants D_1 ... D_n of a_0 s^n + ... + a_n: leading principal minors of the matrix
+/// H[i][j] = a_{2j-i}, i, j = 1 ... n. With a_0 > 0 all roots lie left if and only if all are
+/// positive (Hurwitz 1895). Leading zeros are dropped; throws as routh() does.
+std::vector<Rational> hurwitzMinors(const std::vector<Rational>& coefficients);
+
+}  // namespace whirl_twin

@@ -1,0 +1,166 @@
+#include "control/drive.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace whirl_twin {
+namespace {
+
+constexpr double kForever = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+Drive::Drive(double speed, double angle) : Drive(speed, angle, {}) {}
+
+Drive::Drive(double speed, double angle, const std::vector<SpeedMove>& moves,
+             std::int64_t start_nanoseconds) {
+  if (!(std::abs(speed) <= kLargestSpeed)) {
+    throw std::invalid_argument(
+        fmt::format("drive: speed must lie within +-1e6 rad/s, found {}", speed));
+  }
+  if (!(std::abs(angle) <= 1.0e15)) {
+    throw std::invalid_argument(
+        fmt::format("drive: angle must lie within +-1e15 rad, found {}", angle));
+  }
+
+  const auto append = [this](const SpeedSegment& motion, double target) {
+    if (profile_.empty()) {
+      profile_.push_back({motion, target, 0, 0.0, {}});
+      return;
+    }
+    Segment& last = profile_.back();
+    if (motion.constant() && last.motion.constant() && motion.speed == last.motion.speed) {
+      last.motion.duration += motion.duration;
+    } else {
+      profile_.push_back({motion, target, 0, 0.0, {}});
+    }
+  };
+  double total = 0.0;
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    const SpeedMove& move = moves[i];
+    if (const auto fault = faultOf(move)) {
+      throw std::invalid_argument(fmt::format("drive: profile move {}: {}, found {}", i + 1,
+                                              fault->expected, fault->found));
+    }
+    const SpeedChange change = planSpeedChange(speed, 0.0, move);
+    total += change.duration + move.dwell;
+    if (!(total <= kLongestDuration)) {
+      throw std::invalid_argument(fmt::format(
+          "drive: profile move {}: the profile up to its end must last at most 1e9 s, found {} s",
+          i + 1, total));
+    }
+    for (std::size_t k = 0; k < change.count; ++k) {
+      append(change.segments[k], move.speed);
+    }
+    speed = move.speed;
+    if (move.dwell > 0.0) {
+      append({move.dwell, speed, 0.0, 0.0}, speed);
+    }
+  }
+  append({kForever, speed, 0.0, 0.0}, speed);
+
+  profile_.front().first_tick = start_nanoseconds;
+  profile_.front().angle = shaftAngle(angle);
+  for (std::size_t i = 1; i < profile_.size(); ++i) {
+    profile_[i] = following(profile_[i - 1], profile_[i].motion, profile_[i].target);
+  }
+  begin(start_nanoseconds);
+}
+
+void Drive::begin(std::int64_t time_nanoseconds) noexcept {
+  const Segment* const all = segments();
+  const std::size_t count = segmentCount();
+  if (time_nanoseconds < all[cursor_].first_tick) {
+    cursor_ = 0;
+  }
+  while (cursor_ + 1 < count && time_nanoseconds >= all[cursor_ + 1].first_tick) {
+    ++cursor_;
+  }
+
+  const Segment& segment = all[cursor_];
+  const SpeedSegment& motion = segment.motion;
+  const SplitTime tau = later(splitTime(time_nanoseconds - segment.first_tick), segment.lead);
+  time_ = time_nanoseconds;
+  angle_ = advance(segment.angle, motion.speed, motion.acceleration, motion.jerk, tau);
+  speed_ = motion.speed + tau.high * (motion.acceleration + 0.5 * tau.high * motion.jerk);
+  acceleration_ = motion.acceleration + tau.high * motion.jerk;
+  jerk_ = motion.jerk;
+  // High part first: near the end of the segment that difference is exact.
+  remaining_ = (motion.duration - tau.high) - tau.low;
+}
+
+ShaftMotion Drive::beyond(double offset) const noexcept {
+  const Segment* segment = segments() + cursor_ + 1;
+  double tau = offset - remaining_;
+  for (; tau > segment->motion.duration; ++segment) {
+    tau -= segment->motion.duration;
+  }
+  const SpeedSegment& motion = segment->motion;
+  const ShaftAngle since{segment->angle.turns - angle_.turns, segment->angle.remainder};
+  const double turned =
+      tau * (motion.speed + tau * (0.5 * motion.acceleration + tau * motion.jerk * (1.0 / 6.0)));
+  return {since.total() + turned,
+          motion.speed + tau * (motion.acceleration + 0.5 * tau * motion.jerk),
+          motion.acceleration + tau * motion.jerk, motion.jerk};
+}
+
+bool Drive::setSpeed(double speed, double max_acceleration, double max_jerk) noexcept {
+  const SpeedMove move{speed, max_acceleration, max_jerk, 0.0};
+  if (faultOf(move) ||
+      !(std::abs(stoppingSpeed(speed_, acceleration_, max_jerk)) <= kLargestSpeed)) {
+    return false;
+  }
+  const SpeedChange change = planSpeedChange(speed_, acceleration_, move);
+  if (!(change.duration <= kLongestDuration)) {
+    return false;
+  }
+
+  // time_ and angle_ are those of begin(), so the new pieces start from the present state.
+  const auto piece = [&](std::size_t i) {
+    return i < change.count ? change.segments[i] : SpeedSegment{kForever, speed, 0.0, 0.0};
+  };
+  live_[0] = {piece(0), speed, time_, 0.0, angle_};
+  for (std::size_t i = 1; i <= change.count; ++i) {
+    live_[i] = following(live_[i - 1], piece(i), speed);
+  }
+  live_count_ = change.count + 1;
+  cursor_ = 0;
+  move_duration_ = change.duration;
+  begin(time_);
+  return true;
+}
+
+void Drive::reset() noexcept {
+  live_count_ = 0;
+  cursor_ = 0;
+  move_duration_ = 0.0;
+  begin(profile_.front().first_tick);
+}
+
+Drive::Segment Drive::following(const Segment& segment, const SpeedSegment& motion,
+                                double target) noexcept {
+  // The end of the segment in nanoseconds after its first tick, duration * 1e9 - lead, is kept as
+  // an exact product (high + low); the next tick is the whole number at or above it.
+  const double duration = segment.motion.duration;
+  const double high = duration * 1e9;
+  const double low = std::fma(duration, 1e9, -high);
+  const double up = std::ceil(high);
+  double lead = ((up - high) - low) + segment.lead * 1e9;
+  const double carry = std::floor(lead);
+  lead -= carry;
+
+  Segment next;
+  next.motion = motion;
+  next.target = target;
+  next.first_tick =
+      segment.first_tick + static_cast<std::int64_t>(up) - static_cast<std::int64_t>(carry);
+  next.lead = lead * 1e-9;
+  next.angle = advance(segment.angle, segment.motion.speed, segment.motion.acceleration,
+                       segment.motion.jerk, {duration, 0.0});
+  return next;
+}
+
+}  // namespace whirl_twin

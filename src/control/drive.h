@@ -1,0 +1,122 @@
+// A drive turns a shaft: at a constant speed, or through a list of jerk-limited moves. Speed and
+// angle are integrated in closed form over pieces of constant jerk, never summed step by step:
+//
+//   omega = v + a tau + j tau^2/2,   theta = theta_0 + v tau + a tau^2/2 + j tau^3/6.
+//
+// The pieces' durations, jerks and starting values, rounded to doubles, define the motion. Against
+// it angle() is within 3e-15 rad for each piece passed, whatever the time (up to 1e15 rad turned),
+// and at(offset) within a few ulp of (2 pi + speed * offset). Speed and acceleration are continuous
+// from piece to piece up to a few ulp of the largest ones in the move, and the speed asked for is
+// reached exactly. A piece's limits are whole nanoseconds and a fraction, exact to 1e-16 ns.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "control/shaft_angle.h"
+#include "control/speed_profile.h"
+
+namespace whirl_twin {
+
+/// Motion of the shaft at one instant.
+struct ShaftMotion {
+  double angle;         ///< [rad], good for sin and cos: remainder at begin() plus the turn since
+  double speed;         ///< [rad/s]
+  double acceleration;  ///< [rad/s^2]
+  double jerk;          ///< [rad/s^3]
+};
+
+/// A shaft whose motion is prescribed. Copies are independent of each other.
+class Drive {
+ public:
+  // Not real-time safe.
+
+  /// A constant speed [rad/s]; angle [rad] at simulated time 0.
+  Drive(double speed, double angle);
+
+  /// Moves that follow one another from `speed` and `angle` at simulated time `start_nanoseconds`.
+  /// Throws std::invalid_argument that names the move and the value.
+  Drive(double speed, double angle, const std::vector<SpeedMove>& moves,
+        std::int64_t start_nanoseconds = 0);
+
+  // Real-time safe: no allocation, no lock, no exception.
+
+  /// Starts the step at this simulated time. Time increases from call to call; it may go back too,
+  /// but after setSpeed() only a reset() brings back what was before it. Before its first instant
+  /// the motion is continued backwards with the jerk it starts with. |time| <= 8e18 ns, 250 years.
+  void begin(std::int64_t time_nanoseconds) noexcept;
+
+  /// Motion at offset [s] >= 0 after begin(), of any size.
+  ShaftMotion at(double offset) const noexcept {
+    if (offset > remaining_) {
+      return beyond(offset);
+    }
+    return {angle_.remainder +
+                offset * (speed_ + offset * (0.5 * acceleration_ + offset * (jerk_ * (1.0 / 6.0)))),
+            speed_ + offset * (acceleration_ + offset * (0.5 * jerk_)),
+            acceleration_ + offset * jerk_, jerk_};
+  }
+
+  /// Angle at begin().
+  ShaftAngle angle() const noexcept { return angle_; }
+
+  /// The speed is constant from begin() for a duration [s].
+  bool constantFor(double duration) const noexcept {
+    return acceleration_ == 0.0 && jerk_ == 0.0 && duration <= remaining_;
+  }
+
+  /// Speed [rad/s] at which the present move ends.
+  double targetSpeed() const noexcept { return segments()[cursor_].target; }
+
+  /// From the instant of the last begin(), replaces what is left of the profile by one move to
+  /// `speed` [rad/s] within max_acceleration [rad/s^2] and max_jerk [rad/s^3]. Speed and
+  /// acceleration go on from their present values; only with max_jerk 0 may the acceleration jump.
+  /// False, with nothing changed, for bad arguments: not finite, a limit not positive (jerk:
+  /// negative), a speed beyond kLargestSpeed asked for or run through, a move that would last
+  /// longer than kLongestDuration.
+  bool setSpeed(double speed, double max_acceleration, double max_jerk) noexcept;
+
+  /// Duration [s] of the last setSpeed() move; 0 without one.
+  double moveDuration() const noexcept { return move_duration_; }
+
+  /// Back to the profile given at construction, and to its first instant.
+  void reset() noexcept;
+
+ private:
+  /// A piece of constant jerk, placed on the time axis.
+  struct Segment {
+    SpeedSegment motion;
+    double target;            // [rad/s], where the move ends
+    std::int64_t first_tick;  // [ns], first whole nanosecond in it
+    double lead;              // [s], from its start to first_tick, in [0, 1e-9)
+    ShaftAngle angle;         // at its start
+  };
+
+  static Segment following(const Segment& segment, const SpeedSegment& motion,
+                           double target) noexcept;
+  const Segment* segments() const noexcept {
+    return live_count_ > 0 ? live_.data() : profile_.data();
+  }
+  std::size_t segmentCount() const noexcept {
+    return live_count_ > 0 ? live_count_ : profile_.size();
+  }
+  ShaftMotion beyond(double offset) const noexcept;
+
+  std::vector<Segment> profile_;
+  std::array<Segment, 4> live_{};  // the last setSpeed() move and what follows it
+  std::size_t live_count_ = 0;     // 0: the profile holds
+  std::size_t cursor_ = 0;
+  double move_duration_ = 0.0;
+
+  // At begin().
+  std::int64_t time_ = 0;
+  ShaftAngle angle_;
+  double speed_ = 0.0;
+  double acceleration_ = 0.0;
+  double jerk_ = 0.0;
+  double remaining_ = 0.0;  // [s], to the end of the segment
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,116 @@
+#include "control/shaft_angle.h"
+
+#include <cmath>
+
+namespace whirl_twin {
+namespace {
+
+// 2 pi as the sum of two doubles.
+constexpr double kTwoPi = 6.283185307179586;
+constexpr double kTwoPiLow = 2.4492935982947064e-16;
+
+// high + low, with |low| <= ulp(high) / 2 after each operation.
+using DoubleDouble = SplitTime;
+
+DoubleDouble sum(double a, double b) {
+  const double high = a + b;
+  const double b_part = high - a;
+  return {high, (a - (high - b_part)) + (b - b_part)};
+}
+
+// a + b where |a| >= |b| or a is zero.
+DoubleDouble orderedSum(double a, double b) {
+  const double high = a + b;
+  return {high, b - (high - a)};
+}
+
+DoubleDouble plus(const DoubleDouble& a, double b) {
+  const DoubleDouble head = sum(a.high, b);
+  return orderedSum(head.high, head.low + a.low);
+}
+
+DoubleDouble times(const DoubleDouble& a, const DoubleDouble& b) {
+  const double high = a.high * b.high;
+  const double error = std::fma(a.high, b.high, -high);
+  return orderedSum(high, error + (a.high * b.low + a.low * b.high));
+}
+
+DoubleDouble times(const DoubleDouble& a, double b) {
+  const double high = a.high * b;
+  return orderedSum(high, std::fma(a.high, b, -high) + a.low * b);
+}
+
+// value / 6 with the remainder of the division.
+DoubleDouble sixth(double value) {
+  const double high = value * (1.0 / 6.0);
+  return {high, std::fma(-6.0, high, value) * (1.0 / 6.0)};
+}
+
+ShaftAngle add(const ShaftAngle& angle, const DoubleDouble& turned) {
+  const double ratio = turned.high * (1.0 / kTwoPi);
+  std::int64_t turns = static_cast<std::int64_t>(ratio + (ratio < 0.0 ? -0.5 : 0.5));
+
+  // turned.high - whole is exact: they are equal, or within a factor of two of each other
+  // (Sterbenz); the errors of the product are added after the large parts have cancelled.
+  const double count = static_cast<double>(turns);
+  const double whole = count * kTwoPi;
+  const double whole_error = std::fma(count, kTwoPi, -whole);
+  double remainder = (turned.high - whole) + ((turned.low - whole_error) - count * kTwoPiLow);
+  remainder += angle.remainder;
+
+  if (remainder < 0.0) {
+    remainder += kTwoPi;
+    --turns;
+  } else if (remainder >= kTwoPi) {
+    remainder -= kTwoPi;
+    ++turns;
+  }
+  // A remainder just below zero rounds up to 2 pi itself.
+  if (remainder >= kTwoPi) {
+    remainder = 0.0;
+    ++turns;
+  }
+  return {angle.turns + turns, remainder};
+}
+
+}  // namespace
+
+double ShaftAngle::total() const noexcept {
+  return std::fma(static_cast<double>(turns), kTwoPi, remainder);
+}
+
+SplitTime splitTime(std::int64_t nanoseconds) noexcept {
+  constexpr std::int64_t kPerSecond = 1000000000;
+  const std::int64_t whole = nanoseconds / kPerSecond;
+  const double seconds = static_cast<double>(whole);
+  const double rest = static_cast<double>(nanoseconds - whole * kPerSecond);
+  // rest / 1e9 with the remainder of the division, which is exact in double.
+  const double fraction = rest * 1e-9;
+  const double fraction_error = std::fma(-1e9, fraction, rest) * 1e-9;
+  const SplitTime head = orderedSum(seconds, fraction);
+  return {head.high, head.low + fraction_error};
+}
+
+SplitTime later(const SplitTime& time, double seconds) noexcept {
+  return plus(time, seconds);
+}
+
+ShaftAngle shaftAngle(double angle) noexcept {
+  return add({}, {angle, 0.0});
+}
+
+ShaftAngle advance(const ShaftAngle& angle, double speed, std::int64_t nanoseconds) noexcept {
+  return add(angle, times(splitTime(nanoseconds), speed));
+}
+
+ShaftAngle advance(const ShaftAngle& angle, double speed, double acceleration, double jerk,
+                   const SplitTime& time) noexcept {
+  if (acceleration == 0.0 && jerk == 0.0) {
+    return add(angle, times(time, speed));
+  }
+  // Horner's rule for ((j/6 tau + a/2) tau + v) tau.
+  const DoubleDouble slope = plus(times(time, sixth(jerk)), 0.5 * acceleration);
+  return add(angle, times(time, plus(times(time, slope), speed)));
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,222 @@
+// Gauss-Legendre collocation with three stages (Butcher 1964; Hairer & Wanner, Solving Ordinary
+// Differential Equations II, IV.5, table 5.2), for q'' = a(q, v, t):
+//
+//   A_i = a(q + h c_i v + h^2 sum (A^2)_ij A_j,  v + h sum A_ij A_j,  t + c_i h)
+//   v1 = v + h sum b_i A_i,    q1 = q + h v + h^2 sum b_i (1 - c_i) A_i
+//
+// Order 6, symplectic, time-reversible, A-stable; conserves quadratic invariants, has bounded
+// energy error over any time, treats damping and gyroscopic terms like any other. The stages are
+// found by fixed-point iteration started from the previous step's polynomial; where that contracts
+// too slowly (stiff systems) by simplified Newton with the Jacobian of the step's start. If neither
+// converges the state is left as it was and kNotConverged is returned. It does not damp stiff modes
+// (it is not L-stable), and it does not see discontinuities inside a step.
+#pragma once
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "integration/motion_state.h"
+
+namespace whirl_twin {
+
+namespace gauss_tableau {
+
+inline constexpr double kRoot15 = 3.872983346207416885;
+inline constexpr double kOuter = 5.0 / 18.0;
+inline constexpr double kMiddle = 4.0 / 9.0;
+inline constexpr std::array<double, 3> kNodes{0.5 - kRoot15 / 10.0, 0.5, 0.5 + kRoot15 / 10.0};
+using Table = std::array<std::array<double, 3>, 3>;
+inline constexpr Table kA{{{5.0 / 36.0, 2.0 / 9.0 - kRoot15 / 15.0, 5.0 / 36.0 - kRoot15 / 30.0},
+                           {5.0 / 36.0 + kRoot15 / 24.0, 2.0 / 9.0, 5.0 / 36.0 - kRoot15 / 24.0},
+                           {5.0 / 36.0 + kRoot15 / 30.0, 2.0 / 9.0 + kRoot15 / 15.0, 5.0 / 36.0}}};
+constexpr double squared(std::size_t i, std::size_t j) {
+  return kA[i][0] * kA[0][j] + kA[i][1] * kA[1][j] + kA[i][2] * kA[2][j];
+}
+/// A^2, for q.
+inline constexpr Table kAA{{{squared(0, 0), squared(0, 1), squared(0, 2)},
+                            {squared(1, 0), squared(1, 1), squared(1, 2)},
+                            {squared(2, 0), squared(2, 1), squared(2, 2)}}};
+
+}  // namespace gauss_tableau
+
+template <std::size_t n>
+class GaussLegendre6 {
+ public:
+  static constexpr const char* kName = "gauss_legendre_6";
+
+  /// Forgets the previous step: needed after the state was changed from outside.
+  void restart() { warm_ = false; }
+
+  /// Advances by h [s] from offset [s] after the start of the twin's step. Equation also gives
+  /// jacobian(q, v, offset): {da/dq, da/dv}, used only where the fixed point contracts slowly.
+  template <class Equation>
+  WHIRL_TWIN_INLINE StepStatus step(const Equation& equation, double offset, double h,
+                                    MotionState<n>& state) {
+    Stages a = warm_ ? extrapolated() : constant(equation(state.q, state.v, offset).acceleration);
+    Powers power;
+    if (!fixedPoint(equation, offset, h, state, a, power)) {
+      a = constant(equation(state.q, state.v, offset).acceleration);
+      if (!newton(equation, offset, h, state, a, power)) {
+        warm_ = false;
+        return StepStatus::kNotConverged;
+      }
+    }
+    last_ = a;
+    warm_ = true;
+
+    std::array<double, n> dq;
+    std::array<double, n> dv;
+    for (std::size_t i = 0; i < n; ++i) {
+      dv[i] = h * (gauss_tableau::kOuter * (a[0][i] + a[2][i]) + gauss_tableau::kMiddle * a[1][i]);
+      dq[i] = h * (state.v[i] + h * (gauss_tableau::kOuter * (gauss_tableau::kNodes[2] * a[0][i] +
+                                                              gauss_tableau::kNodes[0] * a[2][i]) +
+                                     0.5 * gauss_tableau::kMiddle * a[1][i]));
+    }
+    state.advance(
+        dq, dv,
+        h * (gauss_tableau::kOuter * (power[0] + power[2]) + gauss_tableau::kMiddle * power[1]));
+    return StepStatus::kOk;
+  }
+
+ private:
+  using Stages = std::array<std::array<double, n>, 3>;
+  using Powers = std::array<double, 3>;
+
+  static constexpr int kMaxFixedPoint = 16;
+  static constexpr int kMaxNewton = 24;
+  /// Iteration ends when the acceleration changes by less than this part of its size: what is left
+  /// then enters q and v multiplied by h and is below their rounding.
+  static constexpr double kTolerance = 4.0e-16;
+  /// A fixed point that contracts slower than this is left to Newton.
+  static constexpr double kSlow = 0.5;
+
+  static WHIRL_TWIN_INLINE Stages constant(const std::array<double, n>& a) { return {a, a, a}; }
+
+  /// The previous step's stages, continued by their parabola to this step's nodes.
+  WHIRL_TWIN_INLINE Stages extrapolated() const {
+    Stages a;
+    for (std::size_t k = 0; k < 3; ++k) {
+      // In units of the spacing d of the nodes: the next nodes lie at 1/d - 1, 1/d, 1/d + 1.
+      const double x = (1.0 + gauss_tableau::kNodes[k] - 0.5) / (gauss_tableau::kRoot15 / 10.0);
+      for (std::size_t i = 0; i < n; ++i) {
+        const double slope = 0.5 * (last_[2][i] - last_[0][i]);
+        const double bend = 0.5 * (last_[2][i] + last_[0][i]) - last_[1][i];
+        a[k][i] = last_[1][i] + x * (slope + x * bend);
+      }
+    }
+    return a;
+  }
+
+  template <class Equation>
+  WHIRL_TWIN_INLINE void evaluate(const Equation& equation, double offset, double h,
+                                  const MotionState<n>& state, const Stages& a, Stages& result,
+                                  Powers& power) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::array<double, n> q;
+      std::array<double, n> v;
+      for (std::size_t i = 0; i < n; ++i) {
+        v[i] = state.v[i] +
+               h * (gauss_tableau::kA[k][0] * a[0][i] + gauss_tableau::kA[k][1] * a[1][i] +
+                    gauss_tableau::kA[k][2] * a[2][i]);
+        q[i] = state.q[i] +
+               h * (gauss_tableau::kNodes[k] * state.v[i] +
+                    h * (gauss_tableau::kAA[k][0] * a[0][i] + gauss_tableau::kAA[k][1] * a[1][i] +
+                         gauss_tableau::kAA[k][2] * a[2][i]));
+      }
+      const auto d = equation(q, v, offset + gauss_tableau::kNodes[k] * h);
+      result[k] = d.acceleration;
+      power[k] = d.power;
+    }
+  }
+
+  /// Largest change and largest size over all stages.
+  static WHIRL_TWIN_INLINE void measure(const Stages& now, const Stages& before, double& change,
+                                        double& size) {
+    change = 0.0;
+    size = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t i = 0; i < n; ++i) {
+        const double c = std::fabs(now[k][i] - before[k][i]);
+        const double s = std::fabs(now[k][i]);
+        change = c > change ? c : change;
+        size = s > size ? s : size;
+      }
+    }
+  }
+
+  template <class Equation>
+  WHIRL_TWIN_INLINE bool fixedPoint(const Equation& equation, double offset, double h,
+                                    const MotionState<n>& state, Stages& a, Powers& power) const {
+    double previous = 0.0;
+    for (int iteration = 0; iteration < kMaxFixedPoint; ++iteration) {
+      Stages next;
+      evaluate(equation, offset, h, state, a, next, power);
+      double change;
+      double size;
+      measure(next, a, change, size);
+      a = next;
+      if (change <= kTolerance * size) {
+        return true;
+      }
+      // Rounding sets the floor: no longer shrinking, but small, is as converged as it gets.
+      if (iteration > 0 && change > kSlow * previous) {
+        return change <= 64.0 * kTolerance * size;
+      }
+      previous = change;
+    }
+    return false;
+  }
+
+  template <class Equation>
+  bool newton(const Equation& equation, double offset, double h, const MotionState<n>& state,
+              Stages& a, Powers& power) const {
+    constexpr int kSize = 3 * static_cast<int>(n);
+    const auto jacobian = equation.jacobian(state.q, state.v, offset);
+    Eigen::Matrix<double, kSize, kSize> matrix;
+    for (int k = 0; k < 3; ++k) {
+      for (int l = 0; l < 3; ++l) {
+        matrix.template block<static_cast<int>(n), static_cast<int>(n)>(k * static_cast<int>(n),
+                                                                        l * static_cast<int>(n)) =
+            -h * (gauss_tableau::kA[k][l] * jacobian.by_v +
+                  h * gauss_tableau::kAA[k][l] * jacobian.by_q);
+      }
+    }
+    matrix.diagonal().array() += 1.0;
+    const Eigen::PartialPivLU<Eigen::Matrix<double, kSize, kSize>> lu(matrix);
+    double previous = 0.0;
+    for (int iteration = 0; iteration < kMaxNewton; ++iteration) {
+      Stages next;
+      evaluate(equation, offset, h, state, a, next, power);
+      Eigen::Matrix<double, kSize, 1> residual;
+      for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t i = 0; i < n; ++i) {
+          residual[static_cast<int>(k * n + i)] = next[k][i] - a[k][i];
+        }
+      }
+      const Eigen::Matrix<double, kSize, 1> correction = lu.solve(residual);
+      double size = 0.0;
+      double change = 0.0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        for (std::size_t i = 0; i < n; ++i) {
+          const double c = correction[static_cast<int>(k * n + i)];
+          a[k][i] += c;
+          change = std::fmax(change, std::fabs(c));
+          size = std::fmax(size, std::fmax(std::fabs(a[k][i]), std::fabs(next[k][i])));
+        }
+      }
+      if (change <= kTolerance * size) {
+        return true;
+      }
+      if (iteration > 1 && change > 0.9 * previous) {
+        return change <= 4096.0 * kTolerance * size;
+      }
+      previous = change;
+    }
+    return false;
+  }
+
+  Stages last_{};
+  bool warm_ = false;
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,61 @@
+// The matrix exponential less the identity, e^X - I, and the integral of a quadratic form along it.
+//
+// Taylor series on X / 2^s with norm below 1/2, then s doublings: e^2X - I = E E + 2 E. Working
+// with E = e^X - I keeps the small increments of a small step to full relative accuracy, which a
+// propagator that contains the identity loses. (Moler & Van Loan, SIAM Review 45, 2003, method 3.)
+// Scale the velocities of a mechanical system by its highest frequency first: the norm, and with it
+// the error, is then set by frequency times step. Fixed size: no allocation.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+
+namespace whirl_twin {
+
+/// Number of halvings that bring the 1-norm of X below 1/2.
+template <int N>
+int halvings(const Eigen::Matrix<double, N, N>& X) {
+  const double norm = X.cwiseAbs().colwise().sum().maxCoeff();
+  return norm > 0.5 ? static_cast<int>(std::ceil(std::log2(norm / 0.5))) : 0;
+}
+
+/// e^X - I.
+template <int N>
+Eigen::Matrix<double, N, N> exponentialLessIdentity(const Eigen::Matrix<double, N, N>& X) {
+  using Matrix = Eigen::Matrix<double, N, N>;
+  const int s = halvings<N>(X);
+  const Matrix x = std::ldexp(1.0, -s) * X;
+  Matrix e = x;
+  for (int k = 16; k >= 2; --k) {  // 0.5^16/16! < 1e-18: x (1 + x/2 (1 + x/3 (...))) by Horner
+    e = (k == 16 ? Matrix(x / k) : Matrix((x + x * e) / k));
+  }
+  e = x + x * e;
+  for (int i = 0; i < s; ++i) {
+    e = (e * e + 2.0 * e).eval();
+  }
+  return e;
+}
+
+/// W with  integral over 0..h of y' S y dt = y0' W y0  along y' = A y; S symmetric.
+template <int N>
+Eigen::Matrix<double, N, N> quadraticIntegral(const Eigen::Matrix<double, N, N>& A,
+                                              const Eigen::Matrix<double, N, N>& S, double h) {
+  using Matrix = Eigen::Matrix<double, N, N>;
+  const int s = halvings<N>(Matrix(2.0 * h * A));
+  const double part = std::ldexp(h, -s);
+  Matrix term = part * S;
+  Matrix w = term;
+  for (int k = 2; k <= 18; ++k) {
+    term = (part / k * (A.transpose() * term + term * A)).eval();
+    w += term;
+  }
+  Matrix e = exponentialLessIdentity<N>(Matrix(part * A));
+  for (int i = 0; i < s; ++i) {
+    const Matrix we = (w * e).eval();
+    w = (2.0 * w + we + we.transpose() + e.transpose() * we).eval();
+    e = (e * e + 2.0 * e).eval();
+  }
+  return w;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,203 @@
+// The Lagrangian engine: everything the twin needs of a system, derived from its T, V, D and Q.
+//
+//   d/dt (dL/dv) - dL/dq + dD/dv = Q,  L = T - V     (lecture notes, "Lagrange's equations"; E06)
+//
+// gives M(q) q'' = dL/dq - (d2L/dv dq) v - d2L/dv dt - dD/dv + Q, and with the Jacobi integral
+// h = v . dL/dv - L the energy audit  dh/dt = -dL/dt|explicit - v . dD/dv + Q . v.
+// A model supplies kinetic(q, v, at), potential(q, at), dissipation(q, v, at) and force(q, v, at)
+// as templates over the number type; no equation of motion is written by hand.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+
+#include "mechanics/gradient.h"
+#include "mechanics/lagrangian_dual.h"
+#include "mechanics/moment.h"
+
+namespace whirl_twin {
+
+/// Equations of motion at one state: mass . q'' = force.
+template <class B, std::size_t n>
+struct EquationsOfMotion {
+  std::array<B, n*(n + 1) / 2> mass{};  ///< packed lower triangle of M(q)
+  std::array<B, n> force{};             ///< everything but M q''
+  B power{};                            ///< [W], dh/dt
+};
+
+/// What a step needs: q'' and the rate of the Jacobi integral.
+template <std::size_t n>
+struct Derivative {
+  std::array<double, n> acceleration{};
+  double power = 0.0;  ///< [W]
+};
+
+struct Energies {
+  double kinetic = 0.0;           ///< [J], T
+  double potential = 0.0;         ///< [J], V
+  double jacobi = 0.0;            ///< [J], h = v . dL/dv - L
+  double dissipated_power = 0.0;  ///< [W], v . dD/dv
+  double input_power = 0.0;       ///< [W], Q . v - dL/dt|explicit
+};
+
+/// M q'' + (C + G) q' + (K + N) q = 0 for small deviations; C, K symmetric, G, N skew. [n x n]
+template <std::size_t n>
+struct FixedLinearization {
+  Eigen::Matrix<double, n, n> mass, damping, gyroscopic, stiffness, circulatory;
+};
+
+template <class Model, class B, std::size_t n>
+WHIRL_TWIN_INLINE EquationsOfMotion<B, n> equationsOfMotion(const Model& model,
+                                                            const std::array<B, n>& q,
+                                                            const std::array<B, n>& v,
+                                                            const Moment<double>& at) {
+  using Kinetic = LagrangianDual<B, n>;
+  std::array<Kinetic, n> q_of_t;
+  std::array<Kinetic, n> v_of_t;
+  for (std::size_t j = 0; j < n; ++j) {
+    q_of_t[j] = Kinetic::coordinate(q[j], v[j], j);
+    v_of_t[j] = Kinetic::velocity(v[j], j);
+  }
+  const Moment<Kinetic> moment{
+      Kinetic::known(B(at.time), B(1.0)), Kinetic::known(B(at.angle), B(at.speed)),
+      Kinetic::known(B(at.speed), B(at.acceleration)), Kinetic::known(B(at.acceleration), B(0.0))};
+  const Kinetic t = model.kinetic(q_of_t, v_of_t, moment);
+
+  using Potential = Gradient<B, n + 1>;  // by the coordinates, and by time where it stands alone
+  std::array<Potential, n> q_of_potential;
+  for (std::size_t j = 0; j < n; ++j) {
+    q_of_potential[j] = Potential(q[j], j);
+  }
+  Moment<Potential> moment_of_potential{Potential(B(at.time), n), Potential(at.angle),
+                                        Potential(at.speed), Potential(at.acceleration)};
+  moment_of_potential.angle.slope[n] = B(at.speed);
+  moment_of_potential.speed.slope[n] = B(at.acceleration);
+  const Potential u = model.potential(q_of_potential, moment_of_potential);
+
+  using Dissipation = Gradient<B, n>;  // by the rates
+  std::array<Dissipation, n> q_of_dissipation;
+  std::array<Dissipation, n> v_of_dissipation;
+  for (std::size_t j = 0; j < n; ++j) {
+    q_of_dissipation[j].value = q[j];
+    v_of_dissipation[j] = Dissipation(v[j], j);
+  }
+  const Moment<Dissipation> moment_of_dissipation{at.time, at.angle, at.speed, at.acceleration};
+  const Dissipation d =
+      model.dissipation(q_of_dissipation, v_of_dissipation, moment_of_dissipation);
+
+  const Moment<B> moment_of_force{B(at.time), B(at.angle), B(at.speed), B(at.acceleration)};
+  const std::array<B, n> applied = model.force(q, v, moment_of_force);
+
+  EquationsOfMotion<B, n> r;
+  r.mass = t.by_vv;
+  r.power = u.slope[n] - t.rate;
+  for (std::size_t j = 0; j < n; ++j) {
+    r.force[j] = t.by_q[j] - u.slope[j] - t.by_v_rate[j] - d.slope[j] + applied[j];
+    r.power = r.power + v[j] * (t.by_q[j] - d.slope[j] + applied[j]);
+  }
+  return r;
+}
+
+/// x with M x = b for a symmetric positive definite M in packed storage (L D L^T, no pivoting).
+template <class B, std::size_t n>
+WHIRL_TWIN_INLINE std::array<B, n> solveMass(const std::array<B, n*(n + 1) / 2>& mass,
+                                             const std::array<B, n>& b) {
+  const auto at = [](std::size_t row, std::size_t column) { return row * (row + 1) / 2 + column; };
+  std::array<B, n*(n + 1) / 2> l = mass;
+  std::array<B, n> inverse_pivot;
+  for (std::size_t j = 0; j < n; ++j) {
+    for (std::size_t k = 0; k < j; ++k) {
+      const B ratio = l[at(j, k)] * inverse_pivot[k];
+      for (std::size_t i = j; i < n; ++i) {
+        l[at(i, j)] = l[at(i, j)] - l[at(i, k)] * ratio;
+      }
+    }
+    inverse_pivot[j] = 1.0 / l[at(j, j)];
+  }
+  std::array<B, n> x = b;
+  for (std::size_t j = 0; j < n; ++j) {
+    for (std::size_t i = j + 1; i < n; ++i) {
+      x[i] = x[i] - l[at(i, j)] * (inverse_pivot[j] * x[j]);
+    }
+  }
+  for (std::size_t j = n; j-- > 0;) {
+    for (std::size_t i = j + 1; i < n; ++i) {
+      x[j] = x[j] - l[at(i, j)] * x[i];
+    }
+    x[j] = x[j] * inverse_pivot[j];
+  }
+  return x;
+}
+
+/// q'' and dh/dt at a state: the right-hand side of every step. Real-time safe.
+template <class Model, std::size_t n>
+WHIRL_TWIN_INLINE Derivative<n> derivative(const Model& model, const std::array<double, n>& q,
+                                           const std::array<double, n>& v,
+                                           const Moment<double>& at) {
+  const EquationsOfMotion<double, n> eom = equationsOfMotion(model, q, v, at);
+  return {solveMass<double, n>(eom.mass, eom.force), eom.power};
+}
+
+/// Energies and powers at a state.
+template <class Model, std::size_t n>
+Energies energies(const Model& model, const std::array<double, n>& q,
+                  const std::array<double, n>& v, const Moment<double>& at) {
+  Energies e;
+  using Rates = Gradient<double, n>;
+  std::array<Rates, n> q_of_rates;
+  std::array<Rates, n> v_of_rates;
+  for (std::size_t j = 0; j < n; ++j) {
+    q_of_rates[j].value = q[j];
+    v_of_rates[j] = Rates(v[j], j);
+  }
+  const Moment<Rates> moment{at.time, at.angle, at.speed, at.acceleration};
+  const Rates t = model.kinetic(q_of_rates, v_of_rates, moment);
+  const Rates d = model.dissipation(q_of_rates, v_of_rates, moment);
+  e.kinetic = t.value;
+  e.potential = model.potential(q, at);
+  e.jacobi = e.potential - e.kinetic;
+  for (std::size_t j = 0; j < n; ++j) {
+    e.jacobi += v[j] * t.slope[j];
+    e.dissipated_power += v[j] * d.slope[j];
+  }
+  e.input_power = equationsOfMotion(model, q, v, at).power + e.dissipated_power;
+  return e;
+}
+
+/// Linearization for small deviations from a motion that passes through q, v with q'' = a.
+template <class Model, std::size_t n>
+FixedLinearization<n> linearization(const Model& model, const std::array<double, n>& q,
+                                    const std::array<double, n>& v, const std::array<double, n>& a,
+                                    const Moment<double>& at) {
+  using B = Gradient<double, 2 * n>;  // by the coordinates, then by the rates
+  std::array<B, n> q_dual;
+  std::array<B, n> v_dual;
+  for (std::size_t j = 0; j < n; ++j) {
+    q_dual[j] = B(q[j], j);
+    v_dual[j] = B(v[j], n + j);
+  }
+  const EquationsOfMotion<B, n> eom = equationsOfMotion(model, q_dual, v_dual, at);
+  FixedLinearization<n> r;
+  Eigen::Matrix<double, n, n> by_q;
+  Eigen::Matrix<double, n, n> by_v;
+  for (std::size_t i = 0; i < n; ++i) {
+    B residual = -eom.force[i];
+    for (std::size_t j = 0; j < n; ++j) {
+      const B& entry = i >= j ? eom.mass[i * (i + 1) / 2 + j] : eom.mass[j * (j + 1) / 2 + i];
+      r.mass(i, j) = entry.value;
+      residual = residual + entry * a[j];
+    }
+    for (std::size_t j = 0; j < n; ++j) {
+      by_q(i, j) = residual.slope[j];
+      by_v(i, j) = residual.slope[n + j];
+    }
+  }
+  r.damping = 0.5 * (by_v + by_v.transpose());
+  r.gyroscopic = 0.5 * (by_v - by_v.transpose());
+  r.stiffness = 0.5 * (by_q + by_q.transpose());
+  r.circulatory = 0.5 * (by_q - by_q.transpose());
+  return r;
+}
+
+}  // namespace whirl_twin

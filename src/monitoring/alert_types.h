@@ -1,0 +1,14 @@
+// The types of alert the monitor raises, as they stand in whirl_twin/Alert.
+#pragma once
+
+namespace whirl_twin::alert_type {
+
+inline constexpr char kCriticalSpeedApproach[] = "CRITICAL_SPEED_APPROACH";
+inline constexpr char kInCriticalBand[] = "IN_CRITICAL_BAND";
+inline constexpr char kUnstable[] = "UNSTABLE";
+inline constexpr char kLowDamping[] = "LOW_DAMPING";
+inline constexpr char kEnergyResidual[] = "ENERGY_RESIDUAL";
+inline constexpr char kNotFinite[] = "NOT_FINITE";
+inline constexpr char kDataLost[] = "DATA_LOST";
+
+}  // namespace whirl_twin::alert_type

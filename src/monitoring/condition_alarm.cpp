@@ -1,0 +1,59 @@
+#include "monitoring/condition_alarm.h"
+
+#include <cmath>
+
+namespace whirl_twin {
+namespace {
+
+// Time since `since` [s]; starts it when it is not running, or when the clock was set back.
+double elapsed(std::optional<double>& since, double time) {
+  if (!since || time < *since) {
+    since = time;
+  }
+  return time - *since;
+}
+
+}  // namespace
+
+ConditionAlarm::Change ConditionAlarm::update(double time, AlarmCondition condition) {
+  if (!std::isfinite(time)) {
+    return Change::kNone;
+  }
+  if (condition != AlarmCondition::kClear) {
+    clear_since_.reset();
+  }
+  if (!isRaising(condition)) {
+    raise_since_.reset();
+    if (!active_ || condition == AlarmCondition::kHold ||
+        elapsed(clear_since_, time) < clear_delay_) {
+      return Change::kNone;
+    }
+    clearNow();
+    return Change::kCleared;
+  }
+
+  const state::Severity severity =
+      condition == AlarmCondition::kDanger ? state::Severity::kDanger : state::Severity::kWarning;
+  if (active_) {
+    if (severity <= severity_) {
+      return Change::kNone;
+    }
+    severity_ = severity;
+    return Change::kUpgraded;
+  }
+  if (elapsed(raise_since_, time) < raise_delay_) {
+    return Change::kNone;
+  }
+  active_ = true;
+  severity_ = severity;
+  return Change::kRaised;
+}
+
+void ConditionAlarm::clearNow() {
+  active_ = false;
+  severity_ = state::Severity::kInfo;
+  raise_since_.reset();
+  clear_since_.reset();
+}
+
+}  // namespace whirl_twin

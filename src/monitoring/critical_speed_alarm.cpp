@@ -1,0 +1,210 @@
+#include "monitoring/critical_speed_alarm.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "monitoring/alert_types.h"
+
+namespace whirl_twin {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+bool isEmpty(const state::CriticalSpeedMargin& critical) {
+  return !(critical.band_low < critical.band_high);
+}
+
+std::string criticalSpeedText(const state::CriticalSpeedMargin& critical) {
+  return fmt::format("critical speed {:.1f} rad/s ({:.0f} rpm)", critical.speed,
+                     critical.speed * 30.0 / kPi);
+}
+
+std::string bandText(const state::CriticalSpeedMargin& critical) {
+  return fmt::format("between {:.1f} and {:.1f} rad/s", critical.band_low, critical.band_high);
+}
+
+}  // namespace
+
+/// A band the present move reaches from outside.
+struct CriticalSpeedAlarm::Entry {
+  std::size_t index = 0;  ///< of its critical speed
+  double time = 0.0;      ///< [s] to the edge; infinite while there is no acceleration toward it
+  bool creeping = false;  ///< within the hysteresis of the edge
+
+  bool operator<(const Entry& other) const {
+    return time < other.time || (time == other.time && creeping && !other.creeping);
+  }
+};
+
+CriticalSpeedAlarm::CriticalSpeedAlarm(std::string system, const AlarmSettings& settings)
+    : system_(std::move(system)),
+      settings_(settings),
+      band_alarm_(settings.clear_delay),
+      approach_alarm_(settings.clear_delay) {}
+
+void CriticalSpeedAlarm::update(const state::DriveState& shaft,
+                                const CriticalSpeeds& critical_speeds, AlertList& alerts) {
+  if (!std::isfinite(shaft.speed) || !std::isfinite(shaft.at.time)) {
+    band_alarm_.update(shaft.at.time, AlarmCondition::kHold);
+    approach_alarm_.update(shaft.at.time, AlarmCondition::kHold);
+    return;
+  }
+  updateBand(shaft, critical_speeds, alerts);
+  updateApproach(shaft, critical_speeds, alerts);
+}
+
+double CriticalSpeedAlarm::widening(double edge) const {
+  return settings_.hysteresis * std::abs(edge);
+}
+
+bool CriticalSpeedAlarm::inOrNear(double speed, const state::CriticalSpeedMargin& critical) const {
+  return !isEmpty(critical) && std::abs(speed) >= critical.band_low - widening(critical.band_low) &&
+         std::abs(speed) <= critical.band_high + widening(critical.band_high);
+}
+
+void CriticalSpeedAlarm::updateBand(const state::DriveState& shaft,
+                                    const CriticalSpeeds& critical_speeds, AlertList& alerts) {
+  const double speed = std::abs(shaft.speed);
+  const double time = shaft.at.time;
+  bool near = false;
+  std::optional<std::size_t> occupied;
+  for (std::size_t i = 0; i < critical_speeds.size(); ++i) {
+    const state::CriticalSpeedMargin& critical = critical_speeds[i];
+    near = near || inOrNear(speed, critical);
+    const bool inside =
+        !isEmpty(critical) && speed >= critical.band_low && speed <= critical.band_high;
+    // Where bands overlap the nearest critical speed is the one to speak of.
+    if (inside && (!occupied || std::abs(speed - critical.speed) <
+                                    std::abs(speed - critical_speeds[*occupied].speed))) {
+      occupied = i;
+    }
+  }
+
+  // The time in the band runs on through excursions within the hysteresis, so that a speed that
+  // wavers about the edge still counts as dwelling.
+  if (occupied && (!passing_ || time < entered_at_)) {
+    entered_at_ = time;
+  }
+  passing_ = occupied || (passing_ && near);
+
+  const double dwell = time - entered_at_;
+  AlarmCondition condition = near ? AlarmCondition::kHold : AlarmCondition::kClear;
+  if (occupied) {
+    condition = dwell >= settings_.dwell_limit ? AlarmCondition::kDanger : AlarmCondition::kWarning;
+  }
+  if (band_alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
+    alerts.clear(system_, alert_type::kInCriticalBand, time,
+                 fmt::format("{}: left the critical band, speed {:.1f} rad/s", system_, speed));
+  } else if (occupied) {
+    const state::CriticalSpeedMargin& critical = critical_speeds[*occupied];
+    const bool danger = band_alarm_.severity() == state::Severity::kDanger;
+    state::Alert alert = alertAbout(shaft, critical);
+    alert.type = alert_type::kInCriticalBand;
+    alert.severity = band_alarm_.severity();
+    alert.text =
+        fmt::format("{}: {} at {:.1f} rad/s for {:.1f} s near {}: {} {}", system_,
+                    danger ? "dwelling" : "passing", speed, dwell, criticalSpeedText(critical),
+                    danger ? "leave the range" : "do not dwell", bandText(critical));
+    alerts.raise(std::move(alert), fmt::format("critical {}", *occupied));
+  }
+}
+
+void CriticalSpeedAlarm::updateApproach(const state::DriveState& shaft,
+                                        const CriticalSpeeds& critical_speeds, AlertList& alerts) {
+  const double time = shaft.at.time;
+  if (!std::isfinite(shaft.acceleration)) {
+    approach_alarm_.update(time, AlarmCondition::kHold);
+    return;
+  }
+  const bool entered = passing_ && approached_ < critical_speeds.size() &&
+                       inOrNear(shaft.speed, critical_speeds[approached_]);
+  if (approach_alarm_.active() && entered) {
+    approach_alarm_.clearNow();
+    alerts.clear(system_, alert_type::kCriticalSpeedApproach, time,
+                 fmt::format("{}: entered the critical band {} of {}", system_,
+                             bandText(critical_speeds[approached_]),
+                             criticalSpeedText(critical_speeds[approached_])));
+  }
+
+  const std::optional<Entry> entry = nextEntry(shaft, critical_speeds);
+  AlarmCondition condition = entry ? AlarmCondition::kHold : AlarmCondition::kClear;
+  const bool imminent = entry && (entry->time < settings_.approach_time || entry->creeping);
+  if (imminent) {
+    condition = AlarmCondition::kWarning;
+  }
+  if (approach_alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
+    alerts.clear(system_, alert_type::kCriticalSpeedApproach, time,
+                 fmt::format("{}: the move no longer reaches a critical band", system_));
+  } else if (imminent) {
+    const state::CriticalSpeedMargin& critical = critical_speeds[entry->index];
+    const double speed = std::abs(shaft.speed);
+    approached_ = entry->index;
+    state::Alert alert = alertAbout(shaft, critical);
+    alert.type = alert_type::kCriticalSpeedApproach;
+    alert.severity = approach_alarm_.severity();
+    std::string when = fmt::format("close to {:.1f} rad/s", speed);
+    if (std::isfinite(entry->time)) {
+      alert.time_to_entry = entry->time;
+      when = fmt::format("band entered in {:.1f} s at {:.3g} rad/s^2", entry->time,
+                         std::abs(shaft.acceleration));
+    }
+    alert.text = fmt::format("{}: {}, {}: do not dwell {}", system_, criticalSpeedText(critical),
+                             when, bandText(critical));
+    alerts.raise(std::move(alert), fmt::format("critical {} from {}", entry->index,
+                                               speed < critical.speed ? "below" : "above"));
+  }
+}
+
+std::optional<CriticalSpeedAlarm::Entry> CriticalSpeedAlarm::nextEntry(
+    const state::DriveState& shaft, const CriticalSpeeds& critical_speeds) const {
+  const bool target_known = !std::isnan(shaft.target_speed);
+  std::optional<Entry> next;
+  for (std::size_t i = 0; i < critical_speeds.size(); ++i) {
+    const state::CriticalSpeedMargin& critical = critical_speeds[i];
+    // A band just left, or just entered, is the concern of the other alarm.
+    if (isEmpty(critical) || (passing_ && inOrNear(shaft.speed, critical))) {
+      continue;
+    }
+    // The band in this sense of rotation and its mirror image in the other.
+    for (const auto& [low, high] : {std::pair{critical.band_low, critical.band_high},
+                                    std::pair{-critical.band_high, -critical.band_low}}) {
+      const bool below = shaft.speed < low;
+      const double edge = below ? low : high;
+      const double distance = below ? low - shaft.speed : shaft.speed - high;
+      const double toward = below ? shaft.acceleration : -shaft.acceleration;
+      bool reached = toward > 0.0;
+      if (target_known) {
+        reached = below ? shaft.target_speed >= low : shaft.target_speed <= high;
+      }
+      if (distance < 0.0 || !reached) {
+        continue;
+      }
+      const double time =
+          toward > 0.0 ? distance / toward : std::numeric_limits<double>::infinity();
+      const Entry entry{i, time, distance <= widening(edge)};
+      if (!next || entry < *next) {
+        next = entry;
+      }
+    }
+  }
+  return next;
+}
+
+state::Alert CriticalSpeedAlarm::alertAbout(const state::DriveState& shaft,
+                                            const state::CriticalSpeedMargin& critical) const {
+  state::Alert alert;
+  alert.system = system_;
+  alert.time = shaft.at.time;
+  alert.speed = shaft.speed;
+  alert.acceleration = shaft.acceleration;
+  alert.critical_speed = critical.speed;
+  alert.separation_margin = critical.separation_margin;
+  alert.required_separation_margin = critical.required_separation_margin;
+  alert.amplification_factor = critical.amplification_factor;
+  return alert;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,68 @@
+// Critical speeds of one rotor: a warning before a critical band is entered, one while the rotor
+// passes through it, danger when it dwells there.
+//
+// The entry is predicted at constant acceleration: time = distance to the nearer edge of the band /
+// acceleration toward it; and only when the present move of the drive reaches the band. A run-up, a
+// run-down and negative rotation are alike: the band mirrored at zero is watched as well.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "monitoring/alarm_settings.h"
+#include "monitoring/alert_list.h"
+#include "monitoring/condition_alarm.h"
+#include "monitoring/stability_margin.h"
+#include "scene/states.h"
+
+namespace whirl_twin {
+
+class CriticalSpeedAlarm {
+ public:
+  CriticalSpeedAlarm(std::string system, const AlarmSettings& settings);
+
+  /// Judges one instant and brings the list up to date.
+  ///
+  /// CRITICAL_SPEED_APPROACH (warning): the present move enters a band within approach_time, or
+  /// creeps toward it from within the hysteresis of its edge. It stays as long as the move still
+  /// reaches the band, and goes at once when the band is entered, because IN_CRITICAL_BAND then
+  /// takes over; it does not come back while the rotor is no further from the band than the
+  /// hysteresis.
+  /// IN_CRITICAL_BAND: a warning while passing, danger after dwell_limit; clears outside of the
+  /// band widened by the hysteresis, after clear_delay.
+  ///
+  /// shaft: at.time [s], speed and target_speed [rad/s], acceleration [rad/s^2]. A target_speed of
+  /// NaN is unknown: the move is taken to go on as it accelerates. When the speed is not finite
+  /// nothing is raised or cleared.
+  /// critical_speeds: in an order that does not change from call to call; an empty band (critically
+  /// damped) never alarms.
+  void update(const state::DriveState& shaft,
+              const std::vector<state::CriticalSpeedMargin>& critical_speeds, AlertList& alerts);
+
+ private:
+  struct Entry;
+  using CriticalSpeeds = std::vector<state::CriticalSpeedMargin>;
+
+  double widening(double edge) const;
+  bool inOrNear(double speed, const state::CriticalSpeedMargin& critical) const;
+  void updateBand(const state::DriveState& shaft, const CriticalSpeeds& critical_speeds,
+                  AlertList& alerts);
+  void updateApproach(const state::DriveState& shaft, const CriticalSpeeds& critical_speeds,
+                      AlertList& alerts);
+  std::optional<Entry> nextEntry(const state::DriveState& shaft,
+                                 const CriticalSpeeds& critical_speeds) const;
+  state::Alert alertAbout(const state::DriveState& shaft,
+                          const state::CriticalSpeedMargin& critical) const;
+
+  std::string system_;
+  AlarmSettings settings_;
+  ConditionAlarm band_alarm_;
+  ConditionAlarm approach_alarm_;
+  bool passing_ = false;        ///< has entered a band and not yet left it by the hysteresis
+  double entered_at_ = 0.0;     ///< [s], while passing_
+  std::size_t approached_ = 0;  ///< which critical speed the active approach is about
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,63 @@
+#include "monitoring/data_lost_alarm.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "monitoring/alert_types.h"
+
+namespace whirl_twin {
+namespace {
+
+constexpr double kNever = -std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+DataLostAlarm::DataLostAlarm(const std::vector<std::string>& systems, const AlarmSettings& settings)
+    : timeout_(settings.data_timeout), last_arrival_(kNever), flowing_since_(kNever) {
+  for (const std::string& system : systems) {
+    watches_.push_back({system, kNever, ConditionAlarm(settings.clear_delay)});
+  }
+}
+
+void DataLostAlarm::received(const std::string& source, double wall_time, double time,
+                             AlertList& alerts) {
+  if (wall_time - last_arrival_ > timeout_) {
+    flowing_since_ = wall_time;
+  }
+  last_arrival_ = wall_time;
+  for (Watch& watch : watches_) {
+    if (watch.system == source) {
+      watch.heard_at = wall_time;
+    }
+    judge(watch, wall_time, time, alerts);
+  }
+}
+
+void DataLostAlarm::judge(Watch& watch, double wall_time, double time, AlertList& alerts) const {
+  // After a pause the silence counts from when the first source came back.
+  const double silence = wall_time - std::max(watch.heard_at, flowing_since_);
+  AlarmCondition condition = AlarmCondition::kHold;
+  if (silence > timeout_) {
+    condition = AlarmCondition::kWarning;
+  } else if (watch.heard_at >= flowing_since_) {
+    condition = AlarmCondition::kClear;
+  }
+  if (watch.alarm.update(wall_time, condition) == ConditionAlarm::Change::kCleared) {
+    alerts.clear(watch.system, alert_type::kDataLost, time,
+                 fmt::format("{}: states arrive again", watch.system));
+  } else if (watch.alarm.active() && isRaising(condition)) {
+    state::Alert alert;
+    alert.system = watch.system;
+    alert.type = alert_type::kDataLost;
+    alert.severity = watch.alarm.severity();
+    alert.time = time;
+    alert.text = fmt::format("{}: no state for {:.1f} s of wall time while others go on",
+                             watch.system, silence);
+    alerts.raise(std::move(alert), "data lost");
+  }
+}
+
+}  // namespace whirl_twin

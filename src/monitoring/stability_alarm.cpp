@@ -1,0 +1,139 @@
+#include "monitoring/stability_alarm.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "analysis/routh.h"
+#include "monitoring/alert_types.h"
+
+namespace whirl_twin {
+namespace {
+
+// A number that is no verdict counts as an uncertain one.
+AlarmCondition verdictCondition(std::uint8_t verdict) {
+  switch (static_cast<Verdict>(verdict)) {
+    case Verdict::kAsymptoticallyStable:
+    case Verdict::kMarginal:
+      return AlarmCondition::kClear;
+    case Verdict::kRepeatedImaginary:
+      return AlarmCondition::kWarning;
+    case Verdict::kUnstable:
+      return AlarmCondition::kDanger;
+    default:
+      return AlarmCondition::kHold;
+  }
+}
+
+std::string speedText(double speed) {
+  return std::isnan(speed) ? std::string() : fmt::format(" at {:.1f} rad/s", speed);
+}
+
+std::string unstableText(const std::string& system, const state::StabilityMargin& margin,
+                         AlarmCondition condition) {
+  const std::string where = system + speedText(margin.speed);
+  switch (condition) {
+    case AlarmCondition::kDanger:
+      return fmt::format("{}: unstable, {} {} in the right half-plane, growth rate {:.3g} 1/s",
+                         where, margin.right, margin.right == 1 ? "root" : "roots",
+                         -margin.decay_rate);
+    case AlarmCondition::kWarning:
+      return fmt::format("{}: repeated imaginary roots, the motion may grow with time", where);
+    default:
+      return fmt::format("{}: verdict uncertain, the alert stays until stability is certain",
+                         where);
+  }
+}
+
+}  // namespace
+
+StabilityAlarm::StabilityAlarm(std::string system, const AlarmSettings& settings)
+    : system_(std::move(system)),
+      settings_(settings),
+      unstable_alarm_(settings.clear_delay),
+      low_damping_alarm_(settings.clear_delay) {}
+
+void StabilityAlarm::update(const state::StabilityMargin& margin, AlertList& alerts) {
+  updateUnstable(margin, alerts);
+  updateLowDamping(margin, alerts);
+}
+
+void StabilityAlarm::updateUnstable(const state::StabilityMargin& margin, AlertList& alerts) {
+  const AlarmCondition condition = verdictCondition(margin.verdict);
+  const auto change = unstable_alarm_.update(margin.at.time, condition);
+  if (change == ConditionAlarm::Change::kCleared) {
+    alerts.clear(system_, alert_type::kUnstable, margin.at.time,
+                 fmt::format("{}{}: stable again, decay rate {:.3g} 1/s", system_,
+                             speedText(margin.speed), margin.decay_rate));
+  } else if (unstable_alarm_.active() && condition != AlarmCondition::kClear) {
+    state::Alert alert = alertAbout(margin);
+    alert.type = alert_type::kUnstable;
+    alert.severity = unstable_alarm_.severity();
+    alert.text = unstableText(system_, margin, condition);
+    alerts.raise(std::move(alert), margin.verdict_name);
+  }
+}
+
+void StabilityAlarm::updateLowDamping(const state::StabilityMargin& margin, AlertList& alerts) {
+  const AlarmCondition condition = dampingCondition(margin);
+  const auto change = low_damping_alarm_.update(margin.at.time, condition);
+  if (change == ConditionAlarm::Change::kCleared) {
+    alerts.clear(
+        system_, alert_type::kLowDamping, margin.at.time,
+        fmt::format("{}{}: damped enough again, log decrement {:.3g}, decay rate "
+                    "{:.3g} 1/s",
+                    system_, speedText(margin.speed), margin.log_decrement, margin.decay_rate));
+  } else if (low_damping_alarm_.active() && isRaising(condition)) {
+    state::Alert alert = alertAbout(margin);
+    alert.type = alert_type::kLowDamping;
+    alert.severity = low_damping_alarm_.severity();
+    if (margin.log_decrement < settings_.log_decrement_warning) {
+      alert.text =
+          fmt::format("{}{}: log decrement {:.3g}, below {:g}", system_, speedText(margin.speed),
+                      margin.log_decrement, settings_.log_decrement_warning);
+    } else {
+      alert.text =
+          fmt::format("{}{}: decay rate {:.3g} 1/s, below {:g} 1/s", system_,
+                      speedText(margin.speed), margin.decay_rate, settings_.decay_rate_alarm);
+    }
+    alerts.raise(std::move(alert), "low damping");
+  }
+}
+
+AlarmCondition StabilityAlarm::dampingCondition(const state::StabilityMargin& margin) const {
+  // Once unstable, UNSTABLE speaks; and a margin that is not a number says nothing.
+  if (verdictCondition(margin.verdict) != AlarmCondition::kClear || !std::isfinite(margin.speed) ||
+      !std::isfinite(margin.decay_rate)) {
+    return AlarmCondition::kHold;
+  }
+  // An overdamped system has no log decrement; one that is only marginal should have.
+  if (std::isnan(margin.log_decrement) &&
+      static_cast<Verdict>(margin.verdict) != Verdict::kAsymptoticallyStable) {
+    return AlarmCondition::kHold;
+  }
+  // A limit of zero is switched off; a NaN log decrement, overdamped, is below none.
+  const auto below = [](double value, double limit) { return limit > 0.0 && value < limit; };
+  if (below(margin.log_decrement, settings_.log_decrement_warning) ||
+      below(margin.decay_rate, settings_.decay_rate_alarm)) {
+    return AlarmCondition::kWarning;
+  }
+  const double beyond = 1.0 + settings_.hysteresis;
+  if (below(margin.log_decrement, beyond * settings_.log_decrement_warning) ||
+      below(margin.decay_rate, beyond * settings_.decay_rate_alarm)) {
+    return AlarmCondition::kHold;
+  }
+  return AlarmCondition::kClear;
+}
+
+state::Alert StabilityAlarm::alertAbout(const state::StabilityMargin& margin) const {
+  state::Alert alert;
+  alert.system = system_;
+  alert.time = margin.at.time;
+  alert.speed = margin.speed;
+  alert.decay_rate = margin.decay_rate;
+  return alert;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,42 @@
+// Stability of one system, from its Routh-Hurwitz margin.
+//
+// UNSTABLE: danger when a root lies in the right half-plane. Repeated imaginary roots are a warning
+// of the same type: the motion may grow like a power of time, but the characteristic polynomial
+// alone cannot tell that from two independent modes of one frequency (an isotropic rotor without
+// damping), which stay bounded.
+// LOW_DAMPING: a warning when the log decrement is below the setting (API 617 asks for 0.1), or the
+// slowest decay below its own.
+// An uncertain verdict neither raises nor clears: a warning does not go away because the numbers
+// can no longer be judged.
+#pragma once
+
+#include <string>
+
+#include "monitoring/alarm_settings.h"
+#include "monitoring/alert_list.h"
+#include "monitoring/condition_alarm.h"
+#include "monitoring/stability_margin.h"
+
+namespace whirl_twin {
+
+class StabilityAlarm {
+ public:
+  StabilityAlarm(std::string system, const AlarmSettings& settings);
+
+  /// Judges one margin and brings the list up to date. LOW_DAMPING is a rotor criterion: a system
+  /// without a shaft (speed NaN) does not raise it, nor does a system that is unstable already.
+  void update(const state::StabilityMargin& margin, AlertList& alerts);
+
+ private:
+  void updateUnstable(const state::StabilityMargin& margin, AlertList& alerts);
+  void updateLowDamping(const state::StabilityMargin& margin, AlertList& alerts);
+  AlarmCondition dampingCondition(const state::StabilityMargin& margin) const;
+  state::Alert alertAbout(const state::StabilityMargin& margin) const;
+
+  std::string system_;
+  AlarmSettings settings_;
+  ConditionAlarm unstable_alarm_;
+  ConditionAlarm low_damping_alarm_;
+};
+
+}  // namespace whirl_twin

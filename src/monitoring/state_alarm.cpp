@@ -1,0 +1,57 @@
+#include "monitoring/state_alarm.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "monitoring/alert_types.h"
+
+namespace whirl_twin {
+
+StateAlarm::StateAlarm(std::string system, const AlarmSettings& settings)
+    : system_(std::move(system)),
+      settings_(settings),
+      energy_alarm_(settings.clear_delay),
+      not_finite_alarm_(settings.clear_delay) {}
+
+void StateAlarm::updateEnergy(double time, double residual, AlertList& alerts) {
+  const double limit = settings_.energy_residual;
+  AlarmCondition condition = AlarmCondition::kHold;
+  if (std::abs(residual) > limit) {
+    condition = AlarmCondition::kWarning;
+  } else if (std::abs(residual) <= limit * (1.0 - settings_.hysteresis)) {
+    condition = AlarmCondition::kClear;
+  }
+  if (energy_alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
+    alerts.clear(system_, alert_type::kEnergyResidual, time,
+                 fmt::format("{}: energy balance holds again, residual {:.2g}", system_, residual));
+  } else if (energy_alarm_.active() && isRaising(condition)) {
+    state::Alert alert;
+    alert.system = system_;
+    alert.type = alert_type::kEnergyResidual;
+    alert.severity = energy_alarm_.severity();
+    alert.time = time;
+    alert.text = fmt::format("{}: energy balance off by {:.2g}, more than {:g}: shorten the step",
+                             system_, residual, limit);
+    alerts.raise(std::move(alert), "energy residual");
+  }
+}
+
+void StateAlarm::updateFinite(double time, bool stopped, const std::string& cause,
+                              AlertList& alerts) {
+  const AlarmCondition condition = stopped ? AlarmCondition::kDanger : AlarmCondition::kClear;
+  if (not_finite_alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
+    alerts.clear(system_, alert_type::kNotFinite, time, fmt::format("{}: runs again", system_));
+  } else if (not_finite_alarm_.active() && stopped) {
+    state::Alert alert;
+    alert.system = system_;
+    alert.type = alert_type::kNotFinite;
+    alert.severity = not_finite_alarm_.severity();
+    alert.time = time;
+    alert.text = fmt::format("{}: stopped, a state is not finite: {}", system_, cause);
+    alerts.raise(std::move(alert), cause);
+  }
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,70 @@
+// Draws one system of the twin as rviz markers: shapes are given in the system's own axes [m] and
+// put into the world frame by the system's pose.
+//
+// Markers keep their namespace "<system>/<part>" and a number counted within the part, so every
+// frame replaces the one before in place. Their stamp is 0, rviz's word for "at the latest
+// transform".
+#pragma once
+
+#include <visualization_msgs/MarkerArray.h>
+
+#include <Eigen/Geometry>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace whirl_twin {
+
+struct Color {
+  float r, g, b;
+  float a = 1.0F;
+};
+
+class MarkerCanvas {
+ public:
+  static constexpr const char* kWorldFrame = "world";
+
+  /// @param markers where the markers go
+  /// @param world_from_system pose of the system's axes in the world
+  MarkerCanvas(visualization_msgs::MarkerArray& markers, std::string system,
+               const Eigen::Isometry3d& world_from_system);
+
+  /// Round bar between the centres of its two ends; radius [m].
+  void cylinder(const std::string& part, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                double radius, const Color& color);
+
+  /// @param radius [m]
+  void sphere(const std::string& part, const Eigen::Vector3d& centre, double radius,
+              const Color& color);
+
+  /// Box with the given pose in the system's axes; size [m] along its own axes.
+  void box(const std::string& part, const Eigen::Isometry3d& pose, const Eigen::Vector3d& size,
+           const Color& color);
+
+  /// Polyline; width [m]. With `fading` its beginning is transparent, its end opaque.
+  void line(const std::string& part, const std::vector<Eigen::Vector3d>& points, double width,
+            const Color& color, bool fading = false);
+
+  /// Round tube along a smooth centre line of at least two points; radius [m].
+  void tube(const std::string& part, const std::vector<Eigen::Vector3d>& centre_line, double radius,
+            const Color& color);
+
+  /// Lines of text, left-aligned, facing the viewer; the block is centred on `centre`.
+  /// @param height [m] of a line. An empty text takes the marker away.
+  void text(const std::string& part, const Eigen::Vector3d& centre, double height,
+            const std::string& lines, const Color& color);
+
+ private:
+  visualization_msgs::Marker& add(const std::string& part, int type, const Eigen::Isometry3d& pose,
+                                  const Eigen::Vector3d& scale, const Color& color);
+
+  visualization_msgs::MarkerArray& markers_;
+  std::string system_;
+  Eigen::Isometry3d world_from_system_;
+  std::map<std::string, int> next_id_;
+};
+
+/// Removes every marker from the display, before systems are laid out anew.
+visualization_msgs::Marker deleteAllMarkers();
+
+}  // namespace whirl_twin

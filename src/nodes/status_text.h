@@ -1,0 +1,55 @@
+// What the displays and the terminal say in words about a system: angles, whirl, margins, alerts.
+// Here, and only here, angles are in degrees, whirl radii in micrometres and speeds also in rpm.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "whirl_twin/Alert.h"
+#include "whirl_twin/PendulumState.h"
+#include "whirl_twin/StabilityMargin.h"
+#include "whirl_twin/WhirlState.h"
+
+namespace whirl_twin {
+
+/// [rad] to degrees in (-180, 180].
+double wrappedDegrees(double angle);
+
+/// "speed 100.00 rad/s (954.9 rpm)".
+std::string speedText(double speed);
+
+/// "whirl 123.4 um, lag 87.3 deg"; without the lag while the phase is not valid.
+std::string whirlText(const WhirlState& state);
+
+/// "theta 12.3 deg, theta2 -4.0 deg"; sliding coordinates in metres.
+std::string coordinateText(const std::vector<std::string>& name, const std::vector<double>& value);
+
+/// Index of the critical speed nearest to the present speed; -1 when there is none.
+int nearestCriticalSpeed(const StabilityMargin& margin);
+
+/// "critical 100.0 rad/s forward"; empty when there is no such critical speed.
+std::string criticalSpeedText(const StabilityMargin& margin, int index);
+
+/// "margin 34.0 % (16.0 % required)", of the present speed from it; empty at standstill.
+std::string separationText(const StabilityMargin& margin, int index);
+
+/// "asymptotically stable".
+std::string verdictText(const StabilityMargin& margin);
+
+/// "decay rate 5 1/s, log decrement 0.314", as far as they are finite; "growth rate" when negative.
+std::string decayText(const StabilityMargin& margin);
+
+/// Everything a display writes about a margin, a line each.
+std::vector<std::string> marginLines(const StabilityMargin& margin);
+
+/// "INFO", "WARNING" or "DANGER".
+std::string severityName(int severity);
+
+/// Breaks a sentence at spaces into lines of at most `width` characters, indented from the second
+/// on; a word that is longer stays whole.
+std::vector<std::string> wrapText(const std::string& sentence, std::size_t width);
+
+/// Lines joined with newlines.
+std::string joined(const std::vector<std::string>& lines);
+
+}  // namespace whirl_twin

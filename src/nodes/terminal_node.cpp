@@ -1,0 +1,105 @@
+// terminal_node: the state of the twin in a terminal, for machines without a screen.
+//
+// On a terminal a line for each system is rewritten in place five times a second; into a file or a
+// pipe goes one line a second. Alerts raised and cleared are lines of their own and stay.
+#include <fmt/format.h>
+#include <ros/ros.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "nodes/terminal_text.h"
+#include "nodes/twin_listener.h"
+
+namespace whirl_twin {
+namespace {
+
+class TerminalDisplay {
+ public:
+  TerminalDisplay() : is_terminal_(isatty(STDOUT_FILENO) == 1) {
+    listener_.onAlerts([this](const AlertArray& alerts) { printAlerts(alerts.alerts); });
+    listener_.discover();
+    ros::NodeHandle node;
+    discover_timer_ =
+        node.createWallTimer(ros::WallDuration(1.0), [this](const auto&) { listener_.discover(); });
+    print_timer_ = node.createWallTimer(ros::WallDuration(is_terminal_ ? 0.2 : 1.0),
+                                        [this](const auto&) { print(); });
+  }
+
+ private:
+  static std::size_t columns() {
+    winsize size{};
+    const bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+    return known ? size.ws_col : 80;
+  }
+
+  void print() {
+    std::vector<std::string> readouts;
+    for (const auto& [system, readout] : listener_.systems()) {
+      if (readout.whirl || readout.pendulum) {
+        readouts.push_back(readoutText(system, readout));
+      }
+    }
+    if (readouts.empty()) {
+      return;
+    }
+    const std::string time = fmt::format("{:.3f} s", listener_.time());
+    if (is_terminal_) {
+      erase();
+      show(time);
+      for (const auto& readout : readouts) {
+        show("  " + readout);
+      }
+    } else {
+      std::puts(fmt::format("{} | {}", time, fmt::join(readouts, " | ")).c_str());
+    }
+    flush();
+  }
+
+  void printAlerts(const std::vector<Alert>& alerts) {
+    erase();
+    for (const auto& line : alertChanges(alerts_, alerts, listener_.time())) {
+      std::puts(line.c_str());
+    }
+    alerts_ = alerts;
+    flush();
+  }
+
+  void show(const std::string& line) {
+    std::puts(fitted(line, columns()).c_str());
+    ++shown_;
+  }
+
+  // Takes back the lines that are to be rewritten: up, to the first column, clear what is below.
+  void erase() {
+    if (shown_ > 0) {
+      std::printf("\x1b[%dA\r\x1b[J", shown_);
+    }
+    shown_ = 0;
+  }
+
+  static void flush() {
+    if (std::fflush(stdout) != 0) {
+      ros::shutdown();  // the reader of the pipe has gone
+    }
+  }
+
+  bool is_terminal_;
+  int shown_ = 0;  // lines on the terminal that the next frame replaces
+  TwinListener listener_;
+  std::vector<Alert> alerts_;
+  ros::WallTimer discover_timer_;
+  ros::WallTimer print_timer_;
+};
+
+}  // namespace
+}  // namespace whirl_twin
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "terminal_node", ros::init_options::AnonymousName);
+  ros::NodeHandle node;  // keeps ROS up between the first topic and the last
+  const whirl_twin::TerminalDisplay display;
+  ros::spin();
+  return 0;
+}

@@ -1,0 +1,88 @@
+// Finds out from the ROS master which systems a twin publishes and listens to all of them, so that
+// a live twin, a log being played back and any scene look alike. Nothing about the scene is asked.
+#pragma once
+
+#include <ros/ros.h>
+
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "whirl_twin/AlertArray.h"
+#include "whirl_twin/DriveState.h"
+#include "whirl_twin/PendulumState.h"
+#include "whirl_twin/StabilityMargin.h"
+#include "whirl_twin/WhirlState.h"
+
+namespace whirl_twin {
+
+/// Where everything of the twin is named.
+constexpr const char* kTwinNamespace = "/twin";
+
+/// The latest that is known of one system; null before the first message.
+struct SystemReadout {
+  WhirlState::ConstPtr whirl;
+  PendulumState::ConstPtr pendulum;
+  StabilityMargin::ConstPtr margin;
+};
+
+/// A topic of the twin: its full name, message type and the system or drive it is about.
+struct TwinTopic {
+  std::string topic;
+  std::string type;
+  std::string subject;  ///< empty for the alerts
+};
+
+/// The topics of a twin among all that the master knows.
+std::vector<TwinTopic> twinTopics(const ros::master::V_TopicInfo& all);
+
+class TwinListener {
+ public:
+  using WhirlHandler = std::function<void(const std::string& system, const WhirlState&)>;
+  using PendulumHandler = std::function<void(const std::string& system, const PendulumState&)>;
+  using AlertHandler = std::function<void(const AlertArray&)>;
+
+  /// Called with every state, in the spinner's thread; to be set before the first discover().
+  void onWhirl(WhirlHandler handler) { whirl_handler_ = std::move(handler); }
+  void onPendulum(PendulumHandler handler) { pendulum_handler_ = std::move(handler); }
+  void onAlerts(AlertHandler handler) { alert_handler_ = std::move(handler); }
+
+  /// Asks the master and follows it. What has gone is forgotten once something else is there, so a
+  /// twin that has stopped stays on the screen until another begins.
+  void discover();
+
+  const std::map<std::string, SystemReadout>& systems() const { return systems_; }
+
+  /// The latest alerts about a system, most severe first.
+  std::vector<Alert> alertsOf(const std::string& system) const;
+
+  /// The latest state of a drive; null when there is none.
+  const DriveState* drive(const std::string& name) const;
+
+  /// [s], latest simulated time of any system.
+  double time() const;
+
+ private:
+  ros::Subscriber subscribe(const TwinTopic& topic);
+  template <class Message>
+  ros::Subscriber listen(const TwinTopic& topic,
+                         std::function<void(const typename Message::ConstPtr&)> take);
+  void forget(const TwinTopic& topic);
+
+  ros::NodeHandle node_;
+  WhirlHandler whirl_handler_;
+  PendulumHandler pendulum_handler_;
+  AlertHandler alert_handler_;
+  struct Subscription {
+    TwinTopic topic;
+    ros::Subscriber subscriber;
+  };
+  std::map<std::string, Subscription> subscriptions_;
+  std::map<std::string, SystemReadout> systems_;
+  std::map<std::string, DriveState::ConstPtr> drives_;
+  AlertArray::ConstPtr alerts_;
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,118 @@
+// A thread that runs one function at a fixed rate: the real-time thread of the simulation.
+//
+//   wake-up k is due at t0 + k period on CLOCK_MONOTONIC, in integer nanoseconds; the thread sleeps
+//   to that absolute instant, so a late cycle does not move the ones after it
+//
+// Measured apart, for every cycle: wake-up latency (woke - due), execution time (of the function),
+// period (woke - woke before). What happens when a cycle ends too late: overrun_policy.h. What the
+// thread asks of Linux: realtime_setup.h. It guarantees no latency: that is the kernel's to give.
+#pragma once
+
+#include <pthread.h>
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <string>
+
+#include "realtime/overrun_policy.h"
+#include "realtime/realtime_setup.h"
+#include "realtime/timing_histogram.h"
+
+namespace whirl_twin {
+
+/// How a loop has kept its time. The histograms leave the warm-up cycles out; the counts do not.
+struct LoopTiming {
+  TimingHistogram wake_up_latency;  ///< [ns], woke - due
+  TimingHistogram execution_time;   ///< [ns], of the cycle function
+  TimingHistogram period;           ///< [ns], from one wake-up to the next
+  std::uint64_t cycles = 0;         ///< cycles run since the start or the last reset
+  std::uint64_t overruns = 0;       ///< of these, ended after the next one was due
+  std::uint64_t skipped = 0;        ///< periods left out
+  std::uint64_t page_faults = 0;    ///< of the loop's thread since it began; a reset leaves it
+};
+
+class FixedRateLoop {
+ public:
+  /// One cycle. Gets the instant it was due [ns, CLOCK_MONOTONIC]; false ends the loop. It must not
+  /// block, allocate or throw (a throw ends the loop, and status() says so). Of this class it may
+  /// call stop(), running(), timing() and resetTiming().
+  using Cycle = std::function<bool(std::int64_t scheduled)>;
+
+  struct Options {
+    std::int64_t period = 1'000'000;  ///< [ns], 10 us to 1 h
+    RealtimeMode mode = RealtimeMode::kWarn;
+    int priority = 50;  ///< SCHED_FIFO priority, 1 to 98: 99 belongs to the kernel's watchdogs
+    OverrunPolicy policy = OverrunPolicy::kSkip;
+    std::uint64_t max_catch_up = 10;       ///< [cycles], for OverrunPolicy::kCatchUp
+    std::size_t stack_size = 1024 * 1024;  ///< [bytes], of the loop's thread
+    std::uint64_t warm_up_cycles = 10;     ///< left out of the histograms
+  };
+
+  /// std::invalid_argument names an option that is out of range.
+  explicit FixedRateLoop(const Options& options);
+  ~FixedRateLoop();
+  FixedRateLoop(const FixedRateLoop&) = delete;
+  FixedRateLoop& operator=(const FixedRateLoop&) = delete;
+
+  /// Locks memory, starts the thread, waits until it has its scheduling, and returns; the first
+  /// cycle is due one period later. std::runtime_error when the thread cannot be had as
+  /// RealtimeMode::kEnforce demands (nothing runs then), std::logic_error when it runs already. A
+  /// loop that has ended can be started again; its timing begins anew.
+  void start(Cycle cycle);
+
+  /// Ends the loop after the cycle under way and joins the thread: within 50 ms plus that cycle.
+  /// From inside a cycle it only asks for the end.
+  void stop() noexcept;
+
+  bool running() const noexcept { return running_.load(std::memory_order_acquire); }
+
+  /// What was obtained from the system at the last start.
+  RealtimeStatus status() const;
+
+  /// A coherent copy of the statistics; the loop is not disturbed. Any thread.
+  LoopTiming timing() const;
+
+  /// Forgets the statistics (all but page_faults), before the next cycle and within 50 ms plus the
+  /// cycle under way.
+  void resetTiming() noexcept;
+
+ private:
+  struct Launch;
+
+  static void* enter(void* launch) noexcept;
+  void run() noexcept;
+  bool sleepUntil(std::int64_t instant) noexcept;
+  void record(std::int64_t scheduled, std::int64_t woke, std::int64_t finished,
+              const WakeUp& next) noexcept;
+  void clearTiming() noexcept;
+  void join() noexcept;
+
+  const Options options_;
+  Cycle cycle_;
+  pthread_t thread_{};
+  bool joinable_ = false;
+  RealtimeStatus status_;
+  std::string
+      failure_;  // what a cycle threw: written by the loop's thread before running_ is false
+  mutable std::mutex control_mutex_;  // start, stop and status; the loop never takes it
+  std::atomic<bool> running_{false};
+  std::atomic<bool> stop_requested_{false};
+  std::atomic<bool> reset_requested_{false};
+
+  // Written by the loop's thread alone, between two increments of the sequence count.
+  std::atomic<std::uint64_t> sequence_{0};
+  TimingHistogram wake_up_latency_;
+  TimingHistogram execution_time_;
+  TimingHistogram period_;
+  std::atomic<std::uint64_t> cycles_{0};
+  std::atomic<std::uint64_t> overruns_{0};
+  std::atomic<std::uint64_t> skipped_{0};
+  std::atomic<std::uint64_t> page_faults_{0};
+  std::uint64_t warm_up_left_ = 0;
+  std::int64_t woke_before_ = 0;
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,30 @@
+#include "realtime/overrun_policy.h"
+
+#include <stdexcept>
+
+namespace whirl_twin {
+
+std::string toString(OverrunPolicy policy) {
+  switch (policy) {
+    case OverrunPolicy::kSkip:
+      return "skip";
+    case OverrunPolicy::kCatchUp:
+      return "catch_up";
+    case OverrunPolicy::kStop:
+      return "stop";
+  }
+  throw std::logic_error("overrun policy: not one of the enumeration");
+}
+
+OverrunPolicy parseOverrunPolicy(const std::string& name) {
+  for (const OverrunPolicy policy :
+       {OverrunPolicy::kSkip, OverrunPolicy::kCatchUp, OverrunPolicy::kStop}) {
+    if (name == toString(policy)) {
+      return policy;
+    }
+  }
+  throw std::invalid_argument("overrun policy: expected skip, catch_up or stop, found \"" + name +
+                              "\"");
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,48 @@
+#include "realtime/record_ring.h"
+
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace whirl_twin {
+namespace {
+
+std::size_t doublesNeeded(std::size_t record_size, std::size_t capacity_records) {
+  if (record_size == 0 || capacity_records == 0) {
+    throw std::invalid_argument(
+        "record ring: expected a record size of at least 1 double and a capacity of at least 1 "
+        "record, found " +
+        std::to_string(record_size) + " and " + std::to_string(capacity_records));
+  }
+  if (capacity_records > std::numeric_limits<std::size_t>::max() / sizeof(double) / record_size) {
+    throw std::invalid_argument("record ring: " + std::to_string(capacity_records) +
+                                " records of " + std::to_string(record_size) +
+                                " doubles are more than memory can hold");
+  }
+  return record_size * capacity_records;
+}
+
+}  // namespace
+
+RecordRing::RecordRing(std::size_t record_size, std::size_t capacity_records)
+    : record_size_(record_size), values_(doublesNeeded(record_size, capacity_records)) {}
+
+bool RecordRing::push(const double* record) noexcept {
+  if (values_.write_available() < record_size_) {
+    // Only this thread writes the count; an atomic store keeps readers of it honest.
+    dropped_.store(dropped() + 1, std::memory_order_relaxed);
+    return false;
+  }
+  values_.push(record, record_size_);
+  return true;
+}
+
+bool RecordRing::pop(double* record) noexcept {
+  if (values_.read_available() < record_size_) {
+    return false;
+  }
+  values_.pop(record, record_size_);
+  return true;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,41 @@
+// The way out of the real-time loop: a ring of records, each a fixed number of doubles, from one
+// producer thread to one consumer thread, wait-free on both sides. When the consumer is behind,
+// the newest record is dropped and counted; the producer never waits.
+//
+// Built on boost::lockfree::spsc_queue<double>, whose push(pointer, n) copies what fits and then
+// publishes it with one store of the write index. The room for a whole record is checked first, and
+// it can only grow meanwhile (only the producer fills it), so a record is never split; the same
+// holds for pop the other way round.
+#pragma once
+
+#include <atomic>
+#include <boost/lockfree/spsc_queue.hpp>
+#include <cstddef>
+#include <cstdint>
+
+namespace whirl_twin {
+
+class RecordRing {
+ public:
+  /// `record_size` [doubles] and `capacity_records` are at least 1, else std::invalid_argument.
+  RecordRing(std::size_t record_size, std::size_t capacity_records);
+
+  /// Producer: copies recordSize() doubles in; false, and counted, when there is no room for them.
+  /// Real-time safe.
+  bool push(const double* record) noexcept;
+
+  /// Consumer: copies the oldest record out; false when there is none. Real-time safe.
+  bool pop(double* record) noexcept;
+
+  /// Records that found no room. Any thread.
+  std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
+
+  std::size_t recordSize() const noexcept { return record_size_; }
+
+ private:
+  std::size_t record_size_;
+  boost::lockfree::spsc_queue<double> values_;
+  std::atomic<std::uint64_t> dropped_{0};
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,74 @@
+// Reads values out of a YAML tree and collects every complaint instead of stopping at the first.
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mechanics/model_description.h"
+
+namespace whirl_twin {
+
+/// The candidate nearest in spelling, or "" if none is near.
+std::string nearestName(const std::string& name, const std::vector<std::string>& candidates);
+
+/// A finite number written in decimal, or nothing.
+std::optional<double> parseNumber(const std::string& text);
+
+/// Where complaints go: "source: key: text".
+class Complaints {
+ public:
+  explicit Complaints(std::string source) : source_(std::move(source)) {}
+  void add(const std::string& key, const std::string& text);
+  const std::vector<std::string>& all() const { return all_; }
+
+ private:
+  std::string source_;
+  std::vector<std::string> all_;
+};
+
+/// A map of the tree, under a full key such as systems.rotor.parameters.
+class MapReader {
+ public:
+  /// Complains if the node is not a map, a key stands twice, or a key is not in `known`; `kind`
+  /// words an unknown key: "unknown KIND; did you mean ...?". Empty `known`: any key.
+  MapReader(const YAML::Node& node, std::string key, const std::vector<std::string>& known,
+            const std::string& kind, Complaints& complaints);
+
+  bool usable() const { return usable_; }
+  bool has(const std::string& name) const;
+  YAML::Node at(const std::string& name) const;
+  std::string key(const std::string& name) const;
+  std::vector<std::string> names() const;
+
+  /// A number in range, with its unit in the complaint; without a fallback it must be there. After
+  /// a complaint the fallback, or 0, is returned.
+  double number(const std::string& name, Range range, const std::string& unit,
+                std::optional<double> fallback) const;
+  double numberBetween(const std::string& name, double low, double high, const std::string& unit,
+                       std::optional<double> fallback) const;
+  int integer(const std::string& name, int low, int high, int fallback) const;
+  std::string text(const std::string& name, const std::string& fallback) const;
+  /// One of `choices`, or a complaint with the nearest of them.
+  std::string choice(const std::string& name, const std::vector<std::string>& choices,
+                     const std::string& what, const std::string& fallback) const;
+
+ private:
+  double checkedNumber(const std::string& name, const std::string& expected,
+                       const std::function<bool(double)>& fits,
+                       std::optional<double> fallback) const;
+
+  std::vector<std::pair<std::string, YAML::Node>> entries_;
+  std::string key_;
+  bool usable_ = false;
+  Complaints& complaints_;
+};
+
+/// How a node looks in a message: its text, "a list", "a map" or "nothing".
+std::string shown(const YAML::Node& node);
+
+}  // namespace whirl_twin

@@ -1,0 +1,190 @@
+#include "scene/observer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+/// A radius below this part of the largest so far has no angle worth the name.
+constexpr double kSmallestRadius = 1.0e-9;
+
+Eigen::VectorXd vector(const double* x, std::size_t n) {
+  return Eigen::Map<const Eigen::VectorXd>(x, static_cast<Eigen::Index>(n));
+}
+
+}  // namespace
+
+Observer::Observer(const Twin& twin)
+    : twin_(twin), record_(twin.layout().size), tracks_(twin.members().size()) {
+  twin.write(record_.data());
+  observe(std::vector<double>(record_).data());
+}
+
+void Observer::observe(const double* record) {
+  const bool restarted = unpacked(record[RecordLayout::kStep]) < step();
+  std::copy(record, record + record_.size(), record_.begin());
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    if (restarted) {
+      tracks_[i] = Track{};
+    }
+    if (isRotor(i)) {
+      trackPhase(i);
+    }
+    trackEnergy(i);
+  }
+}
+
+std::int64_t Observer::step() const {
+  return unpacked(record_[RecordLayout::kStep]);
+}
+
+StepStatus Observer::status(std::size_t system) const {
+  return static_cast<StepStatus>(unpacked(record_[twin_.layout().system[system]]));
+}
+
+bool Observer::isRotor(std::size_t system) const {
+  return twin_.members()[system].model->rotor;
+}
+
+const double* Observer::coordinates(std::size_t system) const {
+  return record_.data() + twin_.layout().system[system] + 1;
+}
+
+const double* Observer::rates(std::size_t system) const {
+  return coordinates(system) + twin_.members()[system].spec.q.size();
+}
+
+const double* Observer::driveRecord(std::size_t drive) const {
+  return record_.data() + RecordLayout::kDrives + RecordLayout::kDriveSize * drive;
+}
+
+Moment<double> Observer::moment(std::size_t system) const {
+  const double* shaft = driveRecord(twin_.members()[system].drive);
+  return {twin_.seconds(step()), shaft[1], shaft[2], shaft[3]};
+}
+
+state::Instant Observer::instant() const {
+  return {step(), twin_.seconds(step()), stamp_};
+}
+
+Energies Observer::energies(std::size_t system) const {
+  const std::size_t n = twin_.members()[system].spec.q.size();
+  return twin_.members()[system].dynamics->energies(vector(coordinates(system), n),
+                                                    vector(rates(system), n), moment(system));
+}
+
+void Observer::trackEnergy(std::size_t system) {
+  Track& track = tracks_[system];
+  const Energies e = energies(system);
+  const double work = coordinates(system)[2 * twin_.members()[system].spec.q.size()];
+  if (!track.started) {
+    track.started = true;
+    track.jacobi = e.jacobi - work;
+  }
+  track.scale = std::max(track.scale, std::fabs(e.kinetic) + std::fabs(e.potential));
+  track.residual = track.scale > 0.0 ? (e.jacobi - track.jacobi - work) / track.scale : 0.0;
+}
+
+double Observer::energyResidual(std::size_t system) const {
+  return tracks_[system].residual;
+}
+
+double Observer::whirlRadius(std::size_t system) const {
+  const double* q = coordinates(system);
+  return std::hypot(q[0], q[1]);
+}
+
+double Observer::whirlPhase(std::size_t system) const {
+  return tracks_[system].phase_valid ? tracks_[system].phase : kNaN;
+}
+
+void Observer::trackPhase(std::size_t system) {
+  Track& track = tracks_[system];
+  const double radius = whirlRadius(system);
+  track.largest_radius = std::max(track.largest_radius, radius);
+  track.phase_valid = radius > kSmallestRadius * track.largest_radius;
+  if (!track.phase_valid) {
+    return;
+  }
+  const double* q = coordinates(system);
+  const double unbalance = driveRecord(twin_.members()[system].drive)[1] +
+                           twin_.members()[system].dynamics->unbalanceAngle();
+  const double lag = unbalance - std::atan2(q[1], q[0]);
+  const double reference = track.phase_known ? track.phase : 0.0;
+  track.phase = reference + std::remainder(lag - reference, 2.0 * kPi);
+  track.phase_known = true;
+}
+
+state::WhirlState Observer::whirl(std::size_t system) const {
+  const Twin::Member& member = twin_.members()[system];
+  const double* q = coordinates(system);
+  const double* v = rates(system);
+  const double* shaft = driveRecord(member.drive);
+  state::WhirlState s;
+  s.at = instant();
+  s.system = member.spec.name;
+  s.x = q[0];
+  s.y = q[1];
+  s.x_rate = v[0];
+  s.y_rate = v[1];
+  s.radius = whirlRadius(system);
+  s.phase_valid = tracks_[system].phase_valid;
+  s.phase = whirlPhase(system);
+  s.whirl_angle = s.phase_valid ? std::atan2(q[1], q[0]) : kNaN;
+  s.whirl_rate = s.phase_valid ? (q[0] * v[1] - q[1] * v[0]) / (s.radius * s.radius) : kNaN;
+  s.speed = shaft[2];
+  s.shaft_angle = ShaftAngle{unpacked(shaft[0]), shaft[1]}.total();
+  s.orbit_major = s.orbit_minor = kNaN;
+  if (s.speed != 0.0) {
+    // z = f e^(iwt) + b e^(-iwt) with z' known too: forward and backward parts of the 1X orbit.
+    const double vx = v[0] / s.speed;
+    const double vy = v[1] / s.speed;
+    const double forward = 0.5 * std::hypot(q[0] + vy, q[1] - vx);
+    const double backward = 0.5 * std::hypot(q[0] - vy, q[1] + vx);
+    s.orbit_major = forward + backward;
+    s.orbit_minor = std::fabs(forward - backward);
+    s.forward = forward >= backward;
+  }
+  s.energy_residual = energyResidual(system);
+  return s;
+}
+
+state::PendulumState Observer::pendulum(std::size_t system) const {
+  const Twin::Member& member = twin_.members()[system];
+  const std::size_t n = member.spec.q.size();
+  state::PendulumState s;
+  s.at = instant();
+  s.system = member.spec.name;
+  for (const Coordinate& c : member.model->coordinates) {
+    s.name.emplace_back(c.name);
+  }
+  s.angle.assign(coordinates(system), coordinates(system) + n);
+  s.rate.assign(rates(system), rates(system) + n);
+  const Energies e = energies(system);
+  s.kinetic = e.kinetic;
+  s.potential = e.potential;
+  s.energy_residual = energyResidual(system);
+  return s;
+}
+
+state::DriveState Observer::drive(std::size_t drive) const {
+  const double* shaft = driveRecord(drive);
+  state::DriveState s;
+  s.at = instant();
+  s.drive = twin_.scene().drives[drive].name;
+  s.turns = unpacked(shaft[0]);
+  s.remainder = shaft[1];
+  s.speed = shaft[2];
+  s.acceleration = shaft[3];
+  s.jerk = shaft[4];
+  s.target_speed = shaft[5];
+  s.shaft_angle = ShaftAngle{s.turns, s.remainder}.total();
+  return s;
+}
+
+}  // namespace whirl_twin

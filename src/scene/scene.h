@@ -1,0 +1,48 @@
+// A checked scene: what is simulated, with every number in range. Made by readScene() only.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "control/speed_profile.h"
+
+namespace whirl_twin {
+
+/// A shaft that turns, shared by the systems that name it.
+struct DriveSpec {
+  std::string name;
+  double speed = 0.0;              ///< [rad/s], at the scene's start
+  double angle = 0.0;              ///< [rad], at the scene's start
+  std::vector<SpeedMove> profile;  ///< moves in order; empty: the speed stays
+};
+
+struct SystemSpec {
+  std::string name;
+  std::string model;
+  std::optional<std::string> drive;  ///< name of the drive that turns it
+  std::optional<double> speed;       ///< [rad/s], a constant speed of its own instead
+  std::string integrator = "auto";
+  double tolerance = 1.0e-6;  ///< [-], for auto
+  double horizon = 10.0;      ///< [s], for auto
+  int substeps = 1;
+  std::map<std::string, double> parameters;  ///< complete: defaults filled in
+  std::vector<double> q;                     ///< initial coordinates, [rad] or [m]
+  std::vector<double> v;                     ///< initial rates, [rad/s] or [m/s]
+};
+
+struct Scene {
+  std::string source;  ///< where it came from, for messages
+  std::string name;
+  std::int64_t step = 0;     ///< [ns], the fixed step
+  std::int64_t time = 0;     ///< [ns], simulated time at the start
+  double gravity = 9.80665;  ///< [m/s^2]
+  std::vector<DriveSpec> drives;
+  std::vector<SystemSpec> systems;
+
+  double stepSeconds() const { return static_cast<double>(step) * 1.0e-9; }
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,330 @@
+#include "scene/scene_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "scene/model_registry.h"
+#include "scene/node_reader.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr std::uintmax_t kLargestFile = 4u << 20;  // bytes; a scene of ten thousand systems is less
+constexpr double kLargestTime = 1.0e9;             // s
+
+/// Names become ROS topics and, upper-cased, LCM channels.
+bool isName(const std::string& text) {
+  return !text.empty() && std::isalpha(static_cast<unsigned char>(text[0])) &&
+         std::all_of(text.begin(), text.end(),
+                     [](unsigned char c) { return std::isalnum(c) || c == '_'; });
+}
+
+std::string upper(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
+
+void checkNames(const MapReader& map, const std::string& what, Complaints& complaints) {
+  std::set<std::string> channels;
+  for (const std::string& name : map.names()) {
+    if (!isName(name)) {
+      complaints.add(map.key(name),
+                     fmt::format("a {} is named by letters, digits and _, a letter first", what));
+    } else if (!channels.insert(upper(name)).second) {
+      complaints.add(map.key(name),
+                     fmt::format("another {} has this name but for upper and lower case", what));
+    }
+  }
+}
+
+/// Seconds as a whole number of nanoseconds.
+std::int64_t nanoseconds(const MapReader& map, const std::string& name, double seconds,
+                         Complaints& complaints) {
+  const double count = seconds * 1.0e9;
+  const double whole = std::round(count);
+  if (std::fabs(count - whole) > 1.0e-6 * std::max(1.0, std::fabs(whole) * 1.0e-9)) {
+    complaints.add(map.key(name),
+                   fmt::format("must be a whole number of nanoseconds, found {} s; nearest {} s",
+                               seconds, whole * 1.0e-9));
+  }
+  return static_cast<std::int64_t>(whole);
+}
+
+std::vector<SpeedMove> readProfile(const YAML::Node& list, const std::string& key,
+                                   Complaints& complaints) {
+  std::vector<SpeedMove> profile;
+  if (!list.IsSequence()) {
+    complaints.add(key, fmt::format("must be a list of moves, found {}", shown(list)));
+    return profile;
+  }
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const MapReader move(list[i], fmt::format("{}[{}]", key, i),
+                         {"speed", "max_acceleration", "max_jerk", "dwell"}, "key of a move",
+                         complaints);
+    SpeedMove m;
+    m.speed = move.numberBetween("speed", -kLargestSpeed, kLargestSpeed, "rad/s", std::nullopt);
+    m.max_acceleration = move.number("max_acceleration", Range::kPositive, "rad/s^2", std::nullopt);
+    m.max_jerk = move.has("max_jerk")
+                     ? move.number("max_jerk", Range::kPositive, "rad/s^3", std::nullopt)
+                     : 0.0;
+    m.dwell = move.numberBetween("dwell", 0.0, kLongestDuration, "s", 0.0);
+    profile.push_back(m);
+  }
+  return profile;
+}
+
+DriveSpec readDrive(const YAML::Node& node, const std::string& key, const std::string& name,
+                    std::int64_t start, Complaints& complaints) {
+  DriveSpec drive;
+  drive.name = name;
+  const MapReader map(node, key, {"speed", "angle", "profile", "motor"}, "key of a drive",
+                      complaints);
+  if (!map.usable()) {
+    return drive;
+  }
+  const std::size_t before = complaints.all().size();
+  drive.speed = map.numberBetween("speed", -kLargestSpeed, kLargestSpeed, "rad/s", 0.0);
+  drive.angle = map.numberBetween("angle", -1.0e15, 1.0e15, "rad", 0.0);
+  if (map.has("motor")) {
+    complaints.add(map.key("motor"),
+                   "motors are not modelled in this version; give the drive a profile");
+  }
+  if (map.has("profile")) {
+    drive.profile = readProfile(map.at("profile"), map.key("profile"), complaints);
+  }
+  if (complaints.all().size() == before) {
+    try {  // what only the whole profile shows, such as moves that last longer than can be timed
+      static_cast<void>(Drive(drive.speed, drive.angle, drive.profile, start));
+    } catch (const std::invalid_argument& error) {
+      complaints.add(key, error.what());
+    }
+  }
+  return drive;
+}
+
+void readParameters(const MapReader& system, const ModelInfo& model, SystemSpec& spec,
+                    Complaints& complaints) {
+  std::vector<std::string> known;
+  for (const ParameterInfo& parameter : model.parameters) {
+    known.push_back(parameter.name);
+  }
+  if (model.has_shaft) {
+    known.push_back("speed");
+  }
+  const MapReader map(
+      system.has("parameters") ? system.at("parameters") : YAML::Node(YAML::NodeType::Map),
+      system.key("parameters"), known, "parameter of " + model.name, complaints);
+  for (const ParameterInfo& p : model.parameters) {
+    std::optional<double> fallback = p.fallback;
+    if (!p.fallback_parameter.empty()) {
+      fallback = spec.parameters.at(p.fallback_parameter);
+    }
+    spec.parameters[p.name] = map.number(p.name, p.range, p.unit, fallback);
+  }
+  if (map.has("speed")) {
+    spec.speed = map.numberBetween("speed", -kLargestSpeed, kLargestSpeed, "rad/s", std::nullopt);
+  }
+}
+
+void readShaft(const MapReader& system, const ModelInfo& model, const Scene& scene,
+               SystemSpec& spec, Complaints& complaints) {
+  if (system.has("drive")) {
+    const std::string drive = system.text("drive", "");
+    std::vector<std::string> drives;
+    for (const DriveSpec& d : scene.drives) {
+      drives.push_back(d.name);
+    }
+    if (!model.has_shaft) {
+      complaints.add(system.key("drive"), model.name + " has no shaft to drive");
+    } else if (drives.empty()) {
+      complaints.add(system.key("drive"), "the scene has no drives");
+    } else {
+      spec.drive = system.choice("drive", drives, "a drive of the scene", drives.front());
+    }
+  }
+  if (model.has_shaft && spec.drive && spec.speed) {
+    complaints.add(system.key("parameters.speed"),
+                   "the drive sets the speed: give one or the other");
+  } else if (model.has_shaft && !spec.drive && !spec.speed && !system.has("drive")) {
+    complaints.add(system.key("parameters.speed"),
+                   "missing; must be a finite number in rad/s, or name a drive");
+  }
+}
+
+void readInitial(const MapReader& system, const ModelInfo& model, SystemSpec& spec,
+                 Complaints& complaints) {
+  std::vector<std::string> known;
+  for (const Coordinate& c : model.coordinates) {
+    known.push_back(c.name);
+    known.push_back(std::string(c.name) + "_rate");
+  }
+  const MapReader map(
+      system.has("initial") ? system.at("initial") : YAML::Node(YAML::NodeType::Map),
+      system.key("initial"), known, "coordinate of " + model.name, complaints);
+  for (const Coordinate& c : model.coordinates) {
+    spec.q.push_back(map.number(c.name, Range::kAny, c.unit, 0.0));
+    spec.v.push_back(
+        map.number(std::string(c.name) + "_rate", Range::kAny, std::string(c.unit) + "/s", 0.0));
+  }
+}
+
+void readIntegrator(const MapReader& system, const ModelInfo& model, const Scene& scene,
+                    SystemSpec& spec, Complaints& complaints) {
+  spec.integrator =
+      system.choice("integrator", integratorNames(), "the name of an integrator", "auto");
+  spec.tolerance = system.number("tolerance", Range::kPositive, "-", spec.tolerance);
+  spec.horizon = system.number("horizon", Range::kPositive, "s", spec.horizon);
+  spec.substeps = system.integer("substeps", 1, 1000000, 1);
+  if (spec.integrator != "exponential") {
+    return;
+  }
+  const auto& suited = model.integrators;
+  if (std::find(suited.begin(), suited.end(), spec.integrator) == suited.end()) {
+    complaints.add(system.key("integrator"),
+                   "exponential is for linear rotors; " + model.name + " is not linear");
+  } else if (spec.drive && model.dynamics(spec.parameters, scene.gravity)->speedDependent()) {
+    complaints.add(
+        system.key("integrator"),
+        "exponential needs matrices that do not change with speed: rotating damping on a "
+        "drive excludes it; gauss_legendre_6 or runge_kutta_4 will do");
+  }
+}
+
+SystemSpec readSystem(const YAML::Node& node, const std::string& key, const std::string& name,
+                      const Scene& scene, Complaints& complaints) {
+  SystemSpec spec;
+  spec.name = name;
+  const MapReader map(
+      node, key,
+      {"model", "drive", "integrator", "tolerance", "horizon", "substeps", "parameters", "initial"},
+      "key of a system", complaints);
+  if (!map.usable()) {
+    return spec;
+  }
+  std::vector<std::string> names;
+  for (const ModelInfo& m : models()) {
+    names.push_back(m.name);
+  }
+  if (!map.has("model")) {
+    complaints.add(map.key("model"), "missing; must be the name of a model");
+    return spec;
+  }
+  spec.model = map.choice("model", names, "the name of a model", "");
+  const ModelInfo* model = findModel(spec.model);
+  if (model == nullptr) {
+    return spec;
+  }
+  readParameters(map, *model, spec, complaints);
+  readShaft(map, *model, scene, spec, complaints);
+  readInitial(map, *model, spec, complaints);
+  readIntegrator(map, *model, scene, spec, complaints);
+  return spec;
+}
+
+Scene readTree(const YAML::Node& tree, const std::string& source, Complaints& complaints) {
+  Scene scene;
+  scene.source = source;
+  const MapReader map(tree, "", {"name", "step", "time", "gravity", "drives", "systems"},
+                      "key of a scene", complaints);
+  if (!map.usable()) {
+    return scene;
+  }
+  scene.name = map.text("name", "scene");
+  const double step = map.numberBetween("step", 1.0e-9, 10.0, "s", std::nullopt);
+  const double time = map.numberBetween("time", -kLargestTime, kLargestTime, "s", 0.0);
+  scene.step = nanoseconds(map, "step", step, complaints);
+  scene.time = nanoseconds(map, "time", time, complaints);
+  scene.gravity = map.number("gravity", Range::kNotNegative, "m/s^2", scene.gravity);
+  if (map.has("drives")) {
+    const MapReader drives(map.at("drives"), "drives", {}, "", complaints);
+    checkNames(drives, "drive", complaints);
+    for (const std::string& name : drives.names()) {
+      scene.drives.push_back(
+          readDrive(drives.at(name), drives.key(name), name, scene.time, complaints));
+    }
+  }
+  if (!map.has("systems")) {
+    complaints.add("systems", "missing; a scene has at least one system");
+    return scene;
+  }
+  const MapReader systems(map.at("systems"), "systems", {}, "", complaints);
+  if (systems.usable() && systems.names().empty()) {
+    complaints.add("systems", "a scene has at least one system, found none");
+  }
+  checkNames(systems, "system", complaints);
+  for (const std::string& name : systems.names()) {
+    scene.systems.push_back(
+        readSystem(systems.at(name), systems.key(name), name, scene, complaints));
+  }
+  return scene;
+}
+
+std::string joined(const std::vector<std::string>& lines) {
+  return fmt::format("{}", fmt::join(lines, "\n"));
+}
+
+}  // namespace
+
+SceneError::SceneError(std::vector<std::string> errors)
+    : std::runtime_error(joined(errors)), errors_(std::move(errors)) {}
+
+Scene readScene(const YAML::Node& tree, const std::string& source) {
+  Complaints complaints(source);
+  Scene scene;
+  try {
+    scene = readTree(tree, source, complaints);
+  } catch (const YAML::Exception& error) {
+    complaints.add("", fmt::format("not a scene: {}", error.what()));
+  }
+  if (!complaints.all().empty()) {
+    throw SceneError(complaints.all());
+  }
+  return scene;
+}
+
+Scene readSceneFile(const std::string& path) {
+  const auto refuse = [&](const std::string& why) -> SceneError {
+    return SceneError({fmt::format("{}: {}", path, why)});
+  };
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) {
+    throw refuse("no such file");
+  }
+  if (!std::filesystem::is_regular_file(path, error)) {
+    throw refuse("not a file");
+  }
+  if (std::filesystem::file_size(path, error) > kLargestFile) {
+    throw refuse("larger than 4 MiB: not a scene");
+  }
+  std::ifstream file(path, std::ios::binary);
+  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  if (!file.good() && !file.eof()) {
+    throw refuse("cannot be read");
+  }
+  if (text.find('\0') != std::string::npos) {
+    throw refuse("a binary file, not a scene in YAML");
+  }
+  YAML::Node tree;
+  try {
+    tree = YAML::Load(text);
+  } catch (const YAML::Exception& e) {
+    throw refuse(e.mark.is_null() ? fmt::format("not YAML: {}", e.msg)
+                                  : fmt::format("line {}, column {}: not YAML: {}", e.mark.line + 1,
+                                                e.mark.column + 1, e.msg));
+  }
+  if (!tree.IsDefined() || tree.IsNull()) {
+    throw refuse("empty: a scene has a step and at least one system");
+  }
+  return readScene(tree, path);
+}
+
+}  // namespace whirl_twin

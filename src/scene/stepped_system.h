@@ -1,0 +1,108 @@
+// Model x method, composed at compile time. Compiled only in the translation units of models/, with
+// the flags that let the compiler delete a dual's dead terms; the finiteness check reads bits.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "control/drive.h"
+#include "mechanics/dynamics.h"
+#include "mechanics/lagrangian.h"
+#include "scene/finite.h"
+#include "scene/system.h"
+
+namespace whirl_twin {
+
+/// q'' = a(q, v, t) of a model on its drive during one step; offset [s] counts from its start.
+template <class Model>
+struct DrivenEquation {
+  static constexpr std::size_t n = Model::kDof;
+  using Array = std::array<double, n>;
+  struct Jacobian {
+    Eigen::Matrix<double, static_cast<int>(n), static_cast<int>(n)> by_q, by_v;
+  };
+
+  const Model& model;
+  const Drive& drive;
+  double time;  ///< [s], simulated, at the start of the step
+
+  WHIRL_TWIN_INLINE Moment<double> moment(double offset) const {
+    if constexpr (Model::kHasShaft) {
+      const ShaftMotion shaft = drive.at(offset);
+      return {time + offset, shaft.angle, shaft.speed, shaft.acceleration};
+    } else {
+      return {time + offset, 0.0, 0.0, 0.0};
+    }
+  }
+  WHIRL_TWIN_INLINE Derivative<n> evaluate(const Array& q, const Array& v,
+                                           const Moment<double>& at) const {
+    return derivative(model, q, v, at);
+  }
+  WHIRL_TWIN_INLINE Derivative<n> operator()(const Array& q, const Array& v, double offset) const {
+    return derivative(model, q, v, moment(offset));
+  }
+  /// da/dq and da/dv.
+  Jacobian jacobian(const Array& q, const Array& v, double offset) const {
+    const Moment<double> at = moment(offset);
+    const auto l = linearization(model, q, v, derivative(model, q, v, at).acceleration, at);
+    const auto inverse = l.mass.inverse().eval();
+    return {-inverse * (l.stiffness + l.circulatory), -inverse * (l.damping + l.gyroscopic)};
+  }
+  bool constantSpeed(double duration) const {
+    return !Model::kHasShaft || drive.constantFor(duration);
+  }
+};
+
+template <class Model, class Method>
+class SteppedSystem final : public System {
+ public:
+  static constexpr std::size_t n = Model::kDof;
+
+  /// step [s] of the twin, made of `substeps` steps of the method. The drive outlives the system.
+  SteppedSystem(const Model& model, const Drive& drive, double step, int substeps)
+      : model_(model), drive_(drive), substep_(step / substeps), substeps_(substeps) {}
+
+  StepStatus step(double time) noexcept override {
+    const DrivenEquation<Model> equation{model_, drive_, time};
+    MotionState<n> next = state_;
+    for (int i = 0; i < substeps_; ++i) {
+      const StepStatus status = method_.step(equation, i * substep_, substep_, next);
+      if (status != StepStatus::kOk) {
+        return status;
+      }
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!isFinite(next.q[i]) || !isFinite(next.v[i])) {
+        return StepStatus::kNotFinite;
+      }
+    }
+    state_ = next;
+    return StepStatus::kOk;
+  }
+  std::size_t dof() const noexcept override { return n; }
+  void write(double* out) const noexcept override {
+    for (std::size_t i = 0; i < n; ++i) {
+      out[i] = state_.q[i];
+      out[n + i] = state_.v[i];
+    }
+    out[2 * n] = state_.work.high;
+  }
+  void set(const double* q, const double* v) noexcept override {
+    state_ = MotionState<n>{};
+    for (std::size_t i = 0; i < n; ++i) {
+      state_.q[i] = q[i];
+      state_.v[i] = v[i];
+    }
+    method_.restart();
+  }
+
+ private:
+  Model model_;
+  const Drive& drive_;
+  double substep_;  ///< [s]
+  int substeps_;
+  Method method_{};
+  MotionState<n> state_{};
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,30 @@
+// State <-> LCM type, one converter a direction. toLcm() never fails; fromLcm() throws
+// RejectedMessage for a message that cannot be meant: an illegal name, arrays of different lengths,
+// a number outside its range, a utime that is not the time.
+#pragma once
+
+#include "monitoring/alert.h"
+#include "monitoring/stability_margin.h"
+#include "scene/states.h"
+#include "transport/message_check.h"
+#include "whirl_twin/alert_t.hpp"
+#include "whirl_twin/drive_state_t.hpp"
+#include "whirl_twin/pendulum_state_t.hpp"
+#include "whirl_twin/stability_margin_t.hpp"
+#include "whirl_twin/whirl_state_t.hpp"
+
+namespace whirl_twin {
+
+whirl_state_t toLcm(const state::WhirlState& whirl);
+pendulum_state_t toLcm(const state::PendulumState& pendulum);
+drive_state_t toLcm(const state::DriveState& drive);
+stability_margin_t toLcm(const state::StabilityMargin& margin);
+alert_t toLcm(const state::Alert& alert);
+
+state::WhirlState fromLcm(const whirl_state_t& message);
+state::PendulumState fromLcm(const pendulum_state_t& message);
+state::DriveState fromLcm(const drive_state_t& message);
+state::StabilityMargin fromLcm(const stability_margin_t& message);
+state::Alert fromLcm(const alert_t& message);
+
+}  // namespace whirl_twin

@@ -1,0 +1,80 @@
+#include "transport/lcm_receiver.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "transport/lcm_connection.h"
+#include "transport/message_check.h"
+
+namespace whirl_twin {
+
+LcmReceiver::LcmReceiver(std::shared_ptr<lcm::LCM> lcm, const std::vector<ChannelKind>& kinds,
+                         Handler handler)
+    : lcm_(std::move(lcm)), handler_(std::move(handler)) {
+  for (const ChannelKind kind : kinds) {
+    // LCM takes a regular expression. Its C function says when it fails; the C++ one does not.
+    auto* subscription = lcm_subscribe(lcm_->getUnderlyingLCM(), channelName(kind, ".*").c_str(),
+                                       &LcmReceiver::take, this);
+    if (subscription == nullptr) {
+      throw LcmNotAvailable(
+          fmt::format("LCM cannot receive {} (is multicast on?)", channelName(kind, "*")));
+    }
+    lcm_subscription_set_queue_capacity(subscription, 0);  // no limit: every state counts
+    subscriptions_.push_back(subscription);
+  }
+}
+
+LcmReceiver::~LcmReceiver() {
+  for (auto* subscription : subscriptions_) {
+    lcm_unsubscribe(lcm_->getUnderlyingLCM(), subscription);
+  }
+}
+
+int LcmReceiver::receive(std::chrono::milliseconds timeout, int most) {
+  int handled = 0;
+  int wait = static_cast<int>(timeout.count());
+  while (handled < most && lcm_->handleTimeout(wait) > 0) {
+    ++handled;
+    wait = 0;
+  }
+  return handled;
+}
+
+std::uint64_t LcmReceiver::received() const {
+  std::uint64_t received = 0;
+  for (const auto& [name, count] : channels_) {
+    received += count.received;
+  }
+  return received;
+}
+
+std::uint64_t LcmReceiver::lost() const {
+  std::uint64_t lost = 0;
+  for (const auto& [name, count] : channels_) {
+    lost += count.steps.lost();
+  }
+  return lost;
+}
+
+void LcmReceiver::take(const lcm_recv_buf_t* buffer, const char* channel, void* receiver) {
+  static_cast<LcmReceiver*>(receiver)->take(channel, buffer->data, buffer->data_size);
+}
+
+void LcmReceiver::take(const std::string& channel, const void* data, std::size_t size) {
+  // Called from C: nothing may be thrown through it.
+  try {
+    const TwinState state = decodeEvent(channel, data, size);
+    auto& count = channels_[channel];
+    ++count.received;
+    if (const auto step = seriesStep(state)) {
+      count.steps.add(*step);
+    }
+    handler_(state);
+  } catch (const RejectedMessage& why) {
+    ++rejected_;
+    last_rejection_ = fmt::format("{}: {}", channel, why.what());
+  }
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,62 @@
+// States in from LCM: every event of the wanted kinds, in the order of arrival, none dropped here;
+// what does not decode is rejected and counted.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <lcm/lcm-cpp.hpp>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "transport/channels.h"
+#include "transport/lcm_decode.h"
+#include "transport/step_continuity.h"
+
+namespace whirl_twin {
+
+/// What arrived on one channel.
+struct ChannelCount {
+  std::uint64_t received = 0;
+  StepContinuity steps;  ///< of states; alerts and stability margins come at irregular steps
+};
+
+class LcmReceiver {
+ public:
+  using Handler = std::function<void(const TwinState&)>;
+
+  /// Subscribes to the channels of these kinds. `handler` is called from receive(), and must not
+  /// throw. Throws LcmNotAvailable if LCM cannot receive.
+  LcmReceiver(std::shared_ptr<lcm::LCM> lcm, const std::vector<ChannelKind>& kinds,
+              Handler handler);
+  ~LcmReceiver();
+  LcmReceiver(const LcmReceiver&) = delete;
+  LcmReceiver& operator=(const LcmReceiver&) = delete;
+
+  /// Waits up to `timeout` for an event, then handles all that have arrived, at most `most` of
+  /// them. Returns how many were handled.
+  int receive(std::chrono::milliseconds timeout, int most = 1000);
+
+  const std::map<std::string, ChannelCount>& channels() const { return channels_; }
+  /// Over all channels: states accepted, missing by their steps, and rejected.
+  std::uint64_t received() const;
+  std::uint64_t lost() const;
+  std::uint64_t rejected() const { return rejected_; }
+  /// Channel and reason of the latest rejection; empty without one.
+  const std::string& lastRejection() const { return last_rejection_; }
+
+ private:
+  static void take(const lcm_recv_buf_t* buffer, const char* channel, void* receiver);
+  void take(const std::string& channel, const void* data, std::size_t size);
+
+  std::shared_ptr<lcm::LCM> lcm_;
+  std::vector<lcm_subscription_t*> subscriptions_;
+  Handler handler_;
+  std::map<std::string, ChannelCount> channels_;
+  std::uint64_t rejected_ = 0;
+  std::string last_rejection_;
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,42 @@
+// What is asked of a message before the twin believes it: names that are names, numbers that are
+// possible, arrays of one length. A message that fails is rejected with a sentence, never used in
+// part. LCM and ROS messages go through the same questions.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace whirl_twin {
+
+/// Longest name of a system, drive or coordinate [characters]: LCM allows a channel 63 of them, and
+/// "TWIN_" + name + "_STABILITY" has to fit.
+inline constexpr std::size_t kMaxNameLength = 48;
+
+/// A message that is not to be used; what() says why.
+class RejectedMessage : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A letter, then letters, digits and underscores, at most kMaxNameLength: legal as a part of a ROS
+/// name and of an LCM channel.
+bool isLegalName(const std::string& name);
+
+/// The 64-bit utime of LCM [us] for a simulated time [s].
+std::int64_t utimeOf(double time);
+
+// Each throws RejectedMessage unless its condition holds; `field` is the message's own name for it.
+void requireName(const char* field, const std::string& name);
+void requireNames(const char* field, const std::vector<std::string>& names);
+/// UTF-8 without control characters, at most 1000 bytes.
+void requireText(const char* field, const std::string& text);
+void requireFlag(const char* field, int flag);
+void requireRange(const char* field, std::int64_t value, std::int64_t low, std::int64_t high);
+/// Step >= 0, time finite, stamp [ns] within what a ROS header can carry.
+void requireInstant(std::int64_t step, double time, std::int64_t stamp);
+void requireLength(const char* field, std::size_t length, std::int64_t expected);
+
+}  // namespace whirl_twin

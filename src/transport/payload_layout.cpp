@@ -1,0 +1,104 @@
+#include "transport/payload_layout.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+
+#include "transport/message_check.h"
+
+namespace whirl_twin {
+namespace {
+
+class PayloadWalk {
+ public:
+  PayloadWalk(const void* data, std::size_t size)
+      : data_(static_cast<const std::uint8_t*>(data)), size_(size) {}
+
+  void skip(std::size_t bytes) {
+    if (bytes > size_ - at_) {
+      throw RejectedMessage(
+          fmt::format("payload: expected {} more bytes at byte {} of {}, found {}", bytes, at_,
+                      size_, size_ - at_));
+    }
+    at_ += bytes;
+  }
+
+  /// The length of an array whose elements take at least 4 bytes each.
+  std::size_t arrayLength() {
+    const std::int64_t length = readLength();
+    if (length < 0 || static_cast<std::size_t>(length) > (size_ - at_) / 4) {
+      throw RejectedMessage(
+          fmt::format("payload: an array of {} entries with {} bytes left", length, size_ - at_));
+    }
+    return static_cast<std::size_t>(length);
+  }
+
+  /// Its length counts the zero that closes it.
+  void skipString() {
+    const std::int64_t length = readLength();
+    if (length < 1 || static_cast<std::size_t>(length) > size_ - at_) {
+      throw RejectedMessage(
+          fmt::format("payload: a string of {} bytes with {} bytes left", length, size_ - at_));
+    }
+    skip(static_cast<std::size_t>(length));
+    if (data_[at_ - 1] != 0) {
+      throw RejectedMessage(fmt::format("payload: a string not closed at byte {}", at_ - 1));
+    }
+  }
+
+  void requireEnd() const {
+    if (at_ != size_) {
+      throw RejectedMessage(fmt::format("payload: expected {} bytes, found {}", at_, size_));
+    }
+  }
+
+ private:
+  std::int64_t readLength() {
+    skip(4);
+    const std::uint8_t* p = data_ + at_ - 4;
+    return static_cast<std::int32_t>(std::uint32_t{p[0]} << 24 | std::uint32_t{p[1]} << 16 |
+                                     std::uint32_t{p[2]} << 8 | std::uint32_t{p[3]});
+  }
+
+  const std::uint8_t* data_;
+  std::size_t size_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace
+
+void requireLayout(const char* layout, const void* data, std::size_t size) {
+  PayloadWalk walk(data, size);
+  walk.skip(8);
+  std::size_t length = 0;
+  for (const char* field = layout; *field != '\0'; ++field) {
+    switch (*field) {
+      case 'l':
+      case 'd':
+        walk.skip(8);
+        break;
+      case 'i':
+        walk.skip(4);
+        break;
+      case 'b':
+        walk.skip(1);
+        break;
+      case 's':
+        walk.skipString();
+        break;
+      case 'n':
+        length = walk.arrayLength();
+        break;
+      case 'S':
+        for (std::size_t i = 0; i < length; ++i) {
+          walk.skipString();
+        }
+        break;
+      default:
+        walk.skip(8 * length);
+    }
+  }
+  walk.requireEnd();
+}
+
+}  // namespace whirl_twin

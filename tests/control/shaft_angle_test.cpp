@@ -1,0 +1,123 @@
+// The phase of a shaft is as exact after months as after a second, against a reference of 100
+// decimal digits.
+#include "control/shaft_angle.h"
+
+#include <gtest/gtest.h>
+
+#include <boost/math/constants/constants.hpp>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+namespace whirl_twin {
+namespace {
+
+using Exact = boost::multiprecision::cpp_bin_float_100;
+
+const Exact kTwoPi = boost::math::constants::two_pi<Exact>();
+
+// The header promises 3e-15 rad for one call.
+constexpr double kPromised = 3e-15;
+
+double error(const ShaftAngle& angle, const Exact& expected) {
+  return static_cast<double>(kTwoPi * angle.turns + Exact(angle.remainder) - expected);
+}
+
+bool remainderInRange(const ShaftAngle& angle) {
+  return angle.remainder >= 0.0 && angle.remainder < 2.0 * M_PI;
+}
+
+TEST(ShaftAngle, ConstantSpeedIsExactForSpeedsAndDurationsOfAnySize) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> exponent(-3.0, 5.0);
+  std::uniform_real_distribution<double> digits(0.0, 16.0);
+  std::uniform_real_distribution<double> start(-1e3, 1e3);
+  for (int i = 0; i < 20000; ++i) {
+    const double sign = i % 2 == 0 ? 1.0 : -1.0;
+    const double speed = sign * std::pow(10.0, exponent(random));
+    const auto nanoseconds =
+        static_cast<std::int64_t>(std::pow(10.0, digits(random))) * (i % 3 == 0 ? -1 : 1);
+    const ShaftAngle from = shaftAngle(start(random));
+    const ShaftAngle to = advance(from, speed, nanoseconds);
+    const Exact expected = kTwoPi * from.turns + Exact(from.remainder) +
+                           Exact(speed) * Exact(nanoseconds) / Exact(1000000000);
+    ASSERT_LT(std::abs(error(to, expected)), kPromised) << speed << " rad/s, " << nanoseconds;
+    ASSERT_TRUE(remainderInRange(to)) << to.remainder;
+  }
+}
+
+TEST(ShaftAngle, ConstantJerkIsExactOverHours) {
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (int i = 0; i < 5000; ++i) {
+    const double speed = 1e5 * unit(random);
+    const double acceleration = 20.0 * unit(random);
+    const double jerk = 2e-3 * unit(random);
+    const auto nanoseconds = static_cast<std::int64_t>(2e13 * std::abs(unit(random)));
+    const Exact time = Exact(nanoseconds) / Exact(1000000000);
+    const Exact expected =
+        time * (Exact(speed) + time * (Exact(acceleration) / 2 + time * Exact(jerk) / 6));
+    const ShaftAngle to = advance({}, speed, acceleration, jerk, splitTime(nanoseconds));
+    ASSERT_LT(std::abs(error(to, expected)), kPromised) << nanoseconds;
+    ASSERT_TRUE(remainderInRange(to)) << to.remainder;
+  }
+}
+
+TEST(ShaftAngle, ManySmallAdvancesAddUpToOneLargeOne) {
+  ShaftAngle stepped;
+  for (int i = 0; i < 1000; ++i) {
+    stepped = advance(stepped, 314.159, 1000003);
+  }
+  const ShaftAngle once = advance({}, 314.159, 1000003000);
+  EXPECT_EQ(stepped.turns, once.turns);
+  // A thousand roundings of up to the promised size each.
+  EXPECT_NEAR(stepped.remainder, once.remainder, 1000 * kPromised);
+}
+
+TEST(ShaftAngle, TurningBackReturnsToTheStart) {
+  const ShaftAngle start = shaftAngle(1.0);
+  const std::int64_t month = 2592000000000000;
+  const ShaftAngle back = advance(advance(start, 1e5, month), -1e5, month);
+  EXPECT_EQ(back.turns, 0);
+  EXPECT_NEAR(back.remainder, 1.0, 2 * kPromised);
+}
+
+TEST(ShaftAngle, NegativeAnglesHaveAPositiveRemainder) {
+  const ShaftAngle quarter_back = shaftAngle(-M_PI / 2);
+  EXPECT_EQ(quarter_back.turns, -1);
+  EXPECT_NEAR(quarter_back.remainder, 1.5 * M_PI, kPromised);
+  EXPECT_NEAR(quarter_back.total(), -M_PI / 2, kPromised);
+}
+
+TEST(ShaftAngle, WholeTurnsLeaveNoRemainderOutsideTheRange) {
+  for (int turns = -50; turns <= 50; ++turns) {
+    const double angle = turns * 2.0 * M_PI;
+    for (const double near : {std::nextafter(angle, -1e9), angle, std::nextafter(angle, 1e9)}) {
+      EXPECT_TRUE(remainderInRange(shaftAngle(near))) << near;
+      EXPECT_LT(std::abs(error(shaftAngle(near), Exact(near))), kPromised) << near;
+    }
+  }
+  EXPECT_TRUE(remainderInRange(shaftAngle(-1e-300)));
+}
+
+TEST(ShaftAngle, TotalIsTheRoundedAngle) {
+  const double angle = 1.23456789e6;
+  EXPECT_DOUBLE_EQ(shaftAngle(angle).total(), angle);
+  EXPECT_DOUBLE_EQ(shaftAngle(-angle).total(), -angle);
+}
+
+TEST(SplitTime, ResolvesNanosecondsAfterAYear) {
+  const std::int64_t year = 31557600000000001;
+  const SplitTime time = splitTime(year);
+  const Exact exact = Exact(year) / Exact(1000000000);
+  // A relative 2^-104 of 3e7 s.
+  EXPECT_LT(std::abs(static_cast<double>(Exact(time.high) + Exact(time.low) - exact)), 2e-24);
+  const SplitTime half_later = later(time, 0.5e-9);
+  EXPECT_LT(std::abs(static_cast<double>(Exact(half_later.high) + Exact(half_later.low) - exact -
+                                         Exact(0.5e-9))),
+            2e-24);
+}
+
+}  // namespace
+}  // namespace whirl_twin

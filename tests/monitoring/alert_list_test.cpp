@@ -1,0 +1,106 @@
+// The list that is published: order, identity, and when it counts as changed.
+#include "monitoring/alert_list.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace whirl_twin {
+namespace {
+
+state::Alert alertOf(const std::string& system, const std::string& type, state::Severity severity,
+                     double time = 0.0) {
+  state::Alert alert;
+  alert.system = system;
+  alert.type = type;
+  alert.severity = severity;
+  alert.time = time;
+  return alert;
+}
+
+TEST(AlertList, TheMostSevereStandsFirstAndAmongEqualsTheOldest) {
+  AlertList list;
+  list.raise(alertOf("a", "X", state::Severity::kWarning, 1.0), "");
+  list.raise(alertOf("b", "X", state::Severity::kDanger, 2.0), "");
+  list.raise(alertOf("c", "X", state::Severity::kInfo, 3.0), "");
+  list.raise(alertOf("d", "X", state::Severity::kWarning, 4.0), "");
+  list.raise(alertOf("e", "X", state::Severity::kDanger, 5.0), "");
+  std::string order;
+  for (const state::Alert& alert : list.active()) {
+    order += alert.system;
+  }
+  EXPECT_EQ(order, "beadc");
+}
+
+TEST(AlertList, AnUpgradeMovesAnAlertUp) {
+  AlertList list;
+  list.raise(alertOf("a", "X", state::Severity::kWarning), "");
+  list.raise(alertOf("b", "X", state::Severity::kWarning), "");
+  list.raise(alertOf("b", "X", state::Severity::kDanger), "");
+  ASSERT_EQ(list.active().size(), 2u);
+  EXPECT_EQ(list.active()[0].system, "b");
+}
+
+TEST(AlertList, AnAlertKeepsItsIdAndRaisedTimeAndTheNextOneCountsUp) {
+  AlertList list;
+  list.raise(alertOf("a", "X", state::Severity::kWarning, 1.0), "");
+  list.raise(alertOf("a", "Y", state::Severity::kWarning, 1.5), "");
+  list.raise(alertOf("a", "X", state::Severity::kWarning, 2.0), "");
+  EXPECT_EQ(list.find("a", "X")->id, 1u);
+  EXPECT_EQ(list.find("a", "X")->raised_time, 1.0);
+  EXPECT_EQ(list.find("a", "X")->time, 2.0);
+  EXPECT_EQ(list.find("a", "Y")->id, 2u);
+  list.clear("a", "X", 3.0, "gone");
+  EXPECT_EQ(list.find("a", "X"), nullptr);
+  list.raise(alertOf("a", "X", state::Severity::kWarning, 4.0), "");
+  EXPECT_EQ(list.find("a", "X")->id, 3u);
+  EXPECT_EQ(list.find("a", "X")->raised_time, 4.0);
+}
+
+TEST(AlertList, IsChangedByWhatWasDecidedAndNotByEveryDigit) {
+  AlertList list;
+  EXPECT_FALSE(list.takeChanged());
+  list.raise(alertOf("a", "X", state::Severity::kWarning), "critical 0");
+  EXPECT_TRUE(list.takeChanged());
+  EXPECT_FALSE(list.takeChanged());
+  state::Alert faster = alertOf("a", "X", state::Severity::kWarning);
+  faster.speed = 123.0;
+  faster.text = "other digits";
+  list.raise(faster, "critical 0");
+  EXPECT_FALSE(list.takeChanged());
+  EXPECT_EQ(list.find("a", "X")->speed, 123.0) << "the numbers are kept up to date all the same";
+  list.raise(faster, "critical 1");
+  EXPECT_TRUE(list.takeChanged());
+  faster.severity = state::Severity::kDanger;
+  list.raise(faster, "critical 1");
+  EXPECT_TRUE(list.takeChanged());
+  list.clear("a", "X", 1.0, "gone");
+  EXPECT_TRUE(list.takeChanged());
+  list.clear("a", "X", 2.0, "gone");
+  EXPECT_FALSE(list.takeChanged()) << "nothing was there to clear";
+}
+
+TEST(AlertList, TellsEachEventOnceWithTheIdItBeganWith) {
+  AlertList list;
+  list.raise(alertOf("a", "X", state::Severity::kWarning, 1.0), "");
+  list.raise(alertOf("a", "X", state::Severity::kWarning, 2.0), "");
+  list.raise(alertOf("a", "X", state::Severity::kDanger, 3.0), "");
+  list.clear("a", "X", 4.0, "gone");
+  const std::vector<state::Alert> events = list.takeEvents();
+  ASSERT_EQ(events.size(), 3u);
+  EXPECT_TRUE(events[0].raised);
+  EXPECT_EQ(events[0].severity, state::Severity::kWarning);
+  EXPECT_TRUE(events[1].raised);
+  EXPECT_EQ(events[1].severity, state::Severity::kDanger);
+  EXPECT_FALSE(events[2].raised);
+  EXPECT_EQ(events[2].time, 4.0);
+  EXPECT_EQ(events[2].raised_time, 1.0);
+  EXPECT_EQ(events[2].text, "gone");
+  for (const state::Alert& event : events) {
+    EXPECT_EQ(event.id, 1u);
+  }
+  EXPECT_TRUE(list.takeEvents().empty());
+}
+
+}  // namespace
+}  // namespace whirl_twin

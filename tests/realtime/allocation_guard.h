@@ -1,0 +1,28 @@
+// Counts what the calling thread allocates while a guard is alive: the proof that a step or a cycle
+// of the loop does not allocate. Linking whirl_twin_allocation_guard replaces malloc, calloc,
+// realloc and the aligned ones (and so operator new, which calls them) in the test's executable.
+// Under a sanitizer, which replaces malloc itself, the guard is inactive and counts nothing.
+#pragma once
+
+#include <cstdint>
+
+namespace whirl_twin {
+
+class AllocationGuard {
+ public:
+  AllocationGuard() noexcept;
+  ~AllocationGuard();
+  AllocationGuard(const AllocationGuard&) = delete;
+  AllocationGuard& operator=(const AllocationGuard&) = delete;
+
+  /// Allocations of this thread since the guard was made; frees are not counted. Guards may nest.
+  std::uint64_t allocations() const noexcept;
+
+  /// False under a sanitizer: then allocations() is always 0 and proves nothing.
+  static bool active() noexcept;
+
+ private:
+  std::uint64_t before_;
+};
+
+}  // namespace whirl_twin

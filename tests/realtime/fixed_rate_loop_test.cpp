@@ -1,0 +1,403 @@
+// What a fixed-rate loop must do however late the machine wakes it: counts and phases, no
+// latencies.
+#include "realtime/fixed_rate_loop.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <time.h>
+
+#include <atomic>
+#include <cfloat>
+#include <chrono>
+#include <optional>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "allocation_guard.h"
+#include "realtime/denormals.h"
+#include "without_privileges.h"
+
+namespace whirl_twin {
+namespace {
+
+constexpr std::int64_t kPeriod = 1'000'000;  // [ns]
+
+std::int64_t monotonicNow() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return now.tv_sec * std::int64_t{1'000'000'000} + now.tv_nsec;
+}
+
+void busyUntil(std::int64_t instant) {
+  while (monotonicNow() < instant) {
+  }
+}
+
+FixedRateLoop::Options ordinary(OverrunPolicy policy = OverrunPolicy::kSkip) {
+  FixedRateLoop::Options options;
+  options.period = kPeriod;
+  options.mode = RealtimeMode::kIgnore;
+  options.policy = policy;
+  options.warm_up_cycles = 0;
+  return options;
+}
+
+// Waits until the loop has ended by itself. (A minute is no expectation, only an end to a hang.)
+void waitForEnd(const FixedRateLoop& loop) {
+  const std::int64_t give_up = monotonicNow() + 60'000'000'000;
+  while (loop.running() && monotonicNow() < give_up) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  ASSERT_FALSE(loop.running());
+}
+
+// What the cycles of one run saw.
+struct Trace {
+  std::vector<std::int64_t> scheduled;
+  std::vector<std::int64_t> woke;
+  std::int64_t late_end = 0;  // when the cycle that overran ended
+  LoopTiming timing;
+
+  std::uint64_t skippedAfter(std::size_t cycle) const {
+    return static_cast<std::uint64_t>((scheduled[cycle + 1] - scheduled[cycle]) / kPeriod - 1);
+  }
+};
+
+// Runs `cycles` cycles, of which number `late` takes until `lateness` [ns] after it was due.
+Trace trace(const FixedRateLoop::Options& options, std::size_t cycles, std::size_t late,
+            std::int64_t lateness) {
+  Trace seen;
+  seen.scheduled.reserve(cycles);
+  seen.woke.reserve(cycles);
+  FixedRateLoop loop(options);
+  loop.start([&](std::int64_t scheduled) {
+    seen.woke.push_back(monotonicNow());
+    seen.scheduled.push_back(scheduled);
+    if (seen.scheduled.size() == late + 1) {
+      busyUntil(scheduled + lateness);
+      seen.late_end = monotonicNow();
+    }
+    return seen.scheduled.size() < cycles;
+  });
+  waitForEnd(loop);
+  loop.stop();
+  seen.timing = loop.timing();
+  return seen;
+}
+
+TEST(FixedRateLoop, EndsWhenTheCycleSaysSoAndCountsItsCycles) {
+  const Trace seen = trace(ordinary(), 20, 0, 0);
+  EXPECT_EQ(seen.scheduled.size(), 20U);
+  EXPECT_EQ(seen.timing.cycles, 20U);
+  EXPECT_EQ(seen.timing.wake_up_latency.count(), 20U);
+  EXPECT_EQ(seen.timing.execution_time.count(), 20U);
+  EXPECT_EQ(seen.timing.period.count(), 19U);
+}
+
+TEST(FixedRateLoop, WakesOnOneGridAndNeverEarly) {
+  for (const auto policy : {OverrunPolicy::kSkip, OverrunPolicy::kCatchUp}) {
+    const Trace seen = trace(ordinary(policy), 50, 25, 2 * kPeriod);
+    for (std::size_t i = 0; i < seen.scheduled.size(); ++i) {
+      EXPECT_EQ((seen.scheduled[i] - seen.scheduled[0]) % kPeriod, 0);
+      EXPECT_GE(seen.woke[i], seen.scheduled[i]);
+    }
+  }
+}
+
+TEST(FixedRateLoop, SkipLeavesOutWhatWasMissedAndKeepsThePhase) {
+  const Trace seen =
+      trace(ordinary(), 10, 4, 7 * kPeriod / 2);  // ends 3.5 periods after it was due
+  EXPECT_GE(seen.scheduled[5], seen.late_end);
+  EXPECT_GE(seen.skippedAfter(4), 3U);
+  EXPECT_GE(seen.timing.overruns, 1U);
+  std::uint64_t skipped = 0;
+  for (std::size_t i = 0; i + 1 < seen.scheduled.size(); ++i) {
+    skipped += seen.skippedAfter(i);
+  }
+  EXPECT_EQ(seen.timing.skipped, skipped);
+}
+
+TEST(FixedRateLoop, CatchUpRunsEveryMissedCycle) {
+  FixedRateLoop::Options options = ordinary(OverrunPolicy::kCatchUp);
+  options.max_catch_up = 1'000'000;  // more than any delay of the machine
+  const Trace seen = trace(options, 15, 4, 7 * kPeriod / 2);
+  for (std::size_t i = 0; i + 1 < seen.scheduled.size(); ++i) {
+    EXPECT_EQ(seen.scheduled[i + 1] - seen.scheduled[i], kPeriod);
+  }
+  EXPECT_EQ(seen.timing.skipped, 0U);
+  EXPECT_GE(seen.timing.overruns, 1U);
+}
+
+TEST(FixedRateLoop, CatchUpIsBounded) {
+  FixedRateLoop::Options options = ordinary(OverrunPolicy::kCatchUp);
+  options.max_catch_up = 2;
+  const Trace seen = trace(options, 15, 4, 13 * kPeriod / 2);  // misses at least 6 cycles
+  EXPECT_GE(seen.skippedAfter(4), 4U);
+  EXPECT_LE(seen.late_end - seen.scheduled[5], 2 * kPeriod);
+}
+
+TEST(FixedRateLoop, StopEndsTheLoopAtTheFirstOverrun) {
+  const Trace seen = trace(ordinary(OverrunPolicy::kStop), 1000, 4, 2 * kPeriod);
+  EXPECT_EQ(seen.timing.overruns, 1U);
+  EXPECT_EQ(seen.timing.skipped, 0U);
+  EXPECT_LE(seen.scheduled.size(), 5U);  // earlier, if the machine itself was late
+}
+
+TEST(FixedRateLoop, CanBeStoppedFromAnotherThread) {
+  std::atomic<int> cycles{0};
+  FixedRateLoop loop(ordinary());
+  EXPECT_FALSE(loop.running());
+  loop.start([&cycles](std::int64_t) { return ++cycles > 0; });
+  EXPECT_TRUE(loop.running());
+  while (cycles < 5) {
+    std::this_thread::yield();
+  }
+  std::thread([&loop] { loop.stop(); }).join();
+  EXPECT_FALSE(loop.running());
+  const int at_stop = cycles;
+  EXPECT_EQ(loop.timing().cycles, static_cast<std::uint64_t>(at_stop));
+  loop.stop();  // once more does no harm
+  EXPECT_EQ(cycles, at_stop);
+}
+
+TEST(FixedRateLoop, CanBeStoppedFromItsOwnCycle) {
+  FixedRateLoop loop(ordinary());
+  int cycles = 0;
+  loop.start([&](std::int64_t) {
+    if (++cycles == 3) {
+      loop.stop();
+    }
+    return true;
+  });
+  waitForEnd(loop);
+  loop.stop();
+  EXPECT_EQ(cycles, 3);
+}
+
+// Two seconds are far more than the 50 ms it takes, and far less than the period.
+TEST(FixedRateLoop, ALongPeriodDoesNotDelayTheStop) {
+  FixedRateLoop::Options options = ordinary();
+  options.period = 10'000'000'000;
+  FixedRateLoop loop(options);
+  loop.start([](std::int64_t) { return true; });
+  const std::int64_t before = monotonicNow();
+  loop.stop();
+  EXPECT_LT(monotonicNow() - before, 2'000'000'000);
+  EXPECT_EQ(loop.timing().cycles, 0U);
+}
+
+TEST(FixedRateLoop, CanBeStartedAgainAndCountsAnew) {
+  FixedRateLoop loop(ordinary());
+  for (const int wanted : {5, 3}) {
+    int cycles = 0;
+    loop.start([&cycles, wanted](std::int64_t) { return ++cycles < wanted; });
+    waitForEnd(loop);
+    EXPECT_EQ(loop.timing().cycles, static_cast<std::uint64_t>(wanted));
+  }
+}
+
+TEST(FixedRateLoop, IsNotStartedTwiceAtATime) {
+  FixedRateLoop loop(ordinary());
+  loop.start([](std::int64_t) { return true; });
+  EXPECT_THROW(loop.start([](std::int64_t) { return true; }), std::logic_error);
+  EXPECT_TRUE(loop.running());
+}
+
+TEST(FixedRateLoop, WarmUpIsLeftOutOfTheHistogramsOnly) {
+  FixedRateLoop::Options options = ordinary();
+  options.warm_up_cycles = 5;
+  const Trace seen = trace(options, 20, 1, 3 * kPeriod);  // the overrun is in the warm-up
+  EXPECT_EQ(seen.timing.cycles, 20U);
+  EXPECT_EQ(seen.timing.wake_up_latency.count(), 15U);
+  EXPECT_EQ(seen.timing.execution_time.count(), 15U);
+  EXPECT_EQ(seen.timing.period.count(), 15U);
+  EXPECT_GE(seen.timing.overruns, 1U);
+}
+
+TEST(FixedRateLoop, TheThreeTimesAreMeasuredApart) {
+  const Trace seen = trace(ordinary(), 10, 4, 4 * kPeriod);
+  const LoopTiming& timing = seen.timing;
+  // The late cycle woke at woke[4] or a little before, and ended at late_end or a little after.
+  EXPECT_GE(timing.execution_time.max(), seen.late_end - seen.woke[4]);
+  EXPECT_GE(timing.period.max(), 3 * kPeriod);  // from cycle 4 to 5, unless 4 itself woke later
+  EXPECT_GE(timing.wake_up_latency.min(), 0);
+  // Ten cycles lie at least nine periods apart from the first instant due to the last.
+  EXPECT_GE(seen.scheduled.back() - seen.scheduled.front(), 9 * kPeriod);
+}
+
+TEST(FixedRateLoop, ResetForgetsTheCyclesBefore) {
+  FixedRateLoop loop(ordinary());
+  int cycles = 0;
+  loop.start([&](std::int64_t) {
+    if (++cycles == 20) {
+      loop.resetTiming();
+    }
+    return cycles < 30;
+  });
+  waitForEnd(loop);
+  EXPECT_EQ(loop.timing().cycles, 10U);
+  EXPECT_EQ(loop.timing().wake_up_latency.count(), 10U);
+  EXPECT_EQ(loop.timing().period.count(), 10U);
+  loop.resetTiming();  // at rest: at once
+  EXPECT_EQ(loop.timing().cycles, 0U);
+}
+
+TEST(FixedRateLoop, StatisticsReadWhileItRunsAreWhole) {
+  FixedRateLoop::Options options = ordinary();
+  options.period = 50'000;
+  FixedRateLoop loop(options);
+  loop.start([](std::int64_t) { return true; });
+  std::uint64_t before = 0;
+  while (before < 2000) {
+    const LoopTiming timing = loop.timing();
+    ASSERT_GE(timing.cycles, before);
+    ASSERT_EQ(timing.wake_up_latency.count(), timing.cycles);
+    ASSERT_EQ(timing.execution_time.count(), timing.cycles);
+    ASSERT_EQ(timing.period.count(), timing.cycles == 0 ? 0 : timing.cycles - 1);
+    // The whole of a histogram is in its buckets: the last rank is found, at the longest sample.
+    ASSERT_EQ(timing.period.percentile(100.0), timing.period.max());
+    before = timing.cycles;
+  }
+  loop.stop();
+}
+
+TEST(FixedRateLoop, DoesNotAllocateWhileItRuns) {
+  std::optional<AllocationGuard> guard;
+  std::uint64_t allocations = 0;
+  int cycles = 0;
+  FixedRateLoop loop(ordinary());
+  loop.start([&](std::int64_t scheduled) {
+    if (cycles == 0) {
+      guard.emplace();  // from here on also the loop between the cycles, in its thread
+    }
+    if (cycles == 10) {
+      busyUntil(scheduled + 2 * kPeriod);
+    }
+    if (cycles == 20) {
+      loop.resetTiming();
+    }
+    allocations = guard->allocations();
+    return ++cycles < 30;
+  });
+  waitForEnd(loop);
+  EXPECT_EQ(cycles, 30);
+  EXPECT_EQ(allocations, 0U);
+}
+
+TEST(FixedRateLoop, ASignalDoesNotWakeItEarly) {
+  struct sigaction ignore {};
+  struct sigaction before {};
+  ignore.sa_handler = [](int) {};  // without SA_RESTART
+  sigaction(SIGUSR1, &ignore, &before);
+
+  std::atomic<int> cycles{0};
+  std::atomic<bool> early{false};
+  pthread_t loop_thread{};
+  FixedRateLoop::Options options = ordinary();
+  options.period = 20'000'000;
+  FixedRateLoop loop(options);
+  loop.start([&](std::int64_t scheduled) {
+    loop_thread = pthread_self();
+    early = early || monotonicNow() < scheduled;
+    ++cycles;
+    return true;
+  });
+  while (cycles < 1) {
+    std::this_thread::yield();
+  }
+  while (cycles < 4) {
+    pthread_kill(loop_thread, SIGUSR1);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  loop.stop();
+  sigaction(SIGUSR1, &before, nullptr);
+  EXPECT_FALSE(early);
+}
+
+TEST(FixedRateLoop, ItsThreadRoundsDenormalsToZero) {
+  volatile double smallest = DBL_MIN;
+  double half = 1.0;
+  FixedRateLoop loop(ordinary());
+  loop.start([&](std::int64_t) {
+    half = smallest / 2.0;
+    return false;
+  });
+  waitForEnd(loop);
+  loop.stop();
+  EXPECT_EQ(half == 0.0, DenormalsToZero::kSupported);
+}
+
+TEST(FixedRateLoop, ACycleThatThrowsEndsTheLoopWhichSaysSo) {
+  FixedRateLoop loop(ordinary());
+  loop.start([](std::int64_t) -> bool { throw std::runtime_error("broken shaft"); });
+  waitForEnd(loop);
+  ASSERT_EQ(loop.status().warnings.size(), 1U);
+  EXPECT_EQ(loop.status().warnings[0], "the loop has ended: its cycle threw: broken shaft");
+}
+
+TEST(FixedRateLoop, WithoutPrivilegesIgnoreRunsAsAnyOtherThread) {
+  const WithoutPrivileges user;
+  FixedRateLoop loop(ordinary());
+  loop.start([](std::int64_t) { return false; });
+  const RealtimeStatus status = loop.status();
+  EXPECT_EQ(status.policy, "SCHED_OTHER");
+  EXPECT_EQ(status.priority, 0);
+  EXPECT_FALSE(status.memory_locked);
+  EXPECT_EQ(status.kernel, kernelDescription());
+  EXPECT_TRUE(status.warnings.empty());
+}
+
+TEST(FixedRateLoop, WithoutPrivilegesEnforceDoesNotStart) {
+  const WithoutPrivileges user;
+  FixedRateLoop::Options options = ordinary();
+  options.mode = RealtimeMode::kEnforce;
+  FixedRateLoop loop(options);
+  bool ran = false;
+  EXPECT_THROW(loop.start([&ran](std::int64_t) { return ran = true; }), std::runtime_error);
+  EXPECT_FALSE(loop.running());
+  loop.stop();
+  EXPECT_FALSE(ran);
+}
+
+TEST(FixedRateLoop, WithoutPrivilegesWarnRunsAndSaysWhatIsMissing) {
+  const WithoutPrivileges user;
+  FixedRateLoop::Options options = ordinary();
+  options.mode = RealtimeMode::kWarn;
+  FixedRateLoop loop(options);
+  loop.start([](std::int64_t) { return false; });
+  const RealtimeStatus status = loop.status();
+  EXPECT_EQ(status.policy, "SCHED_OTHER");
+  EXPECT_GE(status.warnings.size(),
+            2U);  // memory, scheduling; the processors' sleep may be a third
+  waitForEnd(loop);
+  EXPECT_EQ(loop.timing().cycles, 1U);
+}
+
+TEST(FixedRateLoop, AnOptionOutOfRangeIsNamed) {
+  const auto messageOf = [](FixedRateLoop::Options options) -> std::string {
+    try {
+      FixedRateLoop loop(options);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  FixedRateLoop::Options options = ordinary();
+  EXPECT_EQ(messageOf(options), "accepted");
+  options.period = 0;
+  EXPECT_EQ(messageOf(options),
+            "fixed-rate loop: period: expected 10000 to 3600000000000 ns, found 0");
+  options = ordinary();
+  options.priority = 99;
+  EXPECT_EQ(messageOf(options), "fixed-rate loop: priority: expected 1 to 98, found 99");
+  options = ordinary();
+  options.stack_size = 1000;
+  EXPECT_EQ(messageOf(options),
+            "fixed-rate loop: stack_size: expected at least 65536 bytes, found 1000");
+  FixedRateLoop loop(ordinary());
+  EXPECT_THROW(loop.start(nullptr), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace whirl_twin

@@ -1,0 +1,186 @@
+// The two ways across the border of the real-time loop: records out, the newest value in.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "allocation_guard.h"
+#include "realtime/latest_value.h"
+#include "realtime/record_ring.h"
+
+namespace whirl_twin {
+namespace {
+
+constexpr std::size_t kSize =
+    7;  // does not divide the ring's length, so records wrap around its end
+using Record = std::array<double, kSize>;
+
+// A record that shows if it was torn: every value is fixed by its number.
+Record numbered(std::int64_t number) {
+  Record record;
+  for (std::size_t i = 0; i < kSize; ++i) {
+    record[i] = static_cast<double>(number) + static_cast<double>(i) / 8.0;
+  }
+  return record;
+}
+
+TEST(RecordRing, GivesBackWhatItWasGivenInOrder) {
+  RecordRing ring(kSize, 4);
+  EXPECT_EQ(ring.recordSize(), kSize);
+  Record found{};
+  EXPECT_FALSE(ring.pop(found.data()));
+  for (int round = 0; round < 50; ++round) {  // many times around the ring
+    for (int i = 0; i < 3; ++i) {
+      ASSERT_TRUE(ring.push(numbered(3 * round + i).data()));
+    }
+    for (int i = 0; i < 3; ++i) {
+      ASSERT_TRUE(ring.pop(found.data()));
+      ASSERT_EQ(found, numbered(3 * round + i));
+    }
+  }
+  EXPECT_FALSE(ring.pop(found.data()));
+  EXPECT_EQ(ring.dropped(), 0U);
+}
+
+TEST(RecordRing, HoldsItsCapacityAndDropsAndCountsTheRest) {
+  RecordRing ring(kSize, 4);
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_TRUE(ring.push(numbered(i).data()));
+  }
+  EXPECT_FALSE(ring.push(numbered(4).data()));
+  EXPECT_FALSE(ring.push(numbered(5).data()));
+  EXPECT_EQ(ring.dropped(), 2U);
+  Record found{};
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_TRUE(ring.pop(found.data()));
+    EXPECT_EQ(found, numbered(i));  // the oldest are kept, whole
+  }
+  EXPECT_FALSE(ring.pop(found.data()));
+}
+
+TEST(RecordRing, NothingIsLostOrTornBetweenTwoThreadsWhenItIsDrained) {
+  constexpr std::int64_t kRecords = 50'000;
+  RecordRing ring(kSize, 16);
+  std::thread producer([&ring] {
+    for (std::int64_t i = 0; i < kRecords; ++i) {
+      while (!ring.push(numbered(i).data())) {
+        std::this_thread::yield();
+      }
+    }
+  });
+  std::int64_t whole = 0;
+  Record found{};
+  for (std::int64_t expected = 0; expected < kRecords;) {
+    if (ring.pop(found.data())) {
+      whole += found == numbered(expected) ? 1 : 0;
+      ++expected;
+    } else {
+      std::this_thread::yield();
+    }
+  }
+  producer.join();
+  EXPECT_EQ(whole, kRecords);
+  EXPECT_FALSE(ring.pop(found.data()));
+}
+
+// A producer that never waits: what arrives is in order and whole, and what arrived, what was
+// dropped and what was pushed agree.
+TEST(RecordRing, EveryRecordEitherArrivesOrIsCountedAsDropped) {
+  constexpr std::int64_t kRecords = 50'000;
+  RecordRing ring(kSize, 8);
+  std::atomic<bool> done{false};
+  std::int64_t accepted_sum = 0;
+  std::uint64_t accepted = 0;
+  std::thread producer([&] {
+    for (std::int64_t i = 0; i < kRecords; ++i) {
+      if (ring.push(numbered(i).data())) {
+        accepted_sum += i;
+        ++accepted;
+      }
+    }
+    done = true;
+  });
+  std::int64_t received_sum = 0;
+  std::uint64_t received = 0;
+  std::int64_t last = -1;
+  bool in_order_and_whole = true;
+  Record found{};
+  for (bool last_round = false; !last_round;) {
+    last_round = done;  // read before draining, so that nothing is left behind
+    while (ring.pop(found.data())) {
+      const auto number = static_cast<std::int64_t>(found[0]);
+      in_order_and_whole = in_order_and_whole && number > last && found == numbered(number);
+      last = number;
+      received_sum += number;
+      ++received;
+    }
+  }
+  producer.join();
+  EXPECT_TRUE(in_order_and_whole);
+  EXPECT_EQ(received, accepted);
+  EXPECT_EQ(received_sum, accepted_sum);
+  EXPECT_EQ(received + ring.dropped(), static_cast<std::uint64_t>(kRecords));
+}
+
+TEST(RecordRing, ASizeOfZeroIsRefused) {
+  EXPECT_THROW(RecordRing(0, 4), std::invalid_argument);
+  EXPECT_THROW(RecordRing(4, 0), std::invalid_argument);
+  EXPECT_THROW(RecordRing(std::size_t{1} << 40, std::size_t{1} << 40), std::invalid_argument);
+}
+
+TEST(RecordRing, PushAndPopDoNotAllocate) {
+  RecordRing ring(kSize, 4);
+  Record record = numbered(1);
+  const AllocationGuard guard;
+  for (int i = 0; i < 10; ++i) {
+    ring.push(record.data());
+  }
+  while (ring.pop(record.data())) {
+  }
+  EXPECT_EQ(guard.allocations(), 0U);
+}
+
+TEST(LatestValue, IsReadOnceAndTheNewestCounts) {
+  LatestValue<int> slot;
+  int value = 17;
+  EXPECT_FALSE(slot.read(value));
+  EXPECT_EQ(value, 17);
+  slot.write(1);
+  slot.write(2);
+  slot.write(3);
+  EXPECT_TRUE(slot.read(value));
+  EXPECT_EQ(value, 3);
+  EXPECT_FALSE(slot.read(value));
+  slot.write(4);
+  EXPECT_TRUE(slot.read(value));
+  EXPECT_EQ(value, 4);
+}
+
+TEST(LatestValue, IsNeverTornAndNeverOlderBetweenTwoThreads) {
+  constexpr std::int64_t kLast = 50'000;
+  LatestValue<Record> slot;
+  std::thread writer([&slot] {
+    for (std::int64_t i = 1; i <= kLast; ++i) {
+      slot.write(numbered(i));
+    }
+  });
+  bool newer_and_whole = true;
+  std::int64_t last = 0;
+  Record found{};
+  while (last < kLast && newer_and_whole) {
+    if (slot.read(found)) {
+      const auto number = static_cast<std::int64_t>(found[0]);
+      newer_and_whole = number > last && found == numbered(number);
+      last = number;
+    }
+  }
+  writer.join();
+  EXPECT_TRUE(newer_and_whole);
+  EXPECT_EQ(last, kLast);
+}
+
+}  // namespace
+}  // namespace whirl_twin
