@@ -18,7 +18,7 @@ constexpr double kLongest = 0.62;
 constexpr double kShortest = 0.30;
 constexpr double kPostDistance = 0.78;
 constexpr double kArmHeight = 0.12;  // above the pivot
-constexpr double kTextFoot = 0.43;   // above the pivot
+constexpr double kTextFoot = 0.43;   // above the pivot, clear of the bracket
 
 constexpr Color kSteel{0.66F, 0.69F, 0.73F};
 constexpr Color kIron{0.48F, 0.52F, 0.58F};
@@ -131,7 +131,9 @@ void PendulumDisplay::draw(const SystemStatus& status, MarkerCanvas& canvas) con
     const auto margins = marginLines(margin);
     lines.insert(lines.end(), margins.begin(), margins.end());
   }
-  drawStatus(name_, lines, status.alerts, kTextFoot * Eigen::Vector3d::UnitZ(),
+  // A double pendulum easily swings over the top.
+  const double foot = joints_.size() > 2 ? kLongest + 0.1 : kTextFoot;
+  drawStatus(name_, lines, status.alerts, foot * Eigen::Vector3d::UnitZ(),
              Eigen::Vector3d::UnitZ(), canvas);
 }
 

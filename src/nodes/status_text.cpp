@@ -149,7 +149,7 @@ std::vector<std::string> wrapText(const std::string& sentence, std::size_t width
   return lines;
 }
 
-std::string joined(const std::vector<std::string>& lines) {
+std::string joinedLines(const std::vector<std::string>& lines) {
   return fmt::format("{}", fmt::join(lines, "\n"));
 }
 

@@ -50,6 +50,6 @@ std::string severityName(int severity);
 std::vector<std::string> wrapText(const std::string& sentence, std::size_t width);
 
 /// Lines joined with newlines.
-std::string joined(const std::vector<std::string>& lines);
+std::string joinedLines(const std::vector<std::string>& lines);
 
 }  // namespace whirl_twin

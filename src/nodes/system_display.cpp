@@ -25,7 +25,7 @@ class TextStack {
   void add(const std::string& part, const std::vector<std::string>& lines, double height,
            const Color& color) {
     const double block = static_cast<double>(lines.size()) * (height + 0.01);
-    canvas_.text(part, foot_ + 0.5 * block * up_, height, joined(lines), color);
+    canvas_.text(part, foot_ + 0.5 * block * up_, height, joinedLines(lines), color);
     foot_ += (lines.empty() ? 0.0 : block + 0.02) * up_;
   }
 
@@ -72,13 +72,15 @@ void drawStatus(const std::string& headline, const std::vector<std::string>& lin
   }
   stack.add("text", wrapped, kLineHeight, kText);
   stack.add("text", {headline}, kHeadlineHeight, severityColor(alerts, kText));
-  // The most severe stands on top; places without an alert are written empty, which clears them.
+  // The most severe stands on top in full, the others below it by their names. Places without an
+  // alert are written empty, which clears them.
   for (std::size_t i = kAlertsShown; i-- > 0;) {
     std::vector<std::string> sentence;
     int severity = Alert::INFO;
     if (i < alerts.size()) {
       severity = alerts[i].severity;
-      sentence = wrapText(severityName(severity) + ": " + alerts[i].text, kLineLength);
+      const std::string& words = i == 0 ? alerts[i].text : alerts[i].type;
+      sentence = wrapText(severityName(severity) + ": " + words, kLineLength);
       if (i + 1 == kAlertsShown && alerts.size() > kAlertsShown) {
         sentence.push_back(fmt::format("and {} more", alerts.size() - kAlertsShown));
       }

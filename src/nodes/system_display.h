@@ -36,7 +36,7 @@ class SystemDisplay {
 };
 
 /// Distance between neighbouring systems in the world [m], along y.
-constexpr double kPlaceWidth = 1.6;
+constexpr double kPlaceWidth = 1.4;
 
 /// How far each stands before its left neighbour, per distance along y: so the row faces a viewer
 /// who looks at the shafts from the front and somewhat from the side.

@@ -48,14 +48,13 @@ std::vector<std::string> alertChanges(const std::vector<Alert>& before,
   for (const auto& alert : now) {
     const Alert* known = findAlert(before, alert);
     if (known == nullptr || known->severity != alert.severity) {
-      lines.push_back(fmt::format("[{:.3f} s] {} {} {}: {}", alert.time,
-                                  severityName(alert.severity), known == nullptr ? "raised" : "now",
-                                  alert.system, alert.text));
+      lines.push_back(fmt::format("[{:.3f} s] {} {}: {}", alert.time, severityName(alert.severity),
+                                  known == nullptr ? "raised" : "now", alert.text));
     }
   }
   for (const auto& alert : before) {
     if (findAlert(now, alert) == nullptr) {
-      lines.push_back(fmt::format("[{:.3f} s] {} cleared {}: {}", time,
+      lines.push_back(fmt::format("[{:.3f} s] {} cleared: {} {}", time,
                                   severityName(alert.severity), alert.system, alert.type));
     }
   }

@@ -12,23 +12,22 @@ namespace whirl_twin {
 LcmReceiver::LcmReceiver(std::shared_ptr<lcm::LCM> lcm, const std::vector<ChannelKind>& kinds,
                          Handler handler)
     : lcm_(std::move(lcm)), handler_(std::move(handler)) {
+  std::string pattern;  // LCM takes a regular expression
   for (const ChannelKind kind : kinds) {
-    // LCM takes a regular expression. Its C function says when it fails; the C++ one does not.
-    auto* subscription = lcm_subscribe(lcm_->getUnderlyingLCM(), channelName(kind, ".*").c_str(),
-                                       &LcmReceiver::take, this);
-    if (subscription == nullptr) {
-      throw LcmNotAvailable(
-          fmt::format("LCM cannot receive {} (is multicast on?)", channelName(kind, "*")));
-    }
-    lcm_subscription_set_queue_capacity(subscription, 0);  // no limit: every state counts
-    subscriptions_.push_back(subscription);
+    pattern += (pattern.empty() ? "(" : "|") + channelName(kind, ".*");
   }
+  pattern += ")";
+  // LCM's C function says when it fails; the C++ one does not.
+  subscription_ =
+      lcm_subscribe(lcm_->getUnderlyingLCM(), pattern.c_str(), &LcmReceiver::take, this);
+  if (subscription_ == nullptr) {
+    throw LcmNotAvailable(fmt::format("LCM cannot receive {} (is multicast on?)", pattern));
+  }
+  lcm_subscription_set_queue_capacity(subscription_, 0);  // no limit: every state counts
 }
 
 LcmReceiver::~LcmReceiver() {
-  for (auto* subscription : subscriptions_) {
-    lcm_unsubscribe(lcm_->getUnderlyingLCM(), subscription);
-  }
+  lcm_unsubscribe(lcm_->getUnderlyingLCM(), subscription_);
 }
 
 int LcmReceiver::receive(std::chrono::milliseconds timeout, int most) {

@@ -52,8 +52,8 @@ class LcmReceiver {
   void take(const std::string& channel, const void* data, std::size_t size);
 
   std::shared_ptr<lcm::LCM> lcm_;
-  std::vector<lcm_subscription_t*> subscriptions_;
   Handler handler_;
+  lcm_subscription_t* subscription_ = nullptr;
   std::map<std::string, ChannelCount> channels_;
   std::uint64_t rejected_ = 0;
   std::string last_rejection_;

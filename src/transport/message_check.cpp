@@ -11,8 +11,6 @@ namespace {
 
 constexpr std::size_t kMaxTextLength = 1000;
 constexpr std::size_t kShown = 40;
-/// A ROS header's time has 32 bits of seconds.
-constexpr std::int64_t kMaxStamp = 4294967295LL * 1000000000LL + 999999999LL;
 /// Simulated times beyond this [s] have no microseconds in 64 bits.
 constexpr double kMaxTime = 9.0e12;
 
@@ -107,13 +105,19 @@ void requireRange(const char* field, std::int64_t value, std::int64_t low, std::
   }
 }
 
-void requireInstant(std::int64_t step, double time, std::int64_t stamp) {
+void requireStep(std::int64_t step) {
   if (step < 0) {
     throw RejectedMessage(fmt::format("step: expected at least 0, found {}", step));
   }
+}
+
+void requireTime(const char* field, double time) {
   if (!(std::abs(time) <= kMaxTime)) {
-    throw RejectedMessage(fmt::format("time: expected a finite number of s, found {}", time));
+    throw RejectedMessage(fmt::format("{}: expected a finite number of s, found {}", field, time));
   }
+}
+
+void requireStamp(std::int64_t stamp) {
   requireRange("stamp [ns]", stamp, 0, kMaxStamp);
 }
 

@@ -15,6 +15,9 @@ namespace whirl_twin {
 /// "TWIN_" + name + "_STABILITY" has to fit.
 inline constexpr std::size_t kMaxNameLength = 48;
 
+/// The latest stamp [ns] that a ROS header carries: it has 32 bits of seconds.
+inline constexpr std::int64_t kMaxStamp = 4294967295LL * 1000000000LL + 999999999LL;
+
 /// A message that is not to be used; what() says why.
 class RejectedMessage : public std::runtime_error {
  public:
@@ -35,8 +38,11 @@ void requireNames(const char* field, const std::vector<std::string>& names);
 void requireText(const char* field, const std::string& text);
 void requireFlag(const char* field, int flag);
 void requireRange(const char* field, std::int64_t value, std::int64_t low, std::int64_t high);
-/// Step >= 0, time finite, stamp [ns] within what a ROS header can carry.
-void requireInstant(std::int64_t step, double time, std::int64_t stamp);
 void requireLength(const char* field, std::size_t length, std::int64_t expected);
+void requireStep(std::int64_t step);
+/// Finite [s].
+void requireTime(const char* field, double time);
+/// 0 to kMaxStamp [ns].
+void requireStamp(std::int64_t stamp);
 
 }  // namespace whirl_twin

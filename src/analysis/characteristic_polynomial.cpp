@@ -1,0 +1,154 @@
+#include "analysis/characteristic_polynomial.h"
+
+#include <stdexcept>
+
+namespace whirl_twin {
+
+namespace {
+
+using Row = std::vector<Rational>;
+using Matrix = std::vector<Row>;
+
+Matrix product(const Matrix& a, const Matrix& b) {
+  Matrix c(a.size(), Row(b.front().size()));
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t k = 0; k < b.size(); ++k) {
+      if (a[i][k] == 0) {
+        continue;
+      }
+      for (std::size_t j = 0; j < c[i].size(); ++j) {
+        c[i][j] += a[i][k] * b[k][j];
+      }
+    }
+  }
+  return c;
+}
+
+/// X with M X = B, by Gauss-Jordan elimination.
+Matrix solve(Matrix m, Matrix b) {
+  for (std::size_t i = 0; i < m.size(); ++i) {
+    std::size_t pivot = i;
+    while (pivot < m.size() && m[pivot][i] == 0) {
+      ++pivot;
+    }
+    if (pivot == m.size()) {
+      throw std::invalid_argument("the mass matrix is singular");
+    }
+    std::swap(m[i], m[pivot]);
+    std::swap(b[i], b[pivot]);
+    for (std::size_t r = 0; r < m.size(); ++r) {
+      if (r == i || m[r][i] == 0) {
+        continue;
+      }
+      const Rational ratio = m[r][i] / m[i][i];
+      for (std::size_t c = i; c < m.size(); ++c) {
+        m[r][c] -= ratio * m[i][c];
+      }
+      for (std::size_t c = 0; c < b[r].size(); ++c) {
+        b[r][c] -= ratio * b[i][c];
+      }
+    }
+  }
+  for (std::size_t i = 0; i < m.size(); ++i) {
+    for (Rational& entry : b[i]) {
+      entry /= m[i][i];
+    }
+  }
+  return b;
+}
+
+/// The state matrix [0 I; -M^-1 (K + N), -M^-1 (C + G)].
+Matrix stateMatrix(const Linearization& l) {
+  const auto n = static_cast<std::size_t>(l.mass.rows());
+  Matrix mass(n, Row(n));
+  Matrix right(n, Row(2 * n));
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) {
+      const auto r = static_cast<Eigen::Index>(i);
+      const auto c = static_cast<Eigen::Index>(j);
+      mass[i][j] = Rational(l.mass(r, c));
+      right[i][j] = -(Rational(l.stiffness(r, c)) + Rational(l.circulatory(r, c)));
+      right[i][n + j] = -(Rational(l.damping(r, c)) + Rational(l.gyroscopic(r, c)));
+    }
+  }
+  const Matrix accelerations = solve(mass, right);
+  Matrix a(2 * n, Row(2 * n));
+  for (std::size_t i = 0; i < n; ++i) {
+    a[i][n + i] = 1;
+    a[n + i] = accelerations[i];
+  }
+  return a;
+}
+
+}  // namespace
+
+std::vector<Rational> characteristicPolynomial(const Linearization& linearization) {
+  const Matrix a = stateMatrix(linearization);
+  const std::size_t size = a.size();
+  std::vector<Rational> coefficients{1};
+  Matrix m(size, Row(size));
+  for (std::size_t k = 1; k <= size; ++k) {
+    for (std::size_t i = 0; i < size; ++i) {
+      m[i][i] += coefficients.back();
+    }
+    m = product(a, m);
+    Rational trace = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+      trace += m[i][i];
+    }
+    coefficients.push_back(-trace / static_cast<int>(k));
+  }
+  return coefficients;
+}
+
+std::vector<Rational> minimalPolynomial(const Linearization& linearization) {
+  const Matrix a = stateMatrix(linearization);
+  const std::size_t size = a.size();
+  // The smallest power A^k b that depends on the lower ones; b has no symmetry that could hide a
+  // direction.
+  Matrix vector(size, Row(1));
+  for (std::size_t i = 0; i < size; ++i) {
+    vector[i][0] = Rational(static_cast<long>((7919 * (i + 1) * (i + 1) + 104729) % 65537));
+  }
+  Matrix rows;          // reduced Krylov vectors ...
+  Matrix combinations;  // ... as combinations of b, A b, A^2 b, ...
+  std::vector<std::size_t> pivots;
+  for (std::size_t k = 0; k <= size; ++k) {
+    Row row(size);
+    for (std::size_t i = 0; i < size; ++i) {
+      row[i] = vector[i][0];
+    }
+    Row combination(size + 1);
+    combination[k] = 1;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      const Rational ratio = row[pivots[r]] / rows[r][pivots[r]];
+      if (ratio == 0) {
+        continue;
+      }
+      for (std::size_t i = 0; i < size; ++i) {
+        row[i] -= ratio * rows[r][i];
+      }
+      for (std::size_t i = 0; i <= size; ++i) {
+        combination[i] -= ratio * combinations[r][i];
+      }
+    }
+    std::size_t pivot = 0;
+    while (pivot < size && row[pivot] == 0) {
+      ++pivot;
+    }
+    if (pivot == size) {
+      std::vector<Rational> highest_first;
+      for (std::size_t i = k + 1; i-- > 0;) {
+        highest_first.push_back(combination[i]);
+      }
+      return highest_first;
+    }
+    pivots.push_back(pivot);
+    rows.push_back(row);
+    combinations.push_back(combination);
+    vector = product(a, vector);
+  }
+  throw std::logic_error("a matrix satisfies its characteristic polynomial");
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,24 @@
+// The characteristic polynomial of M q'' + (C + G) q' + (K + N) q = 0, exact for the matrices
+// given.
+//
+// Doubles are rational numbers, so det(M s^2 + (C + G) s + K + N) can be had without any rounding
+// (Faddeev-LeVerrier on the state matrix). Structure then survives: an undamped system has odd
+// coefficients that are zero, not 1e-17, and Routh's test says marginal where it is marginal.
+#pragma once
+
+#include <vector>
+
+#include "analysis/exact_number.h"
+#include "mechanics/dynamics.h"
+
+namespace whirl_twin {
+
+/// Monic, highest power first, degree 2 dof. The cost grows fast: meant for a few coordinates.
+/// Throws std::invalid_argument if the mass matrix is singular.
+std::vector<Rational> characteristicPolynomial(const Linearization& linearization);
+
+/// The minimal polynomial of the state matrix: a repeated root of the characteristic polynomial is
+/// simple here where the matrix has a full set of eigenvectors for it (an isotropic rotor in x, y).
+std::vector<Rational> minimalPolynomial(const Linearization& linearization);
+
+}  // namespace whirl_twin

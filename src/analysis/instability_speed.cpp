@@ -1,0 +1,73 @@
+#include "analysis/instability_speed.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/characteristic_polynomial.h"
+#include "analysis/equilibria.h"
+#include "analysis/routh.h"
+#include "analysis/stability.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kReach = 1000.0;  // times the lowest natural frequency
+constexpr int kStrides = 240;
+constexpr double kGrowth = 1.0e-9;  // of the largest eigenvalue: surely unstable
+
+bool surelyUnstable(const Linearization& l) {
+  const auto roots = eigenvalues(l);
+  const double largest = std::abs(roots.back());
+  return std::any_of(roots.begin(), roots.end(),
+                     [&](const auto& root) { return root.real() > kGrowth * largest; });
+}
+
+bool unstable(const Linearization& l) {
+  return routh(characteristicPolynomial(l)).verdict == Verdict::kUnstable;
+}
+
+}  // namespace
+
+std::optional<double> instabilitySpeed(const Dynamics& dynamics, const Eigen::VectorXd& q,
+                                       double speed) {
+  if (!dynamics.hasShaft()) {
+    return std::nullopt;
+  }
+  const double from = dynamics.linear() ? 0.0 : std::fabs(speed);
+  const auto frequencies = stability(linearizationAtRest(dynamics, q, from)).natural_frequencies;
+  if (frequencies.empty()) {
+    return std::nullopt;
+  }
+  const double lowest = std::max(frequencies.front(), 1.0e-6 * std::max(1.0, from));
+  const double first = std::max(from, 1.0e-2 * lowest);
+  const double last = kReach * lowest;
+  Eigen::VectorXd before = q;
+  double low = from;
+  for (int i = 0; i <= kStrides; ++i) {
+    const double high = first * std::pow(last / first, static_cast<double>(i) / kStrides);
+    const auto next = equilibriumNear(dynamics, before, high);
+    if (!next) {
+      return std::nullopt;
+    }
+    if (!surelyUnstable(linearizationAtRest(dynamics, *next, high))) {
+      before = *next;
+      low = high;
+      continue;
+    }
+    double top = high;
+    while (top - low > 1.0e-15 * top) {
+      const double middle = 0.5 * (low + top);
+      if (middle <= low || middle >= top) {
+        break;
+      }
+      const auto there = equilibriumNear(dynamics, before, middle);
+      const bool lost = !there || unstable(linearizationAtRest(dynamics, *there, middle));
+      (lost ? top : low) = middle;
+    }
+    return 0.5 * (low + top);
+  }
+  return std::nullopt;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,18 @@
+// The shaft speed above which a system is unstable.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "mechanics/dynamics.h"
+
+namespace whirl_twin {
+
+/// The lowest speed [rad/s] above which the state the system operates about is unstable, searched
+/// to 1000 times its lowest natural frequency; nothing if there is none, or no shaft. A linear
+/// rotor is judged from standstill on; any other model follows the equilibrium q from `speed`
+/// [rad/s] up. Routh's test decides, so the threshold is exact to rounding.
+std::optional<double> instabilitySpeed(const Dynamics& dynamics, const Eigen::VectorXd& q,
+                                       double speed);
+
+}  // namespace whirl_twin

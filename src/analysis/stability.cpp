@@ -1,0 +1,109 @@
+#include "analysis/stability.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analysis/characteristic_polynomial.h"
+#include "analysis/stability_margins.h"
+
+namespace whirl_twin {
+
+namespace {
+
+/// Real parts below this part of the largest eigenvalue cannot be told from zero.
+constexpr double kRounding = 1.0e-14;
+
+void modes(const std::vector<std::complex<double>>& roots, Stability& s) {
+  struct Mode {
+    double frequency, ratio;
+  };
+  std::vector<Mode> modes;
+  std::vector<double> real;
+  for (const auto& root : roots) {
+    if (root.imag() > 0.0) {
+      modes.push_back({std::abs(root), -root.real() / std::abs(root)});
+    } else if (root.imag() == 0.0) {
+      real.push_back(root.real());
+    }
+  }
+  // Overdamped modes: the fastest real root goes with the slowest.
+  std::sort(real.begin(), real.end());
+  for (std::size_t i = 0; 2 * i + 1 < real.size(); ++i) {
+    const double fast = real[i];
+    const double slow = real[real.size() - 1 - i];
+    if (fast * slow > 0.0) {
+      const double frequency = std::sqrt(fast * slow);
+      modes.push_back({frequency, -0.5 * (fast + slow) / frequency});
+    }
+  }
+  std::sort(modes.begin(), modes.end(), [](const Mode& a, const Mode& b) {
+    return a.frequency < b.frequency || (a.frequency == b.frequency && a.ratio < b.ratio);
+  });
+  for (const Mode& mode : modes) {
+    s.natural_frequencies.push_back(mode.frequency);
+    s.damping_ratios.push_back(mode.ratio);
+  }
+}
+
+}  // namespace
+
+std::vector<std::complex<double>> eigenvalues(const Linearization& l) {
+  const Eigen::Index n = l.mass.rows();
+  const Eigen::PartialPivLU<Eigen::MatrixXd> mass(l.mass);
+  const Eigen::MatrixXd by_q = mass.solve(l.stiffness + l.circulatory);
+  const Eigen::MatrixXd by_v = mass.solve(l.damping + l.gyroscopic);
+  // Rates in units of the highest frequency, a power of two: balanced and free of rounding.
+  const double stiffest = std::sqrt(by_q.cwiseAbs().maxCoeff());
+  const double scale = stiffest > 0.0 ? std::exp2(std::round(std::log2(stiffest))) : 1.0;
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  a.topRightCorner(n, n).diagonal().setConstant(scale);
+  a.bottomLeftCorner(n, n) = -by_q / scale;
+  a.bottomRightCorner(n, n) = -by_v;
+  const Eigen::VectorXcd values = Eigen::EigenSolver<Eigen::MatrixXd>(a, false).eigenvalues();
+  std::vector<std::complex<double>> roots(values.data(), values.data() + values.size());
+  std::sort(roots.begin(), roots.end(), [](const auto& x, const auto& y) {
+    const double ax = std::abs(x);
+    const double ay = std::abs(y);
+    return ax != ay ? ax < ay : x.imag() < y.imag();
+  });
+  return roots;
+}
+
+Stability stability(const Linearization& linearization) {
+  Stability s;
+  s.eigenvalues = eigenvalues(linearization);
+  modes(s.eigenvalues, s);
+  const std::vector<Rational> polynomial = characteristicPolynomial(linearization);
+  for (const Rational& c : polynomial) {
+    s.polynomial.push_back(static_cast<double>(c));
+  }
+  s.routh = routh(polynomial);
+  if (s.routh.verdict == Verdict::kRepeatedImaginary &&
+      routh(minimalPolynomial(linearization)).verdict == Verdict::kMarginal) {
+    s.routh.verdict = Verdict::kMarginal;
+  }
+
+  double rightmost = -std::numeric_limits<double>::infinity();
+  double ratio = std::numeric_limits<double>::quiet_NaN();
+  const double largest = std::abs(s.eigenvalues.back());
+  for (const auto& root : s.eigenvalues) {
+    rightmost = std::max(rightmost, root.real());
+    if (std::abs(root) > kRounding * largest) {
+      ratio = std::fmin(ratio, -root.real() / std::abs(root));
+    }
+  }
+  const bool on_axis =
+      s.routh.verdict == Verdict::kMarginal || s.routh.verdict == Verdict::kRepeatedImaginary;
+  if (!on_axis && std::fabs(rightmost) < kRounding * largest) {
+    s.routh.verdict = Verdict::kUncertain;
+  }
+  s.decay_rate = on_axis ? 0.0 : -rightmost;
+  s.damping_ratio = on_axis && !std::isnan(ratio) ? 0.0 : ratio;
+  s.log_decrement = logDecrement(s.damping_ratio);
+  return s;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,38 @@
+// The verdict on a linearized system: Routh's test on the exact characteristic polynomial, and the
+// modes from the eigenvalues of the state matrix.
+#pragma once
+
+#include <complex>
+#include <vector>
+
+#include "analysis/routh.h"
+#include "mechanics/dynamics.h"
+
+namespace whirl_twin {
+
+struct Stability {
+  std::vector<std::complex<double>> eigenvalues;  ///< [1/s], by rising |s|, then Im; size 2 dof
+  /// One entry per vibrating (or overdamped) mode, ascending: |s| [rad/s] and -Re s / |s| [-]. A
+  /// pair of real roots s1, s2 < 0 is the mode of frequency sqrt(s1 s2); a saddle has none.
+  std::vector<double> natural_frequencies;
+  std::vector<double> damping_ratios;
+  std::vector<double> polynomial;  ///< characteristic, monic, highest power first
+  RouthResult routh;               ///< a repeated imaginary root with full eigenvectors is marginal
+  double decay_rate = 0.0;         ///< [1/s], -max Re s
+  double damping_ratio = 0.0;      ///< [-], min of -Re s / |s| over roots that are not zero
+  double log_decrement = 0.0;      ///< [-], 2 pi zeta / sqrt(1 - zeta^2); NaN when overdamped
+
+  /// Deviations stay bounded.
+  bool bounded() const {
+    return routh.verdict == Verdict::kAsymptoticallyStable || routh.verdict == Verdict::kMarginal;
+  }
+};
+
+/// Judges M q'' + (C + G) q' + (K + N) q = 0. The verdict is kUncertain where the largest real part
+/// is below the rounding of the eigenvalues and the polynomial does not make it exactly zero.
+Stability stability(const Linearization& linearization);
+
+/// Eigenvalues only: fast, for searches. [2 dof]
+std::vector<std::complex<double>> eigenvalues(const Linearization& linearization);
+
+}  // namespace whirl_twin

@@ -1,0 +1,53 @@
+// One event of a log after another, and what lies between them: see lcm_event_log.h for the format.
+// After damage it goes on at the next sync word.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "transport/file_window.h"
+
+namespace whirl_twin {
+
+/// An event as it stands in the file.
+struct RawEvent {
+  std::uint64_t offset = 0;    ///< [bytes], of its sync word
+  std::int64_t number = 0;     ///< counts up from 0
+  std::int64_t timestamp = 0;  ///< [us]
+  std::string channel;
+  std::uint64_t size = 0;              ///< [bytes], of the payload
+  const std::uint8_t* data = nullptr;  ///< the payload; null if longer than kMaxPayload
+};
+
+class EventScan {
+ public:
+  /// Longest payload looked into [bytes]; the twin's have a few hundred.
+  static constexpr std::size_t kMaxPayload = std::size_t{1} << 20;
+
+  enum class Found { kEvent, kDamage, kTruncation, kEnd };
+
+  /// Throws as FileWindow does.
+  explicit EventScan(const std::string& path) : file_(path) {}
+
+  /// Goes on to the next event, whose data are valid until the next call, or to the next place
+  /// where there is none: damageOffset() to offset() is no event then, damage() says why.
+  Found next(RawEvent& event);
+
+  std::uint64_t size() const { return file_.size(); }
+  /// [bytes], up to where the file has been understood or skipped.
+  std::uint64_t offset() const { return at_; }
+  std::uint64_t damageOffset() const { return damage_offset_; }
+  const std::string& damage() const { return damage_; }
+
+ private:
+  bool syncAt(std::uint64_t offset);
+  std::uint64_t findSync(std::uint64_t from);
+  Found skipDamage(std::string what);
+
+  FileWindow file_;
+  std::uint64_t at_ = 0;
+  std::uint64_t damage_offset_ = 0;
+  std::string damage_;
+};
+
+}  // namespace whirl_twin

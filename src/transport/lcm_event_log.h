@@ -1,0 +1,101 @@
+// LCM event logs: what lcm-logger writes and lcm-logplayer plays.
+//
+// A log is one event after another, big-endian, nothing around them (LCM, "Log file format"):
+//   int32 sync 0xEDA1DA01, int64 event number from 0, int64 timestamp [us],
+//   int32 channel length, int32 data length, channel, data
+// liblcm's own reader skips garbage in silence and takes damage for the end of the file, so the
+// reader here goes through the bytes itself: whatever is not an event is reported with its place.
+#pragma once
+
+#include <cstdint>
+#include <lcm/lcm-cpp.hpp>
+#include <string>
+#include <vector>
+
+#include "monitoring/alert.h"
+#include "monitoring/stability_margin.h"
+#include "scene/states.h"
+
+namespace whirl_twin {
+
+/// What a log holds of one channel.
+struct ChannelSummary {
+  std::string channel;
+  std::string kind;            ///< "whirl", "pendulum", ...; "other" if it is not the twin's
+  std::uint64_t events = 0;    ///< sound ones
+  std::uint64_t bytes = 0;     ///< of their payloads
+  std::uint64_t rejected = 0;  ///< payload of the wrong type, undecodable, or not believable
+  double first_time = 0.0;     ///< [s], simulated, of the first sound event; NaN for "other"
+  double last_time = 0.0;      ///< [s], of the last
+  // Of whirl, pendulum and drive states, 0 for the others: see StepContinuity.
+  std::int64_t stride = 0;
+  std::uint64_t gaps = 0;
+  std::uint64_t lost = 0;
+  std::uint64_t repeated = 0;
+  std::uint64_t backward = 0;
+};
+
+/// Something in a log that should not be there.
+struct LogDefect {
+  std::uint64_t offset = 0;  ///< [bytes] from the beginning of the file
+  std::string what;
+};
+
+/// Defects named one by one; further ones are only counted.
+inline constexpr std::size_t kMaxNamedDefects = 20;
+
+struct LogSummary {
+  std::string path;
+  std::uint64_t size = 0;            ///< [bytes]
+  std::uint64_t events = 0;          ///< sound ones, of all channels
+  std::int64_t first_timestamp = 0;  ///< [us], of the first event: received at, or simulated time
+  std::int64_t last_timestamp = 0;   ///< [us]
+  std::vector<ChannelSummary> channels;  ///< by name
+  std::uint64_t defect_count = 0;        ///< rejected events and damaged places of the file
+  std::vector<LogDefect> defects;        ///< the first kMaxNamedDefects of them
+  std::uint64_t unreadable_bytes = 0;    ///< that belong to no event
+  bool truncated = false;                ///< the file ends within an event
+
+  /// There are events, and nothing is damaged.
+  bool intact() const { return events > 0 && defect_count == 0; }
+  /// No state is missing, repeated or out of order.
+  bool continuous() const;
+};
+
+/// Reads the log at `path` from beginning to end, in memory that grows with the number of channels
+/// but not with the length. Throws std::runtime_error if there is no regular file there that can be
+/// read; whatever is wrong inside the file is in the summary. LCM events carry no checksum: a
+/// changed bit inside a measured value, or in a timestamp that stays in order to within a second,
+/// cannot be seen.
+LogSummary readEventLog(const std::string& path);
+
+/// Writes states as a log whose timestamps are the simulated time [us]; the same states give the
+/// same bytes.
+class EventLogWriter {
+ public:
+  /// Creates the file, or empties it. Throws std::runtime_error if it cannot be written.
+  explicit EventLogWriter(const std::string& path);
+  EventLogWriter(const EventLogWriter&) = delete;
+  EventLogWriter& operator=(const EventLogWriter&) = delete;
+
+  // Each throws std::runtime_error if the event cannot be written.
+  void write(const state::WhirlState& whirl);
+  void write(const state::PendulumState& pendulum);
+  void write(const state::DriveState& drive);
+  void write(const state::StabilityMargin& margin);
+  void write(const state::Alert& alert);
+
+  /// Hands everything to the file system: only then is a full disk noticed. Throws
+  /// std::runtime_error.
+  void finish();
+
+ private:
+  template <class State>
+  void writeEvent(const State& state);
+
+  std::string path_;
+  lcm::LogFile file_;
+  std::vector<std::uint8_t> payload_;
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,213 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "transport/channels.h"
+#include "transport/event_scan.h"
+#include "transport/lcm_decode.h"
+#include "transport/lcm_event_log.h"
+#include "transport/message_check.h"
+#include "transport/step_continuity.h"
+
+namespace whirl_twin {
+namespace {
+
+/// Timestamps are those of reception, and the machine's clock may be set back a little [us].
+constexpr std::int64_t kClockSlack = 1000000;
+
+/// What one channel has to keep from one event to the next: the system or drive it is about, with
+/// its coordinates.
+std::string subject(const state::WhirlState& whirl) {
+  return whirl.system;
+}
+
+std::string subject(const state::PendulumState& pendulum) {
+  return fmt::format("{} ({})", pendulum.system, fmt::join(pendulum.name, ", "));
+}
+
+std::string subject(const state::DriveState& drive) {
+  return drive.drive;
+}
+
+std::string subject(const state::StabilityMargin& margin) {
+  return fmt::format("{}, a {} ({})", margin.system, margin.model,
+                     fmt::join(margin.coordinate, ", "));
+}
+
+std::string subject(const state::Alert&) {
+  return "";
+}
+
+double timeOf(const state::Alert& alert) {
+  return alert.time;
+}
+
+template <class State>
+double timeOf(const State& state) {
+  return state.at.time;
+}
+
+class LogJudge {
+ public:
+  explicit LogJudge(LogSummary& summary) : summary_(summary) {}
+
+  void take(const RawEvent& event);
+  void takeDamage(const EventScan& scan, bool truncated);
+  void finish();
+
+ private:
+  struct ChannelTrace {
+    ChannelSummary summary;
+    StepContinuity steps;
+    std::string subject;
+  };
+
+  void addDefect(std::uint64_t offset, std::string what);
+  void checkOrder(const RawEvent& event);
+  ChannelTrace& traceOf(const std::string& channel);
+  void takeState(const RawEvent& event, ChannelTrace& trace);
+
+  LogSummary& summary_;
+  std::map<std::string, ChannelTrace> traces_;
+  std::optional<std::int64_t> expected_number_ = 0;
+  std::optional<std::int64_t> last_timestamp_;
+};
+
+void LogJudge::addDefect(std::uint64_t offset, std::string what) {
+  ++summary_.defect_count;
+  if (summary_.defects.size() < kMaxNamedDefects) {
+    summary_.defects.push_back({offset, std::move(what)});
+  }
+}
+
+void LogJudge::takeDamage(const EventScan& scan, bool truncated) {
+  addDefect(scan.damageOffset(), scan.damage());
+  summary_.unreadable_bytes += scan.offset() - scan.damageOffset();
+  summary_.truncated = summary_.truncated || truncated;
+  expected_number_.reset();  // how many events were lost there is not known
+}
+
+void LogJudge::checkOrder(const RawEvent& event) {
+  // A logger that appends to a log numbers its events from 0 again.
+  if (expected_number_ && event.number != *expected_number_ && event.number != 0) {
+    addDefect(event.offset,
+              fmt::format("event number: expected {}, found {}", *expected_number_, event.number));
+  }
+  expected_number_.reset();
+  if (event.number >= 0 && event.number < std::numeric_limits<std::int64_t>::max()) {
+    expected_number_ = event.number + 1;
+  }
+  if (event.timestamp < std::numeric_limits<std::int64_t>::min() + kClockSlack) {
+    addDefect(event.offset, fmt::format("timestamp: found {} us", event.timestamp));
+    return;
+  }
+  if (last_timestamp_ && event.timestamp < *last_timestamp_ - kClockSlack) {
+    addDefect(event.offset, fmt::format("timestamp: expected at least {} us, found {}",
+                                        *last_timestamp_ - kClockSlack, event.timestamp));
+  }
+  last_timestamp_ = event.timestamp;
+}
+
+LogJudge::ChannelTrace& LogJudge::traceOf(const std::string& channel) {
+  const auto [place, is_new] = traces_.try_emplace(channel);
+  if (is_new) {
+    const auto parsed = parseChannel(channel);
+    auto& summary = place->second.summary;
+    summary.channel = channel;
+    summary.kind = parsed ? toString(parsed->kind) : "other";
+    summary.first_time = summary.last_time = std::numeric_limits<double>::quiet_NaN();
+  }
+  return place->second;
+}
+
+void LogJudge::takeState(const RawEvent& event, ChannelTrace& trace) {
+  const TwinState state = decodeEvent(event.channel, event.data, event.size);
+  const auto about = std::visit([](const auto& s) { return subject(s); }, state);
+  if (trace.summary.events == 0) {
+    trace.subject = about;
+    trace.summary.first_time = std::visit([](const auto& s) { return timeOf(s); }, state);
+  } else if (about != trace.subject) {
+    throw RejectedMessage(
+        fmt::format("expected a state of {}, found one of {}", trace.subject, about));
+  }
+  trace.summary.last_time = std::visit([](const auto& s) { return timeOf(s); }, state);
+  if (const auto step = seriesStep(state)) {
+    trace.steps.add(*step);
+  }
+}
+
+void LogJudge::take(const RawEvent& event) {
+  if (!std::all_of(event.channel.begin(), event.channel.end(),
+                   [](char c) { return c > 0x20 && c < 0x7f; })) {
+    addDefect(event.offset, "channel name: expected printable characters");
+    return;
+  }
+  checkOrder(event);
+  auto& trace = traceOf(event.channel);
+  try {
+    if (trace.summary.kind != "other") {
+      if (event.data == nullptr) {
+        throw RejectedMessage(fmt::format("payload: expected at most {} bytes, found {}",
+                                          EventScan::kMaxPayload, event.size));
+      }
+      takeState(event, trace);
+    } else if (event.data != nullptr && hasTwinFingerprint(event.data, event.size)) {
+      throw RejectedMessage("a state of the twin on a channel that is not the twin's");
+    }
+  } catch (const RejectedMessage& why) {
+    ++trace.summary.rejected;
+    addDefect(event.offset, event.channel + ": " + why.what());
+    return;
+  }
+  if (summary_.events == 0) {
+    summary_.first_timestamp = event.timestamp;
+  }
+  summary_.last_timestamp = event.timestamp;
+  ++summary_.events;
+  ++trace.summary.events;
+  trace.summary.bytes += event.size;
+}
+
+void LogJudge::finish() {
+  for (auto& [channel, trace] : traces_) {
+    auto& summary = trace.summary;
+    summary.stride = trace.steps.stride();
+    summary.gaps = trace.steps.gaps();
+    summary.lost = trace.steps.lost();
+    summary.repeated = trace.steps.repeated();
+    summary.backward = trace.steps.backward();
+    summary_.channels.push_back(std::move(summary));
+  }
+}
+
+}  // namespace
+
+bool LogSummary::continuous() const {
+  return std::all_of(channels.begin(), channels.end(), [](const ChannelSummary& channel) {
+    return channel.gaps == 0 && channel.repeated == 0 && channel.backward == 0;
+  });
+}
+
+LogSummary readEventLog(const std::string& path) {
+  EventScan scan(path);
+  LogSummary summary;
+  summary.path = path;
+  summary.size = scan.size();
+  LogJudge judge(summary);
+  RawEvent event;
+  for (auto found = scan.next(event); found != EventScan::Found::kEnd; found = scan.next(event)) {
+    if (found == EventScan::Found::kEvent) {
+      judge.take(event);
+    } else {
+      judge.takeDamage(scan, found == EventScan::Found::kTruncation);
+    }
+  }
+  judge.finish();
+  return summary;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,107 @@
+// One system on its shaft, stepped as the twin steps it: the drive begins each step, then the
+// system advances. Methods run as they were compiled into the library, with its flags.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "control/drive.h"
+#include "scene/model_registry.h"
+
+namespace whirl_twin {
+
+/// The parameters given, the rest at their defaults.
+inline ParameterValues completed(const ModelInfo& model, const ParameterValues& given) {
+  ParameterValues values = given;
+  for (const ParameterInfo& p : model.parameters) {
+    if (values.count(p.name) == 0) {
+      values[p.name] =
+          p.fallback_parameter.empty() ? p.fallback.value() : values.at(p.fallback_parameter);
+    }
+  }
+  if (values.size() != model.parameters.size()) {
+    throw std::invalid_argument("a parameter that " + model.name + " does not have");
+  }
+  return values;
+}
+
+class RunningSystem {
+ public:
+  struct Setup {
+    std::string model;
+    ParameterValues parameters;
+    double gravity = 9.81;  ///< [m/s^2]
+    double speed = 0.0;     ///< [rad/s], of the shaft at the start
+    std::vector<SpeedMove> profile{};
+    std::vector<double> q{};
+    std::vector<double> v{};
+  };
+
+  /// step in nanoseconds.
+  RunningSystem(const Setup& setup, const std::string& method, std::int64_t step)
+      : drive_(setup.speed, 0.0, setup.profile),
+        step_(step),
+        dof_(findModel(setup.model)->coordinates.size()),
+        record_(2 * dof_ + 1) {
+    const ModelInfo& model = *findModel(setup.model);
+    const ParameterValues values = completed(model, setup.parameters);
+    dynamics_ = model.dynamics(values, setup.gravity);
+    system_ = model.system(values, setup.gravity, method, drive_, seconds(step), 1);
+    std::vector<double> q = setup.q;
+    std::vector<double> v = setup.v;
+    q.resize(dof_);
+    v.resize(dof_);
+    system_->set(q.data(), v.data());
+    drive_.begin(0);
+    system_->write(record_.data());
+  }
+  RunningSystem(const RunningSystem&) = delete;
+  RunningSystem& operator=(const RunningSystem&) = delete;
+
+  /// Steps until the first that fails.
+  StepStatus run(std::int64_t steps) {
+    StepStatus status = StepStatus::kOk;
+    for (std::int64_t i = 0; i < steps && status == StepStatus::kOk; ++i) {
+      status = system_->step(time());
+      if (status == StepStatus::kOk) {
+        drive_.begin(++count_ * step_);
+      }
+    }
+    system_->write(record_.data());
+    return status;
+  }
+
+  double time() const { return seconds(count_ * step_); }                        ///< [s]
+  double q(std::size_t i) const { return record_[i]; }                           ///< [rad] or [m]
+  double v(std::size_t i) const { return record_[dof_ + i]; }                    ///< the rates
+  double work() const { return record_[2 * dof_]; }                              ///< [J], audited
+  const Drive& drive() const { return drive_; }
+  const Dynamics& dynamics() const { return *dynamics_; }
+  Energies energies() const {
+    const ShaftMotion shaft = drive_.at(0.0);
+    const auto n = static_cast<Eigen::Index>(dof_);
+    return dynamics_->energies(Eigen::Map<const Eigen::VectorXd>(record_.data(), n),
+                               Eigen::Map<const Eigen::VectorXd>(record_.data() + n, n),
+                               {time(), shaft.angle, shaft.speed, shaft.acceleration});
+  }
+  std::vector<double> state() const { return {record_.begin(), record_.end() - 1}; }  ///< q, v
+
+ private:
+  static double seconds(std::int64_t nanoseconds) {
+    return static_cast<double>(nanoseconds) / 1.0e9;
+  }
+
+  Drive drive_;
+  std::int64_t step_;  // [ns]
+  std::int64_t count_ = 0;
+  std::size_t dof_;
+  std::vector<double> record_;
+  std::shared_ptr<const Dynamics> dynamics_;
+  std::unique_ptr<System> system_;
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,97 @@
+// Every reference number of the lecture notes that belongs to a model of this program is reproduced.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "note_case.h"
+
+namespace whirl_twin {
+namespace {
+
+using Answers = std::vector<double> (*)(const NoteCase&);
+
+// Systems of the notes that a model of this program stands for, with the number of their cases.
+struct Modelled {
+  std::size_t cases;
+  Answers answers;
+};
+const std::map<std::string, Modelled> kModelled{
+    {"spinning_pendulum", {36, spinningPendulumAnswers}},
+    {"double_pendulum", {51, doublePendulumAnswers}},
+    {"jeffcott", {23, rotorAnswers}},        // synchronous whirl: unbalance response of the rotor
+    {"jeffcott_xy", {7, rotorAnswers}},      // the rotor's own coordinates
+    {"jeffcott_polar", {13, rotorAnswers}},  // the same motion seen in polar coordinates
+    {"jeffcott_rot", {12, rotorAnswers}},    // the same motion seen from the turning shaft
+};
+
+// Systems that no model of this program stands for, and why.
+const std::map<std::string, std::string> kNotModelled{
+    {"two_bar", "no such model"},
+    {"rigid_beam", "no such model"},
+    {"rigid_beam_nl", "no such model"},
+    {"lever3", "approximate methods on a three-mass lever: no such model"},
+    {"cantilever_amm", "assumed modes of a cantilever: no such model"},
+    {"submarine", "no such model"},
+    {"rolling_disc", "no such model"},
+    {"eccentric_disc", "no such model"},
+    {"rod_slider", "no such model"},
+    {"cart_pendulum", "no such model"},
+    {"cart_pendulum_force", "no such model"},
+    {"cart_pendulum_support", "no such model"},
+    {"double_pendulum_rel", "relative angles are not coordinates of double_pendulum"},
+    {"jeffcott_spin", "the rotor's speed is prescribed: no motor, no free spin"},
+    {"jeffcott_fluid", "the rotor has no fluid damping"},
+    {"jeffcott_hysteretic", "the rotor has no loss factor"},
+    {"gyro_disc", "the rotor's disc does not tilt"},
+    {"friction_oscillator", "no such model"},
+    {"inverted_spring", "no such model"},
+    {"rotating_pendulum", "its spin is free; spinning_pendulum's is prescribed"},
+    {"governor", "its spin is free; spinning_pendulum's is prescribed"},
+    {"flywheel2", "no such model"},
+    {"flywheel3", "no such model"},
+    {"routh", "polynomials: tested with the Routh criterion"},
+};
+
+std::vector<NoteCase> modelledCases() {
+  std::vector<NoteCase> cases = noteCases();
+  cases.erase(std::remove_if(cases.begin(), cases.end(),
+                             [](const NoteCase& c) { return kModelled.count(c.system) == 0; }),
+              cases.end());
+  return cases;
+}
+
+TEST(NoteCases, EveryCaseIsRunOrItsSystemIsNamedAsNotModelled) {
+  std::map<std::string, std::size_t> count;
+  for (const NoteCase& c : noteCases()) {
+    ++count[c.system];
+    if (kModelled.count(c.system) != 0) {
+      EXPECT_FALSE(kModelled.at(c.system).answers(c).empty()) << c.id << " is not run";
+    } else {
+      EXPECT_EQ(kNotModelled.count(c.system), 1u) << c.id << " is of an unknown system";
+    }
+  }
+  for (const auto& [system, modelled] : kModelled) {
+    EXPECT_EQ(count[system], modelled.cases) << system;
+  }
+}
+
+class NoteCaseOf : public testing::TestWithParam<NoteCase> {};
+
+TEST_P(NoteCaseOf, IsReproduced) {
+  const NoteCase& c = GetParam();
+  // Accelerations are evaluated, not integrated: a dozen roundings. All else within the tolerance
+  // that comes with the case.
+  const double tolerance =
+      c.startsWith("acc.") ? 1e-12 * std::abs(c.expected) : c.tolerance;
+  for (const double answer : kModelled.at(c.system).answers(c)) {
+    EXPECT_NEAR(answer, c.expected, tolerance);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Notes, NoteCaseOf, testing::ValuesIn(modelledCases()),
+                         [](const auto& test) { return testName(test.param); });
+
+}  // namespace
+}  // namespace whirl_twin
