@@ -78,7 +78,7 @@ Stability stability(const Linearization& linearization) {
   modes(s.eigenvalues, s);
   const std::vector<Rational> polynomial = characteristicPolynomial(linearization);
   for (const Rational& c : polynomial) {
-    s.polynomial.push_back(static_cast<double>(c));
+    s.polynomial.push_back(toDouble(c));
   }
   s.routh = routh(polynomial);
   if (s.routh.verdict == Verdict::kRepeatedImaginary &&

@@ -1,5 +1,7 @@
 #include "scene/observer.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -31,6 +33,12 @@ void Observer::observe(const double* record) {
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     if (restarted) {
       tracks_[i] = Track{};
+    }
+    if (status(i) != StepStatus::kOk) {
+      if (tracks_[i].stop_reason.empty()) {
+        tracks_[i].stop_reason = describeStop(i);
+      }
+      continue;
     }
     if (isRotor(i)) {
       trackPhase(i);
@@ -88,6 +96,19 @@ void Observer::trackEnergy(std::size_t system) {
   }
   track.scale = std::max(track.scale, std::fabs(e.kinetic) + std::fabs(e.potential));
   track.residual = track.scale > 0.0 ? (e.jacobi - track.jacobi - work) / track.scale : 0.0;
+}
+
+std::string Observer::describeStop(std::size_t system) const {
+  const Twin::Member& member = twin_.members()[system];
+  std::string values;
+  for (std::size_t i = 0; i < member.spec.q.size(); ++i) {
+    const Coordinate& c = member.model->coordinates[i];
+    values += fmt::format("{}{} = {:.6g} {}, {}_rate = {:.6g} {}/s", i == 0 ? "" : ", ", c.name,
+                          coordinates(system)[i], c.unit, c.name, rates(system)[i], c.unit);
+  }
+  return fmt::format("{}: stopped in step {} (t = {:.9g} s), {}; last good state: {}",
+                     member.spec.name, step(), twin_.seconds(step()), describe(status(system)),
+                     values);
 }
 
 double Observer::energyResidual(std::size_t system) const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "scene/states.h"
@@ -25,6 +26,9 @@ class Observer {
   std::int64_t step() const;
   std::size_t systemCount() const { return tracks_.size(); }
   StepStatus status(std::size_t system) const;
+  /// "rotor: stopped after step 41 (t = 0.041 s), state not finite; last good state x = ..., ...";
+  /// "" while the system runs.
+  const std::string& stopReason(std::size_t system) const { return tracks_[system].stop_reason; }
   bool isRotor(std::size_t system) const;
 
   state::WhirlState whirl(std::size_t system) const;        ///< of a rotor
@@ -49,12 +53,14 @@ class Observer {
     double phase = 0.0;         // [rad], last valid, unwrapped
     bool phase_known = false;
     bool phase_valid = false;
+    std::string stop_reason;
   };
 
   Moment<double> moment(std::size_t system) const;
   const double* driveRecord(std::size_t drive) const;
   void trackPhase(std::size_t system);
   void trackEnergy(std::size_t system);
+  std::string describeStop(std::size_t system) const;
   state::Instant instant() const;
 
   const Twin& twin_;

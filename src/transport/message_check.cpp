@@ -95,6 +95,13 @@ void requireText(const char* field, const std::string& text) {
   }
 }
 
+void requireDirection(const std::string& direction) {
+  if (direction != "forward" && direction != "backward") {
+    throw RejectedMessage(
+        fmt::format("direction: expected forward or backward, found {}", shown(direction)));
+  }
+}
+
 void requireFlag(const char* field, int flag) {
   requireRange(field, flag, 0, 1);
 }

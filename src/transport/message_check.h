@@ -36,6 +36,8 @@ void requireName(const char* field, const std::string& name);
 void requireNames(const char* field, const std::vector<std::string>& names);
 /// UTF-8 without control characters, at most 1000 bytes.
 void requireText(const char* field, const std::string& text);
+/// "forward" or "backward".
+void requireDirection(const std::string& direction);
 void requireFlag(const char* field, int flag);
 void requireRange(const char* field, std::int64_t value, std::int64_t low, std::int64_t high);
 void requireLength(const char* field, std::size_t length, std::int64_t expected);

@@ -130,7 +130,6 @@ void putFields(const state::StabilityMargin& margin, Message& message) {
 template <class Message>
 void takeCriticalSpeeds(const Message& message, state::StabilityMargin& margin) {
   const std::size_t count = message.critical_speed.size();
-  requireNames("direction", message.direction);
   requireLength("direction", message.direction.size(), count);
   requireLength("amplification_factor", message.amplification_factor.size(), count);
   requireLength("separation_margin", message.separation_margin.size(), count);
@@ -141,6 +140,7 @@ void takeCriticalSpeeds(const Message& message, state::StabilityMargin& margin) 
   for (std::size_t i = 0; i < count; ++i) {
     auto& critical = margin.critical_speeds[i];
     critical.speed = message.critical_speed[i];
+    requireDirection(message.direction[i]);
     critical.direction = message.direction[i];
     critical.amplification_factor = message.amplification_factor[i];
     critical.separation_margin = message.separation_margin[i];

@@ -1,0 +1,73 @@
+#include "nodes/loop_report.h"
+
+namespace whirl_twin {
+
+namespace {
+
+double seconds(std::int64_t nanoseconds) {
+  return static_cast<double>(nanoseconds) * 1.0e-9;
+}
+
+}  // namespace
+
+LoopStatistics loopStatistics(const Twin& twin, const Observer& observer,
+                              const RealtimeStatus& status, const LoopTiming& timing, bool paused,
+                              std::uint64_t dropped) {
+  LoopStatistics m;
+  m.step = observer.step();
+  m.time = twin.seconds(observer.step());
+  m.step_size = twin.scene().stepSeconds();
+  m.policy = status.policy;
+  m.priority = status.priority;
+  m.memory_locked = status.memory_locked;
+  m.kernel = status.kernel;
+  m.paused = paused;
+  m.overruns = timing.overruns;
+  m.skipped_steps = timing.skipped;
+  m.dropped_snapshots = dropped;
+  m.page_faults = timing.page_faults;
+  m.wakeup_latency_p50 = seconds(timing.wake_up_latency.percentile(50.0));
+  m.wakeup_latency_p99 = seconds(timing.wake_up_latency.percentile(99.0));
+  m.wakeup_latency_max = seconds(timing.wake_up_latency.max());
+  m.execution_p50 = seconds(timing.execution_time.percentile(50.0));
+  m.execution_p99 = seconds(timing.execution_time.percentile(99.0));
+  m.execution_max = seconds(timing.execution_time.max());
+  m.period_min = seconds(timing.period.min());
+  m.period_max = seconds(timing.period.max());
+  for (std::size_t i = 0; i < twin.members().size(); ++i) {
+    m.system.push_back(twin.members()[i].spec.name);
+    m.integrator.push_back(twin.members()[i].integrator);
+    m.stopped.push_back(static_cast<std::uint8_t>(observer.status(i)));
+    m.stopped_why.push_back(observer.stopReason(i));
+  }
+  return m;
+}
+
+void summarize(const LoopStatistics& loop, diagnostic_updater::DiagnosticStatusWrapper& status) {
+  using diagnostic_msgs::DiagnosticStatus;
+  status.summary(DiagnosticStatus::OK, loop.paused ? "paused" : "running");
+  if (loop.dropped_snapshots > 0) {
+    status.mergeSummary(DiagnosticStatus::WARN, "states were not published: publisher too slow");
+  }
+  if (loop.skipped_steps > 0) {
+    status.mergeSummary(DiagnosticStatus::WARN, "steps were skipped: the machine was late");
+  }
+  for (std::size_t i = 0; i < loop.system.size(); ++i) {
+    if (loop.stopped[i] != 0) {
+      status.mergeSummary(DiagnosticStatus::ERROR, loop.stopped_why[i]);
+    }
+  }
+  status.add("step", loop.step);
+  status.add("simulated time [s]", loop.time);
+  status.add("scheduling policy", loop.policy);
+  status.add("priority", loop.priority);
+  status.add("memory locked", static_cast<bool>(loop.memory_locked));
+  status.add("overruns", loop.overruns);
+  status.add("skipped steps", loop.skipped_steps);
+  status.add("dropped states", loop.dropped_snapshots);
+  status.add("wake-up latency p99 [s]", loop.wakeup_latency_p99);
+  status.add("wake-up latency max [s]", loop.wakeup_latency_max);
+  status.add("execution p99 [s]", loop.execution_p99);
+}
+
+}  // namespace whirl_twin

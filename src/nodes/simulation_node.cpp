@@ -1,0 +1,250 @@
+// The simulation: a scene, stepped at a fixed rate in a real-time thread; states on ROS and LCM.
+//
+// Threads: the loop (FixedRateLoop) steps and writes records into a ring; the publisher drains the
+// ring and owns all sockets; this thread serves the services and the diagnostics.
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <ctime>
+#include <mutex>
+#include <thread>
+
+#include "nodes/loop_report.h"
+#include "nodes/scene_parameters.h"
+#include "nodes/state_publisher.h"
+#include "nodes/twin_services.h"
+#include "realtime/denormals.h"
+#include "realtime/fixed_rate_loop.h"
+#include "scene/live_twin.h"
+#include "scene/scene_reader.h"
+#include "transport/channels.h"
+
+namespace whirl_twin {
+
+namespace {
+
+std::atomic<bool> stop_requested{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
+
+void requestStop(int) {
+  stop_requested.store(true);
+}
+
+std::int64_t clockNow(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return now.tv_sec * 1'000'000'000LL + now.tv_nsec;
+}
+
+/// The node's private parameters.
+struct Settings {
+  double publish_rate;  ///< [Hz]; 0: every step
+  std::string lcm_url;
+  bool clock;
+  FixedRateLoop::Options loop;
+};
+
+Settings readSettings(const ros::NodeHandle& node, const Scene& scene) {
+  Settings s;
+  s.publish_rate = node.param("publish_rate", 0.0);
+  if (!(s.publish_rate >= 0.0 && std::isfinite(s.publish_rate))) {
+    throw std::invalid_argument("publish_rate: must be >= 0 Hz (0: every step), found " +
+                                std::to_string(s.publish_rate));
+  }
+  s.lcm_url = node.param<std::string>("lcm_url", kDefaultLcmUrl);
+  s.clock = node.param("clock", false);
+  if (s.clock && scene.time < 0) {
+    throw std::invalid_argument("clock: needs a scene whose time is >= 0 s");
+  }
+  s.loop.period = scene.step;
+  s.loop.mode = parseRealtimeMode(node.param<std::string>("realtime", "warn"));
+  s.loop.priority = node.param("priority", 50);
+  s.loop.policy = parseOverrunPolicy(node.param<std::string>("overrun", "skip"));
+  return s;
+}
+
+/// The publisher thread: everything that leaves the node at the rate of the steps.
+class Publisher {
+ public:
+  Publisher(LiveTwin& live, const FixedRateLoop& loop, ros::NodeHandle node,
+            const Settings& settings)
+      : live_(live),
+        loop_(loop),
+        observer_(live.twin()),
+        states_(live.twin(), node, settings.lcm_url, settings.clock),
+        statistics_(node.advertise<LoopStatistics>("loop", 10, true)),
+        clock_(settings.clock),
+        every_(settings.publish_rate > 0.0
+                   ? std::max<std::int64_t>(
+                         1, std::llround(1.0e9 / settings.publish_rate /
+                                         static_cast<double>(live.twin().scene().step)))
+                   : 1),
+        epoch_(clockNow(CLOCK_REALTIME) - clockNow(CLOCK_MONOTONIC)),
+        stopped_(live.twin().members().size()) {
+    if (!states_.lcm().warning().empty()) {
+      ROS_WARN("%s", states_.lcm().warning().c_str());
+    }
+  }
+  ~Publisher() { join(); }
+
+  void start() {
+    thread_ = std::thread([this] { run(); });
+  }
+  void join() {
+    ending_.store(true);
+    if (thread_.joinable()) {
+      thread_.join();
+    }
+  }
+  /// The newest report, for the diagnostics.
+  LoopStatistics report() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return report_;
+  }
+
+ private:
+  void run() {
+    std::vector<double> record(live_.twin().layout().size);
+    auto next_report = std::chrono::steady_clock::now();
+    while (true) {
+      const bool last_round = ending_.load();
+      bool stopped_now = false;
+      while (live_.pop(record.data())) {
+        stopped_now = take(record.data()) || stopped_now;
+      }
+      const auto now = std::chrono::steady_clock::now();
+      if (stopped_now || now >= next_report) {
+        publishReport();
+        next_report = now + std::chrono::seconds(1);
+      }
+      if (last_round) {
+        return;
+      }
+      std::this_thread::sleep_for(std::chrono::microseconds(500));
+    }
+  }
+
+  /// One record; true if a system has just stopped.
+  bool take(const double* record) {
+    observer_.observe(record);
+    const Scene& scene = live_.twin().scene();
+    observer_.setStamp(clock_ ? scene.time + observer_.step() * scene.step
+                              : epoch_ + unpacked(record[RecordLayout::kScheduled]));
+    if (observer_.step() % every_ == 0) {
+      states_.publish(observer_);
+    }
+    bool stopped_now = false;
+    for (std::size_t i = 0; i < stopped_.size(); ++i) {
+      const bool stopped = observer_.status(i) != StepStatus::kOk;
+      if (stopped && !stopped_[i]) {
+        ROS_ERROR("%s", observer_.stopReason(i).c_str());
+        stopped_now = true;
+      }
+      stopped_[i] = stopped;
+    }
+    return stopped_now;
+  }
+
+  void publishReport() {
+    LoopStatistics report = loopStatistics(live_.twin(), observer_, loop_.status(), loop_.timing(),
+                                           live_.paused(), live_.dropped());
+    report.header.stamp = ros::Time::now();
+    statistics_.publish(report);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    report_ = report;
+  }
+
+  LiveTwin& live_;
+  const FixedRateLoop& loop_;
+  Observer observer_;
+  StatePublisher states_;
+  ros::Publisher statistics_;
+  bool clock_;
+  std::int64_t every_;  // steps from one publication to the next
+  std::int64_t epoch_;  // [ns], wall clock at zero of CLOCK_MONOTONIC
+  std::vector<bool> stopped_;
+  mutable std::mutex mutex_;  // report_, between this thread and the diagnostics
+  LoopStatistics report_;
+  std::atomic<bool> ending_{false};
+  std::thread thread_;
+};
+
+int run() {
+  ros::NodeHandle node("/twin");
+  ros::NodeHandle private_node("~");
+  const Scene scene = sceneFromParameters(node, "scene");
+  const Settings settings = readSettings(private_node, scene);
+
+  // Half a second of records, or some: what the publisher may be late by.
+  const auto capacity =
+      static_cast<std::size_t>(std::max<std::int64_t>(64, 500'000'000 / scene.step));
+  LiveTwin live(scene, std::min<std::size_t>(capacity, 100'000));
+  FixedRateLoop loop(settings.loop);
+  Publisher publisher(live, loop, node, settings);
+  const TwinServices services(live, private_node,
+                              [&] { return !stop_requested && ros::ok() && loop.running(); });
+
+  diagnostic_updater::Updater diagnostics;
+  diagnostics.setHardwareID("none");
+  diagnostics.add("real-time loop", [&](diagnostic_updater::DiagnosticStatusWrapper& status) {
+    summarize(publisher.report(), status);
+  });
+
+  for (const Twin::Member& m : live.twin().members()) {
+    ROS_INFO("%s: %s with %s%s%s%s", m.spec.name.c_str(), m.model->name.c_str(),
+             m.integrator.c_str(), m.integrator_reason.empty() ? "" : " (",
+             m.integrator_reason.c_str(), m.integrator_reason.empty() ? "" : ")");
+  }
+  bool flushed = false;
+  loop.start([&live, &flushed](std::int64_t scheduled) {
+    if (!flushed) {
+      flushDenormals();
+      flushed = true;
+    }
+    return live.cycle(scheduled);
+  });
+  const RealtimeStatus status = loop.status();
+  for (const std::string& warning : status.warnings) {
+    ROS_WARN("%s", warning.c_str());
+  }
+  ROS_INFO("stepping every %g s with %s, priority %d, memory %slocked", scene.stepSeconds(),
+           status.policy.c_str(), status.priority, status.memory_locked ? "" : "not ");
+  publisher.start();
+
+  while (!stop_requested && ros::ok() && loop.running()) {
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.05));
+    diagnostics.update();
+  }
+  loop.stop();
+  publisher.join();
+  ROS_INFO("stopped after %ld steps", static_cast<long>(live.twin().stepCount()));
+  ros::shutdown();
+  return 0;
+}
+
+}  // namespace
+
+}  // namespace whirl_twin
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "simulation_node", ros::init_options::NoSigintHandler);
+  std::signal(SIGINT, whirl_twin::requestStop);
+  std::signal(SIGTERM, whirl_twin::requestStop);
+  try {
+    return whirl_twin::run();
+  } catch (const whirl_twin::SceneError& error) {
+    for (const std::string& line : error.errors()) {
+      ROS_FATAL("%s", line.c_str());
+    }
+    return 2;
+  } catch (const std::exception& error) {
+    ROS_FATAL("simulation_node: %s", error.what());
+    return 2;
+  }
+}

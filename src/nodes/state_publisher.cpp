@@ -1,0 +1,86 @@
+#include "nodes/state_publisher.h"
+
+#include <rosgraph_msgs/Clock.h>
+#include <sensor_msgs/JointState.h>
+
+#include <cmath>
+
+#include "transport/ros_converters.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr std::uint32_t kQueue = 2000;        // two seconds at 1 kHz
+constexpr double kClockPeriod = 1.0 / 250.0;  // s
+
+}  // namespace
+
+StatePublisher::StatePublisher(const Twin& twin, ros::NodeHandle node, const std::string& lcm_url,
+                               bool clock)
+    : twin_(twin), lcm_(lcm_url) {
+  for (const Twin::Member& member : twin.members()) {
+    const std::string& name = member.spec.name;
+    Topics topics;
+    topics.state = member.model->rotor ? node.advertise<WhirlState>(name + "/whirl", kQueue)
+                                       : node.advertise<PendulumState>(name + "/pendulum", kQueue);
+    topics.joint_states = node.advertise<sensor_msgs::JointState>(name + "/joint_states", kQueue);
+    systems_.push_back(topics);
+  }
+  for (const DriveSpec& drive : twin.scene().drives) {
+    drives_.push_back(node.advertise<DriveState>("drives/" + drive.name, kQueue));
+  }
+  if (clock) {
+    clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", 10);
+  }
+}
+
+void StatePublisher::publish(const Observer& observer) {
+  for (std::size_t i = 0; i < systems_.size(); ++i) {
+    if (observer.status(i) == StepStatus::kOk) {
+      publishSystem(observer, i);
+    }
+  }
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
+    const bool wanted = drives_[i].getNumSubscribers() > 0;
+    if (wanted || lcm_.on()) {
+      const state::DriveState drive = observer.drive(i);
+      lcm_.publish(drive);
+      if (wanted) {
+        drives_[i].publish(toRos(drive));
+      }
+    }
+  }
+  const double time = twin_.seconds(observer.step());
+  if (clock_ && std::fabs(time - last_clock_) >= kClockPeriod * (1.0 - 1.0e-9)) {
+    rosgraph_msgs::Clock message;
+    message.clock.fromSec(time);
+    clock_.publish(message);
+    last_clock_ = time;
+  }
+}
+
+void StatePublisher::publishSystem(const Observer& observer, std::size_t system) {
+  const Topics& topics = systems_[system];
+  const bool state_wanted = topics.state.getNumSubscribers() > 0;
+  const bool joints_wanted = topics.joint_states.getNumSubscribers() > 0;
+  if (!state_wanted && !joints_wanted && !lcm_.on()) {
+    return;
+  }
+  const auto send = [&](const auto& state) {
+    lcm_.publish(state);
+    if (state_wanted) {
+      topics.state.publish(toRos(state));
+    }
+    if (joints_wanted) {
+      topics.joint_states.publish(toJointState(state));
+    }
+  };
+  if (observer.isRotor(system)) {
+    send(observer.whirl(system));
+  } else {
+    send(observer.pendulum(system));
+  }
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,41 @@
+// Publishes the twin's states on ROS topics and LCM channels. Belongs to the publisher thread.
+#pragma once
+
+#include <ros/ros.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scene/observer.h"
+#include "transport/lcm_publisher.h"
+
+namespace whirl_twin {
+
+class StatePublisher {
+ public:
+  /// Advertises every topic of the scene under `node`. clock: also /clock, at most at 250 Hz.
+  StatePublisher(const Twin& twin, ros::NodeHandle node, const std::string& lcm_url, bool clock);
+
+  /// Publishes what the observer stands at. A system that has stopped is silent. Messages without
+  /// a subscriber, and channels with LCM off, are not filled.
+  void publish(const Observer& observer);
+
+  const LcmPublisher& lcm() const { return lcm_; }
+
+ private:
+  struct Topics {
+    ros::Publisher state;  // whirl or pendulum
+    ros::Publisher joint_states;
+  };
+  void publishSystem(const Observer& observer, std::size_t system);
+
+  const Twin& twin_;
+  std::vector<Topics> systems_;
+  std::vector<ros::Publisher> drives_;
+  ros::Publisher clock_;
+  double last_clock_ = -1.0;  // [s]
+  LcmPublisher lcm_;
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,121 @@
+#include "nodes/twin_services.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "scene/node_reader.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr const char* kEnded = "the simulation is ending";
+
+}  // namespace
+
+TwinServices::TwinServices(LiveTwin& twin, ros::NodeHandle node, std::function<bool()> keep_waiting)
+    : twin_(twin), keep_waiting_(std::move(keep_waiting)) {
+  servers_ = {node.advertiseService("pause", &TwinServices::pause, this),
+              node.advertiseService("resume", &TwinServices::resume, this),
+              node.advertiseService("reset", &TwinServices::reset, this),
+              node.advertiseService("step", &TwinServices::step, this),
+              node.advertiseService("set_speed", &TwinServices::setSpeed, this)};
+}
+
+bool TwinServices::carryOut(const TwinCommand& command, TwinAnswer& answer) {
+  if (!twin_.send(command)) {
+    return false;
+  }
+  while (twin_.carriedOut() < twin_.sent()) {
+    if (!keep_waiting_()) {
+      return false;
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(500));
+  }
+  answer = twin_.answer();
+  return true;
+}
+
+bool TwinServices::trigger(TwinCommand::Kind kind, const char* done, Trigger::Response& response) {
+  TwinCommand command;
+  command.kind = kind;
+  TwinAnswer answer;
+  response.success = carryOut(command, answer);
+  response.message = response.success ? fmt::format("{} at step {}", done, answer.step) : kEnded;
+  return true;
+}
+
+bool TwinServices::pause(Trigger::Request&, Trigger::Response& response) {
+  return trigger(TwinCommand::Kind::kPause, "paused", response);
+}
+
+bool TwinServices::resume(Trigger::Request&, Trigger::Response& response) {
+  return trigger(TwinCommand::Kind::kResume, "running", response);
+}
+
+bool TwinServices::reset(Trigger::Request&, Trigger::Response& response) {
+  return trigger(TwinCommand::Kind::kReset, "reset, now", response);
+}
+
+bool TwinServices::step(StepN::Request& request, StepN::Response& response) {
+  TwinCommand command;
+  command.kind = TwinCommand::Kind::kStep;
+  command.steps = request.steps;
+  TwinAnswer answer;
+  const bool carried_out = carryOut(command, answer);
+  response.success = carried_out && answer.done;
+  response.step = answer.step;
+  response.time = twin_.twin().seconds(answer.step);
+  response.message = !carried_out  ? kEnded
+                     : answer.done ? fmt::format("{} steps done", request.steps)
+                                   : "not paused: call pause first";
+  return true;
+}
+
+bool TwinServices::setSpeed(SetSpeed::Request& request, SetSpeed::Response& response) {
+  const auto& drives = twin_.twin().scene().drives;
+  const auto found = std::find_if(drives.begin(), drives.end(), [&](const DriveSpec& drive) {
+    return drive.name == request.drive;
+  });
+  response.success = false;
+  if (found == drives.end()) {
+    std::vector<std::string> names;
+    for (const DriveSpec& drive : drives) {
+      names.push_back(drive.name);
+    }
+    const std::string near = nearestName(request.drive, names);
+    response.message =
+        fmt::format("drive: must be a drive of the scene, found '{}'{}", request.drive,
+                    near.empty() ? "" : fmt::format("; did you mean '{}'?", near));
+    return true;
+  }
+  if (const auto fault =
+          faultOf({request.speed, request.max_acceleration, request.max_jerk, 0.0})) {
+    response.message = fmt::format("{}, found {}", fault->expected, fault->found);
+    return true;
+  }
+  TwinCommand command;
+  command.kind = TwinCommand::Kind::kSetSpeed;
+  command.drive = static_cast<std::size_t>(found - drives.begin());
+  command.speed = request.speed;
+  command.max_acceleration = request.max_acceleration;
+  command.max_jerk = request.max_jerk;
+  TwinAnswer answer;
+  if (!carryOut(command, answer)) {
+    response.message = kEnded;
+    return true;
+  }
+  response.success = answer.done;
+  response.duration = answer.duration;
+  response.message = answer.done
+                         ? fmt::format("{} goes to {} rad/s in {:.6g} s", request.drive,
+                                       request.speed, answer.duration)
+                         : "the move cannot be made: it would last too long or run too fast";
+  return true;
+}
+
+}  // namespace whirl_twin

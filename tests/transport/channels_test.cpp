@@ -1,0 +1,49 @@
+#include "transport/channels.h"
+
+#include <gtest/gtest.h>
+
+#include "transport/message_check.h"
+
+namespace whirl_twin {
+namespace {
+
+TEST(Channels, AreNamedAsTheInterfaceSays) {
+  EXPECT_EQ(channelName(ChannelKind::kWhirl, "rotor"), "TWIN_ROTOR_WHIRL");
+  EXPECT_EQ(channelName(ChannelKind::kPendulum, "arm_2"), "TWIN_ARM_2_PENDULUM");
+  EXPECT_EQ(channelName(ChannelKind::kStability, "rotor"), "TWIN_ROTOR_STABILITY");
+  EXPECT_EQ(channelName(ChannelKind::kDrive, "shaft"), "TWIN_SHAFT_DRIVE");
+  EXPECT_EQ(channelName(ChannelKind::kAlerts), "TWIN_ALERTS");
+}
+
+TEST(Channels, AreParsedBackToKindAndName) {
+  // Names may themselves end like a kind of channel: the last ending counts.
+  for (const std::string name : {"ROTOR", "A", "MY_WHIRL", "X_DRIVE", "TWIN_ALERTS", "PENDULUM"}) {
+    for (const auto kind : {ChannelKind::kWhirl, ChannelKind::kPendulum, ChannelKind::kStability,
+                            ChannelKind::kDrive}) {
+      const auto channel = parseChannel(channelName(kind, name));
+      ASSERT_TRUE(channel) << channelName(kind, name);
+      EXPECT_EQ(channel->kind, kind);
+      EXPECT_EQ(channel->name, name);
+    }
+  }
+  ASSERT_TRUE(parseChannel("TWIN_ALERTS"));
+  EXPECT_EQ(parseChannel("TWIN_ALERTS")->kind, ChannelKind::kAlerts);
+}
+
+TEST(Channels, OfOthersAreNotTheTwins) {
+  for (const std::string channel : {"", "TWIN_", "TWIN__WHIRL", "TWIN_WHIRL", "TWIN_rotor_WHIRL",
+                                    "TWIN_ROTOR_WHIRLS", "XTWIN_ROTOR_WHIRL", "TWIN_RO TOR_WHIRL",
+                                    "TWIN_2_WHIRL", "TWIN_ROTOR", "ROBOT_STATE", "TWIN_ALERTS_"}) {
+    EXPECT_FALSE(parseChannel(channel)) << channel;
+  }
+}
+
+TEST(Channels, OfTheLongestNameFitLcm) {
+  const std::string longest(kMaxNameLength, 'a');
+  EXPECT_TRUE(isLegalName(longest));
+  EXPECT_FALSE(isLegalName(longest + "a"));
+  EXPECT_EQ(channelName(ChannelKind::kStability, longest).size(), 63u);  // LCM's limit
+}
+
+}  // namespace
+}  // namespace whirl_twin

@@ -1,0 +1,166 @@
+#include "transport/lcm_converters.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "state_samples.h"
+
+namespace whirl_twin {
+namespace {
+
+TEST(LcmConverters, BringEveryBitBack) {
+  StateSamples samples(1);
+  for (int i = 0; i < 300; ++i) {
+    const auto whirl = samples.whirl();
+    EXPECT_EQ(bitsOf(fromLcm(toLcm(whirl))), bitsOf(whirl));
+    const auto pendulum = samples.pendulum();
+    EXPECT_EQ(bitsOf(fromLcm(toLcm(pendulum))), bitsOf(pendulum));
+    const auto drive = samples.drive();
+    EXPECT_EQ(bitsOf(fromLcm(toLcm(drive))), bitsOf(drive));
+    const auto margin = samples.margin();
+    EXPECT_EQ(bitsOf(fromLcm(toLcm(margin))), bitsOf(margin));
+    const auto alert = samples.alert();
+    EXPECT_EQ(bitsOf(fromLcm(toLcm(alert))), bitsOf(alert));
+  }
+}
+
+TEST(LcmConverters, UtimeIsTheSimulatedTimeInMicroseconds) {
+  state::WhirlState whirl;
+  whirl.system = "rotor";
+  whirl.at = {1000001, 1000.001, 1234567890123456789};
+  const auto message = toLcm(whirl);
+  EXPECT_EQ(message.utime, 1000001000);
+  EXPECT_EQ(message.stamp, 1234567890123456789);
+  EXPECT_EQ(message.step, 1000001);
+  whirl.at.time = std::nan("");
+  EXPECT_EQ(toLcm(whirl).utime, 0);
+}
+
+TEST(LcmConverters, AnInstabilitySpeedThatWasNotFoundIsNotValid) {
+  auto margin = StateSamples(2).margin();
+  margin.instability_speed = std::nan("");
+  EXPECT_FALSE(toLcm(margin).instability_speed_valid);
+  margin.instability_speed = 120.0;
+  EXPECT_TRUE(toLcm(margin).instability_speed_valid);
+}
+
+/// Ways to spoil a message that its receiver must notice.
+template <class Message>
+using Spoilers = std::vector<std::function<void(Message&)>>;
+
+template <class Message>
+void expectRejected(const Message& good, const Spoilers<Message>& spoilers) {
+  ASSERT_NO_THROW(fromLcm(good));
+  for (std::size_t i = 0; i < spoilers.size(); ++i) {
+    Message message = good;
+    spoilers[i](message);
+    EXPECT_THROW(fromLcm(message), RejectedMessage) << Message::getTypeName() << " spoiler " << i;
+  }
+}
+
+template <class Message>
+Spoilers<Message> instantSpoilers() {
+  return {[](Message& m) { m.step = -1; },
+          [](Message& m) { m.time = std::nan(""); },
+          [](Message& m) { m.time = INFINITY; },
+          [](Message& m) { m.time += 1.0; },
+          [](Message& m) { m.utime += 1; },
+          [](Message& m) { m.stamp = -1; },
+          [](Message& m) { m.stamp = kMaxStamp + 1; }};
+}
+
+/// A name no system or drive can have.
+const std::vector<std::string> kNoNames{"",
+                                        "2nd",
+                                        "_x",
+                                        "a b",
+                                        "a/b",
+                                        "~x",
+                                        "r\xc3\xb6tor",
+                                        "\xff\xfe",
+                                        std::string("a\0b", 3),
+                                        std::string(kMaxNameLength + 1, 'a'),
+                                        "a\n"};
+
+TEST(LcmConverters, RejectNamesThatAreNone) {
+  StateSamples samples(3);
+  for (const auto& name : kNoNames) {
+    expectRejected<whirl_state_t>(toLcm(samples.whirl()), {[&](auto& m) { m.system = name; }});
+    expectRejected<drive_state_t>(toLcm(samples.drive()), {[&](auto& m) { m.drive = name; }});
+    expectRejected<pendulum_state_t>(toLcm(samples.pendulum()),
+                                     {[&](auto& m) { m.system = name; }});
+    expectRejected<alert_t>(toLcm(samples.alert()),
+                            {[&](auto& m) { m.system = name; }, [&](auto& m) { m.type = name; }});
+    expectRejected<stability_margin_t>(
+        toLcm(samples.margin()),
+        {[&](auto& m) { m.system = name; }, [&](auto& m) { m.model = name; },
+         [&](auto& m) { m.verdict_name = name; }});
+  }
+}
+
+TEST(LcmConverters, RejectImpossibleWhirlsAndDrives) {
+  StateSamples samples(4);
+  const auto whirl = toLcm(samples.whirl());
+  expectRejected(whirl, instantSpoilers<whirl_state_t>());
+  expectRejected<whirl_state_t>(
+      whirl, {[](auto& m) { m.phase_valid = 2; }, [](auto& m) { m.forward = -1; }});
+  expectRejected(toLcm(samples.drive()), instantSpoilers<drive_state_t>());
+}
+
+TEST(LcmConverters, RejectPendulumsWhoseArraysDiffer) {
+  state::PendulumState pendulum;
+  pendulum.system = "arm";
+  pendulum.name = {"theta1", "theta2"};
+  pendulum.angle = {0.1, 0.2};
+  pendulum.rate = {1.0, 2.0};
+  const auto message = toLcm(pendulum);
+  expectRejected(message, instantSpoilers<pendulum_state_t>());
+  expectRejected<pendulum_state_t>(
+      message, {[](auto& m) { m.coordinates = -1; }, [](auto& m) { m.coordinates = 1; },
+                [](auto& m) { m.name.pop_back(); }, [](auto& m) { m.angle.pop_back(); },
+                [](auto& m) { m.rate.push_back(0.0); }, [](auto& m) { m.name[1] = ""; }});
+}
+
+TEST(LcmConverters, RejectImpossibleMargins) {
+  state::StabilityMargin margin;
+  margin.system = "rotor";
+  margin.model = "jeffcott_rotor";
+  margin.verdict_name = "unstable";
+  margin.coordinate = {"x", "y"};
+  margin.operating_point = {0.0, 0.0};
+  margin.polynomial = {1.0, 2.0, 3.0};
+  margin.first_column = {1.0, 2.0, 3.0};
+  margin.right = 2;
+  margin.critical_speeds.resize(1);
+  margin.critical_speeds[0].direction = "forward";
+  const auto message = toLcm(margin);
+  expectRejected(message, instantSpoilers<stability_margin_t>());
+  expectRejected<stability_margin_t>(
+      message,
+      {[](auto& m) { m.verdict = 5; }, [](auto& m) { m.verdict = -1; },
+       [](auto& m) { m.coordinates = 3; }, [](auto& m) { m.operating_point.pop_back(); },
+       [](auto& m) { m.coefficients = -3; }, [](auto& m) { m.rows = 2; },
+       [](auto& m) { m.right = -1; }, [](auto& m) { m.left = 1000; },
+       [](auto& m) { m.instability_speed_valid = 0; },
+       [](auto& m) { m.instability_speed = std::nan(""); }, [](auto& m) { m.critical_speeds = 2; },
+       [](auto& m) { m.band_low.clear(); }, [](auto& m) { m.direction[0] = "sideways"; }});
+}
+
+TEST(LcmConverters, RejectImpossibleAlerts) {
+  const auto alert = toLcm(StateSamples(5).alert());
+  expectRejected<alert_t>(
+      alert,
+      {[](auto& m) { m.severity = 3; }, [](auto& m) { m.state = 2; },
+       [](auto& m) { m.time = std::nan(""); }, [](auto& m) { m.raised_time = INFINITY; },
+       [](auto& m) { m.utime -= 1; }, [](auto& m) { m.stamp = -1; },
+       [](auto& m) { m.text = "\x1b[2J"; }, [](auto& m) { m.text = "\xc0\xaf"; },  // overlong
+       [](auto& m) { m.text = "\xed\xa0\x80"; },  // half a surrogate
+       [](auto& m) { m.text = "cut \xe2\x82"; },  // unfinished
+       [](auto& m) { m.text = std::string(1001, 'a'); }});
+}
+
+}  // namespace
+}  // namespace whirl_twin

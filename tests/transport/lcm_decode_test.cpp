@@ -1,0 +1,132 @@
+#include "transport/lcm_decode.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "state_samples.h"
+#include "transport/lcm_converters.h"
+
+namespace whirl_twin {
+namespace {
+
+using Payload = std::vector<std::uint8_t>;
+
+template <class State>
+Payload encoded(const State& state) {
+  const auto message = toLcm(state);
+  Payload payload(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(payload.data(), 0, static_cast<int>(payload.size()));
+  return payload;
+}
+
+TwinState decoded(const std::string& channel, const Payload& payload) {
+  return decodeEvent(channel, payload.data(), payload.size());
+}
+
+template <class State>
+void expectSameAfterTheWire(const State& state) {
+  const auto back = decoded(channelOf(state), encoded(state));
+  ASSERT_TRUE(std::holds_alternative<State>(back));
+  EXPECT_EQ(bitsOf(std::get<State>(back)), bitsOf(state));
+}
+
+TEST(LcmDecode, BringsEveryBitBackFromTheWire) {
+  StateSamples samples(1);
+  for (int i = 0; i < 300; ++i) {
+    expectSameAfterTheWire(samples.whirl());
+    expectSameAfterTheWire(samples.pendulum());
+    expectSameAfterTheWire(samples.drive());
+    expectSameAfterTheWire(samples.margin());
+    expectSameAfterTheWire(samples.alert());
+  }
+}
+
+/// A margin and a pendulum whose payloads have arrays and strings in them.
+state::PendulumState doublePendulum() {
+  state::PendulumState pendulum;
+  pendulum.system = "arm";
+  pendulum.name = {"theta1", "theta2"};
+  pendulum.angle = {0.1, 0.2};
+  pendulum.rate = {1.0, 2.0};
+  return pendulum;
+}
+
+template <class State>
+void expectEveryCutRejected(const State& state) {
+  const auto whole = encoded(state);
+  for (std::size_t length = 0; length < whole.size(); ++length) {
+    EXPECT_THROW(decoded(channelOf(state), Payload(whole.begin(), whole.begin() + length)),
+                 RejectedMessage)
+        << length << " of " << whole.size() << " bytes";
+  }
+  auto longer = whole;
+  longer.push_back(0);
+  EXPECT_THROW(decoded(channelOf(state), longer), RejectedMessage);
+}
+
+TEST(LcmDecode, RejectsAPayloadCutAnywhereOrTooLong) {
+  StateSamples samples(2);
+  expectEveryCutRejected(samples.whirl());
+  expectEveryCutRejected(doublePendulum());
+  expectEveryCutRejected(samples.drive());
+  expectEveryCutRejected(samples.margin());
+  expectEveryCutRejected(samples.alert());
+}
+
+TEST(LcmDecode, RejectsLengthsThatWouldReadOrAllocateBeyondThePayload) {
+  const auto pendulum = doublePendulum();
+  const auto good = encoded(pendulum);
+  constexpr std::size_t kSystemLength = 8 + 3 * 8;                 // fingerprint, 3 int64
+  constexpr std::size_t kCoordinates = kSystemLength + 4 + 4 + 8;  // "arm" and its 0, time
+  ASSERT_EQ(good[kSystemLength + 3], 4);
+  ASSERT_EQ(good[kCoordinates + 3], 2);
+  for (const std::size_t at : {kSystemLength, kCoordinates}) {
+    for (const std::int32_t length :
+         {std::numeric_limits<std::int32_t>::min(), -1, std::numeric_limits<std::int32_t>::max(),
+          1 << 28, static_cast<std::int32_t>(good.size()), 0}) {
+      auto payload = good;
+      for (int byte = 0; byte < 4; ++byte) {
+        payload[at + byte] =
+            static_cast<std::uint8_t>(static_cast<std::uint32_t>(length) >> (24 - 8 * byte));
+      }
+      EXPECT_THROW(decoded("TWIN_ARM_PENDULUM", payload), RejectedMessage) << length;
+    }
+  }
+}
+
+TEST(LcmDecode, RejectsAnotherTypeAndAnotherSystemsChannel) {
+  const auto pendulum = encoded(doublePendulum());
+  EXPECT_NO_THROW(decoded("TWIN_ARM_PENDULUM", pendulum));
+  EXPECT_THROW(decoded("TWIN_ARM_WHIRL", pendulum), RejectedMessage);
+  EXPECT_THROW(decoded("TWIN_LEG_PENDULUM", pendulum), RejectedMessage);
+  EXPECT_THROW(decoded("ROBOT", pendulum), RejectedMessage);
+  EXPECT_THROW(decodeEvent("TWIN_ARM_PENDULUM", nullptr, 0), RejectedMessage);
+  auto other_type = pendulum;
+  other_type[0] ^= 1;
+  EXPECT_THROW(decoded("TWIN_ARM_PENDULUM", other_type), RejectedMessage);
+}
+
+TEST(LcmDecode, SurvivesAnyDamage) {
+  StateSamples samples(3);
+  std::mt19937 random(4);
+  for (int i = 0; i < 20000; ++i) {
+    const auto margin = samples.margin();
+    auto payload = encoded(margin);
+    for (auto hits = random() % 4 + 1; hits > 0; --hits) {
+      payload[8 + random() % (payload.size() - 8)] = static_cast<std::uint8_t>(random());
+    }
+    try {
+      const auto state = decoded(channelOf(margin), payload);
+      EXPECT_EQ(channelOf(std::get<state::StabilityMargin>(state)), channelOf(margin));
+    } catch (const RejectedMessage&) {
+      continue;  // the other right answer
+    }
+  }
+}
+
+}  // namespace
+}  // namespace whirl_twin
