@@ -89,6 +89,10 @@ class GaussLegendre6 {
   static constexpr double kTolerance = 4.0e-16;
   /// A fixed point that contracts slower than this is left to Newton.
   static constexpr double kSlow = 0.5;
+  /// Newton that no longer contracts has reached the rounding of the accelerations themselves,
+  /// which is that of a number times the condition of the mass matrix (up to 1e6 or so); where it
+  /// diverges the change is as large as the acceleration.
+  static constexpr double kRounding = 1.0e-9;
 
   static WHIRL_TWIN_INLINE Stages constant(const std::array<double, n>& a) { return {a, a, a}; }
 
@@ -208,7 +212,7 @@ class GaussLegendre6 {
         return true;
       }
       if (iteration > 1 && change > 0.9 * previous) {
-        return change <= 4096.0 * kTolerance * size;
+        return change <= kRounding * size;
       }
       previous = change;
     }

@@ -201,12 +201,8 @@ int run() {
              m.integrator.c_str(), m.integrator_reason.empty() ? "" : " (",
              m.integrator_reason.c_str(), m.integrator_reason.empty() ? "" : ")");
   }
-  bool flushed = false;
-  loop.start([&live, &flushed](std::int64_t scheduled) {
-    if (!flushed) {
-      flushDenormals();
-      flushed = true;
-    }
+  loop.start([&live](std::int64_t scheduled) {
+    const DenormalsToZero fast_decay;
     return live.cycle(scheduled);
   });
   const RealtimeStatus status = loop.status();

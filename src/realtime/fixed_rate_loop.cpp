@@ -50,7 +50,7 @@ FixedRateLoop::FixedRateLoop(const Options& options) : options_(options) {
   check(options.period >= kShortestPeriod && options.period <= kLongestPeriod, "period",
         fmt::format("{} to {} ns", kShortestPeriod, kLongestPeriod), options.period);
   check(options.priority >= 1 && options.priority <= 98, "priority", "1 to 98", options.priority);
-  check(options.stack_size >= 64 * 1024, "stack_size", "at least 65536 bytes",
+  check(options.stack_size >= 65'536, "stack_size", "at least 65536 bytes",
         static_cast<std::int64_t>(options.stack_size));
 }
 

@@ -46,9 +46,9 @@ class FixedRateLoop {
     RealtimeMode mode = RealtimeMode::kWarn;
     int priority = 50;  ///< SCHED_FIFO priority, 1 to 98: 99 belongs to the kernel's watchdogs
     OverrunPolicy policy = OverrunPolicy::kSkip;
-    std::uint64_t max_catch_up = 10;       ///< [cycles], for OverrunPolicy::kCatchUp
-    std::size_t stack_size = 1024 * 1024;  ///< [bytes], of the loop's thread
-    std::uint64_t warm_up_cycles = 10;     ///< left out of the histograms
+    std::uint64_t max_catch_up = 10;     ///< [cycles], for OverrunPolicy::kCatchUp
+    std::size_t stack_size = 1'048'576;  ///< [bytes], of the loop's thread
+    std::uint64_t warm_up_cycles = 10;   ///< left out of the histograms
   };
 
   /// std::invalid_argument names an option that is out of range.

@@ -18,11 +18,13 @@ namespace whirl_twin {
 namespace {
 
 constexpr std::uintmax_t kLargestFile = 4u << 20;  // bytes; a scene of ten thousand systems is less
+constexpr std::size_t kLongestName = 48;           // characters; an LCM channel holds 63
 constexpr double kLargestTime = 1.0e9;             // s
 
 /// Names become ROS topics and, upper-cased, LCM channels.
 bool isName(const std::string& text) {
-  return !text.empty() && std::isalpha(static_cast<unsigned char>(text[0])) &&
+  return !text.empty() && text.size() <= kLongestName &&
+         std::isalpha(static_cast<unsigned char>(text[0])) &&
          std::all_of(text.begin(), text.end(),
                      [](unsigned char c) { return std::isalnum(c) || c == '_'; });
 }
@@ -38,7 +40,8 @@ void checkNames(const MapReader& map, const std::string& what, Complaints& compl
   for (const std::string& name : map.names()) {
     if (!isName(name)) {
       complaints.add(map.key(name),
-                     fmt::format("a {} is named by letters, digits and _, a letter first", what));
+                     fmt::format("a {} is named by up to {} letters, digits and _, a letter first",
+                                 what, kLongestName));
     } else if (!channels.insert(upper(name)).second) {
       complaints.add(map.key(name),
                      fmt::format("another {} has this name but for upper and lower case", what));

@@ -21,7 +21,7 @@ void StepContinuity::add(std::int64_t step) {
   } else if (forward_.size() < kMaxDifferences || forward_.count(step - before) != 0) {
     ++forward_[step - before];
   } else {
-    ++forward_.rbegin()->second;
+    ++scattered_;
   }
 }
 
@@ -39,7 +39,7 @@ std::int64_t StepContinuity::stride() const {
 
 std::uint64_t StepContinuity::gaps() const {
   const std::int64_t stride_now = stride();
-  std::uint64_t gaps = 0;
+  std::uint64_t gaps = scattered_;
   for (const auto& [difference, count] : forward_) {
     gaps += difference / stride_now >= 2 ? count : 0;
   }

@@ -17,7 +17,7 @@ class StepContinuity {
   std::int64_t stride() const;
   /// Places where states are missing.
   std::uint64_t gaps() const;
-  /// States missing in all gaps.
+  /// States missing in all gaps, as far as their lengths are known.
   std::uint64_t lost() const;
   /// States with the step of the one before.
   std::uint64_t repeated() const { return repeated_; }
@@ -27,6 +27,7 @@ class StepContinuity {
  private:
   std::int64_t last_ = -1;
   std::map<std::int64_t, std::uint64_t> forward_;  ///< how often each difference > 0 occurred
+  std::uint64_t scattered_ = 0;                    ///< differences too many to keep
   std::uint64_t repeated_ = 0;
   std::uint64_t backward_ = 0;
 };

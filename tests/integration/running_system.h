@@ -75,10 +75,10 @@ class RunningSystem {
     return status;
   }
 
-  double time() const { return seconds(count_ * step_); }                        ///< [s]
-  double q(std::size_t i) const { return record_[i]; }                           ///< [rad] or [m]
-  double v(std::size_t i) const { return record_[dof_ + i]; }                    ///< the rates
-  double work() const { return record_[2 * dof_]; }                              ///< [J], audited
+  double time() const { return seconds(count_ * step_); }      ///< [s]
+  double q(std::size_t i) const { return record_[i]; }         ///< [rad] or [m]
+  double v(std::size_t i) const { return record_[dof_ + i]; }  ///< the rates
+  double work() const { return record_[2 * dof_]; }            ///< [J], audited
   const Drive& drive() const { return drive_; }
   const Dynamics& dynamics() const { return *dynamics_; }
   Energies energies() const {

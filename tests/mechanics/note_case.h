@@ -1,5 +1,5 @@
-// The lecture notes' reference numbers (tests/reference/note_cases.json), and what the models say to
-// each of them.
+// The lecture notes' reference numbers (tests/reference/note_cases.json), and what the models say
+// to each of them.
 #pragma once
 
 #include <cctype>
@@ -29,7 +29,9 @@ struct NoteCase {
     const auto found = given.find(name);
     return found == given.end() ? fallback : found->second;
   }
-  bool startsWith(const std::string& prefix) const { return id.compare(0, prefix.size(), prefix) == 0; }
+  bool startsWith(const std::string& prefix) const {
+    return id.compare(0, prefix.size(), prefix) == 0;
+  }
   bool contains(const std::string& part) const { return id.find(part) != std::string::npos; }
 };
 

@@ -43,8 +43,7 @@ Eigen::Vector2d rodTensions(const Dynamics& pendulum, const NoteCase& c) {
     const std::string number = std::to_string(i + 1);
     const Eigen::Vector2d along(std::cos(theta[i]), std::sin(theta[i]));
     to_pivot[i] = Eigen::Vector2d(-std::sin(theta[i]), std::cos(theta[i]));
-    bob_acceleration +=
-        c.at("l" + number) * (a[i] * along + rate[i] * rate[i] * to_pivot[i]);
+    bob_acceleration += c.at("l" + number) * (a[i] * along + rate[i] * rate[i] * to_pivot[i]);
     needed[i] = c.at("m" + number) * (bob_acceleration + Eigen::Vector2d(0.0, c.at("g")));
   }
   const double lower = needed[1].dot(to_pivot[1]);
@@ -120,7 +119,8 @@ std::vector<double> spinningPendulumAnswers(const NoteCase& c) {
     return {endOfMotion(setup, c, {"theta", "theta_d"})};
   }
   if (c.startsWith("acc.")) {
-    return {pendulum->acceleration(vector({c.at("at_theta")}), vector({c.at("at_theta_d")}), at)[0]};
+    return {
+        pendulum->acceleration(vector({c.at("at_theta")}), vector({c.at("at_theta_d")}), at)[0]};
   }
   if (c.startsWith("inv.h0.")) {
     return {pendulum->energies(vector({setup.q[0]}), vector({setup.v[0]}), at).jacobi};
@@ -156,21 +156,21 @@ std::vector<double> doublePendulumAnswers(const NoteCase& c) {
   const ModelInfo& model = *findModel(setup.model);
   const auto pendulum = model.dynamics(completed(model, setup.parameters), setup.gravity);
   const auto linearAt = [&](double theta1, double theta2) {
-    return pendulum->linearization(vector({theta1, theta2}), vector({0.0, 0.0}),
-                                   vector({0.0, 0.0}), {});
+    return pendulum->linearization(vector({theta1, theta2}), vector({0.0, 0.0}), vector({0.0, 0.0}),
+                                   {});
   };
   if (c.startsWith("traj.")) {
     return {endOfMotion(setup, c, {"theta1", "theta2", "theta1_d", "theta2_d"})};
   }
   if (c.startsWith("acc.")) {
-    const Vector a =
-        pendulum->acceleration(vector({c.at("at_theta1"), c.at("at_theta2")}),
-                               vector({c.at("at_theta1_d"), c.at("at_theta2_d")}), {});
+    const Vector a = pendulum->acceleration(vector({c.at("at_theta1"), c.at("at_theta2")}),
+                                            vector({c.at("at_theta1_d"), c.at("at_theta2_d")}), {});
     return {a[c.contains(".theta1") ? 0 : 1]};
   }
   if (c.startsWith("inv.h0.")) {
-    return {pendulum->energies(vector({setup.q[0], setup.q[1]}), vector({setup.v[0], setup.v[1]}), {})
-                .jacobi};
+    return {
+        pendulum->energies(vector({setup.q[0], setup.q[1]}), vector({setup.v[0], setup.v[1]}), {})
+            .jacobi};
   }
   if (c.startsWith("reaction.dp.")) {
     return {rodTensions(*pendulum, c)[c.contains(".T1.") ? 0 : 1]};

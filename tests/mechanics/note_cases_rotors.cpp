@@ -107,8 +107,7 @@ std::vector<double> polarAnswers(const NoteCase& c) {
   RunningSystem::Setup setup = unbalancedRotor(c);
   const Complex direction = std::polar(1.0, c.at("ic_theta"));
   const Complex z = c.at("ic_r") * direction;
-  const Complex z_rate =
-      Complex(c.at("ic_r_d"), c.at("ic_r") * c.at("ic_theta_d")) * direction;
+  const Complex z_rate = Complex(c.at("ic_r_d"), c.at("ic_r") * c.at("ic_theta_d")) * direction;
   setup.q = {z.real(), z.imag()};
   setup.v = {z_rate.real(), z_rate.imag()};
   std::vector<double> answers;

@@ -1,4 +1,5 @@
-// Every reference number of the lecture notes that belongs to a model of this program is reproduced.
+// Every reference number of the lecture notes that belongs to a model of this program is
+// reproduced.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -83,8 +84,7 @@ TEST_P(NoteCaseOf, IsReproduced) {
   const NoteCase& c = GetParam();
   // Accelerations are evaluated, not integrated: a dozen roundings. All else within the tolerance
   // that comes with the case.
-  const double tolerance =
-      c.startsWith("acc.") ? 1e-12 * std::abs(c.expected) : c.tolerance;
+  const double tolerance = c.startsWith("acc.") ? 1e-12 * std::abs(c.expected) : c.tolerance;
   for (const double answer : kModelled.at(c.system).answers(c)) {
     EXPECT_NEAR(answer, c.expected, tolerance);
   }

@@ -26,10 +26,12 @@ __attribute__((tls_model("initial-exec"))) thread_local std::uint64_t allocation
 extern "C" {
 
 // glibc's own functions under the names it keeps for this purpose.
+// NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
 void* __libc_realloc(void* block, std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);
+// NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming)
 
 void* malloc(std::size_t size) {
   ++allocations_of_thread;
@@ -75,8 +77,6 @@ int posix_memalign(void** block, std::size_t alignment, std::size_t size) {
 namespace whirl_twin {
 
 AllocationGuard::AllocationGuard() noexcept : before_(allocations_of_thread) {}
-
-AllocationGuard::~AllocationGuard() = default;
 
 std::uint64_t AllocationGuard::allocations() const noexcept {
   return allocations_of_thread - before_;

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cfloat>
+#include <chrono>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -52,6 +53,7 @@ TEST(FixedRateLoopControl, ALongPeriodDoesNotDelayTheStop) {
   options.period = 10'000'000'000;
   FixedRateLoop loop(options);
   loop.start([](std::int64_t) { return true; });
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));  // so that it is asleep when stopped
   const std::int64_t before = monotonicNow();
   loop.stop();
   EXPECT_LT(monotonicNow() - before, 2'000'000'000);
@@ -135,7 +137,7 @@ TEST(FixedRateLoopControl, WithoutPrivilegesWarnRunsAndSaysWhatIsMissing) {
 }
 
 TEST(FixedRateLoopControl, AnOptionOutOfRangeIsNamed) {
-  const auto messageOf = [](FixedRateLoop::Options options) -> std::string {
+  const auto message_of = [](FixedRateLoop::Options options) -> std::string {
     try {
       FixedRateLoop loop(options);
     } catch (const std::invalid_argument& error) {
@@ -144,16 +146,16 @@ TEST(FixedRateLoopControl, AnOptionOutOfRangeIsNamed) {
     return "accepted";
   };
   FixedRateLoop::Options options = ordinary();
-  EXPECT_EQ(messageOf(options), "accepted");
+  EXPECT_EQ(message_of(options), "accepted");
   options.period = 0;
-  EXPECT_EQ(messageOf(options),
+  EXPECT_EQ(message_of(options),
             "fixed-rate loop: period: expected 10000 to 3600000000000 ns, found 0");
   options = ordinary();
   options.priority = 99;
-  EXPECT_EQ(messageOf(options), "fixed-rate loop: priority: expected 1 to 98, found 99");
+  EXPECT_EQ(message_of(options), "fixed-rate loop: priority: expected 1 to 98, found 99");
   options = ordinary();
   options.stack_size = 1000;
-  EXPECT_EQ(messageOf(options),
+  EXPECT_EQ(message_of(options),
             "fixed-rate loop: stack_size: expected at least 65536 bytes, found 1000");
   FixedRateLoop loop(ordinary());
   EXPECT_THROW(loop.start(nullptr), std::invalid_argument);

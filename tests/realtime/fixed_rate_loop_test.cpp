@@ -25,6 +25,13 @@ struct Trace {
   std::uint64_t skippedAfter(std::size_t cycle) const {
     return static_cast<std::uint64_t>((scheduled[cycle + 1] - scheduled[cycle]) / kPeriod - 1);
   }
+  std::uint64_t skippedInAll() const {
+    std::uint64_t skipped = 0;
+    for (std::size_t i = 0; i + 1 < scheduled.size(); ++i) {
+      skipped += skippedAfter(i);
+    }
+    return skipped;
+  }
 };
 
 // Runs `cycles` cycles, of which number `late` takes until `lateness` [ns] after it was due.
@@ -74,11 +81,13 @@ TEST(FixedRateLoop, SkipLeavesOutWhatWasMissedAndKeepsThePhase) {
   EXPECT_GE(seen.scheduled[5], seen.late_end);
   EXPECT_GE(seen.skippedAfter(4), 3U);
   EXPECT_GE(seen.timing.overruns, 1U);
-  std::uint64_t skipped = 0;
-  for (std::size_t i = 0; i + 1 < seen.scheduled.size(); ++i) {
-    skipped += seen.skippedAfter(i);
-  }
-  EXPECT_EQ(seen.timing.skipped, skipped);
+  EXPECT_EQ(seen.timing.skipped, seen.skippedInAll());
+}
+
+TEST(FixedRateLoop, NothingIsLeftOutAfterTheLastCycle) {
+  const Trace seen = trace(ordinary(), 5, 4, 7 * kPeriod / 2);
+  EXPECT_GE(seen.timing.overruns, 1U);
+  EXPECT_EQ(seen.timing.skipped, seen.skippedInAll());
 }
 
 TEST(FixedRateLoop, CatchUpRunsEveryMissedCycle) {

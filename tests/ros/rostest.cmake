@@ -1,9 +1,10 @@
 # whirl_twin_rostest(NAME FILE.test [SOURCES FILE...] [LIBRARIES LIB...] [DEPENDENCIES TARGET...])
 #
-# One ctest entry rostest_NAME: the launch file FILE.test run by rostest, with a master, a loopback and a
-# multicast route of its own. A SOURCES list is built into the gtest program NAME, which the launch file starts
-# as <test test-name="NAME" pkg="whirl_twin" type="NAME"/>; it has its own main, for ros::init. The target
-# rostest_NAME builds that program and the DEPENDENCIES, the nodes that the launch file starts.
+# One ctest entry rostest_NAME: the launch file FILE.test run by rostest, with a master, a loopback
+# and a multicast route of its own. A SOURCES list is built into the gtest program NAME, which the
+# launch file starts as <test test-name="NAME" pkg="whirl_twin" type="NAME"/>; it has its own main, for
+# ros::init. The target rostest_NAME builds that program and the DEPENDENCIES, the nodes that the
+# launch file starts.
 find_program(ROSTEST rostest REQUIRED)
 
 function(whirl_twin_rostest name file)
@@ -19,8 +20,9 @@ function(whirl_twin_rostest name file)
       ${rostest_LIBRARIES} GTest::gtest)
     add_dependencies(rostest_${name} ${name})
   endif()
-  # Not with --text: rostest then passes whatever the test programs report. A file that ran no test is a failure.
-  # The devel space makes the package, its programs and its messages known. ROS_HOSTNAME would outrank ROS_IP.
+  # Not with --text: rostest then passes whatever the test programs report. A file that ran no test
+  # is a failure. The devel space makes the package, its programs and its messages known.
+  # ROS_HOSTNAME would outrank ROS_IP.
   add_test(NAME rostest_${name}
     COMMAND ${PROJECT_SOURCE_DIR}/tests/ros/in_private_network
       env -u ROS_HOSTNAME ROS_IP=127.0.0.1 ROS_HOME=${PROJECT_BINARY_DIR}/ros_home/${name}

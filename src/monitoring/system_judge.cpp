@@ -1,0 +1,81 @@
+#include "monitoring/system_judge.h"
+
+#include <cmath>
+
+#include "analysis/equilibria.h"
+#include "analysis/instability_speed.h"
+#include "monitoring/separation_margin.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+/// The threshold of an equilibrium that moves with speed is searched anew this often [s].
+constexpr double kSearchPeriod = 1.0;
+
+}  // namespace
+
+SystemJudge::SystemJudge(const Twin::Member& member)
+    : system_(member.spec.name),
+      model_(member.model->name),
+      dynamics_(member.dynamics),
+      critical_speeds_(criticalSpeeds(*member.dynamics)) {}
+
+std::vector<state::CriticalSpeedMargin> SystemJudge::criticalSpeedMargins(double speed) const {
+  std::vector<state::CriticalSpeedMargin> margins;
+  for (const CriticalSpeed& c : critical_speeds_) {
+    margins.push_back(criticalSpeedMargin(speed, c.speed, c.forward ? "forward" : "backward",
+                                          c.amplification_factor));
+  }
+  return margins;
+}
+
+void SystemJudge::findInstabilitySpeed(double time, const Eigen::VectorXd& about, double speed) {
+  const bool settled = dynamics_->linear() && instability_found_at_;
+  if (settled ||
+      (instability_found_at_ && std::fabs(time - *instability_found_at_) < kSearchPeriod)) {
+    return;
+  }
+  instability_speed_ = whirl_twin::instabilitySpeed(*dynamics_, about, speed).value_or(kNaN);
+  instability_found_at_ = time;
+}
+
+state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::vector<double>& q,
+                                          double speed) {
+  const double shaft_speed = dynamics_->hasShaft() ? speed : 0.0;
+  const Eigen::VectorXd present =
+      Eigen::Map<const Eigen::VectorXd>(q.data(), static_cast<Eigen::Index>(q.size()));
+  const std::optional<Equilibrium> point = operatingPoint(*dynamics_, present, shaft_speed);
+  const Eigen::VectorXd about = point                 ? point->q
+                                : dynamics_->linear() ? Eigen::VectorXd::Zero(dynamics_->dof())
+                                                      : present;
+  const Stability s =
+      point ? point->stability : stability(linearizationAtRest(*dynamics_, about, shaft_speed));
+  findInstabilitySpeed(at.time, about, shaft_speed);
+
+  state::StabilityMargin m;
+  m.at = at;
+  m.system = system_;
+  m.model = model_;
+  m.verdict = static_cast<std::uint8_t>(s.routh.verdict);
+  m.verdict_name = name(s.routh.verdict);
+  for (const Coordinate& c : dynamics_->coordinates()) {
+    m.coordinate.emplace_back(c.name);
+  }
+  m.operating_point.assign(about.data(), about.data() + about.size());
+  m.speed = dynamics_->hasShaft() ? speed : kNaN;
+  m.polynomial = s.polynomial;
+  m.first_column = s.routh.first_column;
+  m.right = static_cast<std::uint32_t>(s.routh.right);
+  m.imaginary = static_cast<std::uint32_t>(s.routh.imaginary);
+  m.left = static_cast<std::uint32_t>(s.routh.left);
+  m.decay_rate = s.decay_rate;
+  m.damping_ratio = s.damping_ratio;
+  m.log_decrement = s.log_decrement;
+  m.instability_speed = instability_speed_;
+  m.critical_speeds = criticalSpeedMargins(shaft_speed);
+  return m;
+}
+
+}  // namespace whirl_twin

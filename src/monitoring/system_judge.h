@@ -1,0 +1,43 @@
+// Judges one system of a scene at its present speed and state: linearises it about the equilibrium
+// it operates at, applies Routh's test, and measures the distance to its critical and threshold
+// speeds.
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/critical_speeds.h"
+#include "monitoring/stability_margin.h"
+#include "scene/twin.h"
+
+namespace whirl_twin {
+
+class SystemJudge {
+ public:
+  explicit SystemJudge(const Twin::Member& member);
+
+  const std::string& system() const { return system_; }
+  /// Critical speeds seen from a running speed [rad/s]; empty for anything but a linear rotor.
+  std::vector<state::CriticalSpeedMargin> criticalSpeedMargins(double speed) const;
+  /// The verdict with coordinates q at shaft speed [rad/s] (ignored without a shaft).
+  state::StabilityMargin judge(const state::Instant& at, const std::vector<double>& q,
+                               double speed);
+  /// [rad/s], of the last judgement; NaN: none.
+  double instabilitySpeed() const { return instability_speed_; }
+
+ private:
+  void findInstabilitySpeed(double time, const Eigen::VectorXd& about, double speed);
+
+  std::string system_;
+  std::string model_;
+  std::shared_ptr<const Dynamics> dynamics_;
+  std::vector<CriticalSpeed> critical_speeds_;
+  double instability_speed_ = std::numeric_limits<double>::quiet_NaN();
+  std::optional<double> instability_found_at_;  ///< [s], simulated
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,152 @@
+#include "monitoring/twin_monitor.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kJudgingPeriod = 0.1;  // s, simulated
+/// Topics overtake each other by less than this [s]; more is a reset.
+constexpr double kReset = 0.5;
+
+std::vector<std::string> systemNames(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const SystemSpec& system : scene.systems) {
+    names.push_back(system.name);
+  }
+  return names;
+}
+
+}  // namespace
+
+TwinMonitor::Watch::Watch(const Twin::Member& member, std::string drive_name,
+                          const AlarmSettings& settings)
+    : judge(member),
+      drive(std::move(drive_name)),
+      speed(member.spec.speed.value_or(0.0)),
+      critical_speed_alarm(member.spec.name, settings),
+      stability_alarm(member.spec.name, settings),
+      state_alarm(member.spec.name, settings) {}
+
+TwinMonitor::TwinMonitor(const Scene& scene, const AlarmSettings& settings)
+    : twin_(scene), settings_(settings), data_lost_alarm_(systemNames(scene), settings) {
+  restart();
+}
+
+void TwinMonitor::restart() {
+  for (const state::Alert& alert : alerts_.active()) {
+    alerts_.clear(alert.system, alert.type, time_, "the simulation was reset");
+  }
+  data_lost_alarm_ = DataLostAlarm(systemNames(twin_.scene()), settings_);
+  if (!watches_.empty()) {
+    for (Watch& watch : watches_) {
+      watch.critical_speed_alarm = CriticalSpeedAlarm(watch.judge.system(), settings_);
+      watch.stability_alarm = StabilityAlarm(watch.judge.system(), settings_);
+      watch.state_alarm = StateAlarm(watch.judge.system(), settings_);
+      watch.judged = false;
+    }
+    return;
+  }
+  for (const Twin::Member& member : twin_.members()) {
+    watches_.emplace_back(member, member.spec.drive.value_or(""), settings_);
+  }
+}
+
+TwinMonitor::Watch* TwinMonitor::find(const std::string& system) {
+  const auto found = std::find_if(watches_.begin(), watches_.end(), [&](const Watch& watch) {
+    return watch.judge.system() == system;
+  });
+  return found == watches_.end() ? nullptr : &*found;
+}
+
+void TwinMonitor::advance(double time) {
+  if (started_ && time < time_ - kReset) {
+    time_ = time;
+    restart();
+  }
+  started_ = true;
+  time_ = std::max(time_, time);
+}
+
+void TwinMonitor::arrived(const std::string& source, const state::Instant& at, double wall_time) {
+  advance(at.time);
+  data_lost_alarm_.received(source, wall_time, time_, alerts_);
+}
+
+void TwinMonitor::watchShaft(Watch& watch, const state::DriveState& shaft) {
+  watch.speed = shaft.speed;
+  watch.critical_speed_alarm.update(shaft, watch.judge.criticalSpeedMargins(shaft.speed), alerts_);
+}
+
+void TwinMonitor::judge(Watch& watch, const state::Instant& at, const std::vector<double>& q) {
+  const double threshold = watch.judge.instabilitySpeed();
+  const bool passed =
+      (std::fabs(watch.speed) > threshold) != (std::fabs(watch.judged_speed) > threshold);
+  if (watch.judged && !passed && at.time < watch.judged_at + kJudgingPeriod * (1.0 - 1.0e-9)) {
+    return;
+  }
+  const state::StabilityMargin margin = watch.judge.judge(at, q, watch.speed);
+  watch.judged = true;
+  watch.judged_at = at.time;
+  watch.judged_speed = watch.speed;
+  watch.stability_alarm.update(margin, alerts_);
+  margins_.push_back(margin);
+}
+
+void TwinMonitor::take(const state::WhirlState& whirl, double wall_time) {
+  Watch* watch = find(whirl.system);
+  if (watch == nullptr) {
+    return;
+  }
+  arrived(whirl.system, whirl.at, wall_time);
+  if (watch->drive.empty()) {
+    state::DriveState shaft;
+    shaft.at = whirl.at;
+    shaft.speed = shaft.target_speed = whirl.speed;
+    watchShaft(*watch, shaft);
+  }
+  watch->speed = whirl.speed;
+  watch->state_alarm.updateEnergy(whirl.at.time, whirl.energy_residual, alerts_);
+  judge(*watch, whirl.at, {whirl.x, whirl.y});
+}
+
+void TwinMonitor::take(const state::PendulumState& pendulum, double wall_time) {
+  Watch* watch = find(pendulum.system);
+  if (watch == nullptr) {
+    return;
+  }
+  arrived(pendulum.system, pendulum.at, wall_time);
+  watch->state_alarm.updateEnergy(pendulum.at.time, pendulum.energy_residual, alerts_);
+  judge(*watch, pendulum.at, pendulum.angle);
+}
+
+void TwinMonitor::take(const state::DriveState& drive, double wall_time) {
+  bool known = false;
+  for (Watch& watch : watches_) {
+    if (watch.drive != drive.drive) {
+      continue;
+    }
+    if (!known) {
+      arrived(drive.drive, drive.at, wall_time);
+      known = true;
+    }
+    watchShaft(watch, drive);
+  }
+}
+
+void TwinMonitor::takeStopped(const std::string& system, double time, bool stopped,
+                              const std::string& why) {
+  if (Watch* watch = find(system)) {
+    watch->state_alarm.updateFinite(time, stopped, why, alerts_);
+  }
+}
+
+std::vector<state::StabilityMargin> TwinMonitor::takeMargins() {
+  std::vector<state::StabilityMargin> margins;
+  margins.swap(margins_);
+  return margins;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,70 @@
+// The monitor of a whole scene: live states in, stability margins and alerts out. No ROS, no LCM.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "monitoring/alarm_settings.h"
+#include "monitoring/alert_list.h"
+#include "monitoring/critical_speed_alarm.h"
+#include "monitoring/data_lost_alarm.h"
+#include "monitoring/stability_alarm.h"
+#include "monitoring/state_alarm.h"
+#include "monitoring/system_judge.h"
+#include "scene/twin.h"
+
+namespace whirl_twin {
+
+class TwinMonitor {
+ public:
+  TwinMonitor(const Scene& scene, const AlarmSettings& settings);
+
+  // States as they arrive, wall_time [s] from a clock that only goes forward. Those of systems and
+  // drives the scene does not have are ignored. Time that goes back means the twin was reset: all
+  // alerts clear and the alarms begin anew.
+  void take(const state::WhirlState& whirl, double wall_time);
+  void take(const state::PendulumState& pendulum, double wall_time);
+  void take(const state::DriveState& drive, double wall_time);
+  /// The simulation says whether a system has stopped, and why.
+  void takeStopped(const std::string& system, double time, bool stopped, const std::string& why);
+
+  /// Margins judged since last asked: ten a second of simulated time for each system, and at once
+  /// where a rotor passes its threshold speed.
+  std::vector<state::StabilityMargin> takeMargins();
+  AlertList& alerts() { return alerts_; }
+  double time() const { return time_; }  ///< [s], simulated, of the newest state
+
+ private:
+  struct Watch {
+    Watch(const Twin::Member& member, std::string drive, const AlarmSettings& settings);
+
+    SystemJudge judge;
+    std::string drive;  ///< "" at a constant speed of its own
+    double speed;       ///< [rad/s], newest
+    CriticalSpeedAlarm critical_speed_alarm;
+    StabilityAlarm stability_alarm;
+    StateAlarm state_alarm;
+    bool judged = false;
+    double judged_at = 0.0;     ///< [s], simulated
+    double judged_speed = 0.0;  ///< [rad/s]
+  };
+
+  void restart();
+  void advance(double time);
+  Watch* find(const std::string& system);
+  void arrived(const std::string& source, const state::Instant& at, double wall_time);
+  void judge(Watch& watch, const state::Instant& at, const std::vector<double>& q);
+  void watchShaft(Watch& watch, const state::DriveState& shaft);
+
+  Twin twin_;
+  AlarmSettings settings_;
+  std::vector<Watch> watches_;
+  DataLostAlarm data_lost_alarm_;
+  AlertList alerts_;
+  std::vector<state::StabilityMargin> margins_;
+  bool started_ = false;
+  double time_ = 0.0;
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,120 @@
+#include "nodes/lcm_bridge.h"
+
+#include <algorithm>
+#include <variant>
+#include <vector>
+
+#include "transport/ros_converters.h"
+
+namespace whirl_twin {
+namespace {
+
+/// Messages a slow subscriber may fall behind: 100 s at 1 kHz, 10 s of that played ten times
+/// faster.
+constexpr std::uint32_t kQueueSize = 100000;
+const ros::WallDuration kConnectTimeout(2.0);
+const ros::WallDuration kConnectPoll(0.001);
+
+/// How many nodes the master knows to have subscribed to a topic; 0 without a master.
+std::size_t subscribersOf(const std::string& topic) {
+  XmlRpc::XmlRpcValue request;
+  XmlRpc::XmlRpcValue response;
+  XmlRpc::XmlRpcValue payload;  // [publishers, subscribers, services], each [[topic, [nodes]], ...]
+  request[0] = ros::this_node::getName();
+  if (!ros::master::execute("getSystemState", request, response, payload, false)) {
+    return 0;
+  }
+  auto& subscribed = payload[1];
+  for (int i = 0; i < subscribed.size(); ++i) {
+    if (static_cast<std::string&>(subscribed[i][0]) == topic) {
+      return static_cast<std::size_t>(subscribed[i][1].size());
+    }
+  }
+  return 0;
+}
+
+void awaitSubscribers(const ros::Publisher& publisher) {
+  const std::size_t expected = subscribersOf(publisher.getTopic());
+  const ros::WallTime deadline = ros::WallTime::now() + kConnectTimeout;
+  while (publisher.getNumSubscribers() < expected && ros::ok()) {
+    if (ros::WallTime::now() > deadline) {
+      ROS_WARN("%s: %zu nodes have subscribed, only %u are connected; going on",
+               publisher.getTopic().c_str(), expected, publisher.getNumSubscribers());
+      return;
+    }
+    kConnectPoll.sleep();
+  }
+}
+
+/// Most severe first, then the oldest.
+bool isMoreUrgent(const state::Alert& a, const state::Alert& b) {
+  if (a.severity != b.severity) {
+    return a.severity > b.severity;
+  }
+  return a.raised_time != b.raised_time ? a.raised_time < b.raised_time : a.id < b.id;
+}
+
+}  // namespace
+
+LcmBridge::LcmBridge(const ros::NodeHandle& twin, bool derived) : twin_(twin) {
+  if (derived) {
+    alert_publisher_ = twin_.advertise<AlertArray>("alerts", kQueueSize, true);
+    alert_publisher_.publish(AlertArray());
+  }
+}
+
+void LcmBridge::publish(const TwinState& state) {
+  std::visit([this](const auto& s) { publishState(s); }, state);
+}
+
+void LcmBridge::publishState(const state::WhirlState& whirl) {
+  publishOn(whirl.system + "/whirl", toRos(whirl));
+  publishOn(whirl.system + "/joint_states", toJointState(whirl));
+}
+
+void LcmBridge::publishState(const state::PendulumState& pendulum) {
+  publishOn(pendulum.system + "/pendulum", toRos(pendulum));
+  publishOn(pendulum.system + "/joint_states", toJointState(pendulum));
+}
+
+void LcmBridge::publishState(const state::DriveState& drive) {
+  publishOn("drives/" + drive.drive, toRos(drive));
+}
+
+void LcmBridge::publishState(const state::StabilityMargin& margin) {
+  publishOn(margin.system + "/stability", toRos(margin));
+}
+
+void LcmBridge::publishState(const state::Alert& alert) {
+  if (alert.time < last_alert_time_) {
+    active_alerts_.clear();  // the log or the twin has begun anew
+  }
+  last_alert_time_ = alert.time;
+  if (alert.raised) {
+    active_alerts_[alert.id] = alert;
+  } else {
+    active_alerts_.erase(alert.id);
+  }
+  std::vector<state::Alert> list;
+  for (const auto& [id, active] : active_alerts_) {
+    list.push_back(active);
+  }
+  std::sort(list.begin(), list.end(), isMoreUrgent);
+  alert_publisher_.publish(toRos(list, alert.stamp));
+}
+
+template <class Message>
+void LcmBridge::publishOn(const std::string& topic, const Message& message) {
+  auto [place, is_new] = publishers_.try_emplace(topic);
+  if (is_new) {
+    place->second = twin_.advertise<Message>(topic, kQueueSize);
+    if (place->second) {
+      awaitSubscribers(place->second);
+    }
+  }
+  if (place->second) {  // null: advertised while ROS was shutting down
+    place->second.publish(message);
+  }
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,115 @@
+// lcm_bridge_node: LCM channels TWIN_* to the ROS topics of a live twin under /twin, for logs being
+// played back and twins elsewhere. Needs no scene. Private parameters:
+//   ~lcm_url   where to listen (default: channels.h)
+//   ~derived   also publish recorded stability margins and alerts (default false: a monitor listens
+//              to the states and publishes its own)
+// Says what it received, lost and rejected on /diagnostics once a second, and when it ends. The
+// service ~ready (std_srvs/Trigger) is there as soon as the bridge listens.
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <fmt/format.h>
+#include <ros/ros.h>
+#include <std_srvs/Trigger.h>
+
+#include <chrono>
+#include <cstdio>
+#include <stdexcept>
+#include <vector>
+
+#include "nodes/lcm_bridge.h"
+#include "transport/channels.h"
+#include "transport/lcm_connection.h"
+#include "transport/lcm_receiver.h"
+
+namespace whirl_twin {
+namespace {
+
+constexpr std::chrono::milliseconds kPoll{50};
+const ros::WallDuration kReportPeriod(1.0);
+
+template <class Value>
+Value parameter(const char* name, const char* expected, const Value& fallback) {
+  const ros::NodeHandle node("~");
+  Value value = fallback;
+  if (node.hasParam(name) && !node.getParam(name, value)) {
+    throw std::invalid_argument(
+        fmt::format("{}: expected {}, found another type", node.resolveName(name), expected));
+  }
+  return value;
+}
+
+std::vector<ChannelKind> kindsOf(bool derived) {
+  std::vector<ChannelKind> kinds{ChannelKind::kWhirl, ChannelKind::kPendulum, ChannelKind::kDrive};
+  if (derived) {
+    kinds.insert(kinds.end(), {ChannelKind::kStability, ChannelKind::kAlerts});
+  }
+  return kinds;
+}
+
+std::string countsOf(const LcmReceiver& receiver) {
+  return fmt::format("{} received, {} lost, {} rejected", receiver.received(), receiver.lost(),
+                     receiver.rejected());
+}
+
+void report(const LcmReceiver& receiver, diagnostic_updater::DiagnosticStatusWrapper& status) {
+  using diagnostic_msgs::DiagnosticStatus;
+  const bool complete = receiver.lost() + receiver.rejected() == 0;
+  status.summary(complete ? DiagnosticStatus::OK : DiagnosticStatus::WARN, countsOf(receiver));
+  status.add("received", receiver.received());
+  status.add("lost", receiver.lost());
+  status.add("rejected", receiver.rejected());
+  status.add("last rejection", receiver.lastRejection());
+  for (const auto& [name, count] : receiver.channels()) {
+    status.add(name, fmt::format("{} received, {} lost", count.received, count.steps.lost()));
+  }
+}
+
+void run() {
+  const auto url = parameter<std::string>("lcm_url", "an LCM url", kDefaultLcmUrl);
+  const auto derived = parameter<bool>("derived", "true or false", false);
+  LcmBridge bridge(ros::NodeHandle("/twin"), derived);
+  LcmReceiver receiver(openLcm(url), kindsOf(derived),
+                       [&bridge](const TwinState& state) { bridge.publish(state); });
+
+  diagnostic_updater::Updater diagnostics;
+  diagnostics.setHardwareID("LCM " + url);
+  diagnostics.add("received from LCM", [&receiver](auto& status) { report(receiver, status); });
+
+  ros::NodeHandle node("~");
+  using Trigger = std_srvs::Trigger;
+  const auto ready = node.advertiseService<Trigger::Request, Trigger::Response>(
+      "ready", [&receiver](Trigger::Request&, Trigger::Response& response) {
+        response.success = true;
+        response.message = countsOf(receiver);
+        return true;
+      });
+
+  // Wall time: simulated time may stand still, or come from the log itself.
+  ros::WallTime next_report = ros::WallTime::now();
+  while (ros::ok()) {
+    receiver.receive(kPoll);
+    ros::spinOnce();
+    if (ros::WallTime::now() >= next_report) {
+      next_report = ros::WallTime::now() + kReportPeriod;
+      diagnostics.force_update();
+    }
+  }
+  // ROS has shut down, and its log with it.
+  fmt::print("lcm_bridge_node: {}\n", countsOf(receiver));
+  for (const auto& [name, count] : receiver.channels()) {
+    fmt::print("  {}: {} received, {} lost\n", name, count.received, count.steps.lost());
+  }
+}
+
+}  // namespace
+}  // namespace whirl_twin
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "lcm_bridge");
+  try {
+    whirl_twin::run();
+  } catch (const std::exception& problem) {
+    fmt::print(stderr, "lcm_bridge_node: {}\n", problem.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,227 @@
+// The monitor: live states in, by ROS or by LCM; stability margins and the list of alerts out.
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <fmt/format.h>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <whirl_twin/AlertArray.h>
+#include <whirl_twin/LoopStatistics.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <map>
+#include <memory>
+
+#include "monitoring/twin_monitor.h"
+#include "nodes/scene_parameters.h"
+#include "scene/node_reader.h"
+#include "scene/scene_reader.h"
+#include "transport/channels.h"
+#include "transport/lcm_connection.h"
+#include "transport/lcm_publisher.h"
+#include "transport/lcm_receiver.h"
+#include "transport/message_check.h"
+#include "transport/ros_converters.h"
+
+namespace whirl_twin {
+
+namespace {
+
+std::atomic<bool> stop_requested{false};
+void requestStop(int) {
+  stop_requested.store(true);
+}
+
+constexpr std::uint32_t kQueue = 5000;  // some seconds at 1 kHz
+
+double wallTime() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+AlarmSettings alarmSettings(const ros::NodeHandle& node) {
+  AlarmSettings s;
+  node.param("approach_time", s.approach_time, s.approach_time);
+  node.param("clear_delay", s.clear_delay, s.clear_delay);
+  node.param("hysteresis", s.hysteresis, s.hysteresis);
+  node.param("dwell_limit", s.dwell_limit, s.dwell_limit);
+  node.param("decay_rate_alarm", s.decay_rate_alarm, s.decay_rate_alarm);
+  node.param("log_decrement_warning", s.log_decrement_warning, s.log_decrement_warning);
+  node.param("energy_residual", s.energy_residual, s.energy_residual);
+  node.param("data_timeout", s.data_timeout, s.data_timeout);
+  const std::vector<std::string> errors = settingErrors(s);
+  if (!errors.empty()) {
+    throw std::invalid_argument(fmt::format("{}", fmt::join(errors, "\n")));
+  }
+  return s;
+}
+
+class MonitorNode {
+ public:
+  MonitorNode(ros::NodeHandle node, ros::NodeHandle private_node)
+      : node_(node),
+        scene_(sceneFromParameters(node, "scene")),
+        monitor_(scene_, alarmSettings(private_node)),
+        lcm_(private_node.param<std::string>("lcm_url", kDefaultLcmUrl)),
+        alerts_(node.advertise<AlertArray>("alerts", 10, true)) {
+    if (!lcm_.warning().empty()) {
+      ROS_WARN("%s", lcm_.warning().c_str());
+    }
+    for (const SystemSpec& system : scene_.systems) {
+      margins_[system.name] = node.advertise<StabilityMargin>(system.name + "/stability", 100);
+    }
+    publishAlerts();
+
+    const auto source = private_node.param<std::string>("source", "ros");
+    if (source == "ros") {
+      subscribe();
+    } else if (source == "lcm") {
+      receive(private_node.param<std::string>("lcm_url", kDefaultLcmUrl));
+    } else {
+      throw std::invalid_argument("source: must be ros or lcm, found '" + source + "'");
+    }
+    subscribers_.push_back(node_.subscribe("loop", 10, &MonitorNode::onLoop, this));
+    diagnostics_.setHardwareID("none");
+    diagnostics_.add("monitor", this, &MonitorNode::summarize);
+  }
+
+  void spinOnce() {
+    if (receiver_) {
+      receiver_->receive(std::chrono::milliseconds(10));
+      ros::getGlobalCallbackQueue()->callAvailable();
+    } else {
+      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01));
+    }
+    publish();
+    diagnostics_.update();
+  }
+
+ private:
+  /// Feeds one message to the monitor; a message that cannot be meant is counted and left.
+  template <class Message>
+  void feed(const Message& message) {
+    try {
+      monitor_.take(fromRos(message), wallTime());
+    } catch (const RejectedMessage& error) {
+      ++rejected_;
+      ROS_WARN_THROTTLE(5.0, "rejected: %s", error.what());
+    }
+  }
+
+  template <class Message>
+  void subscribeTo(const std::string& topic) {
+    const boost::function<void(const boost::shared_ptr<const Message>&)> callback =
+        [this](const boost::shared_ptr<const Message>& message) { feed(*message); };
+    subscribers_.push_back(node_.subscribe<Message>(topic, kQueue, callback, ros::VoidConstPtr(),
+                                                    ros::TransportHints().tcpNoDelay()));
+  }
+
+  void subscribe() {
+    const Twin twin(scene_);
+    for (const Twin::Member& member : twin.members()) {
+      if (member.model->rotor) {
+        subscribeTo<WhirlState>(member.spec.name + "/whirl");
+      } else {
+        subscribeTo<PendulumState>(member.spec.name + "/pendulum");
+      }
+    }
+    for (const DriveSpec& drive : scene_.drives) {
+      subscribeTo<DriveState>("drives/" + drive.name);
+    }
+  }
+
+  void receive(const std::string& url) {
+    receiver_ = std::make_unique<LcmReceiver>(
+        openLcm(url),
+        std::vector<ChannelKind>{ChannelKind::kWhirl, ChannelKind::kPendulum, ChannelKind::kDrive},
+        [this](const TwinState& state) {
+          std::visit([this](const auto& s) { takeState(s); }, state);
+        });
+  }
+  void takeState(const state::WhirlState& s) { monitor_.take(s, wallTime()); }
+  void takeState(const state::PendulumState& s) { monitor_.take(s, wallTime()); }
+  void takeState(const state::DriveState& s) { monitor_.take(s, wallTime()); }
+  void takeState(const state::StabilityMargin&) {}
+  void takeState(const state::Alert&) {}
+
+  void onLoop(const LoopStatistics& loop) {
+    for (std::size_t i = 0;
+         i < loop.system.size() && i < loop.stopped.size() && i < loop.stopped_why.size(); ++i) {
+      monitor_.takeStopped(loop.system[i], loop.time, loop.stopped[i] != 0, loop.stopped_why[i]);
+    }
+  }
+
+  void publish() {
+    for (const state::StabilityMargin& margin : monitor_.takeMargins()) {
+      lcm_.publish(margin);
+      margins_.at(margin.system).publish(toRos(margin));
+    }
+    for (const state::Alert& event : monitor_.alerts().takeEvents()) {
+      lcm_.publish(event);
+      if (event.raised) {
+        ROS_WARN("%s", event.text.c_str());
+      } else {
+        ROS_INFO("%s: %s cleared: %s", event.system.c_str(), event.type.c_str(),
+                 event.text.c_str());
+      }
+    }
+    if (monitor_.alerts().takeChanged()) {
+      publishAlerts();
+    }
+  }
+
+  void publishAlerts() {
+    alerts_.publish(
+        toRos(monitor_.alerts().active(), static_cast<std::int64_t>(ros::Time::now().toNSec())));
+  }
+
+  void summarize(diagnostic_updater::DiagnosticStatusWrapper& status) {
+    using diagnostic_msgs::DiagnosticStatus;
+    const std::vector<state::Alert> active = monitor_.alerts().active();
+    status.summary(DiagnosticStatus::OK, "no alerts");
+    if (!active.empty()) {
+      status.summary(active.front().severity == state::Severity::kDanger ? DiagnosticStatus::ERROR
+                                                                         : DiagnosticStatus::WARN,
+                     active.front().text);
+    }
+    status.add("active alerts", active.size());
+    status.add("simulated time [s]", monitor_.time());
+    status.add("rejected messages", rejected_ + (receiver_ ? receiver_->rejected() : 0));
+  }
+
+  ros::NodeHandle node_;
+  Scene scene_;
+  TwinMonitor monitor_;
+  LcmPublisher lcm_;
+  ros::Publisher alerts_;
+  std::map<std::string, ros::Publisher> margins_;
+  std::vector<ros::Subscriber> subscribers_;
+  std::unique_ptr<LcmReceiver> receiver_;
+  diagnostic_updater::Updater diagnostics_;
+  std::uint64_t rejected_ = 0;
+};
+
+}  // namespace
+
+}  // namespace whirl_twin
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "monitor_node", ros::init_options::NoSigintHandler);
+  std::signal(SIGINT, whirl_twin::requestStop);
+  std::signal(SIGTERM, whirl_twin::requestStop);
+  try {
+    whirl_twin::MonitorNode monitor(ros::NodeHandle("/twin"), ros::NodeHandle("~"));
+    while (!whirl_twin::stop_requested && ros::ok()) {
+      monitor.spinOnce();
+    }
+    ros::shutdown();
+    return 0;
+  } catch (const whirl_twin::SceneError& error) {
+    for (const std::string& line : error.errors()) {
+      ROS_FATAL("%s", line.c_str());
+    }
+  } catch (const std::exception& error) {
+    ROS_FATAL("monitor_node: %s", error.what());
+  }
+  return 2;
+}

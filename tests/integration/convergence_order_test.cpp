@@ -1,0 +1,117 @@
+// Halving the step divides a method's error by 2^order, on free and on driven, nonlinear and
+// linear, damped and undamped systems.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <ostream>
+
+#include "running_system.h"
+
+namespace whirl_twin {
+namespace {
+
+// A shaft whose motion is smooth over the test: one piece of constant jerk.
+const std::vector<SpeedMove> kSpeedingUp{{100.0, 60.0, 10.0, 0.0}};
+
+RunningSystem::Setup spinningPendulum() {
+  RunningSystem::Setup s;
+  s.model = "spinning_pendulum";
+  s.parameters = {{"mass", 0.5}, {"length", 0.2}, {"damping", 0.01}};
+  s.speed = 5.0;
+  s.profile = kSpeedingUp;
+  s.q = {0.8};
+  s.v = {1.0};
+  return s;
+}
+
+RunningSystem::Setup doublePendulum() {
+  RunningSystem::Setup s;
+  s.model = "double_pendulum";
+  s.parameters = {{"mass1", 1.0}, {"mass2", 0.7}, {"length1", 1.0}, {"length2", 0.6}};
+  s.q = {1.2, -0.4};
+  s.v = {0.0, 1.0};
+  return s;
+}
+
+RunningSystem::Setup rotor() {
+  RunningSystem::Setup s;
+  s.model = "jeffcott_rotor";
+  s.parameters = {{"mass", 2.0},    {"stiffness", 200.0},      {"stiffness_y", 300.0},
+                  {"damping", 2.0}, {"internal_damping", 1.0}, {"eccentricity", 0.01}};
+  s.speed = 5.0;
+  s.profile = kSpeedingUp;
+  s.q = {0.01, -0.02};
+  return s;
+}
+
+struct Case {
+  const char* name;
+  const char* method;
+  int order;
+  RunningSystem::Setup (*setup)();
+  std::int64_t coarsest;  // [ns]
+};
+
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << c.name;
+}
+
+constexpr std::int64_t kHorizon = 1024000000;  // [ns], a power of two of every step used
+
+std::vector<double> stateAtHorizon(const Case& c, const char* method, std::int64_t step) {
+  RunningSystem system(c.setup(), method, step);
+  EXPECT_EQ(system.run(kHorizon / step), StepStatus::kOk);
+  return system.state();
+}
+
+class ConvergenceOrder : public testing::TestWithParam<Case> {};
+
+TEST_P(ConvergenceOrder, IsTheMethodsOrder) {
+  const Case& c = GetParam();
+  // Steps 16 times finer than any compared, by the method of highest order: 1e-14 at worst.
+  const std::vector<double> reference = stateAtHorizon(c, "gauss_legendre_6", 250000);
+  const auto error = [&](std::int64_t step) {
+    const std::vector<double> state = stateAtHorizon(c, c.method, step);
+    double largest = 0.0;
+    for (std::size_t i = 0; i < state.size(); ++i) {
+      largest = std::max(largest, std::abs(state[i] - reference[i]));
+    }
+    return largest;
+  };
+  constexpr int kHalvings = 3;
+  double previous = error(c.coarsest);
+  double slopes = 0.0;
+  for (int i = 1; i <= kHalvings; ++i) {
+    const double now = error(c.coarsest >> i);
+    ASSERT_GT(now, 1e-13) << "rounding, not truncation: start with a coarser step";
+    slopes += std::log2(previous / now);
+    previous = now;
+  }
+  // Terms of the next order bend the slope by a few per cent at these steps.
+  EXPECT_NEAR(slopes / kHalvings, c.order, 0.25);
+}
+
+constexpr std::int64_t kMillisecond = 1000000;
+
+INSTANTIATE_TEST_SUITE_P(
+    Methods, ConvergenceOrder,
+    testing::Values(
+        Case{"EulerOnSpinningPendulum", "semi_implicit_euler", 1, spinningPendulum, kMillisecond},
+        Case{"EulerOnDoublePendulum", "semi_implicit_euler", 1, doublePendulum, kMillisecond},
+        Case{"EulerOnRotor", "semi_implicit_euler", 1, rotor, kMillisecond},
+        Case{"VerletOnSpinningPendulum", "velocity_verlet", 2, spinningPendulum, 4 * kMillisecond},
+        Case{"VerletOnDoublePendulum", "velocity_verlet", 2, doublePendulum, 4 * kMillisecond},
+        Case{"VerletOnRotor", "velocity_verlet", 2, rotor, 4 * kMillisecond},
+        Case{"RungeKuttaOnSpinningPendulum", "runge_kutta_4", 4, spinningPendulum,
+             16 * kMillisecond},
+        Case{"RungeKuttaOnDoublePendulum", "runge_kutta_4", 4, doublePendulum, 8 * kMillisecond},
+        Case{"RungeKuttaOnRotor", "runge_kutta_4", 4, rotor, 16 * kMillisecond},
+        Case{"GaussLegendreOnSpinningPendulum", "gauss_legendre_6", 6, spinningPendulum,
+             64 * kMillisecond},
+        Case{"GaussLegendreOnDoublePendulum", "gauss_legendre_6", 6, doublePendulum,
+             32 * kMillisecond},
+        Case{"GaussLegendreOnRotor", "gauss_legendre_6", 6, rotor, 64 * kMillisecond}),
+    [](const auto& test) { return test.param.name; });
+
+}  // namespace
+}  // namespace whirl_twin

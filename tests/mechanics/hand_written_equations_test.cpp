@@ -1,0 +1,95 @@
+// The derived equations of motion are the ones a careful person writes by hand.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "random_state.h"
+
+namespace whirl_twin {
+namespace {
+
+using Vector = Eigen::VectorXd;
+
+constexpr int kStates = 1000;
+
+// (m1+m2) l1^2 th1'' + m2 l1 l2 (cos D th2'' + sin D th2'^2) + (m1+m2) g l1 sin th1 = joint torques
+// m2 l2^2 th2'' + m2 l1 l2 (cos D th1'' - sin D th1'^2) + m2 g l2 sin th2 = ...,  D = th1 - th2
+TEST(HandWritten, DoublePendulum) {
+  std::mt19937_64 random(1738);
+  for (int i = 0; i < kStates; ++i) {
+    const RandomState s = randomState("double_pendulum", random);
+    const double m1 = s.parameters.at("mass1");
+    const double m2 = s.parameters.at("mass2");
+    const double l1 = s.parameters.at("length1");
+    const double l2 = s.parameters.at("length2");
+    const double upper = s.parameters.at("damping1") * s.v[0];
+    const double lower = s.parameters.at("damping2") * (s.v[1] - s.v[0]);
+    const double c = std::cos(s.q[0] - s.q[1]);
+    const double d = std::sin(s.q[0] - s.q[1]);
+    const double m11 = (m1 + m2) * l1 * l1;
+    const double m12 = m2 * l1 * l2 * c;
+    const double m22 = m2 * l2 * l2;
+    const double f1 = -m2 * l1 * l2 * d * s.v[1] * s.v[1] -
+                      (m1 + m2) * s.gravity * l1 * std::sin(s.q[0]) - upper + lower;
+    const double f2 =
+        m2 * l1 * l2 * d * s.v[0] * s.v[0] - m2 * s.gravity * l2 * std::sin(s.q[1]) - lower;
+    // The determinant without the cancellation of m11 m22 - m12^2.
+    const double determinant = m2 * l1 * l1 * l2 * l2 * (m1 + m2 * d * d);
+    const Eigen::Vector2d a((m22 * f1 - m12 * f2) / determinant,
+                            (m11 * f2 - m12 * f1) / determinant);
+    const Vector found = s.dynamics->acceleration(s.q, s.v, s.at);
+    for (int k = 0; k < 2; ++k) {
+      ASSERT_NEAR(found[k], a[k], 1e-12 * std::abs(a[k])) << "state " << i << ", coordinate " << k;
+    }
+  }
+}
+
+// m l^2 th'' = m l^2 w^2 sin th cos th - m g l sin th - c th', whatever the shaft's acceleration.
+TEST(HandWritten, SpinningPendulum) {
+  std::mt19937_64 random(1788);
+  for (int i = 0; i < kStates; ++i) {
+    const RandomState s = randomState("spinning_pendulum", random);
+    const double l = s.parameters.at("length");
+    const double inertia = s.parameters.at("mass") * l * l;
+    const double sine = std::sin(s.q[0]);
+    const double spin = s.at.speed * s.at.speed * sine * std::cos(s.q[0]);
+    const double weight = s.gravity / l * sine;
+    const double damping = s.parameters.at("damping") / inertia * s.v[0];
+    // Rounding of the largest term remains where the terms cancel.
+    const double size = std::max({std::abs(spin), std::abs(weight), std::abs(damping)});
+    ASSERT_NEAR(s.dynamics->acceleration(s.q, s.v, s.at)[0], spin - weight - damping, 1e-12 * size);
+  }
+}
+
+// m x'' + c x' + ci (x' + w y) + k x = m e (w^2 cos phi + w' sin phi), and so for y.
+TEST(HandWritten, JeffcottRotorOnAnAcceleratingShaft) {
+  std::mt19937_64 random(1919);
+  for (int i = 0; i < kStates; ++i) {
+    const RandomState s = randomState("jeffcott_rotor", random);
+    const auto p = [&](const char* name) { return s.parameters.at(name); };
+    const double w = s.at.speed;
+    const double phi = s.at.angle + p("eccentricity_angle");
+    const double ci = p("internal_damping");
+    const double m = p("mass");
+    const double terms[2][5] = {
+        {-p("stiffness") * s.q[0] / m, -p("damping") * s.v[0] / m, -ci * (s.v[0] + w * s.q[1]) / m,
+         p("eccentricity") * w * w * std::cos(phi),
+         p("eccentricity") * s.at.acceleration * std::sin(phi)},
+        {-p("stiffness_y") * s.q[1] / m, -p("damping_y") * s.v[1] / m,
+         -ci * (s.v[1] - w * s.q[0]) / m, p("eccentricity") * w * w * std::sin(phi),
+         -p("eccentricity") * s.at.acceleration * std::cos(phi)}};
+    const Vector found = s.dynamics->acceleration(s.q, s.v, s.at);
+    for (int k = 0; k < 2; ++k) {
+      double sum = 0.0;
+      double size = 0.0;
+      for (const double term : terms[k]) {
+        sum += term;
+        size = std::max(size, std::abs(term));
+      }
+      ASSERT_NEAR(found[k], sum, 1e-12 * size) << "state " << i << ", coordinate " << k;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace whirl_twin
