@@ -1,6 +1,7 @@
 # What `make install` copies. Message headers, message definitions and package.xml are catkin's own.
 set(whirl_twin_node_names
-  simulation_node monitor_node visualization_node lcm_bridge_node terminal_node)
+  simulation_node monitor_node visualization_node lcm_bridge_node lcm_recorder_node
+  terminal_node)
 
 if(WHIRL_TWIN_ROS)
   set(whirl_twin_library_dir ${CATKIN_PACKAGE_LIB_DESTINATION})

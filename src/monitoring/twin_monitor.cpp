@@ -11,6 +11,15 @@ constexpr double kJudgingPeriod = 0.1;  // s, simulated
 /// Topics overtake each other by less than this [s]; more is a reset.
 constexpr double kReset = 0.5;
 
+/// Low damping is a criterion for rotors; a pendulum may swing as long as it likes.
+AlarmSettings settingsFor(const ModelInfo& model, AlarmSettings settings) {
+  if (!model.rotor) {
+    settings.log_decrement_warning = 0.0;
+    settings.decay_rate_alarm = 0.0;
+  }
+  return settings;
+}
+
 std::vector<std::string> systemNames(const Scene& scene) {
   std::vector<std::string> names;
   for (const SystemSpec& system : scene.systems) {
@@ -27,7 +36,7 @@ TwinMonitor::Watch::Watch(const Twin::Member& member, std::string drive_name,
       drive(std::move(drive_name)),
       speed(member.spec.speed.value_or(0.0)),
       critical_speed_alarm(member.spec.name, settings),
-      stability_alarm(member.spec.name, settings),
+      stability_alarm(member.spec.name, settingsFor(*member.model, settings)),
       state_alarm(member.spec.name, settings) {}
 
 TwinMonitor::TwinMonitor(const Scene& scene, const AlarmSettings& settings)
@@ -41,9 +50,11 @@ void TwinMonitor::restart() {
   }
   data_lost_alarm_ = DataLostAlarm(systemNames(twin_.scene()), settings_);
   if (!watches_.empty()) {
-    for (Watch& watch : watches_) {
+    for (std::size_t i = 0; i < watches_.size(); ++i) {
+      Watch& watch = watches_[i];
       watch.critical_speed_alarm = CriticalSpeedAlarm(watch.judge.system(), settings_);
-      watch.stability_alarm = StabilityAlarm(watch.judge.system(), settings_);
+      watch.stability_alarm = StabilityAlarm(
+          watch.judge.system(), settingsFor(*twin_.members()[i].model, settings_));
       watch.state_alarm = StateAlarm(watch.judge.system(), settings_);
       watch.judged = false;
     }

@@ -6,6 +6,12 @@ target_link_libraries(lcm_bridge_node PRIVATE whirl_twin_transport_ros whirl_twi
 set_target_properties(lcm_bridge_node PROPERTIES
   RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
 
-# lcm-logger and lcm-logplayer as nodes, for record.launch and playback.launch.
-install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/lcm_logger ${PROJECT_SOURCE_DIR}/scripts/lcm_logplayer
+add_executable(lcm_recorder_node ${CMAKE_CURRENT_LIST_DIR}/lcm_recorder_node.cpp)
+target_link_libraries(lcm_recorder_node PRIVATE whirl_twin_transport_lcm whirl_twin_core
+  whirl_twin_ros whirl_twin_warnings)
+set_target_properties(lcm_recorder_node PROPERTIES
+  RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
+
+# lcm-logplayer as a node, for playback.launch.
+install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/lcm_logplayer
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})

@@ -12,10 +12,12 @@
 
 #include <chrono>
 #include <cstdio>
-#include <stdexcept>
+#include <exception>
+#include <string>
 #include <vector>
 
 #include "nodes/lcm_bridge.h"
+#include "nodes/private_parameter.h"
 #include "transport/channels.h"
 #include "transport/lcm_connection.h"
 #include "transport/lcm_receiver.h"
@@ -25,17 +27,6 @@ namespace {
 
 constexpr std::chrono::milliseconds kPoll{50};
 const ros::WallDuration kReportPeriod(1.0);
-
-template <class Value>
-Value parameter(const char* name, const char* expected, const Value& fallback) {
-  const ros::NodeHandle node("~");
-  Value value = fallback;
-  if (node.hasParam(name) && !node.getParam(name, value)) {
-    throw std::invalid_argument(
-        fmt::format("{}: expected {}, found another type", node.resolveName(name), expected));
-  }
-  return value;
-}
 
 std::vector<ChannelKind> kindsOf(bool derived) {
   std::vector<ChannelKind> kinds{ChannelKind::kWhirl, ChannelKind::kPendulum, ChannelKind::kDrive};
@@ -64,8 +55,8 @@ void report(const LcmReceiver& receiver, diagnostic_updater::DiagnosticStatusWra
 }
 
 void run() {
-  const auto url = parameter<std::string>("lcm_url", "an LCM url", kDefaultLcmUrl);
-  const auto derived = parameter<bool>("derived", "true or false", false);
+  const auto url = privateParameter<std::string>("lcm_url", "an LCM url", kDefaultLcmUrl);
+  const auto derived = privateParameter<bool>("derived", "true or false", false);
   LcmBridge bridge(ros::NodeHandle("/twin"), derived);
   LcmReceiver receiver(openLcm(url), kindsOf(derived),
                        [&bridge](const TwinState& state) { bridge.publish(state); });
@@ -104,7 +95,7 @@ void run() {
 }  // namespace whirl_twin
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "lcm_bridge");
+  ros::init(argc, argv, "lcm_bridge_node");
   try {
     whirl_twin::run();
   } catch (const std::exception& problem) {

@@ -27,7 +27,7 @@ RealtimeMode parseRealtimeMode(const std::string& name);
 struct RealtimeStatus {
   std::string policy;          ///< of the loop's thread: "SCHED_FIFO", "SCHED_OTHER", ...
   int priority = 0;            ///< real-time priority; 0 without one
-  bool memory_locked = false;  ///< the whole process is locked into memory
+  bool memory_locked = false;  ///< the process has locked memory: VmLck of proc(5) is not 0
   std::string kernel;          ///< release and version, which names PREEMPT_RT where it applies
   std::vector<std::string> warnings;  ///< what was asked for and not obtained, and how to get it
 };
@@ -35,7 +35,7 @@ struct RealtimeStatus {
 /// Locks present and future memory of the process and keeps freed memory in it. It stays locked:
 /// other loops of the process may rely on it. Without CAP_IPC_LOCK under a finite RLIMIT_MEMLOCK
 /// nothing is locked, because later allocations would fail there. A failure is a
-/// std::runtime_error in kEnforce, a warning in kWarn; kIgnore does nothing.
+/// std::runtime_error in kEnforce, a warning in kWarn; kIgnore only reads back.
 void lockMemory(RealtimeMode mode, RealtimeStatus& status);
 
 /// Gives the calling thread SCHED_FIFO at `priority` and reads back what it has. A failure is

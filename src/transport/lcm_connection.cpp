@@ -20,4 +20,14 @@ std::shared_ptr<lcm::LCM> openLcm(const std::string& url) {
   return lcm;
 }
 
+int handleArrived(lcm::LCM& lcm, std::chrono::milliseconds timeout, int most) {
+  int handled = 0;
+  int wait = static_cast<int>(timeout.count());
+  while (handled < most && lcm.handleTimeout(wait) > 0) {
+    ++handled;
+    wait = 0;
+  }
+  return handled;
+}
+
 }  // namespace whirl_twin

@@ -1,6 +1,7 @@
 // Opening LCM, with a sentence a person can act on when it does not open.
 #pragma once
 
+#include <chrono>
 #include <lcm/lcm-cpp.hpp>
 #include <memory>
 #include <stdexcept>
@@ -16,5 +17,9 @@ class LcmNotAvailable : public std::runtime_error {
 
 /// An open LCM at `url`, e.g. kDefaultLcmUrl. Throws LcmNotAvailable.
 std::shared_ptr<lcm::LCM> openLcm(const std::string& url);
+
+/// Waits up to `timeout` for an event, then has all that have arrived handled, at most `most` of
+/// them. Returns how many.
+int handleArrived(lcm::LCM& lcm, std::chrono::milliseconds timeout, int most);
 
 }  // namespace whirl_twin

@@ -31,13 +31,7 @@ LcmReceiver::~LcmReceiver() {
 }
 
 int LcmReceiver::receive(std::chrono::milliseconds timeout, int most) {
-  int handled = 0;
-  int wait = static_cast<int>(timeout.count());
-  while (handled < most && lcm_->handleTimeout(wait) > 0) {
-    ++handled;
-    wait = 0;
-  }
-  return handled;
+  return handleArrived(*lcm_, timeout, most);
 }
 
 std::uint64_t LcmReceiver::received() const {

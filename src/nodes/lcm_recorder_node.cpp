@@ -1,0 +1,61 @@
+// lcm_recorder_node: records the LCM channels TWIN_* of a twin as an LCM log, until interrupted.
+// Private parameters:
+//   ~log      the file to write
+//   ~lcm_url  where to listen (default: channels.h)
+//   ~force    true: overwrite an existing file (default false)
+#include <fmt/format.h>
+#include <ros/ros.h>
+
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <string>
+
+#include "nodes/private_parameter.h"
+#include "transport/channels.h"
+#include "transport/lcm_connection.h"
+#include "transport/lcm_recorder.h"
+
+namespace whirl_twin {
+namespace {
+
+using std::chrono::milliseconds;
+
+void run() {
+  const auto log = privateParameter<std::string>("log", "the name of a file", "");
+  const auto url = privateParameter<std::string>("lcm_url", "an LCM url", kDefaultLcmUrl);
+  const auto force = privateParameter<bool>("force", "true or false", false);
+  if (log.empty()) {
+    throw std::invalid_argument("log: missing; expected the name of a file to write");
+  }
+  if (!force && std::filesystem::exists(log)) {
+    throw std::invalid_argument(
+        fmt::format("log: '{}' exists; say force:=true to overwrite it", log));
+  }
+  const auto lcm = openLcm(url);
+  LcmRecorder recorder(lcm, "TWIN_.*", log);
+  fmt::print("recording TWIN_* from {} to {}\n", url, log);
+  std::fflush(stdout);
+  while (ros::ok()) {
+    recorder.record(milliseconds(50));
+  }
+  while (recorder.record(milliseconds(0)) > 0) {  // what arrived before the interruption
+  }
+  fmt::print("{} events recorded to {}\n", recorder.recorded(), log);
+}
+
+}  // namespace
+}  // namespace whirl_twin
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "lcm_recorder_node");
+  try {
+    const ros::NodeHandle node;  // keeps ROS up, and its reaction to Ctrl-C
+    whirl_twin::run();
+  } catch (const std::exception& problem) {
+    fmt::print(stderr, "lcm_recorder_node: {}\n", problem.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,32 @@
+// What the command line's words mean: scenes, names, and numbers with a unit.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace whirl_twin {
+
+/// "; did you mean 'NEAREST'?", or, without a near one, "; there are: ALL".
+std::string hint(const std::string& name, const std::vector<std::string>& candidates);
+
+/// The system of that name, or all of them if `name` is empty: indices into scene.systems.
+/// Throws BadInput with a hint.
+std::vector<std::size_t> selectedSystems(const Scene& scene, const std::string& name);
+
+/// Seconds, as typed, as a whole number of nanoseconds from `low` to `high` [ns]. Exact: no binary
+/// fraction comes in between. `option` names it in the message. Throws BadInput.
+std::int64_t parseNanoseconds(const std::string& option, const std::string& text, std::int64_t low,
+                              std::int64_t high);
+
+/// Nanoseconds as seconds, for a message: "0.0005 s".
+std::string inSeconds(std::int64_t nanoseconds);
+
+/// The arguments of `twin` in the order CLI11 wants: coefficients of `twin routh` begin with a
+/// minus sign as often as not, so they go last, behind a `--`.
+std::vector<std::string> orderedArguments(int argc, const char* const* argv);
+
+}  // namespace whirl_twin

@@ -1,0 +1,134 @@
+// `twin`: the command line of the twin. See `twin --help`.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "scene/node_reader.h"
+#include "scene/scene_reader.h"
+#include "tools/arguments.h"
+#include "tools/commands.h"
+#include "tools/output.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr const char* kDescription =
+    "A digital twin of whirling rotors and pendulums, from a scene file.\n"
+    "Check a scene, run it, judge its stability, look into recorded logs.";
+
+constexpr const char* kFooter =
+    "First steps:\n"
+    "  twin check config/scenes/demo.yaml        is the scene sound, and what will be modelled\n"
+    "  twin analyze config/scenes/demo.yaml      equilibria, frequencies, stability, criticals\n"
+    "  twin simulate config/scenes/demo.yaml --sample 0.01 --output demo.csv\n"
+    "  twin routh 1 2 3 4                        is s^3 + 2 s^2 + 3 s + 4 stable\n"
+    "`twin COMMAND --help` tells more. Everything is in SI units: m, kg, s, rad, N.\n"
+    "\n"
+    "Results go to standard output, messages to standard error.\n"
+    "Exit status: 0 done, 1 the run failed (diverged, a file cannot be written), 2 bad input.";
+
+/// The commands of `twin`, or the long names of a command's options.
+std::vector<std::string> names(const CLI::App& twin) {
+  std::vector<std::string> all;
+  for (const CLI::App* command : twin.get_subcommands([](const CLI::App*) { return true; })) {
+    all.push_back(command->get_name());
+  }
+  return all;
+}
+std::vector<std::string> optionNames(const CLI::App& command) {
+  std::vector<std::string> all;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) {
+      all.push_back("--" + name);
+    }
+  }
+  return all;
+}
+
+/// What is wrong with the usage, with a hint where a name was nearly right.
+void explain(const CLI::App& twin, const CLI::ParseError& error) {
+  const auto given = twin.get_subcommands();
+  const CLI::App& command = given.empty() ? twin : *given.front();
+  const std::string name = given.empty() ? "twin" : "twin " + command.get_name();
+  std::string what = error.what();
+  for (const std::string& rest : twin.remaining(true)) {
+    const std::string near =
+        rest.compare(0, 2, "--") == 0 ? nearestName(rest, optionNames(command)) : "";
+    if (!near.empty()) {
+      what = fmt::format("unknown option '{}'; did you mean '{}'?", rest, near);
+    }
+  }
+  fmt::print(stderr, "{}: {}\n`{} --help` tells how it is used.\n", name, what, name);
+}
+
+/// A command that does not exist, said before CLI11 takes it for a stray argument.
+bool unknownCommand(const CLI::App& twin, const std::vector<std::string>& arguments) {
+  if (arguments.empty()) {
+    fmt::print(stderr, "twin: expected a command{}\n", hint("", names(twin)));
+    return true;
+  }
+  const std::vector<std::string> commands = names(twin);
+  const std::string& first = arguments.front();
+  if (first.compare(0, 1, "-") == 0 ||
+      std::find(commands.begin(), commands.end(), first) != commands.end()) {
+    return false;
+  }
+  fmt::print(stderr, "twin: unknown command '{}'{}\n`twin --help` lists the commands.\n", first,
+             hint(first, commands));
+  return true;
+}
+
+int run(int argc, const char* const* argv) {
+  int status = kDone;
+  CLI::App twin(kDescription, "twin");
+  twin.footer(kFooter);
+  twin.require_subcommand(1);
+  addCheckCommand(twin, status);
+  addModelsCommand(twin, status);
+  addSimulateCommand(twin, status);
+  addAnalyzeCommand(twin, status);
+  addRouthCommand(twin, status);
+  addLogCommand(twin, status);
+
+  std::vector<std::string> arguments = orderedArguments(argc, argv);
+  if (unknownCommand(twin, arguments)) {
+    return kBadInput;
+  }
+  std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes a vector
+  try {
+    twin.parse(arguments);
+    finishStandardOutput();
+    return status;
+  } catch (const CLI::CallForHelp&) {
+    const auto given = twin.get_subcommands();
+    print(given.empty() ? twin.help() : given.front()->help());
+    finishStandardOutput();
+    return kDone;
+  } catch (const CLI::ParseError& error) {
+    explain(twin, error);
+    return kBadInput;
+  }
+}
+
+}  // namespace
+
+}  // namespace whirl_twin
+
+int main(int argc, char** argv) {
+  try {
+    return whirl_twin::run(argc, argv);
+  } catch (const whirl_twin::SceneError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return whirl_twin::kBadInput;
+  } catch (const whirl_twin::BadInput& error) {
+    fmt::print(stderr, "twin: {}\n", error.what());
+    return whirl_twin::kBadInput;
+  } catch (const std::exception& error) {
+    std::fputs(fmt::format("twin: {}\n", error.what()).c_str(), stderr);
+    return whirl_twin::kFailed;
+  }
+}

@@ -1,0 +1,53 @@
+#!/usr/bin/python3
+"""A broken scene: the nodes say everything that is wrong with it and exit with status 2."""
+import subprocess
+import sys
+import unittest
+
+import rospy
+import rostest
+
+SCENE = {
+    'step': 0.001,
+    'systems': {
+        'rotor': {
+            'model': 'jeffcott_rotor',
+            'parameters': {'mass': -1, 'stifness': 1.0e4, 'stiffness': 1.0e4, 'speed': 10.0},
+        },
+    },
+}
+
+
+def run(node):
+    return subprocess.run(['rosrun', 'whirl_twin', node], stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, universal_newlines=True, timeout=60)
+
+
+class BrokenScene(unittest.TestCase):
+    def check(self, node):
+        rospy.set_param('/twin/scene', SCENE)
+        rospy.set_param('/twin/scene_file', 'bad.yaml')
+        done = run(node)
+        self.assertEqual(done.returncode, 2, done.stdout)
+        self.assertIn('bad.yaml: systems.rotor.parameters.mass: must be > 0 kg, found -1',
+                      done.stdout)
+        self.assertIn("bad.yaml: systems.rotor.parameters.stifness: unknown parameter of "
+                      "jeffcott_rotor; did you mean 'stiffness'?", done.stdout)
+
+    def test_simulation_node_refuses_it(self):
+        self.check('simulation_node')
+
+    def test_monitor_node_refuses_it(self):
+        self.check('monitor_node')
+
+    def test_no_scene_at_all(self):
+        if rospy.has_param('/twin/scene'):
+            rospy.delete_param('/twin/scene')
+        done = run('simulation_node')
+        self.assertEqual(done.returncode, 2, done.stdout)
+        self.assertIn('no scene there', done.stdout)
+
+
+if __name__ == '__main__':
+    rospy.init_node('broken_scene_test')
+    rostest.rosrun('whirl_twin', 'broken_scene_test', BrokenScene, sys.argv)

@@ -1,0 +1,124 @@
+// Pause, step, resume, reset and set_speed, on the live demo.
+
+#include <gtest/gtest.h>
+#include <std_srvs/Trigger.h>
+#include <whirl_twin/DriveState.h>
+#include <whirl_twin/SetSpeed.h>
+#include <whirl_twin/StepN.h>
+#include <whirl_twin/WhirlState.h>
+
+#include <cmath>
+#include <optional>
+
+#include "waiting.h"
+
+namespace whirl_twin {
+
+namespace {
+
+class Services : public testing::Test {
+ protected:
+  void SetUp() override {
+    const boost::function<void(const WhirlState::ConstPtr&)> on_whirl =
+        [this](const WhirlState::ConstPtr& m) { whirl_ = *m; };
+    const boost::function<void(const DriveState::ConstPtr&)> on_drive =
+        [this](const DriveState::ConstPtr& m) { shaft_ = *m; };
+    whirl_subscriber_ = node_.subscribe<WhirlState>("/twin/rotor/whirl", 10000, on_whirl);
+    drive_subscriber_ = node_.subscribe<DriveState>("/twin/drives/shaft", 10000, on_drive);
+    ASSERT_TRUE(ros::service::waitForService("/simulation_node/pause", 40000));
+    ASSERT_TRUE(trigger("resume").success);
+    ASSERT_TRUE(waitUntil([this] { return whirl_ && shaft_; }));
+  }
+
+  std_srvs::Trigger::Response trigger(const std::string& service) {
+    std_srvs::Trigger call;
+    EXPECT_TRUE(ros::service::call("/simulation_node/" + service, call));
+    return call.response;
+  }
+  StepN::Response step(std::uint32_t steps) {
+    StepN call;
+    call.request.steps = steps;
+    EXPECT_TRUE(ros::service::call("/simulation_node/step", call));
+    return call.response;
+  }
+  SetSpeed::Response setSpeed(const std::string& drive, double speed, double acceleration,
+                              double jerk) {
+    SetSpeed call;
+    call.request.drive = drive;
+    call.request.speed = speed;
+    call.request.max_acceleration = acceleration;
+    call.request.max_jerk = jerk;
+    EXPECT_TRUE(ros::service::call("/simulation_node/set_speed", call));
+    return call.response;
+  }
+
+  ros::NodeHandle node_;
+  ros::Subscriber whirl_subscriber_;
+  ros::Subscriber drive_subscriber_;
+  std::optional<WhirlState> whirl_;
+  std::optional<DriveState> shaft_;
+};
+
+TEST_F(Services, pausedItStandsStillAndStepsAsAsked) {
+  ASSERT_TRUE(trigger("pause").success);
+  const StepN::Response first = step(1);
+  ASSERT_TRUE(first.success) << first.message;
+  const StepN::Response more = step(25);
+  ASSERT_TRUE(more.success) << more.message;
+  EXPECT_EQ(more.step, first.step + 25);
+  EXPECT_EQ(more.time, static_cast<double>(more.step) / 1000.0);
+  EXPECT_TRUE(waitUntil([&] { return whirl_->step == more.step; }));
+  EXPECT_EQ(step(0).step, more.step);
+}
+
+TEST_F(Services, steppingWithoutAPauseIsRefused) {
+  const StepN::Response response = step(3);
+  EXPECT_FALSE(response.success);
+  EXPECT_NE(response.message.find("pause"), std::string::npos);
+}
+
+TEST_F(Services, resumedItGoesOnFromWhereItStood) {
+  ASSERT_TRUE(trigger("pause").success);
+  const std::int64_t stood = step(1).step;
+  ASSERT_TRUE(trigger("resume").success);
+  EXPECT_TRUE(waitUntil([&] { return whirl_->step > stood + 100; }));
+}
+
+TEST_F(Services, resetBringsBackTheStart) {
+  ASSERT_TRUE(waitUntil([&] { return whirl_->step > 300; }));
+  ASSERT_TRUE(trigger("pause").success);
+  ASSERT_TRUE(trigger("reset").success);
+  EXPECT_TRUE(waitUntil([&] { return whirl_->step == 0; }));
+  EXPECT_EQ(whirl_->radius, 0.0);
+  EXPECT_FALSE(whirl_->phase_valid);
+  EXPECT_TRUE(std::isnan(whirl_->phase));
+  EXPECT_TRUE(waitUntil([&] { return shaft_->step == 0; }));
+  EXPECT_EQ(shaft_->shaft_angle, 0.0);
+}
+
+TEST_F(Services, aDriveGoesToTheSpeedItIsGiven) {
+  const SetSpeed::Response response = setSpeed("shaft", 30.0, 100.0, 1000.0);
+  ASSERT_TRUE(response.success) << response.message;
+  EXPECT_GT(response.duration, 0.0);
+  EXPECT_TRUE(waitUntil([&] { return shaft_->speed == 30.0 && shaft_->acceleration == 0.0; }));
+}
+
+TEST_F(Services, badSpeedsAreRefusedWithAReason) {
+  const SetSpeed::Response no_drive = setSpeed("shft", 30.0, 10.0, 10.0);
+  EXPECT_FALSE(no_drive.success);
+  EXPECT_NE(no_drive.message.find("did you mean 'shaft'"), std::string::npos) << no_drive.message;
+  const SetSpeed::Response no_limit = setSpeed("shaft", 30.0, 0.0, 10.0);
+  EXPECT_FALSE(no_limit.success);
+  EXPECT_NE(no_limit.message.find("rad/s^2"), std::string::npos) << no_limit.message;
+  EXPECT_FALSE(setSpeed("shaft", std::nan(""), 1.0, 1.0).success);
+}
+
+}  // namespace
+
+}  // namespace whirl_twin
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "services_test");
+  return RUN_ALL_TESTS();
+}
