@@ -40,8 +40,8 @@ void run() {
   while (ros::ok()) {
     recorder.record(milliseconds(50));
   }
-  while (recorder.record(milliseconds(0)) > 0) {  // what arrived before the interruption
-  }
+  constexpr int kAll = 100000;
+  recorder.record(milliseconds(0), kAll);  // what arrived before the interruption
   fmt::print("{} events recorded to {}\n", recorder.recorded(), log);
 }
 

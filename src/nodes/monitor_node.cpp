@@ -7,16 +7,14 @@
 #include <whirl_twin/AlertArray.h>
 #include <whirl_twin/LoopStatistics.h>
 
-#include <atomic>
 #include <chrono>
-#include <csignal>
 #include <map>
 #include <memory>
 
 #include "monitoring/twin_monitor.h"
+#include "nodes/private_parameter.h"
+#include "nodes/run_node.h"
 #include "nodes/scene_parameters.h"
-#include "scene/node_reader.h"
-#include "scene/scene_reader.h"
 #include "transport/channels.h"
 #include "transport/lcm_connection.h"
 #include "transport/lcm_publisher.h"
@@ -39,16 +37,19 @@ double wallTime() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-AlarmSettings alarmSettings(const ros::NodeHandle& node) {
+AlarmSettings alarmSettings() {
   AlarmSettings s;
-  node.param("approach_time", s.approach_time, s.approach_time);
-  node.param("clear_delay", s.clear_delay, s.clear_delay);
-  node.param("hysteresis", s.hysteresis, s.hysteresis);
-  node.param("dwell_limit", s.dwell_limit, s.dwell_limit);
-  node.param("decay_rate_alarm", s.decay_rate_alarm, s.decay_rate_alarm);
-  node.param("log_decrement_warning", s.log_decrement_warning, s.log_decrement_warning);
-  node.param("energy_residual", s.energy_residual, s.energy_residual);
-  node.param("data_timeout", s.data_timeout, s.data_timeout);
+  const auto read = [](const char* name, double& value) {
+    value = privateParameter(name, "a number", value);
+  };
+  read("approach_time", s.approach_time);
+  read("clear_delay", s.clear_delay);
+  read("hysteresis", s.hysteresis);
+  read("dwell_limit", s.dwell_limit);
+  read("decay_rate_alarm", s.decay_rate_alarm);
+  read("log_decrement_warning", s.log_decrement_warning);
+  read("energy_residual", s.energy_residual);
+  read("data_timeout", s.data_timeout);
   const std::vector<std::string> errors = settingErrors(s);
   if (!errors.empty()) {
     throw std::invalid_argument(fmt::format("{}", fmt::join(errors, "\n")));
@@ -58,11 +59,12 @@ AlarmSettings alarmSettings(const ros::NodeHandle& node) {
 
 class MonitorNode {
  public:
-  MonitorNode(ros::NodeHandle node, ros::NodeHandle private_node)
+  explicit MonitorNode(ros::NodeHandle node)
       : node_(node),
         scene_(sceneFromParameters(node, "scene")),
-        monitor_(scene_, alarmSettings(private_node)),
-        lcm_(private_node.param<std::string>("lcm_url", kDefaultLcmUrl)),
+        monitor_(scene_, alarmSettings()),
+        url_(privateParameter<std::string>("lcm_url", "an LCM url, or nothing", kDefaultLcmUrl)),
+        lcm_(url_),
         alerts_(node.advertise<AlertArray>("alerts", 10, true)) {
     if (!lcm_.warning().empty()) {
       ROS_WARN("%s", lcm_.warning().c_str());
@@ -72,11 +74,11 @@ class MonitorNode {
     }
     publishAlerts();
 
-    const auto source = private_node.param<std::string>("source", "ros");
+    const auto source = privateParameter<std::string>("source", "ros or lcm", "ros");
     if (source == "ros") {
       subscribe();
     } else if (source == "lcm") {
-      receive(private_node.param<std::string>("lcm_url", kDefaultLcmUrl));
+      receive(url_);
     } else {
       throw std::invalid_argument("source: must be ros or lcm, found '" + source + "'");
     }
@@ -192,6 +194,7 @@ class MonitorNode {
   ros::NodeHandle node_;
   Scene scene_;
   TwinMonitor monitor_;
+  std::string url_;
   LcmPublisher lcm_;
   ros::Publisher alerts_;
   std::map<std::string, ros::Publisher> margins_;
@@ -201,27 +204,18 @@ class MonitorNode {
   std::uint64_t rejected_ = 0;
 };
 
+void run() {
+  MonitorNode monitor(ros::NodeHandle("/twin"));
+  while (!stopRequested() && ros::ok()) {
+    monitor.spinOnce();
+  }
+  ros::shutdown();
+}
+
 }  // namespace
 
 }  // namespace whirl_twin
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "monitor_node", ros::init_options::NoSigintHandler);
-  std::signal(SIGINT, whirl_twin::requestStop);
-  std::signal(SIGTERM, whirl_twin::requestStop);
-  try {
-    whirl_twin::MonitorNode monitor(ros::NodeHandle("/twin"), ros::NodeHandle("~"));
-    while (!whirl_twin::stop_requested && ros::ok()) {
-      monitor.spinOnce();
-    }
-    ros::shutdown();
-    return 0;
-  } catch (const whirl_twin::SceneError& error) {
-    for (const std::string& line : error.errors()) {
-      ROS_FATAL("%s", line.c_str());
-    }
-  } catch (const std::exception& error) {
-    ROS_FATAL("monitor_node: %s", error.what());
-  }
-  return 2;
+  return whirl_twin::runNode(argc, argv, "monitor_node", whirl_twin::run);
 }

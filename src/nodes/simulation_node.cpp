@@ -4,25 +4,26 @@
 // ring and owns all sockets; this thread serves the services and the diagnostics.
 
 #include <diagnostic_updater/diagnostic_updater.h>
+#include <fmt/format.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <csignal>
 #include <ctime>
 #include <mutex>
 #include <thread>
 
 #include "nodes/loop_report.h"
+#include "nodes/private_parameter.h"
+#include "nodes/run_node.h"
 #include "nodes/scene_parameters.h"
 #include "nodes/state_publisher.h"
 #include "nodes/twin_services.h"
 #include "realtime/denormals.h"
 #include "realtime/fixed_rate_loop.h"
 #include "scene/live_twin.h"
-#include "scene/scene_reader.h"
 #include "transport/channels.h"
 
 namespace whirl_twin {
@@ -50,22 +51,24 @@ struct Settings {
   FixedRateLoop::Options loop;
 };
 
-Settings readSettings(const ros::NodeHandle& node, const Scene& scene) {
+Settings readSettings(const Scene& scene) {
   Settings s;
-  s.publish_rate = node.param("publish_rate", 0.0);
+  s.publish_rate = privateParameter("publish_rate", "a number in Hz", 0.0);
   if (!(s.publish_rate >= 0.0 && std::isfinite(s.publish_rate))) {
-    throw std::invalid_argument("publish_rate: must be >= 0 Hz (0: every step), found " +
-                                std::to_string(s.publish_rate));
+    throw std::invalid_argument(
+        fmt::format("publish_rate: must be >= 0 Hz (0: every step), found {}", s.publish_rate));
   }
-  s.lcm_url = node.param<std::string>("lcm_url", kDefaultLcmUrl);
-  s.clock = node.param("clock", false);
+  s.lcm_url = privateParameter<std::string>("lcm_url", "an LCM url, or nothing", kDefaultLcmUrl);
+  s.clock = privateParameter("clock", "true or false", false);
   if (s.clock && scene.time < 0) {
     throw std::invalid_argument("clock: needs a scene whose time is >= 0 s");
   }
   s.loop.period = scene.step;
-  s.loop.mode = parseRealtimeMode(node.param<std::string>("realtime", "warn"));
-  s.loop.priority = node.param("priority", 50);
-  s.loop.policy = parseOverrunPolicy(node.param<std::string>("overrun", "skip"));
+  s.loop.mode = parseRealtimeMode(
+      privateParameter<std::string>("realtime", "enforce, warn or ignore", "warn"));
+  s.loop.priority = privateParameter("priority", "a whole number", 50);
+  s.loop.policy = parseOverrunPolicy(
+      privateParameter<std::string>("overrun", "skip, catch_up or stop", "skip"));
   return s;
 }
 
@@ -175,11 +178,11 @@ class Publisher {
   std::thread thread_;
 };
 
-int run() {
+void run() {
   ros::NodeHandle node("/twin");
   ros::NodeHandle private_node("~");
   const Scene scene = sceneFromParameters(node, "scene");
-  const Settings settings = readSettings(private_node, scene);
+  const Settings settings = readSettings(scene);
 
   // Half a second of records, or some: what the publisher may be late by.
   const auto capacity =
@@ -188,7 +191,7 @@ int run() {
   FixedRateLoop loop(settings.loop);
   Publisher publisher(live, loop, node, settings);
   const TwinServices services(live, private_node,
-                              [&] { return !stop_requested && ros::ok() && loop.running(); });
+                              [&] { return !stopRequested() && ros::ok() && loop.running(); });
 
   diagnostic_updater::Updater diagnostics;
   diagnostics.setHardwareID("none");
@@ -213,7 +216,7 @@ int run() {
            status.policy.c_str(), status.priority, status.memory_locked ? "" : "not ");
   publisher.start();
 
-  while (!stop_requested && ros::ok() && loop.running()) {
+  while (!stopRequested() && ros::ok() && loop.running()) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.05));
     diagnostics.update();
   }
@@ -221,7 +224,6 @@ int run() {
   publisher.join();
   ROS_INFO("stopped after %ld steps", static_cast<long>(live.twin().stepCount()));
   ros::shutdown();
-  return 0;
 }
 
 }  // namespace
@@ -229,18 +231,5 @@ int run() {
 }  // namespace whirl_twin
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "simulation_node", ros::init_options::NoSigintHandler);
-  std::signal(SIGINT, whirl_twin::requestStop);
-  std::signal(SIGTERM, whirl_twin::requestStop);
-  try {
-    return whirl_twin::run();
-  } catch (const whirl_twin::SceneError& error) {
-    for (const std::string& line : error.errors()) {
-      ROS_FATAL("%s", line.c_str());
-    }
-    return 2;
-  } catch (const std::exception& error) {
-    ROS_FATAL("simulation_node: %s", error.what());
-    return 2;
-  }
+  return whirl_twin::runNode(argc, argv, "simulation_node", whirl_twin::run);
 }

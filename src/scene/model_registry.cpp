@@ -56,4 +56,20 @@ IntegratorChoice chooseIntegrator(const ModelInfo& model, const Dynamics& dynami
   return {"gauss_legendre_6", "nonlinear: order 6, symplectic, stable at any step"};
 }
 
+std::string integratorObjection(const ModelInfo& model, const Dynamics& dynamics, bool on_drive,
+                                const std::string& integrator) {
+  if (integrator != "exponential") {
+    return "";
+  }
+  const auto& suited = model.integrators;
+  if (std::find(suited.begin(), suited.end(), integrator) == suited.end()) {
+    return "exponential is for linear rotors; " + model.name + " is not linear";
+  }
+  if (on_drive && dynamics.speedDependent()) {
+    return "exponential needs matrices that do not change with speed: rotating damping on a "
+           "drive excludes it; gauss_legendre_6 or runge_kutta_4 will do";
+  }
+  return "";
+}
+
 }  // namespace whirl_twin

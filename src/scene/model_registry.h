@@ -26,4 +26,9 @@ struct IntegratorChoice {
 IntegratorChoice chooseIntegrator(const ModelInfo& model, const Dynamics& dynamics,
                                   bool speed_changes);
 
+/// Why a model cannot step with an integrator named in a scene; "" if it can.
+/// on_drive: as speed_changes above.
+std::string integratorObjection(const ModelInfo& model, const Dynamics& dynamics, bool on_drive,
+                                const std::string& integrator);
+
 }  // namespace whirl_twin

@@ -57,7 +57,7 @@ std::int64_t nanoseconds(const MapReader& map, const std::string& name, double s
   if (std::fabs(count - whole) > 1.0e-6 * std::max(1.0, std::fabs(whole) * 1.0e-9)) {
     complaints.add(map.key(name),
                    fmt::format("must be a whole number of nanoseconds, found {} s; nearest {} s",
-                               seconds, whole * 1.0e-9));
+                               seconds, whole / 1.0e9));
   }
   return static_cast<std::int64_t>(whole);
 }
@@ -187,18 +187,11 @@ void readIntegrator(const MapReader& system, const ModelInfo& model, const Scene
   spec.tolerance = system.number("tolerance", Range::kPositive, "-", spec.tolerance);
   spec.horizon = system.number("horizon", Range::kPositive, "s", spec.horizon);
   spec.substeps = system.integer("substeps", 1, 1000000, 1);
-  if (spec.integrator != "exponential") {
-    return;
-  }
-  const auto& suited = model.integrators;
-  if (std::find(suited.begin(), suited.end(), spec.integrator) == suited.end()) {
-    complaints.add(system.key("integrator"),
-                   "exponential is for linear rotors; " + model.name + " is not linear");
-  } else if (spec.drive && model.dynamics(spec.parameters, scene.gravity)->speedDependent()) {
-    complaints.add(
-        system.key("integrator"),
-        "exponential needs matrices that do not change with speed: rotating damping on a "
-        "drive excludes it; gauss_legendre_6 or runge_kutta_4 will do");
+  const std::string objection =
+      integratorObjection(model, *model.dynamics(spec.parameters, scene.gravity),
+                          spec.drive.has_value(), spec.integrator);
+  if (!objection.empty()) {
+    complaints.add(system.key("integrator"), objection);
   }
 }
 

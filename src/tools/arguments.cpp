@@ -16,18 +16,19 @@ std::string hint(const std::string& name, const std::vector<std::string>& candid
                       : fmt::format("; did you mean '{}'?", near);
 }
 
-std::vector<std::size_t> selectedSystems(const Scene& scene, const std::string& name) {
+std::vector<std::size_t> selectedSystems(const Scene& scene,
+                                         const std::optional<std::string>& name) {
   std::vector<std::size_t> selected;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < scene.systems.size(); ++i) {
     names.push_back(scene.systems[i].name);
-    if (name.empty() || name == names.back()) {
+    if (!name || *name == names.back()) {
       selected.push_back(i);
     }
   }
   if (selected.empty()) {
     throw BadInput(
-        fmt::format("--system: no system '{}' in {}{}", name, scene.source, hint(name, names)));
+        fmt::format("--system: no system '{}' in {}{}", *name, scene.source, hint(*name, names)));
   }
   return selected;
 }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,9 +14,10 @@ namespace whirl_twin {
 /// "; did you mean 'NEAREST'?", or, without a near one, "; there are: ALL".
 std::string hint(const std::string& name, const std::vector<std::string>& candidates);
 
-/// The system of that name, or all of them if `name` is empty: indices into scene.systems.
+/// The system of that name, or all of them without a name: indices into scene.systems.
 /// Throws BadInput with a hint.
-std::vector<std::size_t> selectedSystems(const Scene& scene, const std::string& name);
+std::vector<std::size_t> selectedSystems(const Scene& scene,
+                                         const std::optional<std::string>& name);
 
 /// Seconds, as typed, as a whole number of nanoseconds from `low` to `high` [ns]. Exact: no binary
 /// fraction comes in between. `option` names it in the message. Throws BadInput.

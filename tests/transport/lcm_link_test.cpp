@@ -4,10 +4,12 @@
 #include <lcm/lcm-cpp.hpp>
 #include <memory>
 
+#include "event_log_sample.h"
 #include "state_samples.h"
 #include "transport/lcm_connection.h"
 #include "transport/lcm_publisher.h"
 #include "transport/lcm_receiver.h"
+#include "transport/lcm_recorder.h"
 
 namespace whirl_twin {
 namespace {
@@ -104,6 +106,37 @@ TEST_F(LcmLink, CountsWhatWasLostAndWhatIsRejected) {
   EXPECT_EQ(receiver.rejected(), 2u);
   EXPECT_EQ(arrived_.size(), 5u);
   EXPECT_EQ(receiver.lastRejection().find("TWIN_ROTOR_WHIRL: "), 0u) << receiver.lastRejection();
+}
+
+TEST_F(LcmLink, RecordsEveryEventOfTheWantedChannels) {
+  const TemporaryLog log;
+  {
+    LcmRecorder recorder(lcm_, "TWIN_.*", log.path());
+    for (int step = 0; step < 2000; ++step) {
+      publisher_.publish(whirlAt(step));
+      publisher_.publish(driveAt(step));
+    }
+    const char other[] = "not the twin's";
+    lcm_->publish("CAMERA", other, sizeof(other));
+    recorder.record(kNow, 10000);
+    EXPECT_EQ(recorder.recorded(), 4000u);
+    // What has been recorded is in the file even if nobody ends the recorder properly.
+    EXPECT_EQ(readEventLog(log.path()).events, 4000u);
+  }
+  const auto summary = readEventLog(log.path());
+  EXPECT_TRUE(summary.intact() && summary.continuous());
+  EXPECT_EQ(summary.channels.size(), 2u);
+}
+
+TEST_F(LcmLink, ARecorderNoticesAFullDisk) {
+  LcmRecorder recorder(lcm_, "TWIN_.*", "/dev/full");
+  publisher_.publish(whirlAt(0));
+  EXPECT_THROW(recorder.record(kNow), std::runtime_error);
+}
+
+TEST_F(LcmLink, ARecorderSaysWhichFileCannotBeWritten) {
+  EXPECT_THROW(LcmRecorder(lcm_, "TWIN_.*", "/tmp/whirl_twin_no_such_directory/run.lcmlog"),
+               std::runtime_error);
 }
 
 TEST(LcmPublisher, IsOffWithoutAUrl) {

@@ -1,0 +1,16 @@
+// What the mains of the simulation and the monitor have in common: how they end.
+#pragma once
+
+#include <functional>
+
+namespace whirl_twin {
+
+/// True once SIGINT or SIGTERM has come; threads end by looking at it.
+bool stopRequested();
+
+/// Initialises ROS as node `name` with signals that only set stopRequested(), and runs `run`.
+/// Returns the exit status: 0, or 2 after printing to standard error what a SceneError or any other
+/// exception says. (ROS's own log is closed by then.)
+int runNode(int argc, char** argv, const char* name, const std::function<void()>& run);
+
+}  // namespace whirl_twin

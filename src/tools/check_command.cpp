@@ -1,0 +1,54 @@
+#include <memory>
+#include <optional>
+
+#include "scene/scene_reader.h"
+#include "tools/arguments.h"
+#include "tools/commands.h"
+#include "tools/scene_check.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr const char* kDescription =
+    "Checks a scene file and tells what will be modelled: systems, states, integrators, messages,\n"
+    "and what a step costs on this machine.";
+
+constexpr const char* kFooter =
+    "A scene with errors is refused with all of them at once, one a line on standard error:\n"
+    "the file, the key, what was expected with its unit, and what was found. Exit status 2.\n"
+    "\n"
+    "Examples:\n"
+    "  twin check demo.yaml\n"
+    "  twin check demo.yaml --system rotor --json";
+
+struct Request {
+  std::string scene;
+  std::optional<std::string> system;
+  bool json = false;
+};
+
+int check(const Request& request) {
+  const Scene scene = readSceneFile(request.scene);
+  const SceneCheck result = checkScene(scene, selectedSystems(scene, request.system));
+  if (request.json) {
+    print(json(result));
+  } else {
+    print(text(result));
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void addCheckCommand(CLI::App& twin, int& status) {
+  CLI::App* command = twin.add_subcommand("check", kDescription);
+  const auto request = std::make_shared<Request>();
+  command->add_option("SCENE", request->scene, "scene file (YAML)")->required();
+  command->add_option("--system", request->system, "show this system only");
+  command->add_flag("--json", request->json, "print one JSON object");
+  command->footer(kFooter);
+  command->callback([request, &status] { status = check(*request); });
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,48 @@
+#include "tools/progress_bar.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <string>
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr std::int64_t kStepsPerLook = 1024;  // a look at the clock costs as much as a step
+constexpr std::size_t kWidth = 40;
+constexpr std::chrono::milliseconds kInterval{100};
+
+}  // namespace
+
+ProgressBar::ProgressBar(std::int64_t steps, bool results_on_standard_output)
+    : steps_(steps),
+      on_(::isatty(STDERR_FILENO) != 0 &&
+          !(results_on_standard_output && ::isatty(STDOUT_FILENO) != 0)) {}
+
+void ProgressBar::show(std::int64_t step) {
+  if (!on_ || step % kStepsPerLook != 0) {
+    return;
+  }
+  const auto now = std::chrono::steady_clock::now();
+  if (now < next_) {
+    return;
+  }
+  next_ = now + kInterval;
+  const double part = static_cast<double>(step) / static_cast<double>(steps_);
+  const auto filled = static_cast<std::size_t>(part * kWidth);
+  fmt::print(stderr, "\r[{}{}] {:3.0f} %", std::string(filled, '#'),
+             std::string(kWidth - filled, ' '), 100.0 * part);
+  std::fflush(stderr);
+  drawn_ = true;
+}
+
+void ProgressBar::clear() {
+  if (drawn_) {
+    fmt::print(stderr, "\r\033[K");
+    drawn_ = false;
+  }
+}
+
+}  // namespace whirl_twin

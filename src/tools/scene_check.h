@@ -1,0 +1,52 @@
+// What `twin check` says of a sound scene.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/twin.h"
+#include "tools/output.h"
+
+namespace whirl_twin {
+
+/// A message on a ROS topic.
+struct PublishedTopic {
+  std::string topic;
+  std::string type;
+};
+
+struct SystemCheck {
+  std::string name;
+  const ModelInfo* model = nullptr;
+  std::string integrator;
+  std::string reason;  ///< why this one
+  int substeps = 1;
+  std::optional<std::string> drive;
+  std::optional<double> speed;  ///< [rad/s], constant
+  std::vector<PublishedTopic> topics;
+  std::vector<std::string> channels;  ///< LCM
+  double step_cost = 0.0;             ///< [ns]; NaN: it stops at once
+};
+
+struct SceneCheck {
+  Scene scene;
+  std::vector<SystemCheck> systems;
+  double step_cost = 0.0;  ///< [ns], of all systems together
+  std::size_t memory = 0;  ///< [bytes], heap of the running twin
+  std::size_t record = 0;  ///< [bytes], of one step's snapshot
+};
+
+/// Checks the systems chosen (indices into scene.systems), all the others aside. Takes a few
+/// hundredths of a second to measure what a step costs.
+SceneCheck checkScene(const Scene& scene, const std::vector<std::size_t>& systems);
+
+std::string text(const SceneCheck& check);
+Json json(const SceneCheck& check);
+
+/// The topic and the LCM channel of a drive.
+PublishedTopic driveTopic(const DriveSpec& drive);
+std::string driveChannel(const DriveSpec& drive);
+
+}  // namespace whirl_twin

@@ -1,0 +1,114 @@
+#include "tools/simulation.h"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+
+#include "realtime/denormals.h"
+#include "tools/commands.h"
+
+namespace whirl_twin {
+
+namespace {
+
+std::atomic<bool> stop_requested{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
+
+void requestStop(int) {
+  stop_requested.store(true);
+}
+
+}  // namespace
+
+Simulation::Simulation(const SimulationPlan& plan)
+    : plan_(plan), twin_(plan.scene), observer_(twin_), stopped_(plan.scene.systems.size()) {}
+
+void Simulation::run(SampleWriter* writer, bool results_on_standard_output) {
+  const DenormalsToZero denormals_to_zero;  // as the real-time loop does: the same numbers
+  std::signal(SIGINT, requestStop);
+  std::signal(SIGTERM, requestStop);
+  ProgressBar bar(plan_.steps, results_on_standard_output);
+  std::vector<double> record(twin_.layout().size);
+  if (writer != nullptr) {
+    writer->write(observer_);
+  }
+  for (std::int64_t i = 1; i <= plan_.steps; ++i) {
+    twin_.step();
+    twin_.write(record.data());
+    observer_.observe(record.data());  // every step: the phase is unwrapped from step to step
+    noteStops(bar);
+    if (writer != nullptr && i % plan_.stride == 0) {
+      writer->write(observer_);
+    }
+    if (stop_requested.load(std::memory_order_relaxed)) {
+      throw RunFailed(fmt::format("interrupted after {} of {} steps", i, plan_.steps));
+    }
+    bar.show(i);
+  }
+}
+
+bool Simulation::sound() const {
+  for (const std::size_t i : plan_.systems) {
+    if (twin_.status(i) != StepStatus::kOk) {
+      return false;
+    }
+  }
+  return true;
+}
+
+void Simulation::noteStops(ProgressBar& bar) {
+  for (const std::size_t i : plan_.systems) {
+    if (twin_.status(i) != StepStatus::kOk && !stopped_[i]) {
+      stopped_[i] = observer_.step();
+      bar.clear();
+      fmt::print(stderr, "twin: {}\n", observer_.stopReason(i));
+    }
+  }
+}
+
+Json Simulation::systemJson(std::size_t system) const {
+  const Twin::Member& member = twin_.members()[system];
+  Json json;
+  json["model"] = member.spec.model;
+  json["integrator"] = member.integrator;
+  json["substeps"] = member.spec.substeps;
+  json["status"] = stopped_[system] ? describe(twin_.status(system)) : "ok";
+  json["steps"] = stopped_[system] ? *stopped_[system] - 1 : observer_.step();
+  Json& state = json["state"];
+  for (std::size_t k = 0; k < member.spec.q.size(); ++k) {
+    const std::string name = member.model->coordinates[k].name;
+    state[name] = observer_.coordinates(system)[k];
+    state[name + "_rate"] = observer_.rates(system)[k];
+  }
+  if (member.model->rotor) {
+    json["whirl_radius"] = observer_.whirlRadius(system);
+    json["whirl_phase"] = observer_.whirlPhase(system);
+  }
+  if (stopped_[system]) {
+    json["energy"] = nullptr;  // the shaft has gone on without it
+  } else {
+    const Energies e = observer_.energies(system);
+    json["energy"] = {
+        {"kinetic", e.kinetic}, {"potential", e.potential}, {"jacobi", e.jacobi}};
+  }
+  json["energy_residual"] = observer_.energyResidual(system);
+  return json;
+}
+
+Json Simulation::json() const {
+  Json json;
+  json["scene"] = plan_.scene.name;
+  json["step"] = plan_.scene.stepSeconds();
+  json["duration"] = static_cast<double>(plan_.steps * plan_.scene.step) / 1.0e9;
+  json["steps"] = plan_.steps;
+  json["time"] = twin_.seconds(plan_.steps);
+  Json& systems = json["systems"];
+  for (const std::size_t i : plan_.systems) {
+    systems[plan_.scene.systems[i].name] = systemJson(i);
+  }
+  return json;
+}
+
+}  // namespace whirl_twin

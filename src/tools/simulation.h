@@ -1,0 +1,63 @@
+// A run of a scene from its start, as fast as it goes.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/observer.h"
+#include "tools/output.h"
+#include "tools/progress_bar.h"
+#include "tools/sample_writer.h"
+
+namespace whirl_twin {
+
+/// What `twin simulate` is asked for.
+struct SimulationRequest {
+  std::string scene;  ///< path
+  std::optional<std::string> system;
+  std::optional<std::string> duration;  ///< [s], as typed
+  std::optional<std::string> step;      ///< [s], as typed
+  std::optional<std::string> sample;    ///< [s], as typed
+  std::optional<std::string> integrator;
+  std::optional<std::string> output;
+  bool json = false;
+};
+
+/// A request that has been checked.
+struct SimulationPlan {
+  Scene scene;
+  std::vector<std::size_t> systems;  ///< those that are shown
+  std::int64_t steps = 0;
+  std::int64_t stride = 1;  ///< steps from one sample to the next
+};
+
+/// Reads the scene and checks the options against it. Throws SceneError or BadInput.
+SimulationPlan planSimulation(const SimulationRequest& request);
+
+class Simulation {
+ public:
+  explicit Simulation(const SimulationPlan& plan);
+
+  /// Runs to the end. `writer` may be null. A system that stops is reported on standard error and
+  /// the others go on. Throws RunFailed if SIGINT or SIGTERM ends it before.
+  void run(SampleWriter* writer, bool results_on_standard_output);
+
+  const Twin& twin() const { return twin_; }
+  /// All systems of the plan are still running.
+  bool sound() const;
+  /// The final state of everything.
+  Json json() const;
+
+ private:
+  void noteStops(ProgressBar& bar);
+  Json systemJson(std::size_t system) const;
+
+  SimulationPlan plan_;
+  Twin twin_;
+  Observer observer_;
+  std::vector<std::optional<std::int64_t>> stopped_;  ///< the step in which each system stopped
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,97 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/model_registry.h"
+#include "scene/scene_reader.h"
+#include "tools/arguments.h"
+#include "tools/commands.h"
+#include "tools/drive_profile.h"
+#include "tools/simulation.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr std::int64_t kSecond = 1'000'000'000;               // ns
+constexpr std::int64_t kLongestRun = 1'000'000'000 * kSecond;  // as long as a drive can be timed
+constexpr double kDefaultDuration = 10.0;                     // s
+
+/// A time as typed that has to be a whole number of steps.
+std::int64_t wholeSteps(const std::string& option, const std::string& text, std::int64_t low,
+                        std::int64_t step) {
+  const std::int64_t time = parseNanoseconds(option, text, low, kLongestRun);
+  if (time % step != 0) {
+    const std::int64_t before = time - time % step;
+    throw BadInput(fmt::format("{}: must be a whole number of steps of {}, found {} s; next to it "
+                               "are {} and {}",
+                               option, inSeconds(step), text, inSeconds(before),
+                               inSeconds(before + step)));
+  }
+  return time / step;
+}
+
+/// The longest drive profile, or 10 s, in whole samples.
+std::int64_t defaultSteps(const SimulationPlan& plan) {
+  double duration = 0.0;
+  for (const DriveSpec& drive : plan.scene.drives) {
+    duration = std::max(duration, profileDuration(drive));
+  }
+  if (duration == 0.0) {
+    duration = kDefaultDuration;
+  }
+  if (duration > static_cast<double>(kLongestRun / kSecond)) {
+    throw BadInput(fmt::format("--duration: the drive's profile lasts {:.3g} s; give a duration up "
+                               "to {}",
+                               duration, inSeconds(kLongestRun)));
+  }
+  const double sample = plan.scene.stepSeconds() * static_cast<double>(plan.stride);
+  // A profile that lasts whole samples but for rounding is not worth another one.
+  return plan.stride * static_cast<std::int64_t>(std::ceil(duration / sample - 1.0e-6));
+}
+
+void overrideIntegrator(const std::string& name, SimulationPlan& plan) {
+  const auto& names = integratorNames();
+  if (std::find(names.begin(), names.end(), name) == names.end()) {
+    throw BadInput(fmt::format("--integrator: no integrator '{}'{}", name, hint(name, names)));
+  }
+  std::vector<std::string> objections;
+  for (const std::size_t i : plan.systems) {
+    SystemSpec& spec = plan.scene.systems[i];
+    const ModelInfo& model = *findModel(spec.model);
+    const std::string objection =
+        integratorObjection(model, *model.dynamics(spec.parameters, plan.scene.gravity),
+                            spec.drive.has_value(), name);
+    if (!objection.empty()) {
+      objections.push_back(fmt::format("--integrator: {}: {}", spec.name, objection));
+    }
+    spec.integrator = name;
+  }
+  if (!objections.empty()) {
+    throw BadInput(fmt::format("{}", fmt::join(objections, "\ntwin: ")));
+  }
+}
+
+}  // namespace
+
+SimulationPlan planSimulation(const SimulationRequest& request) {
+  SimulationPlan plan;
+  plan.scene = readSceneFile(request.scene);
+  plan.systems = selectedSystems(plan.scene, request.system);
+  if (request.step) {
+    plan.scene.step = parseNanoseconds("--step", *request.step, 1, 10 * kSecond);
+  }
+  if (request.integrator) {
+    overrideIntegrator(*request.integrator, plan);
+  }
+  const std::int64_t step = plan.scene.step;
+  if (request.sample) {
+    plan.stride = wholeSteps("--sample", *request.sample, step, step);
+  }
+  plan.steps = request.duration ? wholeSteps("--duration", *request.duration, 0, step)
+                                        : defaultSteps(plan);
+  return plan;
+}
+
+}  // namespace whirl_twin

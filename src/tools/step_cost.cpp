@@ -1,0 +1,77 @@
+#include "tools/step_cost.h"
+
+#include <malloc.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "realtime/denormals.h"
+#include "scene/twin.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr int kRounds = 7;
+constexpr std::int64_t kMostSteps = 1 << 20;
+
+/// [s] for so many steps from the start, or NaN.
+double timed(Twin& twin, std::int64_t steps) {
+  twin.reset();
+  const auto start = std::chrono::steady_clock::now();
+  for (std::int64_t i = 0; i < steps; ++i) {
+    twin.step();
+  }
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  for (std::size_t i = 0; i < twin.members().size(); ++i) {
+    if (twin.status(i) != StepStatus::kOk) {
+      return std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+  return taken.count();
+}
+
+}  // namespace
+
+double stepCost(const Scene& scene, double budget) {
+  const DenormalsToZero denormals_to_zero;
+  Twin twin(scene);
+  // Double the steps until a round is long enough to be timed, which warms up as well.
+  const double round = budget / (2 * kRounds);
+  std::int64_t steps = 1;
+  double taken = timed(twin, steps);
+  while (taken < round && steps < kMostSteps) {
+    steps *= 2;
+    taken = timed(twin, steps);
+  }
+  std::vector<double> rounds{taken};
+  for (int i = 1; i < kRounds && taken < budget; ++i) {
+    rounds.push_back(timed(twin, steps));
+  }
+  const auto middle = rounds.begin() + static_cast<std::ptrdiff_t>(rounds.size() / 2);
+  std::nth_element(rounds.begin(), middle, rounds.end());
+  return 1.0e9 * *middle / static_cast<double>(steps);
+}
+
+Scene sceneOfOne(const Scene& scene, std::size_t system) {
+  Scene one = scene;
+  one.systems = {scene.systems[system]};
+  one.drives.clear();
+  for (const DriveSpec& drive : scene.drives) {
+    if (one.systems.front().drive == drive.name) {
+      one.drives.push_back(drive);
+    }
+  }
+  return one;
+}
+
+std::size_t twinMemory(const Scene& scene) {
+  const std::size_t before = ::mallinfo2().uordblks;
+  const Twin twin(scene);
+  return ::mallinfo2().uordblks - before;
+}
+
+}  // namespace whirl_twin
