@@ -33,10 +33,6 @@ namespace {
 std::atomic<bool> stop_requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
 
-void requestStop(int) {
-  stop_requested.store(true);
-}
-
 std::int64_t clockNow(clockid_t clock) {
   timespec now{};
   clock_gettime(clock, &now);
