@@ -26,11 +26,6 @@ namespace whirl_twin {
 
 namespace {
 
-std::atomic<bool> stop_requested{false};
-void requestStop(int) {
-  stop_requested.store(true);
-}
-
 constexpr std::uint32_t kQueue = 5000;  // some seconds at 1 kHz
 
 double wallTime() {

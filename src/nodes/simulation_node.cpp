@@ -30,9 +30,6 @@ namespace whirl_twin {
 
 namespace {
 
-std::atomic<bool> stop_requested{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
-
 std::int64_t clockNow(clockid_t clock) {
   timespec now{};
   clock_gettime(clock, &now);
