@@ -105,9 +105,11 @@ void CriticalSpeedAlarm::updateBand(const state::DriveState& shaft,
     alert.type = alert_type::kInCriticalBand;
     alert.severity = band_alarm_.severity();
     alert.text =
-        fmt::format("{}: {} at {:.1f} rad/s for {:.1f} s near {}: {} {}", system_,
-                    danger ? "dwelling" : "passing", speed, dwell, criticalSpeedText(critical),
-                    danger ? "leave the range" : "do not dwell", bandText(critical));
+        // No live numbers: the latched list is published anew only when a decision changes.
+        danger ? fmt::format("{}: more than {:g} s near {}: leave the range {}", system_,
+                             settings_.dwell_limit, criticalSpeedText(critical), bandText(critical))
+               : fmt::format("{}: passing {}: do not dwell {}", system_,
+                             criticalSpeedText(critical), bandText(critical));
     alerts.raise(std::move(alert), fmt::format("critical {}", *occupied));
   }
 }

@@ -71,10 +71,12 @@ class SteppedSystem final : public System {
         return status;
       }
     }
+    bool finite = isFinite(next.work.high);
     for (std::size_t i = 0; i < n; ++i) {
-      if (!isFinite(next.q[i]) || !isFinite(next.v[i])) {
-        return StepStatus::kNotFinite;
-      }
+      finite = finite && isFinite(next.q[i]) && isFinite(next.v[i]);
+    }
+    if (!finite) {
+      return StepStatus::kNotFinite;
     }
     state_ = next;
     return StepStatus::kOk;

@@ -39,8 +39,8 @@ std::string inSeconds(std::int64_t nanoseconds) {
 
 std::int64_t parseNanoseconds(const std::string& option, const std::string& text, std::int64_t low,
                               std::int64_t high) {
-  const std::string expected = fmt::format("must be from {} to {}", inSeconds(low),
-                                           inSeconds(high));
+  const std::string expected =
+      fmt::format("must be from {} to {}", inSeconds(low), inSeconds(high));
   Rational nanoseconds;
   try {
     nanoseconds = parseRational(text) * 1000000000;
@@ -51,8 +51,8 @@ std::int64_t parseNanoseconds(const std::string& option, const std::string& text
     throw BadInput(fmt::format("{}: {}, found {} s", option, expected, text));
   }
   if (denominator(nanoseconds) != 1) {
-    throw BadInput(fmt::format("{}: must be a whole number of nanoseconds, found {} s", option,
-                               text));
+    throw BadInput(
+        fmt::format("{}: must be a whole number of nanoseconds, found {} s", option, text));
   }
   return static_cast<std::int64_t>(numerator(nanoseconds));
 }

@@ -32,9 +32,9 @@ int check(const Request& request) {
   const Scene scene = readSceneFile(request.scene);
   const SceneCheck result = checkScene(scene, selectedSystems(scene, request.system));
   if (request.json) {
-    print(json(result));
+    printJson(json(result));
   } else {
-    print(text(result));
+    printText(text(result));
   }
   return kDone;
 }

@@ -66,7 +66,7 @@ Json parameterJson(const ParameterInfo& p) {
   Json json;
   json["unit"] = p.unit;
   json["range"] = describe(p.range);
-  json["default"] = p.fallback ? Json(*p.fallback)
+  json["default"] = p.fallback                     ? Json(*p.fallback)
                     : p.fallback_parameter.empty() ? Json()
                                                    : Json(p.fallback_parameter);
   json["required"] = !p.fallback && p.fallback_parameter.empty() && p.name != "speed";
@@ -110,9 +110,9 @@ int list(const Request& request) {
     throw BadInput(fmt::format("no model '{}'{}", *request.model, hint(*request.model, names)));
   }
   if (request.json) {
-    print(all);
+    printJson(all);
   } else {
-    print(texts);
+    printText(texts);
   }
   return kDone;
 }

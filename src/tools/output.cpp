@@ -20,15 +20,20 @@ namespace {
 
 }  // namespace
 
-void print(std::string_view text) {
+void printText(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) {
     throwNoOutput();
   }
 }
 
-void print(const Json& json) {
+void printJson(const Json& json) {
   // Names in a scene may hold any bytes; what is not UTF-8 is replaced, not refused.
-  print(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  printText(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+void complain(const std::string& message) {
+  std::fwrite(message.data(), 1, message.size(), stderr);
+  std::fflush(stderr);
 }
 
 void finishStandardOutput() {
@@ -56,8 +61,8 @@ PendingFile::PendingFile(const std::string& path) : final_(path), written_(path)
   }
   const fs::path directory = fs::path(final_).parent_path();
   if (!directory.empty() && !fs::is_directory(directory, error)) {
-    throw RunFailed(fmt::format("{}: cannot be written: no directory {}", path,
-                                directory.string()));
+    throw RunFailed(
+        fmt::format("{}: cannot be written: no directory {}", path, directory.string()));
   }
   written_ = fmt::format("{}.{}.part", final_, ::getpid());
 }

@@ -11,8 +11,11 @@ namespace whirl_twin {
 using Json = nlohmann::ordered_json;
 
 /// Prints results on standard output. Throws RunFailed if they cannot be written.
-void print(std::string_view text);
-void print(const Json& json);
+void printText(std::string_view text);
+void printJson(const Json& json);
+
+/// Prints a message on standard error, whether it can be written or not.
+void complain(const std::string& message);
 
 /// Hands everything printed to the system: only then is a full device noticed. Throws RunFailed.
 void finishStandardOutput();

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cstdio>
 #include <string>
+
+#include "tools/output.h"
 
 namespace whirl_twin {
 
@@ -32,15 +33,14 @@ void ProgressBar::show(std::int64_t step) {
   next_ = now + kInterval;
   const double part = static_cast<double>(step) / static_cast<double>(steps_);
   const auto filled = static_cast<std::size_t>(part * kWidth);
-  fmt::print(stderr, "\r[{}{}] {:3.0f} %", std::string(filled, '#'),
-             std::string(kWidth - filled, ' '), 100.0 * part);
-  std::fflush(stderr);
+  complain(fmt::format("\r[{}{}] {:3.0f} %", std::string(filled, '#'),
+                       std::string(kWidth - filled, ' '), 100.0 * part));
   drawn_ = true;
 }
 
 void ProgressBar::clear() {
   if (drawn_) {
-    fmt::print(stderr, "\r\033[K");
+    complain("\r\033[K");
     drawn_ = false;
   }
 }

@@ -20,8 +20,7 @@ SystemCheck checkSystem(const Twin::Member& member) {
   check.name = name;
   check.model = member.model;
   check.integrator = member.integrator;
-  check.reason =
-      member.integrator_reason.empty() ? "named in the scene" : member.integrator_reason;
+  check.reason = member.integrator_reason.empty() ? "named in the scene" : member.integrator_reason;
   check.substeps = member.spec.substeps;
   check.drive = member.spec.drive;
   check.speed = member.spec.speed;

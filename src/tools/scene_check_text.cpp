@@ -11,9 +11,9 @@ namespace {
 
 std::string driveText(const DriveSpec& drive) {
   std::string out = fmt::format("  {}: {:g} rad/s", drive.name, drive.speed);
-  out += drive.profile.empty() ? ", constant until it is given another speed\n"
-                               : fmt::format(" at the start, a profile of {:.4g} s\n",
-                                             profileDuration(drive));
+  out += drive.profile.empty()
+             ? ", constant until it is given another speed\n"
+             : fmt::format(" at the start, a profile of {:.4g} s\n", profileDuration(drive));
   const std::vector<double> durations = changeDurations(drive);
   for (std::size_t i = 0; i < durations.size(); ++i) {
     const SpeedMove& move = drive.profile[i];

@@ -43,9 +43,8 @@ std::unique_ptr<SampleWriter> makeWriter(const SimulationRequest& request, const
   if (!request.output) {
     return request.json ? nullptr : makeTableWriter(twin, systems, "");
   }
-  return extensionOf(*request.output) == ".csv"
-             ? makeTableWriter(twin, systems, *request.output)
-             : makeLogWriter(twin, systems, *request.output);
+  return extensionOf(*request.output) == ".csv" ? makeTableWriter(twin, systems, *request.output)
+                                                : makeLogWriter(twin, systems, *request.output);
 }
 
 int simulate(const SimulationRequest& request) {
@@ -60,7 +59,7 @@ int simulate(const SimulationRequest& request) {
     writer->finish();
   }
   if (request.json) {
-    print(simulation.json());
+    printJson(simulation.json());
   }
   return simulation.sound() ? kDone : kFailed;
 }

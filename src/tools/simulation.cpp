@@ -4,7 +4,6 @@
 
 #include <atomic>
 #include <csignal>
-#include <cstdio>
 
 #include "realtime/denormals.h"
 #include "tools/commands.h"
@@ -63,7 +62,7 @@ void Simulation::noteStops(ProgressBar& bar) {
     if (twin_.status(i) != StepStatus::kOk && !stopped_[i]) {
       stopped_[i] = observer_.step();
       bar.clear();
-      fmt::print(stderr, "twin: {}\n", observer_.stopReason(i));
+      complain(fmt::format("twin: {}\n", observer_.stopReason(i)));
     }
   }
 }
@@ -90,8 +89,7 @@ Json Simulation::systemJson(std::size_t system) const {
     json["energy"] = nullptr;  // the shaft has gone on without it
   } else {
     const Energies e = observer_.energies(system);
-    json["energy"] = {
-        {"kinetic", e.kinetic}, {"potential", e.potential}, {"jacobi", e.jacobi}};
+    json["energy"] = {{"kinetic", e.kinetic}, {"potential", e.potential}, {"jacobi", e.jacobi}};
   }
   json["energy_residual"] = observer_.energyResidual(system);
   return json;

@@ -14,9 +14,9 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000'000;               // ns
+constexpr std::int64_t kSecond = 1'000'000'000;                // ns
 constexpr std::int64_t kLongestRun = 1'000'000'000 * kSecond;  // as long as a drive can be timed
-constexpr double kDefaultDuration = 10.0;                     // s
+constexpr double kDefaultDuration = 10.0;                      // s
 
 /// A time as typed that has to be a whole number of steps.
 std::int64_t wholeSteps(const std::string& option, const std::string& text, std::int64_t low,
@@ -24,10 +24,10 @@ std::int64_t wholeSteps(const std::string& option, const std::string& text, std:
   const std::int64_t time = parseNanoseconds(option, text, low, kLongestRun);
   if (time % step != 0) {
     const std::int64_t before = time - time % step;
-    throw BadInput(fmt::format("{}: must be a whole number of steps of {}, found {} s; next to it "
-                               "are {} and {}",
-                               option, inSeconds(step), text, inSeconds(before),
-                               inSeconds(before + step)));
+    throw BadInput(
+        fmt::format("{}: must be a whole number of steps of {}, found {} s; next to it "
+                    "are {} and {}",
+                    option, inSeconds(step), text, inSeconds(before), inSeconds(before + step)));
   }
   return time / step;
 }
@@ -42,9 +42,10 @@ std::int64_t defaultSteps(const SimulationPlan& plan) {
     duration = kDefaultDuration;
   }
   if (duration > static_cast<double>(kLongestRun / kSecond)) {
-    throw BadInput(fmt::format("--duration: the drive's profile lasts {:.3g} s; give a duration up "
-                               "to {}",
-                               duration, inSeconds(kLongestRun)));
+    throw BadInput(
+        fmt::format("--duration: the drive's profile lasts {:.3g} s; give a duration up "
+                    "to {}",
+                    duration, inSeconds(kLongestRun)));
   }
   const double sample = plan.scene.stepSeconds() * static_cast<double>(plan.stride);
   // A profile that lasts whole samples but for rounding is not worth another one.
@@ -60,9 +61,8 @@ void overrideIntegrator(const std::string& name, SimulationPlan& plan) {
   for (const std::size_t i : plan.systems) {
     SystemSpec& spec = plan.scene.systems[i];
     const ModelInfo& model = *findModel(spec.model);
-    const std::string objection =
-        integratorObjection(model, *model.dynamics(spec.parameters, plan.scene.gravity),
-                            spec.drive.has_value(), name);
+    const std::string objection = integratorObjection(
+        model, *model.dynamics(spec.parameters, plan.scene.gravity), spec.drive.has_value(), name);
     if (!objection.empty()) {
       objections.push_back(fmt::format("--integrator: {}: {}", spec.name, objection));
     }
@@ -89,8 +89,8 @@ SimulationPlan planSimulation(const SimulationRequest& request) {
   if (request.sample) {
     plan.stride = wholeSteps("--sample", *request.sample, step, step);
   }
-  plan.steps = request.duration ? wholeSteps("--duration", *request.duration, 0, step)
-                                        : defaultSteps(plan);
+  plan.steps =
+      request.duration ? wholeSteps("--duration", *request.duration, 0, step) : defaultSteps(plan);
   return plan;
 }
 

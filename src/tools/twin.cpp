@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -62,13 +62,13 @@ void explain(const CLI::App& twin, const CLI::ParseError& error) {
       what = fmt::format("unknown option '{}'; did you mean '{}'?", rest, near);
     }
   }
-  fmt::print(stderr, "{}: {}\n`{} --help` tells how it is used.\n", name, what, name);
+  complain(fmt::format("{}: {}\n`{} --help` tells how it is used.\n", name, what, name));
 }
 
 /// A command that does not exist, said before CLI11 takes it for a stray argument.
 bool unknownCommand(const CLI::App& twin, const std::vector<std::string>& arguments) {
   if (arguments.empty()) {
-    fmt::print(stderr, "twin: expected a command{}\n", hint("", names(twin)));
+    complain(fmt::format("twin: expected a command{}\n", hint("", names(twin))));
     return true;
   }
   const std::vector<std::string> commands = names(twin);
@@ -77,8 +77,8 @@ bool unknownCommand(const CLI::App& twin, const std::vector<std::string>& argume
       std::find(commands.begin(), commands.end(), first) != commands.end()) {
     return false;
   }
-  fmt::print(stderr, "twin: unknown command '{}'{}\n`twin --help` lists the commands.\n", first,
-             hint(first, commands));
+  complain(fmt::format("twin: unknown command '{}'{}\n`twin --help` lists the commands.\n", first,
+                       hint(first, commands)));
   return true;
 }
 
@@ -105,7 +105,7 @@ int run(int argc, const char* const* argv) {
     return status;
   } catch (const CLI::CallForHelp&) {
     const auto given = twin.get_subcommands();
-    print(given.empty() ? twin.help() : given.front()->help());
+    printText(given.empty() ? twin.help() : given.front()->help());
     finishStandardOutput();
     return kDone;
   } catch (const CLI::ParseError& error) {
@@ -122,13 +122,13 @@ int main(int argc, char** argv) {
   try {
     return whirl_twin::run(argc, argv);
   } catch (const whirl_twin::SceneError& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    whirl_twin::complain(fmt::format("{}\n", error.what()));
     return whirl_twin::kBadInput;
   } catch (const whirl_twin::BadInput& error) {
-    fmt::print(stderr, "twin: {}\n", error.what());
+    whirl_twin::complain(fmt::format("twin: {}\n", error.what()));
     return whirl_twin::kBadInput;
   } catch (const std::exception& error) {
-    std::fputs(fmt::format("twin: {}\n", error.what()).c_str(), stderr);
+    whirl_twin::complain(fmt::format("twin: {}\n", error.what()));
     return whirl_twin::kFailed;
   }
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""The demo is recorded by lcm-logger and played by lcm-logplayer: what the bridge then publishes is,
-bit for bit, what the live twin published. (Only Header.seq is left out: each publisher counts its own.)
+"""The demo is recorded and played by lcm-logplayer: what the bridge then publishes is, bit for bit,
+what the live twin published. (Only Header.seq is left out: each publisher counts its own.)
 """
 import os
 import shutil
@@ -20,7 +20,7 @@ import rostest
 URL = 'udpm://239.255.76.67:7667?ttl=0'
 TOPICS = ['/twin/rotor/whirl', '/twin/pendulum/pendulum', '/twin/drives/shaft']
 ENOUGH = 2000  # messages a topic
-PATIENCE = 45.0  # s
+PATIENCE = 25.0  # s
 
 
 class Recorder:
@@ -75,31 +75,50 @@ class Playback(unittest.TestCase):
     def tearDown(self):
         shutil.rmtree(self.folder)
 
-    def test_replayed_messages_equal_the_recorded_ones(self):
+    def record(self, logger):
+        """Messages of the live demo while `logger` writes the log."""
         live = Recorder()
-        logger = subprocess.Popen(['lcm-logger', '--quiet', '--lcm-url=' + URL, self.log])
         simulation = node('simulation_node', '_realtime:=ignore')
         self.assertTrue(wait_until(lambda: live.least() >= ENOUGH))
         self.assertEqual(interrupt(simulation), 0)
-        # The log holds what was sent before the end; lcm-logger has it once the file stops growing.
-        time.sleep(0.5)
+        time.sleep(0.5)  # the logger takes what was sent last
         interrupt(logger)
         live.stop()
+        return live.messages
 
+    def play(self, last):
+        """Messages of the bridge while lcm-logplayer plays the log, up to its last steps."""
         replayed = Recorder()
         bridge = node('lcm_bridge_node')
         rospy.wait_for_service('/lcm_bridge_node/ready', timeout=PATIENCE)
         subprocess.check_call(['lcm-logplayer', '--speed=4', '--lcm-url=' + URL, self.log])
-        first = {topic: min(live.messages[topic]) for topic in TOPICS}
-        last = {topic: max(live.messages[topic]) for topic in TOPICS}
-        self.assertTrue(wait_until(
-            lambda: all(last[topic] in replayed.messages[topic] for topic in TOPICS)))
+        wait_until(lambda: all(last[topic] in replayed.messages[topic] for topic in TOPICS))
         interrupt(bridge)
         replayed.stop()
+        return replayed.messages
+
+    def test_the_replay_of_our_recording_is_complete_and_equal(self):
+        recorder = node('lcm_recorder_node', '_log:=' + self.log, '_lcm_url:=' + URL)
+        self.assertTrue(wait_until(lambda: os.path.exists(self.log)))
+        live = self.record(recorder)
+        replayed = self.play({topic: max(live[topic]) for topic in TOPICS})
         for topic in TOPICS:
-            for step in range(first[topic], last[topic] + 1):
-                self.assertIn(step, replayed.messages[topic], topic)
-                self.assertEqual(replayed.messages[topic][step], live.messages[topic][step],
+            for step in range(min(live[topic]), max(live[topic]) + 1):
+                self.assertIn(step, replayed[topic], topic)
+                self.assertEqual(replayed[topic][step], live[topic][step],
+                                 '%s, step %d' % (topic, step))
+
+    def test_the_replay_of_lcm_logger_is_equal(self):
+        # The stock logger may drop messages on a busy machine: those it kept must be equal.
+        logger = subprocess.Popen(['lcm-logger', '--quiet', '--lcm-url=' + URL, self.log])
+        self.assertTrue(wait_until(lambda: os.path.exists(self.log)))
+        live = self.record(logger)
+        replayed = self.play({topic: max(live[topic]) for topic in TOPICS})
+        for topic in TOPICS:
+            common = set(live[topic]) & set(replayed[topic])
+            self.assertGreater(len(common), ENOUGH // 2)
+            for step in common:
+                self.assertEqual(replayed[topic][step], live[topic][step],
                                  '%s, step %d' % (topic, step))
 
 

@@ -80,8 +80,10 @@ class EnergyResidual : public testing::TestWithParam<Audit> {
 TEST_P(EnergyResidual, IsBelowTheBound) {
   for (int draw = 0; draw < kDraws; ++draw) {
     Scene scene = sceneOf(kThreeSystems);
-    scene.drives[0].profile = {{between(-20.0, 20.0), 20.0, 100.0, 0.5},
-                               {between(-20.0, 20.0), 10.0, 50.0, 0.0}};
+    // One piece of constant jerk: a corner of the acceleration inside a step would cost each method
+    // its order.
+    scene.drives[0].speed = between(-20.0, 20.0);
+    scene.drives[0].profile = {{1e5, 1e5, between(0.2, 1.0), 0.0}};
     SystemSpec spec;
     const double frequency = randomSystem(spec);
     scene.step = std::llround(GetParam().frequency_times_step / frequency * 1e9);
@@ -114,6 +116,7 @@ INSTANTIATE_TEST_SUITE_P(
         // Exact: at any step.
         Audit{"Rotor", "jeffcott_rotor", "exponential", 0.05, false},
         Audit{"RotorInLargeSteps", "jeffcott_rotor", "exponential", 5.0, false},
+        // Up to 70 rad/s.
         Audit{"RotorOnADrive", "jeffcott_rotor", "exponential", 0.02, true},
         Audit{"SpinningPendulumOnADrive", "spinning_pendulum", "gauss_legendre_6", 0.02, true}),
     [](const auto& test) { return test.param.name; });

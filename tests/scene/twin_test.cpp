@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <ostream>
 
 #include "scenes.h"
 
@@ -124,6 +125,10 @@ struct Fatal {
   double rate;
   double stiffness;
 };
+
+void PrintTo(const Fatal& f, std::ostream* out) {
+  *out << f.name;
+}
 
 class FailingSystem : public testing::TestWithParam<Fatal> {};
 

@@ -1,0 +1,65 @@
+#include <memory>
+#include <optional>
+
+#include "scene/scene_reader.h"
+#include "tools/arguments.h"
+#include "tools/commands.h"
+#include "tools/system_analysis.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr const char* kDescription =
+    "Judges each system of a scene at its start: energies, equilibria, natural frequencies and\n"
+    "damping, stability by Routh's test and its margins, critical speeds and separation margins.";
+
+constexpr const char* kFooter =
+    "Linearized about the operating point: the stable equilibrium nearest the initial state at "
+    "the\n"
+    "initial shaft speed, or the initial state if there is none. Critical speeds are the peaks of\n"
+    "the unbalance response; separation margins are those of API 617, in percent of the speed.\n"
+    "\n"
+    "Examples:\n"
+    "  twin analyze demo.yaml\n"
+    "  twin analyze demo.yaml --system rotor --json";
+
+struct Request {
+  std::string scene;
+  std::optional<std::string> system;
+  bool json = false;
+};
+
+int analyzeScene(const Request& request) {
+  const Scene scene = readSceneFile(request.scene);
+  const auto systems = selectedSystems(scene, request.system);
+  const Twin twin(scene);
+  Json all;
+  all["scene"] = scene.name;
+  std::string report;
+  for (const std::size_t i : systems) {
+    const SystemAnalysis analysis = analyze(twin, i);
+    all["systems"][analysis.name] = json(analysis);
+    report += (report.empty() ? "" : "\n") + text(analysis);
+  }
+  if (request.json) {
+    printJson(all);
+  } else {
+    printText(report);
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void addAnalyzeCommand(CLI::App& twin, int& status) {
+  CLI::App* command = twin.add_subcommand("analyze", kDescription);
+  const auto request = std::make_shared<Request>();
+  command->add_option("SCENE", request->scene, "scene file (YAML)")->required();
+  command->add_option("--system", request->system, "show this system only");
+  command->add_flag("--json", request->json, "print one JSON object");
+  command->footer(kFooter);
+  command->callback([request, &status] { status = analyzeScene(*request); });
+}
+
+}  // namespace whirl_twin

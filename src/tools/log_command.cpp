@@ -1,0 +1,151 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+#include "tools/commands.h"
+#include "tools/output.h"
+#include "transport/lcm_event_log.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr const char* kDescription =
+    "Looks into an LCM log: channels, how many events, the time they span, gaps in the steps, and\n"
+    "events that are damaged or cannot be meant.";
+
+constexpr const char* kFooter =
+    "A gap is a place where states of a channel are missing. Exit status: 0 nothing is damaged,\n"
+    "1 there are damaged events, 2 the file cannot be read or holds no event at all.\n"
+    "\n"
+    "Examples:\n"
+    "  twin simulate demo.yaml --output demo.lcmlog && twin log demo.lcmlog\n"
+    "  twin log recorded.lcmlog --json";
+
+double span(const LogSummary& log) {
+  return static_cast<double>(log.last_timestamp - log.first_timestamp) * 1.0e-6;
+}
+
+Json channelJson(const ChannelSummary& channel) {
+  Json json;
+  json["kind"] = channel.kind;
+  json["events"] = channel.events;
+  json["bytes"] = channel.bytes;
+  json["rejected"] = channel.rejected;
+  json["first_time"] = channel.first_time;
+  json["last_time"] = channel.last_time;
+  json["stride"] = channel.stride;
+  json["gaps"] = channel.gaps;
+  json["lost"] = channel.lost;
+  json["repeated"] = channel.repeated;
+  json["backward"] = channel.backward;
+  return json;
+}
+
+Json json(const LogSummary& log) {
+  Json json;
+  json["file"] = log.path;
+  json["size"] = log.size;
+  json["events"] = log.events;
+  json["span"] = span(log);
+  json["first_timestamp"] = log.first_timestamp;
+  json["last_timestamp"] = log.last_timestamp;
+  json["continuous"] = log.continuous();
+  json["corrupt"] = log.defect_count;
+  json["unreadable_bytes"] = log.unreadable_bytes;
+  json["truncated"] = log.truncated;
+  json["defects"] = Json::array();
+  for (const LogDefect& defect : log.defects) {
+    json["defects"].push_back({{"offset", defect.offset}, {"what", defect.what}});
+  }
+  json["channels"] = Json::object();
+  for (const ChannelSummary& channel : log.channels) {
+    json["channels"][channel.channel] = channelJson(channel);
+  }
+  return json;
+}
+
+std::string channelText(const ChannelSummary& channel) {
+  std::string out =
+      fmt::format("  {:<28} {:<10} {:>9} events", channel.channel, channel.kind, channel.events);
+  if (!std::isnan(channel.first_time)) {
+    out += fmt::format(", t = {:g} .. {:g} s", channel.first_time, channel.last_time);
+  }
+  if (channel.stride > 0) {
+    out += fmt::format(", every {} step{}", channel.stride, channel.stride == 1 ? "" : "s");
+  }
+  if (channel.gaps > 0) {
+    out += fmt::format(", {} gap{} ({} lost)", channel.gaps, channel.gaps == 1 ? "" : "s",
+                       channel.lost);
+  }
+  if (channel.repeated > 0) {
+    out += fmt::format(", {} repeated", channel.repeated);
+  }
+  if (channel.backward > 0) {
+    out += fmt::format(", {} out of order", channel.backward);
+  }
+  if (channel.rejected > 0) {
+    out += fmt::format(", {} corrupt", channel.rejected);
+  }
+  return out + "\n";
+}
+
+std::string text(const LogSummary& log) {
+  std::string out = fmt::format("{}: {} events in {:.6g} s, {} bytes\n", log.path, log.events,
+                                span(log), log.size);
+  for (const ChannelSummary& channel : log.channels) {
+    out += channelText(channel);
+  }
+  out += log.continuous() ? "no gaps, nothing repeated or out of order\n" : "not continuous\n";
+  if (log.defect_count == 0) {
+    return out + "no corrupt events\n";
+  }
+  out += fmt::format("{} corrupt event{} or place{}, {} unreadable bytes{}\n", log.defect_count,
+                     log.defect_count == 1 ? "" : "s", log.defect_count == 1 ? "" : "s",
+                     log.unreadable_bytes, log.truncated ? ", the file ends within an event" : "");
+  for (const LogDefect& defect : log.defects) {
+    out += fmt::format("  at byte {}: {}\n", defect.offset, defect.what);
+  }
+  if (log.defect_count > log.defects.size()) {
+    out += fmt::format("  and {} more\n", log.defect_count - log.defects.size());
+  }
+  return out;
+}
+
+struct Request {
+  std::string file;
+  bool json = false;
+};
+
+int summarize(const Request& request) {
+  LogSummary log;
+  try {
+    log = readEventLog(request.file);
+  } catch (const std::runtime_error& error) {
+    throw BadInput(error.what());
+  }
+  if (log.events == 0) {
+    throw BadInput(
+        fmt::format("{}: expected an LCM log, found no event in {} bytes", request.file, log.size));
+  }
+  if (request.json) {
+    printJson(json(log));
+  } else {
+    printText(text(log));
+  }
+  return log.defect_count == 0 ? kDone : kFailed;
+}
+
+}  // namespace
+
+void addLogCommand(CLI::App& twin, int& status) {
+  CLI::App* command = twin.add_subcommand("log", kDescription);
+  const auto request = std::make_shared<Request>();
+  command->add_option("FILE", request->file, "LCM log, such as demo.lcmlog")->required();
+  command->add_flag("--json", request->json, "print one JSON object");
+  command->footer(kFooter);
+  command->callback([request, &status] { status = summarize(*request); });
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,178 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <complex>
+#include <limits>
+#include <memory>
+
+#include "analysis/polynomial_roots.h"
+#include "analysis/routh.h"
+#include "analysis/stability_margins.h"
+#include "tools/commands.h"
+#include "tools/output.h"
+#include "tools/verdict_text.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr const char* kDescription =
+    "Tells how many roots of a polynomial lie right of, on and left of the imaginary axis, by the\n"
+    "Routh-Hurwitz test, exact for the numbers as typed, and how far it is from instability.";
+
+constexpr const char* kFooter =
+    "Coefficients go highest power first, real (2, -0.1, 1e-3) or complex (3+2i, -i). Put -- "
+    "before\n"
+    "them if one could be taken for an option. Leading zeros are dropped.\n"
+    "\n"
+    "Examples:\n"
+    "  twin routh 1 2 3 4               s^3 + 2 s^2 + 3 s + 4\n"
+    "  twin routh --json -- 1 -2 3      s^2 - 2 s + 3\n"
+    "  twin routh 1 0.2+3i 5-0.1i";
+
+struct Judgement {
+  RouthResult routh;
+  std::vector<std::complex<double>> roots;
+  double decay_rate = 0.0;
+  double damping_ratio = 0.0;
+  double log_decrement = 0.0;
+};
+
+std::vector<ComplexRational> parseCoefficients(const std::vector<std::string>& typed) {
+  std::vector<ComplexRational> coefficients;
+  std::vector<std::string> errors;
+  for (std::size_t i = 0; i < typed.size(); ++i) {
+    try {
+      coefficients.push_back(parseComplex(typed[i]));
+    } catch (const std::invalid_argument& error) {
+      errors.push_back(
+          fmt::format("coefficient {} (of s^{}): {}", i + 1, typed.size() - 1 - i, error.what()));
+    }
+  }
+  if (!errors.empty()) {
+    throw BadInput(fmt::format("{}", fmt::join(errors, "\ntwin: ")));
+  }
+  return coefficients;
+}
+
+/// Numbers beyond double, which roots() takes, are brought into its range; roots do not change.
+std::vector<std::complex<double>> inRange(std::vector<ComplexRational> coefficients) {
+  Rational largest = 0;
+  Rational smallest = 0;
+  for (const ComplexRational& c : coefficients) {
+    for (const Rational& part : {Rational(abs(c.re)), Rational(abs(c.im))}) {
+      largest = std::max(largest, part);
+      smallest = part != 0 && (smallest == 0 || part < smallest) ? part : smallest;
+    }
+  }
+  const bool fits = largest <= Rational(std::numeric_limits<double>::max()) &&
+                    smallest >= Rational(std::numeric_limits<double>::min());
+  std::vector<std::complex<double>> rounded;
+  for (const ComplexRational& c : coefficients) {
+    rounded.emplace_back(fits ? toDouble(c.re) : toDouble(Rational(c.re / largest)),
+                         fits ? toDouble(c.im) : toDouble(Rational(c.im / largest)));
+  }
+  return rounded;
+}
+
+Judgement judge(const std::vector<ComplexRational>& coefficients) {
+  const bool real = std::all_of(coefficients.begin(), coefficients.end(),
+                                [](const ComplexRational& c) { return c.im == 0; });
+  const auto rounded = inRange(coefficients);
+  Judgement judgement;
+  if (real) {
+    std::vector<Rational> exact;
+    std::vector<double> values;
+    for (std::size_t i = 0; i < coefficients.size(); ++i) {
+      exact.push_back(coefficients[i].re);
+      values.push_back(rounded[i].real());
+    }
+    judgement.routh = routh(exact);
+    judgement.roots = roots(values);
+  } else {
+    judgement.routh = routh(coefficients);
+    judgement.roots = roots(rounded);
+  }
+  return judgement;
+}
+
+/// The margins, with roots on the axis where the exact test puts them.
+void addMargins(Judgement& j) {
+  double rightmost = -std::numeric_limits<double>::infinity();
+  double ratio = std::numeric_limits<double>::quiet_NaN();
+  int zeros = 0;
+  for (const auto& root : j.roots) {
+    rightmost = std::max(rightmost, root.real());
+    if (root == 0.0) {
+      ++zeros;
+    } else {
+      ratio = std::fmin(ratio, -root.real() / std::abs(root));
+    }
+  }
+  const bool on_axis = j.routh.right == 0 && j.routh.imaginary > 0;
+  j.decay_rate = on_axis ? 0.0 : -rightmost;
+  j.damping_ratio = on_axis && j.routh.imaginary > zeros ? 0.0 : ratio;
+  j.log_decrement = logDecrement(j.damping_ratio);
+}
+
+Json json(const Judgement& j) {
+  Json json;
+  json["verdict"] = name(j.routh.verdict);
+  json["right"] = j.routh.right;
+  json["imaginary"] = j.routh.imaginary;
+  json["left"] = j.routh.left;
+  json["first_column"] = j.routh.first_column;
+  json["decay_rate"] = j.decay_rate;
+  json["damping_ratio"] = j.damping_ratio;
+  json["log_decrement"] = j.log_decrement;
+  json["degree"] = j.roots.size();
+  json["roots"] = Json::array();
+  for (const auto& root : j.roots) {
+    json["roots"].push_back({root.real(), root.imag()});
+  }
+  return json;
+}
+
+std::string text(const Judgement& j) {
+  std::string out = fmt::format("{} (degree {})\n", verdictText(j.routh.verdict), j.roots.size());
+  out += routhText(j.routh) + marginsText(j.decay_rate, j.damping_ratio, j.log_decrement);
+  for (const auto& root : j.roots) {
+    out += fmt::format("    root            {:.6g} {:+.6g}i\n", root.real(), root.imag());
+  }
+  return out;
+}
+
+struct Request {
+  std::vector<std::string> coefficients;
+  bool json = false;
+};
+
+int test(const Request& request) {
+  const auto coefficients = parseCoefficients(request.coefficients);
+  if (std::all_of(coefficients.begin(), coefficients.end(),
+                  [](const ComplexRational& c) { return c.re == 0 && c.im == 0; })) {
+    throw BadInput("coefficients: expected at least one that is not zero, found none");
+  }
+  Judgement judgement = judge(coefficients);
+  addMargins(judgement);
+  if (request.json) {
+    printJson(json(judgement));
+  } else {
+    printText(text(judgement));
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void addRouthCommand(CLI::App& twin, int& status) {
+  CLI::App* command = twin.add_subcommand("routh", kDescription);
+  const auto request = std::make_shared<Request>();
+  command->add_option("COEFFICIENTS", request->coefficients, "A_N ... A_0, highest power first")
+      ->required();
+  command->add_flag("--json", request->json, "print one JSON object");
+  command->footer(kFooter);
+  command->callback([request, &status] { status = test(*request); });
+}
+
+}  // namespace whirl_twin

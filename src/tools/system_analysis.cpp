@@ -1,0 +1,70 @@
+#include "tools/system_analysis.h"
+
+#include <fmt/format.h>
+
+#include "analysis/critical_speeds.h"
+#include "analysis/instability_speed.h"
+#include "monitoring/separation_margin.h"
+#include "tools/commands.h"
+
+namespace whirl_twin {
+
+namespace {
+
+Eigen::VectorXd vector(const std::vector<double>& x) {
+  return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
+}
+
+bool finite(const Linearization& l) {
+  return l.mass.allFinite() && l.damping.allFinite() && l.gyroscopic.allFinite() &&
+         l.stiffness.allFinite() && l.circulatory.allFinite();
+}
+
+void linearize(const Dynamics& dynamics, double speed, SystemAnalysis& a) {
+  if (const auto point = operatingPoint(dynamics, a.q, speed)) {
+    a.at_equilibrium = true;
+    a.about = point->q;
+    a.about_v = Eigen::VectorXd::Zero(a.q.size());
+    a.linearization = linearizationAtRest(dynamics, a.about, speed);
+  } else {
+    a.about = a.q;
+    a.about_v = a.v;
+    a.linearization = dynamics.linearization(a.q, a.v, a.acceleration, a.moment);
+  }
+}
+
+}  // namespace
+
+SystemAnalysis analyze(const Twin& twin, std::size_t system) {
+  const Twin::Member& member = twin.members()[system];
+  const Dynamics& dynamics = *member.dynamics;
+  const Drive& drive = twin.drive(member.drive);
+  const ShaftMotion shaft = drive.at(0.0);
+  SystemAnalysis a;
+  a.name = member.spec.name;
+  a.model = member.model;
+  a.moment = {twin.time(), shaft.angle, shaft.speed, shaft.acceleration};
+  if (member.model->has_shaft) {
+    a.speed = shaft.speed;
+  }
+  a.q = vector(member.spec.q);
+  a.v = vector(member.spec.v);
+  a.acceleration = dynamics.acceleration(a.q, a.v, a.moment);
+  a.energies = dynamics.energies(a.q, a.v, a.moment);
+  a.equilibria = equilibria(dynamics, shaft.speed);
+  linearize(dynamics, shaft.speed, a);
+  if (!finite(a.linearization)) {
+    throw RunFailed(
+        fmt::format("{}: cannot be analysed: its numbers exceed the range of a double", a.name));
+  }
+  a.stability = stability(a.linearization);
+  a.instability_speed = instabilitySpeed(dynamics, a.about, shaft.speed);
+  for (const CriticalSpeed& critical : criticalSpeeds(dynamics)) {
+    a.critical_speeds.push_back(criticalSpeedMargin(shaft.speed, critical.speed,
+                                                    critical.forward ? "forward" : "backward",
+                                                    critical.amplification_factor));
+  }
+  return a;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,19 @@
+// The words for a verdict on stability and for its margins.
+#pragma once
+
+#include <string>
+
+#include "analysis/routh.h"
+
+namespace whirl_twin {
+
+/// "asymptotically stable", "marginal: ..." and so on.
+std::string verdictText(Verdict verdict);
+
+/// Lines of a report: root counts and the first column of Routh's table.
+std::string routhText(const RouthResult& routh);
+
+/// Lines of a report. decay_rate [1/s]; a NaN is a margin that is not defined.
+std::string marginsText(double decay_rate, double damping_ratio, double log_decrement);
+
+}  // namespace whirl_twin
