@@ -162,6 +162,9 @@ std::vector<CriticalSpeed> criticalSpeeds(const Dynamics& dynamics) {
   double before = slope(speeds.front());
   for (std::size_t i = 1; i < speeds.size(); ++i) {
     const double after = slope(speeds[i]);
+    if (!std::isfinite(after)) {
+      continue;  // on the pole of an undamped mode
+    }
     if (before > 0.0 && after < 0.0) {
       const double peak = bisect([&](double w) { return -slope(w); }, speeds[i - 1], speeds[i]);
       const auto nearest = std::min_element(

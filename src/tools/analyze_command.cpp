@@ -55,8 +55,8 @@ int analyzeScene(const Request& request) {
 void addAnalyzeCommand(CLI::App& twin, int& status) {
   CLI::App* command = twin.add_subcommand("analyze", kDescription);
   const auto request = std::make_shared<Request>();
-  command->add_option("SCENE", request->scene, "scene file (YAML)")->required();
-  command->add_option("--system", request->system, "show this system only");
+  command->add_option("SCENE", request->scene, "scene file (YAML)")->required()->type_name("");
+  command->add_option("--system", request->system, "show this system only")->type_name("NAME");
   command->add_flag("--json", request->json, "print one JSON object");
   command->footer(kFooter);
   command->callback([request, &status] { status = analyzeScene(*request); });

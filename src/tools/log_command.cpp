@@ -142,7 +142,9 @@ int summarize(const Request& request) {
 void addLogCommand(CLI::App& twin, int& status) {
   CLI::App* command = twin.add_subcommand("log", kDescription);
   const auto request = std::make_shared<Request>();
-  command->add_option("FILE", request->file, "LCM log, such as demo.lcmlog")->required();
+  command->add_option("FILE", request->file, "LCM log, such as demo.lcmlog")
+      ->required()
+      ->type_name("");
   command->add_flag("--json", request->json, "print one JSON object");
   command->footer(kFooter);
   command->callback([request, &status] { status = summarize(*request); });

@@ -122,7 +122,7 @@ int list(const Request& request) {
 void addModelsCommand(CLI::App& twin, int& status) {
   CLI::App* command = twin.add_subcommand("models", kDescription);
   const auto request = std::make_shared<Request>();
-  command->add_option("MODEL", request->model, "this model only");
+  command->add_option("MODEL", request->model, "this model only")->type_name("");
   command->add_flag("--json", request->json, "print one JSON object");
   command->footer(kFooter);
   command->callback([request, &status] { status = list(*request); });

@@ -169,7 +169,8 @@ void addRouthCommand(CLI::App& twin, int& status) {
   CLI::App* command = twin.add_subcommand("routh", kDescription);
   const auto request = std::make_shared<Request>();
   command->add_option("COEFFICIENTS", request->coefficients, "A_N ... A_0, highest power first")
-      ->required();
+      ->required()
+      ->type_name("");
   command->add_flag("--json", request->json, "print one JSON object");
   command->footer(kFooter);
   command->callback([request, &status] { status = test(*request); });

@@ -75,8 +75,10 @@ std::string text(const SceneCheck& check) {
   }
   out += fmt::format("all together\n  a step costs {}", costText(check.step_cost));
   if (!std::isnan(check.step_cost)) {
-    out += fmt::format(": {:.3g} times faster than real time",
-                       static_cast<double>(scene.step) / check.step_cost);
+    const double factor = static_cast<double>(scene.step) / check.step_cost;
+    out +=
+        fmt::format(": {} times faster than real time",
+                    factor < 100.0 ? fmt::format("{:.3g}", factor) : fmt::format("{:.0f}", factor));
   }
   return out + fmt::format("\n  memory {:.1f} kB, and {} bytes for each step in flight\n",
                            static_cast<double>(check.memory) / 1000.0, check.record);

@@ -69,16 +69,24 @@ int simulate(const SimulationRequest& request) {
 void addSimulateCommand(CLI::App& twin, int& status) {
   CLI::App* command = twin.add_subcommand("simulate", kDescription);
   const auto request = std::make_shared<SimulationRequest>();
-  command->add_option("SCENE", request->scene, "scene file (YAML)")->required();
-  command->add_option("--duration", request->duration,
-                      "s, simulated, whole steps; default: the longest drive profile, else 10 s");
-  command->add_option("--step", request->step, "s, instead of the scene's: 1e-9 to 10");
-  command->add_option("--integrator", request->integrator,
-                      "instead of the scene's, for all systems or that of --system");
-  command->add_option("--sample", request->sample, "s between rows, whole steps; default: a step");
-  command->add_option("--output", request->output,
-                      "FILE.csv or FILE.lcmlog; default: a table on standard output");
-  command->add_option("--system", request->system, "show this system only");
+  command->add_option("SCENE", request->scene, "scene file (YAML)")->required()->type_name("");
+  command
+      ->add_option("--duration", request->duration,
+                   "s, simulated, whole steps; default: the longest drive profile, else 10 s")
+      ->type_name("S");
+  command->add_option("--step", request->step, "s, instead of the scene's: 1e-9 to 10")
+      ->type_name("S");
+  command
+      ->add_option("--integrator", request->integrator,
+                   "instead of the scene's, for all systems or that of --system")
+      ->type_name("NAME");
+  command->add_option("--sample", request->sample, "s between rows, whole steps; default: a step")
+      ->type_name("S");
+  command
+      ->add_option("--output", request->output,
+                   "FILE.csv or FILE.lcmlog; default: a table on standard output")
+      ->type_name("FILE");
+  command->add_option("--system", request->system, "show this system only")->type_name("NAME");
   command->add_flag("--json", request->json, "print the final state as one JSON object");
   command->footer(kFooter);
   command->callback([request, &status] { status = simulate(*request); });

@@ -15,11 +15,6 @@ Eigen::VectorXd vector(const std::vector<double>& x) {
   return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
 }
 
-bool finite(const Linearization& l) {
-  return l.mass.allFinite() && l.damping.allFinite() && l.gyroscopic.allFinite() &&
-         l.stiffness.allFinite() && l.circulatory.allFinite();
-}
-
 void linearize(const Dynamics& dynamics, double speed, SystemAnalysis& a) {
   if (const auto point = operatingPoint(dynamics, a.q, speed)) {
     a.at_equilibrium = true;
@@ -33,10 +28,7 @@ void linearize(const Dynamics& dynamics, double speed, SystemAnalysis& a) {
   }
 }
 
-}  // namespace
-
-SystemAnalysis analyze(const Twin& twin, std::size_t system) {
-  const Twin::Member& member = twin.members()[system];
+SystemAnalysis analyzeMember(const Twin& twin, const Twin::Member& member) {
   const Dynamics& dynamics = *member.dynamics;
   const Drive& drive = twin.drive(member.drive);
   const ShaftMotion shaft = drive.at(0.0);
@@ -53,10 +45,6 @@ SystemAnalysis analyze(const Twin& twin, std::size_t system) {
   a.energies = dynamics.energies(a.q, a.v, a.moment);
   a.equilibria = equilibria(dynamics, shaft.speed);
   linearize(dynamics, shaft.speed, a);
-  if (!finite(a.linearization)) {
-    throw RunFailed(
-        fmt::format("{}: cannot be analysed: its numbers exceed the range of a double", a.name));
-  }
   a.stability = stability(a.linearization);
   a.instability_speed = instabilitySpeed(dynamics, a.about, shaft.speed);
   for (const CriticalSpeed& critical : criticalSpeeds(dynamics)) {
@@ -65,6 +53,19 @@ SystemAnalysis analyze(const Twin& twin, std::size_t system) {
                                                     critical.amplification_factor));
   }
   return a;
+}
+
+}  // namespace
+
+SystemAnalysis analyze(const Twin& twin, std::size_t system) {
+  const Twin::Member& member = twin.members()[system];
+  try {
+    return analyzeMember(twin, member);
+  } catch (const std::exception& error) {  // an overflow: exact numbers refuse infinities
+    throw RunFailed(
+        fmt::format("{}: cannot be analysed, a number is beyond the range of a double: {}",
+                    member.spec.name, error.what()));
+  }
 }
 
 }  // namespace whirl_twin

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "tools/system_analysis.h"
 #include "tools/verdict_text.h"
 
@@ -100,10 +98,11 @@ std::string criticalSpeedsText(const SystemAnalysis& a) {
       "           rad/s         rpm  direction   amplification      margin    required\n",
       *a.speed);
   for (const auto& c : a.critical_speeds) {
-    out += fmt::format("    {:>12.6g} {:>11.6g}  {:<9} {:>15.5g} {:>9.4g} % {:>9.4g} %{}\n",
-                       c.speed, c.speed * 30.0 / kPi, c.direction, c.amplification_factor,
-                       c.separation_margin, c.required_separation_margin,
-                       c.separation_margin < c.required_separation_margin ? "  too near" : "");
+    const bool too_near = c.separation_margin < c.required_separation_margin;
+    out += fmt::format("    {:>12.6g} {:>11.6g}  {:<9} {:>15} {:>9} % {:>9.4g} %{}\n", c.speed,
+                       c.speed * 30.0 / kPi, c.direction, defined(c.amplification_factor, "-"),
+                       defined(c.separation_margin, "-"), c.required_separation_margin,
+                       too_near ? "  too near" : "");
   }
   return out;
 }

@@ -105,7 +105,7 @@ int run(int argc, const char* const* argv) {
     return status;
   } catch (const CLI::CallForHelp&) {
     const auto given = twin.get_subcommands();
-    printText(given.empty() ? twin.help() : given.front()->help());
+    printText(given.empty() ? twin.help() : given.front()->help("twin"));
     finishStandardOutput();
     return kDone;
   } catch (const CLI::ParseError& error) {

@@ -6,6 +6,10 @@
 
 namespace whirl_twin {
 
+std::string defined(double x, const char* undefined) {
+  return std::isnan(x) ? std::string(undefined) : fmt::format("{:.6g}", x);
+}
+
 std::string verdictText(Verdict verdict) {
   switch (verdict) {
     case Verdict::kAsymptoticallyStable:
@@ -29,12 +33,9 @@ std::string routhText(const RouthResult& routh) {
 }
 
 std::string marginsText(double decay_rate, double damping_ratio, double log_decrement) {
-  const auto number = [](double x, const char* undefined) {
-    return std::isnan(x) ? std::string(undefined) : fmt::format("{:.6g}", x);
-  };
   return fmt::format("    decay rate      {:.6g} 1/s\n", decay_rate) +
-         fmt::format("    damping ratio   {}\n", number(damping_ratio, "none: no motion")) +
-         fmt::format("    log decrement   {}\n", number(log_decrement, "none: no vibration"));
+         fmt::format("    damping ratio   {}\n", defined(damping_ratio, "none: no motion")) +
+         fmt::format("    log decrement   {}\n", defined(log_decrement, "none: no vibration"));
 }
 
 }  // namespace whirl_twin

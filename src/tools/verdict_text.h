@@ -7,6 +7,9 @@
 
 namespace whirl_twin {
 
+/// A number for a report, or the words for one that is not defined (NaN).
+std::string defined(double x, const char* undefined);
+
 /// "asymptotically stable", "marginal: ..." and so on.
 std::string verdictText(Verdict verdict);
 

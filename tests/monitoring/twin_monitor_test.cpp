@@ -1,0 +1,184 @@
+// The monitor of a whole scene, fed by a twin that runs as fast as it can.
+
+#include "monitoring/twin_monitor.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "scene/observer.h"
+#include "scene/scene_reader.h"
+
+namespace whirl_twin {
+
+namespace {
+
+Scene sceneOf(const std::string& yaml) {
+  return readScene(YAML::Load(yaml), "test");
+}
+
+/// Runs the scene for `duration` [s] and feeds every step to the monitor.
+struct WatchedTwin {
+  explicit WatchedTwin(const Scene& scene, const AlarmSettings& settings = {})
+      : twin(scene), observer(twin), monitor(scene, settings), record(twin.layout().size) {}
+
+  void run(double duration) {
+    const auto steps =
+        static_cast<std::int64_t>(std::llround(duration / twin.scene().stepSeconds()));
+    for (std::int64_t i = 0; i < steps; ++i) {
+      twin.step();
+      feed();
+    }
+  }
+  void feed() {
+    twin.write(record.data());
+    observer.observe(record.data());
+    const double wall = observer.drive(0).at.time;
+    for (std::size_t d = 0; d < twin.scene().drives.size(); ++d) {
+      monitor.take(observer.drive(d), wall);
+    }
+    for (std::size_t s = 0; s < observer.systemCount(); ++s) {
+      if (observer.isRotor(s)) {
+        monitor.take(observer.whirl(s), wall);
+      } else {
+        monitor.take(observer.pendulum(s), wall);
+      }
+    }
+    for (auto& margin : monitor.takeMargins()) {
+      margins.push_back(margin);
+    }
+    for (auto& event : monitor.alerts().takeEvents()) {
+      events.push_back(event);
+    }
+  }
+  std::size_t count(const std::string& type, bool raised) const {
+    std::size_t n = 0;
+    for (const auto& e : events) {
+      n += e.type == type && e.raised == raised ? 1 : 0;
+    }
+    return n;
+  }
+
+  Twin twin;
+  Observer observer;
+  TwinMonitor monitor;
+  std::vector<double> record;
+  std::vector<state::StabilityMargin> margins;
+  std::vector<state::Alert> events;
+};
+
+// Threshold 100 (1 + 10/10) = 200 rad/s, passed upwards and back.
+constexpr const char* kSelfExcited = R"(
+name: self_excited
+step: 0.001
+drives:
+  shaft:
+    speed: 150.0
+    profile:
+      - {speed: 220.0, max_acceleration: 100.0, dwell: 1.0}
+      - {speed: 150.0, max_acceleration: 100.0, dwell: 10.0}
+systems:
+  rotor:
+    model: jeffcott_rotor
+    drive: shaft
+    parameters: {mass: 1.0, stiffness: 1.0e4, damping: 10.0, internal_damping: 10.0}
+    initial: {x: 1.0e-6}
+)";
+
+TEST(TwinMonitor, instabilityIsRaisedAtTheThresholdAndClearedBelowIt) {
+  WatchedTwin watched(sceneOf(kSelfExcited));
+  watched.run(6.0);
+  EXPECT_EQ(watched.count("UNSTABLE", true), 1u);
+  EXPECT_EQ(watched.count("UNSTABLE", false), 1u);
+  for (const auto& event : watched.events) {
+    if (event.type == "UNSTABLE" && event.raised) {
+      // Judged in the very step that passed the threshold: within one step's change of speed.
+      EXPECT_GT(event.speed, 200.0);
+      EXPECT_LT(event.speed, 200.0 + 2.0 * 100.0 * 0.001);
+      EXPECT_EQ(event.severity, state::Severity::kDanger);
+    }
+  }
+}
+
+TEST(TwinMonitor, marginsComeTenASecondAndTellTheThreshold) {
+  WatchedTwin watched(sceneOf(kSelfExcited));
+  watched.run(0.45);
+  EXPECT_EQ(watched.margins.size(), 5u);  // at the first step, then every 0.1 s
+  for (const auto& margin : watched.margins) {
+    EXPECT_NEAR(margin.instability_speed, 200.0, 1.0e-9);
+    EXPECT_EQ(margin.verdict_name, "asymptotically_stable");
+    EXPECT_EQ(margin.polynomial.size(), 5u);
+    EXPECT_EQ(margin.first_column.size(), 5u);
+    ASSERT_EQ(margin.critical_speeds.size(), 1u);
+  }
+}
+
+TEST(TwinMonitor, aResetClearsEverythingAndBeginsAnew) {
+  WatchedTwin watched(sceneOf(kSelfExcited));
+  watched.run(1.0);
+  ASSERT_FALSE(watched.monitor.alerts().active().empty());
+  watched.twin.reset();
+  watched.feed();
+  EXPECT_TRUE(watched.monitor.alerts().active().empty());
+  watched.run(1.0);
+  EXPECT_EQ(watched.count("UNSTABLE", true), 2u);
+}
+
+TEST(TwinMonitor, aRotorAtConstantSpeedOfItsOwnIsWatchedToo) {
+  WatchedTwin watched(sceneOf(R"(
+name: dwelling
+step: 0.001
+drives: {other: {speed: 1.0}}
+systems:
+  rotor:
+    model: jeffcott_rotor
+    parameters: {mass: 2.0, stiffness: 7200.0, damping: 12.0, eccentricity: 1.0e-4, speed: 61.0}
+)"));
+  watched.run(4.0);
+  const auto active = watched.monitor.alerts().active();
+  ASSERT_EQ(active.size(), 1u);
+  EXPECT_EQ(active[0].type, "IN_CRITICAL_BAND");
+  EXPECT_EQ(active[0].severity, state::Severity::kDanger);  // it dwells
+}
+
+// A pendulum may swing with little damping: that is no machine fault.
+TEST(TwinMonitor, aPendulumRaisesNoDampingAlert) {
+  WatchedTwin watched(sceneOf(R"(
+name: swing
+step: 0.001
+drives: {shaft: {speed: 9.0}}
+systems:
+  pendulum:
+    model: spinning_pendulum
+    drive: shaft
+    parameters: {mass: 0.5, length: 0.2032, damping: 1.0e-5}
+    initial: {theta: 0.3}
+)"));
+  watched.run(2.0);
+  EXPECT_TRUE(watched.events.empty());
+  ASSERT_FALSE(watched.margins.empty());
+  const double cone = std::acos(9.80665 / (0.2032 * 81.0));
+  EXPECT_NEAR(watched.margins.back().operating_point[0], cone, 1.0e-9);
+}
+
+// A step far too long for the motion shows in the energy balance.
+TEST(TwinMonitor, aCoarseStepIsReportedByTheEnergyResidual) {
+  WatchedTwin watched(sceneOf(R"(
+name: coarse
+step: 0.05
+drives: {other: {}}
+systems:
+  pendulum:
+    model: double_pendulum
+    integrator: runge_kutta_4
+    parameters: {mass1: 1.0, mass2: 1.0, length1: 1.0, length2: 1.0}
+    initial: {theta1: 2.0, theta2: 2.5}
+)"));
+  watched.run(10.0);
+  EXPECT_GE(watched.count("ENERGY_RESIDUAL", true), 1u);
+}
+
+}  // namespace
+
+}  // namespace whirl_twin
