@@ -116,22 +116,19 @@ MapReader::MapReader(const YAML::Node& node, std::string key, const std::vector<
                                   near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
       continue;
     }
+    place_.emplace(name, entries_.size());
     entries_.emplace_back(name, entry.second);
   }
 }
 
 bool MapReader::has(const std::string& name) const {
-  return std::any_of(entries_.begin(), entries_.end(),
-                     [&](const auto& entry) { return entry.first == name; });
+  return place_.find(name) != place_.end();
 }
 
 YAML::Node MapReader::at(const std::string& name) const {
-  for (const auto& entry : entries_) {
-    if (entry.first == name) {
-      return entry.second;
-    }
-  }
-  return YAML::Node(YAML::NodeType::Undefined);
+  const auto found = place_.find(name);
+  return found == place_.end() ? YAML::Node(YAML::NodeType::Undefined)
+                               : entries_[found->second].second;
 }
 
 std::string MapReader::key(const std::string& name) const {

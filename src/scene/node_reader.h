@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -62,7 +63,8 @@ class MapReader {
                        const std::function<bool(double)>& fits,
                        std::optional<double> fallback) const;
 
-  std::vector<std::pair<std::string, YAML::Node>> entries_;
+  std::vector<std::pair<std::string, YAML::Node>> entries_;  ///< in the order of the file
+  std::unordered_map<std::string, std::size_t> place_;       ///< of each name in entries_
   std::string key_;
   bool usable_ = false;
   Complaints& complaints_;

@@ -57,9 +57,13 @@ double stepCost(const Scene& scene, double budget) {
 }
 
 Scene sceneOfOne(const Scene& scene, std::size_t system) {
-  Scene one = scene;
+  Scene one;
+  one.source = scene.source;
+  one.name = scene.name;
+  one.step = scene.step;
+  one.time = scene.time;
+  one.gravity = scene.gravity;
   one.systems = {scene.systems[system]};
-  one.drives.clear();
   for (const DriveSpec& drive : scene.drives) {
     if (one.systems.front().drive == drive.name) {
       one.drives.push_back(drive);

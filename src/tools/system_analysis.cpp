@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
 #include "analysis/critical_speeds.h"
 #include "analysis/instability_speed.h"
 #include "monitoring/separation_margin.h"
@@ -46,6 +50,11 @@ SystemAnalysis analyzeMember(const Twin& twin, const Twin::Member& member) {
   a.equilibria = equilibria(dynamics, shaft.speed);
   linearize(dynamics, shaft.speed, a);
   a.stability = stability(a.linearization);
+  for (const double coefficient : a.stability.polynomial) {
+    if (std::fabs(coefficient) == std::numeric_limits<double>::max()) {  // it has been capped
+      throw std::overflow_error("a coefficient of the characteristic polynomial");
+    }
+  }
   a.instability_speed = instabilitySpeed(dynamics, a.about, shaft.speed);
   for (const CriticalSpeed& critical : criticalSpeeds(dynamics)) {
     a.critical_speeds.push_back(criticalSpeedMargin(shaft.speed, critical.speed,

@@ -4,8 +4,16 @@ namespace whirl_twin {
 
 namespace {
 
+/// Negative zeros, of skew matrices and undamped modes, are zeros.
+Json array(const std::vector<double>& x) {
+  Json json = Json::array();
+  for (const double value : x) {
+    json.push_back(value + 0.0);
+  }
+  return json;
+}
 Json array(const Eigen::VectorXd& x) {
-  return std::vector<double>(x.data(), x.data() + x.size());
+  return array(std::vector<double>(x.data(), x.data() + x.size()));
 }
 
 /// Row by row.
@@ -92,11 +100,11 @@ Json json(const SystemAnalysis& a) {
   json["linearization"] = linearizationJson(a);
   json["eigenvalues"] = Json::array();
   for (const auto& root : a.stability.eigenvalues) {
-    json["eigenvalues"].push_back({root.real(), root.imag()});
+    json["eigenvalues"].push_back({root.real() + 0.0, root.imag() + 0.0});
   }
-  json["natural_frequencies"] = a.stability.natural_frequencies;
-  json["damping_ratios"] = a.stability.damping_ratios;
-  json["characteristic_polynomial"] = a.stability.polynomial;
+  json["natural_frequencies"] = array(a.stability.natural_frequencies);
+  json["damping_ratios"] = array(a.stability.damping_ratios);
+  json["characteristic_polynomial"] = array(a.stability.polynomial);
   json["routh"] = routhJson(a.stability.routh);
   json["margins"] = {
       {"decay_rate", a.stability.decay_rate},

@@ -1,0 +1,82 @@
+// Sprung cart with a rod hinged on it, driven by a force at the rod's free end or by its support
+// (lecture notes, "spring-mounted cart with rod pendulum"; errata E09).
+//
+//   T = (m1 + m2) x'^2 / 2 + m2 l x' theta' cos(theta) / 2 + m2 l^2 theta'^2 / 6
+//   V = k (x - y(t))^2 / 2 + m2 g (l/2) (1 - cos theta),     y = Y sin(Omega t)
+//   D = c x'^2 / 2,   Q = F cos(Omega t) (1, l cos theta)    horizontal, at the rod's tip
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "mechanics/elementary.h"
+#include "mechanics/force_inline.h"
+#include "mechanics/model_description.h"
+#include "mechanics/moment.h"
+
+namespace whirl_twin {
+
+struct CartPendulum {
+  static constexpr const char* kName = "cart_pendulum";
+  static constexpr const char* kSummary =
+      "sprung cart with a hinged rod, force at the tip or moving support";
+  static constexpr std::size_t kDof = 2;
+  static constexpr bool kLinear = false;
+  static constexpr bool kHasShaft = false;
+  static constexpr std::array<Coordinate, kDof> kCoordinates{{{"x", "m"}, {"theta", "rad"}}};
+
+  double cart_mass = 0.0;          ///< [kg], of the cart
+  double rod_mass = 0.0;           ///< [kg], of the uniform rod
+  double rod_length = 0.0;         ///< [m], of the rod
+  double stiffness = 0.0;          ///< [N/m], of the spring
+  double damping = 0.0;            ///< [N s/m], of the cart
+  double force_amplitude = 0.0;    ///< [N], at the rod's tip
+  double force_frequency = 0.0;    ///< [rad/s], of that force
+  double support_amplitude = 0.0;  ///< [m], of the support's motion
+  double support_frequency = 0.0;  ///< [rad/s], of that motion
+  double gravity = 0.0;            ///< [m/s^2], of the scene
+
+  static constexpr std::array<Parameter<CartPendulum>, 9> parameters() {
+    return {{{"cart_mass", "kg", Range::kPositive, &CartPendulum::cart_mass, "of the cart"},
+             {"rod_mass", "kg", Range::kPositive, &CartPendulum::rod_mass, "of the uniform rod"},
+             {"rod_length", "m", Range::kPositive, &CartPendulum::rod_length, "of the rod"},
+             {"stiffness", "N/m", Range::kNotNegative, &CartPendulum::stiffness, "of the spring"},
+             {"damping", "N s/m", Range::kNotNegative, &CartPendulum::damping, "of the cart", 0.0},
+             {"force_amplitude", "N", Range::kAny, &CartPendulum::force_amplitude,
+              "at the rod's tip", 0.0},
+             {"force_frequency", "rad/s", Range::kNotNegative, &CartPendulum::force_frequency,
+              "of that force", 0.0},
+             {"support_amplitude", "m", Range::kAny, &CartPendulum::support_amplitude,
+              "of the support's motion", 0.0},
+             {"support_frequency", "rad/s", Range::kNotNegative, &CartPendulum::support_frequency,
+              "of that motion", 0.0}}};
+  }
+
+  template <class S>
+  WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
+                              const Moment<S>&) const {
+    return (0.5 * (cart_mass + rod_mass)) * (v[0] * v[0]) +
+           (0.5 * rod_mass * rod_length) * (cos(q[1]) * (v[0] * v[1])) +
+           (rod_mass * rod_length * rod_length / 6.0) * (v[1] * v[1]);
+  }
+  template <class S>
+  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const Moment<S>& at) const {
+    const S stretch = q[0] - support_amplitude * sin(support_frequency * at.time);
+    return (0.5 * stiffness) * (stretch * stretch) +
+           (0.5 * rod_mass * gravity * rod_length) * (1.0 - cos(q[1]));
+  }
+  template <class S>
+  WHIRL_TWIN_INLINE S dissipation(const std::array<S, kDof>&, const std::array<S, kDof>& v,
+                                  const Moment<S>&) const {
+    return (0.5 * damping) * (v[0] * v[0]);
+  }
+  template <class S>
+  WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>& q,
+                                              const std::array<S, kDof>&,
+                                              const Moment<S>& at) const {
+    const S f = force_amplitude * cos(force_frequency * at.time);
+    return {f, rod_length * (f * cos(q[1]))};
+  }
+};
+
+}  // namespace whirl_twin

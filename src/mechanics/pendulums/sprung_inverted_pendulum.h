@@ -1,0 +1,65 @@
+// Inverted pendulum held upright by a horizontal spring (lecture notes, "spring-held inverted
+// pendulum"; errata E35, E36). theta is measured from upright.
+//
+//   T = m L^2 theta'^2 / 2,   V = k (L sin theta)^2 / 2 - m g L (1 - cos theta),   D = c L^2
+//   theta'^2 / 2
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "mechanics/elementary.h"
+#include "mechanics/force_inline.h"
+#include "mechanics/model_description.h"
+#include "mechanics/moment.h"
+
+namespace whirl_twin {
+
+struct SprungInvertedPendulum {
+  static constexpr const char* kName = "sprung_inverted_pendulum";
+  static constexpr const char* kSummary = "inverted pendulum held by a horizontal spring";
+  static constexpr std::size_t kDof = 1;
+  static constexpr bool kLinear = false;
+  static constexpr bool kHasShaft = false;
+  static constexpr std::array<Coordinate, kDof> kCoordinates{{{"theta", "rad"}}};
+
+  double mass = 0.0;       ///< [kg], of the bob
+  double length = 0.0;     ///< [m], pivot to bob and spring
+  double stiffness = 0.0;  ///< [N/m], of the spring
+  double damping = 0.0;    ///< [N s/m], of a dashpot at the bob
+  double gravity = 0.0;    ///< [m/s^2], of the scene
+
+  static constexpr std::array<Parameter<SprungInvertedPendulum>, 4> parameters() {
+    return {{{"mass", "kg", Range::kPositive, &SprungInvertedPendulum::mass, "of the bob"},
+             {"length", "m", Range::kPositive, &SprungInvertedPendulum::length,
+              "pivot to bob and spring"},
+             {"stiffness", "N/m", Range::kNotNegative, &SprungInvertedPendulum::stiffness,
+              "of the spring"},
+             {"damping", "N s/m", Range::kNotNegative, &SprungInvertedPendulum::damping,
+              "of a dashpot at the bob", 0.0}}};
+  }
+
+  template <class S>
+  WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>&, const std::array<S, kDof>& v,
+                              const Moment<S>&) const {
+    return (0.5 * mass * length * length) * (v[0] * v[0]);
+  }
+  template <class S>
+  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const Moment<S>&) const {
+    const S aside = sin(q[0]);
+    return (0.5 * stiffness * length * length) * (aside * aside) -
+           (mass * gravity * length) * (1.0 - cos(q[0]));
+  }
+  template <class S>
+  WHIRL_TWIN_INLINE S dissipation(const std::array<S, kDof>&, const std::array<S, kDof>& v,
+                                  const Moment<S>&) const {
+    return (0.5 * damping * length * length) * (v[0] * v[0]);
+  }
+  template <class S>
+  WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>&,
+                                              const std::array<S, kDof>&, const Moment<S>&) const {
+    return {};
+  }
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,14 @@
+// Damage to scene files, the kinds that editors, scripts, disks and curious people do.
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <string>
+
+namespace whirl_twin {
+
+/// The text with one to four pieces of damage, chosen by the random numbers: the same ones give the
+/// same text on every machine.
+std::string mutated(std::string text, std::mt19937_64& random);
+
+}  // namespace whirl_twin

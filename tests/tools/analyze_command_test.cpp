@@ -1,0 +1,232 @@
+// `twin analyze` against closed forms.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "twin_program.h"
+
+namespace whirl_twin {
+namespace {
+
+using Json = nlohmann::json;
+
+std::set<std::string> keys(const Json& object) {
+  std::set<std::string> all;
+  for (const auto& [key, value] : object.items()) {
+    all.insert(key);
+  }
+  return all;
+}
+
+/// The analysis of the only system, `it`, of a scene.
+Json analyzed(const std::string& system, const std::string& scene = "") {
+  const TemporaryDirectory directory;
+  const Ending end = twin({"analyze", "--json",
+                           directory.write("scene.yaml", "step: 0.001\n" + scene +
+                                                             "systems:\n  it: " + system + "\n")});
+  EXPECT_EQ(end.status, 0) << end.err;
+  return end.json()["systems"]["it"];
+}
+
+TEST(Analyze, HasEveryKey) {
+  const Ending end = twin({"analyze", kDemo, "--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  EXPECT_EQ(keys(end.json()["systems"]), (std::set<std::string>{"rotor", "pendulum"}));
+  for (const auto& [name, system] : end.json()["systems"].items()) {
+    EXPECT_EQ(
+        keys(system),
+        (std::set<std::string>{"model", "coordinates", "time", "speed", "state", "acceleration",
+                               "energy", "equilibria", "linearization", "eigenvalues",
+                               "natural_frequencies", "damping_ratios", "characteristic_polynomial",
+                               "routh", "margins", "critical_speeds"}));
+    EXPECT_EQ(keys(system["energy"]), (std::set<std::string>{"kinetic", "potential", "jacobi",
+                                                             "dissipated_power", "input_power"}));
+    EXPECT_EQ(keys(system["equilibria"][0]), (std::set<std::string>{"state", "verdict"}));
+    EXPECT_EQ(keys(system["linearization"]),
+              (std::set<std::string>{"about", "mass", "damping", "gyroscopic", "stiffness",
+                                     "circulatory"}));
+    EXPECT_EQ(keys(system["routh"]),
+              (std::set<std::string>{"verdict", "right", "imaginary", "left", "first_column"}));
+    EXPECT_EQ(keys(system["margins"]),
+              (std::set<std::string>{"decay_rate", "damping_ratio", "log_decrement",
+                                     "instability_speed"}));
+  }
+  EXPECT_EQ(keys(end.json()["systems"]["rotor"]["critical_speeds"][0]),
+            (std::set<std::string>{"speed", "direction", "amplification_factor",
+                                   "separation_margin", "required_separation_margin"}));
+}
+
+// m = 2 kg, k = 5000 N/m, c = 10 N s/m: p = 50 rad/s, zeta = c / (2 m p) = 0.05.
+class DampedRotor : public testing::Test {
+ protected:
+  static constexpr double kP = 50.0;
+  static constexpr double kZeta = 0.05;
+  const Json rotor_ = analyzed(
+      "{model: jeffcott_rotor, parameters: {mass: 2, stiffness: 5000, damping: 10, speed: 80,"
+      " eccentricity: 1e-4}, initial: {x: 1e-3, y_rate: 0.02}}");
+};
+
+TEST_F(DampedRotor, FrequencyAndDamping) {
+  for (int mode : {0, 1}) {
+    EXPECT_NEAR(rotor_["natural_frequencies"][mode], kP, 1e-13 * kP);
+    EXPECT_NEAR(rotor_["damping_ratios"][mode], kZeta, 1e-14);
+  }
+  ASSERT_EQ(rotor_["eigenvalues"].size(), 4u);
+  for (const Json& root : rotor_["eigenvalues"]) {
+    EXPECT_NEAR(root[0], -kZeta * kP, 1e-12);
+    EXPECT_NEAR(std::fabs(root[1].get<double>()), kP * std::sqrt(1.0 - kZeta * kZeta), 1e-12);
+  }
+  EXPECT_NEAR(rotor_["margins"]["decay_rate"], kZeta * kP, 1e-12);
+  EXPECT_NEAR(rotor_["margins"]["damping_ratio"], kZeta, 1e-14);
+  EXPECT_NEAR(rotor_["margins"]["log_decrement"],
+              2.0 * M_PI * kZeta / std::sqrt(1.0 - kZeta * kZeta), 1e-12);
+  EXPECT_TRUE(rotor_["margins"]["instability_speed"].is_null());
+  EXPECT_EQ(rotor_["routh"]["verdict"], "asymptotically_stable");
+  EXPECT_EQ(rotor_["routh"]["left"], 4);
+  // (s^2 + 5 s + 2500)^2, exact.
+  EXPECT_EQ(rotor_["characteristic_polynomial"], Json({1.0, 10.0, 5025.0, 25000.0, 6250000.0}));
+}
+
+// The unbalance response of a Jeffcott rotor peaks at p / sqrt(1 - 2 zeta^2), in forward whirl.
+TEST_F(DampedRotor, CriticalSpeedAndItsMargin) {
+  ASSERT_EQ(rotor_["critical_speeds"].size(), 1u);
+  const Json& critical = rotor_["critical_speeds"][0];
+  const double speed = kP / std::sqrt(1.0 - 2.0 * kZeta * kZeta);
+  EXPECT_NEAR(critical["speed"], speed, 1e-9 * speed);
+  EXPECT_EQ(critical["direction"], "forward");
+  const double factor = critical["amplification_factor"];
+  EXPECT_NEAR(factor, 1.0 / (2.0 * kZeta), 0.02 / (2.0 * kZeta));  // light damping: 1 / 2 zeta
+  EXPECT_NEAR(critical["separation_margin"], 100.0 * (80.0 - speed) / 80.0, 1e-6);
+  EXPECT_NEAR(critical["required_separation_margin"], 17.0 * (1.0 - 1.0 / (factor - 1.5)), 1e-9);
+}
+
+// e = 1e-4 m turning at 80 rad/s: at angle 0 the mass centre adds e w^2 to x'' and e w to its y'.
+TEST_F(DampedRotor, StateAccelerationAndEnergyAtTheStart) {
+  EXPECT_EQ(rotor_["model"], "jeffcott_rotor");
+  EXPECT_EQ(rotor_["coordinates"], Json({"x", "y"}));
+  EXPECT_EQ(rotor_["speed"], 80.0);
+  EXPECT_EQ(rotor_["state"], Json({{"x", 1e-3}, {"y", 0.0}, {"x_rate", 0.0}, {"y_rate", 0.02}}));
+  EXPECT_NEAR(rotor_["acceleration"]["x"], -2500.0 * 1e-3 + 1e-4 * 6400.0, 1e-13);
+  EXPECT_NEAR(rotor_["acceleration"]["y"], -5.0 * 0.02, 1e-14);
+  const double speed_of_centre = 0.02 + 1e-4 * 80.0;
+  EXPECT_NEAR(rotor_["energy"]["kinetic"], speed_of_centre * speed_of_centre, 1e-17);
+  EXPECT_NEAR(rotor_["energy"]["potential"], 0.5 * 5000.0 * 1e-6, 1e-17);
+  EXPECT_NEAR(rotor_["energy"]["dissipated_power"], 10.0 * 0.02 * 0.02, 1e-17);
+}
+
+TEST_F(DampedRotor, LinearizationRowByRow) {
+  EXPECT_EQ(rotor_["linearization"]["about"],
+            Json({{"x", 0.0}, {"y", 0.0}, {"x_rate", 0.0}, {"y_rate", 0.0}}));
+  EXPECT_EQ(rotor_["linearization"]["mass"], Json({{2.0, 0.0}, {0.0, 2.0}}));
+  EXPECT_EQ(rotor_["linearization"]["damping"], Json({{10.0, 0.0}, {0.0, 10.0}}));
+  EXPECT_EQ(rotor_["linearization"]["stiffness"], Json({{5000.0, 0.0}, {0.0, 5000.0}}));
+}
+
+// Kimball: internal damping c_i makes a rotor unstable above p (1 + c / c_i).
+TEST(Analyze, InternalDampingSetsTheInstabilitySpeed) {
+  const Json rotor = analyzed(
+      "{model: jeffcott_rotor, parameters: {mass: 2, stiffness: 5000, damping: 10,"
+      " internal_damping: 5, speed: 40}}");
+  EXPECT_NEAR(rotor["margins"]["instability_speed"], 50.0 * (1.0 + 10.0 / 5.0), 1e-10);
+  // Circulatory: N = [[0, c_i w], [-c_i w, 0]].
+  EXPECT_EQ(rotor["linearization"]["circulatory"], Json({{0.0, 200.0}, {-200.0, 0.0}}));
+}
+
+TEST(Analyze, UndampedCriticalSpeedHasNoAmplificationFactor) {
+  const Json rotor =
+      analyzed("{model: jeffcott_rotor, parameters: {mass: 1, stiffness: 100, speed: 0}}");
+  const Json& critical = rotor["critical_speeds"][0];
+  EXPECT_NEAR(critical["speed"], 10.0, 1e-9);
+  EXPECT_TRUE(critical["amplification_factor"].is_null());
+  EXPECT_TRUE(critical["separation_margin"].is_null()) << "at standstill there is none";
+  EXPECT_EQ(critical["required_separation_margin"], 26.0);
+  EXPECT_EQ(rotor["routh"]["verdict"], "marginal");
+}
+
+// A spinning pendulum faster than sqrt(g/l) rests at cos theta = g / (l w^2) on either side.
+TEST(Analyze, SpinningPendulumFliesOutwards) {
+  const double speed = 10.0;
+  const Json pendulum = analyzed(
+      "{model: spinning_pendulum, parameters: {mass: 0.5, length: 0.4, damping: 0.01, speed: 10},"
+      " initial: {theta: 0.3}}");
+  const double theta = std::acos(9.80665 / (0.4 * speed * speed));
+  const Json& equilibria = pendulum["equilibria"];
+  ASSERT_EQ(equilibria.size(), 4u);
+  const double expected[] = {-theta, 0.0, theta, M_PI};
+  const char* verdicts[] = {"asymptotically_stable", "unstable", "asymptotically_stable",
+                            "unstable"};
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_NEAR(equilibria[i]["state"]["theta"], expected[i], 1e-14);
+    EXPECT_EQ(equilibria[i]["verdict"], verdicts[i]);
+  }
+  EXPECT_NEAR(pendulum["linearization"]["about"]["theta"], theta, 1e-14);
+  EXPECT_EQ(pendulum["linearization"]["about"]["theta_rate"], 0.0);
+  // About it, theta'' + w^2 sin^2(theta) theta = 0.
+  EXPECT_NEAR(pendulum["natural_frequencies"][0], speed * std::sin(theta), 1e-12);
+  EXPECT_TRUE(pendulum["critical_speeds"].empty());
+}
+
+// Equal masses and rods: w^2 = (2 -+ sqrt 2) g / l.
+TEST(Analyze, DoublePendulumFrequencies) {
+  const Json pendulum = analyzed(
+      "{model: double_pendulum, parameters: {mass1: 1.5, mass2: 1.5, length1: 0.7, length2: 0.7},"
+      " initial: {theta1: 0.1}}");
+  const double square = 9.80665 / 0.7;
+  EXPECT_NEAR(pendulum["natural_frequencies"][0], std::sqrt((2.0 - std::sqrt(2.0)) * square),
+              1e-13);
+  EXPECT_NEAR(pendulum["natural_frequencies"][1], std::sqrt((2.0 + std::sqrt(2.0)) * square),
+              1e-13);
+  EXPECT_EQ(pendulum["equilibria"].size(), 4u);
+  EXPECT_EQ(pendulum["routh"]["verdict"], "marginal");
+  EXPECT_EQ(pendulum["margins"]["decay_rate"], 0.0);
+  EXPECT_TRUE(pendulum["speed"].is_null());
+  EXPECT_TRUE(pendulum["margins"]["instability_speed"].is_null());
+}
+
+// A rotor above its threshold speed has no stable equilibrium and is linearized where it is.
+TEST(Analyze, WithoutAStableEquilibriumTheInitialStateIsLinearizedAbout) {
+  const Json rotor = analyzed(
+      "{model: jeffcott_rotor, parameters: {mass: 1, stiffness: 100, damping: 1,"
+      " internal_damping: 1, speed: 30}, initial: {x: 0.01, y_rate: 0.2}}");
+  EXPECT_EQ(rotor["linearization"]["about"], rotor["state"]);
+  EXPECT_EQ(rotor["routh"]["verdict"], "unstable");
+  EXPECT_LT(rotor["margins"]["decay_rate"], 0.0);
+}
+
+// On a drive the moment is that of its start: speed and acceleration of the shaft.
+TEST(Analyze, StartsWithTheDrive) {
+  const Json pendulum = analyzed(
+      "{model: spinning_pendulum, drive: shaft, parameters: {mass: 1, length: 1}}",
+      "time: 5.0\ndrives: {shaft: {speed: 2.0, profile: [{speed: 9.0, max_acceleration: 1.0}]}}\n");
+  EXPECT_EQ(pendulum["speed"], 2.0);
+  EXPECT_EQ(pendulum["time"], 5.0);
+}
+
+TEST(Analyze, NumbersBeyondDoubleFailTheRunNotTheProgram) {
+  const TemporaryDirectory directory;
+  const std::string scene = directory.write("scene.yaml", R"(
+step: 0.001
+systems:
+  it: {model: jeffcott_rotor, parameters: {mass: 1e-300, stiffness: 1e300, speed: 0}}
+)");
+  const Ending end = twin({"analyze", scene, "--json"});
+  EXPECT_EQ(end.status, 1);
+  EXPECT_EQ(end.out, "");
+  EXPECT_EQ(end.err.find("twin: it: cannot be analysed"), 0u) << end.err;
+}
+
+TEST(Analyze, ReportForReaders) {
+  const Ending end = twin({"analyze", kDemo, "--system", "rotor"});
+  EXPECT_EQ(end.status, 0);
+  EXPECT_EQ(linesOf(end.out).front(),
+            "rotor: jeffcott_rotor, unbalanced disc on a massless flexible shaft");
+  for (const char* part : {"stability: asymptotically stable", "log decrement   0.314553",
+                           "rad/s          Hz   damping ratio", "critical speeds"}) {
+    EXPECT_NE(end.out.find(part), std::string::npos) << part << "\n" << end.out;
+  }
+  EXPECT_EQ(end.out.find("nan"), std::string::npos) << end.out;
+}
+
+}  // namespace
+}  // namespace whirl_twin
