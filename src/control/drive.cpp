@@ -107,6 +107,14 @@ ShaftMotion Drive::beyond(double offset) const noexcept {
           motion.acceleration + tau * motion.jerk, motion.jerk};
 }
 
+double Drive::cornerBeyond(double offset) const noexcept {
+  double corner = remaining_;
+  for (std::size_t i = cursor_ + 1; corner <= offset; ++i) {
+    corner += segments()[i].motion.duration;  // the last piece has no end
+  }
+  return corner;
+}
+
 bool Drive::setSpeed(double speed, double max_acceleration, double max_jerk) noexcept {
   const SpeedMove move{speed, max_acceleration, max_jerk, 0.0};
   if (faultOf(move) ||

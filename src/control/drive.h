@@ -67,6 +67,12 @@ class Drive {
     return acceleration_ == 0.0 && jerk_ == 0.0 && duration <= remaining_;
   }
 
+  /// The first corner of the motion, where its jerk changes, after an offset [s] >= 0 from begin();
+  /// infinity if there is none.
+  double nextCorner(double offset) const noexcept {
+    return offset < remaining_ ? remaining_ : cornerBeyond(offset);
+  }
+
   /// Speed [rad/s] at which the present move ends.
   double targetSpeed() const noexcept { return segments()[cursor_].target; }
 
@@ -103,6 +109,7 @@ class Drive {
     return live_count_ > 0 ? live_count_ : profile_.size();
   }
   ShaftMotion beyond(double offset) const noexcept;
+  double cornerBeyond(double offset) const noexcept;
 
   std::vector<Segment> profile_;
   std::array<Segment, 4> live_{};  // the last setSpeed() move and what follows it

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <memory>
 
 #include "control/drive.h"
@@ -66,7 +67,7 @@ class SteppedSystem final : public System {
     const DrivenEquation<Model> equation{model_, drive_, time};
     MotionState<n> next = state_;
     for (int i = 0; i < substeps_; ++i) {
-      const StepStatus status = method_.step(equation, i * substep_, substep_, next);
+      const StepStatus status = advance(equation, i * substep_, next);
       if (status != StepStatus::kOk) {
         return status;
       }
@@ -99,6 +100,39 @@ class SteppedSystem final : public System {
   }
 
  private:
+  /// One substep, in parts where the drive has a corner inside it: across a corner a method would
+  /// lose its order.
+  WHIRL_TWIN_INLINE StepStatus advance(const DrivenEquation<Model>& equation, double offset,
+                                       MotionState<n>& state) noexcept {
+    if constexpr (Model::kHasShaft) {
+      const double end = offset + substep_;
+      if (drive_.nextCorner(offset) < end - kSliver * substep_) {
+        return advanceInParts(equation, offset, end, state);
+      }
+    }
+    return method_.step(equation, offset, substep_, state);
+  }
+  StepStatus advanceInParts(const DrivenEquation<Model>& equation, double offset, double end,
+                            MotionState<n>& state) noexcept {
+    const double sliver = kSliver * substep_;
+    StepStatus status = StepStatus::kOk;
+    while (status == StepStatus::kOk && end - offset > sliver) {
+      double corner = drive_.nextCorner(offset);
+      corner = corner < end - sliver ? corner : end;
+      if (corner - offset > sliver) {
+        method_.restart();
+        status = method_.step(equation, offset, corner - offset, state);
+      }
+      // Just behind the corner, where the jerk (or acceleration) that follows holds.
+      offset = std::nextafter(corner, 2.0 * end);
+    }
+    method_.restart();
+    return status;
+  }
+
+  /// Parts shorter than this share of a substep are not worth a step: they are rounding.
+  static constexpr double kSliver = 1.0e-12;
+
   Model model_;
   const Drive& drive_;
   double substep_;  ///< [s]

@@ -80,10 +80,10 @@ class EnergyResidual : public testing::TestWithParam<Audit> {
 TEST_P(EnergyResidual, IsBelowTheBound) {
   for (int draw = 0; draw < kDraws; ++draw) {
     Scene scene = sceneOf(kThreeSystems);
-    // One piece of constant jerk: a corner of the acceleration inside a step would cost each method
-    // its order.
+    // Corners of the drive fall inside steps.
     scene.drives[0].speed = between(-20.0, 20.0);
-    scene.drives[0].profile = {{1e5, 1e5, between(0.2, 1.0), 0.0}};
+    scene.drives[0].profile = {{between(-20.0, 20.0), between(2.0, 5.0), between(3.0, 9.0), 0.5},
+                               {between(-20.0, 20.0), between(2.0, 5.0), 0.0, 0.0}};
     SystemSpec spec;
     const double frequency = randomSystem(spec);
     scene.step = std::llround(GetParam().frequency_times_step / frequency * 1e9);
