@@ -18,7 +18,8 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 
-constexpr double kHalfPower = 0.707;  // of the peak, as API RP 684 has it
+constexpr double kHalfPower = 0.707;      // of the peak, as API RP 684 has it
+constexpr double kInfinitePeak = 1.0e12;  // of this height and more a peak is rounding
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -93,9 +94,10 @@ CriticalSpeed measured(const Dynamics& dynamics, double speed, double damping_ra
   c.speed = speed;
   const UnbalanceResponse response = unbalanceResponse(dynamics, speed);
   c.forward = response.forward;
-  if (damping_ratio <= 1.0e-13 || !std::isfinite(response.major)) {
-    c.peak = c.amplification_factor = kInfinity;
-    c.lower = c.upper = speed;
+  c.peak = c.amplification_factor = kInfinity;
+  c.lower = c.upper = speed;
+  // Rotating damping damps the modes at rest, but not the synchronous whirl: ask the peak too.
+  if (damping_ratio <= 1.0e-13 || !(response.major < kInfinitePeak)) {
     return c;
   }
   c.peak = response.major;
@@ -159,14 +161,15 @@ std::vector<CriticalSpeed> criticalSpeeds(const Dynamics& dynamics) {
   }
   const auto slope = [&](double speed) { return unbalanceResponse(dynamics, speed).slope; };
   const std::vector<double> speeds = lookout(modes);
-  double before = slope(speeds.front());
-  for (std::size_t i = 1; i < speeds.size(); ++i) {
-    const double after = slope(speeds[i]);
+  double low = speeds.front();
+  double before = slope(low);
+  for (const double high : speeds) {
+    const double after = slope(high);
     if (!std::isfinite(after)) {
       continue;  // on the pole of an undamped mode
     }
     if (before > 0.0 && after < 0.0) {
-      const double peak = bisect([&](double w) { return -slope(w); }, speeds[i - 1], speeds[i]);
+      const double peak = bisect([&](double w) { return -slope(w); }, low, high);
       const auto nearest = std::min_element(
           modes.natural_frequencies.begin(), modes.natural_frequencies.end(),
           [&](double a, double b) { return std::fabs(a - peak) < std::fabs(b - peak); });
@@ -174,6 +177,7 @@ std::vector<CriticalSpeed> criticalSpeeds(const Dynamics& dynamics) {
                                modes.damping_ratios[static_cast<std::size_t>(
                                    nearest - modes.natural_frequencies.begin())]));
     }
+    low = high;
     before = after;
   }
   return found;

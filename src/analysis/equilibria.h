@@ -15,9 +15,13 @@ struct Equilibrium {
   Stability stability;
 };
 
-/// All equilibria found at a constant speed [rad/s], by Newton's method from a grid of starts over
-/// the circle, ascending. A linear rotor has one, the bearing line; its unbalance whirls it about
-/// it.
+/// All equilibria found at a constant speed [rad/s], by Newton's method from a grid of starts,
+/// ascending: over the circle of an angle, as many natural lengths of a slide (eight circles where
+/// it is the only coordinate). Loads that alternate are at their mean. Along a cyclic coordinate,
+/// where nothing pulls, an equilibrium is the same everywhere: the one at 0 stands for all. One
+/// where a coordinate has no inertia (a rotating pendulum without a hub, hanging) has no small
+/// motion in these coordinates and is left out. A linear rotor has one, the bearing line; its
+/// unbalance whirls it about it.
 std::vector<Equilibrium> equilibria(const Dynamics& dynamics, double speed);
 
 /// Newton's method from q at a constant speed [rad/s]; nothing if it does not converge.

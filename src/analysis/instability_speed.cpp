@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "analysis/characteristic_polynomial.h"
 #include "analysis/equilibria.h"
@@ -42,20 +44,26 @@ std::optional<double> instabilitySpeed(const Dynamics& dynamics, const Eigen::Ve
   const double lowest = std::max(frequencies.front(), 1.0e-6 * std::max(1.0, from));
   const double first = std::max(from, 1.0e-2 * lowest);
   const double last = kReach * lowest;
-  Eigen::VectorXd before = q;
-  double low = from;
+  std::vector<std::pair<double, Eigen::VectorXd>> passed{{from, q}};
   for (int i = 0; i <= kStrides; ++i) {
     const double high = first * std::pow(last / first, static_cast<double>(i) / kStrides);
-    const auto next = equilibriumNear(dynamics, before, high);
+    const auto next = equilibriumNear(dynamics, passed.back().second, high);
     if (!next) {
       return std::nullopt;
     }
     if (!surelyUnstable(linearizationAtRest(dynamics, *next, high))) {
-      before = *next;
-      low = high;
+      passed.emplace_back(high, *next);
       continue;
     }
+    // What grows too slowly to be sure of has been passed too: Routh's test finds the way back.
     double top = high;
+    while (passed.size() > 1 &&
+           unstable(linearizationAtRest(dynamics, passed.back().second, passed.back().first))) {
+      top = passed.back().first;
+      passed.pop_back();
+    }
+    double low = passed.back().first;
+    const Eigen::VectorXd& before = passed.back().second;
     while (top - low > 1.0e-15 * top) {
       const double middle = 0.5 * (low + top);
       if (middle <= low || middle >= top) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "analysis/characteristic_polynomial.h"
 #include "analysis/stability_margins.h"
@@ -23,6 +24,9 @@ void modes(const std::vector<std::complex<double>>& roots, Stability& s) {
   std::vector<Mode> modes;
   std::vector<double> real;
   for (const auto& root : roots) {
+    if (std::abs(root) <= kRounding * std::abs(roots.back())) {
+      continue;  // a rigid-body motion
+    }
     if (root.imag() > 0.0) {
       modes.push_back({std::abs(root), -root.real() / std::abs(root)});
     } else if (root.imag() == 0.0) {
@@ -62,7 +66,11 @@ std::vector<std::complex<double>> eigenvalues(const Linearization& l) {
   a.topRightCorner(n, n).diagonal().setConstant(scale);
   a.bottomLeftCorner(n, n) = -by_q / scale;
   a.bottomRightCorner(n, n) = -by_v;
-  const Eigen::VectorXcd values = Eigen::EigenSolver<Eigen::MatrixXd>(a, false).eigenvalues();
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(a, false);
+  if (solver.info() != Eigen::Success) {
+    throw std::domain_error("the eigenvalues of the linearized system cannot be computed");
+  }
+  const Eigen::VectorXcd values = solver.eigenvalues();
   std::vector<std::complex<double>> roots(values.data(), values.data() + values.size());
   std::sort(roots.begin(), roots.end(), [](const auto& x, const auto& y) {
     const double ax = std::abs(x);

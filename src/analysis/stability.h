@@ -30,6 +30,8 @@ struct Stability {
 
 /// Judges M q'' + (C + G) q' + (K + N) q = 0. The verdict is kUncertain where the largest real part
 /// is below the rounding of the eigenvalues and the polynomial does not make it exactly zero.
+/// Throws std::domain_error for matrices beyond the range of double, std::invalid_argument for a
+/// singular mass.
 Stability stability(const Linearization& linearization);
 
 /// Eigenvalues only: fast, for searches. [2 dof]

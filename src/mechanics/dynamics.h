@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -29,6 +30,9 @@ class Dynamics {
   virtual bool hasShaft() const = 0;          ///< the motion of a shaft enters
   virtual bool speedDependent() const = 0;    ///< the matrices of a linear model change with speed
   virtual double unbalanceAngle() const = 0;  ///< [rad], of a rotor's unbalance from the mark
+  virtual double naturalLength() const = 0;   ///< [m], scale of the sliding coordinates
+  /// The same system without the loads that alternate: its equilibria are those at rest.
+  virtual const Dynamics& atMeanLoad() const = 0;
 
   virtual Eigen::VectorXd acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                        const Moment<double>& at) const = 0;
@@ -55,13 +59,36 @@ struct RotorTraits<Model, std::void_t<decltype(&Model::unbalanceAngle)>> {
   static double unbalanceAngle(const Model& m) { return m.unbalanceAngle(); }
 };
 
+template <class Model, class = void>
+struct NaturalLength {
+  static double of(const Model&) { return 1.0; }
+};
+template <class Model>
+struct NaturalLength<Model, std::void_t<decltype(&Model::naturalLength)>> {
+  static double of(const Model& m) { return m.naturalLength(); }
+};
+
+template <class Model, class = void>
+struct HasAlternatingLoads : std::false_type {};
+template <class Model>
+struct HasAlternatingLoads<Model, std::void_t<decltype(&Model::atMeanLoad)>> : std::true_type {};
+
 template <class Model>
 class LagrangianDynamics final : public Dynamics {
  public:
   static constexpr std::size_t n = Model::kDof;
   using Array = std::array<double, n>;
 
-  explicit LagrangianDynamics(const Model& model) : model_(model) {}
+  enum class Loads { kAll, kMean };
+
+  explicit LagrangianDynamics(const Model& model, [[maybe_unused]] Loads loads = Loads::kAll)
+      : model_(model) {
+    if constexpr (HasAlternatingLoads<Model>::value) {
+      if (loads == Loads::kAll) {
+        at_mean_load_ = std::make_unique<LagrangianDynamics>(model.atMeanLoad(), Loads::kMean);
+      }
+    }
+  }
 
   std::string model() const override { return Model::kName; }
   int dof() const override { return static_cast<int>(n); }
@@ -72,6 +99,8 @@ class LagrangianDynamics final : public Dynamics {
   bool hasShaft() const override { return Model::kHasShaft; }
   bool speedDependent() const override { return RotorTraits<Model>::speedDependent(model_); }
   double unbalanceAngle() const override { return RotorTraits<Model>::unbalanceAngle(model_); }
+  double naturalLength() const override { return NaturalLength<Model>::of(model_); }
+  const Dynamics& atMeanLoad() const override { return at_mean_load_ ? *at_mean_load_ : *this; }
 
   Eigen::VectorXd acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                const Moment<double>& at) const override {
@@ -104,6 +133,7 @@ class LagrangianDynamics final : public Dynamics {
   }
 
   Model model_;
+  std::unique_ptr<const LagrangianDynamics> at_mean_load_;  // none: it has no alternating loads
 };
 
 }  // namespace whirl_twin

@@ -1,6 +1,7 @@
 #include "monitoring/system_judge.h"
 
 #include <cmath>
+#include <exception>
 
 #include "analysis/equilibria.h"
 #include "analysis/instability_speed.h"
@@ -46,13 +47,22 @@ state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::v
   const double shaft_speed = dynamics_->hasShaft() ? speed : 0.0;
   const Eigen::VectorXd present =
       Eigen::Map<const Eigen::VectorXd>(q.data(), static_cast<Eigen::Index>(q.size()));
-  const std::optional<Equilibrium> point = operatingPoint(*dynamics_, present, shaft_speed);
-  const Eigen::VectorXd about = point                 ? point->q
-                                : dynamics_->linear() ? Eigen::VectorXd::Zero(dynamics_->dof())
-                                                      : present;
-  const Stability s =
-      point ? point->stability : stability(linearizationAtRest(*dynamics_, about, shaft_speed));
-  findInstabilitySpeed(at.time, about, shaft_speed);
+  Eigen::VectorXd about = present;
+  Stability s;
+  s.routh.verdict = Verdict::kUncertain;
+  s.decay_rate = s.damping_ratio = s.log_decrement = kNaN;
+  try {
+    const std::optional<Equilibrium> point = operatingPoint(*dynamics_, present, shaft_speed);
+    if (point) {
+      about = point->q;
+    } else if (dynamics_->linear()) {
+      about.setZero();
+    }
+    s = point ? point->stability : stability(linearizationAtRest(*dynamics_, about, shaft_speed));
+    findInstabilitySpeed(at.time, about, shaft_speed);
+  } catch (const std::exception&) {
+    // Numbers beyond the range of double, or a singular mass: uncertain. The others are watched on.
+  }
 
   state::StabilityMargin m;
   m.at = at;

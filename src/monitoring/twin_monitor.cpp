@@ -8,8 +8,6 @@ namespace whirl_twin {
 namespace {
 
 constexpr double kJudgingPeriod = 0.1;  // s, simulated
-/// Topics overtake each other by less than this [s]; more is a reset.
-constexpr double kReset = 0.5;
 
 /// Low damping is a criterion for rotors; a pendulum may swing as long as it likes.
 AlarmSettings settingsFor(const ModelInfo& model, AlarmSettings settings) {
@@ -33,6 +31,8 @@ std::vector<std::string> systemNames(const Scene& scene) {
 TwinMonitor::Watch::Watch(const Twin::Member& member, std::string drive_name,
                           const AlarmSettings& settings)
     : judge(member),
+      rotor(member.model->rotor),
+      dof(member.spec.q.size()),
       drive(std::move(drive_name)),
       speed(member.spec.speed.value_or(0.0)),
       critical_speed_alarm(member.spec.name, settings),
@@ -41,7 +41,9 @@ TwinMonitor::Watch::Watch(const Twin::Member& member, std::string drive_name,
 
 TwinMonitor::TwinMonitor(const Scene& scene, const AlarmSettings& settings)
     : twin_(scene), settings_(settings), data_lost_alarm_(systemNames(scene), settings) {
-  restart();
+  for (const Twin::Member& member : twin_.members()) {
+    watches_.emplace_back(member, member.spec.drive.value_or(""), settings_);
+  }
 }
 
 void TwinMonitor::restart() {
@@ -49,20 +51,15 @@ void TwinMonitor::restart() {
     alerts_.clear(alert.system, alert.type, time_, "the simulation was reset");
   }
   data_lost_alarm_ = DataLostAlarm(systemNames(twin_.scene()), settings_);
-  if (!watches_.empty()) {
-    for (std::size_t i = 0; i < watches_.size(); ++i) {
-      Watch& watch = watches_[i];
-      watch.critical_speed_alarm = CriticalSpeedAlarm(watch.judge.system(), settings_);
-      watch.stability_alarm = StabilityAlarm(
-          watch.judge.system(), settingsFor(*twin_.members()[i].model, settings_));
-      watch.state_alarm = StateAlarm(watch.judge.system(), settings_);
-      watch.judged = false;
-    }
-    return;
+  for (std::size_t i = 0; i < watches_.size(); ++i) {
+    Watch& watch = watches_[i];
+    watch.critical_speed_alarm = CriticalSpeedAlarm(watch.judge.system(), settings_);
+    watch.stability_alarm =
+        StabilityAlarm(watch.judge.system(), settingsFor(*twin_.members()[i].model, settings_));
+    watch.state_alarm = StateAlarm(watch.judge.system(), settings_);
+    watch.judged = false;
   }
-  for (const Twin::Member& member : twin_.members()) {
-    watches_.emplace_back(member, member.spec.drive.value_or(""), settings_);
-  }
+  newest_.clear();
 }
 
 TwinMonitor::Watch* TwinMonitor::find(const std::string& system) {
@@ -72,17 +69,15 @@ TwinMonitor::Watch* TwinMonitor::find(const std::string& system) {
   return found == watches_.end() ? nullptr : &*found;
 }
 
-void TwinMonitor::advance(double time) {
-  if (started_ && time < time_ - kReset) {
-    time_ = time;
+void TwinMonitor::arrived(const std::string& source, const state::Instant& at, double wall_time) {
+  // Each source against itself: one may be seconds ahead of another when the monitor was held up.
+  const auto before = newest_.find(source);
+  if (before != newest_.end() && at.time < before->second) {
+    time_ = at.time;
     restart();
   }
-  started_ = true;
-  time_ = std::max(time_, time);
-}
-
-void TwinMonitor::arrived(const std::string& source, const state::Instant& at, double wall_time) {
-  advance(at.time);
+  time_ = newest_.empty() ? at.time : std::max(time_, at.time);
+  newest_[source] = at.time;
   data_lost_alarm_.received(source, wall_time, time_, alerts_);
 }
 
@@ -108,7 +103,7 @@ void TwinMonitor::judge(Watch& watch, const state::Instant& at, const std::vecto
 
 void TwinMonitor::take(const state::WhirlState& whirl, double wall_time) {
   Watch* watch = find(whirl.system);
-  if (watch == nullptr) {
+  if (watch == nullptr || !watch->rotor) {
     return;
   }
   arrived(whirl.system, whirl.at, wall_time);
@@ -125,7 +120,7 @@ void TwinMonitor::take(const state::WhirlState& whirl, double wall_time) {
 
 void TwinMonitor::take(const state::PendulumState& pendulum, double wall_time) {
   Watch* watch = find(pendulum.system);
-  if (watch == nullptr) {
+  if (watch == nullptr || watch->rotor || pendulum.angle.size() != watch->dof) {
     return;
   }
   arrived(pendulum.system, pendulum.at, wall_time);
@@ -140,7 +135,7 @@ void TwinMonitor::take(const state::DriveState& drive, double wall_time) {
       continue;
     }
     if (!known) {
-      arrived(drive.drive, drive.at, wall_time);
+      arrived("drives/" + drive.drive, drive.at, wall_time);  // a system may have the same name
       known = true;
     }
     watchShaft(watch, drive);

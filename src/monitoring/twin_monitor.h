@@ -21,8 +21,8 @@ class TwinMonitor {
   TwinMonitor(const Scene& scene, const AlarmSettings& settings);
 
   // States as they arrive, wall_time [s] from a clock that only goes forward. Those of systems and
-  // drives the scene does not have are ignored. Time that goes back means the twin was reset: all
-  // alerts clear and the alarms begin anew.
+  // drives the scene does not have, or has as another kind, are ignored. Time that goes back for
+  // one of them means the twin was reset: all alerts clear and the alarms begin anew.
   void take(const state::WhirlState& whirl, double wall_time);
   void take(const state::PendulumState& pendulum, double wall_time);
   void take(const state::DriveState& drive, double wall_time);
@@ -40,6 +40,8 @@ class TwinMonitor {
     Watch(const Twin::Member& member, std::string drive, const AlarmSettings& settings);
 
     SystemJudge judge;
+    bool rotor;
+    std::size_t dof;
     std::string drive;  ///< "" at a constant speed of its own
     double speed;       ///< [rad/s], newest
     CriticalSpeedAlarm critical_speed_alarm;
@@ -51,7 +53,6 @@ class TwinMonitor {
   };
 
   void restart();
-  void advance(double time);
   Watch* find(const std::string& system);
   void arrived(const std::string& source, const state::Instant& at, double wall_time);
   void judge(Watch& watch, const state::Instant& at, const std::vector<double>& q);
@@ -63,7 +64,7 @@ class TwinMonitor {
   DataLostAlarm data_lost_alarm_;
   AlertList alerts_;
   std::vector<state::StabilityMargin> margins_;
-  bool started_ = false;
+  std::map<std::string, double> newest_;  ///< [s], simulated, of each source since the last reset
   double time_ = 0.0;
 };
 

@@ -27,6 +27,7 @@ namespace whirl_twin {
 namespace {
 
 constexpr std::uint32_t kQueue = 5000;  // some seconds at 1 kHz
+constexpr double kReportPeriod = 1.0;   // s, wall time
 
 double wallTime() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -57,7 +58,8 @@ class MonitorNode {
   explicit MonitorNode(ros::NodeHandle node)
       : node_(node),
         scene_(sceneFromParameters(node, "scene")),
-        monitor_(scene_, alarmSettings()),
+        settings_(alarmSettings()),
+        monitor_(scene_, settings_),
         url_(privateParameter<std::string>("lcm_url", "an LCM url, or nothing", kDefaultLcmUrl)),
         lcm_(url_),
         alerts_(node.advertise<AlertArray>("alerts", 10, true)) {
@@ -73,6 +75,9 @@ class MonitorNode {
     if (source == "ros") {
       subscribe();
     } else if (source == "lcm") {
+      if (url_.empty()) {
+        throw std::invalid_argument("lcm_url: source is lcm, expected an LCM url, found nothing");
+      }
       receive(url_);
     } else {
       throw std::invalid_argument("source: must be ros or lcm, found '" + source + "'");
@@ -90,7 +95,11 @@ class MonitorNode {
       ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01));
     }
     publish();
-    diagnostics_.update();
+    // Wall time: simulated time stands still in a pause and goes back in a reset.
+    if (wallTime() >= next_report_) {
+      next_report_ = wallTime() + kReportPeriod;
+      diagnostics_.force_update();
+    }
   }
 
  private:
@@ -98,7 +107,7 @@ class MonitorNode {
   template <class Message>
   void feed(const Message& message) {
     try {
-      monitor_.take(fromRos(message), wallTime());
+      takeState(fromRos(message));
     } catch (const RejectedMessage& error) {
       ++rejected_;
       ROS_WARN_THROTTLE(5.0, "rejected: %s", error.what());
@@ -135,13 +144,16 @@ class MonitorNode {
           std::visit([this](const auto& s) { takeState(s); }, state);
         });
   }
-  void takeState(const state::WhirlState& s) { monitor_.take(s, wallTime()); }
-  void takeState(const state::PendulumState& s) { monitor_.take(s, wallTime()); }
-  void takeState(const state::DriveState& s) { monitor_.take(s, wallTime()); }
+  template <class State>
+  void takeState(const State& s) {
+    newest_arrival_ = wallTime();
+    monitor_.take(s, newest_arrival_);
+  }
   void takeState(const state::StabilityMargin&) {}
   void takeState(const state::Alert&) {}
 
   void onLoop(const LoopStatistics& loop) {
+    paused_ = loop.paused;
     for (std::size_t i = 0;
          i < loop.system.size() && i < loop.stopped.size() && i < loop.stopped_why.size(); ++i) {
       monitor_.takeStopped(loop.system[i], loop.time, loop.stopped[i] != 0, loop.stopped_why[i]);
@@ -181,6 +193,9 @@ class MonitorNode {
                                                                          : DiagnosticStatus::WARN,
                      active.front().text);
     }
+    if (!paused_ && wallTime() - newest_arrival_ > settings_.data_timeout) {
+      status.mergeSummary(DiagnosticStatus::WARN, "no states arrive: nothing is being watched");
+    }
     status.add("active alerts", active.size());
     status.add("simulated time [s]", monitor_.time());
     status.add("rejected messages", rejected_ + (receiver_ ? receiver_->rejected() : 0));
@@ -188,6 +203,7 @@ class MonitorNode {
 
   ros::NodeHandle node_;
   Scene scene_;
+  AlarmSettings settings_;
   TwinMonitor monitor_;
   std::string url_;
   LcmPublisher lcm_;
@@ -197,6 +213,9 @@ class MonitorNode {
   std::unique_ptr<LcmReceiver> receiver_;
   diagnostic_updater::Updater diagnostics_;
   std::uint64_t rejected_ = 0;
+  bool paused_ = false;          // the simulation says so
+  double newest_arrival_ = 0.0;  // [s], wall time
+  double next_report_ = 0.0;     // [s], wall time
 };
 
 void run() {

@@ -8,7 +8,8 @@ namespace whirl_twin {
 /// True once SIGINT or SIGTERM has come; threads end by looking at it.
 bool stopRequested();
 
-/// Initialises ROS as node `name` with signals that only set stopRequested(), and runs `run`.
+/// Initialises ROS as node `name` with signals that only set stopRequested(), waits for the ROS
+/// master, and runs `run`.
 /// Returns the exit status: 0, or 2 after printing to standard error what a SceneError or any other
 /// exception says. (ROS's own log is closed by then.)
 int runNode(int argc, char** argv, const char* name, const std::function<void()>& run);

@@ -21,7 +21,6 @@
 #include "nodes/scene_parameters.h"
 #include "nodes/state_publisher.h"
 #include "nodes/twin_services.h"
-#include "realtime/denormals.h"
 #include "realtime/fixed_rate_loop.h"
 #include "scene/live_twin.h"
 #include "transport/channels.h"
@@ -29,6 +28,11 @@
 namespace whirl_twin {
 
 namespace {
+
+constexpr double kSlowestRate = 1.0e-3;         // Hz, of publication
+constexpr std::int64_t kShortestStep = 10'000;  // ns, that the fixed-rate loop takes
+constexpr auto kClockPausePeriod = std::chrono::milliseconds(100);
+constexpr auto kReportPeriod = std::chrono::seconds(1);
 
 std::int64_t clockNow(clockid_t clock) {
   timespec now{};
@@ -38,7 +42,7 @@ std::int64_t clockNow(clockid_t clock) {
 
 /// The node's private parameters.
 struct Settings {
-  double publish_rate;  ///< [Hz]; 0: every step
+  std::int64_t every;  ///< steps from one publication to the next
   std::string lcm_url;
   bool clock;
   FixedRateLoop::Options loop;
@@ -46,15 +50,22 @@ struct Settings {
 
 Settings readSettings(const Scene& scene) {
   Settings s;
-  s.publish_rate = privateParameter("publish_rate", "a number in Hz", 0.0);
-  if (!(s.publish_rate >= 0.0 && std::isfinite(s.publish_rate))) {
-    throw std::invalid_argument(
-        fmt::format("publish_rate: must be >= 0 Hz (0: every step), found {}", s.publish_rate));
+  const auto rate = privateParameter("publish_rate", "a number in Hz", 0.0);
+  if (!(rate == 0.0 || (rate >= kSlowestRate && std::isfinite(rate)))) {
+    throw std::invalid_argument(fmt::format(
+        "publish_rate: must be 0 (every step), or at least {} Hz, found {}", kSlowestRate, rate));
   }
+  s.every =
+      rate == 0.0 ? 1 : std::max<std::int64_t>(1, std::llround(1.0 / (rate * scene.stepSeconds())));
   s.lcm_url = privateParameter<std::string>("lcm_url", "an LCM url, or nothing", kDefaultLcmUrl);
   s.clock = privateParameter("clock", "true or false", false);
   if (s.clock && scene.time < 0) {
     throw std::invalid_argument("clock: needs a scene whose time is >= 0 s");
+  }
+  if (scene.step < kShortestStep) {
+    throw std::invalid_argument(
+        fmt::format("{}: step: must be >= {:g} s to run live, found {:g} s", scene.source,
+                    static_cast<double>(kShortestStep) * 1.0e-9, scene.stepSeconds()));
   }
   s.loop.period = scene.step;
   s.loop.mode = parseRealtimeMode(
@@ -76,11 +87,7 @@ class Publisher {
         states_(live.twin(), node, settings.lcm_url, settings.clock),
         statistics_(node.advertise<LoopStatistics>("loop", 10, true)),
         clock_(settings.clock),
-        every_(settings.publish_rate > 0.0
-                   ? std::max<std::int64_t>(
-                         1, std::llround(1.0e9 / settings.publish_rate /
-                                         static_cast<double>(live.twin().scene().step)))
-                   : 1),
+        every_(settings.every),
         epoch_(clockNow(CLOCK_REALTIME) - clockNow(CLOCK_MONOTONIC)),
         stopped_(live.twin().members().size()) {
     if (!states_.lcm().warning().empty()) {
@@ -108,6 +115,7 @@ class Publisher {
   void run() {
     std::vector<double> record(live_.twin().layout().size);
     auto next_report = std::chrono::steady_clock::now();
+    auto next_clock = next_report;
     while (true) {
       const bool last_round = ending_.load();
       bool stopped_now = false;
@@ -117,7 +125,11 @@ class Publisher {
       const auto now = std::chrono::steady_clock::now();
       if (stopped_now || now >= next_report) {
         publishReport();
-        next_report = now + std::chrono::seconds(1);
+        next_report = now + kReportPeriod;
+      }
+      if (clock_ && live_.paused() && now >= next_clock) {
+        states_.publishClock(observer_);
+        next_clock = now + kClockPausePeriod;
       }
       if (last_round) {
         return;
@@ -197,10 +209,7 @@ void run() {
              m.integrator.c_str(), m.integrator_reason.empty() ? "" : " (",
              m.integrator_reason.c_str(), m.integrator_reason.empty() ? "" : ")");
   }
-  loop.start([&live](std::int64_t scheduled) {
-    const DenormalsToZero fast_decay;
-    return live.cycle(scheduled);
-  });
+  loop.start([&live](std::int64_t scheduled) { return live.cycle(scheduled); });
   const RealtimeStatus status = loop.status();
   for (const std::string& warning : status.warnings) {
     ROS_WARN("%s", warning.c_str());
@@ -209,14 +218,23 @@ void run() {
            status.policy.c_str(), status.priority, status.memory_locked ? "" : "not ");
   publisher.start();
 
+  // Wall time: simulated time stands still in a pause and goes back in a reset.
+  auto next_report = std::chrono::steady_clock::now();
   while (!stopRequested() && ros::ok() && loop.running()) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.05));
-    diagnostics.update();
+    if (std::chrono::steady_clock::now() >= next_report) {
+      next_report = std::chrono::steady_clock::now() + kReportPeriod;
+      diagnostics.force_update();
+    }
   }
+  const bool by_itself = !loop.running() && !stopRequested();
   loop.stop();
   publisher.join();
   ROS_INFO("stopped after %ld steps", static_cast<long>(live.twin().stepCount()));
   ros::shutdown();
+  if (by_itself) {
+    throw std::runtime_error("a step ended too late, and the parameter overrun says stop");
+  }
 }
 
 }  // namespace

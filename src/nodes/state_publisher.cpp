@@ -3,7 +3,7 @@
 #include <rosgraph_msgs/Clock.h>
 #include <sensor_msgs/JointState.h>
 
-#include <cmath>
+#include <cstdlib>
 
 #include "transport/ros_converters.h"
 
@@ -11,8 +11,8 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::uint32_t kQueue = 2000;        // two seconds at 1 kHz
-constexpr double kClockPeriod = 1.0 / 250.0;  // s
+constexpr std::uint32_t kQueue = 2000;            // two seconds at 1 kHz
+constexpr std::int64_t kClockPeriod = 4'000'000;  // ns, simulated: 250 Hz
 
 }  // namespace
 
@@ -51,13 +51,21 @@ void StatePublisher::publish(const Observer& observer) {
       }
     }
   }
-  const double time = twin_.seconds(observer.step());
-  if (clock_ && std::fabs(time - last_clock_) >= kClockPeriod * (1.0 - 1.0e-9)) {
-    rosgraph_msgs::Clock message;
-    message.clock.fromSec(time);
-    clock_.publish(message);
+  const std::int64_t time = clockTime(observer);
+  if (clock_ && std::abs(time - last_clock_) >= kClockPeriod) {
+    publishClock(observer);
     last_clock_ = time;
   }
+}
+
+std::int64_t StatePublisher::clockTime(const Observer& observer) const {
+  return twin_.scene().time + observer.step() * twin_.scene().step;
+}
+
+void StatePublisher::publishClock(const Observer& observer) {
+  rosgraph_msgs::Clock message;
+  message.clock.fromNSec(static_cast<std::uint64_t>(clockTime(observer)));
+  clock_.publish(message);
 }
 
 void StatePublisher::publishSystem(const Observer& observer, std::size_t system) {

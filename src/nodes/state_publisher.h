@@ -20,6 +20,8 @@ class StatePublisher {
   /// Publishes what the observer stands at. A system that has stopped is silent. Messages without
   /// a subscriber, and channels with LCM off, are not filled.
   void publish(const Observer& observer);
+  /// The clock alone, for those who join while the twin is paused; only with clock.
+  void publishClock(const Observer& observer);
 
   const LcmPublisher& lcm() const { return lcm_; }
 
@@ -28,13 +30,14 @@ class StatePublisher {
     ros::Publisher state;  // whirl or pendulum
     ros::Publisher joint_states;
   };
+  std::int64_t clockTime(const Observer& observer) const;  // [ns], simulated
   void publishSystem(const Observer& observer, std::size_t system);
 
   const Twin& twin_;
   std::vector<Topics> systems_;
   std::vector<ros::Publisher> drives_;
   ros::Publisher clock_;
-  double last_clock_ = -1.0;  // [s]
+  std::int64_t last_clock_ = -1'000'000'000;  // [ns], simulated; before any
   LcmPublisher lcm_;
 };
 

@@ -20,7 +20,11 @@ const char* describe(Range range) {
 
 const std::vector<ModelInfo>& models() {
   static const std::vector<ModelInfo> all = [] {
-    std::vector<ModelInfo> list{doublePendulumInfo(), jeffcottRotorInfo(), spinningPendulumInfo()};
+    std::vector<ModelInfo> list{cartPendulumInfo(),     doublePendulumInfo(),
+                                jeffcottRotorInfo(),    rodSliderInfo(),
+                                rollingDiscInfo(),      rotatingPendulumInfo(),
+                                spinningPendulumInfo(), sprungInvertedPendulumInfo(),
+                                twoBarLinkageInfo()};
     std::sort(list.begin(), list.end(),
               [](const ModelInfo& a, const ModelInfo& b) { return a.name < b.name; });
     return list;

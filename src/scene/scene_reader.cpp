@@ -42,6 +42,9 @@ void checkNames(const MapReader& map, const std::string& what, Complaints& compl
       complaints.add(map.key(name),
                      fmt::format("a {} is named by up to {} letters, digits and _, a letter first",
                                  what, kLongestName));
+    } else if (what == "system" && name == "drives") {
+      complaints.add(map.key(name),
+                     "a system cannot be named so: the drives have their topics there");
     } else if (!channels.insert(upper(name)).second) {
       complaints.add(map.key(name),
                      fmt::format("another {} has this name but for upper and lower case", what));

@@ -33,7 +33,7 @@ class PendingFile {
 
   /// The name to write to.
   const std::string& path() const { return written_; }
-  /// Gives the file its name; it must have been closed. Throws RunFailed.
+  /// Gives the file its name; it must have been written entirely. Throws RunFailed.
   void complete();
 
  private:

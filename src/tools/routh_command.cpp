@@ -56,7 +56,7 @@ std::vector<ComplexRational> parseCoefficients(const std::vector<std::string>& t
 }
 
 /// Numbers beyond double, which roots() takes, are brought into its range; roots do not change.
-std::vector<std::complex<double>> inRange(std::vector<ComplexRational> coefficients) {
+std::vector<std::complex<double>> inRange(const std::vector<ComplexRational>& coefficients) {
   Rational largest = 0;
   Rational smallest = 0;
   for (const ComplexRational& c : coefficients) {
@@ -68,6 +68,7 @@ std::vector<std::complex<double>> inRange(std::vector<ComplexRational> coefficie
   const bool fits = largest <= Rational(std::numeric_limits<double>::max()) &&
                     smallest >= Rational(std::numeric_limits<double>::min());
   std::vector<std::complex<double>> rounded;
+  rounded.reserve(coefficients.size());
   for (const ComplexRational& c : coefficients) {
     rounded.emplace_back(fits ? toDouble(c.re) : toDouble(Rational(c.re / largest)),
                          fits ? toDouble(c.im) : toDouble(Rational(c.im / largest)));

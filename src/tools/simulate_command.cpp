@@ -31,7 +31,7 @@ constexpr const char* kFooter =
 
 /// ".csv" or ".lcmlog". Throws BadInput.
 std::string extensionOf(const std::string& output) {
-  const std::string extension = std::filesystem::path(output).extension();
+  std::string extension = std::filesystem::path(output).extension();
   if (extension != ".csv" && extension != ".lcmlog") {
     throw BadInput(fmt::format("--output: must end in .csv or .lcmlog, found '{}'", output));
   }

@@ -41,7 +41,7 @@ std::int64_t defaultSteps(const SimulationPlan& plan) {
   if (duration == 0.0) {
     duration = kDefaultDuration;
   }
-  if (duration > static_cast<double>(kLongestRun / kSecond)) {
+  if (duration > static_cast<double>(kLongestRun) / kSecond) {
     throw BadInput(
         fmt::format("--duration: the drive's profile lasts {:.3g} s; give a duration up "
                     "to {}",

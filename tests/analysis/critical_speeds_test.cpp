@@ -73,6 +73,16 @@ TEST(CriticalSpeeds, withoutDampingThePeakIsInfinite) {
   EXPECT_TRUE(std::isinf(found[0].amplification_factor));
 }
 
+// Rotating damping does nothing in synchronous whirl: alone it leaves the peak infinite, though the
+// modes at rest are damped.
+TEST(CriticalSpeeds, rotatingDampingDoesNotTameThePeak) {
+  const auto found = criticalSpeeds(*dynamicsOf(
+      "jeffcott_rotor", {{"mass", 2.0}, {"stiffness", 7200.0}, {"internal_damping", 5.0}}));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].speed, 60.0, 1.0e-9);
+  EXPECT_TRUE(std::isinf(found[0].amplification_factor));
+}
+
 // Two directions of different stiffness: two critical speeds, the response between them backward.
 TEST(CriticalSpeeds, ofAnAnisotropicRotorComeInTwo) {
   const auto dynamics = rotor(0.005, 1.44);

@@ -111,6 +111,16 @@ TEST(InstabilitySpeed, ofARotorWithInternalDampingIsKimballs) {
   }
 }
 
+// However slowly it grows beyond: W = 2 p, with a growth rate of some 1e-8 1/s there.
+TEST(InstabilitySpeed, isExactWhereGrowthIsSlow) {
+  const auto rotor = dynamicsOf(
+      "jeffcott_rotor",
+      {{"mass", 2.0}, {"stiffness", 7200.0}, {"damping", 1.0e-6}, {"internal_damping", 1.0e-6}});
+  const auto found = instabilitySpeed(*rotor, Eigen::VectorXd::Zero(2), 0.0);
+  ASSERT_TRUE(found.has_value());
+  EXPECT_NEAR(*found, 120.0, 1.0e-9);
+}
+
 TEST(InstabilitySpeed, withoutInternalDampingARotorHasNone) {
   const auto rotor =
       dynamicsOf("jeffcott_rotor", {{"mass", 2.0}, {"stiffness", 7200.0}, {"damping", 12.0}});

@@ -81,5 +81,12 @@ inline std::vector<NoteCase> noteCases(const std::string& system = "") {
 std::vector<double> spinningPendulumAnswers(const NoteCase& c);
 std::vector<double> doublePendulumAnswers(const NoteCase& c);
 std::vector<double> rotorAnswers(const NoteCase& c);
+std::vector<double> twoBarAnswers(const NoteCase& c);
+std::vector<double> rollingDiscAnswers(const NoteCase& c);
+std::vector<double> eccentricDiscAnswers(const NoteCase& c);
+std::vector<double> rodSliderAnswers(const NoteCase& c);
+std::vector<double> cartAnswers(const NoteCase& c);
+std::vector<double> invertedSpringAnswers(const NoteCase& c);
+std::vector<double> rotatingPendulumAnswers(const NoteCase& c);
 
 }  // namespace whirl_twin

@@ -1,34 +1,11 @@
 // What the pendulum models answer to the lecture notes' reference numbers.
-#include <Eigen/Dense>
-#include <cmath>
-
-#include "../integration/running_system.h"
-#include "note_case.h"
+#include "note_system.h"
 
 namespace whirl_twin {
 
 namespace {
 
 using Vector = Eigen::VectorXd;
-
-Vector vector(std::initializer_list<double> values) {
-  return Eigen::Map<const Vector>(values.begin(), static_cast<Eigen::Index>(values.size()));
-}
-
-/// State of a trajectory at the case's time, by Gauss-Legendre in steps of a millisecond.
-double endOfMotion(const RunningSystem::Setup& setup, const NoteCase& c,
-                   const std::vector<std::string>& states) {
-  RunningSystem system(setup, "gauss_legendre_6", 1000000);
-  system.run(std::lround(c.time * 1000.0));
-  const auto place = std::find(states.begin(), states.end(), c.state) - states.begin();
-  return system.state().at(static_cast<std::size_t>(place));
-}
-
-/// Squares of the natural frequencies of small motion about a position at rest, in rising order.
-Vector squaredFrequencies(const Linearization& l) {
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(l.stiffness, l.mass)
-      .eigenvalues();
-}
 
 /// Tensions of both rods, by Newton's law on each bob at the model's accelerations.
 Eigen::Vector2d rodTensions(const Dynamics& pendulum, const NoteCase& c) {

@@ -125,6 +125,33 @@ TEST(TwinMonitor, aResetClearsEverythingAndBeginsAnew) {
   EXPECT_EQ(watched.count("UNSTABLE", true), 2u);
 }
 
+// After a stall one topic's backlog may come whole before another's.
+TEST(TwinMonitor, aTopicSecondsAheadOfAnotherIsNoReset) {
+  WatchedTwin watched(sceneOf(kSelfExcited));
+  watched.run(1.0);
+  const auto active = watched.monitor.alerts().active();
+  ASSERT_FALSE(active.empty());
+  state::WhirlState whirl = watched.observer.whirl(0);
+  state::DriveState drive = watched.observer.drive(0);
+  whirl.at.time += 3.0;
+  watched.monitor.take(whirl, whirl.at.time);
+  drive.at.time += 0.001;
+  watched.monitor.take(drive, whirl.at.time);
+  ASSERT_EQ(watched.monitor.alerts().active().size(), active.size());
+  EXPECT_EQ(watched.monitor.alerts().active()[0].id, active[0].id);
+}
+
+// As when a log of one scene is played beside another: no reading past the end of a state.
+TEST(TwinMonitor, aStateOfAnotherKindIsIgnored) {
+  WatchedTwin watched(sceneOf(kSelfExcited));
+  state::PendulumState pendulum;
+  pendulum.system = "rotor";
+  pendulum.name = {"theta"};
+  pendulum.angle = pendulum.rate = {0.1};
+  watched.monitor.take(pendulum, 0.0);
+  EXPECT_TRUE(watched.monitor.takeMargins().empty());
+}
+
 TEST(TwinMonitor, aRotorAtConstantSpeedOfItsOwnIsWatchedToo) {
   WatchedTwin watched(sceneOf(R"(
 name: dwelling

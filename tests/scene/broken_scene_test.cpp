@@ -4,6 +4,7 @@
 
 #include <ostream>
 
+#include "scene/model_registry.h"
 #include "scenes.h"
 
 namespace whirl_twin {
@@ -29,6 +30,15 @@ std::string rotorScene(const std::string& parameters, const std::string& rotor =
 const std::string kGood = "mass: 1, stiffness: 100, speed: 5";
 const std::string kNoSpeed = "mass: 1, stiffness: 100";
 const std::string kShaft = ", drives: {shaft: {speed: 1}}";
+
+/// The names a scene can choose from.
+std::string modelNames() {
+  std::string names;
+  for (const ModelInfo& model : models()) {
+    names += (names.empty() ? "" : ", ") + model.name;
+  }
+  return names;
+}
 
 struct Broken {
   const char* name;
@@ -171,8 +181,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "'jeffcott_rotor'?"}},
         Broken{"UnheardOfModel",
                "{step: 1, systems: {a: {model: gyroscope}}}",
-               {"systems.a.model: must be the name of a model, found 'gyroscope'; there are: "
-                "double_pendulum, jeffcott_rotor, spinning_pendulum"}},
+               {"systems.a.model: must be the name of a model, found 'gyroscope'; there are: " +
+                modelNames()}},
         Broken{"UnknownIntegrator",
                rotorScene(kGood, ", integrator: rungekutta4"),
                {"systems.rotor.integrator: must be the name of an integrator, found 'rungekutta4'; "
@@ -262,7 +272,8 @@ TEST(BrokenSceneWithManyErrors, NamesThemAllAtOnce) {
                     "test.yaml: systems.a.parameters.mass: must be > 0 kg, found 0",
                     "test.yaml: systems.a.parameters.stiffness: missing; must be > 0 N/m",
                     "test.yaml: systems.b.model: must be the name of a model, found 'nothing'; "
-                    "there are: double_pendulum, jeffcott_rotor, spinning_pendulum"}));
+                    "there are: " +
+                        modelNames()}));
 }
 
 }  // namespace

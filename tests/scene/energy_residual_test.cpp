@@ -3,9 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
-#include "scene/model_registry.h"
+#include "random_systems.h"
 #include "scene/observer.h"
 #include "scenes.h"
 
@@ -28,9 +27,7 @@ void PrintTo(const Audit& a, std::ostream* out) {
 
 class EnergyResidual : public testing::TestWithParam<Audit> {
  protected:
-  double between(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random_);
-  }
+  double between(double low, double high) { return random_.between(low, high); }
 
   /// A random system; its fastest frequency [rad/s], with its speed.
   double randomSystem(SystemSpec& spec) {
@@ -43,38 +40,10 @@ class EnergyResidual : public testing::TestWithParam<Audit> {
     } else if (GetParam().driven) {
       spec.drive = "shaft";
     }
-    if (spec.model == "jeffcott_rotor") {
-      const double m = between(0.5, 5.0);
-      const double p = between(5.0, 20.0);
-      spec.parameters = {{"mass", m},
-                         {"stiffness", m * p * p},
-                         {"stiffness_y", m * p * p * between(0.5, 1.0)},
-                         {"damping", m * p * between(0.0, 0.5)},
-                         {"damping_y", m * p * between(0.0, 0.5)},
-                         {"internal_damping", GetParam().driven ? 0.0 : m * between(0.0, 0.1)},
-                         {"eccentricity", between(0.0, 1e-3)},
-                         {"eccentricity_angle", between(-3.0, 3.0)}};
-      spec.q = {between(-0.01, 0.01), between(-0.01, 0.01)};
-      spec.v = {p * between(-0.01, 0.01), p * between(-0.01, 0.01)};
-      return std::max(p, 20.0);
-    }
-    if (spec.model == "spinning_pendulum") {
-      const double m = between(0.5, 2.0);
-      const double l = between(0.2, 2.0);
-      spec.parameters = {{"mass", m}, {"length", l}, {"damping", m * l * l * between(0.0, 1.0)}};
-      spec.q = {between(-3.0, 3.0)};
-      spec.v = {between(-3.0, 3.0)};
-      return 20.0 + std::sqrt(10.0 / l);
-    }
-    spec.parameters = {{"mass1", between(0.5, 2.0)},    {"mass2", between(0.5, 2.0)},
-                       {"length1", between(0.5, 2.0)},  {"length2", between(0.5, 2.0)},
-                       {"damping1", between(0.0, 0.2)}, {"damping2", between(0.0, 0.2)}};
-    spec.q = {between(-2.0, 2.0), between(-2.0, 2.0)};
-    spec.v = {between(-2.0, 2.0), between(-2.0, 2.0)};
-    return 25.0;  // the lower arm whips round, faster than it swings
+    return random_.fill(spec, GetParam().driven);
   }
 
-  std::mt19937_64 random_{20};
+  RandomSystems random_;
 };
 
 TEST_P(EnergyResidual, IsBelowTheBound) {
@@ -112,6 +81,13 @@ INSTANTIATE_TEST_SUITE_P(
         // Order 6: (0.05)^6 / 1e4 or so.
         Audit{"SpinningPendulum", "spinning_pendulum", "gauss_legendre_6", 0.05, false},
         Audit{"DoublePendulum", "double_pendulum", "gauss_legendre_6", 0.05, false},
+        Audit{"RotatingPendulum", "rotating_pendulum", "gauss_legendre_6", 0.05, false},
+        Audit{"CartPendulum", "cart_pendulum", "gauss_legendre_6", 0.05, false},
+        Audit{"RodSlider", "rod_slider", "gauss_legendre_6", 0.05, false},
+        Audit{"SprungInvertedPendulum", "sprung_inverted_pendulum", "gauss_legendre_6", 0.05,
+              false},
+        Audit{"RollingDisc", "rolling_disc", "gauss_legendre_6", 0.05, false},
+        Audit{"TwoBarLinkage", "two_bar_linkage", "gauss_legendre_6", 0.05, false},
         Audit{"RotorByGaussLegendre", "jeffcott_rotor", "gauss_legendre_6", 0.05, false},
         // Exact: at any step.
         Audit{"Rotor", "jeffcott_rotor", "exponential", 0.05, false},

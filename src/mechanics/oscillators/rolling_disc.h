@@ -47,6 +47,9 @@ struct RollingDisc {
               "of it below the centre at x = 0", 0.0}}};
   }
 
+  /// The radius: its equilibria are radians of rolling apart.
+  double naturalLength() const { return radius; }
+
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
                               const Moment<S>&) const {

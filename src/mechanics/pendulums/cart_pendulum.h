@@ -52,6 +52,15 @@ struct CartPendulum {
               "of that motion", 0.0}}};
   }
 
+  double naturalLength() const { return rod_length; }
+
+  CartPendulum atMeanLoad() const {
+    CartPendulum mean = *this;
+    mean.force_amplitude = force_frequency == 0.0 ? force_amplitude : 0.0;
+    mean.support_amplitude = 0.0;
+    return mean;
+  }
+
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
                               const Moment<S>&) const {

@@ -5,6 +5,7 @@
 //   V = k (r - r0)^2 / 2 - m0 g r cos(theta) - m g (l/2) cos(theta)
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -37,6 +38,11 @@ struct RodSlider {
              {"stiffness", "N/m", Range::kPositive, &RodSlider::stiffness, "of the spring"},
              {"free_length", "m", Range::kNotNegative, &RodSlider::free_length,
               "of the spring, from the pivot"}}};
+  }
+
+  /// The rod's, or how far from the pivot the slider can rest.
+  double naturalLength() const {
+    return std::max(rod_length, free_length + slider_mass * gravity / stiffness);
   }
 
   template <class S>

@@ -1,8 +1,8 @@
 // Inverted pendulum held upright by a horizontal spring (lecture notes, "spring-held inverted
 // pendulum"; errata E35, E36). theta is measured from upright.
 //
-//   T = m L^2 theta'^2 / 2,   V = k (L sin theta)^2 / 2 - m g L (1 - cos theta),   D = c L^2
-//   theta'^2 / 2
+//   T = m L^2 theta'^2 / 2,   V = k (L sin theta)^2 / 2 - m g L (1 - cos theta)
+//   D = c (L theta')^2 / 2
 #pragma once
 
 #include <array>

@@ -6,8 +6,14 @@
 
 namespace whirl_twin {
 
-ModelInfo jeffcottRotorInfo();
-ModelInfo spinningPendulumInfo();
+ModelInfo cartPendulumInfo();
 ModelInfo doublePendulumInfo();
+ModelInfo jeffcottRotorInfo();
+ModelInfo rodSliderInfo();
+ModelInfo rollingDiscInfo();
+ModelInfo rotatingPendulumInfo();
+ModelInfo spinningPendulumInfo();
+ModelInfo sprungInvertedPendulumInfo();
+ModelInfo twoBarLinkageInfo();
 
 }  // namespace whirl_twin

@@ -1,0 +1,168 @@
+// Random systems of every model: parameters, states and loads in the ranges that machines have,
+// with the fastest frequency that moves in them.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+#include "scene/model_registry.h"
+#include "scene/scene.h"
+
+namespace whirl_twin {
+
+class RandomSystems {
+ public:
+  double between(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+
+  /// Fills parameters, q and v of a system whose model is set; its fastest frequency [rad/s].
+  double fill(SystemSpec& spec, bool driven) {
+    if (spec.model == "jeffcott_rotor") {
+      return jeffcottRotor(spec, driven);
+    }
+    if (spec.model == "spinning_pendulum") {
+      return spinningPendulum(spec);
+    }
+    if (spec.model == "double_pendulum") {
+      return doublePendulum(spec);
+    }
+    if (spec.model == "rotating_pendulum") {
+      return rotatingPendulum(spec);
+    }
+    if (spec.model == "cart_pendulum") {
+      return cartPendulum(spec);
+    }
+    if (spec.model == "rod_slider") {
+      return rodSlider(spec);
+    }
+    if (spec.model == "sprung_inverted_pendulum") {
+      return sprungInvertedPendulum(spec);
+    }
+    if (spec.model == "rolling_disc") {
+      return rollingDisc(spec);
+    }
+    if (spec.model == "two_bar_linkage") {
+      return twoBarLinkage(spec);
+    }
+    throw std::invalid_argument("no random " + spec.model);
+  }
+
+ private:
+  double jeffcottRotor(SystemSpec& spec, bool driven) {
+    const double m = between(0.5, 5.0);
+    const double p = between(5.0, 20.0);
+    spec.parameters = {{"mass", m},
+                       {"stiffness", m * p * p},
+                       {"stiffness_y", m * p * p * between(0.5, 1.0)},
+                       {"damping", m * p * between(0.0, 0.5)},
+                       {"damping_y", m * p * between(0.0, 0.5)},
+                       {"internal_damping", driven ? 0.0 : m * between(0.0, 0.1)},
+                       {"eccentricity", between(0.0, 1e-3)},
+                       {"eccentricity_angle", between(-3.0, 3.0)}};
+    spec.q = {between(-0.01, 0.01), between(-0.01, 0.01)};
+    spec.v = {p * between(-0.01, 0.01), p * between(-0.01, 0.01)};
+    return std::max(p, 20.0);
+  }
+
+  double spinningPendulum(SystemSpec& spec) {
+    const double m = between(0.5, 2.0);
+    const double l = between(0.2, 2.0);
+    spec.parameters = {{"mass", m}, {"length", l}, {"damping", m * l * l * between(0.0, 1.0)}};
+    spec.q = {between(-3.0, 3.0)};
+    spec.v = {between(-3.0, 3.0)};
+    return 20.0 + std::sqrt(10.0 / l);
+  }
+
+  double doublePendulum(SystemSpec& spec) {
+    spec.parameters = {{"mass1", between(0.5, 2.0)},    {"mass2", between(0.5, 2.0)},
+                       {"length1", between(0.5, 2.0)},  {"length2", between(0.5, 2.0)},
+                       {"damping1", between(0.0, 0.2)}, {"damping2", between(0.0, 0.2)}};
+    spec.q = {between(-2.0, 2.0), between(-2.0, 2.0)};
+    spec.v = {between(-2.0, 2.0), between(-2.0, 2.0)};
+    return 25.0;  // the lower arm whips round, faster than it swings
+  }
+
+  double rotatingPendulum(SystemSpec& spec) {
+    const double m = between(0.5, 2.0);
+    const double l = between(0.2, 2.0);
+    spec.parameters = {{"mass", m},
+                       {"length", l},
+                       {"hub_inertia", m * l * l * between(0.5, 2.0)},
+                       {"damping", m * l * l * between(0.0, 1.0)}};
+    spec.q = {between(-2.5, 2.5), between(-3.0, 3.0)};
+    spec.v = {between(-2.0, 2.0), between(-6.0, 6.0)};
+    return 20.0 + std::sqrt(10.0 / l);  // swung in, a light hub turns three times as fast
+  }
+
+  double cartPendulum(SystemSpec& spec) {
+    spec.parameters = {
+        {"cart_mass", between(0.5, 5.0)},         {"rod_mass", between(0.5, 2.0)},
+        {"rod_length", between(0.5, 2.0)},        {"stiffness", between(0.0, 100.0)},
+        {"damping", between(0.0, 1.0)},           {"force_amplitude", between(-5.0, 5.0)},
+        {"force_frequency", between(0.0, 10.0)},  {"support_amplitude", between(-0.05, 0.05)},
+        {"support_frequency", between(0.0, 10.0)}};
+    spec.q = {between(-0.3, 0.3), between(-2.5, 2.5)};
+    spec.v = {between(-1.0, 1.0), between(-2.0, 2.0)};
+    return 30.0;
+  }
+
+  double rodSlider(SystemSpec& spec) {
+    const double m = between(0.5, 2.0);
+    const double p = between(7.0, 15.0);
+    const double r = between(0.5, 1.0);
+    spec.parameters = {{"slider_mass", m},
+                       {"rod_mass", between(0.2, 2.0)},
+                       {"rod_length", between(1.0, 2.0)},
+                       {"stiffness", m * p * p},
+                       {"free_length", r}};
+    spec.q = {r + between(-0.1, 0.3), between(-1.5, 1.5)};
+    spec.v = {between(-0.5, 0.5), between(-2.0, 2.0)};
+    return 25.0;
+  }
+
+  double sprungInvertedPendulum(SystemSpec& spec) {
+    const double m = between(0.5, 2.0);
+    const double l = between(0.2, 2.0);
+    const double p = between(1.0, 10.0);  // of the spring alone
+    spec.parameters = {
+        {"mass", m}, {"length", l}, {"stiffness", m * p * p}, {"damping", m * between(0.0, 1.0)}};
+    spec.q = {between(-3.0, 3.0)};
+    spec.v = {between(-3.0, 3.0)};
+    return 20.0 + std::sqrt(10.0 / l);
+  }
+
+  double rollingDisc(SystemSpec& spec) {
+    const double m = between(0.5, 3.0);
+    const double r = between(0.2, 0.5);
+    const double p = between(0.0, 10.0);
+    spec.parameters = {{"disc_mass", m},
+                       {"disc_inertia", m * r * r * between(0.3, 1.0)},
+                       {"radius", r},
+                       {"stiffness", m * p * p},
+                       {"damping", m * between(0.0, 1.0)},
+                       {"offset_mass", m * between(0.0, 0.5)},
+                       {"offset", r * between(0.0, 0.9)}};
+    spec.q = {r * between(-2.0, 2.0)};
+    spec.v = {r * between(-3.0, 3.0)};
+    return 40.0;  // the weight swings at sqrt(g / r), twice that in the rolling mass
+  }
+
+  double twoBarLinkage(SystemSpec& spec) {
+    const double m = between(0.5, 2.0);
+    const double l = between(0.5, 2.0);
+    spec.parameters = {{"bar_mass", m},
+                       {"bar_length", l},
+                       {"force", m * between(-10.0, 10.0)},
+                       {"damping", m * l * l * between(0.0, 1.0)}};
+    spec.q = {between(-3.0, 3.0)};
+    spec.v = {between(-2.0, 2.0)};
+    return 40.0;
+  }
+
+  std::mt19937_64 random_{20};
+};
+
+}  // namespace whirl_twin
