@@ -12,12 +12,12 @@
 
 #include <chrono>
 #include <cstdio>
-#include <exception>
 #include <string>
 #include <vector>
 
 #include "nodes/lcm_bridge.h"
 #include "nodes/private_parameter.h"
+#include "nodes/run_node.h"
 #include "transport/channels.h"
 #include "transport/lcm_connection.h"
 #include "transport/lcm_receiver.h"
@@ -76,7 +76,7 @@ void run() {
 
   // Wall time: simulated time may stand still, or come from the log itself.
   ros::WallTime next_report = ros::WallTime::now();
-  while (ros::ok()) {
+  while (ros::ok() && !stopRequested()) {
     receiver.receive(kPoll);
     ros::spinOnce();
     if (ros::WallTime::now() >= next_report) {
@@ -84,7 +84,7 @@ void run() {
       diagnostics.force_update();
     }
   }
-  // ROS has shut down, and its log with it.
+  ros::shutdown();
   fmt::print("lcm_bridge_node: {}\n", countsOf(receiver));
   for (const auto& [name, count] : receiver.channels()) {
     fmt::print("  {}: {} received, {} lost\n", name, count.received, count.steps.lost());
@@ -95,12 +95,5 @@ void run() {
 }  // namespace whirl_twin
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "lcm_bridge_node");
-  try {
-    whirl_twin::run();
-  } catch (const std::exception& problem) {
-    fmt::print(stderr, "lcm_bridge_node: {}\n", problem.what());
-    return 1;
-  }
-  return 0;
+  return whirl_twin::runNode(argc, argv, "lcm_bridge_node", whirl_twin::run);
 }

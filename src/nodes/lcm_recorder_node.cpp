@@ -8,11 +8,12 @@
 
 #include <chrono>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 
 #include "nodes/private_parameter.h"
+#include "nodes/run_node.h"
 #include "transport/channels.h"
 #include "transport/lcm_connection.h"
 #include "transport/lcm_recorder.h"
@@ -23,6 +24,7 @@ namespace {
 using std::chrono::milliseconds;
 
 void run() {
+  const ros::NodeHandle node;  // keeps ROS up while the parameters are read
   const auto log = privateParameter<std::string>("log", "the name of a file", "");
   const auto url = privateParameter<std::string>("lcm_url", "an LCM url", kDefaultLcmUrl);
   const auto force = privateParameter<bool>("force", "true or false", false);
@@ -37,7 +39,7 @@ void run() {
   LcmRecorder recorder(lcm, "TWIN_.*", log);
   fmt::print("recording TWIN_* from {} to {}\n", url, log);
   std::fflush(stdout);
-  while (ros::ok()) {
+  while (ros::ok() && !stopRequested()) {
     recorder.record(milliseconds(50));
   }
   constexpr int kAll = 100000;
@@ -49,13 +51,5 @@ void run() {
 }  // namespace whirl_twin
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "lcm_recorder_node");
-  try {
-    const ros::NodeHandle node;  // keeps ROS up, and its reaction to Ctrl-C
-    whirl_twin::run();
-  } catch (const std::exception& problem) {
-    fmt::print(stderr, "lcm_recorder_node: {}\n", problem.what());
-    return 1;
-  }
-  return 0;
+  return whirl_twin::runNode(argc, argv, "lcm_recorder_node", whirl_twin::run);
 }

@@ -133,8 +133,8 @@ void PendulumDisplay::draw(const SystemStatus& status, MarkerCanvas& canvas) con
   }
   // A double pendulum easily swings over the top.
   const double foot = joints_.size() > 2 ? kLongest + 0.1 : kTextFoot;
-  drawStatus(name_, lines, status.alerts, foot * Eigen::Vector3d::UnitZ(),
-             Eigen::Vector3d::UnitZ(), canvas);
+  drawStatus(name_, lines, status.alerts, foot * Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitZ(),
+             canvas);
 }
 
 }  // namespace whirl_twin

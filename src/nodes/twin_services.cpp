@@ -13,6 +13,9 @@ namespace whirl_twin {
 
 namespace {
 
+/// [s], that one ~step may take: the other services wait for it.
+constexpr double kLongestWait = 60.0;
+
 constexpr const char* kEnded = "the simulation is ending";
 
 }  // namespace
@@ -62,6 +65,12 @@ bool TwinServices::reset(Trigger::Request&, Trigger::Response& response) {
 }
 
 bool TwinServices::step(StepN::Request& request, StepN::Response& response) {
+  const double most = std::max(1.0, kLongestWait / twin_.twin().scene().stepSeconds());
+  if (request.steps > most) {
+    response.message = fmt::format("steps: must be at most {:.0f} at a time ({:g} s), found {}",
+                                   most, kLongestWait, request.steps);
+    return true;
+  }
   TwinCommand command;
   command.kind = TwinCommand::Kind::kStep;
   command.steps = request.steps;

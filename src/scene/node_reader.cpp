@@ -69,9 +69,6 @@ std::optional<double> parseNumber(const std::string& text) {
   if (end != last || !std::isfinite(value)) {
     return std::nullopt;
   }
-  if (error == std::errc::result_out_of_range) {  // underflow is 0, overflow is refused
-    return std::nullopt;
-  }
   return error == std::errc() ? std::optional<double>(value) : std::nullopt;
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/equilibria.h"
+
 namespace whirl_twin {
 
 namespace {
@@ -14,6 +16,9 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// A radius below this part of the largest so far has no angle worth the name.
 constexpr double kSmallestRadius = 1.0e-9;
+/// Part of the lowest natural frequency below which the 1X orbit is not told: it divides by the
+/// speed.
+constexpr double kSlowestOrbit = 0.01;
 
 Eigen::VectorXd vector(const double* x, std::size_t n) {
   return Eigen::Map<const Eigen::VectorXd>(x, static_cast<Eigen::Index>(n));
@@ -23,6 +28,16 @@ Eigen::VectorXd vector(const double* x, std::size_t n) {
 
 Observer::Observer(const Twin& twin)
     : twin_(twin), record_(twin.layout().size), tracks_(twin.members().size()) {
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    const Dynamics& dynamics = *twin.members()[i].dynamics;
+    if (isRotor(i)) {
+      const Linearization l =
+          linearizationAtRest(dynamics, Eigen::VectorXd::Zero(dynamics.dof()), 0.0);
+      tracks_[i].slowest_orbit =
+          kSlowestOrbit *
+          std::sqrt(std::min(l.stiffness(0, 0) / l.mass(0, 0), l.stiffness(1, 1) / l.mass(1, 1)));
+    }
+  }
   twin.write(record_.data());
   observe(std::vector<double>(record_).data());
 }
@@ -32,7 +47,7 @@ void Observer::observe(const double* record) {
   std::copy(record, record + record_.size(), record_.begin());
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     if (restarted) {
-      tracks_[i] = Track{};
+      restart(i);
     }
     if (status(i) != StepStatus::kOk) {
       if (tracks_[i].stop_reason.empty()) {
@@ -45,6 +60,12 @@ void Observer::observe(const double* record) {
     }
     trackEnergy(i);
   }
+}
+
+void Observer::restart(std::size_t system) {
+  const double slowest_orbit = tracks_[system].slowest_orbit;
+  tracks_[system] = Track{};
+  tracks_[system].slowest_orbit = slowest_orbit;
 }
 
 std::int64_t Observer::step() const {
@@ -161,7 +182,7 @@ state::WhirlState Observer::whirl(std::size_t system) const {
   s.speed = shaft[2];
   s.shaft_angle = ShaftAngle{unpacked(shaft[0]), shaft[1]}.total();
   s.orbit_major = s.orbit_minor = kNaN;
-  if (s.speed != 0.0) {
+  if (std::fabs(s.speed) > tracks_[system].slowest_orbit) {
     // z = f e^(iwt) + b e^(-iwt) with z' known too: forward and backward parts of the 1X orbit.
     const double vx = v[0] / s.speed;
     const double vy = v[1] / s.speed;

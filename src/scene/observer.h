@@ -46,11 +46,12 @@ class Observer {
  private:
   struct Track {
     bool started = false;
-    double jacobi = 0.0;        // [J], h at the start
-    double scale = 0.0;         // [J], largest T + |V| so far
-    double residual = 0.0;      // [-]
-    double largest_radius = 0;  // [m]
-    double phase = 0.0;         // [rad], last valid, unwrapped
+    double jacobi = 0.0;         // [J], h at the start
+    double scale = 0.0;          // [J], largest T + |V| so far
+    double residual = 0.0;       // [-]
+    double slowest_orbit = 0.0;  // [rad/s], below which there is no 1X orbit to speak of
+    double largest_radius = 0;   // [m]
+    double phase = 0.0;          // [rad], last valid, unwrapped
     bool phase_known = false;
     bool phase_valid = false;
     std::string stop_reason;
@@ -58,6 +59,7 @@ class Observer {
 
   Moment<double> moment(std::size_t system) const;
   const double* driveRecord(std::size_t drive) const;
+  void restart(std::size_t system);
   void trackPhase(std::size_t system);
   void trackEnergy(std::size_t system);
   std::string describeStop(std::size_t system) const;

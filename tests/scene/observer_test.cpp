@@ -60,6 +60,14 @@ TEST_F(RotorRecords, PhaseIsUnwrappedThroughSeveralTurns) {
   EXPECT_EQ(observer_.whirlPhase(0), observer_.whirl(0).phase);
 }
 
+// The 1X orbit divides by the speed: near standstill a leftover vibration would pass for a whirl.
+TEST_F(RotorRecords, TheOrbitIsNotToldNearStandstill) {
+  record_[RecordLayout::kDrives + 2] = 0.1;  // rad/s; the natural frequency is 20
+  observe(1, 1e-9, 0.0, 0.0, 1e-6);
+  EXPECT_TRUE(std::isnan(observer_.whirl(0).orbit_major));
+  EXPECT_TRUE(std::isnan(observer_.whirl(0).orbit_minor));
+}
+
 TEST_F(RotorRecords, PhaseRunsBackToo) {
   for (int step = 1; step <= 20000; ++step) {
     const double t = 1e-3 * step;
