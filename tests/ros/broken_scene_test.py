@@ -4,6 +4,7 @@ import subprocess
 import sys
 import unittest
 
+import roslib.packages
 import rospy
 import rostest
 
@@ -19,7 +20,7 @@ SCENE = {
 
 
 def run(node):
-    return subprocess.run(['rosrun', 'whirl_twin', node], stdout=subprocess.PIPE,
+    return subprocess.run(roslib.packages.find_node('whirl_twin', node)[:1], stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, universal_newlines=True, timeout=60)
 
 

@@ -13,6 +13,7 @@ import threading
 import time
 import unittest
 
+import roslib.packages
 import rospkg
 import rospy
 import rostest
@@ -61,7 +62,7 @@ def interrupt(process):
 
 
 def node(name, *arguments):
-    return subprocess.Popen(['rosrun', 'whirl_twin', name] + list(arguments))
+    return subprocess.Popen(roslib.packages.find_node('whirl_twin', name)[:1] + list(arguments))
 
 
 class Playback(unittest.TestCase):
