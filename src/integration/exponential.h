@@ -29,9 +29,9 @@ class Exponential {
   void restart() {}
 
   /// Advances by h [s] from offset [s] after the start of the twin's step. Equation also gives
-  /// moment(offset), evaluate(q, v, moment), jacobian(q, v, offset), constantSpeed(offset) and
-  /// speedDependent(). Real-time safe; a step that finds a new speed or step size prepares its
-  /// propagator first (some tens of microseconds for two coordinates).
+  /// moment(offset), evaluate(q, v, moment), jacobian(q, v, offset), and
+  /// constantSpeed(offset). Real-time safe; a step that finds a new speed or step size prepares its
+  /// propagator first, which costs many times a step.
   template <class Equation>
   StepStatus step(const Equation& equation, double offset, double h, MotionState<n_>& state) {
     if (equation.constantSpeed(offset + h)) {
