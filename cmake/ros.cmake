@@ -17,10 +17,17 @@ add_message_files(DIRECTORY msg FILES ${whirl_twin_messages})
 add_service_files(DIRECTORY msg FILES ${whirl_twin_services})
 generate_messages(DEPENDENCIES std_msgs)
 
+# A plugin is compiled for the processor the library is for, so that both align matrices alike.
+set(whirl_twin_plugin_options "${whirl_twin_step_options}")
+if(WHIRL_TWIN_NATIVE)
+  list(APPEND whirl_twin_plugin_options -march=native)
+endif()
+string(REPLACE ";" " " whirl_twin_plugin_options "${whirl_twin_plugin_options}")
 catkin_package(
   INCLUDE_DIRS src
   LIBRARIES whirl_twin_core
-  CATKIN_DEPENDS roscpp std_msgs std_srvs sensor_msgs message_runtime)
+  CATKIN_DEPENDS roscpp std_msgs std_srvs sensor_msgs message_runtime
+  CFG_EXTRAS whirl_twin-pluginlib.cmake whirl_twin-extras.cmake)
 
 add_library(whirl_twin_ros INTERFACE)
 target_include_directories(whirl_twin_ros SYSTEM INTERFACE ${catkin_INCLUDE_DIRS}

@@ -1,38 +1,50 @@
-// Equilibria of a system at a held shaft speed, and the one it operates about.
+// Equilibria of a system at a held shaft speed, and the one it operates about. Of a system with
+// cyclic coordinates these are its steady motions, or relative equilibria: the shape rests while
+// the cyclic coordinates turn or slide at constant rates (a cone of a free rotating pendulum, a
+// flywheel whose masses stand at one radius, a governed engine at its speed).
 #pragma once
 
 #include <Eigen/Core>
 #include <optional>
 #include <vector>
 
+#include "analysis/cyclic_coordinates.h"
 #include "analysis/stability.h"
 #include "mechanics/dynamics.h"
 
 namespace whirl_twin {
 
 struct Equilibrium {
-  Eigen::VectorXd q;  ///< angles in (-pi, pi]
-  Stability stability;
+  Eigen::VectorXd q;    ///< angles in (-pi, pi]; cyclic coordinates at 0
+  Eigen::VectorXd v;    ///< zero but for cyclic coordinates
+  Stability stability;  ///< of the shape, with the momenta as they are (reducedStability)
 };
 
-/// All equilibria found at a constant speed [rad/s], by Newton's method from a grid of starts,
-/// ascending: over the circle of an angle, as many natural lengths of a slide (eight circles where
-/// it is the only coordinate). Loads that alternate are at their mean. Along a cyclic coordinate,
-/// where nothing pulls, an equilibrium is the same everywhere: the one at 0 stands for all. One
-/// where a coordinate has no inertia (a rotating pendulum without a hub, hanging) has no small
-/// motion in these coordinates and is left out. A linear rotor has one, the bearing line; its
-/// unbalance whirls it about it.
+/// All equilibria found at a constant speed [rad/s], by Newton's method on the reduced potential
+/// from a grid of starts, ascending: over the circle of an angle, as many natural lengths of a
+/// slide (eight circles where it is the only coordinate). Conserved momenta are those of the motion
+/// through q and v. Loads that alternate are at their mean. One where a coordinate has no inertia
+/// (a rotating pendulum without a hub, hanging) has no small motion in these coordinates and is
+/// left out. A linear rotor has one, the bearing line; its unbalance whirls it about it.
+std::vector<Equilibrium> equilibria(const Dynamics& dynamics, double speed,
+                                    const Eigen::VectorXd& q, const Eigen::VectorXd& v);
+/// With all conserved momenta zero.
 std::vector<Equilibrium> equilibria(const Dynamics& dynamics, double speed);
 
-/// Newton's method from q at a constant speed [rad/s]; nothing if it does not converge.
+/// Newton's method from q at rest at a constant speed [rad/s]; nothing if it does not converge.
 std::optional<Eigen::VectorXd> equilibriumNear(const Dynamics& dynamics, const Eigen::VectorXd& q,
                                                double speed);
 
-/// The bounded equilibrium nearest to q (angles by the shorter way round), or nothing.
+/// The bounded equilibrium nearest to q (angles by the shorter way round, cyclic coordinates
+/// aside) with the momenta of the motion through q and v, or nothing.
 std::optional<Equilibrium> operatingPoint(const Dynamics& dynamics, const Eigen::VectorXd& q,
-                                          double speed);
+                                          const Eigen::VectorXd& v, double speed);
 
 /// Linearization at rest in q at a constant speed [rad/s].
 Linearization linearizationAtRest(const Dynamics& dynamics, const Eigen::VectorXd& q, double speed);
+
+/// Linearization about the steady motion through q with rates v.
+Linearization linearizationAbout(const Dynamics& dynamics, const Eigen::VectorXd& q,
+                                 const Eigen::VectorXd& v, double speed);
 
 }  // namespace whirl_twin

@@ -1,5 +1,6 @@
 #include "analysis/stability.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
@@ -52,6 +53,52 @@ void modes(const std::vector<std::complex<double>>& roots, Stability& s) {
   }
 }
 
+void judgeExactly(const Linearization& l, std::size_t zeros, Stability& s) {
+  std::vector<Rational> polynomial = characteristicPolynomial(l);
+  polynomial.resize(polynomial.size() - zeros);  // these last coefficients are exactly zero
+  for (const Rational& c : polynomial) {
+    s.polynomial.push_back(toDouble(c));
+  }
+  s.routh = routh(polynomial);
+  if (zeros == 0 && s.routh.verdict == Verdict::kRepeatedImaginary &&
+      routh(minimalPolynomial(l)).verdict == Verdict::kMarginal) {
+    s.routh.verdict = Verdict::kMarginal;
+  }
+}
+
+bool positiveDefinite(const Eigen::MatrixXd& m) {
+  const Eigen::LLT<Eigen::MatrixXd> llt(m);
+  return llt.info() == Eigen::Success &&
+         llt.matrixL().toDenseMatrix().diagonal().cwiseAbs2().minCoeff() >
+             kRounding * m.diagonal().cwiseAbs().maxCoeff();
+}
+
+void judgeByDefiniteness(const Linearization& l, Stability& s) {
+  const double small =
+      kRounding * static_cast<double>(l.mass.rows()) * std::abs(s.eigenvalues.back());
+  for (const auto& root : s.eigenvalues) {
+    ++(root.real() > small    ? s.routh.right
+       : root.real() < -small ? s.routh.left
+                              : s.routh.imaginary);
+  }
+  s.routh.verdict = s.routh.right > 0       ? Verdict::kUnstable
+                    : s.routh.imaginary > 0 ? Verdict::kUncertain
+                                            : Verdict::kAsymptoticallyStable;
+  if (!l.circulatory.isZero(0.0) || !positiveDefinite(l.stiffness)) {
+    return;
+  }
+  const auto all = static_cast<int>(s.eigenvalues.size());
+  if (l.damping.isZero(0.0)) {
+    s.routh.verdict = Verdict::kMarginal;
+    s.routh.right = s.routh.left = 0;
+    s.routh.imaginary = all;
+  } else if (positiveDefinite(l.damping)) {
+    s.routh.verdict = Verdict::kAsymptoticallyStable;
+    s.routh.right = s.routh.imaginary = 0;
+    s.routh.left = all;
+  }
+}
+
 }  // namespace
 
 std::vector<std::complex<double>> eigenvalues(const Linearization& l) {
@@ -81,17 +128,19 @@ std::vector<std::complex<double>> eigenvalues(const Linearization& l) {
 }
 
 Stability stability(const Linearization& linearization) {
+  return stability(linearization, 0);
+}
+
+Stability stability(const Linearization& linearization, std::size_t zeros) {
   Stability s;
   s.eigenvalues = eigenvalues(linearization);
+  s.eigenvalues.erase(s.eigenvalues.begin(),
+                      s.eigenvalues.begin() + static_cast<std::ptrdiff_t>(zeros));
   modes(s.eigenvalues, s);
-  const std::vector<Rational> polynomial = characteristicPolynomial(linearization);
-  for (const Rational& c : polynomial) {
-    s.polynomial.push_back(toDouble(c));
-  }
-  s.routh = routh(polynomial);
-  if (s.routh.verdict == Verdict::kRepeatedImaginary &&
-      routh(minimalPolynomial(linearization)).verdict == Verdict::kMarginal) {
-    s.routh.verdict = Verdict::kMarginal;
+  if (linearization.mass.rows() <= kMostExactCoordinates) {
+    judgeExactly(linearization, zeros, s);
+  } else {
+    judgeByDefiniteness(linearization, s);
   }
 
   double rightmost = -std::numeric_limits<double>::infinity();

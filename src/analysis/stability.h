@@ -16,11 +16,12 @@ struct Stability {
   /// pair of real roots s1, s2 < 0 is the mode of frequency sqrt(s1 s2); a saddle has none.
   std::vector<double> natural_frequencies;
   std::vector<double> damping_ratios;
-  std::vector<double> polynomial;  ///< characteristic, monic, highest power first
-  RouthResult routh;               ///< a repeated imaginary root with full eigenvectors is marginal
-  double decay_rate = 0.0;         ///< [1/s], -max Re s
-  double damping_ratio = 0.0;      ///< [-], min of -Re s / |s| over roots that are not zero
-  double log_decrement = 0.0;      ///< [-], 2 pi zeta / sqrt(1 - zeta^2); NaN when overdamped
+  /// Characteristic, monic, highest power first; empty beyond kMostExactCoordinates.
+  std::vector<double> polynomial;
+  RouthResult routh;           ///< a repeated imaginary root with full eigenvectors is marginal
+  double decay_rate = 0.0;     ///< [1/s], -max Re s
+  double damping_ratio = 0.0;  ///< [-], min of -Re s / |s| over roots that are not zero
+  double log_decrement = 0.0;  ///< [-], 2 pi zeta / sqrt(1 - zeta^2); NaN when overdamped
 
   /// Deviations stay bounded.
   bool bounded() const {
@@ -28,11 +29,20 @@ struct Stability {
   }
 };
 
+/// The exact polynomial and Routh's test on it cost seconds beyond so many coordinates. There the
+/// verdict rests on the definiteness of the matrices where that decides (Kelvin, Tait and Chetaev:
+/// N = 0, K > 0, and C > 0 or C = 0), else on the eigenvalues.
+constexpr Eigen::Index kMostExactCoordinates = 8;
+
 /// Judges M q'' + (C + G) q' + (K + N) q = 0. The verdict is kUncertain where the largest real part
 /// is below the rounding of the eigenvalues and the polynomial does not make it exactly zero.
 /// Throws std::domain_error for matrices beyond the range of double, std::invalid_argument for a
 /// singular mass.
 Stability stability(const Linearization& linearization);
+
+/// The same with `zeros` roots at 0 set aside: those of coordinates whose position does not matter
+/// (their columns of K + N are exactly zero).
+Stability stability(const Linearization& linearization, std::size_t zeros);
 
 /// Eigenvalues only: fast, for searches. [2 dof]
 std::vector<std::complex<double>> eigenvalues(const Linearization& linearization);

@@ -7,9 +7,10 @@
 // Order 6, symplectic, time-reversible, A-stable; conserves quadratic invariants, has bounded
 // energy error over any time, treats damping and gyroscopic terms like any other. The stages are
 // found by fixed-point iteration started from the previous step's polynomial; where that contracts
-// too slowly (stiff systems) by simplified Newton with the Jacobian of the step's start. If neither
-// converges the state is left as it was and kNotConverged is returned. It does not damp stiff modes
-// (it is not L-stable), and it does not see discontinuities inside a step.
+// too slowly (stiff systems) by simplified Newton; where that does not converge either, in up to 16
+// parts of the step. If nothing does, the state is left as it was and kNotConverged is returned. It
+// does not damp stiff modes (it is not L-stable), and it does not see discontinuities inside a
+// step.
 #pragma once
 
 #include <Eigen/LU>
@@ -55,15 +56,48 @@ class GaussLegendre6 {
     Stages a = warm_ ? extrapolated() : constant(equation(state.q, state.v, offset).acceleration);
     Powers power;
     if (!fixedPoint(equation, offset, h, state, a, power)) {
-      a = constant(equation(state.q, state.v, offset).acceleration);
-      if (!newton(equation, offset, h, state, a, power)) {
-        warm_ = false;
-        return StepStatus::kNotConverged;
-      }
+      return stiffStep(equation, offset, h, kMaxHalvings, state);
     }
     last_ = a;
     warm_ = true;
+    finish(h, a, power, state);
+    return StepStatus::kOk;
+  }
 
+ private:
+  using Stages = std::array<std::array<double, n>, 3>;
+  using Powers = std::array<double, 3>;
+
+  /// A step by Newton's method; where that does not converge, two of half the length.
+  template <class Equation>
+  StepStatus stiffStep(const Equation& equation, double offset, double h, int halvings,
+                       MotionState<n>& state) {
+    Stages a = constant(equation(state.q, state.v, offset).acceleration);
+    Powers power;
+    if (newton(equation, offset, h, state, a, power)) {
+      last_ = a;
+      warm_ = halvings == kMaxHalvings;  // the next step is as long as this one
+      finish(h, a, power, state);
+      return StepStatus::kOk;
+    }
+    warm_ = false;
+    if (halvings == 0) {
+      return StepStatus::kNotConverged;
+    }
+    MotionState<n> half = state;
+    StepStatus status = stiffStep(equation, offset, 0.5 * h, halvings - 1, half);
+    if (status == StepStatus::kOk) {
+      status = stiffStep(equation, offset + 0.5 * h, 0.5 * h, halvings - 1, half);
+    }
+    if (status == StepStatus::kOk) {
+      state = half;
+    }
+    return status;
+  }
+
+  /// From the stages to the end of the step.
+  static WHIRL_TWIN_INLINE void finish(double h, const Stages& a, const Powers& power,
+                                       MotionState<n>& state) {
     std::array<double, n> dq;
     std::array<double, n> dv;
     for (std::size_t i = 0; i < n; ++i) {
@@ -75,15 +109,12 @@ class GaussLegendre6 {
     state.advance(
         dq, dv,
         h * (gauss_tableau::kOuter * (power[0] + power[2]) + gauss_tableau::kMiddle * power[1]));
-    return StepStatus::kOk;
   }
-
- private:
-  using Stages = std::array<std::array<double, n>, 3>;
-  using Powers = std::array<double, 3>;
 
   static constexpr int kMaxFixedPoint = 16;
   static constexpr int kMaxNewton = 24;
+  static constexpr int kMaxJacobians = 3;
+  static constexpr int kMaxHalvings = 4;
   /// Iteration ends when the acceleration changes by less than this part of its size: what is left
   /// then enters q and v multiplied by h and is below their rounding.
   static constexpr double kTolerance = 4.0e-16;
@@ -93,6 +124,9 @@ class GaussLegendre6 {
   /// which is that of a number times the condition of the mass matrix (up to 1e6 or so); where it
   /// diverges the change is as large as the acceleration.
   static constexpr double kRounding = 1.0e-9;
+  /// Or that of the coordinates: a change this many roundings large once multiplied by h^2. A stiff
+  /// spring makes it a large part of an acceleration that is itself small.
+  static constexpr double kRoundingsOfPosition = 512.0 * 2.2e-16;
 
   static WHIRL_TWIN_INLINE Stages constant(const std::array<double, n>& a) { return {a, a, a}; }
 
@@ -111,6 +145,21 @@ class GaussLegendre6 {
     return a;
   }
 
+  /// q and v at stage k.
+  static WHIRL_TWIN_INLINE void stage(std::size_t k, double h, const MotionState<n>& state,
+                                      const Stages& a, std::array<double, n>& q,
+                                      std::array<double, n>& v) {
+    for (std::size_t i = 0; i < n; ++i) {
+      v[i] =
+          state.v[i] + h * (gauss_tableau::kA[k][0] * a[0][i] + gauss_tableau::kA[k][1] * a[1][i] +
+                            gauss_tableau::kA[k][2] * a[2][i]);
+      q[i] = state.q[i] +
+             h * (gauss_tableau::kNodes[k] * state.v[i] +
+                  h * (gauss_tableau::kAA[k][0] * a[0][i] + gauss_tableau::kAA[k][1] * a[1][i] +
+                       gauss_tableau::kAA[k][2] * a[2][i]));
+    }
+  }
+
   template <class Equation>
   WHIRL_TWIN_INLINE void evaluate(const Equation& equation, double offset, double h,
                                   const MotionState<n>& state, const Stages& a, Stages& result,
@@ -118,15 +167,7 @@ class GaussLegendre6 {
     for (std::size_t k = 0; k < 3; ++k) {
       std::array<double, n> q;
       std::array<double, n> v;
-      for (std::size_t i = 0; i < n; ++i) {
-        v[i] = state.v[i] +
-               h * (gauss_tableau::kA[k][0] * a[0][i] + gauss_tableau::kA[k][1] * a[1][i] +
-                    gauss_tableau::kA[k][2] * a[2][i]);
-        q[i] = state.q[i] +
-               h * (gauss_tableau::kNodes[k] * state.v[i] +
-                    h * (gauss_tableau::kAA[k][0] * a[0][i] + gauss_tableau::kAA[k][1] * a[1][i] +
-                         gauss_tableau::kAA[k][2] * a[2][i]));
-      }
+      stage(k, h, state, a, q, v);
       const auto d = equation(q, v, offset + gauss_tableau::kNodes[k] * h);
       result[k] = d.acceleration;
       power[k] = d.power;
@@ -174,8 +215,26 @@ class GaussLegendre6 {
   template <class Equation>
   bool newton(const Equation& equation, double offset, double h, const MotionState<n>& state,
               Stages& a, Powers& power) const {
+    // A Jacobian of the step's start serves most steps. Where the motion turns so fast that it does
+    // not, one of the middle of the step as found so far does.
+    std::array<double, n> q = state.q;
+    std::array<double, n> v = state.v;
+    double at = offset;
+    for (int i = 0; i < kMaxJacobians; ++i) {
+      if (iterate(equation, offset, h, state, equation.jacobian(q, v, at), a, power)) {
+        return true;
+      }
+      stage(1, h, state, a, q, v);
+      at = offset + gauss_tableau::kNodes[1] * h;
+    }
+    return false;
+  }
+
+  /// Simplified Newton with one Jacobian, until it converges or no longer contracts.
+  template <class Equation, class Jacobian>
+  bool iterate(const Equation& equation, double offset, double h, const MotionState<n>& state,
+               const Jacobian& jacobian, Stages& a, Powers& power) const {
     constexpr int kSize = 3 * static_cast<int>(n);
-    const auto jacobian = equation.jacobian(state.q, state.v, offset);
     Eigen::Matrix<double, kSize, kSize> matrix;
     for (int k = 0; k < 3; ++k) {
       for (int l = 0; l < 3; ++l) {
@@ -200,11 +259,15 @@ class GaussLegendre6 {
       const Eigen::Matrix<double, kSize, 1> correction = lu.solve(residual);
       double size = 0.0;
       double change = 0.0;
+      bool small = true;
       for (std::size_t k = 0; k < 3; ++k) {
         for (std::size_t i = 0; i < n; ++i) {
           const double c = correction[static_cast<int>(k * n + i)];
           a[k][i] += c;
           change = std::fmax(change, std::fabs(c));
+          small = small &&
+                  h * h * std::fabs(c) <=
+                      kRoundingsOfPosition * (std::fabs(state.q[i]) + h * std::fabs(state.v[i]));
           size = std::fmax(size, std::fmax(std::fabs(a[k][i]), std::fabs(next[k][i])));
         }
       }
@@ -212,7 +275,7 @@ class GaussLegendre6 {
         return true;
       }
       if (iteration > 1 && change > 0.9 * previous) {
-        return change <= kRounding * size;
+        return change <= kRounding * size || small;
       }
       previous = change;
     }

@@ -10,12 +10,21 @@
 
 #include "mechanics/lagrangian.h"
 #include "mechanics/model_description.h"
+#include "mechanics/reaction.h"
+#include "mechanics/sketch.h"
 
 namespace whirl_twin {
 
 /// M q'' + (C + G) q' + (K + N) q = 0 for small deviations; C, K symmetric, G, N skew. [n x n]
 struct Linearization {
   Eigen::MatrixXd mass, damping, gyroscopic, stiffness, circulatory;
+};
+
+/// A coordinate of a model as set up: its name may come from the scene.
+struct CoordinateInfo {
+  std::string name;  ///< as in scene files; its rate is NAME_rate
+  std::string unit;  ///< "rad" or "m"
+  bool isAngle() const { return unit == "rad"; }
 };
 
 /// A model with its parameters. Vectors are of size dof(), in the order of coordinates().
@@ -25,9 +34,10 @@ class Dynamics {
 
   virtual std::string model() const = 0;
   virtual int dof() const = 0;
-  virtual std::vector<Coordinate> coordinates() const = 0;
+  virtual std::vector<CoordinateInfo> coordinates() const = 0;
   virtual bool linear() const = 0;            ///< equations linear in q and v
   virtual bool hasShaft() const = 0;          ///< the motion of a shaft enters
+  virtual bool isRotor() const = 0;           ///< x, y of a whirling disc
   virtual bool speedDependent() const = 0;    ///< the matrices of a linear model change with speed
   virtual double unbalanceAngle() const = 0;  ///< [rad], of a rotor's unbalance from the mark
   virtual double naturalLength() const = 0;   ///< [m], scale of the sliding coordinates
@@ -36,13 +46,35 @@ class Dynamics {
 
   virtual Eigen::VectorXd acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                        const Moment<double>& at) const = 0;
-  /// The generalized force that is left when the system is held: zero at an equilibrium.
-  virtual Eigen::VectorXd holdingForce(const Eigen::VectorXd& q,
+  /// The generalized force that is left without acceleration: zero in a steady motion, and with
+  /// v = 0 at an equilibrium.
+  virtual Eigen::VectorXd unbalancedForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                          const Moment<double>& at) const = 0;
+  /// The forces that have no potential, Q - dD/dv.
+  virtual Eigen::VectorXd appliedForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                        const Moment<double>& at) const = 0;
+  virtual Eigen::MatrixXd massMatrix(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                     const Moment<double>& at) const = 0;
+  /// Generalized momenta dL/dv.
+  virtual Eigen::VectorXd momenta(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                  const Moment<double>& at) const = 0;
   virtual Energies energies(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                             const Moment<double>& at) const = 0;
   virtual Linearization linearization(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                       const Eigen::VectorXd& a, const Moment<double>& at) const = 0;
+
+  /// Constraint forces, at a state whose accelerations are a.
+  virtual std::vector<Reaction> reactions(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                          const Eigen::VectorXd& a,
+                                          const Moment<double>& at) const = 0;
+  /// Conditions under which the equations hold, at a state whose accelerations are a.
+  virtual std::vector<Condition> conditions(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                            const Eigen::VectorXd& a,
+                                            const Moment<double>& at) const = 0;
+  /// Why the mass matrix can become singular; "" where it cannot.
+  virtual std::string singularMass() const = 0;
+  /// Its picture; empty where there is none.
+  virtual Sketch sketch(const Eigen::VectorXd& q, const Moment<double>& at) const = 0;
 };
 
 /// Does the model have a member function or not: absent means the plain answer.
@@ -73,6 +105,30 @@ struct HasAlternatingLoads : std::false_type {};
 template <class Model>
 struct HasAlternatingLoads<Model, std::void_t<decltype(&Model::atMeanLoad)>> : std::true_type {};
 
+template <class Model, class = void>
+struct HasReactions : std::false_type {};
+template <class Model>
+struct HasReactions<Model, std::void_t<decltype(&Model::reactions)>> : std::true_type {};
+
+template <class Model, class = void>
+struct HasConditions : std::false_type {};
+template <class Model>
+struct HasConditions<Model, std::void_t<decltype(&Model::conditions)>> : std::true_type {};
+
+template <class Model, class = void>
+struct HasSketch : std::false_type {};
+template <class Model>
+struct HasSketch<Model, std::void_t<decltype(&Model::sketch)>> : std::true_type {};
+
+template <class Model, class = void>
+struct SingularMass {
+  static std::string of(const Model&) { return ""; }
+};
+template <class Model>
+struct SingularMass<Model, std::void_t<decltype(&Model::singularMass)>> {
+  static std::string of(const Model& m) { return m.singularMass(); }
+};
+
 template <class Model>
 class LagrangianDynamics final : public Dynamics {
  public:
@@ -92,11 +148,16 @@ class LagrangianDynamics final : public Dynamics {
 
   std::string model() const override { return Model::kName; }
   int dof() const override { return static_cast<int>(n); }
-  std::vector<Coordinate> coordinates() const override {
-    return {Model::kCoordinates.begin(), Model::kCoordinates.end()};
+  std::vector<CoordinateInfo> coordinates() const override {
+    std::vector<CoordinateInfo> all;
+    for (const Coordinate& c : Model::kCoordinates) {
+      all.push_back({c.name, c.unit});
+    }
+    return all;
   }
   bool linear() const override { return Model::kLinear; }
   bool hasShaft() const override { return Model::kHasShaft; }
+  bool isRotor() const override { return RotorTraits<Model>::kRotor; }
   bool speedDependent() const override { return RotorTraits<Model>::speedDependent(model_); }
   double unbalanceAngle() const override { return RotorTraits<Model>::unbalanceAngle(model_); }
   double naturalLength() const override { return NaturalLength<Model>::of(model_); }
@@ -106,8 +167,28 @@ class LagrangianDynamics final : public Dynamics {
                                const Moment<double>& at) const override {
     return vector(derivative(model_, array(q), array(v), at).acceleration);
   }
-  Eigen::VectorXd holdingForce(const Eigen::VectorXd& q, const Moment<double>& at) const override {
-    return vector(equationsOfMotion(model_, array(q), Array{}, at).force);
+  Eigen::VectorXd unbalancedForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                  const Moment<double>& at) const override {
+    return vector(equationsOfMotion(model_, array(q), array(v), at).force);
+  }
+  Eigen::VectorXd appliedForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                               const Moment<double>& at) const override {
+    return vector(whirl_twin::appliedForce(model_, array(q), array(v), at));
+  }
+  Eigen::MatrixXd massMatrix(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                             const Moment<double>& at) const override {
+    const auto packed = equationsOfMotion(model_, array(q), array(v), at).mass;
+    Eigen::MatrixXd mass(dof(), dof());
+    for (int i = 0; i < dof(); ++i) {
+      for (int j = 0; j <= i; ++j) {
+        mass(i, j) = mass(j, i) = packed[static_cast<std::size_t>(i * (i + 1) / 2 + j)];
+      }
+    }
+    return mass;
+  }
+  Eigen::VectorXd momenta(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                          const Moment<double>& at) const override {
+    return vector(whirl_twin::momenta(model_, array(q), array(v), at));
   }
   Energies energies(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                     const Moment<double>& at) const override {
@@ -118,6 +199,35 @@ class LagrangianDynamics final : public Dynamics {
     const FixedLinearization<n> l =
         whirl_twin::linearization(model_, array(q), array(v), array(a), at);
     return {l.mass, l.damping, l.gyroscopic, l.stiffness, l.circulatory};
+  }
+  std::vector<Reaction> reactions([[maybe_unused]] const Eigen::VectorXd& q,
+                                  [[maybe_unused]] const Eigen::VectorXd& v,
+                                  [[maybe_unused]] const Eigen::VectorXd& a,
+                                  [[maybe_unused]] const Moment<double>& at) const override {
+    if constexpr (HasReactions<Model>::value) {
+      return model_.reactions(array(q), array(v), array(a), at);
+    } else {
+      return {};
+    }
+  }
+  std::vector<Condition> conditions([[maybe_unused]] const Eigen::VectorXd& q,
+                                    [[maybe_unused]] const Eigen::VectorXd& v,
+                                    [[maybe_unused]] const Eigen::VectorXd& a,
+                                    [[maybe_unused]] const Moment<double>& at) const override {
+    if constexpr (HasConditions<Model>::value) {
+      return model_.conditions(array(q), array(v), array(a), at);
+    } else {
+      return {};
+    }
+  }
+  std::string singularMass() const override { return SingularMass<Model>::of(model_); }
+  Sketch sketch([[maybe_unused]] const Eigen::VectorXd& q,
+                [[maybe_unused]] const Moment<double>& at) const override {
+    if constexpr (HasSketch<Model>::value) {
+      return model_.sketch(array(q), at);
+    } else {
+      return {};
+    }
   }
 
  private:

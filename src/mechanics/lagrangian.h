@@ -139,6 +139,41 @@ WHIRL_TWIN_INLINE Derivative<n> derivative(const Model& model, const std::array<
   return {solveMass<double, n>(eom.mass, eom.force), eom.power};
 }
 
+/// The forces that have no potential, Q - dD/dv, at a state.
+template <class Model, std::size_t n>
+std::array<double, n> appliedForce(const Model& model, const std::array<double, n>& q,
+                                   const std::array<double, n>& v, const Moment<double>& at) {
+  using Rates = Gradient<double, n>;
+  std::array<Rates, n> q_of_rates;
+  std::array<Rates, n> v_of_rates;
+  for (std::size_t j = 0; j < n; ++j) {
+    q_of_rates[j].value = q[j];
+    v_of_rates[j] = Rates(v[j], j);
+  }
+  const Moment<Rates> moment{at.time, at.angle, at.speed, at.acceleration};
+  const Rates d = model.dissipation(q_of_rates, v_of_rates, moment);
+  std::array<double, n> applied = model.force(q, v, at);
+  for (std::size_t j = 0; j < n; ++j) {
+    applied[j] -= d.slope[j];
+  }
+  return applied;
+}
+
+/// Generalized momenta dL/dv at a state.
+template <class Model, std::size_t n>
+std::array<double, n> momenta(const Model& model, const std::array<double, n>& q,
+                              const std::array<double, n>& v, const Moment<double>& at) {
+  using Rates = Gradient<double, n>;
+  std::array<Rates, n> q_of_rates;
+  std::array<Rates, n> v_of_rates;
+  for (std::size_t j = 0; j < n; ++j) {
+    q_of_rates[j].value = q[j];
+    v_of_rates[j] = Rates(v[j], j);
+  }
+  const Moment<Rates> moment{at.time, at.angle, at.speed, at.acceleration};
+  return model.kinetic(q_of_rates, v_of_rates, moment).slope;
+}
+
 /// Energies and powers at a state.
 template <class Model, std::size_t n>
 Energies energies(const Model& model, const std::array<double, n>& q,

@@ -2,6 +2,8 @@
 // are checked against it and `twin models` prints it.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <limits>
 
 namespace whirl_twin {
@@ -12,7 +14,7 @@ struct Coordinate {
   const char* unit;  ///< "rad" or "m"
 };
 
-enum class Range { kPositive, kNotNegative, kAny };
+enum class Range { kPositive, kNotNegative, kCount, kAny };  // kCount: 1, 2, 3 ...
 
 /// A parameter of a model, bound to the member it fills.
 template <class Model>
@@ -25,5 +27,17 @@ struct Parameter {
   double fallback = std::numeric_limits<double>::quiet_NaN();  ///< default; NaN: must be given
   const char* fallback_parameter = nullptr;  ///< default: the value of this parameter
 };
+
+/// The parameters of a model, as those of another form that inherits them.
+template <class Form, class Model, std::size_t count>
+constexpr std::array<Parameter<Form>, count> inherited(
+    const std::array<Parameter<Model>, count>& parameters) {
+  std::array<Parameter<Form>, count> same{};
+  for (std::size_t i = 0; i < count; ++i) {
+    const Parameter<Model>& p = parameters[i];
+    same[i] = {p.name, p.unit, p.range, p.member, p.meaning, p.fallback, p.fallback_parameter};
+  }
+  return same;
+}
 
 }  // namespace whirl_twin

@@ -9,6 +9,7 @@ inline constexpr char kUnstable[] = "UNSTABLE";
 inline constexpr char kLowDamping[] = "LOW_DAMPING";
 inline constexpr char kEnergyResidual[] = "ENERGY_RESIDUAL";
 inline constexpr char kNotFinite[] = "NOT_FINITE";
+inline constexpr char kModelInvalid[] = "MODEL_INVALID";
 inline constexpr char kDataLost[] = "DATA_LOST";
 
 }  // namespace whirl_twin::alert_type

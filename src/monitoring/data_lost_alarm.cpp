@@ -11,12 +11,16 @@
 namespace whirl_twin {
 namespace {
 
+constexpr char kEverybody[] = "twin";
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 }  // namespace
 
 DataLostAlarm::DataLostAlarm(const std::vector<std::string>& systems, const AlarmSettings& settings)
-    : timeout_(settings.data_timeout), last_arrival_(kNever), flowing_since_(kNever) {
+    : timeout_(settings.data_timeout),
+      everybody_(settings.clear_delay),
+      last_arrival_(kNever),
+      flowing_since_(kNever) {
   for (const std::string& system : systems) {
     watches_.push_back({system, kNever, ConditionAlarm(settings.clear_delay)});
   }
@@ -33,6 +37,26 @@ void DataLostAlarm::received(const std::string& source, double wall_time, double
       watch.heard_at = wall_time;
     }
     judge(watch, wall_time, time, alerts);
+  }
+}
+
+void DataLostAlarm::tick(double wall_time, double time, bool paused, AlertList& alerts) {
+  if (last_arrival_ == kNever) {
+    return;  // nothing has been promised yet
+  }
+  const double silence = wall_time - last_arrival_;
+  const bool lost = silence > timeout_ && !paused;
+  const AlarmCondition condition = lost ? AlarmCondition::kWarning : AlarmCondition::kClear;
+  if (everybody_.update(wall_time, condition) == ConditionAlarm::Change::kCleared) {
+    alerts.clear(kEverybody, alert_type::kDataLost, time, "states arrive again");
+  } else if (everybody_.active() && lost) {
+    state::Alert alert;
+    alert.system = kEverybody;
+    alert.type = alert_type::kDataLost;
+    alert.severity = everybody_.severity();
+    alert.time = time;
+    alert.text = "no states arrive at all: nothing is being watched";
+    alerts.raise(std::move(alert), "all data lost");
   }
 }
 

@@ -1,7 +1,9 @@
-// DATA_LOST: a system has fallen silent while others go on.
+// DATA_LOST: a system has fallen silent while others go on, or everybody has without a pause.
 //
-// Silence is judged when a state of another source arrives, by wall time, so that a paused or
-// stopped simulation (everybody silent) is not mistaken for a lost system.
+// One system's silence is judged when a state of another source arrives, by wall time, so that a
+// paused simulation (everybody silent) is not mistaken for a lost system. When nothing at all
+// arrives and the simulation does not say that it pauses, nothing is being watched: that is one
+// alert, of the system "twin".
 #pragma once
 
 #include <string>
@@ -21,6 +23,8 @@ class DataLostAlarm {
   /// A state of source arrived at wall_time [s, a clock that only goes forward], valid at
   /// time [s, simulated]. A source that is not watched (a drive) only shows that others go on.
   void received(const std::string& source, double wall_time, double time, AlertList& alerts);
+  /// Time passes; paused: the simulation says that it is held.
+  void tick(double wall_time, double time, bool paused, AlertList& alerts);
 
  private:
   struct Watch {
@@ -32,6 +36,7 @@ class DataLostAlarm {
 
   double timeout_;  ///< [s, wall]
   std::vector<Watch> watches_;
+  ConditionAlarm everybody_;
   double last_arrival_;   ///< [s, wall], of any source
   double flowing_since_;  ///< [s, wall], states have arrived without a common gap since then
 };

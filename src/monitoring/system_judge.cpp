@@ -43,22 +43,29 @@ void SystemJudge::findInstabilitySpeed(double time, const Eigen::VectorXd& about
 }
 
 state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::vector<double>& q,
-                                          double speed) {
+                                          const std::vector<double>& v, double speed) {
   const double shaft_speed = dynamics_->hasShaft() ? speed : 0.0;
-  const Eigen::VectorXd present =
-      Eigen::Map<const Eigen::VectorXd>(q.data(), static_cast<Eigen::Index>(q.size()));
+  const auto n = static_cast<Eigen::Index>(q.size());
+  const Eigen::VectorXd present = Eigen::Map<const Eigen::VectorXd>(q.data(), n);
+  const Eigen::VectorXd rates = Eigen::Map<const Eigen::VectorXd>(v.data(), n);
   Eigen::VectorXd about = present;
   Stability s;
   s.routh.verdict = Verdict::kUncertain;
   s.decay_rate = s.damping_ratio = s.log_decrement = kNaN;
   try {
-    const std::optional<Equilibrium> point = operatingPoint(*dynamics_, present, shaft_speed);
+    const std::optional<Equilibrium> point =
+        settled_ ? settled_ : operatingPoint(*dynamics_, present, rates, shaft_speed);
+    if (dynamics_->linear() && !dynamics_->hasShaft()) {
+      settled_ = point;
+    }
     if (point) {
       about = point->q;
     } else if (dynamics_->linear()) {
       about.setZero();
     }
-    s = point ? point->stability : stability(linearizationAtRest(*dynamics_, about, shaft_speed));
+    s = point ? point->stability
+              : reducedStability(linearizationAbout(*dynamics_, about, rates, shaft_speed),
+                                 cyclicCoordinates(*dynamics_, shaft_speed));
     findInstabilitySpeed(at.time, about, shaft_speed);
   } catch (const std::exception&) {
     // Numbers beyond the range of double, or a singular mass: uncertain. The others are watched on.
@@ -70,7 +77,7 @@ state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::v
   m.model = model_;
   m.verdict = static_cast<std::uint8_t>(s.routh.verdict);
   m.verdict_name = name(s.routh.verdict);
-  for (const Coordinate& c : dynamics_->coordinates()) {
+  for (const CoordinateInfo& c : dynamics_->coordinates()) {
     m.coordinate.emplace_back(c.name);
   }
   m.operating_point.assign(about.data(), about.data() + about.size());

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "analysis/critical_speeds.h"
+#include "analysis/equilibria.h"
 #include "monitoring/stability_margin.h"
 #include "scene/twin.h"
 
@@ -23,9 +24,10 @@ class SystemJudge {
   const std::string& system() const { return system_; }
   /// Critical speeds seen from a running speed [rad/s]; empty for anything but a linear rotor.
   std::vector<state::CriticalSpeedMargin> criticalSpeedMargins(double speed) const;
-  /// The verdict with coordinates q at shaft speed [rad/s] (ignored without a shaft).
+  /// The verdict with coordinates q and rates v at shaft speed [rad/s] (ignored without a shaft):
+  /// of the equilibrium or steady motion it operates about, its conserved momenta as they are.
   state::StabilityMargin judge(const state::Instant& at, const std::vector<double>& q,
-                               double speed);
+                               const std::vector<double>& v, double speed);
   /// [rad/s], of the last judgement; NaN: none.
   double instabilitySpeed() const { return instability_speed_; }
 
@@ -38,6 +40,7 @@ class SystemJudge {
   std::vector<CriticalSpeed> critical_speeds_;
   double instability_speed_ = std::numeric_limits<double>::quiet_NaN();
   std::optional<double> instability_found_at_;  ///< [s], simulated
+  std::optional<Equilibrium> settled_;  ///< of a linear system without a shaft: once for all
 };
 
 }  // namespace whirl_twin

@@ -10,8 +10,8 @@ namespace {
 constexpr double kJudgingPeriod = 0.1;  // s, simulated
 
 /// Low damping is a criterion for rotors; a pendulum may swing as long as it likes.
-AlarmSettings settingsFor(const ModelInfo& model, AlarmSettings settings) {
-  if (!model.rotor) {
+AlarmSettings settingsFor(const Dynamics& dynamics, AlarmSettings settings) {
+  if (!dynamics.isRotor()) {
     settings.log_decrement_warning = 0.0;
     settings.decay_rate_alarm = 0.0;
   }
@@ -31,13 +31,14 @@ std::vector<std::string> systemNames(const Scene& scene) {
 TwinMonitor::Watch::Watch(const Twin::Member& member, std::string drive_name,
                           const AlarmSettings& settings)
     : judge(member),
-      rotor(member.model->rotor),
+      rotor(member.dynamics->isRotor()),
       dof(member.spec.q.size()),
       drive(std::move(drive_name)),
       speed(member.spec.speed.value_or(0.0)),
       critical_speed_alarm(member.spec.name, settings),
-      stability_alarm(member.spec.name, settingsFor(*member.model, settings)),
-      state_alarm(member.spec.name, settings) {}
+      stability_alarm(member.spec.name, settingsFor(*member.dynamics, settings)),
+      state_alarm(member.spec.name, settings),
+      validity_alarm(member.spec.name, member.dynamics, settings) {}
 
 TwinMonitor::TwinMonitor(const Scene& scene, const AlarmSettings& settings)
     : twin_(scene), settings_(settings), data_lost_alarm_(systemNames(scene), settings) {
@@ -55,8 +56,10 @@ void TwinMonitor::restart() {
     Watch& watch = watches_[i];
     watch.critical_speed_alarm = CriticalSpeedAlarm(watch.judge.system(), settings_);
     watch.stability_alarm =
-        StabilityAlarm(watch.judge.system(), settingsFor(*twin_.members()[i].model, settings_));
+        StabilityAlarm(watch.judge.system(), settingsFor(*twin_.members()[i].dynamics, settings_));
     watch.state_alarm = StateAlarm(watch.judge.system(), settings_);
+    watch.validity_alarm =
+        ValidityAlarm(watch.judge.system(), twin_.members()[i].dynamics, settings_);
     watch.judged = false;
   }
   newest_.clear();
@@ -86,14 +89,19 @@ void TwinMonitor::watchShaft(Watch& watch, const state::DriveState& shaft) {
   watch.critical_speed_alarm.update(shaft, watch.judge.criticalSpeedMargins(shaft.speed), alerts_);
 }
 
-void TwinMonitor::judge(Watch& watch, const state::Instant& at, const std::vector<double>& q) {
+void TwinMonitor::tick(double wall_time, bool paused) {
+  data_lost_alarm_.tick(wall_time, time_, paused, alerts_);
+}
+
+void TwinMonitor::judge(Watch& watch, const state::Instant& at, const std::vector<double>& q,
+                        const std::vector<double>& v) {
   const double threshold = watch.judge.instabilitySpeed();
   const bool passed =
       (std::fabs(watch.speed) > threshold) != (std::fabs(watch.judged_speed) > threshold);
   if (watch.judged && !passed && at.time < watch.judged_at + kJudgingPeriod * (1.0 - 1.0e-9)) {
     return;
   }
-  const state::StabilityMargin margin = watch.judge.judge(at, q, watch.speed);
+  const state::StabilityMargin margin = watch.judge.judge(at, q, v, watch.speed);
   watch.judged = true;
   watch.judged_at = at.time;
   watch.judged_speed = watch.speed;
@@ -115,17 +123,22 @@ void TwinMonitor::take(const state::WhirlState& whirl, double wall_time) {
   }
   watch->speed = whirl.speed;
   watch->state_alarm.updateEnergy(whirl.at.time, whirl.energy_residual, alerts_);
-  judge(*watch, whirl.at, {whirl.x, whirl.y});
+  judge(*watch, whirl.at, {whirl.x, whirl.y}, {whirl.x_rate, whirl.y_rate});
 }
 
 void TwinMonitor::take(const state::PendulumState& pendulum, double wall_time) {
   Watch* watch = find(pendulum.system);
-  if (watch == nullptr || watch->rotor || pendulum.angle.size() != watch->dof) {
+  if (watch == nullptr || watch->rotor || pendulum.angle.size() != watch->dof ||
+      pendulum.rate.size() != watch->dof) {
     return;
   }
   arrived(pendulum.system, pendulum.at, wall_time);
   watch->state_alarm.updateEnergy(pendulum.at.time, pendulum.energy_residual, alerts_);
-  judge(*watch, pendulum.at, pendulum.angle);
+  const auto n = static_cast<Eigen::Index>(watch->dof);
+  watch->validity_alarm.update(Eigen::Map<const Eigen::VectorXd>(pendulum.angle.data(), n),
+                               Eigen::Map<const Eigen::VectorXd>(pendulum.rate.data(), n),
+                               {pendulum.at.time, 0.0, watch->speed, 0.0}, alerts_);
+  judge(*watch, pendulum.at, pendulum.angle, pendulum.rate);
 }
 
 void TwinMonitor::take(const state::DriveState& drive, double wall_time) {

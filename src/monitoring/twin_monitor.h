@@ -12,6 +12,7 @@
 #include "monitoring/stability_alarm.h"
 #include "monitoring/state_alarm.h"
 #include "monitoring/system_judge.h"
+#include "monitoring/validity_alarm.h"
 #include "scene/twin.h"
 
 namespace whirl_twin {
@@ -26,6 +27,9 @@ class TwinMonitor {
   void take(const state::WhirlState& whirl, double wall_time);
   void take(const state::PendulumState& pendulum, double wall_time);
   void take(const state::DriveState& drive, double wall_time);
+  /// Wall time passes though nothing may arrive, to be called a few times a second; paused: the
+  /// simulation says that it is held.
+  void tick(double wall_time, bool paused);
   /// The simulation says whether a system has stopped, and why.
   void takeStopped(const std::string& system, double time, bool stopped, const std::string& why);
 
@@ -47,6 +51,7 @@ class TwinMonitor {
     CriticalSpeedAlarm critical_speed_alarm;
     StabilityAlarm stability_alarm;
     StateAlarm state_alarm;
+    ValidityAlarm validity_alarm;
     bool judged = false;
     double judged_at = 0.0;     ///< [s], simulated
     double judged_speed = 0.0;  ///< [rad/s]
@@ -55,7 +60,8 @@ class TwinMonitor {
   void restart();
   Watch* find(const std::string& system);
   void arrived(const std::string& source, const state::Instant& at, double wall_time);
-  void judge(Watch& watch, const state::Instant& at, const std::vector<double>& q);
+  void judge(Watch& watch, const state::Instant& at, const std::vector<double>& q,
+             const std::vector<double>& v);
   void watchShaft(Watch& watch, const state::DriveState& shaft);
 
   Twin twin_;

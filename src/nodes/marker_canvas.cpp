@@ -1,14 +1,11 @@
 #include "nodes/marker_canvas.h"
 
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
 
 namespace whirl_twin {
 namespace {
-
-constexpr int kTubeSides = 14;
 
 geometry_msgs::Point toPoint(const Eigen::Vector3d& v) {
   geometry_msgs::Point point;
@@ -28,21 +25,20 @@ std_msgs::ColorRGBA toColor(const Color& color) {
 }
 
 // The points of the circle about each point of the centre line, across the line's direction there.
-std::vector<std::array<Eigen::Vector3d, kTubeSides>> tubeRings(
-    const std::vector<Eigen::Vector3d>& line, double radius) {
-  const Eigen::Vector3d chord = line.back() - line.front();
-  const Eigen::Vector3d across = chord.unitOrthogonal();
-  std::vector<std::array<Eigen::Vector3d, kTubeSides>> rings(line.size());
+// The first direction across is carried along the line without a twist.
+std::vector<std::vector<Eigen::Vector3d>> tubeRings(const std::vector<Eigen::Vector3d>& line,
+                                                    double radius, int sides) {
+  std::vector<std::vector<Eigen::Vector3d>> rings(line.size());
+  Eigen::Vector3d across = (line[1] - line[0]).unitOrthogonal();
   for (std::size_t i = 0; i < line.size(); ++i) {
     const std::size_t before = i == 0 ? 0 : i - 1;
     const std::size_t after = i + 1 == line.size() ? i : i + 1;
     const Eigen::Vector3d along = (line[after] - line[before]).normalized();
-    const Eigen::Vector3d u = (across - across.dot(along) * along).normalized();
-    const Eigen::Vector3d v = along.cross(u);
-    for (int side = 0; side < kTubeSides; ++side) {
-      const double angle = 2.0 * M_PI * side / kTubeSides;
-      rings[i][static_cast<std::size_t>(side)] =
-          line[i] + radius * (std::cos(angle) * u + std::sin(angle) * v);
+    across = (across - across.dot(along) * along).normalized();
+    const Eigen::Vector3d up = along.cross(across);
+    for (int side = 0; side < sides; ++side) {
+      const double angle = 2.0 * M_PI * side / sides;
+      rings[i].emplace_back(line[i] + radius * (std::cos(angle) * across + std::sin(angle) * up));
     }
   }
   return rings;
@@ -100,6 +96,17 @@ void MarkerCanvas::box(const std::string& part, const Eigen::Isometry3d& pose,
   add(part, visualization_msgs::Marker::CUBE, pose, size, color);
 }
 
+void MarkerCanvas::arrow(const std::string& part, const Eigen::Vector3d& from,
+                         const Eigen::Vector3d& to, double width, const Color& color) {
+  const double head = 3.0 * width;
+  auto& marker = add(part, visualization_msgs::Marker::ARROW, Eigen::Isometry3d::Identity(),
+                     {width, 2.4 * width, head}, color);
+  marker.points = {toPoint(from), toPoint(to)};
+  if ((to - from).norm() <= head) {
+    marker.action = visualization_msgs::Marker::DELETE;
+  }
+}
+
 void MarkerCanvas::line(const std::string& part, const std::vector<Eigen::Vector3d>& points,
                         double width, const Color& color, bool fading) {
   auto& marker = add(part, visualization_msgs::Marker::LINE_STRIP, Eigen::Isometry3d::Identity(),
@@ -118,13 +125,13 @@ void MarkerCanvas::line(const std::string& part, const std::vector<Eigen::Vector
 }
 
 void MarkerCanvas::tube(const std::string& part, const std::vector<Eigen::Vector3d>& centre_line,
-                        double radius, const Color& color) {
+                        double radius, const Color& color, int sides) {
   auto& marker = add(part, visualization_msgs::Marker::TRIANGLE_LIST, Eigen::Isometry3d::Identity(),
                      Eigen::Vector3d::Ones(), color);
-  const auto rings = tubeRings(centre_line, radius);
+  const auto rings = tubeRings(centre_line, radius, sides);
   for (std::size_t i = 0; i + 1 < rings.size(); ++i) {
-    for (std::size_t side = 0; side < kTubeSides; ++side) {
-      const std::size_t next = (side + 1) % kTubeSides;
+    for (std::size_t side = 0; side < rings[i].size(); ++side) {
+      const std::size_t next = (side + 1) % rings[i].size();
       for (const auto& corner : {rings[i][side], rings[i][next], rings[i + 1][next], rings[i][side],
                                  rings[i + 1][next], rings[i + 1][side]}) {
         marker.points.push_back(toPoint(corner));

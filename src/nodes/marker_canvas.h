@@ -41,13 +41,18 @@ class MarkerCanvas {
   void box(const std::string& part, const Eigen::Isometry3d& pose, const Eigen::Vector3d& size,
            const Color& color);
 
+  /// Arrow; `width` [m] of its shaft. One too short for its head is taken away.
+  void arrow(const std::string& part, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+             double width, const Color& color);
+
   /// Polyline; width [m]. With `fading` its beginning is transparent, its end opaque.
   void line(const std::string& part, const std::vector<Eigen::Vector3d>& points, double width,
             const Color& color, bool fading = false);
 
   /// Round tube along a smooth centre line of at least two points; radius [m].
+  /// @param sides of its cross-section
   void tube(const std::string& part, const std::vector<Eigen::Vector3d>& centre_line, double radius,
-            const Color& color);
+            const Color& color, int sides = 14);
 
   /// Lines of text, left-aligned, facing the viewer; the block is centred on `centre`.
   /// @param height [m] of a line. An empty text takes the marker away.

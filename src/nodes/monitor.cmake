@@ -2,7 +2,7 @@ add_executable(monitor_node
   ${CMAKE_CURRENT_LIST_DIR}/monitor_node.cpp
   ${CMAKE_CURRENT_LIST_DIR}/run_node.cpp
   ${CMAKE_CURRENT_LIST_DIR}/scene_parameters.cpp)
-target_link_libraries(monitor_node PRIVATE whirl_twin_transport_ros whirl_twin_transport_lcm
-  whirl_twin_core whirl_twin_ros whirl_twin_warnings)
+target_link_libraries(monitor_node PRIVATE whirl_twin_plugins whirl_twin_transport_ros
+  whirl_twin_transport_lcm whirl_twin_core whirl_twin_ros whirl_twin_warnings)
 set_target_properties(monitor_node PROPERTIES
   RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})

@@ -15,6 +15,7 @@
 #include "nodes/private_parameter.h"
 #include "nodes/run_node.h"
 #include "nodes/scene_parameters.h"
+#include "plugins/plugin_models.h"
 #include "transport/channels.h"
 #include "transport/lcm_connection.h"
 #include "transport/lcm_publisher.h"
@@ -94,6 +95,7 @@ class MonitorNode {
     } else {
       ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01));
     }
+    monitor_.tick(wallTime(), paused_);
     publish();
     // Wall time: simulated time stands still in a pause and goes back in a reset.
     if (wallTime() >= next_report_) {
@@ -125,7 +127,7 @@ class MonitorNode {
   void subscribe() {
     const Twin twin(scene_);
     for (const Twin::Member& member : twin.members()) {
-      if (member.model->rotor) {
+      if (member.dynamics->isRotor()) {
         subscribeTo<WhirlState>(member.spec.name + "/whirl");
       } else {
         subscribeTo<PendulumState>(member.spec.name + "/pendulum");
@@ -219,6 +221,7 @@ class MonitorNode {
 };
 
 void run() {
+  usePluginModels();
   MonitorNode monitor(ros::NodeHandle("/twin"));
   while (!stopRequested() && ros::ok()) {
     monitor.spinOnce();

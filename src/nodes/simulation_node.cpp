@@ -21,6 +21,7 @@
 #include "nodes/scene_parameters.h"
 #include "nodes/state_publisher.h"
 #include "nodes/twin_services.h"
+#include "plugins/plugin_models.h"
 #include "realtime/fixed_rate_loop.h"
 #include "scene/live_twin.h"
 #include "transport/channels.h"
@@ -186,6 +187,7 @@ class Publisher {
 void run() {
   ros::NodeHandle node("/twin");
   ros::NodeHandle private_node("~");
+  usePluginModels();
   const Scene scene = sceneFromParameters(node, "scene");
   const Settings settings = readSettings(scene);
 

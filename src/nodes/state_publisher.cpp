@@ -22,7 +22,7 @@ StatePublisher::StatePublisher(const Twin& twin, ros::NodeHandle node, const std
   for (const Twin::Member& member : twin.members()) {
     const std::string& name = member.spec.name;
     Topics topics;
-    topics.state = member.model->rotor ? node.advertise<WhirlState>(name + "/whirl", kQueue)
+    topics.state = member.dynamics->isRotor() ? node.advertise<WhirlState>(name + "/whirl", kQueue)
                                        : node.advertise<PendulumState>(name + "/pendulum", kQueue);
     topics.joint_states = node.advertise<sensor_msgs::JointState>(name + "/joint_states", kQueue);
     systems_.push_back(topics);

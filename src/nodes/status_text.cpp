@@ -13,7 +13,6 @@ namespace {
 constexpr double kDegrees = 180.0 / M_PI;
 constexpr double kRpm = 30.0 / M_PI;
 
-// Coordinates that are angles are named so by every model; all others are lengths.
 bool isAngle(const std::string& coordinate) {
   for (const char* name : {"theta", "phi", "alpha", "beta", "spin"}) {
     if (coordinate.rfind(name, 0) == 0) {
@@ -42,14 +41,28 @@ std::string whirlText(const WhirlState& state) {
   return text;
 }
 
-std::string coordinateText(const std::vector<std::string>& name, const std::vector<double>& value) {
+std::vector<CoordinateInfo> coordinatesByName(const std::vector<std::string>& name) {
+  std::vector<CoordinateInfo> coordinates;
+  for (const std::string& n : name) {
+    coordinates.push_back({n, isAngle(n) ? "rad" : "m"});
+  }
+  return coordinates;
+}
+
+std::string coordinateText(const std::vector<CoordinateInfo>& coordinates,
+                           const std::vector<double>& value) {
   std::string text;
-  for (std::size_t i = 0; i < std::min(name.size(), value.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(coordinates.size(), value.size()); ++i) {
+    const CoordinateInfo& c = coordinates[i];
     text += i == 0 ? "" : ", ";
-    text += isAngle(name[i]) ? fmt::format("{} {:.1f} deg", name[i], wrappedDegrees(value[i]))
-                             : fmt::format("{} {:.4g} m", name[i], value[i]);
+    text += c.isAngle() ? fmt::format("{} {:.1f} deg", c.name, wrappedDegrees(value[i]))
+                        : fmt::format("{} {:.4g} m", c.name, value[i]);
   }
   return text;
+}
+
+std::string energyText(const PendulumState& state) {
+  return fmt::format("kinetic {:.3g} J, potential {:.3g} J", state.kinetic, state.potential);
 }
 
 int nearestCriticalSpeed(const StabilityMargin& margin) {

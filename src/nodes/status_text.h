@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "mechanics/dynamics.h"
 #include "whirl_twin/Alert.h"
 #include "whirl_twin/PendulumState.h"
 #include "whirl_twin/StabilityMargin.h"
@@ -21,8 +22,15 @@ std::string speedText(double speed);
 /// "whirl 123.4 um, lag 87.3 deg"; without the lag while the phase is not valid.
 std::string whirlText(const WhirlState& state);
 
-/// "theta 12.3 deg, theta2 -4.0 deg"; sliding coordinates in metres.
-std::string coordinateText(const std::vector<std::string>& name, const std::vector<double>& value);
+/// Coordinates of which only the names are known: an angle is named so, all others are lengths.
+std::vector<CoordinateInfo> coordinatesByName(const std::vector<std::string>& name);
+
+/// "theta 12.3 deg, x -4e-05 m".
+std::string coordinateText(const std::vector<CoordinateInfo>& coordinates,
+                           const std::vector<double>& value);
+
+/// "kinetic 0.12 J, potential 0.5 J".
+std::string energyText(const PendulumState& state);
 
 /// Index of the critical speed nearest to the present speed; -1 when there is none.
 int nearestCriticalSpeed(const StabilityMargin& margin);

@@ -1,5 +1,5 @@
 // The picture of one system: what every display of a kind of system has to offer. A new kind of
-// system is a new class beside RotorDisplay and PendulumDisplay.
+// system is a new class beside RotorDisplay and MechanismDisplay.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -27,7 +27,8 @@ std::string readoutText(const std::string& system, const SystemReadout& readout)
     parts.push_back(whirlText(*readout.whirl));
   }
   if (readout.pendulum) {
-    parts.push_back(coordinateText(readout.pendulum->name, readout.pendulum->angle));
+    parts.push_back(
+        coordinateText(coordinatesByName(readout.pendulum->name), readout.pendulum->angle));
   }
   if (readout.margin) {
     const int nearest = nearestCriticalSpeed(*readout.margin);

@@ -1,7 +1,8 @@
 // visualization_node: states of the twin to rviz markers and tf.
 //
 // Publishes /twin/markers (visualization_msgs/MarkerArray, frame `world`) and the tf frames
-// world -> <system> -> <system>_disc or <system>_bob, as drawn. Private parameters:
+// world -> <system> -> <system>_disc or <system>_body, as drawn. The models are those of the scene
+// under /twin/scene, if there is one. Private parameters:
 //   ~rate         [Hz]     frames a second, > 0 (default 30)
 //   ~whirl_scale  [-]      exaggeration of the whirl; 0 (default): a round number chosen to fit
 //   ~trail_turns  [turns]  length of the orbit's trail, > 0 (default 3)
@@ -15,9 +16,11 @@
 #include <memory>
 #include <stdexcept>
 
-#include "nodes/pendulum_display.h"
+#include "nodes/mechanism_display.h"
 #include "nodes/rotor_display.h"
+#include "nodes/scene_dynamics.h"
 #include "nodes/twin_listener.h"
+#include "plugins/plugin_models.h"
 
 namespace whirl_twin {
 namespace {
@@ -71,8 +74,8 @@ class VisualizationNode {
       rotors_.try_emplace(system, system, whirl_scale_, trail_turns_).first->second.update(state);
     });
     listener_.onPendulum([this](const std::string& system, const PendulumState& state) {
-      auto& pendulum = pendulumOf(system);
-      pendulum.update(state, listener_.drive(pendulum.geometry().drive));
+      const DriveState* drive = listener_.drive(scene_.driveOf(system));
+      mechanismOf(system).update(state, scene_.shaft(system, state.time, drive));
     });
     discover();
     // Wall timers, so that the picture lives on while simulated time stands still.
@@ -83,20 +86,11 @@ class VisualizationNode {
   }
 
  private:
-  PendulumDisplay& pendulumOf(const std::string& system) {
-    const auto found = pendulums_.find(system);
-    if (found != pendulums_.end()) {
-      return found->second;
-    }
-    auto& pendulum = pendulums_.try_emplace(system, system).first->second;
-    pendulum.setGeometry(readGeometry(system));
-    return pendulum;
-  }
-
-  static PendulumGeometry readGeometry(const std::string& system) {
-    XmlRpc::XmlRpcValue description;
-    ros::param::get(std::string(kTwinNamespace) + "/scene/systems/" + system, description);
-    return pendulumGeometry(description);
+  MechanismDisplay& mechanismOf(const std::string& system) {
+    const auto found = mechanisms_.find(system);
+    return found != mechanisms_.end()
+               ? found->second
+               : mechanisms_.try_emplace(system, system, scene_.dynamics(system)).first->second;
   }
 
   void discover() {
@@ -107,11 +101,11 @@ class VisualizationNode {
     for (auto it = rotors_.begin(); it != rotors_.end();) {
       it = gone(*it) ? rotors_.erase(it) : std::next(it);
     }
-    for (auto it = pendulums_.begin(); it != pendulums_.end();) {
-      it = gone(*it) ? pendulums_.erase(it) : std::next(it);
+    if (scene_.refresh()) {
+      mechanisms_.clear();
     }
-    for (auto& [name, pendulum] : pendulums_) {
-      pendulum.setGeometry(readGeometry(name));
+    for (auto it = mechanisms_.begin(); it != mechanisms_.end();) {
+      it = gone(*it) ? mechanisms_.erase(it) : std::next(it);
     }
   }
 
@@ -120,8 +114,8 @@ class VisualizationNode {
     for (const auto& [name, rotor] : rotors_) {
       displays.emplace_back(name, &rotor);
     }
-    for (const auto& [name, pendulum] : pendulums_) {
-      displays.emplace_back(name, &pendulum);
+    for (const auto& [name, mechanism] : mechanisms_) {
+      displays.emplace_back(name, &mechanism);
     }
     visualization_msgs::MarkerArray markers;
     std::vector<std::string> names;
@@ -157,7 +151,8 @@ class VisualizationNode {
   double rate_;  // Hz
   TwinListener listener_;
   std::map<std::string, RotorDisplay> rotors_;
-  std::map<std::string, PendulumDisplay> pendulums_;
+  SceneDynamics scene_;
+  std::map<std::string, MechanismDisplay> mechanisms_;
   std::vector<std::string> drawn_;  // systems in the order of the last frame
   ros::Publisher publisher_;
   tf2_ros::TransformBroadcaster broadcaster_;
@@ -173,6 +168,7 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "visualization_node");
   ros::NodeHandle node;  // keeps ROS up while the parameters are read
   try {
+    whirl_twin::usePluginModels();
     whirl_twin::VisualizationNode visualization;
     ros::spin();
   } catch (const std::invalid_argument& error) {

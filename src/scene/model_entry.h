@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 #include <type_traits>
+#include <utility>
 
 #include "integration/exponential.h"
 #include "integration/gauss_legendre_6.h"
@@ -33,7 +35,7 @@ struct HasGravity<Model, std::void_t<decltype(&Model::gravity)>> : std::true_typ
 template <class Model>
 Model makeModel(const ParameterValues& values, double gravity) {
   Model model{};
-  for (const Parameter<Model>& p : Model::parameters()) {
+  for (const auto& p : Model::parameters()) {
     model.*p.member = values.at(p.name);
   }
   if constexpr (HasGravity<Model>::value) {
@@ -63,12 +65,36 @@ std::vector<std::string> methodNames(MethodList<Methods...>) {
 }
 
 template <class Model>
+ModelSetup setUp(const ParameterValues& values, double gravity) {
+  const Model model = makeModel<Model>(values, gravity);
+  return {std::make_shared<const LagrangianDynamics<Model>>(model),
+          methodNames(MethodsFor<Model>{}),
+          [model](const std::string& integrator, const Drive& drive, double step, int substeps) {
+            return makeSystem(MethodsFor<Model>{}, model, integrator, drive, step, substeps);
+          }};
+}
+
+template <class Model>
+ModelVariant variant(const std::string& when) {
+  ModelVariant v;
+  v.when = when;
+  for (const Coordinate& c : Model::kCoordinates) {
+    v.coordinates.push_back({c.name, c.unit});
+  }
+  v.linear = Model::kLinear;
+  v.rotor = RotorTraits<Model>::kRotor;
+  v.integrators = methodNames(MethodsFor<Model>{});
+  return v;
+}
+
+/// A model of one form.
+template <class Model>
 ModelInfo modelInfo() {
   ModelInfo info;
   info.name = Model::kName;
   info.summary = Model::kSummary;
-  info.coordinates = {Model::kCoordinates.begin(), Model::kCoordinates.end()};
-  for (const Parameter<Model>& p : Model::parameters()) {
+  info.variants = {variant<Model>("")};
+  for (const auto& p : Model::parameters()) {
     ParameterInfo parameter{p.name, p.unit, p.range, p.meaning, std::nullopt, ""};
     if (p.fallback_parameter != nullptr) {
       parameter.fallback_parameter = p.fallback_parameter;
@@ -77,19 +103,37 @@ ModelInfo modelInfo() {
     }
     info.parameters.push_back(parameter);
   }
-  info.linear = Model::kLinear;
   info.has_shaft = Model::kHasShaft;
-  info.rotor = RotorTraits<Model>::kRotor;
-  info.integrators = methodNames(MethodsFor<Model>{});
-  info.dynamics = [](const ParameterValues& values, double gravity) {
-    return std::make_shared<const LagrangianDynamics<Model>>(makeModel<Model>(values, gravity));
-  };
-  info.system = [](const ParameterValues& values, double gravity, const std::string& integrator,
-                   const Drive& drive, double step, int substeps) {
-    return makeSystem(MethodsFor<Model>{}, makeModel<Model>(values, gravity), integrator, drive,
-                      step, substeps);
+  info.setUp = [](const ParameterValues& values, const Settings&, double gravity) {
+    return setUp<Model>(values, gravity);
   };
   return info;
+}
+
+/// A further form of a model with the same parameters, taken where `chosen` says so; `when` is said
+/// to users.
+template <class Model>
+void addVariant(ModelInfo& info, const std::string& when,
+                std::function<bool(const ParameterValues&, const Settings&)> chosen) {
+  info.variants.push_back(variant<Model>(when));
+  info.setUp = [plain = info.setUp, chosen = std::move(chosen)](
+                   const ParameterValues& values, const Settings& settings, double gravity) {
+    return chosen(values, settings) ? setUp<Model>(values, gravity)
+                                    : plain(values, settings, gravity);
+  };
+}
+
+/// The same, taken where a choice of the scene has the second of its two values.
+template <class Model>
+void addVariant(ModelInfo& info, const std::string& setting, const std::string& plain_value,
+                const std::string& value, const std::string& meaning) {
+  info.settings.push_back(
+      {setting, SettingKind::kChoice, "", meaning, {plain_value, value}, false, {}, {}});
+  addVariant<Model>(info, setting + ": " + value,
+                    [setting, value](const ParameterValues&, const Settings& settings) {
+                      const auto found = settings.choices.find(setting);
+                      return found != settings.choices.end() && found->second == value;
+                    });
 }
 
 }  // namespace whirl_twin

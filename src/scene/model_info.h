@@ -5,12 +5,15 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "control/drive.h"
 #include "mechanics/dynamics.h"
 #include "mechanics/model_description.h"
+#include "scene/settings.h"
 #include "scene/system.h"
 
 namespace whirl_twin {
@@ -26,27 +29,50 @@ struct ParameterInfo {
   std::string fallback_parameter;  ///< default: the value of this one
 };
 
-struct ModelInfo {
-  std::string name;
-  std::string summary;
-  std::vector<Coordinate> coordinates;
-  std::vector<ParameterInfo> parameters;
+/// One form of a model: a choice of coordinates, of exactness, of symmetry.
+struct ModelVariant {
+  std::string when;                         ///< "coordinates: relative"; "" for the plain form
+  std::vector<CoordinateInfo> coordinates;  ///< empty: as many as the scene gives
   bool linear = false;
-  bool has_shaft = false;  ///< a scene gives it a drive or a constant speed
-  bool rotor = false;      ///< x, y of a whirling disc: published as WhirlState
+  bool rotor = false;  ///< x, y of a whirling disc: published as WhirlState
   std::vector<std::string> integrators;
+};
 
-  /// The model with these parameters (all of `parameters`), in a field of gravity [m/s^2].
-  std::function<std::shared_ptr<const Dynamics>(const ParameterValues&, double gravity)> dynamics;
-  /// The same, stepping with one of `integrators`: step [s] in `substeps` parts, on a drive that
-  /// outlives it.
-  std::function<std::unique_ptr<System>(const ParameterValues&, double gravity,
-                                        const std::string& integrator, const Drive&, double step,
+/// A model with its parameters, ready to be analysed and stepped.
+struct ModelSetup {
+  std::shared_ptr<const Dynamics> dynamics;
+  std::vector<std::string> integrators;  ///< that it can step with
+  /// Steps with one of `integrators`: step [s] in `substeps` parts, on a drive that outlives it.
+  std::function<std::unique_ptr<System>(const std::string& integrator, const Drive&, double step,
                                         int substeps)>
       system;
 };
 
-/// "> 0", ">= 0" or "finite".
+/// Parameters that are each in range but do not fit together.
+class SetupError : public std::invalid_argument {
+ public:
+  SetupError(std::string parameter, const std::string& what)
+      : std::invalid_argument(what), parameter_(std::move(parameter)) {}
+  const std::string& parameter() const { return parameter_; }
+
+ private:
+  std::string parameter_;
+};
+
+struct ModelInfo {
+  std::string name;
+  std::string summary;
+  std::vector<ParameterInfo> parameters;
+  std::vector<SettingInfo> settings;
+  std::vector<ModelVariant> variants;  ///< the plain form first
+  bool has_shaft = false;              ///< a scene gives it a drive or a constant speed
+
+  /// The model with these parameters (all of `parameters`) and settings, in a field of gravity
+  /// [m/s^2]. Throws SetupError.
+  std::function<ModelSetup(const ParameterValues&, const Settings&, double gravity)> setUp;
+};
+
+/// "> 0", ">= 0", "a whole number > 0" or "finite".
 const char* describe(Range range);
 
 }  // namespace whirl_twin

@@ -1,10 +1,60 @@
 #include "scene/model_registry.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "scene/models/models.h"
 
 namespace whirl_twin {
+
+namespace {
+
+struct ModelSource {
+  std::function<std::vector<ModelInfo>()> models;
+  std::function<void(const std::string&)> warn;
+};
+
+ModelSource& modelSource() {
+  static ModelSource source;
+  return source;
+}
+
+const ModelInfo* find(const std::vector<ModelInfo>& list, const std::string& name) {
+  const auto found = std::find_if(list.begin(), list.end(),
+                                  [&](const ModelInfo& model) { return model.name == name; });
+  return found == list.end() ? nullptr : &*found;
+}
+
+const std::vector<ModelInfo>& builtInModels() {
+  static const std::vector<ModelInfo> built_in{cantileverBeamInfo(),   cartPendulumInfo(),
+                                               doublePendulumInfo(),   frictionOscillatorInfo(),
+                                               governorInfo(),         hingedBeamInfo(),
+                                               jeffcottRotorInfo(),    linearSystemInfo(),
+                                               rodSliderInfo(),        rollingDiscInfo(),
+                                               rotatingPendulumInfo(), slidingMassFlywheelInfo(),
+                                               spinningPendulumInfo(), sprungInvertedPendulumInfo(),
+                                               twoBarLinkageInfo()};
+  return built_in;
+}
+
+/// Why a model of the source cannot join `list`; "" if it can.
+std::string objection(const ModelInfo& model, const std::vector<ModelInfo>& list) {
+  if (model.name.empty() || model.variants.empty() || !model.setUp) {
+    return "model '" + model.name +
+           "' is left out: it has no name, no form or nothing to set it up";
+  }
+  if (find(list, model.name) != nullptr) {
+    return "model '" + model.name + "' is left out: there is a model of that name already";
+  }
+  return "";
+}
+
+}  // namespace
+
+void setModelSource(std::function<std::vector<ModelInfo>()> source,
+                    std::function<void(const std::string&)> warn) {
+  modelSource() = {std::move(source), std::move(warn)};
+}
 
 const char* describe(Range range) {
   switch (range) {
@@ -12,6 +62,8 @@ const char* describe(Range range) {
       return "> 0";
     case Range::kNotNegative:
       return ">= 0";
+    case Range::kCount:
+      return "a whole number > 0";
     case Range::kAny:
       break;
   }
@@ -20,11 +72,16 @@ const char* describe(Range range) {
 
 const std::vector<ModelInfo>& models() {
   static const std::vector<ModelInfo> all = [] {
-    std::vector<ModelInfo> list{cartPendulumInfo(),     doublePendulumInfo(),
-                                jeffcottRotorInfo(),    rodSliderInfo(),
-                                rollingDiscInfo(),      rotatingPendulumInfo(),
-                                spinningPendulumInfo(), sprungInvertedPendulumInfo(),
-                                twoBarLinkageInfo()};
+    std::vector<ModelInfo> list = builtInModels();
+    const ModelSource& source = modelSource();
+    for (ModelInfo& model : source.models ? source.models() : std::vector<ModelInfo>()) {
+      const std::string why = objection(model, list);
+      if (why.empty()) {
+        list.push_back(std::move(model));
+      } else {
+        source.warn(why);
+      }
+    }
     std::sort(list.begin(), list.end(),
               [](const ModelInfo& a, const ModelInfo& b) { return a.name < b.name; });
     return list;
@@ -32,11 +89,17 @@ const std::vector<ModelInfo>& models() {
   return all;
 }
 
+std::vector<std::string> modelNames() {
+  std::vector<std::string> names;
+  for (const ModelInfo& model : models()) {
+    names.push_back(model.name);
+  }
+  return names;
+}
+
 const ModelInfo* findModel(const std::string& name) {
-  const auto& all = models();
-  const auto found = std::find_if(all.begin(), all.end(),
-                                  [&](const ModelInfo& model) { return model.name == name; });
-  return found == all.end() ? nullptr : &*found;
+  const ModelInfo* built_in = find(builtInModels(), name);
+  return built_in != nullptr ? built_in : find(models(), name);
 }
 
 const std::vector<std::string>& integratorNames() {
@@ -46,30 +109,32 @@ const std::vector<std::string>& integratorNames() {
   return names;
 }
 
-IntegratorChoice chooseIntegrator(const ModelInfo& model, const Dynamics& dynamics,
-                                  bool speed_changes) {
-  if (model.linear && !speed_changes) {
+IntegratorChoice chooseIntegrator(const Dynamics& dynamics, bool speed_changes) {
+  if (dynamics.linear() && !dynamics.hasShaft()) {
+    return {"exponential", "linear: the exact step"};
+  }
+  if (dynamics.linear() && !speed_changes) {
     return {"exponential", "linear at constant speed: the exact step"};
   }
-  if (model.linear && !dynamics.speedDependent()) {
+  if (dynamics.linear() && !dynamics.speedDependent()) {
     return {"exponential", "linear with matrices that do not change with speed: exact free motion"};
   }
-  if (model.linear) {
+  if (dynamics.linear()) {
     return {"gauss_legendre_6", "its matrices change with the drive's speed"};
   }
   return {"gauss_legendre_6", "nonlinear: order 6, symplectic, stable at any step"};
 }
 
-std::string integratorObjection(const ModelInfo& model, const Dynamics& dynamics, bool on_drive,
+std::string integratorObjection(const ModelSetup& setup, bool on_drive,
                                 const std::string& integrator) {
   if (integrator != "exponential") {
     return "";
   }
-  const auto& suited = model.integrators;
+  const auto& suited = setup.integrators;
   if (std::find(suited.begin(), suited.end(), integrator) == suited.end()) {
-    return "exponential is for linear rotors; " + model.name + " is not linear";
+    return "exponential is for linear systems; " + setup.dynamics->model() + " is not linear";
   }
-  if (on_drive && dynamics.speedDependent()) {
+  if (on_drive && setup.dynamics->speedDependent()) {
     return "exponential needs matrices that do not change with speed: rotating damping on a "
            "drive excludes it; gauss_legendre_6 or runge_kutta_4 will do";
   }

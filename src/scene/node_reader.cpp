@@ -168,7 +168,17 @@ double MapReader::number(const std::string& name, Range range, const std::string
   return checkedNumber(
       name, expected,
       [range](double x) {
-        return range == Range::kAny || x > 0.0 || (range == Range::kNotNegative && x == 0.0);
+        switch (range) {
+          case Range::kPositive:
+            return x > 0.0;
+          case Range::kNotNegative:
+            return x >= 0.0;
+          case Range::kCount:
+            return x >= 1.0 && x <= 1.0e6 && x == std::floor(x);
+          case Range::kAny:
+            break;
+        }
+        return true;
       },
       fallback);
 }

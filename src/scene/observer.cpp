@@ -77,7 +77,7 @@ StepStatus Observer::status(std::size_t system) const {
 }
 
 bool Observer::isRotor(std::size_t system) const {
-  return twin_.members()[system].model->rotor;
+  return twin_.members()[system].dynamics->isRotor();
 }
 
 const double* Observer::coordinates(std::size_t system) const {
@@ -121,9 +121,10 @@ void Observer::trackEnergy(std::size_t system) {
 
 std::string Observer::describeStop(std::size_t system) const {
   const Twin::Member& member = twin_.members()[system];
+  const std::vector<CoordinateInfo> coordinates_info = member.dynamics->coordinates();
   std::string values;
   for (std::size_t i = 0; i < member.spec.q.size(); ++i) {
-    const Coordinate& c = member.model->coordinates[i];
+    const CoordinateInfo& c = coordinates_info[i];
     values += fmt::format("{}{} = {:.6g} {}, {}_rate = {:.6g} {}/s", i == 0 ? "" : ", ", c.name,
                           coordinates(system)[i], c.unit, c.name, rates(system)[i], c.unit);
   }
@@ -202,7 +203,7 @@ state::PendulumState Observer::pendulum(std::size_t system) const {
   state::PendulumState s;
   s.at = instant();
   s.system = member.spec.name;
-  for (const Coordinate& c : member.model->coordinates) {
+  for (const CoordinateInfo& c : member.dynamics->coordinates()) {
     s.name.emplace_back(c.name);
   }
   s.angle.assign(coordinates(system), coordinates(system) + n);

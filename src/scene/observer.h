@@ -42,6 +42,8 @@ class Observer {
   /// Energy gained beyond the work done, relative to the largest energy in play so far.
   double energyResidual(std::size_t system) const;
   Energies energies(std::size_t system) const;
+  /// Time, and the motion of the system's shaft, at the newest record.
+  Moment<double> moment(std::size_t system) const;
 
  private:
   struct Track {
@@ -57,7 +59,6 @@ class Observer {
     std::string stop_reason;
   };
 
-  Moment<double> moment(std::size_t system) const;
   const double* driveRecord(std::size_t drive) const;
   void restart(std::size_t system);
   void trackPhase(std::size_t system);

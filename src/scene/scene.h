@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "control/speed_profile.h"
+#include "scene/settings.h"
 
 namespace whirl_twin {
 
@@ -29,6 +30,7 @@ struct SystemSpec {
   double horizon = 10.0;      ///< [s], for auto
   int substeps = 1;
   std::map<std::string, double> parameters;  ///< complete: defaults filled in
+  Settings settings;                         ///< parameters that are not one number
   std::vector<double> q;                     ///< initial coordinates, [rad] or [m]
   std::vector<double> v;                     ///< initial rates, [rad/s] or [m/s]
 };

@@ -10,8 +10,10 @@
 #include <iterator>
 #include <set>
 
+#include "analysis/mass_matrix.h"
 #include "scene/model_registry.h"
 #include "scene/node_reader.h"
+#include "scene/parameter_reader.h"
 
 namespace whirl_twin {
 
@@ -117,30 +119,6 @@ DriveSpec readDrive(const YAML::Node& node, const std::string& key, const std::s
   return drive;
 }
 
-void readParameters(const MapReader& system, const ModelInfo& model, SystemSpec& spec,
-                    Complaints& complaints) {
-  std::vector<std::string> known;
-  for (const ParameterInfo& parameter : model.parameters) {
-    known.push_back(parameter.name);
-  }
-  if (model.has_shaft) {
-    known.push_back("speed");
-  }
-  const MapReader map(
-      system.has("parameters") ? system.at("parameters") : YAML::Node(YAML::NodeType::Map),
-      system.key("parameters"), known, "parameter of " + model.name, complaints);
-  for (const ParameterInfo& p : model.parameters) {
-    std::optional<double> fallback = p.fallback;
-    if (!p.fallback_parameter.empty()) {
-      fallback = spec.parameters.at(p.fallback_parameter);
-    }
-    spec.parameters[p.name] = map.number(p.name, p.range, p.unit, fallback);
-  }
-  if (map.has("speed")) {
-    spec.speed = map.numberBetween("speed", -kLargestSpeed, kLargestSpeed, "rad/s", std::nullopt);
-  }
-}
-
 void readShaft(const MapReader& system, const ModelInfo& model, const Scene& scene,
                SystemSpec& spec, Complaints& complaints) {
   if (system.has("drive")) {
@@ -166,35 +144,48 @@ void readShaft(const MapReader& system, const ModelInfo& model, const Scene& sce
   }
 }
 
-void readInitial(const MapReader& system, const ModelInfo& model, SystemSpec& spec,
+void readInitial(const MapReader& system, const Dynamics& dynamics, SystemSpec& spec,
                  Complaints& complaints) {
+  const std::vector<CoordinateInfo> coordinates = dynamics.coordinates();
   std::vector<std::string> known;
-  for (const Coordinate& c : model.coordinates) {
+  for (const CoordinateInfo& c : coordinates) {
     known.push_back(c.name);
-    known.push_back(std::string(c.name) + "_rate");
+    known.push_back(c.name + "_rate");
   }
   const MapReader map(
       system.has("initial") ? system.at("initial") : YAML::Node(YAML::NodeType::Map),
-      system.key("initial"), known, "coordinate of " + model.name, complaints);
-  for (const Coordinate& c : model.coordinates) {
+      system.key("initial"), known, "coordinate of " + spec.model, complaints);
+  for (const CoordinateInfo& c : coordinates) {
     spec.q.push_back(map.number(c.name, Range::kAny, c.unit, 0.0));
-    spec.v.push_back(
-        map.number(std::string(c.name) + "_rate", Range::kAny, std::string(c.unit) + "/s", 0.0));
+    spec.v.push_back(map.number(c.name + "_rate", Range::kAny, c.unit + "/s", 0.0));
   }
 }
 
-void readIntegrator(const MapReader& system, const ModelInfo& model, const Scene& scene,
-                    SystemSpec& spec, Complaints& complaints) {
+void readIntegrator(const MapReader& system, const ModelSetup& setup, SystemSpec& spec,
+                    Complaints& complaints) {
   spec.integrator =
       system.choice("integrator", integratorNames(), "the name of an integrator", "auto");
   spec.tolerance = system.number("tolerance", Range::kPositive, "-", spec.tolerance);
   spec.horizon = system.number("horizon", Range::kPositive, "s", spec.horizon);
   spec.substeps = system.integer("substeps", 1, 1000000, 1);
-  const std::string objection =
-      integratorObjection(model, *model.dynamics(spec.parameters, scene.gravity),
-                          spec.drive.has_value(), spec.integrator);
+  const std::string objection = integratorObjection(setup, spec.drive.has_value(), spec.integrator);
   if (!objection.empty()) {
     complaints.add(system.key("integrator"), objection);
+  }
+}
+
+/// A mass matrix that is singular where the motion starts leaves the accelerations undefined.
+void checkMass(const MapReader& system, const Dynamics& dynamics, const SystemSpec& spec,
+               const Scene& scene, Complaints& complaints) {
+  const auto n = static_cast<Eigen::Index>(spec.q.size());
+  const Eigen::VectorXd q = Eigen::Map<const Eigen::VectorXd>(spec.q.data(), n);
+  const Eigen::VectorXd v = Eigen::Map<const Eigen::VectorXd>(spec.v.data(), n);
+  const Moment<double> at{static_cast<double>(scene.time) * 1.0e-9, 0.0, spec.speed.value_or(0.0),
+                          0.0};
+  if (!(massRegularity(dynamics, q, v, at) > kSingularMass)) {
+    const std::string reason = dynamics.singularMass();
+    complaints.add(system.key("initial"), fmt::format("the mass matrix is singular here{}{}",
+                                                      reason.empty() ? "" : ": ", reason));
   }
 }
 
@@ -209,23 +200,33 @@ SystemSpec readSystem(const YAML::Node& node, const std::string& key, const std:
   if (!map.usable()) {
     return spec;
   }
-  std::vector<std::string> names;
-  for (const ModelInfo& m : models()) {
-    names.push_back(m.name);
-  }
   if (!map.has("model")) {
     complaints.add(map.key("model"), "missing; must be the name of a model");
     return spec;
   }
-  spec.model = map.choice("model", names, "the name of a model", "");
-  const ModelInfo* model = findModel(spec.model);
-  if (model == nullptr) {
+  const YAML::Node named = map.at("model");
+  const ModelInfo* model = named.IsScalar() ? findModel(named.Scalar()) : nullptr;
+  if (model == nullptr) {  // the choice says what there is
+    static_cast<void>(map.choice("model", modelNames(), "the name of a model", ""));
     return spec;
   }
+  spec.model = model->name;
+  const std::size_t before = complaints.all().size();
   readParameters(map, *model, spec, complaints);
+  const bool fit = complaints.all().size() == before;
   readShaft(map, *model, scene, spec, complaints);
-  readInitial(map, *model, spec, complaints);
-  readIntegrator(map, *model, scene, spec, complaints);
+  try {
+    const ModelSetup setup = model->setUp(spec.parameters, spec.settings, scene.gravity);
+    readInitial(map, *setup.dynamics, spec, complaints);
+    readIntegrator(map, setup, spec, complaints);
+    if (fit) {
+      checkMass(map, *setup.dynamics, spec, scene, complaints);
+    }
+  } catch (const SetupError& error) {
+    if (fit) {  // otherwise it only repeats what was wrong with the parameters
+      complaints.add(map.key("parameters." + error.parameter()), error.what());
+    }
+  }
   return spec;
 }
 

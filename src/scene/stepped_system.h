@@ -49,8 +49,13 @@ struct DrivenEquation {
     const auto inverse = l.mass.inverse().eval();
     return {-inverse * (l.stiffness + l.circulatory), -inverse * (l.damping + l.gyroscopic)};
   }
+  /// Is the forcing that of a shaft at one speed? A load that alternates by itself is not.
   bool constantSpeed(double duration) const {
-    return !Model::kHasShaft || drive.constantFor(duration);
+    if constexpr (HasAlternatingLoads<Model>::value) {
+      return !model.loadAlternates();
+    } else {
+      return !Model::kHasShaft || drive.constantFor(duration);
+    }
   }
 };
 

@@ -30,7 +30,9 @@ Twin::Twin(const Scene& scene) : scene_(scene) {
     if (model == nullptr) {
       throw std::invalid_argument("no model named " + spec.model);
     }
-    Member member{spec, model, model->dynamics(spec.parameters, scene.gravity), "", "", 0};
+    Member member{spec, model, model->setUp(spec.parameters, spec.settings, scene.gravity), {}, "",
+                  "",   0};
+    member.dynamics = member.setup.dynamics;
     if (spec.drive) {
       member.drive = driveIndex(scene, *spec.drive);
     } else {
@@ -39,13 +41,12 @@ Twin::Twin(const Scene& scene) : scene_(scene) {
     }
     member.integrator = spec.integrator;
     if (spec.integrator == "auto") {
-      const IntegratorChoice choice =
-          chooseIntegrator(*model, *member.dynamics, spec.drive.has_value());
+      const IntegratorChoice choice = chooseIntegrator(*member.dynamics, spec.drive.has_value());
       member.integrator = choice.integrator;
       member.integrator_reason = choice.reason;
     }
-    systems_.push_back(model->system(spec.parameters, scene.gravity, member.integrator,
-                                     drives_[member.drive], scene.stepSeconds(), spec.substeps));
+    systems_.push_back(member.setup.system(member.integrator, drives_[member.drive],
+                                           scene.stepSeconds(), spec.substeps));
     members_.push_back(std::move(member));
   }
   status_.resize(systems_.size());

@@ -21,10 +21,11 @@ class Twin {
   struct Member {
     SystemSpec spec;
     const ModelInfo* model;
-    std::shared_ptr<const Dynamics> dynamics;
-    std::string integrator;         ///< the method it steps with
-    std::string integrator_reason;  ///< why, where `auto` chose
-    std::size_t drive;              ///< of drive(); a system at constant speed has its own
+    ModelSetup setup;
+    std::shared_ptr<const Dynamics> dynamics;  ///< of the setup
+    std::string integrator;                    ///< the method it steps with
+    std::string integrator_reason;             ///< why, where `auto` chose
+    std::size_t drive;  ///< of drive(); a system at constant speed has its own
   };
 
   /// Builds what the scene names, at its start. Throws std::invalid_argument for a scene that

@@ -4,6 +4,8 @@
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
+#include "tools/method_analysis.h"
+#include "tools/shipped_scenes.h"
 #include "tools/system_analysis.h"
 
 namespace whirl_twin {
@@ -31,7 +33,7 @@ struct Request {
 };
 
 int analyzeScene(const Request& request) {
-  const Scene scene = readSceneFile(request.scene);
+  const Scene scene = readSceneFile(scenePath(request.scene));
   const auto systems = selectedSystems(scene, request.system);
   const Twin twin(scene);
   Json all;
@@ -39,8 +41,10 @@ int analyzeScene(const Request& request) {
   std::string report;
   for (const std::size_t i : systems) {
     const SystemAnalysis analysis = analyze(twin, i);
+    const MethodAnalysis methods = analyzeMethods(twin.members()[i], analysis);
     all["systems"][analysis.name] = json(analysis);
-    report += (report.empty() ? "" : "\n") + text(analysis);
+    all["systems"][analysis.name]["methods"] = json(methods, analysis);
+    report += (report.empty() ? "" : "\n") + text(analysis) + text(methods, analysis);
   }
   if (request.json) {
     printJson(all);
@@ -55,7 +59,11 @@ int analyzeScene(const Request& request) {
 void addAnalyzeCommand(CLI::App& twin, int& status) {
   CLI::App* command = twin.add_subcommand("analyze", kDescription);
   const auto request = std::make_shared<Request>();
-  command->add_option("SCENE", request->scene, "scene file (YAML)")->required()->type_name("");
+  command
+      ->add_option("SCENE", request->scene,
+                   "scene file (YAML), or the name of a scene of the package")
+      ->required()
+      ->type_name("");
   command->add_option("--system", request->system, "show this system only")->type_name("NAME");
   command->add_flag("--json", request->json, "print one JSON object");
   command->footer(kFooter);

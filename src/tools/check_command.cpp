@@ -5,6 +5,7 @@
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/scene_check.h"
+#include "tools/shipped_scenes.h"
 
 namespace whirl_twin {
 
@@ -29,7 +30,7 @@ struct Request {
 };
 
 int check(const Request& request) {
-  const Scene scene = readSceneFile(request.scene);
+  const Scene scene = readSceneFile(scenePath(request.scene));
   const SceneCheck result = checkScene(scene, selectedSystems(scene, request.system));
   if (request.json) {
     printJson(json(result));
@@ -44,7 +45,11 @@ int check(const Request& request) {
 void addCheckCommand(CLI::App& twin, int& status) {
   CLI::App* command = twin.add_subcommand("check", kDescription);
   const auto request = std::make_shared<Request>();
-  command->add_option("SCENE", request->scene, "scene file (YAML)")->required()->type_name("");
+  command
+      ->add_option("SCENE", request->scene,
+                   "scene file (YAML), or the name of a scene of the package")
+      ->required()
+      ->type_name("");
   command->add_option("--system", request->system, "show this system only")->type_name("NAME");
   command->add_flag("--json", request->json, "print one JSON object");
   command->footer(kFooter);

@@ -30,8 +30,10 @@ class RunFailed : public std::runtime_error {
 
 // `status` outlives the command line; it is what the program exits with if nothing is thrown.
 void addCheckCommand(CLI::App& twin, int& status);
+void addScenesCommand(CLI::App& twin, int& status);
 void addModelsCommand(CLI::App& twin, int& status);
 void addSimulateCommand(CLI::App& twin, int& status);
+void addPlotCommand(CLI::App& twin, int& status);
 void addAnalyzeCommand(CLI::App& twin, int& status);
 void addRouthCommand(CLI::App& twin, int& status);
 void addLogCommand(CLI::App& twin, int& status);

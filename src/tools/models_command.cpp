@@ -32,10 +32,27 @@ std::vector<ParameterInfo> allParameters(const ModelInfo& model) {
   return all;
 }
 
-std::vector<std::string> integratorsOf(const ModelInfo& model) {
+std::vector<std::string> integratorsOf(const ModelVariant& variant) {
   std::vector<std::string> all{"auto"};
-  all.insert(all.end(), model.integrators.begin(), model.integrators.end());
+  all.insert(all.end(), variant.integrators.begin(), variant.integrators.end());
   return all;
+}
+
+/// The names of a table's columns with their units; the words of a choice, its default first.
+std::string contents(const SettingInfo& s) {
+  if (s.kind == SettingKind::kChoice) {
+    return fmt::format("{} (default {})", fmt::join(s.choices, " | "), s.choices.front());
+  }
+  std::vector<std::string> columns = s.word_columns;
+  for (const ColumnInfo& c : s.columns) {
+    columns.push_back(fmt::format("{} ({})", c.name, c.unit));
+  }
+  const std::string need = s.required ? "required" : "optional";
+  if (s.kind == SettingKind::kTable) {
+    return fmt::format("list of {{{}}}, {}", fmt::join(columns, ", "), need);
+  }
+  return s.kind == SettingKind::kMatrix ? fmt::format("rows of numbers ({}), {}", s.unit, need)
+                                        : fmt::format("list of names, {}", need);
 }
 
 std::string defaultText(const ParameterInfo& p) {
@@ -50,16 +67,26 @@ std::string defaultText(const ParameterInfo& p) {
 
 std::string text(const ModelInfo& model) {
   std::string out = fmt::format("{}: {}\n", model.name, model.summary);
-  out += fmt::format("  {}{}\n", model.linear ? "linear" : "nonlinear",
-                     model.has_shaft ? ", on a turning shaft" : "");
-  for (const Coordinate& c : model.coordinates) {
-    out += fmt::format("  coordinate  {0} ({1}), rate {0}_rate ({1}/s)\n", c.name, c.unit);
+  for (const ModelVariant& v : model.variants) {
+    out += fmt::format("  {}{}{}\n", v.when.empty() ? "" : "with " + v.when + ": ",
+                       v.linear ? "linear" : "nonlinear",
+                       model.has_shaft ? ", on a turning shaft" : "");
+    for (const CoordinateInfo& c : v.coordinates) {
+      out += fmt::format("  coordinate  {0} ({1}), rate {0}_rate ({1}/s)\n", c.name, c.unit);
+    }
+    if (v.coordinates.empty()) {
+      out += "  coordinate  as many as the parameters give\n";
+    }
   }
   for (const ParameterInfo& p : allParameters(model)) {
     out += fmt::format("  parameter   {:<18} {:<9} {:<6} {:<18} {}\n", p.name, p.unit,
                        describe(p.range), defaultText(p), p.meaning);
   }
-  return out + fmt::format("  integrators {}\n", fmt::join(integratorsOf(model), ", "));
+  for (const SettingInfo& s : model.settings) {
+    out += fmt::format("  parameter   {:<18} {}: {}\n", s.name, contents(s), s.meaning);
+  }
+  return out +
+         fmt::format("  integrators {}\n", fmt::join(integratorsOf(model.variants.front()), ", "));
 }
 
 Json parameterJson(const ParameterInfo& p) {
@@ -74,19 +101,51 @@ Json parameterJson(const ParameterInfo& p) {
   return json;
 }
 
-Json json(const ModelInfo& model) {
+Json settingJson(const SettingInfo& s) {
+  constexpr const char* kKinds[] = {"choice", "matrix", "names", "table"};
   Json json;
-  json["summary"] = model.summary;
-  json["linear"] = model.linear;
-  json["shaft"] = model.has_shaft;
-  json["rotor"] = model.rotor;
-  for (const Coordinate& c : model.coordinates) {
+  json["kind"] = kKinds[static_cast<int>(s.kind)];
+  json["required"] = s.required;
+  json["meaning"] = s.meaning;
+  if (s.kind == SettingKind::kChoice) {
+    json["choices"] = s.choices;
+    json["default"] = s.choices.front();
+  }
+  for (const ColumnInfo& c : s.columns) {
+    json["columns"][c.name] = {{"unit", c.unit}, {"range", describe(c.range)}};
+  }
+  for (const std::string& c : s.word_columns) {
+    json["columns"][c] = {{"unit", "name"}};
+  }
+  return json;
+}
+
+/// What is said of one form of a model.
+Json variantJson(const ModelVariant& v) {
+  Json json;
+  json["linear"] = v.linear;
+  json["rotor"] = v.rotor;
+  json["coordinates"] = Json::object();
+  for (const CoordinateInfo& c : v.coordinates) {
     json["coordinates"][c.name] = {{"unit", c.unit}};
+  }
+  json["integrators"] = integratorsOf(v);
+  return json;
+}
+
+Json json(const ModelInfo& model) {
+  Json json = variantJson(model.variants.front());
+  json["summary"] = model.summary;
+  json["shaft"] = model.has_shaft;
+  for (std::size_t i = 1; i < model.variants.size(); ++i) {
+    json["variants"][model.variants[i].when] = variantJson(model.variants[i]);
   }
   for (const ParameterInfo& p : allParameters(model)) {
     json["parameters"][p.name] = parameterJson(p);
   }
-  json["integrators"] = integratorsOf(model);
+  for (const SettingInfo& s : model.settings) {
+    json["settings"][s.name] = settingJson(s);
+  }
   return json;
 }
 

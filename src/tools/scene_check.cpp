@@ -19,12 +19,13 @@ SystemCheck checkSystem(const Twin::Member& member) {
   const std::string& name = member.spec.name;
   check.name = name;
   check.model = member.model;
+  check.coordinates = member.dynamics->coordinates();
   check.integrator = member.integrator;
   check.reason = member.integrator_reason.empty() ? "named in the scene" : member.integrator_reason;
   check.substeps = member.spec.substeps;
   check.drive = member.spec.drive;
   check.speed = member.spec.speed;
-  const bool rotor = member.model->rotor;
+  const bool rotor = member.dynamics->isRotor();
   check.topics = {rotor ? PublishedTopic{"/twin/" + name + "/whirl", "whirl_twin/WhirlState"}
                         : PublishedTopic{"/twin/" + name + "/pendulum", "whirl_twin/PendulumState"},
                   {"/twin/" + name + "/joint_states", "sensor_msgs/JointState"},

@@ -20,6 +20,7 @@ struct PublishedTopic {
 struct SystemCheck {
   std::string name;
   const ModelInfo* model = nullptr;
+  std::vector<CoordinateInfo> coordinates;
   std::string integrator;
   std::string reason;  ///< why this one
   int substeps = 1;

@@ -30,10 +30,10 @@ Json systemJson(const SystemCheck& system) {
   Json json;
   json["model"] = system.model->name;
   json["coordinates"] = Json::array();
-  for (const Coordinate& c : system.model->coordinates) {
+  for (const CoordinateInfo& c : system.coordinates) {
     json["coordinates"].push_back(c.name);
   }
-  json["states"] = 2 * system.model->coordinates.size();
+  json["states"] = 2 * system.coordinates.size();
   json["drive"] = system.drive ? Json(*system.drive) : Json();
   json["speed"] = system.speed ? Json(*system.speed) : Json();
   json["integrator"] = system.integrator;

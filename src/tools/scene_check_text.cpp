@@ -34,13 +34,13 @@ std::string costText(double cost) {
 
 std::string systemText(const SystemCheck& system) {
   std::string coordinates;
-  for (const Coordinate& c : system.model->coordinates) {
+  for (const CoordinateInfo& c : system.coordinates) {
     coordinates += fmt::format("{}{} ({})", coordinates.empty() ? "" : ", ", c.name, c.unit);
   }
   std::string out =
       fmt::format("  {}: {}, {}\n", system.name, system.model->name, system.model->summary);
-  out += fmt::format("    coordinates   {}: {} states\n", coordinates,
-                     2 * system.model->coordinates.size());
+  out +=
+      fmt::format("    coordinates   {}: {} states\n", coordinates, 2 * system.coordinates.size());
   if (system.drive) {
     out += fmt::format("    shaft         turned by the drive {}\n", *system.drive);
   } else if (system.speed) {

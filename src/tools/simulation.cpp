@@ -22,7 +22,11 @@ void requestStop(int) {
 }  // namespace
 
 Simulation::Simulation(const SimulationPlan& plan)
-    : plan_(plan), twin_(plan.scene), observer_(twin_), stopped_(plan.scene.systems.size()) {}
+    : plan_(plan),
+      twin_(plan.scene),
+      observer_(twin_),
+      validity_(twin_, plan_.systems),
+      stopped_(plan.scene.systems.size()) {}
 
 void Simulation::run(SampleWriter* writer, bool results_on_standard_output) {
   const DenormalsToZero denormals_to_zero;  // as the real-time loop does: the same numbers
@@ -38,6 +42,7 @@ void Simulation::run(SampleWriter* writer, bool results_on_standard_output) {
     twin_.write(record.data());
     observer_.observe(record.data());  // every step: the phase is unwrapped from step to step
     noteStops(bar);
+    warn(bar);
     if (writer != nullptr && i % plan_.stride == 0) {
       writer->write(observer_);
     }
@@ -67,6 +72,13 @@ void Simulation::noteStops(ProgressBar& bar) {
   }
 }
 
+void Simulation::warn(ProgressBar& bar) {
+  for (const std::string& warning : validity_.look(observer_)) {
+    bar.clear();
+    complain(fmt::format("twin: {}\n", warning));
+  }
+}
+
 Json Simulation::systemJson(std::size_t system) const {
   const Twin::Member& member = twin_.members()[system];
   Json json;
@@ -76,12 +88,13 @@ Json Simulation::systemJson(std::size_t system) const {
   json["status"] = stopped_[system] ? describe(twin_.status(system)) : "ok";
   json["steps"] = stopped_[system] ? *stopped_[system] - 1 : observer_.step();
   Json& state = json["state"];
+  const std::vector<CoordinateInfo> coordinates = member.dynamics->coordinates();
   for (std::size_t k = 0; k < member.spec.q.size(); ++k) {
-    const std::string name = member.model->coordinates[k].name;
+    const std::string name = coordinates[k].name;
     state[name] = observer_.coordinates(system)[k];
     state[name + "_rate"] = observer_.rates(system)[k];
   }
-  if (member.model->rotor) {
+  if (member.dynamics->isRotor()) {
     json["whirl_radius"] = observer_.whirlRadius(system);
     json["whirl_phase"] = observer_.whirlPhase(system);
   }
@@ -92,6 +105,7 @@ Json Simulation::systemJson(std::size_t system) const {
     json["energy"] = {{"kinetic", e.kinetic}, {"potential", e.potential}, {"jacobi", e.jacobi}};
   }
   json["energy_residual"] = observer_.energyResidual(system);
+  json["invalid"] = validity_.json(system);
   return json;
 }
 

@@ -10,6 +10,7 @@
 #include "tools/output.h"
 #include "tools/progress_bar.h"
 #include "tools/sample_writer.h"
+#include "tools/validity_watch.h"
 
 namespace whirl_twin {
 
@@ -52,11 +53,13 @@ class Simulation {
 
  private:
   void noteStops(ProgressBar& bar);
+  void warn(ProgressBar& bar);
   Json systemJson(std::size_t system) const;
 
   SimulationPlan plan_;
   Twin twin_;
   Observer observer_;
+  ValidityWatch validity_;
   std::vector<std::optional<std::int64_t>> stopped_;  ///< the step in which each system stopped
 };
 

@@ -8,6 +8,7 @@
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/drive_profile.h"
+#include "tools/shipped_scenes.h"
 #include "tools/simulation.h"
 
 namespace whirl_twin {
@@ -60,9 +61,9 @@ void overrideIntegrator(const std::string& name, SimulationPlan& plan) {
   std::vector<std::string> objections;
   for (const std::size_t i : plan.systems) {
     SystemSpec& spec = plan.scene.systems[i];
-    const ModelInfo& model = *findModel(spec.model);
-    const std::string objection = integratorObjection(
-        model, *model.dynamics(spec.parameters, plan.scene.gravity), spec.drive.has_value(), name);
+    const ModelSetup setup =
+        findModel(spec.model)->setUp(spec.parameters, spec.settings, plan.scene.gravity);
+    const std::string objection = integratorObjection(setup, spec.drive.has_value(), name);
     if (!objection.empty()) {
       objections.push_back(fmt::format("--integrator: {}: {}", spec.name, objection));
     }
@@ -77,7 +78,7 @@ void overrideIntegrator(const std::string& name, SimulationPlan& plan) {
 
 SimulationPlan planSimulation(const SimulationRequest& request) {
   SimulationPlan plan;
-  plan.scene = readSceneFile(request.scene);
+  plan.scene = readSceneFile(scenePath(request.scene));
   plan.systems = selectedSystems(plan.scene, request.system);
   if (request.step) {
     plan.scene.step = parseNanoseconds("--step", *request.step, 1, 10 * kSecond);

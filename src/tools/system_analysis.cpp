@@ -20,11 +20,11 @@ Eigen::VectorXd vector(const std::vector<double>& x) {
 }
 
 void linearize(const Dynamics& dynamics, double speed, SystemAnalysis& a) {
-  if (const auto point = operatingPoint(dynamics, a.q, speed)) {
+  if (const auto point = operatingPoint(dynamics, a.q, a.v, speed)) {
     a.at_equilibrium = true;
     a.about = point->q;
-    a.about_v = Eigen::VectorXd::Zero(a.q.size());
-    a.linearization = linearizationAtRest(dynamics, a.about, speed);
+    a.about_v = point->v;
+    a.linearization = linearizationAbout(dynamics, a.about, a.about_v, speed);
   } else {
     a.about = a.q;
     a.about_v = a.v;
@@ -39,6 +39,8 @@ SystemAnalysis analyzeMember(const Twin& twin, const Twin::Member& member) {
   SystemAnalysis a;
   a.name = member.spec.name;
   a.model = member.model;
+  a.dynamics = &dynamics;
+  a.coordinates = dynamics.coordinates();
   a.moment = {twin.time(), shaft.angle, shaft.speed, shaft.acceleration};
   if (member.model->has_shaft) {
     a.speed = shaft.speed;
@@ -47,9 +49,12 @@ SystemAnalysis analyzeMember(const Twin& twin, const Twin::Member& member) {
   a.v = vector(member.spec.v);
   a.acceleration = dynamics.acceleration(a.q, a.v, a.moment);
   a.energies = dynamics.energies(a.q, a.v, a.moment);
-  a.equilibria = equilibria(dynamics, shaft.speed);
+  a.momenta = dynamics.momenta(a.q, a.v, a.moment);
+  a.cyclic = cyclicCoordinates(dynamics, shaft.speed);
+  a.equilibria = equilibria(dynamics, shaft.speed, a.q, a.v);
   linearize(dynamics, shaft.speed, a);
   a.stability = stability(a.linearization);
+  a.reduced_stability = a.cyclic.any() ? reducedStability(a.linearization, a.cyclic) : a.stability;
   for (const double coefficient : a.stability.polynomial) {
     if (std::fabs(coefficient) == std::numeric_limits<double>::max()) {  // it has been capped
       throw std::overflow_error("a coefficient of the characteristic polynomial");

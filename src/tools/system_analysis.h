@@ -19,6 +19,8 @@ namespace whirl_twin {
 struct SystemAnalysis {
   std::string name;
   const ModelInfo* model = nullptr;
+  const Dynamics* dynamics = nullptr;  ///< the twin's
+  std::vector<CoordinateInfo> coordinates;
   Moment<double> moment;                ///< the scene's start
   std::optional<double> speed;          ///< [rad/s], of the shaft at the start
   Eigen::VectorXd q, v;                 ///< the scene's initial state
@@ -29,8 +31,12 @@ struct SystemAnalysis {
   bool at_equilibrium = false;     ///< linearized about an equilibrium, not the initial state
   Eigen::VectorXd about, about_v;  ///< the state linearized about
   Linearization linearization;
-  Stability stability;
-  std::optional<double> instability_speed;                  ///< [rad/s]
+  Stability stability;  ///< of all coordinates
+
+  CyclicCoordinates cyclic;
+  Eigen::VectorXd momenta;                  ///< generalized, of the initial state
+  Stability reduced_stability;              ///< of the shape with its momenta as they are
+  std::optional<double> instability_speed;  ///< [rad/s]
   std::vector<state::CriticalSpeedMargin> critical_speeds;  ///< seen from the initial speed
 };
 

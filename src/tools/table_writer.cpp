@@ -79,11 +79,11 @@ class TableWriter final : public SampleWriter {
     for (const std::size_t i : systems_) {
       const Twin::Member& member = twin_.members()[i];
       for (const char* suffix : {"", "_rate"}) {
-        for (const Coordinate& c : member.model->coordinates) {
+        for (const CoordinateInfo& c : member.dynamics->coordinates()) {
           text += fmt::format(",{}.{}{}", member.spec.name, c.name, suffix);
         }
       }
-      if (member.model->rotor) {
+      if (member.dynamics->isRotor()) {
         text += fmt::format(",{0}.whirl_radius,{0}.whirl_phase", member.spec.name);
       }
     }

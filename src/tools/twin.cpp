@@ -6,6 +6,9 @@
 #include <string>
 #include <vector>
 
+#ifdef WHIRL_TWIN_PLUGINS
+#include "plugins/plugin_models.h"
+#endif
 #include "scene/node_reader.h"
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
@@ -88,8 +91,10 @@ int run(int argc, const char* const* argv) {
   twin.footer(kFooter);
   twin.require_subcommand(1);
   addCheckCommand(twin, status);
+  addScenesCommand(twin, status);
   addModelsCommand(twin, status);
   addSimulateCommand(twin, status);
+  addPlotCommand(twin, status);
   addAnalyzeCommand(twin, status);
   addRouthCommand(twin, status);
   addLogCommand(twin, status);
@@ -120,6 +125,9 @@ int run(int argc, const char* const* argv) {
 
 int main(int argc, char** argv) {
   try {
+#ifdef WHIRL_TWIN_PLUGINS
+    whirl_twin::usePluginModels();
+#endif
     return whirl_twin::run(argc, argv);
   } catch (const whirl_twin::SceneError& error) {
     whirl_twin::complain(fmt::format("{}\n", error.what()));

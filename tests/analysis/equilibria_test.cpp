@@ -72,10 +72,11 @@ TEST(Equilibria, aDoublePendulumHasFourAndOneIsStable) {
 TEST(OperatingPoint, isTheNearestStableOneByTheShorterWayRound) {
   const double speed = 9.0;
   const double cone = std::acos(kGravity / (kLength * speed * speed));
-  EXPECT_NEAR(operatingPoint(*spinning(), angle(0.2), speed)->q[0], cone, 1.0e-12);
-  EXPECT_NEAR(operatingPoint(*spinning(), angle(-0.2), speed)->q[0], -cone, 1.0e-12);
-  EXPECT_NEAR(operatingPoint(*spinning(), angle(2.0 * kPi - 0.2), speed)->q[0], -cone, 1.0e-12);
-  EXPECT_EQ(operatingPoint(*spinning(), angle(1.0), 5.0)->q[0], 0.0);
+  EXPECT_NEAR(operatingPoint(*spinning(), angle(0.2), angle(0.0), speed)->q[0], cone, 1.0e-12);
+  EXPECT_NEAR(operatingPoint(*spinning(), angle(-0.2), angle(0.0), speed)->q[0], -cone, 1.0e-12);
+  EXPECT_NEAR(operatingPoint(*spinning(), angle(2.0 * kPi - 0.2), angle(0.0), speed)->q[0], -cone,
+              1.0e-12);
+  EXPECT_EQ(operatingPoint(*spinning(), angle(1.0), angle(0.0), 5.0)->q[0], 0.0);
 }
 
 TEST(InstabilitySpeed, ofAHangingPendulumIsTheBifurcation) {

@@ -9,7 +9,8 @@ namespace whirl_twin {
 
 /// Missing parameters take their defaults; gravity [m/s^2].
 inline std::shared_ptr<const Dynamics> dynamicsOf(const std::string& model, ParameterValues values,
-                                                  double gravity = 9.81) {
+                                                  double gravity = 9.81,
+                                                  const Settings& settings = {}) {
   const ModelInfo& info = *findModel(model);
   for (const ParameterInfo& p : info.parameters) {
     if (values.count(p.name) == 0) {
@@ -17,7 +18,7 @@ inline std::shared_ptr<const Dynamics> dynamicsOf(const std::string& model, Para
           p.fallback_parameter.empty() ? p.fallback.value() : values.at(p.fallback_parameter);
     }
   }
-  return info.dynamics(values, gravity);
+  return info.setUp(values, settings, gravity).dynamics;
 }
 
 }  // namespace whirl_twin

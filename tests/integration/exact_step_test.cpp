@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <ostream>
 
 #include "running_system.h"
@@ -139,6 +140,31 @@ TEST(ExactStep, DoesNotDependOnTheStep) {
     EXPECT_NEAR(one.v(i), many.v(i), 1e-14 * kEccentricity * c.p * c.p);
   }
   EXPECT_NEAR(one.work(), many.work(), 1e-12 * many.energies().kinetic);
+}
+
+// A load that alternates by itself is not frozen: m_e th'' + c_e th' + k_e th = q cos(W t) with the
+// closed form of the steady motion, and the free motion that starts it from rest.
+TEST(ExactStep, FollowsALoadThatAlternatesWithoutAShaft) {
+  const double mass = 12.0, l = 2.0, k = 4000.0, c = 6.0, f = 100.0, w = 15.0;
+  RunningSystem::Setup s;
+  s.model = "hinged_beam";
+  s.settings.choices["geometry"] = "small";
+  s.parameters = {{"mass", mass}, {"length", l},         {"stiffness", k},
+                  {"damping", c}, {"load_amplitude", f}, {"load_frequency", w}};
+  RunningSystem beam(s, "exponential", 1000000);
+  ASSERT_EQ(beam.run(1700), StepStatus::kOk);
+  const double m = mass / 3.0;  // the equation of the notes, divided by l^2
+  const std::complex<double> steady =
+      0.5 * f / std::complex<double>(0.25 * k - m * w * w, c * w);
+  const double decay = c / (2.0 * m);
+  const double p = std::sqrt(0.25 * k / m - decay * decay);
+  const double q0 = -steady.real();
+  const double v0 = w * steady.imag();
+  const double t = beam.time();
+  const double exact =
+      (steady * std::polar(1.0, w * t)).real() +
+      std::exp(-decay * t) * (q0 * std::cos(p * t) + (v0 + decay * q0) / p * std::sin(p * t));
+  EXPECT_NEAR(beam.q(0), exact, 1e-12);
 }
 
 }  // namespace

@@ -34,6 +34,7 @@ class RunningSystem {
   struct Setup {
     std::string model;
     ParameterValues parameters;
+    Settings settings{};
     double gravity = 9.81;  ///< [m/s^2]
     double speed = 0.0;     ///< [rad/s], of the shaft at the start
     std::vector<SpeedMove> profile{};
@@ -45,12 +46,10 @@ class RunningSystem {
   RunningSystem(const Setup& setup, const std::string& method, std::int64_t step)
       : drive_(setup.speed, 0.0, setup.profile),
         step_(step),
-        dof_(findModel(setup.model)->coordinates.size()),
+        dynamics_(setUp(setup).dynamics),
+        dof_(static_cast<std::size_t>(dynamics_->dof())),
         record_(2 * dof_ + 1) {
-    const ModelInfo& model = *findModel(setup.model);
-    const ParameterValues values = completed(model, setup.parameters);
-    dynamics_ = model.dynamics(values, setup.gravity);
-    system_ = model.system(values, setup.gravity, method, drive_, seconds(step), 1);
+    system_ = setUp(setup).system(method, drive_, seconds(step), 1);
     std::vector<double> q = setup.q;
     std::vector<double> v = setup.v;
     q.resize(dof_);
@@ -91,6 +90,10 @@ class RunningSystem {
   std::vector<double> state() const { return {record_.begin(), record_.end() - 1}; }  ///< q, v
 
  private:
+  static ModelSetup setUp(const Setup& setup) {
+    const ModelInfo& model = *findModel(setup.model);
+    return model.setUp(completed(model, setup.parameters), setup.settings, setup.gravity);
+  }
   static double seconds(std::int64_t nanoseconds) {
     return static_cast<double>(nanoseconds) / 1.0e9;
   }
@@ -98,9 +101,9 @@ class RunningSystem {
   Drive drive_;
   std::int64_t step_;  // [ns]
   std::int64_t count_ = 0;
+  std::shared_ptr<const Dynamics> dynamics_;
   std::size_t dof_;
   std::vector<double> record_;
-  std::shared_ptr<const Dynamics> dynamics_;
   std::unique_ptr<System> system_;
 };
 

@@ -4,12 +4,13 @@
 
 #include <cmath>
 
+#include "../analysis/models_under_test.h"
 #include "random_state.h"
 
 namespace whirl_twin {
 namespace {
 
-class EnergyBalanceOf : public testing::TestWithParam<std::string> {};
+class EnergyBalanceOf : public testing::TestWithParam<VariantUnderTest> {};
 
 TEST_P(EnergyBalanceOf, PowerIsTheRateOfTheJacobiIntegral) {
   std::mt19937_64 random(1836);
@@ -37,8 +38,8 @@ TEST_P(EnergyBalanceOf, PowerIsTheRateOfTheJacobiIntegral) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, EnergyBalanceOf, testing::ValuesIn(modelNames()),
-                         [](const auto& test) { return test.param; });
+INSTANTIATE_TEST_SUITE_P(Models, EnergyBalanceOf, testing::ValuesIn(everyVariant()),
+                         [](const auto& test) { return testName(test.param); });
 
 TEST(EnergyBalanceOfSpinningPendulum, JacobiIntegralIsNotTheEnergy) {
   // h = m l^2 (th'^2 - w^2 sin^2 th)/2 + m g l (1 - cos th): the shaft's motor does the rest.
@@ -61,16 +62,16 @@ TEST(EnergyBalanceOfSpinningPendulum, JacobiIntegralIsNotTheEnergy) {
 TEST(EnergyBalanceOfRotor, ExternalDampingTakesAndRotatingDampingMayGive) {
   // Rotating damping takes energy with reference to the shaft; to the fixed frame it gives as soon
   // as the shaft overtakes the whirl: -v . ci (v - w x r) > 0.
-  const auto rotor = findModel("jeffcott_rotor")
-                         ->dynamics({{"mass", 1.0},
-                                     {"stiffness", 100.0},
-                                     {"stiffness_y", 100.0},
-                                     {"damping", 0.0},
-                                     {"damping_y", 0.0},
-                                     {"internal_damping", 1.0},
-                                     {"eccentricity", 0.0},
-                                     {"eccentricity_angle", 0.0}},
-                                    0.0);
+  const auto rotor = dynamicsOf("jeffcott_rotor",
+                                {{"mass", 1.0},
+                                 {"stiffness", 100.0},
+                                 {"stiffness_y", 100.0},
+                                 {"damping", 0.0},
+                                 {"damping_y", 0.0},
+                                 {"internal_damping", 1.0},
+                                 {"eccentricity", 0.0},
+                                 {"eccentricity_angle", 0.0}},
+                                0.0);
   const Eigen::Vector2d q(0.01, 0.0);
   const Eigen::Vector2d v(0.0, 0.1);  // forward whirl at 10 rad/s
   const auto power = [&](double speed) {

@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "../analysis/models_under_test.h"
 #include "random_state.h"
 
 namespace whirl_twin {
@@ -20,7 +21,7 @@ Vector slope(const F& f, double h) {
   return (4.0 * difference(0.5 * h) - difference(h)) / 3.0;
 }
 
-class LinearizationOf : public testing::TestWithParam<std::string> {
+class LinearizationOf : public testing::TestWithParam<VariantUnderTest> {
  protected:
   std::mt19937_64 random_{1904};
 };
@@ -68,8 +69,8 @@ TEST_P(LinearizationOf, IsTheDifferenceOfAccelerations) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, LinearizationOf, testing::ValuesIn(modelNames()),
-                         [](const auto& test) { return test.param; });
+INSTANTIATE_TEST_SUITE_P(Models, LinearizationOf, testing::ValuesIn(everyVariant()),
+                         [](const auto& test) { return testName(test.param); });
 
 Matrix rows(double a, double b, double c, double d) {
   Matrix m(2, 2);
@@ -85,14 +86,14 @@ void expectNear(const Matrix& found, const Matrix& expected) {
 
 TEST(LinearizationOfDoublePendulum, IsTheNotesAtAllFourPositionsOfRest) {
   const double m1 = 1.3, m2 = 0.7, l1 = 0.9, l2 = 1.6, c1 = 0.2, c2 = 0.1, g = 9.81;
-  const auto pendulum = findModel("double_pendulum")
-                            ->dynamics({{"mass1", m1},
-                                        {"mass2", m2},
-                                        {"length1", l1},
-                                        {"length2", l2},
-                                        {"damping1", c1},
-                                        {"damping2", c2}},
-                                       g);
+  const auto pendulum = dynamicsOf("double_pendulum",
+                                   {{"mass1", m1},
+                                    {"mass2", m2},
+                                    {"length1", l1},
+                                    {"length2", l2},
+                                    {"damping1", c1},
+                                    {"damping2", c2}},
+                                   g);
   for (const double up1 : {1.0, -1.0}) {
     for (const double up2 : {1.0, -1.0}) {
       const Eigen::Vector2d q(up1 > 0.0 ? 0.0 : M_PI, up2 > 0.0 ? 0.0 : M_PI);
@@ -111,7 +112,7 @@ TEST(LinearizationOfDoublePendulum, IsTheNotesAtAllFourPositionsOfRest) {
 TEST(LinearizationOfSpinningPendulum, IsTheNotesHangingStandingAndOnItsCone) {
   const double m = 0.5, l = 0.2032, c = 0.01, g = 9.8044, w = 9.0;
   const auto pendulum =
-      findModel("spinning_pendulum")->dynamics({{"mass", m}, {"length", l}, {"damping", c}}, g);
+      dynamicsOf("spinning_pendulum", {{"mass", m}, {"length", l}, {"damping", c}}, g);
   const auto at = [&](double theta) {
     return pendulum->linearization(Vector::Constant(1, theta), Vector::Zero(1), Vector::Zero(1),
                                    {0.0, 0.0, w, 0.0});
@@ -126,16 +127,16 @@ TEST(LinearizationOfSpinningPendulum, IsTheNotesHangingStandingAndOnItsCone) {
 
 TEST(LinearizationOfRotor, InternalDampingDampsAndCirculates) {
   const double m = 2.0, kx = 200.0, ky = 300.0, cx = 2.0, cy = 3.0, ci = 1.5, w = 17.0;
-  const auto rotor = findModel("jeffcott_rotor")
-                         ->dynamics({{"mass", m},
-                                     {"stiffness", kx},
-                                     {"stiffness_y", ky},
-                                     {"damping", cx},
-                                     {"damping_y", cy},
-                                     {"internal_damping", ci},
-                                     {"eccentricity", 0.01},
-                                     {"eccentricity_angle", 0.4}},
-                                    9.81);
+  const auto rotor = dynamicsOf("jeffcott_rotor",
+                                {{"mass", m},
+                                 {"stiffness", kx},
+                                 {"stiffness_y", ky},
+                                 {"damping", cx},
+                                 {"damping_y", cy},
+                                 {"internal_damping", ci},
+                                 {"eccentricity", 0.01},
+                                 {"eccentricity_angle", 0.4}},
+                                9.81);
   const Vector zero = Vector::Zero(2);
   const Linearization l = rotor->linearization(zero, zero, zero, {0.3, 1.0, w, 4.0});
   expectNear(l.mass, rows(m, 0.0, 0.0, m));

@@ -80,6 +80,7 @@ inline std::vector<NoteCase> noteCases(const std::string& system = "") {
 /// What the model of this program answers, one value a method that applies; empty: not answered.
 std::vector<double> spinningPendulumAnswers(const NoteCase& c);
 std::vector<double> doublePendulumAnswers(const NoteCase& c);
+std::vector<double> relativeDoublePendulumAnswers(const NoteCase& c);
 std::vector<double> rotorAnswers(const NoteCase& c);
 std::vector<double> twoBarAnswers(const NoteCase& c);
 std::vector<double> rollingDiscAnswers(const NoteCase& c);
@@ -88,5 +89,13 @@ std::vector<double> rodSliderAnswers(const NoteCase& c);
 std::vector<double> cartAnswers(const NoteCase& c);
 std::vector<double> invertedSpringAnswers(const NoteCase& c);
 std::vector<double> rotatingPendulumAnswers(const NoteCase& c);
+std::vector<double> rigidBeamAnswers(const NoteCase& c);
+std::vector<double> frictionAnswers(const NoteCase& c);
+std::vector<double> symmetricFlywheelAnswers(const NoteCase& c);
+std::vector<double> flywheelAnswers(const NoteCase& c);
+std::vector<double> governorAnswers(const NoteCase& c);
+std::vector<double> leverAnswers(const NoteCase& c);
+std::vector<double> submarineAnswers(const NoteCase& c);
+std::vector<double> cantileverAnswers(const NoteCase& c);
 
 }  // namespace whirl_twin

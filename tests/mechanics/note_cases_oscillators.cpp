@@ -3,35 +3,6 @@
 
 namespace whirl_twin {
 
-namespace {
-
-struct Contact {
-  double normal, tangential;  // on the disc [N], up and along +x
-};
-
-/// Contact force by Newton's law on the disc and its off-centre mass at the model's acceleration.
-Contact contactForce(const NoteSystem& system, const NoteCase& c) {
-  const double r = c.at("r", 1.0);
-  const double l = c.at("l", 0.0);
-  const double x = c.at("x", 0.0);
-  const double rate = c.at("x_d", 0.0);
-  const double acceleration = system.dynamics().acceleration(vector({x}), vector({rate}), {})[0];
-  // The mass is at (x - l sin u, r - l cos u), u = x / r the angle rolled.
-  const double u = x / r;
-  const double u_rate = rate / r;
-  const double u_acceleration = acceleration / r;
-  const double along =
-      acceleration - l * (u_acceleration * std::cos(u) - u_rate * u_rate * std::sin(u));
-  const double up = l * (u_acceleration * std::sin(u) + u_rate * u_rate * std::cos(u));
-  const double disc = c.at("M");
-  const double mass = c.at("m");
-  const double spring_and_damper = -c.at("k", 0.0) * x - c.at("c", 0.0) * rate;
-  return {(disc + mass) * c.at("g") + mass * up,
-          disc * acceleration + mass * along - spring_and_damper};
-}
-
-}  // namespace
-
 std::vector<double> twoBarAnswers(const NoteCase& c) {
   const NoteSystem system(c, "two_bar_linkage",
                           {{"bar_mass", c.at("m")},
@@ -115,11 +86,14 @@ std::vector<double> eccentricDiscAnswers(const NoteCase& c) {
   if (c.startsWith("eccentric_disc.p2.eq")) {
     return {squaredFrequencyAt(equilibrium(c.contains(".eq2")))};
   }
+  const auto contactForce = [&](const std::string& name) {
+    return system.reaction(name, {c.at("x", 0.0)}, {c.at("x_d", 0.0)});
+  };
   if (c.startsWith("eccentric_disc.Nmin.") || c.startsWith("reaction.disc.N")) {
-    return {contactForce(system, c).normal};
+    return {contactForce("normal_force")};
   }
   if (c.startsWith("reaction.disc.F")) {
-    return {contactForce(system, c).tangential};
+    return {contactForce("friction_force")};
   }
   return {};
 }

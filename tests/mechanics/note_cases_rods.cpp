@@ -73,8 +73,8 @@ std::vector<double> cartAnswers(const NoteCase& c) {
   const Linearization l = unloaded.linearAt({0.0, 0.0});
   const auto load = [&](const ParameterValues& loads, double time) {
     const NoteSystem loaded = cart(c, loads);
-    return Eigen::Vector2d(
-        loaded.dynamics().holdingForce(Eigen::Vector2d::Zero(), {time, 0.0, 0.0, 0.0}));
+    return Eigen::Vector2d(loaded.dynamics().unbalancedForce(
+        Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(), {time, 0.0, 0.0, 0.0}));
   };
   const Eigen::Vector2d of_force = load({{"force_amplitude", 1.0}}, 0.0);
   const Eigen::Vector2d of_support =

@@ -19,7 +19,7 @@ Vector vector(const Complex& z) {
 
 std::shared_ptr<const Dynamics> rotor(const ParameterValues& parameters) {
   const ModelInfo& model = *findModel("jeffcott_rotor");
-  return model.dynamics(completed(model, parameters), 0.0);
+  return model.setUp(completed(model, parameters), {}, 0.0).dynamics;
 }
 
 Linearization linearAt(const Dynamics& rotor, double speed) {
@@ -31,8 +31,8 @@ Linearization linearAt(const Dynamics& rotor, double speed) {
 Complex synchronousWhirl(const Dynamics& rotor, double speed) {
   const Linearization l = linearAt(rotor, speed);
   const Vector zero = Vector::Zero(2);
-  const Vector ahead = rotor.holdingForce(zero, {0.0, 0.0, speed, 0.0});
-  const Vector aside = rotor.holdingForce(zero, {0.0, M_PI / 2.0, speed, 0.0});
+  const Vector ahead = rotor.unbalancedForce(zero, zero, {0.0, 0.0, speed, 0.0});
+  const Vector aside = rotor.unbalancedForce(zero, zero, {0.0, M_PI / 2.0, speed, 0.0});
   const Eigen::Vector2cd force = ahead.cast<Complex>() - Complex(0.0, 1.0) * aside.cast<Complex>();
   const Eigen::Matrix2cd stiffness =
       (l.stiffness + l.circulatory - speed * speed * l.mass).cast<Complex>() +

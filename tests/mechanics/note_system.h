@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -43,16 +44,25 @@ double zeroBetween(double low, double high, const F& f) {
   return low;
 }
 
+/// A word among a model's settings.
+inline Settings choice(const std::string& setting, const std::string& value) {
+  Settings settings;
+  settings.choices[setting] = value;
+  return settings;
+}
+
 /// The coordinates of the case bear the names of the model's.
 class NoteSystem {
  public:
-  NoteSystem(const NoteCase& c, const std::string& model, const ParameterValues& parameters)
+  NoteSystem(const NoteCase& c, const std::string& model, const ParameterValues& parameters,
+             const Settings& settings = {})
       : case_(c) {
     setup_.model = model;
     setup_.parameters = completed(*findModel(model), parameters);
     setup_.gravity = c.at("g", 1.0);
-    dynamics_ = findModel(model)->dynamics(setup_.parameters, setup_.gravity);
-    for (const Coordinate& coordinate : findModel(model)->coordinates) {
+    setup_.settings = settings;
+    dynamics_ = findModel(model)->setUp(setup_.parameters, settings, setup_.gravity).dynamics;
+    for (const CoordinateInfo& coordinate : dynamics_->coordinates()) {
       names_.emplace_back(coordinate.name);
       setup_.q.push_back(c.at("ic_" + names_.back(), 0.0));
       setup_.v.push_back(c.at("ic_" + names_.back() + "_d", 0.0));
@@ -61,13 +71,34 @@ class NoteSystem {
 
   const Dynamics& dynamics() const { return *dynamics_; }
   Eigen::VectorXd holdingForce(const std::vector<double>& q) const {
-    return dynamics_->holdingForce(vector(q), {});
+    const std::vector<double> rest(q.size());
+    return dynamics_->unbalancedForce(vector(q), vector(rest), {});
   }
   /// About a steady motion with rates v, if given.
   Linearization linearAt(const std::vector<double>& q, std::vector<double> v = {}) const {
     v.resize(q.size());
     return dynamics_->linearization(vector(q), vector(v), Eigen::VectorXd::Zero(dynamics_->dof()),
                                     {});
+  }
+  /// A constraint force in the motion through q, v.
+  double reaction(const std::string& name, const std::vector<double>& q,
+                  const std::vector<double>& v) const {
+    for (const Reaction& r : dynamics_->reactions(vector(q), vector(v), freely(q, v), {})) {
+      if (r.name == name) {
+        return r.value;
+      }
+    }
+    throw std::invalid_argument("no reaction " + name);
+  }
+  /// How far a condition is from being broken there.
+  double margin(const std::string& name, const std::vector<double>& q,
+                const std::vector<double>& v) const {
+    for (const Condition& c : dynamics_->conditions(vector(q), vector(v), freely(q, v), {})) {
+      if (c.name == name) {
+        return c.margin;
+      }
+    }
+    throw std::invalid_argument("no condition " + name);
   }
 
   bool asksCommonQuestion() const {
@@ -96,6 +127,10 @@ class NoteSystem {
   }
 
  private:
+  Eigen::VectorXd freely(const std::vector<double>& q, const std::vector<double>& v) const {
+    return dynamics_->acceleration(vector(q), vector(v), {});
+  }
+
   NoteCase case_;
   std::vector<std::string> names_;
   RunningSystem::Setup setup_;

@@ -7,6 +7,8 @@
 #include <random>
 #include <string>
 
+#include "../scene/every_variant.h"
+#include "analysis/mass_matrix.h"
 #include "scene/model_registry.h"
 
 namespace whirl_twin {
@@ -19,23 +21,34 @@ struct RandomState {
   Moment<double> at;
 };
 
-inline RandomState randomState(const std::string& model_name, std::mt19937_64& random) {
+/// One that may have a singular mass matrix.
+inline RandomState anyRandomState(const VariantUnderTest& variant, std::mt19937_64& random) {
   const auto between = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
   };
-  const ModelInfo& model = *findModel(model_name);
+  const ModelInfo& model = *findModel(variant.model);
   RandomState s;
   for (const ParameterInfo& p : model.parameters) {
     // Positive ones over two decades; one in three that may be 0 is.
     const double size = std::pow(10.0, between(-1.0, 1.0));
     s.parameters[p.name] = p.range == Range::kAny          ? between(-3.0, 3.0)
                            : p.range == Range::kPositive   ? size
+                           : p.range == Range::kCount      ? 3.0
                            : between(0.0, 1.0) < 1.0 / 3.0 ? 0.0
                                                            : size;
   }
+  if (s.parameters.count("regularization") != 0) {
+    s.parameters["regularization"] = 0.0;  // a form of its own
+    // Far from tipping, where the equations end.
+    s.parameters["friction_coefficient"] = between(0.0, 0.5);
+    s.parameters["height"] = s.parameters["half_spacing"] * between(0.0, 1.0);
+  }
+  for (const auto& [name, value] : variant.parameters) {
+    s.parameters[name] = value;
+  }
   s.gravity = between(0.0, 20.0);
-  s.dynamics = model.dynamics(s.parameters, s.gravity);
-  const auto n = static_cast<Eigen::Index>(model.coordinates.size());
+  s.dynamics = model.setUp(s.parameters, variant.settings, s.gravity).dynamics;
+  const auto n = static_cast<Eigen::Index>(s.dynamics->dof());
   s.q = s.v = Eigen::VectorXd(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     s.q[i] = between(-4.0, 4.0);
@@ -48,12 +61,18 @@ inline RandomState randomState(const std::string& model_name, std::mt19937_64& r
   return s;
 }
 
-inline std::vector<std::string> modelNames() {
-  std::vector<std::string> names;
-  for (const ModelInfo& model : models()) {
-    names.push_back(model.name);
+/// One whose accelerations are more than rounding.
+inline RandomState randomState(const VariantUnderTest& variant, std::mt19937_64& random) {
+  RandomState s = anyRandomState(variant, random);
+  while (massRegularity(*s.dynamics, s.q, s.v, s.at) < 1e-6) {
+    s = anyRandomState(variant, random);
   }
-  return names;
+  return s;
+}
+
+/// Of a model in its plain form.
+inline RandomState randomState(const std::string& model, std::mt19937_64& random) {
+  return randomState(VariantUnderTest{model, "", {}, {}}, random);
 }
 
 }  // namespace whirl_twin

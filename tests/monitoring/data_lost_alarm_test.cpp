@@ -84,5 +84,24 @@ TEST_F(DataLostAlarmTest, ADriveShowsThatOthersGoOnWithoutBeingWatchedItself) {
   EXPECT_TRUE(list_.active().empty());
 }
 
+TEST_F(DataLostAlarmTest, EverybodySilentWithoutAPauseMeansThatNothingIsWatched) {
+  alarm_.tick(100.0, 0.0, false, list_);
+  EXPECT_TRUE(list_.active().empty()) << "nothing was ever heard: nothing was promised";
+  send({"a", "b"}, 0.0, 2.0);
+  alarm_.tick(2.5, 1.0, false, list_);
+  EXPECT_TRUE(list_.active().empty()) << "within the timeout";
+  alarm_.tick(10.0, 1.0, true, list_);
+  EXPECT_TRUE(list_.active().empty()) << "paused";
+  alarm_.tick(10.1, 1.0, false, list_);
+  EXPECT_TRUE(lost("twin"));
+  EXPECT_FALSE(lost("a")) << "one alert, not one a system";
+  send({"a", "b"}, 20.0, 20.2);
+  alarm_.tick(20.2, 10.1, false, list_);
+  EXPECT_TRUE(lost("twin")) << "not before the clear delay";
+  send({"a", "b"}, 20.2, 21.0);
+  alarm_.tick(21.0, 10.5, false, list_);
+  EXPECT_FALSE(lost("twin"));
+}
+
 }  // namespace
 }  // namespace whirl_twin

@@ -250,7 +250,7 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"ExponentialForAPendulum",
                "{step: 1, systems: {a: {model: spinning_pendulum, integrator: exponential, "
                "parameters: {mass: 1, length: 1, speed: 1}}}}",
-               {"systems.a.integrator: exponential is for linear rotors; spinning_pendulum is not "
+               {"systems.a.integrator: exponential is for linear systems; spinning_pendulum is not "
                 "linear"}},
         Broken{"ExponentialForRotatingDampingOnADrive",
                rotorScene(kNoSpeed + ", internal_damping: 1",

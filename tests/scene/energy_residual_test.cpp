@@ -88,6 +88,10 @@ INSTANTIATE_TEST_SUITE_P(
               false},
         Audit{"RollingDisc", "rolling_disc", "gauss_legendre_6", 0.05, false},
         Audit{"TwoBarLinkage", "two_bar_linkage", "gauss_legendre_6", 0.05, false},
+        Audit{"HingedBeam", "hinged_beam", "gauss_legendre_6", 0.05, false},
+        Audit{"FrictionOscillator", "friction_oscillator", "gauss_legendre_6", 0.05, false},
+        Audit{"SlidingMassFlywheel", "sliding_mass_flywheel", "gauss_legendre_6", 0.05, false},
+        Audit{"Governor", "governor", "gauss_legendre_6", 0.05, false},
         Audit{"RotorByGaussLegendre", "jeffcott_rotor", "gauss_legendre_6", 0.05, false},
         // Exact: at any step.
         Audit{"Rotor", "jeffcott_rotor", "exponential", 0.05, false},

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "allocation_guard.h"
+#include "every_variant.h"
 #include "scene/model_registry.h"
 #include "scene/twin.h"
 #include "scenes.h"
@@ -11,19 +12,24 @@ namespace whirl_twin {
 namespace {
 
 struct Pair {
-  std::string model;
+  VariantUnderTest variant;
   std::string integrator;
 };
 
 void PrintTo(const Pair& p, std::ostream* out) {
-  *out << p.model << " by " << p.integrator;
+  *out << testName(p.variant) << " by " << p.integrator;
 }
 
 std::vector<Pair> everyPair() {
   std::vector<Pair> pairs;
-  for (const ModelInfo& model : models()) {
-    for (const std::string& integrator : model.integrators) {
-      pairs.push_back({model.name, integrator});
+  for (const VariantUnderTest& variant : everyVariant()) {
+    const ModelInfo& model = *findModel(variant.model);
+    for (const ModelVariant& v : model.variants) {
+      for (const std::string& integrator : v.integrators) {
+        if (v.when == variant.when) {
+          pairs.push_back({variant, integrator});
+        }
+      }
     }
   }
   return pairs;
@@ -34,7 +40,7 @@ class NoAllocation : public testing::TestWithParam<Pair> {
   /// The system on a shaft that changes its speed, keeps it, and changes it again.
   Scene scene() const {
     Scene scene = sceneOf(kThreeSystems);
-    const ModelInfo& model = *findModel(GetParam().model);
+    const ModelInfo& model = *findModel(GetParam().variant.model);
     SystemSpec spec;
     spec.name = "one";
     spec.model = model.name;
@@ -44,10 +50,18 @@ class NoAllocation : public testing::TestWithParam<Pair> {
     }
     for (const ParameterInfo& p : model.parameters) {
       const bool matrices_change = p.name == "internal_damping" && spec.integrator == "exponential";
-      spec.parameters[p.name] = matrices_change ? 0.0 : 0.3;
+      const bool chooses = p.name == "regularization";  // 0 is a form of its own
+      spec.parameters[p.name] = matrices_change || chooses ? 0.0
+                                : p.range == Range::kCount ? 3.0
+                                                           : 0.3;
     }
-    spec.q.assign(model.coordinates.size(), 0.5);
-    spec.v.assign(model.coordinates.size(), 0.1);
+    for (const auto& [name, value] : GetParam().variant.parameters) {
+      spec.parameters[name] = value;
+    }
+    spec.settings = GetParam().variant.settings;
+    const auto dynamics = model.setUp(spec.parameters, spec.settings, scene.gravity).dynamics;
+    spec.q.assign(static_cast<std::size_t>(dynamics->dof()), 0.5);
+    spec.v.assign(static_cast<std::size_t>(dynamics->dof()), 0.1);
     scene.systems = {spec};
     return scene;
   }
@@ -77,7 +91,7 @@ TEST_P(NoAllocation, InTheRealTimeThread) {
 
 INSTANTIATE_TEST_SUITE_P(Models, NoAllocation, testing::ValuesIn(everyPair()),
                          [](const auto& test) {
-                           return test.param.model + "_" + test.param.integrator;
+                           return testName(test.param.variant) + "_" + test.param.integrator;
                          });
 
 TEST(NoAllocationOf, AStiffImplicitStepOrOneThatFails) {

@@ -47,10 +47,24 @@ class RandomSystems {
     if (spec.model == "two_bar_linkage") {
       return twoBarLinkage(spec);
     }
+    if (spec.model == "hinged_beam") {
+      return hingedBeam(spec);
+    }
+    if (spec.model == "friction_oscillator") {
+      return frictionOscillator(spec);
+    }
+    if (spec.model == "sliding_mass_flywheel") {
+      return slidingMassFlywheel(spec);
+    }
+    if (spec.model == "governor") {
+      return governor(spec);
+    }
     throw std::invalid_argument("no random " + spec.model);
   }
 
  private:
+  bool maybe() { return between(0.0, 1.0) < 0.5; }
+
   double jeffcottRotor(SystemSpec& spec, bool driven) {
     const double m = between(0.5, 5.0);
     const double p = between(5.0, 20.0);
@@ -77,9 +91,24 @@ class RandomSystems {
   }
 
   double doublePendulum(SystemSpec& spec) {
-    spec.parameters = {{"mass1", between(0.5, 2.0)},    {"mass2", between(0.5, 2.0)},
-                       {"length1", between(0.5, 2.0)},  {"length2", between(0.5, 2.0)},
-                       {"damping1", between(0.0, 0.2)}, {"damping2", between(0.0, 0.2)}};
+    const double l1 = between(0.5, 2.0);
+    const double l2 = between(0.5, 2.0);
+    const bool bodies = maybe();
+    const double friction = bodies ? 0.5 : 0.0;
+    spec.settings.choices["coordinates"] = maybe() ? "relative" : "absolute";
+    spec.parameters = {{"mass1", between(0.5, 2.0)},
+                       {"mass2", between(0.5, 2.0)},
+                       {"length1", l1},
+                       {"length2", l2},
+                       {"center1", bodies ? l1 * between(0.4, 1.0) : l1},
+                       {"center2", bodies ? l2 * between(0.4, 1.0) : l2},
+                       {"inertia1", bodies ? l1 * l1 * between(0.0, 0.1) : 0.0},
+                       {"inertia2", bodies ? l2 * l2 * between(0.0, 0.1) : 0.0},
+                       {"damping1", between(0.0, 0.2)},
+                       {"damping2", between(0.0, 0.2)},
+                       {"coulomb1", friction * between(0.0, 1.0)},
+                       {"coulomb2", friction * between(0.0, 1.0)},
+                       {"coulomb_rate", between(2.0, 5.0)}};  // wide enough for steps to follow it
     spec.q = {between(-2.0, 2.0), between(-2.0, 2.0)};
     spec.v = {between(-2.0, 2.0), between(-2.0, 2.0)};
     return 25.0;  // the lower arm whips round, faster than it swings
@@ -160,6 +189,72 @@ class RandomSystems {
     spec.q = {between(-3.0, 3.0)};
     spec.v = {between(-2.0, 2.0)};
     return 40.0;
+  }
+
+  double hingedBeam(SystemSpec& spec) {
+    const double m = between(1.0, 20.0);
+    const double p = between(3.0, 15.0);  // at small angles
+    spec.settings.choices["geometry"] = maybe() ? "small" : "finite";
+    spec.parameters = {{"mass", m},
+                       {"length", between(0.5, 2.0)},
+                       {"stiffness", m * p * p * 4.0 / 3.0},
+                       {"damping", m * between(0.0, 1.0)},
+                       {"load_amplitude", m * between(-5.0, 5.0)},
+                       {"load_frequency", maybe() ? between(0.0, 10.0) : 0.0}};
+    spec.q = {between(-2.0, 2.0)};
+    spec.v = {between(-2.0, 2.0)};
+    return 30.0;
+  }
+
+  double frictionOscillator(SystemSpec& spec) {
+    const double mu = between(0.1, 0.5);
+    const double a = between(0.1, 0.5);
+    const double p = std::sqrt(mu * 9.8 / a);  // of a flat plank
+    spec.parameters = {
+        {"mass", between(0.5, 2.0)},
+        {"friction_coefficient", mu},
+        {"half_spacing", a},
+        {"height", a * between(0.0, 0.8)},
+        {"roller_speed", between(1.0, 2.0)},
+        {"regularization", maybe() ? between(0.5, 1.0) : 0.0}};  // wide enough for steps
+    // Amplitudes that keep the plank on both rollers.
+    spec.q = {a * between(-0.3, 0.3)};
+    spec.v = {p * a * between(-0.3, 0.3)};
+    return 30.0;
+  }
+
+  double slidingMassFlywheel(SystemSpec& spec) {
+    const double m = between(0.2, 1.0);
+    const double p = between(10.0, 20.0);
+    const double w = between(-5.0, 5.0);
+    const bool symmetric = maybe();
+    spec.settings.choices["symmetric"] = symmetric ? "true" : "false";
+    spec.parameters = {{"inertia", m * 0.09 * between(1.0, 3.0)},
+                       {"slider_mass", m},
+                       {"stiffness", m * p * p},
+                       {"free_length", between(-0.1, 0.3)}};
+    spec.q = {between(0.1, 0.3), between(-3.0, 3.0)};
+    spec.v = {between(-0.5, 0.5), w};
+    if (!symmetric) {
+      spec.q.insert(spec.q.begin(), between(0.1, 0.3));
+      spec.v.insert(spec.v.begin(), between(-0.5, 0.5));
+    }
+    return 20.0 + p;  // with its masses at the centre the wheel turns three times as fast
+  }
+
+  double governor(SystemSpec& spec) {
+    const double m = between(0.5, 2.0);
+    const double l = between(0.2, 0.5);
+    const double torque = between(1.0, 4.0);
+    spec.parameters = {{"mass", m},
+                       {"length", l},
+                       {"inertia", between(0.5, 2.0)},
+                       {"damping", m * l * l * between(0.0, 2.0)},
+                       {"torque", torque},
+                       {"load", torque * between(0.3, 0.9)}};
+    spec.q = {between(0.0, 1.2), between(-3.0, 3.0)};
+    spec.v = {between(-1.0, 1.0), between(3.0, 10.0)};
+    return 60.0;  // the engine runs away until its governor closes the throttle
   }
 
   std::mt19937_64 random_{20};

@@ -39,7 +39,7 @@ TEST(Analyze, HasEveryKey) {
         (std::set<std::string>{"model", "coordinates", "time", "speed", "state", "acceleration",
                                "energy", "equilibria", "linearization", "eigenvalues",
                                "natural_frequencies", "damping_ratios", "characteristic_polynomial",
-                               "routh", "margins", "critical_speeds"}));
+                               "routh", "margins", "critical_speeds", "methods"}));
     EXPECT_EQ(keys(system["energy"]), (std::set<std::string>{"kinetic", "potential", "jacobi",
                                                              "dissipated_power", "input_power"}));
     EXPECT_EQ(keys(system["equilibria"][0]), (std::set<std::string>{"state", "verdict"}));

@@ -55,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(
     Usages, Misused,
     testing::Values(
         Misuse{{},
-               "twin: expected a command; there are: check, models, simulate, analyze, routh, log"},
+               "twin: expected a command; there are: check, scenes, models, simulate, plot, analyze, routh, log"},
         Misuse{{"analyse", kDemo}, "twin: unknown command 'analyse'; did you mean 'analyze'?"},
         Misuse{{"campbell", kDemo},
                "twin: unknown command 'campbell'; there are: check, models, simulate, analyze, "

@@ -41,7 +41,10 @@ TEST(Models, OnlyOnesOnAShaftHaveASpeed) {
   for (const auto& [name, model] : models.items()) {
     EXPECT_EQ(model["parameters"].contains("speed"), model["shaft"].get<bool>()) << name;
     EXPECT_NE(model["summary"], "") << name;
-    EXPECT_FALSE(model["coordinates"].empty()) << name;
+    // A system given by matrices has as many as they have rows.
+    EXPECT_EQ(model["coordinates"].empty(),
+              name == "linear_system" || name == "cantilever_beam")
+        << name;
   }
 }
 

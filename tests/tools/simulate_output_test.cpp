@@ -52,7 +52,7 @@ INSTANTIATE_TEST_SUITE_P(
                 {"twin: --integrator: no integrator 'runge_kuta_4'; did you mean "
                  "'runge_kutta_4'?"}},
         Refused{{"--integrator", "exponential"},
-                {"twin: --integrator: pendulum: exponential is for linear rotors; "
+                {"twin: --integrator: pendulum: exponential is for linear systems; "
                  "spinning_pendulum is not linear"}},
         Refused{{"--output", "demo.txt"},
                 {"twin: --output: must end in .csv or .lcmlog, found 'demo.txt'"}}));

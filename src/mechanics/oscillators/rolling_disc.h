@@ -7,12 +7,16 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include "mechanics/elementary.h"
 #include "mechanics/force_inline.h"
 #include "mechanics/model_description.h"
 #include "mechanics/moment.h"
+#include "mechanics/reaction.h"
+#include "mechanics/sketch.h"
 
 namespace whirl_twin {
 
@@ -72,6 +76,61 @@ struct RollingDisc {
   WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>&,
                                               const std::array<S, kDof>&, const Moment<S>&) const {
     return {};
+  }
+
+  /// `normal_force` up and `friction_force` along +x, both of the plane on the disc, by Newton's
+  /// law on the disc and its off-centre mass.
+  std::vector<Reaction> reactions(const std::array<double, kDof>& q,
+                                  const std::array<double, kDof>& v,
+                                  const std::array<double, kDof>& a, const Moment<double>&) const {
+    const double turn = q[0] / radius;
+    const double rate = v[0] / radius;
+    const double spin_up = a[0] / radius;
+    const double along = a[0] - offset * (spin_up * std::cos(turn) - rate * rate * std::sin(turn));
+    const double up = offset * (spin_up * std::sin(turn) + rate * rate * std::cos(turn));
+    return {{"normal_force", "N", (disc_mass + offset_mass) * gravity + offset_mass * up},
+            {"friction_force", "N",
+             disc_mass * a[0] + offset_mass * along + stiffness * q[0] + damping * v[0]}};
+  }
+  std::vector<Condition> conditions(const std::array<double, kDof>& q,
+                                    const std::array<double, kDof>& v,
+                                    const std::array<double, kDof>& a,
+                                    const Moment<double>& at) const {
+    return {{"contact", "N", reactions(q, v, a, at).front().value, "the disc lifts off its plane"}};
+  }
+
+  Sketch sketch(const std::array<double, kDof>& q, const Moment<double>&) const {
+    const double r = radius;
+    const double wall = 3.4 * r;
+    const double behind = 0.28 * r;  // spring and damper run behind the disc
+    const double turn = q[0] / r;
+    Sketch s;
+    s.size = 7.4 * r;
+    s.height = 3.0 * r;
+    s.centre.z = 0.3 * r;
+    s.discs = {{{q[0], 0.0, 0.0}, {0.0, 1.0, 0.0}, r, 0.25 * r, turn, SketchRole::kMass}};
+    s.rods = {{{q[0], behind, 0.0}, {q[0], -0.2 * r, 0.0}, 0.08 * r, SketchRole::kSupport}};
+    s.boxes = {{{0.0, 0.0, -1.05 * r}, {7.2 * r, 0.9 * r, 0.1 * r}, 0.0, SketchRole::kSupport},
+               {{-wall - 0.1 * r, behind, -0.3 * r},
+                {0.2 * r, 0.3 * r, 1.5 * r},
+                0.0,
+                SketchRole::kSupport}};
+    s.springs = {{{-wall, behind, 0.0}, {q[0], behind, 0.0}, 0.13 * r}};
+    if (damping > 0.0) {
+      s.boxes.push_back({{wall + 0.1 * r, behind, -0.3 * r},
+                         {0.2 * r, 0.3 * r, 1.5 * r},
+                         0.0,
+                         SketchRole::kSupport});
+      s.dampers = {{{wall, behind, 0.0}, {q[0], behind, 0.0}, 0.13 * r}};
+    }
+    // Without a mass off the centre a point of the rim leaves its cycloid.
+    const double marked = offset_mass > 0.0 ? offset : r;
+    s.tracer = {q[0] - marked * std::sin(turn), -0.16 * r, -marked * std::cos(turn)};
+    s.has_tracer = true;
+    if (offset_mass > 0.0) {
+      s.balls = {{s.tracer, 0.14 * r, SketchRole::kMark}};
+    }
+    return s;
   }
 };
 

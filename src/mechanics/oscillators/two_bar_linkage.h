@@ -6,12 +6,14 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "mechanics/elementary.h"
 #include "mechanics/force_inline.h"
 #include "mechanics/model_description.h"
 #include "mechanics/moment.h"
+#include "mechanics/sketch.h"
 
 namespace whirl_twin {
 
@@ -56,6 +58,35 @@ struct TwoBarLinkage {
   WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>& q,
                                               const std::array<S, kDof>&, const Moment<S>&) const {
     return {(2.0 * pull * bar_length) * cos(q[0])};
+  }
+
+  Sketch sketch(const std::array<double, kDof>& q, const Moment<double>&) const {
+    const double l = bar_length;
+    const double roller = 0.07 * l;
+    Sketch s;
+    s.size = 2.9 * l;
+    s.height = 1.6 * l;
+    s.centre = {0.95 * l, 0.0, -0.35 * l};
+    const SketchPoint joint = hangingPoint({}, l, q[0]);
+    const SketchPoint end{2.0 * joint.x, 0.0, 0.0};
+    s.rods = {{{}, joint, 0.03 * l, SketchRole::kBody}, {joint, end, 0.03 * l, SketchRole::kBody}};
+    addPin(s, {});
+    s.boxes = {{{1.1 * l, 0.12 * l, -roller - 0.02 * l},
+                {2.2 * l, 0.12 * l, 0.04 * l},
+                0.0,
+                SketchRole::kSupport}};
+    s.discs = {{{end.x, 0.08 * l, 0.0},
+                {0.0, 1.0, 0.0},
+                roller,
+                0.16 * l,
+                end.x / roller,
+                SketchRole::kMass}};
+    s.balls = {{joint, 0.05 * l, SketchRole::kSupport}};
+    const double drawn = pull == 0.0 ? 0.0 : std::copysign(0.35 * l, pull);
+    s.arrows = {{end, {end.x + drawn, 0.0, 0.0}}};
+    s.tracer = joint;
+    s.has_tracer = true;
+    return s;
   }
 };
 

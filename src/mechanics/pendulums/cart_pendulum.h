@@ -7,12 +7,14 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "mechanics/elementary.h"
 #include "mechanics/force_inline.h"
 #include "mechanics/model_description.h"
 #include "mechanics/moment.h"
+#include "mechanics/sketch.h"
 
 namespace whirl_twin {
 
@@ -85,6 +87,49 @@ struct CartPendulum {
                                               const Moment<S>& at) const {
     const S f = force_amplitude * cos(force_frequency * at.time);
     return {f, rod_length * (f * cos(q[1]))};
+  }
+
+  /// The arrows show the support's motion and the force, each as a part of its amplitude.
+  Sketch sketch(const std::array<double, kDof>& q, const Moment<double>& at) const {
+    const double l = rod_length;
+    const double behind = 0.08 * l;  // the cart runs behind its rod
+    const double track = -0.17 * l;
+    const double wheel = 0.05 * l;
+    const double shaking = std::sin(support_frequency * at.time);
+    const double wall = -1.05 * l + support_amplitude * shaking;
+    Sketch s;
+    s.size = 2.4 * l;
+    s.height = 1.6 * l;
+    s.centre.z = -0.4 * l;
+    const SketchPoint hinge{q[0], 0.0, 0.0};
+    const SketchPoint tip = hangingPoint(hinge, l, q[1]);
+    s.boxes = {
+        {{0.0, behind, track - 0.02 * l}, {2.3 * l, 0.16 * l, 0.04 * l}, 0.0, SketchRole::kSupport},
+        {{wall - 0.04 * l, behind, 0.02 * l},
+         {0.08 * l, 0.16 * l, 0.34 * l},
+         0.0,
+         SketchRole::kSupport},
+        {{q[0], behind, 0.0}, {0.4 * l, 0.1 * l, 0.16 * l}, 0.0, SketchRole::kMass}};
+    for (const double side : {-0.12 * l, 0.12 * l}) {
+      s.discs.push_back({{q[0] + side, behind, track + wheel},
+                         {0.0, 1.0, 0.0},
+                         wheel,
+                         0.13 * l,
+                         q[0] / wheel,
+                         SketchRole::kBody});
+    }
+    s.rods = {{hinge, tip, 0.022 * l, SketchRole::kBody},
+              {{q[0], behind, 0.0}, {q[0], -0.04 * l, 0.0}, 0.03 * l, SketchRole::kSupport}};
+    s.springs = {{{wall, behind, 0.0}, {q[0] - 0.2 * l, behind, 0.0}, 0.05 * l}};
+    const double push = force_amplitude == 0.0 ? 0.0 : std::cos(force_frequency * at.time);
+    const double shake = support_amplitude == 0.0 ? 0.0 : shaking;
+    s.arrows = {
+        {tip, {tip.x + std::copysign(0.35 * l, force_amplitude) * push, 0.0, tip.z}},
+        {{-1.05 * l, behind, 0.28 * l},
+         {-1.05 * l + std::copysign(0.35 * l, support_amplitude) * shake, behind, 0.28 * l}}};
+    s.tracer = tip;
+    s.has_tracer = true;
+    return s;
   }
 };
 

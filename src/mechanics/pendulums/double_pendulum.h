@@ -1,76 +1,172 @@
-// Double pendulum: two point masses on massless rods in a vertical plane, each angle measured from
-// the vertical (absolute angles), exact (lecture notes, "double pendulum"; errata E11 and note i).
+// Double pendulum: two arms in a vertical plane, each angle measured from the vertical (absolute
+// angles), exact (lecture notes, "double pendulum"; errata E11 and note i). By itself a pair of
+// point masses on massless rods; with centres of mass and inertias of their own, a pair of bodies.
 //
-//   T = m1 |v1|^2 / 2 + m2 |v2|^2 / 2,   V = -m1 g y1 - m2 g y2   (zero hanging at rest)
+//   T = m1 |v1|^2 / 2 + I1 theta1'^2 / 2 + m2 |v2|^2 / 2 + I2 theta2'^2 / 2     v of the mass
+//   centres V = -m1 g y1 - m2 g y2                                             (zero hanging at
+//   rest) D = c1 theta1'^2 / 2 + c2 w^2 / 2 + Mc1 s(theta1') + Mc2 s(w),   w = theta2' - theta1'
 //
-// The kinetic energy is written in the bobs' Cartesian velocities: that costs fewer dual operations
-// than the expanded cosine form.
+// The kinetic energy is written in the mass centres' Cartesian velocities: that costs fewer dual
+// operations than the expanded cosine form.
+//
+// Coulomb friction in the joints is regularised: s(w) = sqrt(w^2 + w0^2) makes of the jump at w = 0
+// a moment Mc w / sqrt(w^2 + w0^2), short of Mc by the share (w0 / w)^2 / 2; w0 is `coulomb_rate`.
+// A joint that would stick creeps, at w0 M / sqrt(Mc^2 - M^2) under a moment M < Mc, so in the long
+// run a stuck arm sinks to where it hangs. Near standstill the joint is a damper Mc / w0: explicit
+// methods need steps below about 2 I w0 / Mc, I the inertia that it moves.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
 
 #include "mechanics/elementary.h"
+#include "mechanics/force_inline.h"
 #include "mechanics/model_description.h"
 #include "mechanics/moment.h"
+#include "mechanics/reaction.h"
+#include "mechanics/sketch.h"
 
 namespace whirl_twin {
 
 struct DoublePendulum {
   static constexpr const char* kName = "double_pendulum";
-  static constexpr const char* kSummary = "two rods and bobs in a vertical plane, absolute angles";
+  static constexpr const char* kSummary = "two arms in a vertical plane, of point masses or bodies";
   static constexpr std::size_t kDof = 2;
   static constexpr bool kLinear = false;
   static constexpr bool kHasShaft = false;
   static constexpr std::array<Coordinate, kDof> kCoordinates{
       {{"theta1", "rad"}, {"theta2", "rad"}}};
 
-  double mass1 = 0.0;     ///< [kg]
-  double mass2 = 0.0;     ///< [kg]
-  double length1 = 0.0;   ///< [m]
-  double length2 = 0.0;   ///< [m]
-  double damping1 = 0.0;  ///< [N m s/rad], at the upper joint
-  double damping2 = 0.0;  ///< [N m s/rad], at the lower joint
-  double gravity = 0.0;   ///< [m/s^2], of the scene
+  double mass1 = 0.0;         ///< [kg]
+  double mass2 = 0.0;         ///< [kg]
+  double length1 = 0.0;       ///< [m], joint to joint
+  double length2 = 0.0;       ///< [m]
+  double center1 = 0.0;       ///< [m], upper joint to the upper mass centre
+  double center2 = 0.0;       ///< [m], lower joint to the lower mass centre
+  double inertia1 = 0.0;      ///< [kg m^2], about the mass centre
+  double inertia2 = 0.0;      ///< [kg m^2], about the mass centre
+  double damping1 = 0.0;      ///< [N m s/rad], at the upper joint
+  double damping2 = 0.0;      ///< [N m s/rad], at the lower joint
+  double coulomb1 = 0.0;      ///< [N m], at the upper joint
+  double coulomb2 = 0.0;      ///< [N m], at the lower joint
+  double coulomb_rate = 0.0;  ///< [rad/s], w0: below it Coulomb friction is regularised
+  double gravity = 0.0;       ///< [m/s^2], of the scene
 
-  static constexpr std::array<Parameter<DoublePendulum>, 6> parameters() {
+  static constexpr std::array<Parameter<DoublePendulum>, 13> parameters() {
     return {{{"mass1", "kg", Range::kPositive, &DoublePendulum::mass1, "of the upper bob"},
              {"mass2", "kg", Range::kPositive, &DoublePendulum::mass2, "of the lower bob"},
              {"length1", "m", Range::kPositive, &DoublePendulum::length1, "of the upper rod"},
              {"length2", "m", Range::kPositive, &DoublePendulum::length2, "of the lower rod"},
+             {"center1", "m", Range::kNotNegative, &DoublePendulum::center1,
+              "upper joint to the upper mass centre", kGiven, "length1"},
+             {"center2", "m", Range::kNotNegative, &DoublePendulum::center2,
+              "lower joint to the lower mass centre", kGiven, "length2"},
+             {"inertia1", "kg m^2", Range::kNotNegative, &DoublePendulum::inertia1,
+              "of the upper arm about its mass centre", 0.0},
+             {"inertia2", "kg m^2", Range::kNotNegative, &DoublePendulum::inertia2,
+              "of the lower arm about its mass centre", 0.0},
              {"damping1", "N m s/rad", Range::kNotNegative, &DoublePendulum::damping1,
               "viscous, at the upper joint", 0.0},
              {"damping2", "N m s/rad", Range::kNotNegative, &DoublePendulum::damping2,
-              "viscous, at the lower joint", 0.0}}};
+              "viscous, at the lower joint", 0.0},
+             {"coulomb1", "N m", Range::kNotNegative, &DoublePendulum::coulomb1,
+              "Coulomb friction at the upper joint", 0.0},
+             {"coulomb2", "N m", Range::kNotNegative, &DoublePendulum::coulomb2,
+              "Coulomb friction at the lower joint", 0.0},
+             {"coulomb_rate", "rad/s", Range::kPositive, &DoublePendulum::coulomb_rate,
+              "width of the Coulomb friction's change of sign", 0.01}}};
+  }
+
+  std::string singularMass() const {
+    if (center2 == 0.0 && inertia2 == 0.0) {
+      return "the lower arm has no inertia about its joint";
+    }
+    if (center1 == 0.0 && inertia1 == 0.0 && inertia2 == 0.0) {
+      return "with its mass at its pivot the upper arm has no inertia of its own, and while both "
+             "arms are in line it can turn without moving the lower mass";
+    }
+    return "";
   }
 
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, 2>& q, const std::array<S, 2>& v,
                               const Moment<S>&) const {
-    const S c1 = cos(q[0]);
-    const S s1 = sin(q[0]);
-    const S x1 = length1 * (c1 * v[0]);
-    const S y1 = length1 * (s1 * v[0]);
-    const S x2 = x1 + length2 * (cos(q[1]) * v[1]);
-    const S y2 = y1 + length2 * (sin(q[1]) * v[1]);
-    return (0.5 * mass1 * length1 * length1) * (v[0] * v[0]) + (0.5 * mass2) * (x2 * x2 + y2 * y2);
+    const S x2 = length1 * (cos(q[0]) * v[0]) + center2 * (cos(q[1]) * v[1]);
+    const S y2 = length1 * (sin(q[0]) * v[0]) + center2 * (sin(q[1]) * v[1]);
+    return (0.5 * (mass1 * center1 * center1 + inertia1)) * (v[0] * v[0]) +
+           (0.5 * inertia2) * (v[1] * v[1]) + (0.5 * mass2) * (x2 * x2 + y2 * y2);
   }
   template <class S>
   WHIRL_TWIN_INLINE S potential(const std::array<S, 2>& q, const Moment<S>&) const {
-    return ((mass1 + mass2) * gravity * length1) * (1.0 - cos(q[0])) +
-           (mass2 * gravity * length2) * (1.0 - cos(q[1]));
+    return ((mass1 * center1 + mass2 * length1) * gravity) * (1.0 - cos(q[0])) +
+           (mass2 * gravity * center2) * (1.0 - cos(q[1]));
   }
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, 2>&, const std::array<S, 2>& v,
                                   const Moment<S>&) const {
     const S relative = v[1] - v[0];
-    return (0.5 * damping1) * (v[0] * v[0]) + (0.5 * damping2) * (relative * relative);
+    S d = (0.5 * damping1) * (v[0] * v[0]) + (0.5 * damping2) * (relative * relative);
+    if (coulomb1 != 0.0) {
+      d = d + coulomb1 * sqrt(v[0] * v[0] + coulomb_rate * coulomb_rate);
+    }
+    if (coulomb2 != 0.0) {
+      d = d + coulomb2 * sqrt(relative * relative + coulomb_rate * coulomb_rate);
+    }
+    return d;
   }
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, 2> force(const std::array<S, 2>&, const std::array<S, 2>&,
                                            const Moment<S>&) const {
     return {};
   }
+
+  /// Forces of the joints on the arms that hang from them, by Newton's law: along the rod, positive
+  /// where it is pulled, and their size.
+  std::vector<Reaction> reactions(const std::array<double, 2>& q, const std::array<double, 2>& v,
+                                  const std::array<double, 2>& a, const Moment<double>&) const {
+    std::array<Eigen::Vector2d, 2> to_joint;  // along +x and up, from the arm towards its joint
+    std::array<Eigen::Vector2d, 2> unit_acceleration;  // per length
+    for (std::size_t i = 0; i < 2; ++i) {
+      to_joint[i] = {-std::sin(q[i]), std::cos(q[i])};
+      const Eigen::Vector2d across(std::cos(q[i]), std::sin(q[i]));
+      unit_acceleration[i] = a[i] * across + v[i] * v[i] * to_joint[i];
+    }
+    const Eigen::Vector2d weightless(0.0, gravity);
+    const Eigen::Vector2d upper = center1 * unit_acceleration[0] + weightless;
+    const Eigen::Vector2d lower =
+        length1 * unit_acceleration[0] + center2 * unit_acceleration[1] + weightless;
+    const Eigen::Vector2d joint2 = mass2 * lower;
+    const Eigen::Vector2d joint1 = mass1 * upper + joint2;
+    return {{"rod_tension_1", "N", joint1.dot(to_joint[0])},
+            {"rod_tension_2", "N", joint2.dot(to_joint[1])},
+            {"joint_force_1", "N", joint1.norm()},
+            {"joint_force_2", "N", joint2.norm()}};
+  }
+
+  Sketch sketch(const std::array<double, 2>& q, const Moment<double>&) const {
+    const double reach = length1 + length2;
+    const SketchPoint joint = hangingPoint({}, length1, q[0]);
+    const SketchPoint end = hangingPoint(joint, length2, q[1]);
+    const double bob = 0.08 * reach / std::cbrt(mass1 + mass2);
+    Sketch s;
+    s.size = 2.3 * reach;
+    s.rods = {{{}, joint, 0.016 * reach, SketchRole::kBody},
+              {joint, end, 0.016 * reach, SketchRole::kBody}};
+    addPin(s, {});
+    s.balls = {{hangingPoint({}, center1, q[0]), bob * std::cbrt(mass1), SketchRole::kMass},
+               {hangingPoint(joint, center2, q[1]), bob * std::cbrt(mass2), SketchRole::kMass}};
+    s.tracer = end;
+    s.has_tracer = true;
+    return s;
+  }
+
+ private:
+  static constexpr double kGiven = std::numeric_limits<double>::quiet_NaN();
 };
 
 }  // namespace whirl_twin

@@ -8,11 +8,15 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <string>
+#include <vector>
 
 #include "mechanics/elementary.h"
 #include "mechanics/force_inline.h"
 #include "mechanics/model_description.h"
 #include "mechanics/moment.h"
+#include "mechanics/reaction.h"
+#include "mechanics/sketch.h"
 
 namespace whirl_twin {
 
@@ -45,6 +49,12 @@ struct RodSlider {
     return std::max(rod_length, free_length + slider_mass * gravity / stiffness);
   }
 
+  std::string singularMass() const {
+    return rod_mass == 0.0 ? "without a mass of the rod nothing resists its swing while the slider "
+                             "is at the pivot"
+                           : "";
+  }
+
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
                               const Moment<S>&) const {
@@ -67,6 +77,30 @@ struct RodSlider {
   WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>&,
                                               const std::array<S, kDof>&, const Moment<S>&) const {
     return {};
+  }
+
+  std::vector<Condition> conditions(const std::array<double, kDof>& q,
+                                    const std::array<double, kDof>&,
+                                    const std::array<double, kDof>&, const Moment<double>&) const {
+    return {{"rod_end", "m", std::min(q[0], rod_length - q[0]),
+             q[0] > 0.0 ? "the slider has left the rod at its end"
+                        : "the slider has passed the pivot"}};
+  }
+
+  Sketch sketch(const std::array<double, kDof>& q, const Moment<double>&) const {
+    const double reach = naturalLength();
+    Sketch s;
+    s.size = 2.3 * reach;
+    s.height = 1.6 * reach;
+    s.centre.z = -0.4 * reach;
+    const SketchPoint slider = hangingPoint({}, q[0], q[1]);
+    s.rods = {{{}, hangingPoint({}, rod_length, q[1]), 0.016 * reach, SketchRole::kBody}};
+    addPin(s, {});
+    s.springs = {{{}, hangingPoint({}, q[0] - 0.09 * reach, q[1]), 0.04 * reach}};
+    s.boxes = {{slider, {0.13 * reach, 0.13 * reach, 0.18 * reach}, q[1], SketchRole::kMass}};
+    s.tracer = slider;
+    s.has_tracer = true;
+    return s;
   }
 };
 

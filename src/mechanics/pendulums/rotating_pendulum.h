@@ -10,11 +10,13 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 
 #include "mechanics/elementary.h"
 #include "mechanics/force_inline.h"
 #include "mechanics/model_description.h"
 #include "mechanics/moment.h"
+#include "mechanics/pendulums/turning_pendulum_sketch.h"
 
 namespace whirl_twin {
 
@@ -41,6 +43,12 @@ struct RotatingPendulum {
               "viscous, on theta", 0.0}}};
   }
 
+  std::string singularMass() const {
+    return hub_inertia == 0.0 ? "without a hub inertia nothing resists turning about the vertical "
+                                "while the pendulum hangs along it"
+                              : "";
+  }
+
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
                               const Moment<S>&) const {
@@ -61,6 +69,10 @@ struct RotatingPendulum {
   WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>&,
                                               const std::array<S, kDof>&, const Moment<S>&) const {
     return {};
+  }
+
+  Sketch sketch(const std::array<double, kDof>& q, const Moment<double>&) const {
+    return turningPendulumSketch(length, q[0], q[1], 0.3 * length);
   }
 };
 

@@ -13,6 +13,7 @@
 #include "mechanics/elementary.h"
 #include "mechanics/model_description.h"
 #include "mechanics/moment.h"
+#include "mechanics/pendulums/turning_pendulum_sketch.h"
 
 namespace whirl_twin {
 
@@ -56,6 +57,10 @@ struct SpinningPendulum {
   WHIRL_TWIN_INLINE std::array<S, 1> force(const std::array<S, 1>&, const std::array<S, 1>&,
                                            const Moment<S>&) const {
     return {};
+  }
+
+  Sketch sketch(const std::array<double, kDof>& q, const Moment<double>& at) const {
+    return turningPendulumSketch(length, q[0], at.angle, 0.14 * length);
   }
 };
 

@@ -6,12 +6,14 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "mechanics/elementary.h"
 #include "mechanics/force_inline.h"
 #include "mechanics/model_description.h"
 #include "mechanics/moment.h"
+#include "mechanics/sketch.h"
 
 namespace whirl_twin {
 
@@ -59,6 +61,29 @@ struct SprungInvertedPendulum {
   WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>&,
                                               const std::array<S, kDof>&, const Moment<S>&) const {
     return {};
+  }
+
+  /// The spring's far end runs in a guide, so that the spring stays level.
+  Sketch sketch(const std::array<double, kDof>& q, const Moment<double>&) const {
+    Sketch s;
+    s.size = 2.6 * length;
+    s.height = 2.5 * length;
+    const SketchPoint bob{length * std::sin(q[0]), 0.0, length * std::cos(q[0])};
+    const double guide = -1.2 * length;
+    const double bob_radius = 0.09 * length;
+    s.rods = {{{}, bob, 0.02 * length, SketchRole::kBody},
+              {{guide, 0.0, -1.15 * length},
+               {guide, 0.0, 1.15 * length},
+               0.02 * length,
+               SketchRole::kSupport}};
+    addPin(s, {});
+    s.boxes = {
+        {{guide, 0.0, bob.z}, {0.1 * length, 0.1 * length, 0.12 * length}, 0.0, SketchRole::kBody}};
+    s.balls = {{bob, bob_radius, SketchRole::kMass}};
+    s.springs = {{{guide, 0.0, bob.z}, {bob.x - bob_radius, 0.0, bob.z}, 0.05 * length}};
+    s.tracer = bob;
+    s.has_tracer = true;
+    return s;
   }
 };
 

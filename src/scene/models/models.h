@@ -6,12 +6,18 @@
 
 namespace whirl_twin {
 
+ModelInfo cantileverBeamInfo();
 ModelInfo cartPendulumInfo();
 ModelInfo doublePendulumInfo();
+ModelInfo frictionOscillatorInfo();
+ModelInfo governorInfo();
+ModelInfo hingedBeamInfo();
 ModelInfo jeffcottRotorInfo();
+ModelInfo linearSystemInfo();
 ModelInfo rodSliderInfo();
 ModelInfo rollingDiscInfo();
 ModelInfo rotatingPendulumInfo();
+ModelInfo slidingMassFlywheelInfo();
 ModelInfo spinningPendulumInfo();
 ModelInfo sprungInvertedPendulumInfo();
 ModelInfo twoBarLinkageInfo();

@@ -1,0 +1,22 @@
+# pluginlib, as headers and libraries: whirl_twin_pluginlib. (Debian's is that of ROS 2 taught to find
+# ROS 1 packages; its CMake config brings in ament, which looks for a Python of its own.)
+if(NOT TARGET whirl_twin_pluginlib)
+  add_library(whirl_twin_pluginlib INTERFACE)
+  foreach(header pluginlib/class_loader.hpp class_loader/class_loader.hpp
+      ament_index_cpp/get_resource.hpp rcpputils/shared_library.hpp rcutils/logging_macros.h)
+    get_filename_component(package ${header} DIRECTORY)
+    find_path(whirl_twin_${package}_include ${header} PATH_SUFFIXES ${package})
+    if(NOT whirl_twin_${package}_include)
+      message(FATAL_ERROR "${header} was not found: install pluginlib-dev")
+    endif()
+    target_include_directories(whirl_twin_pluginlib SYSTEM INTERFACE ${whirl_twin_${package}_include})
+  endforeach()
+  foreach(library class_loader ament_index_cpp rcpputils rcutils roslib rospack tinyxml2
+      console_bridge)
+    find_library(whirl_twin_${library}_library ${library})
+    if(NOT whirl_twin_${library}_library)
+      message(FATAL_ERROR "The library ${library} was not found: install pluginlib-dev")
+    endif()
+    target_link_libraries(whirl_twin_pluginlib INTERFACE ${whirl_twin_${library}_library})
+  endforeach()
+endif()

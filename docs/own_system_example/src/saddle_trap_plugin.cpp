@@ -1,0 +1,16 @@
+#include <pluginlib/class_list_macros.hpp>
+
+#include "saddle_trap.h"
+#include "scene/model_entry.h"
+#include "scene/model_plugin.h"
+
+namespace saddle_trap {
+
+class SaddleTrapPlugin : public ModelPlugin {
+ public:
+  ModelInfo info() const override { return modelInfo<SaddleTrap>(); }
+};
+
+}  // namespace saddle_trap
+
+PLUGINLIB_EXPORT_CLASS(saddle_trap::SaddleTrapPlugin, whirl_twin::ModelPlugin)

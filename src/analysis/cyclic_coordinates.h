@@ -1,0 +1,42 @@
+// Cyclic coordinates: those that no force and no energy depends on, only their rates (lecture
+// notes, "rotating pendulum", "flywheel with sliding masses"; Goldstein, Classical Mechanics, 2.6).
+//
+// Where nothing drives or damps a cyclic coordinate its momentum p = dL/dv is conserved, and the
+// motion of the others, the shape, follows from the reduced (Routh) system at that momentum. Where
+// something does, its rate settles. Either way the position along it never matters, and its zero
+// eigenvalue says nothing of stability. The rigid-body modes of a linear system are the same thing
+// along a combination of coordinates.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "analysis/stability.h"
+#include "mechanics/dynamics.h"
+
+namespace whirl_twin {
+
+struct CyclicCoordinates {
+  using Places = std::vector<Eigen::Index>;
+  /// Columns: the directions that the three lists below count. The unit matrix, but for the
+  /// rigid-body modes of a linear system. [n x n]
+  Eigen::MatrixXd basis;
+  Places shape;      ///< what the forces depend on
+  Places conserved;  ///< cyclic, with a conserved momentum
+  Places driven;     ///< cyclic, but driven or damped
+
+  bool any() const { return !conserved.empty() || !driven.empty(); }
+};
+
+/// Judged in general position, where a derivative that is exactly zero is zero everywhere; the
+/// loads that alternate are at their mean. speed [rad/s], of the shaft.
+CyclicCoordinates cyclicCoordinates(const Dynamics& dynamics, double speed);
+
+/// The small motion of the shape, then the driven coordinates, at fixed momenta: the conserved
+/// coordinates are eliminated (Routh's procedure). [n - conserved]
+Linearization atFixedMomenta(const Linearization& linearization, const CyclicCoordinates& cyclic);
+
+/// Stability of that motion, the zero eigenvalue of each driven coordinate set aside.
+Stability reducedStability(const Linearization& linearization, const CyclicCoordinates& cyclic);
+
+}  // namespace whirl_twin

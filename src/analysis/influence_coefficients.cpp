@@ -1,0 +1,27 @@
+#include "analysis/influence_coefficients.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <stdexcept>
+
+#include "analysis/rigid_body_modes.h"
+
+namespace whirl_twin {
+
+Eigen::MatrixXd influenceCoefficients(const Eigen::MatrixXd& stiffness) {
+  const Eigen::Index free = rigidBodyModes(stiffness).cols();
+  if (free > 0) {
+    throw std::domain_error(
+        fmt::format("influence coefficients: the stiffness is singular, with {} rigid-body mode{}: "
+                    "without supports a unit force accelerates the system instead of deflecting it",
+                    free, free > 1 ? "s" : ""));
+  }
+  const ScaledForm scaled = unitDiagonal(stiffness);
+  const Eigen::MatrixXd inverse =
+      scaled.form.llt().solve(Eigen::MatrixXd::Identity(stiffness.rows(), stiffness.cols()));
+  const Eigen::MatrixXd a = scaled.scale.asDiagonal() * inverse * scaled.scale.asDiagonal();
+  return 0.5 * (a + a.transpose());
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,27 @@
+#include "analysis/rigid_body_modes.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <stdexcept>
+
+namespace whirl_twin {
+
+Eigen::MatrixXd rigidBodyModes(const Eigen::MatrixXd& stiffness) {
+  if (definiteness(stiffness, "stiffness") == Definiteness::kIndefinite) {
+    throw std::domain_error(
+        "stiffness: it is negative for some motion, so the position is statically unstable: a "
+        "small "
+        "deviation grows instead of vibrating");
+  }
+  const ScaledForm scaled = unitDiagonal(stiffness);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled.form);
+  const Eigen::Index free = (solver.eigenvalues().array() <= kZeroEigenvalue).count();
+  if (free == 0) {
+    return Eigen::MatrixXd(stiffness.rows(), 0);
+  }
+  const Eigen::MatrixXd motions = scaled.scale.asDiagonal() * solver.eigenvectors().leftCols(free);
+  const Eigen::HouseholderQR<Eigen::MatrixXd> basis(motions);
+  return basis.householderQ() * Eigen::MatrixXd::Identity(motions.rows(), free);
+}
+
+}  // namespace whirl_twin

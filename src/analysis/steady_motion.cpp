@@ -1,0 +1,163 @@
+#include "analysis/steady_motion.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <cmath>
+
+#include "analysis/mass_matrix.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr int kMaxIterations = 100;
+
+/// The steady motions of a system at fixed momenta: unknowns are the shape, then the rates of the
+/// driven coordinates, each in its natural unit.
+class ReducedSystem {
+ public:
+  ReducedSystem(const Dynamics& dynamics, const CyclicCoordinates& cyclic,
+                const Eigen::VectorXd& momenta, double speed)
+      : dynamics_(dynamics.atMeanLoad()),
+        cyclic_(cyclic),
+        momenta_(momenta),
+        at_{0.0, 0.0, speed, 0.0},
+        unit_(naturalUnits(dynamics)),
+        rows_(cyclic.shape) {
+    rows_.insert(rows_.end(), cyclic.driven.begin(), cyclic.driven.end());
+  }
+
+  Eigen::Index shapes() const { return static_cast<Eigen::Index>(cyclic_.shape.size()); }
+
+  /// Rates of the conserved coordinates that give the momenta.
+  void matchMomenta(SteadyMotion& x) const {
+    const auto& c = cyclic_.conserved;
+    if (c.empty()) {
+      return;
+    }
+    x.v(c).setZero();
+    const Eigen::VectorXd missing = momenta_ - dynamics_.momenta(x.q, x.v, at_);
+    const Eigen::MatrixXd mass = dynamics_.massMatrix(x.q, x.v, at_);
+    const Eigen::MatrixXd inertia = mass(c, c);
+    const Eigen::VectorXd momentum = missing(c);
+    const Eigen::VectorXd rates = inertia.ldlt().solve(momentum);
+    x.v(c) = rates;
+  }
+
+  /// What pulls, in units.
+  Eigen::VectorXd pull(const SteadyMotion& x) const {
+    return unit_.cwiseProduct(dynamics_.unbalancedForce(x.q, x.v, at_))(rows_);
+  }
+
+  /// - d pull / d unknowns, with the momenta as they are.
+  Eigen::MatrixXd slope(const SteadyMotion& x) const {
+    const Linearization full =
+        dynamics_.linearization(x.q, x.v, Eigen::VectorXd::Zero(x.q.size()), at_);
+    const Linearization l = atFixedMomenta(full, cyclic_);
+    const Eigen::Index s = shapes();
+    Eigen::MatrixXd all(l.mass.rows(), l.mass.cols());
+    all.leftCols(s) = (l.stiffness + l.circulatory).leftCols(s);
+    all.rightCols(all.cols() - s) = (l.damping + l.gyroscopic).rightCols(all.cols() - s);
+    const Eigen::VectorXd unit = unit_(rows_);
+    return unit.asDiagonal() * all * unit.asDiagonal();
+  }
+
+  void move(const Eigen::VectorXd& by, SteadyMotion& x) const {
+    const Eigen::VectorXd unit = unit_(rows_);
+    const Eigen::VectorXd step = unit.cwiseProduct(by);
+    x.q(cyclic_.shape) += step.head(shapes());
+    x.v(cyclic_.driven) += step.tail(step.size() - shapes());
+    matchMomenta(x);
+  }
+
+  /// Size of the unknowns in units.
+  double size(const SteadyMotion& x) const {
+    return std::hypot(x.q.cwiseQuotient(unit_)(cyclic_.shape).norm(),
+                      x.v.cwiseQuotient(unit_)(cyclic_.driven).norm());
+  }
+
+  /// A force that is large here [in units]: the inertia times the accelerations in play.
+  double largeForce(const SteadyMotion& start, double speed) const {
+    const Eigen::VectorXd rest = Eigen::VectorXd::Zero(start.q.size());
+    return dynamics_.massMatrix(start.q, rest, at_).norm() *
+           std::max(speed * speed, dynamics_.acceleration(start.q, rest, at_).norm());
+  }
+
+ private:
+  const Dynamics& dynamics_;
+  const CyclicCoordinates& cyclic_;
+  const Eigen::VectorXd& momenta_;
+  Moment<double> at_;
+  Eigen::VectorXd unit_;
+  CyclicCoordinates::Places rows_;
+};
+
+/// Where a linear system rests under its constant loads. A rotor's only load turns with it: the
+/// bearing line.
+std::optional<SteadyMotion> deflection(const Dynamics& dynamics, const CyclicCoordinates& cyclic,
+                                       double speed) {
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(dynamics.dof());
+  SteadyMotion rest{zero, zero};
+  if (dynamics.hasShaft()) {
+    return rest;
+  }
+  const Moment<double> at{0.0, 0.0, speed, 0.0};
+  const Eigen::VectorXd load =
+      cyclic.basis.transpose() * dynamics.atMeanLoad().unbalancedForce(zero, zero, at);
+  if (load.norm() == 0.0) {
+    return rest;
+  }
+  for (const auto* free : {&cyclic.conserved, &cyclic.driven}) {
+    if (load(*free).norm() > 1.0e-12 * load.norm()) {
+      return std::nullopt;
+    }
+  }
+  const Linearization l = dynamics.atMeanLoad().linearization(zero, zero, zero, at);
+  const Eigen::MatrixXd k = cyclic.basis.transpose() * (l.stiffness + l.circulatory) * cyclic.basis;
+  Eigen::VectorXd by_shape = zero;
+  const Eigen::MatrixXd stiffness = k(cyclic.shape, cyclic.shape);
+  const Eigen::VectorXd pull = load(cyclic.shape);
+  const Eigen::VectorXd deflected = stiffness.partialPivLu().solve(pull);
+  by_shape(cyclic.shape) = deflected;
+  rest.q = cyclic.basis * by_shape;
+  return rest;
+}
+
+}  // namespace
+
+std::optional<SteadyMotion> steadyMotionNear(const Dynamics& dynamics,
+                                             const CyclicCoordinates& cyclic,
+                                             const SteadyMotion& start,
+                                             const Eigen::VectorXd& momenta, double speed) {
+  const Eigen::Index n = dynamics.dof();
+  SteadyMotion x{start.q, Eigen::VectorXd::Zero(n)};
+  if (dynamics.linear()) {
+    return deflection(dynamics, cyclic, speed);
+  }
+  const ReducedSystem system(dynamics, cyclic, momenta, speed);
+  for (const Eigen::Index i : cyclic.driven) {
+    x.v[i] = start.v[i] != 0.0 ? start.v[i] : 1.0;  // where rest is no steady motion
+  }
+  system.matchMomenta(x);
+  for (int i = 0; i < kMaxIterations; ++i) {
+    const Eigen::MatrixXd slope = system.slope(x);
+    const Eigen::VectorXd pull = system.pull(x);
+    const Eigen::VectorXd correction = Eigen::FullPivLU<Eigen::MatrixXd>(slope).solve(pull);
+    const double size = correction.norm();
+    if (!std::isfinite(size)) {
+      return std::nullopt;
+    }
+    system.move(correction * std::min(1.0, 1.0 / std::max(size, 1.0e-300)), x);
+    if (size < 1.0e-14 * (1.0 + system.size(x))) {
+      // A force that no stiffness answers is left where a coordinate is free to run away.
+      const bool held = (pull - slope * correction).norm() <= 1.0e-9 * slope.norm();
+      return held ? std::optional<SteadyMotion>(x) : std::nullopt;
+    }
+  }
+  // Where an equilibrium branches Newton's method is slow: near is good enough if nothing pulls.
+  return system.pull(x).norm() <= 1.0e-12 * system.largeForce(start, speed)
+             ? std::optional<SteadyMotion>(x)
+             : std::nullopt;
+}
+
+}  // namespace whirl_twin

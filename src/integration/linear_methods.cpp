@@ -1,0 +1,252 @@
+#include "integration/linear_methods.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "integration/exponential.h"
+#include "integration/gauss_legendre_6.h"
+#include "integration/matrix_exponential.h"
+#include "integration/runge_kutta_4.h"
+#include "integration/semi_implicit_euler.h"
+#include "integration/velocity_verlet.h"
+
+namespace whirl_twin {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+LinearStepMap stepMap(const MatrixXd& dq, const MatrixXd& dv, MatrixXd work) {
+  LinearStepMap map;
+  map.increment.resize(2 * dq.rows(), dq.cols());
+  map.increment << dq, dv;
+  map.work = std::move(work);
+  return map;
+}
+
+/// Matrices beyond the range of doubles: the first step is not finite, and refused.
+LinearStepMap outOfRange(const LinearEquation& equation) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  return {MatrixXd::Constant(2 * equation.dof(), equation.size(), nan),
+          MatrixXd::Constant(equation.size(), equation.size(), nan)};
+}
+
+/// The power at a stage, as a form of the step's start.
+MatrixXd powerAt(const LinearEquation& equation, const MatrixXd& stage) {
+  return stage.transpose() * equation.power() * stage;
+}
+
+LinearStepMap semiImplicitEuler(const LinearEquation& equation, double h) {
+  const MatrixXd dv = h * equation.acceleration();
+  return stepMap(h * (equation.velocity() + dv), dv, h * equation.power());
+}
+
+LinearStepMap velocityVerlet(const LinearEquation& equation, double h) {
+  const MatrixXd start = equation.acceleration();
+  const MatrixXd dq = h * (equation.velocity() + 0.5 * h * start);
+  const MatrixXd end = equation.stage(dq, h * start, h);
+  return stepMap(dq, 0.5 * h * (start + equation.acceleration() * end),
+                 0.5 * h * (equation.power() + powerAt(equation, end)));
+}
+
+LinearStepMap rungeKutta4(const LinearEquation& equation, double h) {
+  const MatrixXd acceleration = equation.acceleration();
+  const MatrixXd v1 = equation.velocity();
+  const MatrixXd& a1 = acceleration;
+  const MatrixXd z2 = equation.stage(0.5 * h * v1, 0.5 * h * a1, 0.5 * h);
+  const MatrixXd v2 = v1 * z2;
+  const MatrixXd a2 = acceleration * z2;
+  const MatrixXd z3 = equation.stage(0.5 * h * v2, 0.5 * h * a2, 0.5 * h);
+  const MatrixXd v3 = v1 * z3;
+  const MatrixXd a3 = acceleration * z3;
+  const MatrixXd z4 = equation.stage(h * v3, h * a3, h);
+  return stepMap(h / 6.0 * (v1 + 2.0 * (v2 + v3) + v1 * z4),
+                 h / 6.0 * (a1 + 2.0 * (a2 + a3) + acceleration * z4),
+                 h / 6.0 *
+                     (equation.power() + 2.0 * (powerAt(equation, z2) + powerAt(equation, z3)) +
+                      powerAt(equation, z4)));
+}
+
+/// The stages' accelerations solve one linear system.
+LinearStepMap gaussLegendre6(const LinearEquation& equation, double h) {
+  using gauss_tableau::kA;
+  using gauss_tableau::kAA;
+  using gauss_tableau::kNodes;
+  const Index n = equation.dof();
+  const MatrixXd acceleration = equation.acceleration();
+  const MatrixXd velocity = equation.velocity();
+  const MatrixXd none = MatrixXd::Zero(n, equation.size());
+  MatrixXd matrix = MatrixXd::Identity(3 * n, 3 * n);
+  MatrixXd explicit_part(3 * n, equation.size());
+  for (Index k = 0; k < 3; ++k) {
+    for (Index l = 0; l < 3; ++l) {
+      matrix.block(k * n, l * n, n, n) -=
+          h * (kA[k][l] * acceleration.middleCols(n, n) + h * kAA[k][l] * acceleration.leftCols(n));
+    }
+    explicit_part.middleRows(k * n, n) =
+        acceleration * equation.stage(h * kNodes[k] * velocity, none, h * kNodes[k]);
+  }
+  const MatrixXd solution = matrix.partialPivLu().solve(explicit_part);
+  const std::array<MatrixXd, 3> a{solution.topRows(n), solution.middleRows(n, n),
+                                  solution.bottomRows(n)};
+  const std::array<double, 3> weights{gauss_tableau::kOuter, gauss_tableau::kMiddle,
+                                      gauss_tableau::kOuter};
+  MatrixXd dq = h * velocity;
+  MatrixXd dv = none;
+  MatrixXd work = MatrixXd::Zero(equation.size(), equation.size());
+  for (std::size_t k = 0; k < 3; ++k) {
+    dv += h * weights[k] * a[k];
+    dq += h * h * weights[k] * (1.0 - kNodes[k]) * a[k];
+    const MatrixXd stage = equation.stage(
+        h * (kNodes[k] * velocity + h * (kAA[k][0] * a[0] + kAA[k][1] * a[1] + kAA[k][2] * a[2])),
+        h * (kA[k][0] * a[0] + kA[k][1] * a[1] + kA[k][2] * a[2]), kNodes[k] * h);
+    work += h * weights[k] * powerAt(equation, stage);
+  }
+  return stepMap(dq, dv, work);
+}
+
+double powerOfTwo(double x) {
+  return x > 0.0 ? std::exp2(std::round(std::log2(x))) : 1.0;
+}
+
+/// In x = L^T q, L L^T = M, rates over the highest frequency, phasors over the deflection they
+/// cause: then the norm of h A is that of frequency times step, whatever the units and the masses.
+LinearStepMap exponential(const LinearEquation& equation, double h) {
+  const LinearModel& model = equation.model();
+  const Index n = equation.dof();
+  const Index size = equation.size();
+  const Eigen::LLT<MatrixXd> mass(model.mass);
+  const MatrixXd to_q = mass.matrixU().solve(MatrixXd::Identity(n, n));  // q = to_q x
+  const MatrixXd stiffness = to_q.transpose() * (model.stiffness + model.circulatory) * to_q;
+  const MatrixXd damping = to_q.transpose() * (model.damping + model.gyroscopic) * to_q;
+  const MatrixXd forcing = to_q.transpose() * equation.forcing();
+  const double rate = powerOfTwo(std::sqrt(stiffness.cwiseAbs().maxCoeff()));
+
+  MatrixXd scale = MatrixXd::Zero(size, size);  // scaled y = scale y
+  MatrixXd unscale = MatrixXd::Zero(size, size);
+  scale.topLeftCorner(n, n) = mass.matrixU();
+  unscale.topLeftCorner(n, n) = to_q;
+  scale.block(n, n, n, n) = scale.topLeftCorner(n, n) / rate;
+  unscale.block(n, n, n, n) = rate * to_q;
+  MatrixXd a = MatrixXd::Zero(size, size);
+  a.block(0, n, n, n).diagonal().setConstant(rate);
+  a.block(n, 0, n, n) = -stiffness / rate;
+  a.block(n, n, n, n) = -damping;
+  for (Index k = 0; k < forcing.cols() / 2; ++k) {
+    const Index phasor = 2 * n + 2 * k;
+    const auto columns = forcing.middleCols(2 * k, 2);
+    const double deflection = powerOfTwo(columns.cwiseAbs().maxCoeff() / (rate * rate));
+    scale.diagonal().segment(phasor, 2).setConstant(deflection);
+    unscale.diagonal().segment(phasor, 2).setConstant(1.0 / deflection);
+    a.block(n, phasor, n, 2) = columns / (rate * deflection);
+    const double frequency = equation.frequencies()[static_cast<std::size_t>(k)];
+    a(phasor, phasor + 1) = -frequency;
+    a(phasor + 1, phasor) = frequency;
+  }
+  if (!(h * a).allFinite() || !scale.allFinite() || !unscale.allFinite()) {
+    return outOfRange(equation);
+  }
+  const MatrixXd power = unscale.transpose() * equation.power() * unscale;
+  const MatrixXd increment =
+      unscale * exponentialLessIdentity<Eigen::Dynamic>(MatrixXd(h * a)) * scale;
+  return {increment.topRows(2 * n),
+          scale.transpose() * quadraticIntegral<Eigen::Dynamic>(a, power, h) * scale};
+}
+
+using Method = LinearStepMap (*)(const LinearEquation&, double);
+
+const std::vector<std::pair<std::string, Method>>& methods() {
+  static const std::vector<std::pair<std::string, Method>> all{
+      {SemiImplicitEuler::kName, semiImplicitEuler},
+      {VelocityVerlet::kName, velocityVerlet},
+      {RungeKutta4::kName, rungeKutta4},
+      {GaussLegendre6<1>::kName, gaussLegendre6},
+      {Exponential<1>::kName, exponential}};
+  return all;
+}
+
+}  // namespace
+
+LinearEquation::LinearEquation(const LinearModel& model) : model_(model) {
+  for (const HarmonicForce& force : model.forces) {
+    const double frequency = std::fabs(force.frequency);
+    if (std::find(frequencies_.begin(), frequencies_.end(), frequency) == frequencies_.end()) {
+      frequencies_.push_back(frequency);
+    }
+  }
+  forcing_.setZero(dof(), 2 * static_cast<Index>(frequencies_.size()));
+  for (const HarmonicForce& force : model.forces) {
+    const double frequency = std::fabs(force.frequency);
+    const double phase = force.frequency < 0.0 ? -force.phase : force.phase;
+    const auto place = std::find(frequencies_.begin(), frequencies_.end(), frequency);
+    const Index column = 2 * (place - frequencies_.begin());
+    forcing_.col(column) += std::cos(phase) * force.amplitude;
+    forcing_.col(column + 1) -= std::sin(phase) * force.amplitude;
+  }
+}
+
+MatrixXd LinearEquation::velocity() const {
+  MatrixXd selection = MatrixXd::Zero(dof(), size());
+  selection.middleCols(dof(), dof()).setIdentity();
+  return selection;
+}
+
+MatrixXd LinearEquation::acceleration() const {
+  MatrixXd force(dof(), size());
+  force << -(model_.stiffness + model_.circulatory), -(model_.damping + model_.gyroscopic),
+      forcing_;
+  return model_.mass.llt().solve(force);
+}
+
+MatrixXd LinearEquation::power() const {
+  const Index n = dof();
+  MatrixXd s = MatrixXd::Zero(size(), size());
+  s.block(n, n, n, n) = -model_.damping;
+  s.block(n, 0, n, n) = -0.5 * model_.circulatory;
+  s.block(n, 2 * n, n, forcing_.cols()) = 0.5 * forcing_;
+  s.block(0, n, n, n) = s.block(n, 0, n, n).transpose();
+  s.block(2 * n, n, forcing_.cols(), n) = s.block(n, 2 * n, n, forcing_.cols()).transpose();
+  return s;
+}
+
+MatrixXd LinearEquation::stage(const MatrixXd& dq, const MatrixXd& dv, double offset) const {
+  MatrixXd z = MatrixXd::Identity(size(), size());
+  z.topRows(dof()) += dq;
+  z.middleRows(dof(), dof()) += dv;
+  for (std::size_t k = 0; k < frequencies_.size(); ++k) {
+    const double c = std::cos(frequencies_[k] * offset);
+    const double s = std::sin(frequencies_[k] * offset);
+    const Index phasor = 2 * (dof() + static_cast<Index>(k));
+    z.block(phasor, phasor, 2, 2) << c, -s, s, c;
+  }
+  return z;
+}
+
+const std::vector<std::string>& linearMethodNames() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const auto& method : methods()) {
+      all.push_back(method.first);
+    }
+    return all;
+  }();
+  return names;
+}
+
+LinearStepMap linearStepMap(const LinearEquation& equation, const std::string& method, double h) {
+  const auto found = std::find_if(methods().begin(), methods().end(),
+                                  [&](const auto& entry) { return entry.first == method; });
+  if (found == methods().end()) {
+    throw std::invalid_argument("no integrator of linear systems is called " + method);
+  }
+  return equation.acceleration().allFinite() ? found->second(equation, h) : outOfRange(equation);
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,52 @@
+// Steps of a linear system of any number of coordinates, M q'' + (C+G) q' + (K+N) q = f(t), at a
+// constant step h.
+//
+// Every method here is itself linear: with y = (q, v, cos w_k t, sin w_k t) for every frequency w_k
+// of the forces, a step is
+//   (dq, dv) = B y,      work done by and lost from the system = y^T W y,
+// and B and W, made once, are all that tells one method from another. The methods are those of
+// semi_implicit_euler.h, velocity_verlet.h, runge_kutta_4.h and gauss_legendre_6.h (order 1, 2, 4,
+// 6; equal to them but for rounding); the work is the method's own quadrature of dh/dt, which for
+// gauss_legendre_6 is exactly what h = T + V gains. `exponential` has no truncation error:
+// B = e^(A h) - I and W = integral of e^(A't) S e^(At), y' = A y, dh/dt = y^T S y; so it is exact
+// for any step, at undamped resonance, with rigid-body modes and with unstable ones. The phasors
+// come from the time at every step anew, so that no phase is lost over any number of steps.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "integration/motion_state.h"
+#include "mechanics/linear_dynamics.h"
+
+namespace whirl_twin {
+
+/// The state of n coordinates, each number as a compensated sum (motion_state.h).
+struct LinearMotion {
+  explicit LinearMotion(Eigen::Index n);
+
+  Eigen::VectorXd q, v;  ///< [rad] or [m], and their rates
+  Eigen::VectorXd q_low, v_low;
+  CompensatedSum work;  ///< [J], integral of dh/dt
+};
+
+class LinearStep {
+ public:
+  /// Prepares steps of h [s]; for n coordinates that takes a time of order n^3. Throws
+  /// std::invalid_argument for a method that is not among linearMethodNames().
+  LinearStep(const LinearModel& model, const std::string& method, double h);
+
+  /// Advances by h from time [s]. Real-time safe. A state beyond the range of doubles comes out
+  /// infinite or NaN.
+  void advance(double time, LinearMotion& motion) noexcept;
+
+ private:
+  Eigen::Index n_;
+  std::vector<double> frequencies_;  ///< [rad/s], of the phasors
+  Eigen::MatrixXd map_;              ///< B, below it the rows of W as far as they are needed
+  Eigen::VectorXd y_;                ///< q, v and the phasors
+  Eigen::VectorXd result_;           ///< map_ y
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,158 @@
+// Plank lying on two rollers 2a apart that turn against each other: friction drives it to and fro
+// and so measures its coefficient (lecture notes, "friction testing"; errata E33, E34). This form
+// is exact Coulomb friction while the plank slides on both rollers.
+//
+//   T = m x'^2 / 2,   V = K x^2 / 2,   K = mu m g / (a - mu h)
+//
+// from R1 + R2 = m g and the moments about the mass centre, h above the contacts:
+// R1 - R2 = -m g x / (a - mu h), Q = mu (R1 - R2) = -K x. Friction of constant direction is a
+// function of the position alone, so it has a potential and m x'^2 / 2 + K x^2 / 2 is conserved,
+// although nothing stores that energy: the rollers' drives give and take it. Rollers that turn
+// outwards (roller_speed < 0) have mu -> -mu and drive the plank away. Rollers at rest
+// (roller_speed = 0) leave no direction of sliding: no friction here, and `sliding` is broken.
+//
+// Not regularised, so any step that resolves sqrt(K/m) will do. It does not know of sticking: where
+// |x'| reaches |roller_speed| the condition `sliding` is broken and the motion computed goes on as
+// if the plank still slid; a positive regularization gives the form that sticks. Likewise a plank
+// that has left a roller (`contact`) or tips over it (`no_tipping`: a < mu h, K < 0) is computed
+// on.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "mechanics/elementary.h"
+#include "mechanics/force_inline.h"
+#include "mechanics/model_description.h"
+#include "mechanics/moment.h"
+#include "mechanics/reaction.h"
+#include "mechanics/sketch.h"
+
+namespace whirl_twin {
+
+struct FrictionOscillator {
+  static constexpr const char* kName = "friction_oscillator";
+  static constexpr const char* kSummary = "plank on two counter-rotating rollers";
+  static constexpr std::size_t kDof = 1;
+  static constexpr bool kLinear = true;
+  static constexpr bool kHasShaft = false;
+  static constexpr std::array<Coordinate, kDof> kCoordinates{{{"x", "m"}}};
+
+  double mass = 0.0;                  ///< [kg], of the plank
+  double friction_coefficient = 0.0;  ///< [-], mu
+  double half_spacing = 0.0;          ///< [m], a: from each roller to midspan
+  double height = 0.0;                ///< [m], h: of the mass centre above the contacts
+  double roller_speed = 0.0;          ///< [m/s], of the rims; > 0: the tops move inwards
+  double regularization = 0.0;        ///< [m/s], of the form that can stick; 0 here
+  double gravity = 0.0;               ///< [m/s^2], of the scene
+
+  static constexpr std::array<Parameter<FrictionOscillator>, 6> parameters() {
+    return {{{"mass", "kg", Range::kPositive, &FrictionOscillator::mass, "of the plank"},
+             {"friction_coefficient", "-", Range::kNotNegative,
+              &FrictionOscillator::friction_coefficient, "between plank and rollers"},
+             {"half_spacing", "m", Range::kPositive, &FrictionOscillator::half_spacing,
+              "from each roller to midspan"},
+             {"height", "m", Range::kNotNegative, &FrictionOscillator::height,
+              "of the plank's mass centre above the contacts"},
+             {"roller_speed", "m/s", Range::kAny, &FrictionOscillator::roller_speed,
+              "of the rollers' rims; > 0: tops move inwards, < 0: outwards"},
+             {"regularization", "m/s", Range::kNotNegative, &FrictionOscillator::regularization,
+              "width of the friction law about zero slip; 0: exact, while sliding", 0.0}}};
+  }
+
+  double naturalLength() const { return half_spacing; }
+
+  template <class S>
+  WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>&, const std::array<S, kDof>& v,
+                              const Moment<S>&) const {
+    return (0.5 * mass) * (v[0] * v[0]);
+  }
+  template <class S>
+  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const Moment<S>&) const {
+    const double mu = slidingFriction();
+    return (0.5 * mu * mass * gravity / (half_spacing - mu * height)) * (q[0] * q[0]);
+  }
+  template <class S>
+  WHIRL_TWIN_INLINE S dissipation(const std::array<S, kDof>&, const std::array<S, kDof>&,
+                                  const Moment<S>&) const {
+    return {};
+  }
+  template <class S>
+  WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>&,
+                                              const std::array<S, kDof>&, const Moment<S>&) const {
+    return {};
+  }
+
+  std::vector<Reaction> reactions(const std::array<double, kDof>& q,
+                                  const std::array<double, kDof>&, const std::array<double, kDof>&,
+                                  const Moment<double>&) const {
+    return named(normalForces<double>(q[0], slidingFriction(), -slidingFriction()));
+  }
+  std::vector<Condition> conditions(const std::array<double, kDof>& q,
+                                    const std::array<double, kDof>& v,
+                                    const std::array<double, kDof>&, const Moment<double>&) const {
+    const double mu = slidingFriction();
+    return {contact(normalForces<double>(q[0], mu, -mu)),
+            noTipping(mu),
+            {"sliding", "m/s", std::abs(roller_speed) - std::abs(v[0]),
+             "the plank is no slower than the rollers: one of them would stick"}};
+  }
+
+  Sketch sketch(const std::array<double, kDof>& q, const Moment<double>& at) const {
+    const double a = half_spacing;
+    const double roller = 0.35 * a;
+    const double turned = roller_speed * at.time / roller;  // right-handed about y: tops towards +x
+    const double thickness = height > 0.0 ? 2.0 * height : 0.05 * a;
+    Sketch s;
+    s.size = 6.5 * a;
+    s.height = 2.0 * a + thickness;
+    s.centre.z = 0.5 * thickness;
+    for (const double side : {-1.0, 1.0}) {
+      const SketchPoint centre{side * a, 0.0, -roller};
+      s.discs.push_back(
+          {centre, {0.0, 1.0, 0.0}, roller, 0.6 * a, -side * turned, SketchRole::kSupport});
+    }
+    s.boxes.push_back(
+        {{q[0], 0.0, 0.5 * thickness}, {4.0 * a, 0.5 * a, thickness}, 0.0, SketchRole::kBody});
+    s.balls.push_back({{q[0], 0.0, height}, 0.06 * a, SketchRole::kMark});
+    s.tracer = {q[0], 0.0, height};
+    return s;
+  }
+
+ protected:
+  template <class S>
+  struct Normals {
+    S left, right;  // [N], R1 and R2
+  };
+
+  /// Normal forces with the friction coefficients t1, t2 at the left and the right roller, positive
+  /// where friction pushes the plank towards +x.
+  template <class S>
+  WHIRL_TWIN_INLINE Normals<S> normalForces(const S& x, const S& t1, const S& t2) const {
+    const S difference = (mass * gravity) * ((0.5 * height) * (t1 + t2) - x) /
+                         (half_spacing - (0.5 * height) * (t1 - t2));
+    return {0.5 * (mass * gravity + difference), 0.5 * (mass * gravity - difference)};
+  }
+  static std::vector<Reaction> named(const Normals<double>& r) {
+    return {{"normal_force_left", "N", r.left}, {"normal_force_right", "N", r.right}};
+  }
+  static Condition contact(const Normals<double>& r) {
+    return {"contact", "N", std::min(r.left, r.right), "the plank lifts off a roller"};
+  }
+  /// mu > 0 where the rollers turn inwards.
+  Condition noTipping(double mu) const {
+    return {"no_tipping", "m", half_spacing - mu * height,
+            "friction tips the plank over: its mass centre is too high for the spacing"};
+  }
+
+ private:
+  /// mu, negative where the rollers turn outwards.
+  double slidingFriction() const {
+    return roller_speed == 0.0 ? 0.0 : std::copysign(friction_coefficient, roller_speed);
+  }
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,25 @@
+// What a system's equations do not show but its user must know: the forces its constraints carry,
+// and the conditions under which the equations hold at all. Evaluated beside the real-time path.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace whirl_twin {
+
+/// A force or moment that a constraint carries.
+struct Reaction {
+  std::string name;  ///< "rod_tension_1"
+  std::string unit;  ///< "N" or "N m"
+  double value = 0.0;
+};
+
+/// A condition under which a model's equations describe the machine. It holds while margin > 0.
+struct Condition {
+  std::string name;     ///< "contact", "rod_end", "no_slip", "sliding", "no_tipping"
+  std::string unit;     ///< of the margin
+  double margin = 0.0;  ///< how much is left: [N] of normal force, [m] to the rod's end, ...
+  std::string broken;   ///< what it means that it does not hold: "the disc lifts off its plane"
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,40 @@
+#include "monitoring/validity_alarm.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "monitoring/alert_types.h"
+
+namespace whirl_twin {
+
+ValidityAlarm::ValidityAlarm(std::string system, std::shared_ptr<const Dynamics> dynamics,
+                             const AlarmSettings& settings)
+    : system_(std::move(system)),
+      dynamics_(std::move(dynamics)),
+      has_conditions_(hasConditions(*dynamics_)),
+      alarm_(settings.clear_delay) {}
+
+void ValidityAlarm::update(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                           const Moment<double>& at, AlertList& alerts) {
+  if (!has_conditions_) {
+    return;
+  }
+  const std::string broken = brokenText(validity(*dynamics_, q, v, at));
+  const AlarmCondition condition =
+      broken.empty() ? AlarmCondition::kClear : AlarmCondition::kWarning;
+  if (alarm_.update(at.time, condition) == ConditionAlarm::Change::kCleared) {
+    alerts.clear(system_, alert_type::kModelInvalid, at.time,
+                 fmt::format("{}: its equations hold again", system_));
+  } else if (alarm_.active() && !broken.empty()) {
+    state::Alert alert;
+    alert.system = system_;
+    alert.type = alert_type::kModelInvalid;
+    alert.severity = alarm_.severity();
+    alert.time = at.time;
+    alert.text = fmt::format("{}: its equations do not hold: {}", system_, broken);
+    alerts.raise(std::move(alert), "model invalid");
+  }
+}
+
+}  // namespace whirl_twin

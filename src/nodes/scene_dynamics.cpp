@@ -1,0 +1,58 @@
+#include "nodes/scene_dynamics.h"
+
+#include <ros/ros.h>
+
+#include "nodes/scene_parameters.h"
+#include "nodes/twin_listener.h"
+#include "scene/scene_reader.h"
+#include "scene/twin.h"
+
+namespace whirl_twin {
+
+bool SceneDynamics::refresh() {
+  const ros::NodeHandle node(kTwinNamespace);
+  XmlRpc::XmlRpcValue tree;
+  const std::string found = node.getParam("scene", tree) ? tree.toXml() : "";
+  if (found == tree_) {
+    return false;
+  }
+  tree_ = found;
+  systems_.clear();
+  if (tree_.empty()) {
+    return true;
+  }
+  try {
+    const Twin twin(sceneFromParameters(node, "scene"));
+    for (const Twin::Member& member : twin.members()) {
+      systems_[member.spec.name] = {member.spec, member.dynamics};
+    }
+  } catch (const SceneError& error) {
+    ROS_WARN("systems are shown without their models, for the scene is not right:\n%s",
+             error.what());
+  }
+  return true;
+}
+
+std::shared_ptr<const Dynamics> SceneDynamics::dynamics(const std::string& system) const {
+  const auto found = systems_.find(system);
+  return found == systems_.end() ? nullptr : found->second.dynamics;
+}
+
+std::string SceneDynamics::driveOf(const std::string& system) const {
+  const auto found = systems_.find(system);
+  return found == systems_.end() ? "" : found->second.spec.drive.value_or("");
+}
+
+Moment<double> SceneDynamics::shaft(const std::string& system, double time,
+                                    const DriveState* drive) const {
+  if (drive != nullptr) {
+    // The drive's message may be a step older or newer than the system's.
+    return {time, drive->shaft_angle + drive->speed * (time - drive->time), drive->speed,
+            drive->acceleration};
+  }
+  const auto found = systems_.find(system);
+  const double speed = found == systems_.end() ? 0.0 : found->second.spec.speed.value_or(0.0);
+  return {time, speed * time, speed, 0.0};
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,83 @@
+// A sheet to draw on, in pixels, x to the right and y downwards: as SVG (lines and letters stay
+// sharp at any size) or as PNG. Drawn by Cairo.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "plots/thinning.h"
+
+namespace whirl_twin {
+
+enum class ImageFormat { kSvg, kPng };
+
+/// By its extension, .svg or .png. Throws std::invalid_argument.
+ImageFormat imageFormat(const std::string& path);
+
+/// A colour, each part from 0 to 1.
+struct Ink {
+  double red = 0.0, green = 0.0, blue = 0.0;
+};
+/// `share` of white in it: 0 leaves it, 1 is white.
+Ink paler(const Ink& ink, double share);
+Ink darker(const Ink& ink, double share);
+
+namespace ink {
+// Colours that every kind of eye tells apart (M. Okabe, K. Ito: Color Universal Design, 2008).
+inline constexpr Ink kBlue{0.0, 0.447, 0.698};
+inline constexpr Ink kVermilion{0.835, 0.369, 0.0};
+inline constexpr Ink kGreen{0.0, 0.620, 0.451};
+inline constexpr Ink kPurple{0.8, 0.475, 0.655};
+inline constexpr Ink kOrange{0.902, 0.624, 0.0};
+inline constexpr Ink kSkyBlue{0.337, 0.706, 0.914};
+inline constexpr Ink kBlack{0.13, 0.13, 0.15};
+inline constexpr Ink kGrey{0.42, 0.44, 0.47};
+inline constexpr Ink kGrid{0.88, 0.89, 0.90};
+}  // namespace ink
+
+struct Pen {
+  Ink ink;
+  double width = 1.0;          ///< [px]
+  std::vector<double> dash{};  ///< [px] on, off ...; empty: a full line
+};
+
+enum class Align { kStart, kMiddle, kEnd };
+
+struct Lettering {
+  double size = 13.0;  ///< [px]
+  Ink ink = ink::kBlack;
+  Align across = Align::kStart;  ///< of the text about its place, from left to right
+  Align down = Align::kMiddle;   ///< kStart: below its place
+  bool bold = false;
+  bool upwards = false;  ///< turned a quarter to the left
+};
+
+class Canvas {
+ public:
+  /// A white sheet, [px]; title and description go into an SVG for those who read it as text.
+  Canvas(ImageFormat format, int width, int height, std::string title, std::string description);
+  ~Canvas();
+  Canvas(const Canvas&) = delete;
+  Canvas& operator=(const Canvas&) = delete;
+
+  /// One point makes a dot.
+  void line(const std::vector<Spot>& spots, const Pen& pen);
+  void polygon(const std::vector<Spot>& corners, const Ink& fill, const Pen& outline);
+  void circle(const Spot& centre, double radius, const Ink& fill, const Pen& outline);
+  void text(const Spot& at, const std::string& words, const Lettering& lettering);
+  double textWidth(const std::string& words, const Lettering& lettering);
+
+  /// Draws only inside this rectangle from now on, until unclip().
+  void clip(const Spot& corner, double width, double height);
+  void unclip();
+
+  /// The whole file. Throws std::runtime_error. Nothing can be drawn after it.
+  std::string finish();
+
+ private:
+  struct Sheet;  // Cairo's
+  std::unique_ptr<Sheet> sheet_;
+};
+
+}  // namespace whirl_twin

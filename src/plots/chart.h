@@ -1,0 +1,52 @@
+// Line charts: time histories, phase portraits, orbits, response curves. One figure holds one chart
+// or several in rows and columns.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "plots/canvas.h"
+
+namespace whirl_twin {
+
+/// A curve; x and y of equal length. A point that is not finite (on a logarithmic axis: not
+/// positive) breaks the line.
+struct Series {
+  std::string name;  ///< in the legend, which is there when a chart has several series
+  std::vector<double> x, y;
+};
+
+struct ChartAxis {
+  std::string label;  ///< with its unit: "time (s)"
+  bool logarithmic = false;
+  bool tight = false;  ///< ends where the data end, not at the next tick
+};
+
+/// A line across the whole chart: a critical speed, a limit. Seen where the data reach it.
+struct ReferenceLine {
+  double at = 0.0;
+  std::string label;
+};
+
+struct Chart {
+  std::string title;
+  ChartAxis x, y;
+  std::vector<Series> series;
+  std::vector<ReferenceLine> vertical;    ///< at an x
+  std::vector<ReferenceLine> horizontal;  ///< at a y
+  bool equal_aspect = false;              ///< one unit is as long along x as along y; linear axes
+};
+
+struct Figure {
+  std::string title;
+  std::vector<Chart> charts;
+  int columns = 1;
+  int width = 800;         ///< [px]
+  int chart_height = 460;  ///< [px], of each row
+};
+
+/// The file. Long series are thinned to what can be seen: an SVG stays below about 200 kB.
+/// Throws std::runtime_error.
+std::string figureImage(const Figure& figure, ImageFormat format);
+
+}  // namespace whirl_twin

@@ -1,0 +1,25 @@
+// An axis of a chart: its ends, its marks, and where a value stands along it.
+#pragma once
+
+#include <vector>
+
+#include "plots/ticks.h"
+
+namespace whirl_twin {
+
+struct MarkedAxis {
+  AxisRange range;
+  bool logarithmic = false;
+  std::vector<double> ticks;
+  TickLabels labels;
+
+  /// From 0 at the low end to 1; not finite where the axis has no such place.
+  double place(double value) const;
+  /// Sets at most `most` ticks, and the ends at the outer ones unless it is tight.
+  void mark(bool tight, int most);
+};
+
+/// From the smallest to the largest finite (on a logarithmic axis: positive) value, with a length.
+AxisRange dataRange(const std::vector<const std::vector<double>*>& values, bool logarithmic);
+
+}  // namespace whirl_twin

@@ -1,0 +1,77 @@
+#include "plugins/plugin_models.h"
+
+#include <rospack/rospack.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <pluginlib/class_loader.hpp>
+#include <string>
+#include <vector>
+
+#include "scene/model_plugin.h"
+#include "scene/model_registry.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr const char* kPackage = "whirl_twin";
+constexpr const char* kBaseClass = "whirl_twin::ModelPlugin";
+constexpr const char* kAttribute = "plugin";
+
+/// One line, whatever a loader says.
+void warn(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  std::fprintf(stderr, "whirl_twin: %s\n", text.c_str());
+}
+
+/// The plugin descriptions that packages export to this one; none where ROS is not set up.
+std::vector<std::string> descriptions() {
+  rospack::Rospack packages;
+  packages.setQuiet(true);
+  std::vector<std::string> path;
+  if (!packages.getSearchPathFromEnv(path)) {
+    return {};
+  }
+  packages.crawl(path, false);
+  std::vector<std::string> exports;  // "package file"
+  if (!packages.plugins(kPackage, kAttribute, "", exports)) {
+    return {};
+  }
+  std::vector<std::string> files;
+  for (const std::string& line : exports) {
+    files.push_back(line.substr(line.find(' ') + 1));
+  }
+  return files;
+}
+
+std::vector<ModelInfo> pluginModels() {
+  using Loader = pluginlib::ClassLoader<ModelPlugin>;
+  std::vector<ModelInfo> all;
+  const std::vector<std::string> files = descriptions();
+  if (files.empty()) {
+    return all;
+  }
+  try {
+    // Never destroyed, for with it would go the code that the models step with.
+    static Loader& loader = *new Loader(kPackage, kBaseClass, kAttribute, files);
+    for (const std::string& name : loader.getDeclaredClasses()) {
+      try {
+        all.push_back(loader.createUniqueInstance(name)->info());
+      } catch (const std::exception& error) {
+        warn("the plugin " + name + " is left out: " + error.what());
+      }
+    }
+  } catch (const std::exception& error) {
+    warn(std::string("no plugin can be loaded: ") + error.what());
+  }
+  return all;
+}
+
+}  // namespace
+
+void usePluginModels() {
+  setModelSource(pluginModels, warn);
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,37 @@
+// A linear system given by its matrices as a system that steps, and the setup of a model made so.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "integration/linear_step.h"
+#include "mechanics/linear_dynamics.h"
+#include "scene/model_info.h"
+#include "scene/system.h"
+
+namespace whirl_twin {
+
+class LinearSteppedSystem final : public System {
+ public:
+  /// step [s] of the twin, made of `substeps` steps of one of linearMethodNames().
+  LinearSteppedSystem(const LinearModel& model, const std::string& method, double step,
+                      int substeps);
+
+  StepStatus step(double time) noexcept override;
+  std::size_t dof() const noexcept override { return static_cast<std::size_t>(state_.q.size()); }
+  void write(double* out) const noexcept override;
+  void set(const double* q, const double* v) noexcept override;
+
+ private:
+  LinearStep method_;
+  double substep_;  ///< [s]
+  int substeps_;
+  LinearMotion state_;
+  LinearMotion next_;
+};
+
+/// A setup that steps with every method of linear systems. Throws std::invalid_argument as
+/// LinearDynamics does.
+ModelSetup linearSetup(LinearModel model);
+
+}  // namespace whirl_twin

@@ -1,0 +1,183 @@
+#include "scene/parameter_reader.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "control/speed_profile.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr std::size_t kLargestMatrix = 200;  // rows and columns
+
+/// A list of the tree, or nothing after a complaint.
+std::optional<YAML::Node> list(const MapReader& map, const std::string& name, const std::string& of,
+                               Complaints& complaints) {
+  const YAML::Node node = map.at(name);
+  if (!node.IsSequence() || node.size() == 0) {
+    complaints.add(map.key(name), fmt::format("must be a list of {}, found {}", of, shown(node)));
+    return std::nullopt;
+  }
+  if (node.size() > kLargestMatrix) {
+    complaints.add(map.key(name), fmt::format("must have up to {} entries, found {}",
+                                              kLargestMatrix, node.size()));
+    return std::nullopt;
+  }
+  return node;
+}
+
+std::string rowKey(const MapReader& map, const std::string& name, std::size_t row) {
+  return fmt::format("{}[{}]", map.key(name), row);
+}
+
+std::optional<Eigen::MatrixXd> readMatrix(const MapReader& map, const SettingInfo& info,
+                                          Complaints& complaints) {
+  const auto rows =
+      list(map, info.name, fmt::format("rows of numbers ({})", info.unit), complaints);
+  if (!rows) {
+    return std::nullopt;
+  }
+  const std::size_t before = complaints.all().size();
+  Eigen::MatrixXd matrix;
+  for (std::size_t i = 0; i < rows->size(); ++i) {
+    const YAML::Node row = (*rows)[i];
+    const std::string key = rowKey(map, info.name, i);
+    if (!row.IsSequence()) {
+      complaints.add(
+          key, fmt::format("must be a list of numbers ({}), found {}", info.unit, shown(row)));
+      continue;
+    }
+    if (i == 0) {
+      if (row.size() == 0 || row.size() > kLargestMatrix) {
+        complaints.add(
+            key, fmt::format("must have 1 to {} numbers, found {}", kLargestMatrix, row.size()));
+        return std::nullopt;
+      }
+      matrix.setZero(static_cast<Eigen::Index>(rows->size()),
+                     static_cast<Eigen::Index>(row.size()));
+    }
+    if (static_cast<Eigen::Index>(row.size()) != matrix.cols()) {
+      complaints.add(key, fmt::format("must have {} numbers like the first row, found {}",
+                                      matrix.cols(), row.size()));
+      continue;
+    }
+    for (std::size_t j = 0; j < row.size(); ++j) {
+      const YAML::Node entry = row[j];
+      const std::optional<double> value =
+          entry.IsScalar() ? parseNumber(entry.Scalar()) : std::optional<double>();
+      if (!value) {
+        complaints.add(
+            fmt::format("{}[{}]", key, j),
+            fmt::format("must be a finite number ({}), found {}", info.unit, shown(entry)));
+        continue;
+      }
+      matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = *value;
+    }
+  }
+  return complaints.all().size() == before ? std::optional<Eigen::MatrixXd>(matrix) : std::nullopt;
+}
+
+std::vector<std::string> readNames(const MapReader& map, const SettingInfo& info,
+                                   Complaints& complaints) {
+  std::vector<std::string> names;
+  const auto entries = list(map, info.name, "names", complaints);
+  for (std::size_t i = 0; entries && i < entries->size(); ++i) {
+    const YAML::Node entry = (*entries)[i];
+    if (!entry.IsScalar() || entry.Scalar().empty()) {
+      complaints.add(rowKey(map, info.name, i),
+                     fmt::format("must be a name, found {}", shown(entry)));
+      continue;
+    }
+    names.push_back(entry.Scalar());
+  }
+  return names;
+}
+
+std::vector<TableRow> readTable(const MapReader& map, const SettingInfo& info,
+                                Complaints& complaints) {
+  std::vector<std::string> known = info.word_columns;
+  for (const ColumnInfo& column : info.columns) {
+    known.push_back(column.name);
+  }
+  std::vector<TableRow> table;
+  const auto rows = list(map, info.name, "maps", complaints);
+  for (std::size_t i = 0; rows && i < rows->size(); ++i) {
+    const MapReader row((*rows)[i], rowKey(map, info.name, i), known, "key of " + info.name,
+                        complaints);
+    TableRow values;
+    for (const std::string& word : info.word_columns) {
+      if (row.usable() && !row.has(word)) {
+        complaints.add(row.key(word), "missing; must be a name");
+      }
+      values.words[word] = row.text(word, "");
+    }
+    for (const ColumnInfo& column : info.columns) {
+      const std::optional<double> fallback =
+          std::isnan(column.fallback) ? std::nullopt : std::optional<double>(column.fallback);
+      values.numbers[column.name] = row.number(column.name, column.range, column.unit, fallback);
+    }
+    table.push_back(values);
+  }
+  return table;
+}
+
+void readSetting(const MapReader& map, const SettingInfo& info, Settings& settings,
+                 Complaints& complaints) {
+  if (info.kind == SettingKind::kChoice) {
+    settings.choices[info.name] =
+        map.choice(info.name, info.choices, fmt::format("{}", fmt::join(info.choices, " or ")),
+                   info.choices.front());
+    return;
+  }
+  if (!map.has(info.name)) {
+    if (info.required && map.usable()) {
+      complaints.add(map.key(info.name), fmt::format("missing; {}", info.meaning));
+    }
+    return;
+  }
+  if (info.kind == SettingKind::kMatrix) {
+    if (const auto matrix = readMatrix(map, info, complaints)) {
+      settings.matrices[info.name] = *matrix;
+    }
+  } else if (info.kind == SettingKind::kNames) {
+    settings.names[info.name] = readNames(map, info, complaints);
+  } else {
+    settings.tables[info.name] = readTable(map, info, complaints);
+  }
+}
+
+}  // namespace
+
+void readParameters(const MapReader& system, const ModelInfo& model, SystemSpec& spec,
+                    Complaints& complaints) {
+  std::vector<std::string> known;
+  for (const ParameterInfo& parameter : model.parameters) {
+    known.push_back(parameter.name);
+  }
+  for (const SettingInfo& setting : model.settings) {
+    known.push_back(setting.name);
+  }
+  if (model.has_shaft) {
+    known.push_back("speed");
+  }
+  const MapReader map(
+      system.has("parameters") ? system.at("parameters") : YAML::Node(YAML::NodeType::Map),
+      system.key("parameters"), known, "parameter of " + model.name, complaints);
+  for (const ParameterInfo& p : model.parameters) {
+    std::optional<double> fallback = p.fallback;
+    if (!p.fallback_parameter.empty()) {
+      fallback = spec.parameters.at(p.fallback_parameter);
+    }
+    spec.parameters[p.name] = map.number(p.name, p.range, p.unit, fallback);
+  }
+  for (const SettingInfo& setting : model.settings) {
+    readSetting(map, setting, spec.settings, complaints);
+  }
+  if (map.has("speed")) {
+    spec.speed = map.numberBetween("speed", -kLargestSpeed, kLargestSpeed, "rad/s", std::nullopt);
+  }
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,49 @@
+// Parameters of a model that are not one number: words, names, matrices, tables of rows.
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "mechanics/model_description.h"
+
+namespace whirl_twin {
+
+/// One row of a table, such as one force of a list.
+struct TableRow {
+  std::map<std::string, double> numbers;
+  std::map<std::string, std::string> words;
+};
+
+/// As a scene gives them; what it does not give is absent, but for choices, which have a default.
+struct Settings {
+  std::map<std::string, std::string> choices;  ///< `true` and `false` among them
+  std::map<std::string, Eigen::MatrixXd> matrices;
+  std::map<std::string, std::vector<std::string>> names;
+  std::map<std::string, std::vector<TableRow>> tables;
+};
+
+enum class SettingKind { kChoice, kMatrix, kNames, kTable };
+
+/// A column of a table that holds numbers.
+struct ColumnInfo {
+  std::string name;
+  std::string unit;
+  Range range;
+  double fallback;  ///< NaN: must be given
+};
+
+/// What a model says of a setting; scene files are checked against it.
+struct SettingInfo {
+  std::string name;
+  SettingKind kind;
+  std::string unit;  ///< of a matrix's entries, in words
+  std::string meaning;
+  std::vector<std::string> choices = {};       ///< of a choice, its default first
+  bool required = false;                       ///< a matrix, names or a table that must be given
+  std::vector<ColumnInfo> columns = {};        ///< of a table
+  std::vector<std::string> word_columns = {};  ///< of a table, all of them required
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,120 @@
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include "tools/commands.h"
+#include "tools/output.h"
+#include "tools/plot_history.h"
+#include "tools/simulation.h"
+#include "tools/system_plots.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr const char* kDescription =
+    "Runs a scene from its start and draws what happens: for each system a picture, its time\n"
+    "history, its phase portrait and its energies.";
+
+constexpr const char* kFooter =
+    "Into the folder, for each system, as svg (sharp at any size) or png:\n"
+    "  NAME_picture   to scale, at the start, with later positions and the path of a point;\n"
+    "                 a model given by its matrices and a whirling disc have none\n"
+    "  NAME_time      its coordinates; of a rotor whirl radius, phase and shaft speed\n"
+    "  NAME_phase     the rate of each coordinate over it; of a rotor the orbit\n"
+    "  NAME_energy    kinetic and potential energy, and h\n"
+    "Files appear only when all of them are complete.\n"
+    "\n"
+    "Examples:\n"
+    "  twin plot double_pendulum --system absolute --duration 20\n"
+    "  twin plot my_scene.yaml --output pictures --format png";
+
+constexpr std::int64_t kMostSamples = 100'000;
+
+struct PlotRequest {
+  SimulationRequest run;
+  std::string folder = ".";
+  std::string format = "svg";
+};
+
+ImageFormat formatOf(const std::string& name) {
+  if (name != "svg" && name != "png") {
+    throw BadInput(fmt::format("--format: must be svg or png, found '{}'", name));
+  }
+  return imageFormat("plot." + name);
+}
+
+/// A file whose contents wait for the others'.
+class WaitingFile {
+ public:
+  WaitingFile(const std::string& path, const std::string& contents) : pending_(path), path_(path) {
+    std::ofstream file(pending_.path(), std::ios::binary);
+    file << contents;
+    file.close();
+    if (!file) {
+      throw RunFailed(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
+    }
+  }
+  void complete() {
+    pending_.complete();
+    printText(path_ + "\n");
+  }
+
+ private:
+  PendingFile pending_;
+  std::string path_;
+};
+
+int plot(const PlotRequest& request) {
+  const ImageFormat format = formatOf(request.format);
+  SimulationPlan plan = planSimulation(request.run);
+  const std::filesystem::path folder = request.folder;
+  if (!std::filesystem::is_directory(folder)) {
+    throw BadInput(fmt::format("--output: must be a folder, found '{}'", request.folder));
+  }
+  plan.stride = 1 + plan.steps / kMostSamples;
+  Simulation simulation(plan);
+  PlotHistoryWriter writer(simulation.twin(), plan.systems);
+  simulation.run(&writer, false);
+
+  std::vector<std::unique_ptr<WaitingFile>> files;
+  for (std::size_t i = 0; i < plan.systems.size(); ++i) {
+    const Twin::Member& member = simulation.twin().members()[plan.systems[i]];
+    for (const SystemPlot& plot : systemPlots(member, writer.histories()[i], format)) {
+      const std::string name = fmt::format("{}_{}.{}", member.spec.name, plot.kind, request.format);
+      files.push_back(std::make_unique<WaitingFile>((folder / name).string(), plot.image));
+    }
+  }
+  for (const auto& file : files) {
+    file->complete();
+  }
+  return simulation.sound() ? kDone : kFailed;
+}
+
+}  // namespace
+
+void addPlotCommand(CLI::App& twin, int& status) {
+  CLI::App* command = twin.add_subcommand("plot", kDescription);
+  const auto request = std::make_shared<PlotRequest>();
+  command
+      ->add_option("SCENE", request->run.scene,
+                   "scene file (YAML), or the name of a scene of the package")
+      ->required()
+      ->type_name("");
+  command->add_option("--system", request->run.system, "plot this system only")->type_name("NAME");
+  command
+      ->add_option("--duration", request->run.duration,
+                   "s, simulated, whole steps; default: the longest drive profile, else 10 s")
+      ->type_name("S");
+  command->add_option("--output", request->folder, "folder of the files; default: this one")
+      ->type_name("FOLDER");
+  command->add_option("--format", request->format, "svg or png; default: svg")->type_name("FORMAT");
+  command->footer(kFooter);
+  command->callback([request, &status] { status = plot(*request); });
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,41 @@
+#include "tools/plot_history.h"
+
+#include <limits>
+#include <utility>
+
+namespace whirl_twin {
+
+PlotHistoryWriter::PlotHistoryWriter(const Twin& twin, std::vector<std::size_t> systems)
+    : twin_(twin), systems_(std::move(systems)), histories_(systems_.size()) {
+  for (std::size_t i = 0; i < systems_.size(); ++i) {
+    const std::size_t n = twin_.members()[systems_[i]].spec.q.size();
+    histories_[i].coordinates.resize(n);
+    histories_[i].rates.resize(n);
+  }
+}
+
+void PlotHistoryWriter::write(const Observer& observer) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 0; i < systems_.size(); ++i) {
+    const std::size_t system = systems_[i];
+    const bool running = observer.status(system) == StepStatus::kOk;
+    PlotHistory& history = histories_[i];
+    history.time.push_back(twin_.seconds(observer.step()));
+    for (std::size_t k = 0; k < history.coordinates.size(); ++k) {
+      history.coordinates[k].push_back(running ? observer.coordinates(system)[k] : kNaN);
+      history.rates[k].push_back(running ? observer.rates(system)[k] : kNaN);
+    }
+    const Energies e = running ? observer.energies(system) : Energies{kNaN, kNaN, kNaN, kNaN, kNaN};
+    history.kinetic.push_back(e.kinetic);
+    history.potential.push_back(e.potential);
+    history.jacobi.push_back(e.jacobi);
+    history.moments.push_back(observer.moment(system));
+    history.speed.push_back(history.moments.back().speed);
+    if (observer.isRotor(system)) {
+      history.whirl_radius.push_back(running ? observer.whirlRadius(system) : kNaN);
+      history.whirl_phase.push_back(running ? observer.whirlPhase(system) : kNaN);
+    }
+  }
+}
+
+}  // namespace whirl_twin

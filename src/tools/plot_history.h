@@ -1,0 +1,38 @@
+// The course of a run, kept in memory to be plotted.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "tools/sample_writer.h"
+
+namespace whirl_twin {
+
+/// Of one system, a value for each sample; NaN after it has stopped.
+struct PlotHistory {
+  std::vector<double> time;                             ///< [s]
+  std::vector<std::vector<double>> coordinates, rates;  ///< [coordinate][sample]
+  std::vector<double> kinetic, potential, jacobi;       ///< [J]
+  std::vector<Moment<double>> moments;                  ///< of the shaft
+  std::vector<double> speed;                            ///< [rad/s], of the shaft
+  std::vector<double> whirl_radius, whirl_phase;        ///< [m], [rad]; of a rotor
+};
+
+class PlotHistoryWriter final : public SampleWriter {
+ public:
+  /// `systems`: which ones of the twin's; the twin outlives the writer.
+  PlotHistoryWriter(const Twin& twin, std::vector<std::size_t> systems);
+
+  void write(const Observer& observer) override;
+  void finish() override {}
+
+  /// In the order of the systems.
+  const std::vector<PlotHistory>& histories() const { return histories_; }
+
+ private:
+  const Twin& twin_;
+  std::vector<std::size_t> systems_;
+  std::vector<PlotHistory> histories_;
+};
+
+}  // namespace whirl_twin

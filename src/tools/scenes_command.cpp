@@ -1,0 +1,134 @@
+#include <fmt/format.h>
+
+#include <fstream>
+#include <memory>
+#include <optional>
+
+#include "scene/scene_reader.h"
+#include "tools/commands.h"
+#include "tools/output.h"
+#include "tools/shipped_scenes.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr const char* kDescription =
+    "Lists the scenes that come with the package, or those of a folder: what each shows, and its\n"
+    "systems with their models.";
+
+constexpr const char* kFooter =
+    "Any of them runs by its name:\n"
+    "  twin analyze rod_slider\n"
+    "  roslaunch whirl_twin demo.launch scene:=rod_slider\n"
+    "\n"
+    "Examples:\n"
+    "  twin scenes\n"
+    "  twin scenes my_scenes --json";
+
+struct SceneEntry {
+  std::string name;   ///< of the file, without .yaml
+  std::string about;  ///< what it shows: the first paragraph of its opening comment
+  std::string watch;  ///< what to watch: the rest of that comment
+  std::string path;
+  Scene scene;
+  std::string refusal;  ///< why it cannot be read; "" if it can
+};
+
+/// The comment a file opens with, as paragraphs of running text.
+std::vector<std::string> openingComment(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::vector<std::string> paragraphs{""};
+  for (std::string line; std::getline(in, line) && !line.empty() && line[0] == '#';) {
+    const std::size_t start = line.find_first_not_of("# ");
+    if (start == std::string::npos) {
+      paragraphs.emplace_back();
+    } else {
+      paragraphs.back() += (paragraphs.back().empty() ? "" : " ") + line.substr(start);
+    }
+  }
+  return paragraphs;
+}
+
+SceneEntry readEntry(const std::filesystem::path& file) {
+  SceneEntry entry;
+  entry.name = file.stem();
+  entry.path = file;
+  const std::vector<std::string> paragraphs = openingComment(file);
+  entry.about = paragraphs.front();
+  for (std::size_t i = 1; i < paragraphs.size(); ++i) {
+    entry.watch += (entry.watch.empty() ? "" : " ") + paragraphs[i];
+  }
+  try {
+    entry.scene = readSceneFile(file);
+  } catch (const SceneError& error) {
+    entry.refusal = error.errors().front();
+  }
+  return entry;
+}
+
+std::string text(const SceneEntry& entry) {
+  if (!entry.refusal.empty()) {
+    return fmt::format("{}\n  cannot be read: {}\n", entry.name, entry.refusal);
+  }
+  std::string systems;
+  for (const SystemSpec& system : entry.scene.systems) {
+    systems += fmt::format("{}{} ({})", systems.empty() ? "" : ", ", system.name, system.model);
+  }
+  return fmt::format("{}\n  {}\n  systems: {}\n", entry.name, entry.about, systems);
+}
+
+Json json(const SceneEntry& entry) {
+  Json json;
+  json["path"] = entry.path;
+  json["about"] = entry.about;
+  json["watch"] = entry.watch;
+  json["refusal"] = entry.refusal.empty() ? Json() : Json(entry.refusal);
+  json["systems"] = Json::object();
+  for (const SystemSpec& system : entry.scene.systems) {
+    json["systems"][system.name] = system.model;
+  }
+  return json;
+}
+
+int listScenes(const std::optional<std::string>& folder, bool as_json) {
+  const std::filesystem::path where = folder ? std::filesystem::path(*folder) : shippedSceneFolder();
+  std::error_code error;
+  if (!std::filesystem::is_directory(where, error)) {
+    throw BadInput(folder ? fmt::format("{}: must be a folder of scene files", *folder)
+                          : "the scenes of the package were not found; name their folder");
+  }
+  Json all;
+  all["folder"] = where.string();
+  all["scenes"] = Json::object();
+  std::string texts;
+  for (const std::filesystem::path& file : sceneFiles(where)) {
+    const SceneEntry entry = readEntry(file);
+    all["scenes"][entry.name] = json(entry);
+    texts += (texts.empty() ? "" : "\n") + text(entry);
+  }
+  if (as_json) {
+    printJson(all);
+  } else {
+    printText(texts);
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void addScenesCommand(CLI::App& twin, int& status) {
+  struct Request {
+    std::optional<std::string> folder;
+    bool json = false;
+  };
+  CLI::App* command = twin.add_subcommand("scenes", kDescription);
+  const auto request = std::make_shared<Request>();
+  command->add_option("FOLDER", request->folder, "of scene files; default: the package's")
+      ->type_name("");
+  command->add_flag("--json", request->json, "print one JSON object");
+  command->footer(kFooter);
+  command->callback([request, &status] { status = listScenes(request->folder, request->json); });
+}
+
+}  // namespace whirl_twin

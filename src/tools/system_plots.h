@@ -1,0 +1,23 @@
+// What a system did, as charts, and what it looks like.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "plots/canvas.h"
+#include "scene/twin.h"
+#include "tools/plot_history.h"
+
+namespace whirl_twin {
+
+struct SystemPlot {
+  std::string kind;   ///< "picture", "time", "phase" or "energy"
+  std::string image;  ///< the file
+};
+
+/// Its picture (where it has one), time history, phase portrait (of a rotor: orbit) and energies.
+/// Throws std::runtime_error.
+std::vector<SystemPlot> systemPlots(const Twin::Member& member, const PlotHistory& history,
+                                    ImageFormat format);
+
+}  // namespace whirl_twin

@@ -1,0 +1,59 @@
+#include "tools/validity_watch.h"
+
+#include <fmt/format.h>
+
+namespace whirl_twin {
+
+ValidityWatch::ValidityWatch(const Twin& twin, const std::vector<std::size_t>& systems)
+    : twin_(twin) {
+  for (const std::size_t i : systems) {
+    if (hasConditions(*twin.members()[i].dynamics)) {
+      watched_.push_back(i);
+    }
+  }
+}
+
+std::vector<std::string> ValidityWatch::look(const Observer& observer) {
+  std::vector<std::string> warnings;
+  for (const std::size_t i : watched_) {
+    if (twin_.status(i) != StepStatus::kOk) {
+      continue;
+    }
+    const Twin::Member& member = twin_.members()[i];
+    const auto n = static_cast<Eigen::Index>(member.spec.q.size());
+    const Moment<double> at = observer.moment(i);
+    for (const Condition& c :
+         validity(*member.dynamics, Eigen::Map<const Eigen::VectorXd>(observer.coordinates(i), n),
+                  Eigen::Map<const Eigen::VectorXd>(observer.rates(i), n), at)) {
+      if (c.margin > 0.0) {
+        continue;
+      }
+      const auto [breach, first] = breaches_[i].try_emplace(c.name, Breach{c, at.time});
+      if (first) {
+        warnings.push_back(
+            fmt::format("{}: warning: from t = {:.9g} s its equations do not hold: {}",
+                        member.spec.name, at.time, brokenText({c})));
+      } else if (c.margin < breach->second.condition.margin) {
+        breach->second.condition = c;
+      }
+    }
+  }
+  return warnings;
+}
+
+Json ValidityWatch::json(std::size_t system) const {
+  Json all = Json::array();
+  const auto found = breaches_.find(system);
+  if (found != breaches_.end()) {
+    for (const auto& [name, breach] : found->second) {
+      all.push_back({{"condition", name},
+                     {"meaning", breach.condition.broken},
+                     {"unit", breach.condition.unit},
+                     {"first_time", breach.first_time},
+                     {"worst_margin", breach.condition.margin}});
+    }
+  }
+  return all;
+}
+
+}  // namespace whirl_twin

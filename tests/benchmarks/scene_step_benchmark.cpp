@@ -1,0 +1,57 @@
+// What a step of every system of every shipped scene costs, with the implicit and the explicit
+// method that suit all of them, and with the one that `auto` chooses.
+#include <benchmark/benchmark.h>
+
+#include <filesystem>
+#include <string>
+
+#include "realtime/denormals.h"
+#include "scene/scene_reader.h"
+#include "scene/twin.h"
+
+namespace whirl_twin {
+namespace {
+
+void steps(benchmark::State& state, Scene scene, const std::string& integrator) {
+  scene.systems.front().integrator = integrator;
+  const DenormalsToZero denormals_to_zero;
+  Twin twin(scene);
+  for (auto _ : state) {
+    twin.step();
+    // Starts over before a motion has died out or gone round too often.
+    if (twin.stepCount() == 20000) {
+      twin.reset();
+    }
+  }
+  if (twin.status(0) != StepStatus::kOk) {
+    state.SkipWithError(describe(twin.status(0)));
+  }
+}
+
+void addScenes() {
+  for (const auto& file : std::filesystem::directory_iterator(WHIRL_TWIN_SCENES)) {
+    const Scene scene = readSceneFile(file.path());
+    for (const SystemSpec& system : scene.systems) {
+      Scene one = scene;
+      one.systems = {system};
+      for (const char* integrator : {"gauss_legendre_6", "runge_kutta_4", "auto"}) {
+        benchmark::RegisterBenchmark(
+            (scene.name + "/" + system.name + "/" + integrator).c_str(),
+            [one, integrator](benchmark::State& state) { steps(state, one, integrator); });
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace whirl_twin
+
+int main(int argc, char** argv) {
+  whirl_twin::addScenes();
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
+    return 1;
+  }
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}

@@ -1,0 +1,65 @@
+#!/usr/bin/python3
+"""Every shipped scene runs live, loaded as demo.launch loads it: each system publishes finite states
+and a stability margin, with no alert that its model does not hold."""
+import glob
+import math
+import os
+import signal
+import subprocess
+import sys
+import unittest
+
+import roslib.packages
+import rospkg
+import rospy
+import rosparam
+import rostest
+from whirl_twin.msg import AlertArray, PendulumState, StabilityMargin, WhirlState
+
+SCENES = os.path.join(rospkg.RosPack().get_path('whirl_twin'), 'config', 'scenes', '*.yaml')
+START = ['_lcm_url:=', '_realtime:=ignore']
+
+
+class EveryScene(unittest.TestCase):
+    def start(self, node, arguments):
+        program = roslib.packages.find_node('whirl_twin', node)[:1]
+        return subprocess.Popen(program + arguments, stdout=subprocess.PIPE,
+                                stderr=subprocess.STDOUT, universal_newlines=True)
+
+    def run_scene(self, path):
+        if rospy.has_param('/twin/scene'):
+            rospy.delete_param('/twin/scene')
+        (scene, _), = rosparam.load_file(path)
+        rosparam.upload_params('/twin/scene', scene)
+        rospy.set_param('/twin/scene_file', path)
+        nodes = [self.start('simulation_node', START), self.start('monitor_node', ['_lcm_url:='])]
+        try:
+            for name, system in scene['systems'].items():
+                rotor = system['model'] == 'jeffcott_rotor'
+                kind, topic = (WhirlState, 'whirl') if rotor else (PendulumState, 'pendulum')
+                state = rospy.wait_for_message('/twin/%s/%s' % (name, topic), kind, 10)
+                numbers = [state.x, state.y] if rotor else list(state.angle) + list(state.rate)
+                self.assertTrue(numbers and all(math.isfinite(x) for x in numbers), name)
+                self.assertLess(abs(state.energy_residual), 1e-6, name)
+                margin = rospy.wait_for_message('/twin/%s/stability' % name, StabilityMargin, 10)
+                self.assertEqual(margin.model, system['model'])
+                self.assertNotEqual(margin.verdict_name, 'uncertain', name)
+            alerts = rospy.wait_for_message('/twin/alerts', AlertArray, 10).alerts
+            self.assertFalse([a.text for a in alerts if a.type == 'MODEL_INVALID'])
+        finally:
+            for node in nodes:
+                node.send_signal(signal.SIGINT)
+            said = [node.communicate(timeout=20)[0] for node in nodes]
+        self.assertEqual([node.returncode for node in nodes], [0, 0], said)
+
+    def test_runs_live(self):
+        scenes = sorted(glob.glob(SCENES))
+        self.assertGreater(len(scenes), 10)
+        for path in scenes:
+            with self.subTest(scene=os.path.basename(path)):
+                self.run_scene(path)
+
+
+if __name__ == '__main__':
+    rospy.init_node('every_scene_test')
+    rostest.rosrun('whirl_twin', 'every_scene_test', EveryScene, sys.argv)

@@ -1,0 +1,106 @@
+// `twin plot`: which files, in which form, and what is refused.
+#include <gtest/gtest.h>
+
+#include "twin_program.h"
+
+namespace whirl_twin {
+namespace {
+
+using Names = std::vector<std::string>;
+
+TEST(Plot, DrawsEverySystem) {
+  const TemporaryDirectory folder;
+  const Ending end = twin({"plot", kDemo, "--duration", "2", "--output", folder.file("")});
+  EXPECT_EQ(end.status, 0) << end.err;
+  const Names all{"pendulum_energy.svg", "pendulum_phase.svg", "pendulum_picture.svg",
+                  "pendulum_time.svg",   "rotor_energy.svg",   "rotor_phase.svg",
+                  "rotor_time.svg"};  // a whirling disc has no picture to scale
+  EXPECT_EQ(folder.files(), all);
+  EXPECT_EQ(linesOf(end.out).size(), all.size());
+  for (const std::string& line : linesOf(end.out)) {
+    EXPECT_TRUE(std::filesystem::is_regular_file(line)) << line;
+  }
+  EXPECT_EQ(contentsOf(folder.file("rotor_time.svg")).substr(0, 5), "<?xml");
+  EXPECT_NE(contentsOf(folder.file("rotor_phase.svg")).find("y (m) over x (m)"), std::string::npos);
+}
+
+TEST(Plot, DrawsOneSystemAsPng) {
+  const TemporaryDirectory folder;
+  const Ending end = twin({"plot", kDemo, "--system", "pendulum", "--duration", "1", "--output",
+                           folder.file(""), "--format", "png"});
+  EXPECT_EQ(end.status, 0) << end.err;
+  EXPECT_EQ(folder.files(), (Names{"pendulum_energy.png", "pendulum_phase.png",
+                                   "pendulum_picture.png", "pendulum_time.png"}));
+  EXPECT_EQ(contentsOf(folder.file("pendulum_time.png")).substr(0, 8), "\x89PNG\r\n\x1a\n");
+}
+
+TEST(Plot, OfTheSameRunIsTheSame) {
+  const TemporaryDirectory one, other;
+  twin({"plot", kDemo, "--duration", "1", "--output", one.file("")});
+  twin({"plot", kDemo, "--duration", "1", "--output", other.file("")});
+  for (const std::string& name : one.files()) {
+    EXPECT_EQ(contentsOf(one.file(name)), contentsOf(other.file(name))) << name;
+  }
+}
+
+TEST(Plot, OfNoDurationShowsTheStart) {
+  const TemporaryDirectory folder;
+  EXPECT_EQ(twin({"plot", kDemo, "--duration", "0", "--output", folder.file("")}).status, 0);
+  EXPECT_EQ(folder.files().size(), 7u);
+}
+
+struct Refused {
+  Names options;
+  std::string message;
+};
+class RefusedOptions : public testing::TestWithParam<Refused> {};
+
+TEST_P(RefusedOptions, SayWhatWasExpected) {
+  Names arguments{"plot", kDemo};
+  arguments.insert(arguments.end(), GetParam().options.begin(), GetParam().options.end());
+  const Ending end = twin(arguments);
+  EXPECT_EQ(end.status, 2);
+  EXPECT_EQ(end.out, "");
+  EXPECT_EQ(end.err, GetParam().message + "\n");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Plot, RefusedOptions,
+    testing::Values(Refused{{"--format", "pdf"}, "twin: --format: must be svg or png, found 'pdf'"},
+                    Refused{{"--output", "/no/such/folder"},
+                            "twin: --output: must be a folder, found '/no/such/folder'"},
+                    Refused{{"--duration", "-1"},
+                            "twin: --duration: must be from 0 s to 1000000000 s, found -1 s"},
+                    Refused{{"--system", "rotar"},
+                            "twin: --system: no system 'rotar' in " + kDemo +
+                                "; did you mean 'rotor'?"}));
+
+TEST(Plot, ThatCannotBeWrittenLeavesNothingBehind) {
+  const TemporaryDirectory folder;
+  // The last file's name is taken by a folder.
+  std::filesystem::create_directory(folder.file("pendulum_energy.svg"));
+  const Ending end = twin({"plot", kDemo, "--duration", "1", "--output", folder.file("")});
+  EXPECT_EQ(end.status, 1);
+  EXPECT_EQ(end.out, "");
+  EXPECT_EQ(folder.files(), Names{"pendulum_energy.svg"});
+}
+
+TEST(Plot, OfASystemThatDivergesShowsItUntilThen) {
+  const TemporaryDirectory folder;
+  const std::string scene = folder.write("scene.yaml",
+                                         "name: apart\n"
+                                         "step: 0.01\n"
+                                         "systems:\n"
+                                         "  repelled:\n"
+                                         "    model: linear_system\n"
+                                         "    parameters: {mass: [[1]], stiffness: [[-1e8]]}\n"
+                                         "    initial: {q1: 1.0}\n");
+  const Ending end = twin({"plot", scene, "--duration", "1", "--output", folder.file("")});
+  EXPECT_EQ(end.status, 1) << end.out;
+  EXPECT_NE(end.err.find("repelled: stopped in step"), std::string::npos) << end.err;
+  EXPECT_EQ(folder.files(), (Names{"repelled_energy.svg", "repelled_phase.svg", "repelled_time.svg",
+                                   "scene.yaml"}));
+}
+
+}  // namespace
+}  // namespace whirl_twin
