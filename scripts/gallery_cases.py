@@ -4,87 +4,9 @@ The notes' side comes from tests/reference/note_cases.json, or from a formula of
 side from `twin` with the case's own parameters, in a scene made for it.
 """
 
-import json
 import math
-import pathlib
-import subprocess
-import tempfile
 
-REFERENCE = pathlib.Path(__file__).resolve().parent.parent / "tests" / "reference" / "note_cases.json"
-CASES = {case["id"]: case for case in json.loads(REFERENCE.read_text(encoding="utf-8"))}
-
-
-class Twin:
-    """Runs `twin` on scenes of one system."""
-
-    def __init__(self, program):
-        self.program = program
-        self.runs = 0
-
-    def run(self, *arguments):
-        self.runs += 1
-        done = subprocess.run([self.program, *arguments, "--json"], capture_output=True, text=True, check=True)
-        return json.loads(done.stdout)
-
-    def on_scene(self, command, model, parameters, gravity=9.81, initial=None, options=()):
-        system = {"model": model, "parameters": parameters, **({"initial": initial} if initial else {})}
-        scene = {"name": "gallery", "step": 0.001, "gravity": gravity, "systems": {"it": system}}
-        with tempfile.TemporaryDirectory() as folder:
-            path = pathlib.Path(folder, "scene.yaml")
-            path.write_text(json.dumps(scene), encoding="utf-8")  # JSON is YAML
-            return self.run(command, str(path), *options)["systems"]["it"]
-
-    def analyze(self, model, parameters, gravity=9.81, initial=None):
-        return self.on_scene("analyze", model, parameters, gravity, initial)
-
-    def routh(self, *coefficients):
-        return self.run("routh", *(repr(c) for c in coefficients))
-
-
-class Row:
-    """One line of a table: `notes` is the correct number, `in_print` what stands in the notes if they print one."""
-
-    def __init__(self, quantity, notes, computed, source, unit="", in_print=None, digits=None, tolerance=1e-6):
-        self.quantity, self.notes, self.computed, self.source = quantity, notes, computed, source
-        self.unit, self.in_print, self.digits, self.tolerance = unit, in_print, digits, tolerance
-
-    def with_unit(self, text):
-        return f"{text} {self.unit}".strip()
-
-    def printed(self):
-        if self.in_print is None:
-            return self.with_unit(f"{self.notes:.7g}")
-        text = f"{self.in_print:.{self.digits}f}"
-        return self.with_unit(text if self.matches_print() else f"{text}; correct: {self.notes:.6g}")
-
-    def shown(self):
-        rounded = 0.0 if abs(self.computed) < 1e-12 else self.computed
-        return self.with_unit(f"{rounded:.7g}")
-
-    def matches_print(self):
-        return abs(self.in_print - self.notes) <= 0.5001 * 10 ** -self.digits
-
-    def agrees(self):
-        return abs(self.computed - self.notes) <= self.tolerance * max(1.0, abs(self.notes))
-
-    def complaint(self):
-        return f"{self.quantity}: expected {self.notes:.9g}, computed {self.computed:.9g}"
-
-
-def of_case(identity, quantity, computed, erratum="", unit="", tolerance=1e-6):
-    """A row of a case of tests/reference/note_cases.json."""
-    case = CASES[identity]
-    source = "printed" if "printed" in case or case["source"] == "notes" else "from the notes' equations"
-    return Row(quantity, case["expected"], computed, source + (f", {erratum}" if erratum else ""), unit,
-               case.get("printed"), case.get("printed_digits"), tolerance)
-
-
-def parameters(identity):
-    return CASES[identity]["params"]
-
-
-def hertz(frequency):
-    return frequency / (2.0 * math.pi)
+from gallery_numbers import CASES, Row, hertz, of_case, parameters
 
 
 def demo(twin):
@@ -206,6 +128,23 @@ def friction_oscillator(twin):
         rows.append(of_case(identity, f"a = {case['a'] / 0.0254:g} in, h = {case['h'] / 0.0254:g} in, mu = {case['mu']:g}",
                             hertz(state["natural_frequencies"][0]), erratum, "Hz"))
     return rows
+
+
+def free_rotor(twin):
+    def run(identity, duration):
+        case = parameters(identity)
+        rotor = {"mass": case["m"], "stiffness": case["k"], "damping": case["c"], "eccentricity": case["e"],
+                 "polar_inertia": case["J"], "torque": case["Tq"]}
+        return twin.on_scene("simulate", "free_rotor", rotor, initial={"spin_rate": 2.0},
+                             options=("--duration", duration))["state"]
+
+    captured = "sommerfeld.w1.Tq0.1"
+    started = "traj.jeffcott_spin.t5"
+    start = run(f"{started}.phi_d", "5")
+    return [of_case(captured, "0.1 N m from 2 rad/s: caught below the critical speed, at",
+                    run(captured, "120")["spin_rate"], unit="rad/s", tolerance=1e-5),
+            of_case(f"{started}.phi_d", "0.03 N m: spin speed after 5 s", start["spin_rate"], unit="rad/s"),
+            of_case(f"{started}.X", "0.03 N m: x after 5 s", start["x"], unit="m")]
 
 
 def two_bar_linkage(twin):
@@ -361,6 +300,6 @@ def sliding_mass_flywheel(twin):
 
 
 ROWS = {function.__name__: function for function in (
-    cantilever_beam, cart_pendulum, demo, double_pendulum, friction_oscillator, governor, hinged_beam, linear_system,
-    rod_slider, rolling_disc, rotating_pendulum, sliding_mass_flywheel, spinning_pendulum, sprung_inverted_pendulum,
-    two_bar_linkage)}
+    cantilever_beam, cart_pendulum, demo, double_pendulum, free_rotor, friction_oscillator, governor, hinged_beam,
+    linear_system, rod_slider, rolling_disc, rotating_pendulum, sliding_mass_flywheel, spinning_pendulum,
+    sprung_inverted_pendulum, two_bar_linkage)}

@@ -72,9 +72,10 @@ class GaussLegendre6 {
   template <class Equation>
   StepStatus stiffStep(const Equation& equation, double offset, double h, int halvings,
                        MotionState<n>& state) {
-    Stages a = constant(equation(state.q, state.v, offset).acceleration);
+    const std::array<double, n> start = equation(state.q, state.v, offset).acceleration;
+    Stages a = constant(start);
     Powers power;
-    if (newton(equation, offset, h, state, a, power)) {
+    if (newton(equation, offset, h, state, a, power) && plausible(h, state, start, a)) {
       last_ = a;
       warm_ = halvings == kMaxHalvings;  // the next step is as long as this one
       finish(h, a, power, state);
@@ -93,6 +94,22 @@ class GaussLegendre6 {
       state = half;
     }
     return status;
+  }
+
+  /// The stage equations of a step far too long have solutions that are no motion: they run away
+  /// further than ten times what the start suggests, and than ten rad or m.
+  static bool plausible(double h, const MotionState<n>& state, const std::array<double, n>& start,
+                        const Stages& a) {
+    double suggested = 1.0;
+    double found = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      suggested = std::fmax(suggested, std::fabs(state.q[i]) + h * std::fabs(state.v[i]) +
+                                           h * h * std::fabs(start[i]));
+      for (std::size_t k = 0; k < 3; ++k) {
+        found = std::fmax(found, h * h * std::fabs(a[k][i]));
+      }
+    }
+    return found <= 10.0 * suggested;
   }
 
   /// From the stages to the end of the step.

@@ -16,7 +16,7 @@ struct Reaction {
 
 /// A condition under which a model's equations describe the machine. It holds while margin > 0.
 struct Condition {
-  std::string name;     ///< "contact", "rod_end", "no_slip", "sliding", "no_tipping"
+  std::string name;     ///< "contact", "rod_end", "sliding", "no_tipping"
   std::string unit;     ///< of the margin
   double margin = 0.0;  ///< how much is left: [N] of normal force, [m] to the rod's end, ...
   std::string broken;   ///< what it means that it does not hold: "the disc lifts off its plane"

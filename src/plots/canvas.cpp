@@ -18,9 +18,9 @@ cairo_status_t append(void* file, const unsigned char* bytes, unsigned int count
   return CAIRO_STATUS_SUCCESS;
 }
 
-/// To a hundredth of a pixel: more is not seen and makes files longer.
+/// To an eighth of a pixel: more is not seen and makes files longer. (Cairo counts in 1/256.)
 double rounded(double pixels) {
-  return std::round(100.0 * pixels) / 100.0;
+  return std::round(8.0 * pixels) / 8.0;
 }
 
 std::string escaped(const std::string& text) {
@@ -100,15 +100,18 @@ Canvas::~Canvas() {
   cairo_surface_destroy(sheet_->surface);
 }
 
-void Canvas::line(const std::vector<Spot>& spots, const Pen& pen) {
-  if (spots.empty()) {
-    return;
+void Canvas::lines(const std::vector<std::vector<Spot>>& pieces, const Pen& pen) {
+  for (const std::vector<Spot>& spots : pieces) {
+    if (!spots.empty()) {
+      cairo_move_to(sheet_->cairo, rounded(spots[0].x), rounded(spots[0].y));
+    }
+    for (const Spot& spot : spots) {
+      cairo_line_to(sheet_->cairo, rounded(spot.x), rounded(spot.y));
+    }
   }
-  cairo_move_to(sheet_->cairo, rounded(spots[0].x), rounded(spots[0].y));
-  for (const Spot& spot : spots) {
-    cairo_line_to(sheet_->cairo, rounded(spot.x), rounded(spot.y));
+  if (cairo_has_current_point(sheet_->cairo) != 0) {
+    sheet_->stroke(pen);
   }
-  sheet_->stroke(pen);
 }
 
 void Canvas::polygon(const std::vector<Spot>& corners, const Ink& fill, const Pen& outline) {

@@ -62,7 +62,8 @@ class Canvas {
   Canvas& operator=(const Canvas&) = delete;
 
   /// One point makes a dot.
-  void line(const std::vector<Spot>& spots, const Pen& pen);
+  void line(const std::vector<Spot>& spots, const Pen& pen) { lines({spots}, pen); }
+  void lines(const std::vector<std::vector<Spot>>& pieces, const Pen& pen);
   void polygon(const std::vector<Spot>& corners, const Ink& fill, const Pen& outline);
   void circle(const Spot& centre, double radius, const Ink& fill, const Pen& outline);
   void text(const Spot& at, const std::string& words, const Lettering& lettering);

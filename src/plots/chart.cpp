@@ -5,15 +5,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "plots/marked_axis.h"
 
 namespace whirl_twin {
 namespace {
 
-constexpr std::size_t kMostSpots = 6000;  // of a whole figure
-constexpr double kLegendRow = 20.0;       // px
-constexpr double kSample = 24.0;          // px, of a line in the legend
+constexpr std::size_t kMostSpots = 10000;  // of a whole SVG
+constexpr double kLegendRow = 20.0;        // px
+constexpr double kSample = 24.0;           // px, of a line in the legend
 constexpr int kTicksAcross = 9;
 constexpr double kPixelsPerTick = 30.0;  // of a vertical axis, at least
 
@@ -174,7 +175,7 @@ class ChartDrawing {
   void drawSeries(const Series& series, const Pen& pen) {
     std::vector<Spot> line;
     const auto finish = [&] {
-      canvas_.line(thinned(line, most_spots_), pen);
+      drawLine(thinned(line), pen);
       line.clear();
     };
     for (std::size_t i = 0; i < series.x.size(); ++i) {
@@ -186,6 +187,14 @@ class ChartDrawing {
       }
     }
     finish();
+  }
+
+  void drawLine(const std::vector<Spot>& line, const Pen& pen) {
+    if (line.size() <= most_spots_) {
+      canvas_.line(line, pen);
+    } else {
+      canvas_.lines(withoutRepeats(line, most_spots_), pen);
+    }
   }
 
   void drawFrame() {
@@ -255,7 +264,9 @@ std::string figureImage(const Figure& figure, ImageFormat format) {
                 figure.title, description(figure));
   canvas.text({0.5 * figure.width, 19.0}, figure.title, kFigureTitle);
 
-  std::size_t all_series = 1;
+  const std::size_t most_spots =
+      format == ImageFormat::kSvg ? kMostSpots : std::numeric_limits<std::size_t>::max();
+  std::size_t all_series = 0;
   for (const Chart& chart : figure.charts) {
     all_series += chart.series.size();
   }
@@ -268,7 +279,7 @@ std::string figureImage(const Figure& figure, ImageFormat format) {
     const Rectangle place{column * width, top + i / figure.columns * figure.chart_height, width,
                           static_cast<double>(figure.chart_height)};
     drawings.emplace_back(figure.charts[static_cast<std::size_t>(i)], place,
-                          kMostSpots / all_series, canvas);
+                          most_spots / std::max<std::size_t>(all_series, 1), canvas);
     double& margin = margins[static_cast<std::size_t>(column)];
     margin = std::max(margin, drawings.back().leftMargin());
   }

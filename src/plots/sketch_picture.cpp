@@ -17,7 +17,6 @@ constexpr double kTop = 40.0;       // px, of the title
 constexpr double kMargin = 24.0;    // px
 constexpr double kFoot = 34.0;      // px, of the length to compare
 constexpr double kGhost = 0.72;     // share of white
-constexpr std::size_t kMostSpots = 3000;
 
 /// "0.2 m", a third of the picture at most.
 struct ScaleBar {
@@ -78,7 +77,7 @@ std::string sketchImage(const SketchPicture& picture, ImageFormat format) {
     trace.push_back(view.at(point));
   }
   drawParts(picture.sketch, view, 0.0, canvas);
-  canvas.line(thinned(trace, kMostSpots), {paler(ink::kVermilion, 0.15), 1.4});
+  canvas.line(thinned(trace), {paler(ink::kVermilion, 0.15), 1.4});
 
   const ScaleBar bar = scaleBar(sheet_width / view.scale);
   const double y = sheet_height - 18.0;

@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <unordered_set>
 #include <utility>
 
 namespace whirl_twin {
 namespace {
 
 constexpr double kUnseen = 0.12;      // px, by which a line may be off
+constexpr double kCoarsest = 0.9;     // px, the same where there would be too many points
 constexpr double kColumnWidth = 0.5;  // px
+constexpr double kCell = 0.75;        // px, less than a line is wide
 
 bool runsForward(const std::vector<Spot>& line) {
   return std::is_sorted(line.begin(), line.end(),
@@ -81,19 +85,73 @@ std::vector<Spot> simplified(const std::vector<Spot>& line, double tolerance) {
   return kept;
 }
 
+/// The cells of a fine raster that a stretch passes.
+std::vector<std::uint64_t> cellsOf(const Spot& from, const Spot& to, double size) {
+  const double length = std::hypot(to.x - from.x, to.y - from.y);
+  const int steps = 1 + static_cast<int>(2.0 * length / size);
+  std::vector<std::uint64_t> cells;
+  for (int i = 0; i <= steps; ++i) {
+    const double s = static_cast<double>(i) / steps;
+    const auto column =
+        static_cast<std::int32_t>(std::floor((from.x + s * (to.x - from.x)) / size));
+    const auto row = static_cast<std::int32_t>(std::floor((from.y + s * (to.y - from.y)) / size));
+    cells.push_back(static_cast<std::uint64_t>(static_cast<std::uint32_t>(column)) << 32U |
+                    static_cast<std::uint32_t>(row));
+  }
+  return cells;
+}
+
+/// With what passes through the same cells [px] as the same.
+std::vector<std::vector<Spot>> withoutRepeats(const std::vector<Spot>& line, double cell) {
+  std::unordered_set<std::uint64_t> drawn;
+  std::vector<std::vector<Spot>> pieces;
+  bool drawing = false;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const std::vector<std::uint64_t> cells = cellsOf(line[i], line[i + 1], cell);
+    std::size_t fresh = 0;
+    for (const std::uint64_t one : cells) {
+      fresh += drawn.insert(one).second ? 1 : 0;
+    }
+    if (10 * fresh <= cells.size()) {
+      drawing = false;
+      continue;
+    }
+    if (!drawing) {
+      pieces.push_back({line[i]});
+      drawing = true;
+    }
+    pieces.back().push_back(line[i + 1]);
+  }
+  return pieces;
+}
+
 }  // namespace
 
-std::vector<Spot> thinned(const std::vector<Spot>& line, std::size_t most) {
+std::vector<std::vector<Spot>> withoutRepeats(const std::vector<Spot>& line, std::size_t most) {
+  double tolerance = kUnseen;
+  double cell = kCell;
+  for (;;) {
+    const std::vector<std::vector<Spot>> pieces = withoutRepeats(simplified(line, tolerance), cell);
+    std::size_t spots = 0;
+    for (const std::vector<Spot>& piece : pieces) {
+      spots += piece.size();
+    }
+    if (spots <= std::max<std::size_t>(most, 2)) {
+      return pieces;
+    }
+    if (tolerance < kCoarsest) {
+      tolerance *= 2.0;
+    } else {
+      cell *= 1.5;
+    }
+  }
+}
+
+std::vector<Spot> thinned(const std::vector<Spot>& line) {
   if (line.size() < 3) {
     return line;
   }
-  std::vector<Spot> kept = runsForward(line) ? thinnedByColumns(line) : line;
-  kept = simplified(kept, kUnseen);
-  for (double tolerance = 2.0 * kUnseen; kept.size() > std::max<std::size_t>(most, 2);
-       tolerance *= 2.0) {
-    kept = simplified(kept, tolerance);
-  }
-  return kept;
+  return simplified(runsForward(line) ? thinnedByColumns(line) : line, kUnseen);
 }
 
 }  // namespace whirl_twin

@@ -26,14 +26,13 @@ const ModelInfo* find(const std::vector<ModelInfo>& list, const std::string& nam
 }
 
 const std::vector<ModelInfo>& builtInModels() {
-  static const std::vector<ModelInfo> built_in{cantileverBeamInfo(),   cartPendulumInfo(),
-                                               doublePendulumInfo(),   frictionOscillatorInfo(),
-                                               governorInfo(),         hingedBeamInfo(),
-                                               jeffcottRotorInfo(),    linearSystemInfo(),
-                                               rodSliderInfo(),        rollingDiscInfo(),
-                                               rotatingPendulumInfo(), slidingMassFlywheelInfo(),
-                                               spinningPendulumInfo(), sprungInvertedPendulumInfo(),
-                                               twoBarLinkageInfo()};
+  static const std::vector<ModelInfo> built_in{
+      cantileverBeamInfo(),      cartPendulumInfo(),       doublePendulumInfo(),
+      freeRotorInfo(),           frictionOscillatorInfo(), governorInfo(),
+      hingedBeamInfo(),          jeffcottRotorInfo(),      linearSystemInfo(),
+      rodSliderInfo(),           rollingDiscInfo(),        rotatingPendulumInfo(),
+      slidingMassFlywheelInfo(), spinningPendulumInfo(),   sprungInvertedPendulumInfo(),
+      twoBarLinkageInfo()};
   return built_in;
 }
 

@@ -17,7 +17,8 @@ std::optional<YAML::Node> list(const MapReader& map, const std::string& name, co
                                Complaints& complaints) {
   const YAML::Node node = map.at(name);
   if (!node.IsSequence() || node.size() == 0) {
-    complaints.add(map.key(name), fmt::format("must be a list of {}, found {}", of, shown(node)));
+    complaints.add(map.key(name), fmt::format("must be a list of {}, found {}", of,
+                                              node.IsSequence() ? "an empty list" : shown(node)));
     return std::nullopt;
   }
   if (node.size() > kLargestMatrix) {

@@ -92,7 +92,8 @@ Json json(const SceneEntry& entry) {
 }
 
 int listScenes(const std::optional<std::string>& folder, bool as_json) {
-  const std::filesystem::path where = folder ? std::filesystem::path(*folder) : shippedSceneFolder();
+  const std::filesystem::path where =
+      folder ? std::filesystem::path(*folder) : shippedSceneFolder();
   std::error_code error;
   if (!std::filesystem::is_directory(where, error)) {
     throw BadInput(folder ? fmt::format("{}: must be a folder of scene files", *folder)

@@ -104,7 +104,9 @@ std::string modesText(const SystemAnalysis& a) {
 std::string stabilityText(const SystemAnalysis& a) {
   const Stability& s = a.reduced_stability;
   std::string out = fmt::format("  stability: {}\n", verdictText(s.routh.verdict));
-  out += s.polynomial.empty()
+  out += s.eigenvalues.empty()
+             ? std::string("    polynomial      none: no motion is left to judge\n")
+         : s.polynomial.empty()
              ? fmt::format("    polynomial      left out beyond {} coordinates\n",
                            kMostExactCoordinates)
              : fmt::format("    polynomial      {:.6g}\n", fmt::join(s.polynomial, "  "));

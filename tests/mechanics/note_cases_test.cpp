@@ -44,14 +44,14 @@ const std::map<std::string, Modelled> kModelled{
     {"jeffcott_xy", {7, rotorAnswers}},      // the rotor's own coordinates
     {"jeffcott_polar", {13, rotorAnswers}},  // the same motion seen in polar coordinates
     {"jeffcott_rot", {12, rotorAnswers}},    // the same motion seen from the turning shaft
+    {"jeffcott_spin", {25, freeRotorAnswers}},
+    {"jeffcott_fluid", {5, fluidWhirlAnswers}},  // this and what follows by their matrices
+    {"jeffcott_hysteretic", {2, hystereticWhirlAnswers}},
+    {"gyro_disc", {6, gyroscopicTiltAnswers}},
 };
 
 // Systems that no model of this program stands for, and why.
 const std::map<std::string, std::string> kNotModelled{
-    {"jeffcott_spin", "the rotor's speed is prescribed: no motor, no free spin"},
-    {"jeffcott_fluid", "the rotor has no fluid damping"},
-    {"jeffcott_hysteretic", "the rotor has no loss factor"},
-    {"gyro_disc", "the rotor's disc does not tilt"},
     {"routh", "polynomials: tested with the Routh criterion"},
 };
 

@@ -91,6 +91,7 @@ INSTANTIATE_TEST_SUITE_P(
         Audit{"HingedBeam", "hinged_beam", "gauss_legendre_6", 0.05, false},
         Audit{"FrictionOscillator", "friction_oscillator", "gauss_legendre_6", 0.05, false},
         Audit{"SlidingMassFlywheel", "sliding_mass_flywheel", "gauss_legendre_6", 0.05, false},
+        Audit{"FreeRotor", "free_rotor", "gauss_legendre_6", 0.05, false},
         Audit{"Governor", "governor", "gauss_legendre_6", 0.05, false},
         Audit{"RotorByGaussLegendre", "jeffcott_rotor", "gauss_legendre_6", 0.05, false},
         // Exact: at any step.

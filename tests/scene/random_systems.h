@@ -59,10 +59,29 @@ class RandomSystems {
     if (spec.model == "governor") {
       return governor(spec);
     }
+    if (spec.model == "free_rotor") {
+      return freeRotor(spec);
+    }
     throw std::invalid_argument("no random " + spec.model);
   }
 
  private:
+  double freeRotor(SystemSpec& spec) {
+    const double m = between(0.5, 5.0);
+    const double p = between(5.0, 20.0);
+    const double e = between(1e-4, 1e-2);
+    spec.parameters = {{"mass", m},
+                       {"stiffness", m * p * p},
+                       {"damping", m * p * between(0.02, 0.5)},
+                       {"eccentricity", e},
+                       {"polar_inertia", m * e * e * between(1.0, 1000.0)},
+                       {"torque", m * e * e * p * p * between(0.0, 0.5)},
+                       {"drag", 0.0}};
+    spec.q = {between(-0.01, 0.01), between(-0.01, 0.01), between(-3.0, 3.0)};
+    spec.v = {p * between(-0.01, 0.01), p * between(-0.01, 0.01), p * between(0.2, 2.0)};
+    return 3.0 * p + 20.0;
+  }
+
   bool maybe() { return between(0.0, 1.0) < 0.5; }
 
   double jeffcottRotor(SystemSpec& spec, bool driven) {

@@ -16,7 +16,8 @@ TEST(CommandLine, HelpNamesEveryCommand) {
   const Ending help = twin({"--help"});
   EXPECT_EQ(help.status, 0);
   EXPECT_EQ(help.err, "");
-  for (const char* command : {"check", "models", "simulate", "analyze", "routh", "log"}) {
+  for (const char* command :
+       {"check", "scenes", "models", "simulate", "plot", "analyze", "routh", "log"}) {
     EXPECT_TRUE(contains(help.out, command)) << command;
   }
   EXPECT_TRUE(contains(help.out, "Exit status"));
@@ -34,7 +35,8 @@ TEST_P(CommandHelp, TellsWhatItDoesWithAnExample) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Commands, CommandHelp,
-                         testing::Values("check", "models", "simulate", "analyze", "routh", "log"));
+                         testing::Values("check", "scenes", "models", "simulate", "plot", "analyze",
+                                         "routh", "log"));
 
 struct Misuse {
   std::vector<std::string> arguments;
@@ -54,15 +56,18 @@ TEST_P(Misused, IsRefusedWithOneMessage) {
 INSTANTIATE_TEST_SUITE_P(
     Usages, Misused,
     testing::Values(
-        Misuse{{},
-               "twin: expected a command; there are: check, scenes, models, simulate, plot, analyze, routh, log"},
+        Misuse{
+            {},
+            "twin: expected a command; there are: check, scenes, models, simulate, plot, analyze, "
+            "routh, log"},
         Misuse{{"analyse", kDemo}, "twin: unknown command 'analyse'; did you mean 'analyze'?"},
-        Misuse{{"campbell", kDemo},
-               "twin: unknown command 'campbell'; there are: check, models, simulate, analyze, "
-               "routh, log"},
+        Misuse{
+            {"campbell", kDemo},
+            "twin: unknown command 'campbell'; there are: check, scenes, models, simulate, plot, "
+            "analyze, routh, log"},
         Misuse{{""},
-               "twin: unknown command ''; there are: check, models, simulate, analyze, routh, "
-               "log"},
+               "twin: unknown command ''; there are: check, scenes, models, simulate, plot, "
+               "analyze, routh, log"},
         Misuse{{"check"}, "twin check: SCENE is required"},
         Misuse{{"routh"}, "twin routh: COEFFICIENTS is required"},
         Misuse{{"log"}, "twin log: FILE is required"},

@@ -1,8 +1,8 @@
 // The hinged beam at small angles, as the lecture notes print it: (M/3) theta'' + c theta' +
 // (k/4) theta = f(t)/2, times l^2.
 //
-//   T = M l^2 theta'^2 / 6,   V = k (l theta / 2)^2 / 2,   D = c (l theta')^2 / 2,   Q = f(t) l^2 /
-//   2
+//   T = M l^2 theta'^2 / 6,   V = k (l theta / 2)^2 / 2,   D = c (l theta')^2 / 2
+//   Q = f(t) l^2 / 2
 #pragma once
 
 #include "mechanics/oscillators/hinged_beam.h"

@@ -2,9 +2,11 @@
 // angles), exact (lecture notes, "double pendulum"; errata E11 and note i). By itself a pair of
 // point masses on massless rods; with centres of mass and inertias of their own, a pair of bodies.
 //
-//   T = m1 |v1|^2 / 2 + I1 theta1'^2 / 2 + m2 |v2|^2 / 2 + I2 theta2'^2 / 2     v of the mass
-//   centres V = -m1 g y1 - m2 g y2                                             (zero hanging at
-//   rest) D = c1 theta1'^2 / 2 + c2 w^2 / 2 + Mc1 s(theta1') + Mc2 s(w),   w = theta2' - theta1'
+//   T = m1 |v1|^2 / 2 + I1 theta1'^2 / 2 + m2 |v2|^2 / 2 + I2 theta2'^2 / 2
+//   V = m1 g h1 + m2 g h2
+//   D = c1 theta1'^2 / 2 + c2 w^2 / 2 + Mc1 s(theta1') + Mc2 s(w),   w = theta2' - theta1'
+//
+// v are the velocities of the mass centres, h their heights above where they hang at rest.
 //
 // The kinetic energy is written in the mass centres' Cartesian velocities: that costs fewer dual
 // operations than the expanded cosine form.

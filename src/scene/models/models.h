@@ -9,6 +9,7 @@ namespace whirl_twin {
 ModelInfo cantileverBeamInfo();
 ModelInfo cartPendulumInfo();
 ModelInfo doublePendulumInfo();
+ModelInfo freeRotorInfo();
 ModelInfo frictionOscillatorInfo();
 ModelInfo governorInfo();
 ModelInfo hingedBeamInfo();
