@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace whirl_twin {
@@ -13,16 +14,22 @@ namespace {
 /// Singular values of a stiffness below this part of the largest are rounding.
 constexpr double kRank = 1.0e-12;
 
-/// States in general position: no symmetry, no zero.
+/// States in general position: no symmetry, no zero. Fast and slow, far and near, so that no law
+/// that levels off, such as dry friction, is met only where it is level.
 struct Anywhere {
   Eigen::VectorXd q, v, a;
 };
 
 std::vector<Anywhere> places(Eigen::Index n) {
-  return {{Eigen::VectorXd::LinSpaced(n, 0.7, 1.3), Eigen::VectorXd::LinSpaced(n, 0.9, -1.7),
-           Eigen::VectorXd::LinSpaced(n, -0.4, 1.1)},
-          {Eigen::VectorXd::LinSpaced(n, -1.1, 2.3), Eigen::VectorXd::LinSpaced(n, -0.6, 1.2),
-           Eigen::VectorXd::LinSpaced(n, 1.9, 0.3)}};
+  return {
+      {Eigen::VectorXd::LinSpaced(n, 0.7, 1.3), Eigen::VectorXd::LinSpaced(n, 0.9, -1.7),
+       Eigen::VectorXd::LinSpaced(n, -0.4, 1.1)},
+      {Eigen::VectorXd::LinSpaced(n, -1.1, 2.3), Eigen::VectorXd::LinSpaced(n, -0.6, 1.2),
+       Eigen::VectorXd::LinSpaced(n, 1.9, 0.3)},
+      {Eigen::VectorXd::LinSpaced(n, 0.07, 0.23), Eigen::VectorXd::LinSpaced(n, -0.6e-3, 1.2e-3),
+       Eigen::VectorXd::LinSpaced(n, 0.5, -0.8)},
+      {Eigen::VectorXd::LinSpaced(n, -0.02, 0.013), Eigen::VectorXd::Zero(n),
+       Eigen::VectorXd::Zero(n)}};
 }
 
 CyclicCoordinates ofNonlinear(const Dynamics& dynamics, const Moment<double>& at) {
@@ -52,8 +59,16 @@ CyclicCoordinates ofLinear(const Dynamics& dynamics, const Moment<double>& at) {
   const Eigen::Index n = dynamics.dof();
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n);
   const Linearization l = dynamics.linearization(zero, zero, zero, at);
-  const Eigen::MatrixXd by_q = l.stiffness + l.circulatory;
-  const Eigen::MatrixXd by_v = l.damping + l.gyroscopic;
+  // Scaled so that a soft coordinate beside a stiff one is not taken for a free one.
+  const Eigen::MatrixXd stiffness = l.stiffness + l.circulatory;
+  Eigen::VectorXd scale(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double largest =
+        std::max(stiffness.row(i).cwiseAbs().maxCoeff(), stiffness.col(i).cwiseAbs().maxCoeff());
+    scale[i] = largest > 0.0 ? 1.0 / std::sqrt(largest) : 1.0;
+  }
+  const Eigen::MatrixXd by_q = scale.asDiagonal() * stiffness * scale.asDiagonal();
+  const Eigen::MatrixXd by_v = scale.asDiagonal() * (l.damping + l.gyroscopic) * scale.asDiagonal();
   CyclicCoordinates all;
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(by_q, Eigen::ComputeFullV);
   const double largest = svd.singularValues()[0];
@@ -61,8 +76,9 @@ CyclicCoordinates ofLinear(const Dynamics& dynamics, const Moment<double>& at) {
   while (rank < n && svd.singularValues()[rank] > kRank * largest) {
     ++rank;
   }
-  all.basis = rank < n ? svd.matrixV() : Eigen::MatrixXd::Identity(n, n);
-  const Eigen::MatrixXd modes = all.basis.rightCols(n - rank);
+  const Eigen::MatrixXd modes = svd.matrixV().rightCols(n - rank);
+  all.basis = rank < n ? Eigen::MatrixXd(scale.asDiagonal() * svd.matrixV())
+                       : Eigen::MatrixXd::Identity(n, n);
   const double small = kRank * std::max(by_v.cwiseAbs().maxCoeff(), 1.0e-300);
   const bool free = rank < n && (by_v * modes).cwiseAbs().maxCoeff() <= small &&
                     (modes.transpose() * by_v).cwiseAbs().maxCoeff() <= small &&

@@ -18,8 +18,8 @@ namespace whirl_twin {
 
 struct CyclicCoordinates {
   using Places = std::vector<Eigen::Index>;
-  /// Columns: the directions that the three lists below count. The unit matrix, but for the
-  /// rigid-body modes of a linear system. [n x n]
+  /// Columns: the directions that the three lists below count. The unit matrix, but of a linear
+  /// system with rigid-body modes these and others that complete them. [n x n]
   Eigen::MatrixXd basis;
   Places shape;      ///< what the forces depend on
   Places conserved;  ///< cyclic, with a conserved momentum

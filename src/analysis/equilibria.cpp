@@ -12,8 +12,9 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kStartsPerTurn = 8;
-constexpr int kTurnsOfOneSlide = 8;  // searched where a sliding coordinate is the only one
-constexpr double kSame = 1.0e-6;     // closer than this is the same equilibrium, rad or lengths
+constexpr double kMostStarts = 4096.5;  // in all: fewer a turn where there are many coordinates
+constexpr int kTurnsOfOneSlide = 8;     // searched where a sliding coordinate is the only one
+constexpr double kSame = 1.0e-6;        // closer than this is the same equilibrium, rad or lengths
 
 /// Deviation of q from p in units, angles by the shorter way round, cyclic coordinates aside.
 double distance(const Dynamics& dynamics, const CyclicCoordinates& cyclic, const Eigen::VectorXd& q,
@@ -48,14 +49,16 @@ Eigen::VectorXd tidied(const Dynamics& dynamics, Eigen::VectorXd q) {
 }
 
 /// Starts of Newton's method over one coordinate: round the circle, or as far to both sides.
-std::vector<double> starts(const Dynamics& dynamics, Eigen::Index coordinate) {
+std::vector<double> starts(const Dynamics& dynamics, Eigen::Index coordinate, std::size_t shapes) {
+  const int most = static_cast<int>(std::pow(kMostStarts, 1.0 / static_cast<double>(shapes)));
+  const int a_turn = std::clamp(most, 1, kStartsPerTurn);
   const double unit = naturalUnits(dynamics)[coordinate];
   const bool angle = dynamics.coordinates()[static_cast<std::size_t>(coordinate)].isAngle();
   const int turns = !angle && dynamics.dof() == 1 ? kTurnsOfOneSlide : 1;
   std::vector<double> all;
-  for (int i = 0; i < turns * kStartsPerTurn; ++i) {
+  for (int i = 0; i < turns * a_turn; ++i) {
     // Off the symmetric points, where Newton's method could rest by accident.
-    all.push_back(unit * (0.1 + 2.0 * kPi * i / kStartsPerTurn - turns * kPi));
+    all.push_back(unit * (0.1 + 2.0 * kPi * i / a_turn - turns * kPi));
   }
   return all;
 }
@@ -68,7 +71,7 @@ std::vector<Eigen::VectorXd> grid(const Dynamics& dynamics, const CyclicCoordina
   }
   for (const Eigen::Index i : cyclic.shape) {
     std::vector<Eigen::VectorXd> finer;
-    for (const double start : starts(dynamics, i)) {
+    for (const double start : starts(dynamics, i, cyclic.shape.size())) {
       for (Eigen::VectorXd point : points) {
         point[i] = start;
         finer.push_back(point);

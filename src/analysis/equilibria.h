@@ -22,7 +22,8 @@ struct Equilibrium {
 
 /// All equilibria found at a constant speed [rad/s], by Newton's method on the reduced potential
 /// from a grid of starts, ascending: over the circle of an angle, as many natural lengths of a
-/// slide (eight circles where it is the only coordinate). Conserved momenta are those of the motion
+/// slide (eight circles where it is the only coordinate); eight starts for each of up to four
+/// coordinates, fewer for more. Conserved momenta are those of the motion
 /// through q and v. Loads that alternate are at their mean. One where a coordinate has no inertia
 /// (a rotating pendulum without a hub, hanging) has no small motion in these coordinates and is
 /// left out. A linear rotor has one, the bearing line; its unbalance whirls it about it.

@@ -13,13 +13,33 @@ Eigen::VectorXd naturalUnits(const Dynamics& dynamics) {
   return unit;
 }
 
+namespace {
+
+Eigen::VectorXd eigenvalues(const Eigen::MatrixXd& symmetric) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly)
+      .eigenvalues();
+}
+
+}  // namespace
+
+bool massIsSingular(const Dynamics& dynamics, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                    const Moment<double>& at) {
+  const Eigen::MatrixXd mass = dynamics.massMatrix(q, v, at);
+  const Eigen::VectorXd diagonal = mass.diagonal();
+  if (!(diagonal.minCoeff() > 0.0)) {
+    return true;
+  }
+  const Eigen::VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
+  constexpr double kRounding = 1.0e-15;
+  return !(eigenvalues(scale.asDiagonal() * mass * scale.asDiagonal())[0] > kRounding);
+}
+
 double massRegularity(const Dynamics& dynamics, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                       const Moment<double>& at) {
-  const Eigen::VectorXd unit = naturalUnits(dynamics);
-  const Eigen::MatrixXd mass =
-      unit.asDiagonal() * dynamics.massMatrix(q, v, at) * unit.asDiagonal();
+  const Eigen::VectorXd all_units = naturalUnits(dynamics);
+  const Eigen::VectorXd unit = all_units / all_units.maxCoeff();  // their ratio is what matters
   const Eigen::VectorXd values =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(mass, Eigen::EigenvaluesOnly).eigenvalues();
+      eigenvalues(unit.asDiagonal() * dynamics.massMatrix(q, v, at) * unit.asDiagonal());
   const double largest = values.cwiseAbs().maxCoeff();
   return largest > 0.0 ? values[0] / largest : 0.0;
 }

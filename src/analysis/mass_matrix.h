@@ -12,9 +12,13 @@ namespace whirl_twin {
 double massRegularity(const Dynamics& dynamics, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                       const Moment<double>& at);
 
-/// Below this the accelerations are mostly rounding; at kSingularMass they are nothing else.
+/// Below this regularity the accelerations may be mostly rounding.
 constexpr double kNearlySingularMass = 1.0e-10;
-constexpr double kSingularMass = 1.0e-15;
+
+/// Has some motion no inertia at all? Judged on M scaled to unit diagonal, so that masses may be as
+/// different as they like.
+bool massIsSingular(const Dynamics& dynamics, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                    const Moment<double>& at);
 
 /// A radian of each coordinate: of a sliding one, the model's natural length [m].
 Eigen::VectorXd naturalUnits(const Dynamics& dynamics);

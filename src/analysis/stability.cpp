@@ -29,7 +29,7 @@ void modes(const std::vector<std::complex<double>>& roots, Stability& s) {
       continue;  // a rigid-body motion
     }
     if (root.imag() > 0.0) {
-      modes.push_back({std::abs(root), -root.real() / std::abs(root)});
+      modes.push_back({std::abs(root), 0.0 - root.real() / std::abs(root)});
     } else if (root.imag() == 0.0) {
       real.push_back(root.real());
     }
@@ -60,9 +60,12 @@ void judgeExactly(const Linearization& l, std::size_t zeros, Stability& s) {
     s.polynomial.push_back(toDouble(c));
   }
   s.routh = routh(polynomial);
-  if (zeros == 0 && s.routh.verdict == Verdict::kRepeatedImaginary &&
-      routh(minimalPolynomial(l)).verdict == Verdict::kMarginal) {
-    s.routh.verdict = Verdict::kMarginal;
+  if (s.routh.verdict == Verdict::kRepeatedImaginary) {
+    std::vector<Rational> minimal = minimalPolynomial(l);
+    minimal.resize(minimal.size() - (zeros > 0 ? 1 : 0));  // they are one simple root there
+    if (routh(minimal).verdict == Verdict::kMarginal) {
+      s.routh.verdict = Verdict::kMarginal;
+    }
   }
 }
 

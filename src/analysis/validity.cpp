@@ -22,12 +22,15 @@ std::vector<Condition> validity(const Dynamics& dynamics, const Eigen::VectorXd&
   return all;
 }
 
-std::string brokenText(const std::vector<Condition>& conditions) {
+std::string brokenText(const std::vector<Condition>& conditions, Margins margins) {
   std::string text;
   for (const Condition& c : conditions) {
     if (!(c.margin > 0.0)) {
-      text += fmt::format("{}{} ({} {:.3g}{})", text.empty() ? "" : "; ", c.broken, c.name,
-                          c.margin, c.unit == "-" ? "" : " " + c.unit);
+      const std::string margin =
+          margins == Margins::kShown
+              ? fmt::format(" {:.3g}{}", c.margin, c.unit == "-" ? "" : " " + c.unit)
+              : "";
+      text += fmt::format("{}{} ({}{})", text.empty() ? "" : "; ", c.broken, c.name, margin);
     }
   }
   return text;

@@ -17,8 +17,9 @@ bool hasConditions(const Dynamics& dynamics);
 std::vector<Condition> validity(const Dynamics& dynamics, const Eigen::VectorXd& q,
                                 const Eigen::VectorXd& v, const Moment<double>& at);
 
-/// The conditions broken, in words: "the disc lifts off its plane (contact -0.31 N)"; "" if all
-/// hold.
-std::string brokenText(const std::vector<Condition>& conditions);
+/// The conditions broken, in words: "the disc lifts off its plane (contact)"; "" if all hold. With
+/// their margins, "(contact -0.31 N)".
+enum class Margins { kShown, kLeftOut };
+std::string brokenText(const std::vector<Condition>& conditions, Margins margins);
 
 }  // namespace whirl_twin

@@ -8,6 +8,7 @@
 #include <cstddef>
 
 #include "mechanics/elementary.h"
+#include "mechanics/force_inline.h"
 
 namespace whirl_twin {
 
@@ -26,42 +27,33 @@ struct Gradient {
   WHIRL_TWIN_INLINE Gradient through(const Jet<B>& g) const {
     Gradient r;
     r.value = g.value;
-    for (std::size_t i = 0; i < N; ++i) {
-      r.slope[i] = g.slope * slope[i];
-    }
+    unrolled<N>([&](auto i) WHIRL_TWIN_FLAT { r.slope[i] = g.slope * slope[i]; });
     return r;
   }
 
   friend WHIRL_TWIN_INLINE Gradient operator+(const Gradient& a, const Gradient& b) {
     Gradient r;
     r.value = a.value + b.value;
-    for (std::size_t i = 0; i < N; ++i) {
-      r.slope[i] = a.slope[i] + b.slope[i];
-    }
+    unrolled<N>([&](auto i) WHIRL_TWIN_FLAT { r.slope[i] = a.slope[i] + b.slope[i]; });
     return r;
   }
   friend WHIRL_TWIN_INLINE Gradient operator-(const Gradient& a, const Gradient& b) {
     Gradient r;
     r.value = a.value - b.value;
-    for (std::size_t i = 0; i < N; ++i) {
-      r.slope[i] = a.slope[i] - b.slope[i];
-    }
+    unrolled<N>([&](auto i) WHIRL_TWIN_FLAT { r.slope[i] = a.slope[i] - b.slope[i]; });
     return r;
   }
   friend WHIRL_TWIN_INLINE Gradient operator*(const Gradient& a, const Gradient& b) {
     Gradient r;
     r.value = a.value * b.value;
-    for (std::size_t i = 0; i < N; ++i) {
-      r.slope[i] = a.slope[i] * b.value + a.value * b.slope[i];
-    }
+    unrolled<N>([&](auto i)
+                    WHIRL_TWIN_FLAT { r.slope[i] = a.slope[i] * b.value + a.value * b.slope[i]; });
     return r;
   }
   friend WHIRL_TWIN_INLINE Gradient operator*(double a, const Gradient& b) {
     Gradient r;
     r.value = a * b.value;
-    for (std::size_t i = 0; i < N; ++i) {
-      r.slope[i] = a * b.slope[i];
-    }
+    unrolled<N>([&](auto i) WHIRL_TWIN_FLAT { r.slope[i] = a * b.slope[i]; });
     return r;
   }
   friend WHIRL_TWIN_INLINE Gradient operator/(const Gradient& a, const Gradient& b) {

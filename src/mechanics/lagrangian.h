@@ -55,10 +55,10 @@ WHIRL_TWIN_INLINE EquationsOfMotion<B, n> equationsOfMotion(const Model& model,
   using Kinetic = LagrangianDual<B, n>;
   std::array<Kinetic, n> q_of_t;
   std::array<Kinetic, n> v_of_t;
-  for (std::size_t j = 0; j < n; ++j) {
+  unrolled<n>([&](auto j) WHIRL_TWIN_FLAT {
     q_of_t[j] = Kinetic::coordinate(q[j], v[j], j);
     v_of_t[j] = Kinetic::velocity(v[j], j);
-  }
+  });
   const Moment<Kinetic> moment{
       Kinetic::known(B(at.time), B(1.0)), Kinetic::known(B(at.angle), B(at.speed)),
       Kinetic::known(B(at.speed), B(at.acceleration)), Kinetic::known(B(at.acceleration), B(0.0))};
@@ -66,9 +66,7 @@ WHIRL_TWIN_INLINE EquationsOfMotion<B, n> equationsOfMotion(const Model& model,
 
   using Potential = Gradient<B, n + 1>;  // by the coordinates, and by time where it stands alone
   std::array<Potential, n> q_of_potential;
-  for (std::size_t j = 0; j < n; ++j) {
-    q_of_potential[j] = Potential(q[j], j);
-  }
+  unrolled<n>([&](auto j) WHIRL_TWIN_FLAT { q_of_potential[j] = Potential(q[j], j); });
   Moment<Potential> moment_of_potential{Potential(B(at.time), n), Potential(at.angle),
                                         Potential(at.speed), Potential(at.acceleration)};
   moment_of_potential.angle.slope[n] = B(at.speed);
@@ -78,10 +76,10 @@ WHIRL_TWIN_INLINE EquationsOfMotion<B, n> equationsOfMotion(const Model& model,
   using Dissipation = Gradient<B, n>;  // by the rates
   std::array<Dissipation, n> q_of_dissipation;
   std::array<Dissipation, n> v_of_dissipation;
-  for (std::size_t j = 0; j < n; ++j) {
+  unrolled<n>([&](auto j) WHIRL_TWIN_FLAT {
     q_of_dissipation[j].value = q[j];
     v_of_dissipation[j] = Dissipation(v[j], j);
-  }
+  });
   const Moment<Dissipation> moment_of_dissipation{at.time, at.angle, at.speed, at.acceleration};
   const Dissipation d =
       model.dissipation(q_of_dissipation, v_of_dissipation, moment_of_dissipation);
@@ -92,10 +90,10 @@ WHIRL_TWIN_INLINE EquationsOfMotion<B, n> equationsOfMotion(const Model& model,
   EquationsOfMotion<B, n> r;
   r.mass = t.by_vv;
   r.power = u.slope[n] - t.rate;
-  for (std::size_t j = 0; j < n; ++j) {
+  unrolled<n>([&](auto j) WHIRL_TWIN_FLAT {
     r.force[j] = t.by_q[j] - u.slope[j] - t.by_v_rate[j] - d.slope[j] + applied[j];
     r.power = r.power + v[j] * (t.by_q[j] - d.slope[j] + applied[j]);
-  }
+  });
   return r;
 }
 
@@ -106,27 +104,31 @@ WHIRL_TWIN_INLINE std::array<B, n> solveMass(const std::array<B, n*(n + 1) / 2>&
   const auto at = [](std::size_t row, std::size_t column) { return row * (row + 1) / 2 + column; };
   std::array<B, n*(n + 1) / 2> l = mass;
   std::array<B, n> inverse_pivot;
-  for (std::size_t j = 0; j < n; ++j) {
-    for (std::size_t k = 0; k < j; ++k) {
+  unrolled<n>([&](auto j) WHIRL_TWIN_FLAT {
+    unrolled<decltype(j)::value>([&](auto k) WHIRL_TWIN_FLAT {
       const B ratio = l[at(j, k)] * inverse_pivot[k];
-      for (std::size_t i = j; i < n; ++i) {
+      unrolled<n - decltype(j)::value>([&](auto below) WHIRL_TWIN_FLAT {
+        const std::size_t i = j + below;
         l[at(i, j)] = l[at(i, j)] - l[at(i, k)] * ratio;
-      }
-    }
+      });
+    });
     inverse_pivot[j] = 1.0 / l[at(j, j)];
-  }
+  });
   std::array<B, n> x = b;
-  for (std::size_t j = 0; j < n; ++j) {
-    for (std::size_t i = j + 1; i < n; ++i) {
+  unrolled<n>([&](auto j) WHIRL_TWIN_FLAT {
+    unrolled<n - decltype(j)::value - 1>([&](auto below) WHIRL_TWIN_FLAT {
+      const std::size_t i = j + 1 + below;
       x[i] = x[i] - l[at(i, j)] * (inverse_pivot[j] * x[j]);
-    }
-  }
-  for (std::size_t j = n; j-- > 0;) {
-    for (std::size_t i = j + 1; i < n; ++i) {
+    });
+  });
+  unrolled<n>([&](auto from_last) WHIRL_TWIN_FLAT {
+    constexpr std::size_t j = n - 1 - decltype(from_last)::value;
+    unrolled<n - 1 - j>([&](auto below) WHIRL_TWIN_FLAT {
+      constexpr std::size_t i = j + 1 + decltype(below)::value;
       x[j] = x[j] - l[at(i, j)] * x[i];
-    }
+    });
     x[j] = x[j] * inverse_pivot[j];
-  }
+  });
   return x;
 }
 

@@ -13,6 +13,7 @@
 #include <cstddef>
 
 #include "mechanics/elementary.h"
+#include "mechanics/force_inline.h"
 
 namespace whirl_twin {
 
@@ -55,15 +56,15 @@ struct LagrangianDual {
     LagrangianDual r;
     r.value = g.value;
     r.rate = g.slope * rate;
-    for (std::size_t j = 0; j < n; ++j) {
+    unrolled<n>([&](auto j) WHIRL_TWIN_FLAT {
       r.by_q[j] = g.slope * by_q[j];
       r.by_v[j] = g.slope * by_v[j];
       r.by_v_rate[j] = g.slope * by_v_rate[j] + g.curvature * (by_v[j] * rate);
-      for (std::size_t k = 0; k <= j; ++k) {
+      unrolled<decltype(j)::value + 1>([&](auto k) WHIRL_TWIN_FLAT {
         const std::size_t p = j * (j + 1) / 2 + k;
         r.by_vv[p] = g.slope * by_vv[p] + g.curvature * (by_v[j] * by_v[k]);
-      }
-    }
+      });
+    });
     return r;
   }
 
@@ -72,28 +73,24 @@ struct LagrangianDual {
     LagrangianDual r;
     r.value = a.value + b.value;
     r.rate = a.rate + b.rate;
-    for (std::size_t j = 0; j < n; ++j) {
+    unrolled<n>([&](auto j) WHIRL_TWIN_FLAT {
       r.by_q[j] = a.by_q[j] + b.by_q[j];
       r.by_v[j] = a.by_v[j] + b.by_v[j];
       r.by_v_rate[j] = a.by_v_rate[j] + b.by_v_rate[j];
-    }
-    for (std::size_t p = 0; p < kPairs; ++p) {
-      r.by_vv[p] = a.by_vv[p] + b.by_vv[p];
-    }
+    });
+    unrolled<kPairs>([&](auto p) WHIRL_TWIN_FLAT { r.by_vv[p] = a.by_vv[p] + b.by_vv[p]; });
     return r;
   }
   friend WHIRL_TWIN_INLINE LagrangianDual operator*(double a, const LagrangianDual& b) {
     LagrangianDual r;
     r.value = a * b.value;
     r.rate = a * b.rate;
-    for (std::size_t j = 0; j < n; ++j) {
+    unrolled<n>([&](auto j) WHIRL_TWIN_FLAT {
       r.by_q[j] = a * b.by_q[j];
       r.by_v[j] = a * b.by_v[j];
       r.by_v_rate[j] = a * b.by_v_rate[j];
-    }
-    for (std::size_t p = 0; p < kPairs; ++p) {
-      r.by_vv[p] = a * b.by_vv[p];
-    }
+    });
+    unrolled<kPairs>([&](auto p) WHIRL_TWIN_FLAT { r.by_vv[p] = a * b.by_vv[p]; });
     return r;
   }
   friend WHIRL_TWIN_INLINE LagrangianDual operator*(const LagrangianDual& a,
@@ -101,17 +98,17 @@ struct LagrangianDual {
     LagrangianDual r;
     r.value = a.value * b.value;
     r.rate = a.value * b.rate + a.rate * b.value;
-    for (std::size_t j = 0; j < n; ++j) {
+    unrolled<n>([&](auto j) WHIRL_TWIN_FLAT {
       r.by_q[j] = a.value * b.by_q[j] + a.by_q[j] * b.value;
       r.by_v[j] = a.value * b.by_v[j] + a.by_v[j] * b.value;
       r.by_v_rate[j] = a.value * b.by_v_rate[j] + a.by_v_rate[j] * b.value + a.by_v[j] * b.rate +
                        a.rate * b.by_v[j];
-      for (std::size_t k = 0; k <= j; ++k) {
+      unrolled<decltype(j)::value + 1>([&](auto k) WHIRL_TWIN_FLAT {
         const std::size_t p = j * (j + 1) / 2 + k;
         r.by_vv[p] = a.value * b.by_vv[p] + a.by_vv[p] * b.value + a.by_v[j] * b.by_v[k] +
                      a.by_v[k] * b.by_v[j];
-      }
-    }
+      });
+    });
     return r;
   }
   friend WHIRL_TWIN_INLINE LagrangianDual operator-(const LagrangianDual& a) { return -1.0 * a; }

@@ -20,7 +20,7 @@ void ValidityAlarm::update(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
   if (!has_conditions_) {
     return;
   }
-  const std::string broken = brokenText(validity(*dynamics_, q, v, at));
+  const std::string broken = brokenText(validity(*dynamics_, q, v, at), Margins::kLeftOut);
   const AlarmCondition condition =
       broken.empty() ? AlarmCondition::kClear : AlarmCondition::kWarning;
   if (alarm_.update(at.time, condition) == ConditionAlarm::Change::kCleared) {
@@ -33,7 +33,7 @@ void ValidityAlarm::update(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
     alert.severity = alarm_.severity();
     alert.time = at.time;
     alert.text = fmt::format("{}: its equations do not hold: {}", system_, broken);
-    alerts.raise(std::move(alert), "model invalid");
+    alerts.raise(std::move(alert), broken);
   }
 }
 

@@ -62,7 +62,7 @@ const char* describe(Range range) {
     case Range::kNotNegative:
       return ">= 0";
     case Range::kCount:
-      return "a whole number > 0";
+      return "a whole number from 1 to 1000000";
     case Range::kAny:
       break;
   }

@@ -128,8 +128,7 @@ void readSetting(const MapReader& map, const SettingInfo& info, Settings& settin
                  Complaints& complaints) {
   if (info.kind == SettingKind::kChoice) {
     settings.choices[info.name] =
-        map.choice(info.name, info.choices, fmt::format("{}", fmt::join(info.choices, " or ")),
-                   info.choices.front());
+        map.choice(info.name, info.choices, "one of its words", info.choices.front());
     return;
   }
   if (!map.has(info.name)) {

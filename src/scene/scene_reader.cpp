@@ -11,6 +11,7 @@
 #include <set>
 
 #include "analysis/mass_matrix.h"
+#include "scene/drive_reader.h"
 #include "scene/model_registry.h"
 #include "scene/node_reader.h"
 #include "scene/parameter_reader.h"
@@ -65,58 +66,6 @@ std::int64_t nanoseconds(const MapReader& map, const std::string& name, double s
                                seconds, whole / 1.0e9));
   }
   return static_cast<std::int64_t>(whole);
-}
-
-std::vector<SpeedMove> readProfile(const YAML::Node& list, const std::string& key,
-                                   Complaints& complaints) {
-  std::vector<SpeedMove> profile;
-  if (!list.IsSequence()) {
-    complaints.add(key, fmt::format("must be a list of moves, found {}", shown(list)));
-    return profile;
-  }
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const MapReader move(list[i], fmt::format("{}[{}]", key, i),
-                         {"speed", "max_acceleration", "max_jerk", "dwell"}, "key of a move",
-                         complaints);
-    SpeedMove m;
-    m.speed = move.numberBetween("speed", -kLargestSpeed, kLargestSpeed, "rad/s", std::nullopt);
-    m.max_acceleration = move.number("max_acceleration", Range::kPositive, "rad/s^2", std::nullopt);
-    m.max_jerk = move.has("max_jerk")
-                     ? move.number("max_jerk", Range::kPositive, "rad/s^3", std::nullopt)
-                     : 0.0;
-    m.dwell = move.numberBetween("dwell", 0.0, kLongestDuration, "s", 0.0);
-    profile.push_back(m);
-  }
-  return profile;
-}
-
-DriveSpec readDrive(const YAML::Node& node, const std::string& key, const std::string& name,
-                    std::int64_t start, Complaints& complaints) {
-  DriveSpec drive;
-  drive.name = name;
-  const MapReader map(node, key, {"speed", "angle", "profile", "motor"}, "key of a drive",
-                      complaints);
-  if (!map.usable()) {
-    return drive;
-  }
-  const std::size_t before = complaints.all().size();
-  drive.speed = map.numberBetween("speed", -kLargestSpeed, kLargestSpeed, "rad/s", 0.0);
-  drive.angle = map.numberBetween("angle", -1.0e15, 1.0e15, "rad", 0.0);
-  if (map.has("motor")) {
-    complaints.add(map.key("motor"),
-                   "motors are not modelled in this version; give the drive a profile");
-  }
-  if (map.has("profile")) {
-    drive.profile = readProfile(map.at("profile"), map.key("profile"), complaints);
-  }
-  if (complaints.all().size() == before) {
-    try {  // what only the whole profile shows, such as moves that last longer than can be timed
-      static_cast<void>(Drive(drive.speed, drive.angle, drive.profile, start));
-    } catch (const std::invalid_argument& error) {
-      complaints.add(key, error.what());
-    }
-  }
-  return drive;
 }
 
 void readShaft(const MapReader& system, const ModelInfo& model, const Scene& scene,
@@ -182,7 +131,7 @@ void checkMass(const MapReader& system, const Dynamics& dynamics, const SystemSp
   const Eigen::VectorXd v = Eigen::Map<const Eigen::VectorXd>(spec.v.data(), n);
   const Moment<double> at{static_cast<double>(scene.time) * 1.0e-9, 0.0, spec.speed.value_or(0.0),
                           0.0};
-  if (!(massRegularity(dynamics, q, v, at) > kSingularMass)) {
+  if (massIsSingular(dynamics, q, v, at)) {
     const std::string reason = dynamics.singularMass();
     complaints.add(system.key("initial"), fmt::format("the mass matrix is singular here{}{}",
                                                       reason.empty() ? "" : ": ", reason));
@@ -225,6 +174,10 @@ SystemSpec readSystem(const YAML::Node& node, const std::string& key, const std:
   } catch (const SetupError& error) {
     if (fit) {  // otherwise it only repeats what was wrong with the parameters
       complaints.add(map.key("parameters." + error.parameter()), error.what());
+    }
+  } catch (const std::exception& error) {
+    if (fit) {
+      complaints.add(map.key("parameters"), error.what());
     }
   }
   return spec;

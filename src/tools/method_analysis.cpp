@@ -5,6 +5,7 @@
 #include <cmath>
 #include <exception>
 
+#include "analysis/assumed_modes.h"
 #include "analysis/dunkerley.h"
 #include "analysis/frequency_response.h"
 #include "analysis/influence_coefficients.h"
@@ -13,6 +14,7 @@
 #include "analysis/rayleigh_quotient.h"
 #include "analysis/rigid_body_modes.h"
 #include "analysis/validity.h"
+#include "analysis/virtual_work.h"
 
 namespace whirl_twin {
 
@@ -28,6 +30,15 @@ std::string name(Definiteness form) {
       break;
   }
   return "indefinite";
+}
+
+/// Nothing where the second shape says nothing new.
+std::optional<double> ritzFrequency(const Linearization& l, const Eigen::MatrixXd& shapes) {
+  try {
+    return ritzModes(l.mass, l.stiffness, shapes).assumed.frequencies[0];
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;
+  }
 }
 
 FrequencyBounds frequencyBounds(const Linearization& l, bool definite) {
@@ -53,6 +64,12 @@ FrequencyBounds frequencyBounds(const Linearization& l, bool definite) {
   const Eigen::VectorXd push = b.shapes.col(0).cwiseSign();
   const Eigen::VectorXd deflection = staticDeflection(l.stiffness, l.mass * push);
   b.rayleigh = rayleighFrequency(l.mass, l.stiffness, deflection);
+  if (b.exact.size() > 2) {
+    Eigen::MatrixXd shapes(deflection.size(), 2);
+    shapes.col(0) = deflection;
+    shapes.col(1) = staticDeflection(l.stiffness, l.mass * deflection);
+    b.ritz = ritzFrequency(l, shapes);
+  }
   const auto iterated = matrixIteration(l.mass, l.stiffness, 1, deflection);
   if (!iterated.empty() && iterated.front().converged) {
     b.iterations = iterated.front().history.size();
@@ -155,6 +172,10 @@ MethodAnalysis analyzeMethods(const Twin::Member& member, const SystemAnalysis& 
   m.reactions = dynamics.reactions(a.q, a.v, a.acceleration, a.moment);
   m.conditions = validity(dynamics, a.q, a.v, a.moment);
   m.responses = steadyResponses(member, a);
+  m.virtual_work.resize(a.q.size());
+  for (Eigen::Index i = 0; i < a.q.size(); ++i) {
+    m.virtual_work[i] = virtualWork(dynamics, a.q, Eigen::VectorXd::Unit(a.q.size(), i), a.moment);
+  }
   m.conservative_form = a.at_equilibrium && !a.speed && l.gyroscopic.isZero(0.0) &&
                         l.circulatory.isZero(0.0) && a.about_v.isZero(0.0);
   if (!m.conservative_form) {

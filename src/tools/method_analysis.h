@@ -21,6 +21,7 @@ struct FrequencyBounds {
   std::optional<double> dunkerley;  ///< [rad/s], not above the lowest
   std::string refusal;              ///< why there is no lower bound
   std::optional<double> rayleigh;   ///< [rad/s], of a static deflection: not below the lowest
+  std::optional<double> ritz;       ///< [rad/s], of that and its own deflection as assumed modes
   std::size_t iterations = 0;       ///< matrix iteration from the static deflection
   double iterated = 0.0;            ///< [rad/s], what it came to
 };
@@ -40,6 +41,7 @@ struct MethodAnalysis {
   std::optional<FrequencyBounds> bounds;
   std::vector<RouthCondition> routh_conditions;
   std::vector<SteadyResponse> responses;
+  Eigen::VectorXd virtual_work;       ///< [J], at rest in the initial place, of unit displacements
   std::vector<Reaction> reactions;    ///< at the initial state
   std::vector<Condition> conditions;  ///< there
 };

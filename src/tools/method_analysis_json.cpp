@@ -13,6 +13,7 @@ Json boundsJson(const FrequencyBounds& b) {
     json["dunkerley_refusal"] = b.refusal;
   }
   json["rayleigh_upper"] = b.rayleigh ? Json(*b.rayleigh) : Json();
+  json["ritz_upper"] = b.ritz ? Json(*b.ritz) : Json();
   if (b.iterations > 0) {
     json["matrix_iteration"] = {{"frequency", b.iterated}, {"steps", b.iterations}};
   }
@@ -54,6 +55,10 @@ Json json(const MethodAnalysis& m, const SystemAnalysis& a) {
   for (const RouthCondition& c : m.routh_conditions) {
     json["routh_conditions"].push_back(
         {{"condition", c.name}, {"left", c.left}, {"right", c.right}, {"holds", c.holds}});
+  }
+  for (std::size_t i = 0; i < a.coordinates.size(); ++i) {
+    json["virtual_work"][a.coordinates[i].name] =
+        m.virtual_work[static_cast<Eigen::Index>(i)] + 0.0;
   }
   for (const Reaction& r : m.reactions) {
     json["reactions"][r.name] = {{"value", r.value}, {"unit", r.unit}};

@@ -23,8 +23,10 @@ std::string boundsText(const FrequencyBounds& b) {
   std::string out = "  lowest natural frequency, rad/s\n";
   if (b.dunkerley) {
     out +=
-        fmt::format("    Dunkerley {:.8g} <= exact {:.8g} <= Rayleigh, static deflection {:.8g}\n",
-                    *b.dunkerley, b.exact[0], *b.rayleigh);
+        fmt::format("    Dunkerley {:.8g} <= exact {:.8g} <= {}Rayleigh {:.8g}\n", *b.dunkerley,
+                    b.exact[0], b.ritz ? fmt::format("Ritz {:.8g} <= ", *b.ritz) : "", *b.rayleigh);
+    out +=
+        "    Rayleigh: the deflection under its own inertia; Ritz: that and its own deflection\n";
     out += fmt::format("    matrix iteration from that deflection: {:.8g} after {} steps\n",
                        b.iterated, b.iterations);
   } else {
@@ -64,6 +66,13 @@ std::string text(const MethodAnalysis& m, const SystemAnalysis& a) {
     for (const RouthCondition& c : m.routh_conditions) {
       out += fmt::format("    {:<15} {:.6g} > {:.6g}{}\n", c.name, c.left, c.right,
                          c.holds ? "" : "  does not hold");
+    }
+  }
+  if (m.virtual_work.size() > 0) {
+    out += "  virtual work at rest where it starts, of a unit displacement, J\n";
+    for (std::size_t i = 0; i < a.coordinates.size(); ++i) {
+      out += fmt::format("    {:<15} {:.6g}\n", a.coordinates[i].name,
+                         m.virtual_work[static_cast<Eigen::Index>(i)] + 0.0);
     }
   }
   if (!m.reactions.empty()) {

@@ -34,6 +34,7 @@ void Simulation::run(SampleWriter* writer, bool results_on_standard_output) {
   std::signal(SIGTERM, requestStop);
   ProgressBar bar(plan_.steps, results_on_standard_output);
   std::vector<double> record(twin_.layout().size);
+  warn(bar);
   if (writer != nullptr) {
     writer->write(observer_);
   }

@@ -32,7 +32,7 @@ std::vector<std::string> ValidityWatch::look(const Observer& observer) {
       if (first) {
         warnings.push_back(
             fmt::format("{}: warning: from t = {:.9g} s its equations do not hold: {}",
-                        member.spec.name, at.time, brokenText({c})));
+                        member.spec.name, at.time, brokenText({c}, Margins::kShown)));
       } else if (c.margin < breach->second.condition.margin) {
         breach->second.condition = c;
       }

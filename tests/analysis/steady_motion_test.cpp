@@ -196,6 +196,48 @@ TEST_F(SteadyMotions, AFreeBarBendsAboutItsRigidBodyModes) {
   }
 }
 
+// A soft or unstable mode beside a stiff one is a mode, not a rigid body.
+TEST_F(SteadyMotions, ASoftSpringBesideAStiffOneIsNotTakenForNone) {
+  for (const double soft : {-2.0, 2.0}) {
+    const auto pair = dynamicsOf("linear_system", {}, 0.0,
+                                 matrices(Eigen::Matrix2d::Identity(), Eigen::Matrix2d::Zero(),
+                                          Eigen::Vector2d(1.0e13, soft).asDiagonal()));
+    EXPECT_FALSE(cyclicCoordinates(*pair, 0.0).any());
+    const auto all = equilibria(*pair, 0.0);
+    ASSERT_EQ(all.size(), 1u);
+    EXPECT_EQ(all[0].stability.routh.verdict, soft > 0.0 ? Verdict::kMarginal : Verdict::kUnstable);
+  }
+}
+
+// Friction that has levelled off at high speed does not make the plank's place cyclic.
+TEST_F(SteadyMotions, APlankThatSticksHasARestInTheMiddle) {
+  const double mu = 0.3, a = 0.0762, h = 0.0127;
+  const auto plank = dynamicsOf("friction_oscillator", {{"mass", 1.0},
+                                                        {"friction_coefficient", mu},
+                                                        {"half_spacing", a},
+                                                        {"height", h},
+                                                        {"roller_speed", 0.2},
+                                                        {"regularization", 0.005}});
+  EXPECT_FALSE(cyclicCoordinates(*plank, 0.0).any());
+  const auto rest = operatingPoint(*plank, vector({0.05}), vector({0.0}), 0.0);
+  ASSERT_TRUE(rest);
+  EXPECT_EQ(rest->q[0], 0.0);
+  EXPECT_NEAR(rest->stability.natural_frequencies.at(0), std::sqrt(mu * kG / (a - mu * h)), 1e-9);
+}
+
+// Two equal oscillators beside a sliding body with a damper: equal frequencies with independent
+// shapes do not grow.
+TEST_F(SteadyMotions, EqualFrequenciesBesideADampedSlideAreNoResonance) {
+  const Eigen::Vector3d k(1.0, 1.0, 0.0);
+  const Eigen::Vector3d c(0.0, 0.0, 1.0);
+  const auto three =
+      dynamicsOf("linear_system", {}, 0.0,
+                 matrices(Eigen::Matrix3d::Identity(), c.asDiagonal(), k.asDiagonal()));
+  const auto all = equilibria(*three, 0.0);
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0].stability.routh.verdict, Verdict::kMarginal);
+}
+
 TEST_F(SteadyMotions, ABeamUnderASteadyLoadRestsAtItsStaticAngle) {
   const auto beam = dynamicsOf("hinged_beam",
                                {{"mass", 12.0},

@@ -45,6 +45,39 @@ TEST(Validity, ADiscLiftsOffWhereItsMassPullsUpHarderThanItsWeight) {
   }
 }
 
+// At rest away from the middle the plane holds the disc with F = J x'' / r^2 and x'' = -k x / m_e:
+// it slips beyond |F| = mu m g.
+TEST(Validity, ADiscSlipsWherePlaneAndSpringPullHarderThanFrictionHolds) {
+  const double m = 2.0, inertia = 0.04, r = 0.2, k = 75.0, mu = 0.3, g = 9.81;
+  const auto disc = dynamicsOf("rolling_disc", {{"disc_mass", m},
+                                                {"disc_inertia", inertia},
+                                                {"radius", r},
+                                                {"stiffness", k},
+                                                {"friction_coefficient", mu}});
+  const double effective = m + inertia / (r * r);
+  for (const double x : {0.05, 0.2, 0.25, 0.5}) {
+    const double friction = inertia / (r * r) * k * x / effective;
+    EXPECT_NEAR(margin(*disc, "no_slip", vector({x}), vector({0.0})), mu * m * g - friction, 1e-12);
+  }
+}
+
+// Masses may be as different as they like; what has none is singular.
+TEST(Validity, AMassMatrixIsSingularOnlyWhereSomethingHasNoInertia) {
+  const Eigen::VectorXd rest = vector({0.3, 0.2});
+  const Eigen::VectorXd in_line = vector({0.3, 0.3});
+  for (const double ratio : {1e-16, 1e-8, 1.0, 1e8, 1e17}) {
+    const auto pendulum = dynamicsOf(
+        "double_pendulum", {{"mass1", 1.0}, {"mass2", ratio}, {"length1", 1.0}, {"length2", 1e-6}});
+    EXPECT_FALSE(massIsSingular(*pendulum, rest, rest, {})) << ratio;
+    EXPECT_EQ(massIsSingular(*pendulum, in_line, rest, {}), ratio > 1e10)
+        << "what can turn without the heavy mass is lost in its rounding: " << ratio;
+  }
+  const auto free =
+      dynamicsOf("rotating_pendulum", {{"mass", 1.0}, {"length", 0.5}, {"hub_inertia", 0.0}});
+  EXPECT_TRUE(massIsSingular(*free, vector({0.0, 0.0}), rest, {}));
+  EXPECT_FALSE(massIsSingular(*free, vector({1e-6, 0.0}), rest, {}));
+}
+
 TEST(Validity, ASliderLeavesItsRodAtEitherEnd) {
   const auto rod = dynamicsOf("rod_slider", {{"slider_mass", 1.0},
                                              {"rod_mass", 0.5},
@@ -99,12 +132,15 @@ TEST(Validity, APendulumWithoutAHubLosesItsInertiaAsItHangs) {
 }
 
 TEST(Validity, WhatIsBrokenIsSaidInWords) {
-  EXPECT_EQ(brokenText({{"contact", "N", 1.0, "it lifts off"}}), "");
+  EXPECT_EQ(brokenText({{"contact", "N", 1.0, "it lifts off"}}, Margins::kShown), "");
   EXPECT_EQ(brokenText({{"contact", "N", -0.25, "it lifts off"},
                         {"sliding", "m/s", 0.1, "it sticks"},
-                        {"regular_mass", "-", 0.0, "no inertia"}}),
+                        {"regular_mass", "-", 0.0, "no inertia"}},
+                       Margins::kShown),
             "it lifts off (contact -0.25 N); no inertia (regular_mass 0)");
-  EXPECT_NE(brokenText({{"contact", "N", std::nan(""), "it lifts off"}}), "")
+  EXPECT_EQ(brokenText({{"contact", "N", -0.25, "it lifts off"}}, Margins::kLeftOut),
+            "it lifts off (contact)");
+  EXPECT_NE(brokenText({{"contact", "N", std::nan(""), "it lifts off"}}, Margins::kShown), "")
       << "what cannot be told does not hold";
 }
 

@@ -94,7 +94,11 @@ INSTANTIATE_TEST_SUITE_P(
         Audit{"FreeRotor", "free_rotor", "gauss_legendre_6", 0.05, false},
         Audit{"Governor", "governor", "gauss_legendre_6", 0.05, false},
         Audit{"RotorByGaussLegendre", "jeffcott_rotor", "gauss_legendre_6", 0.05, false},
+        Audit{"LinearSystemByGaussLegendre", "linear_system", "gauss_legendre_6", 0.05, false},
         // Exact: at any step.
+        Audit{"LinearSystem", "linear_system", "exponential", 0.05, false},
+        Audit{"LinearSystemInLargeSteps", "linear_system", "exponential", 5.0, false},
+        Audit{"CantileverBeam", "cantilever_beam", "exponential", 5.0, false},
         Audit{"Rotor", "jeffcott_rotor", "exponential", 0.05, false},
         Audit{"RotorInLargeSteps", "jeffcott_rotor", "exponential", 5.0, false},
         // Up to 70 rad/s.

@@ -2,6 +2,7 @@
 // with the fastest frequency that moves in them.
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -62,10 +63,67 @@ class RandomSystems {
     if (spec.model == "free_rotor") {
       return freeRotor(spec);
     }
+    if (spec.model == "linear_system") {
+      return linearSystem(spec);
+    }
+    if (spec.model == "cantilever_beam") {
+      return cantileverBeam(spec);
+    }
     throw std::invalid_argument("no random " + spec.model);
   }
 
  private:
+  Eigen::Matrix3d random3() {
+    Eigen::Matrix3d m;
+    for (Eigen::Index i = 0; i < 9; ++i) {
+      m.data()[i] = between(-1.0, 1.0);
+    }
+    return m;
+  }
+  /// Damped, gyroscopic, circulatory, with two harmonic loads.
+  double linearSystem(SystemSpec& spec) {
+    const Eigen::Matrix3d m = random3();
+    const Eigen::Matrix3d k = random3();
+    const Eigen::Matrix3d c = random3();
+    const Eigen::Matrix3d g = random3();
+    const Eigen::Matrix3d n = random3();
+    const Eigen::Matrix3d unit = Eigen::Matrix3d::Identity();
+    spec.settings.matrices = {{"mass", m * m.transpose() + unit},
+                              {"stiffness", 100.0 * (k * k.transpose() + unit)},
+                              {"damping", c * c.transpose()},
+                              {"gyroscopic", g - g.transpose()},
+                              {"circulatory", n - n.transpose()}};
+    for (const char* coordinate : {"q1", "q3"}) {
+      spec.settings.tables["force"].push_back({{{"amplitude", between(0.0, 5.0)},
+                                                {"frequency", between(0.0, 20.0)},
+                                                {"phase", between(-3.0, 3.0)}},
+                                               {{"coordinate", coordinate}}});
+    }
+    spec.q = {between(-1.0, 1.0), between(-1.0, 1.0), between(-1.0, 1.0)};
+    spec.v = {between(-9.0, 9.0), between(-9.0, 9.0), between(-9.0, 9.0)};
+    return 25.0;  // sqrt(100 (1 + 3)) of the stiffest
+  }
+
+  double cantileverBeam(SystemSpec& spec) {
+    const double mass = between(0.5, 5.0);
+    const double length = between(0.5, 3.0);
+    const double stiffness = between(10.0, 200.0);
+    const double modes = std::floor(between(1.0, 5.0));
+    spec.parameters = {{"mass_per_length", mass},
+                       {"length", length},
+                       {"bending_stiffness", stiffness},
+                       {"modes", modes},
+                       {"damping_ratio", between(0.0, 0.1)},
+                       {"tip_force", between(0.0, 2.0)},
+                       {"tip_force_frequency", between(0.0, 20.0)},
+                       {"base_motion", between(0.0, 0.01)},
+                       {"base_motion_frequency", between(0.0, 20.0)}};
+    spec.q.assign(static_cast<std::size_t>(modes), 0.05);
+    spec.v.assign(static_cast<std::size_t>(modes), 0.1);
+    // The highest of four assumed modes lies at 282 sqrt(EI / m L^4).
+    return 282.0 * std::sqrt(stiffness / mass) / (length * length) + 20.0;
+  }
+
   double freeRotor(SystemSpec& spec) {
     const double m = between(0.5, 5.0);
     const double p = between(5.0, 20.0);
@@ -186,7 +244,8 @@ class RandomSystems {
     const double m = between(0.5, 3.0);
     const double r = between(0.2, 0.5);
     const double p = between(0.0, 10.0);
-    spec.parameters = {{"disc_mass", m},
+    spec.parameters = {{"friction_coefficient", 0.0},
+                       {"disc_mass", m},
                        {"disc_inertia", m * r * r * between(0.3, 1.0)},
                        {"radius", r},
                        {"stiffness", m * p * p},

@@ -37,7 +37,9 @@ TEST(AnalyzeMethods, TheLeversBoundsStandInTheirOrder) {
   EXPECT_NEAR(exact, 0.2262270211, 1e-9);
   EXPECT_NEAR(ritz, 0.3271300494, 1e-7);
   EXPECT_LT(dunkerley, exact);
-  EXPECT_LT(exact, rayleigh);
+  const double ritz_of_two = bounds["ritz_upper"];
+  EXPECT_LT(exact, ritz_of_two);
+  EXPECT_LT(ritz_of_two, rayleigh);
   EXPECT_LT(rayleigh, ritz);
   EXPECT_NEAR(bounds["matrix_iteration"]["frequency"].get<double>(), exact, 1e-9);
   EXPECT_EQ(assumed["methods"]["undamped_natural_frequencies"].size(), 2u);
@@ -88,6 +90,14 @@ TEST(AnalyzeMethods, ReactionsConditionsAndRouthsConditionsAreListed) {
   EXPECT_EQ(engine[3]["condition"], "A1 A2 > A0");
   EXPECT_EQ(engine[3]["holds"], true);
   EXPECT_GT(analysisOf("rod_slider", "rod")["methods"]["conditions"]["rod_end"]["margin"], 0.0);
+}
+
+// P dx + 2 m g dh: 2 P l cos(theta) - m g l sin(theta).
+TEST(AnalyzeMethods, TheVirtualWorkOfTheTwoBarsVanishesAtTheirRest) {
+  const Json bars = analysisOf("two_bar_linkage", "bars");
+  const double theta = bars["state"]["theta"];
+  EXPECT_NEAR(bars["methods"]["virtual_work"]["theta"].get<double>(),
+              20.0 * std::cos(theta) - 2.0 * 9.81 * std::sin(theta), 1e-12);
 }
 
 TEST(SimulateWarns, WhenAModelsEquationsStopToHold) {

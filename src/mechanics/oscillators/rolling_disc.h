@@ -29,16 +29,17 @@ struct RollingDisc {
   static constexpr bool kHasShaft = false;
   static constexpr std::array<Coordinate, kDof> kCoordinates{{{"x", "m"}}};
 
-  double disc_mass = 0.0;     ///< [kg], of the disc
-  double disc_inertia = 0.0;  ///< [kg m^2], about its centre
-  double radius = 0.0;        ///< [m], of the disc
-  double stiffness = 0.0;     ///< [N/m], of the spring
-  double damping = 0.0;       ///< [N s/m], of the damper
-  double offset_mass = 0.0;   ///< [kg], point mass on the disc
-  double offset = 0.0;        ///< [m], of it below the centre at x = 0
-  double gravity = 0.0;       ///< [m/s^2], of the scene
+  double disc_mass = 0.0;             ///< [kg], of the disc
+  double disc_inertia = 0.0;          ///< [kg m^2], about its centre
+  double radius = 0.0;                ///< [m], of the disc
+  double stiffness = 0.0;             ///< [N/m], of the spring
+  double damping = 0.0;               ///< [N s/m], of the damper
+  double offset_mass = 0.0;           ///< [kg], point mass on the disc
+  double offset = 0.0;                ///< [m], of it below the centre at x = 0
+  double friction_coefficient = 0.0;  ///< [-], of the plane; the equations do not need it
+  double gravity = 0.0;               ///< [m/s^2], of the scene
 
-  static constexpr std::array<Parameter<RollingDisc>, 7> parameters() {
+  static constexpr std::array<Parameter<RollingDisc>, 8> parameters() {
     return {{{"disc_mass", "kg", Range::kPositive, &RollingDisc::disc_mass, "of the disc"},
              {"disc_inertia", "kg m^2", Range::kNotNegative, &RollingDisc::disc_inertia,
               "about its centre"},
@@ -48,7 +49,9 @@ struct RollingDisc {
              {"offset_mass", "kg", Range::kNotNegative, &RollingDisc::offset_mass,
               "point mass on the disc", 0.0},
              {"offset", "m", Range::kNotNegative, &RollingDisc::offset,
-              "of it below the centre at x = 0", 0.0}}};
+              "of it below the centre at x = 0", 0.0},
+             {"friction_coefficient", "-", Range::kNotNegative, &RollingDisc::friction_coefficient,
+              "of the plane, to tell slipping; 0: not watched", 0.0}}};
   }
 
   /// The radius: its equilibria are radians of rolling apart.
@@ -96,7 +99,14 @@ struct RollingDisc {
                                     const std::array<double, kDof>& v,
                                     const std::array<double, kDof>& a,
                                     const Moment<double>& at) const {
-    return {{"contact", "N", reactions(q, v, a, at).front().value, "the disc lifts off its plane"}};
+    const std::vector<Reaction> plane = reactions(q, v, a, at);
+    std::vector<Condition> all{{"contact", "N", plane[0].value, "the disc lifts off its plane"}};
+    if (friction_coefficient > 0.0) {
+      all.push_back({"no_slip", "N",
+                     friction_coefficient * plane[0].value - std::fabs(plane[1].value),
+                     "the disc slips on its plane"});
+    }
+    return all;
   }
 
   Sketch sketch(const std::array<double, kDof>& q, const Moment<double>&) const {

@@ -98,10 +98,10 @@ struct DoublePendulum {
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, 2>& q, const std::array<S, 2>& v,
                               const Moment<S>&) const {
-    const S x2 = length1 * (cos(q[0]) * v[0]) + center2 * (cos(q[1]) * v[1]);
-    const S y2 = length1 * (sin(q[0]) * v[0]) + center2 * (sin(q[1]) * v[1]);
-    return (0.5 * (mass1 * center1 * center1 + inertia1)) * (v[0] * v[0]) +
-           (0.5 * inertia2) * (v[1] * v[1]) + (0.5 * mass2) * (x2 * x2 + y2 * y2);
+    return (0.5 * (mass1 * center1 * center1 + inertia1 + mass2 * length1 * length1)) *
+               (v[0] * v[0]) +
+           (0.5 * (inertia2 + mass2 * center2 * center2)) * (v[1] * v[1]) +
+           (mass2 * length1 * center2) * (cos(q[0] - q[1]) * (v[0] * v[1]));
   }
   template <class S>
   WHIRL_TWIN_INLINE S potential(const std::array<S, 2>& q, const Moment<S>&) const {

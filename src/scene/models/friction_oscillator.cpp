@@ -1,5 +1,7 @@
 #include "mechanics/oscillators/friction_oscillator.h"
 
+#include <cmath>
+
 #include "mechanics/oscillators/regularized_friction_oscillator.h"
 #include "scene/model_entry.h"
 #include "scene/models/models.h"
@@ -14,7 +16,9 @@ ModelInfo frictionOscillatorInfo() {
                                             });
   info.setUp = [plain = info.setUp](const ParameterValues& values, const Settings& settings,
                                     double gravity) {
-    if (values.at("half_spacing") == values.at("friction_coefficient") * values.at("height")) {
+    const double half = values.at("half_spacing");
+    const double reach = half - values.at("friction_coefficient") * values.at("height");
+    if (std::fabs(reach) <= 4.0e-16 * half) {  // no more than rounding
       throw SetupError("half_spacing",
                        "must not equal friction_coefficient x height: there the plank is about to "
                        "tip and its frequency infinite");
