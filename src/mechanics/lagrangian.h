@@ -141,19 +141,29 @@ WHIRL_TWIN_INLINE Derivative<n> derivative(const Model& model, const std::array<
   return {solveMass<double, n>(eom.mass, eom.force), eom.power};
 }
 
+/// A state whose rates are the variables to differentiate by.
+template <std::size_t n>
+struct ByRates {
+  using Rates = Gradient<double, n>;
+  std::array<Rates, n> q, v;
+  Moment<Rates> at;
+
+  ByRates(const std::array<double, n>& q_now, const std::array<double, n>& v_now,
+          const Moment<double>& now)
+      : at{now.time, now.angle, now.speed, now.acceleration} {
+    for (std::size_t j = 0; j < n; ++j) {
+      q[j].value = q_now[j];
+      v[j] = Rates(v_now[j], j);
+    }
+  }
+};
+
 /// The forces that have no potential, Q - dD/dv, at a state.
 template <class Model, std::size_t n>
 std::array<double, n> appliedForce(const Model& model, const std::array<double, n>& q,
                                    const std::array<double, n>& v, const Moment<double>& at) {
-  using Rates = Gradient<double, n>;
-  std::array<Rates, n> q_of_rates;
-  std::array<Rates, n> v_of_rates;
-  for (std::size_t j = 0; j < n; ++j) {
-    q_of_rates[j].value = q[j];
-    v_of_rates[j] = Rates(v[j], j);
-  }
-  const Moment<Rates> moment{at.time, at.angle, at.speed, at.acceleration};
-  const Rates d = model.dissipation(q_of_rates, v_of_rates, moment);
+  const ByRates<n> by_rates(q, v, at);
+  const auto d = model.dissipation(by_rates.q, by_rates.v, by_rates.at);
   std::array<double, n> applied = model.force(q, v, at);
   for (std::size_t j = 0; j < n; ++j) {
     applied[j] -= d.slope[j];
@@ -165,15 +175,8 @@ std::array<double, n> appliedForce(const Model& model, const std::array<double, 
 template <class Model, std::size_t n>
 std::array<double, n> momenta(const Model& model, const std::array<double, n>& q,
                               const std::array<double, n>& v, const Moment<double>& at) {
-  using Rates = Gradient<double, n>;
-  std::array<Rates, n> q_of_rates;
-  std::array<Rates, n> v_of_rates;
-  for (std::size_t j = 0; j < n; ++j) {
-    q_of_rates[j].value = q[j];
-    v_of_rates[j] = Rates(v[j], j);
-  }
-  const Moment<Rates> moment{at.time, at.angle, at.speed, at.acceleration};
-  return model.kinetic(q_of_rates, v_of_rates, moment).slope;
+  const ByRates<n> by_rates(q, v, at);
+  return model.kinetic(by_rates.q, by_rates.v, by_rates.at).slope;
 }
 
 /// Energies and powers at a state.
@@ -181,16 +184,9 @@ template <class Model, std::size_t n>
 Energies energies(const Model& model, const std::array<double, n>& q,
                   const std::array<double, n>& v, const Moment<double>& at) {
   Energies e;
-  using Rates = Gradient<double, n>;
-  std::array<Rates, n> q_of_rates;
-  std::array<Rates, n> v_of_rates;
-  for (std::size_t j = 0; j < n; ++j) {
-    q_of_rates[j].value = q[j];
-    v_of_rates[j] = Rates(v[j], j);
-  }
-  const Moment<Rates> moment{at.time, at.angle, at.speed, at.acceleration};
-  const Rates t = model.kinetic(q_of_rates, v_of_rates, moment);
-  const Rates d = model.dissipation(q_of_rates, v_of_rates, moment);
+  const ByRates<n> by_rates(q, v, at);
+  const auto t = model.kinetic(by_rates.q, by_rates.v, by_rates.at);
+  const auto d = model.dissipation(by_rates.q, by_rates.v, by_rates.at);
   e.kinetic = t.value;
   e.potential = model.potential(q, at);
   e.jacobi = e.potential - e.kinetic;

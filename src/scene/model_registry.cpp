@@ -134,7 +134,8 @@ std::string integratorObjection(const ModelSetup& setup, bool on_drive,
     return "exponential is for linear systems; " + setup.dynamics->model() + " is not linear";
   }
   if (on_drive && setup.dynamics->speedDependent()) {
-    return "exponential needs matrices that do not change with speed: rotating damping on a "
+    return "exponential needs matrices that do not change with speed: rotating damping or a fluid "
+           "on a "
            "drive excludes it; gauss_legendre_6 or runge_kutta_4 will do";
   }
   return "";

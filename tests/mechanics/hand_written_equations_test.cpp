@@ -73,7 +73,8 @@ TEST(HandWritten, SpinningPendulum) {
   }
 }
 
-// m x'' + c x' + ci (x' + w y) + k x = m e (w^2 cos phi + w' sin phi), and so for y.
+// m x'' + (c + cf) x' + ci (x' + w y) + k x + (lambda cf w + q) y
+//     = m e (w^2 cos phi + w' sin phi), and so for y.
 TEST(HandWritten, JeffcottRotorOnAnAcceleratingShaft) {
   std::mt19937_64 random(1919);
   for (int i = 0; i < kStates; ++i) {
@@ -83,13 +84,17 @@ TEST(HandWritten, JeffcottRotorOnAnAcceleratingShaft) {
     const double phi = s.at.angle + p("eccentricity_angle");
     const double ci = p("internal_damping");
     const double m = p("mass");
-    const double terms[2][5] = {
+    const double cf = p("fluid_damping");
+    const double cross = p("fluid_ratio") * cf * w + p("cross_coupling");
+    const double terms[2][7] = {
         {-p("stiffness") * s.q[0] / m, -p("damping") * s.v[0] / m, -ci * (s.v[0] + w * s.q[1]) / m,
          p("eccentricity") * w * w * std::cos(phi),
-         p("eccentricity") * s.at.acceleration * std::sin(phi)},
+         p("eccentricity") * s.at.acceleration * std::sin(phi), -cf * s.v[0] / m,
+         -cross * s.q[1] / m},
         {-p("stiffness_y") * s.q[1] / m, -p("damping_y") * s.v[1] / m,
          -ci * (s.v[1] - w * s.q[0]) / m, p("eccentricity") * w * w * std::sin(phi),
-         -p("eccentricity") * s.at.acceleration * std::cos(phi)}};
+         -p("eccentricity") * s.at.acceleration * std::cos(phi), -cf * s.v[1] / m,
+         cross * s.q[0] / m}};
     const Vector found = s.dynamics->acceleration(s.q, s.v, s.at);
     for (int k = 0; k < 2; ++k) {
       double sum = 0.0;

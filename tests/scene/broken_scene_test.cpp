@@ -256,7 +256,8 @@ INSTANTIATE_TEST_SUITE_P(
                rotorScene(kNoSpeed + ", internal_damping: 1",
                           ", drive: shaft, integrator: exponential", kShaft),
                {"systems.rotor.integrator: exponential needs matrices that do not change with "
-                "speed: rotating damping on a drive excludes it; gauss_legendre_6 or runge_kutta_4 "
+                "speed: rotating damping or a fluid on a drive excludes it; gauss_legendre_6 or "
+                "runge_kutta_4 "
                 "will do"}}),
     kNames);
 

@@ -49,7 +49,8 @@ class NoAllocation : public testing::TestWithParam<Pair> {
       spec.drive = "shaft";
     }
     for (const ParameterInfo& p : model.parameters) {
-      const bool matrices_change = p.name == "internal_damping" && spec.integrator == "exponential";
+      const bool matrices_change = (p.name == "internal_damping" || p.name == "fluid_ratio") &&
+                                   spec.integrator == "exponential";
       const bool chooses = p.name == "regularization";  // 0 is a form of its own
       spec.parameters[p.name] = matrices_change || chooses ? 0.0
                                 : p.range == Range::kCount ? 3.0

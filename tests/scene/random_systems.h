@@ -151,6 +151,9 @@ class RandomSystems {
                        {"damping", m * p * between(0.0, 0.5)},
                        {"damping_y", m * p * between(0.0, 0.5)},
                        {"internal_damping", driven ? 0.0 : m * between(0.0, 0.1)},
+                       {"fluid_damping", m * between(0.0, 0.1)},
+                       {"fluid_ratio", driven ? 0.0 : between(0.0, 0.6)},
+                       {"cross_coupling", m * p * between(-0.1, 0.1)},
                        {"eccentricity", between(0.0, 1e-3)},
                        {"eccentricity_angle", between(-3.0, 3.0)}};
     spec.q = {between(-0.01, 0.01), between(-0.01, 0.01)};
