@@ -14,7 +14,8 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr int kStartsPerTurn = 8;
 constexpr double kMostStarts = 4096.5;  // in all: fewer a turn where there are many coordinates
 constexpr int kTurnsOfOneSlide = 8;     // searched where a sliding coordinate is the only one
-constexpr double kSame = 1.0e-6;        // closer than this is the same equilibrium, rad or lengths
+constexpr double kRatesFirst = 1.0e6;
+constexpr double kSame = 1.0e-6;  // closer than this is the same equilibrium, rad or lengths
 
 /// Deviation of q from p in units, angles by the shorter way round, cyclic coordinates aside.
 double distance(const Dynamics& dynamics, const CyclicCoordinates& cyclic, const Eigen::VectorXd& q,
@@ -82,20 +83,33 @@ std::vector<Eigen::VectorXd> grid(const Dynamics& dynamics, const CyclicCoordina
   return points;
 }
 
+/// Do two steady motions have one shape, and one rate of every driven coordinate?
+bool same(const Dynamics& dynamics, const CyclicCoordinates& cyclic, const SteadyMotion& a,
+          const SteadyMotion& b) {
+  const Eigen::VectorXd v = a.v(cyclic.driven);
+  const Eigen::VectorXd w = b.v(cyclic.driven);
+  return distance(dynamics, cyclic, a.q, b.q) < kSame && (v - w).norm() <= kSame * v.norm();
+}
+
 std::vector<Equilibrium> allOf(const Dynamics& dynamics, const CyclicCoordinates& cyclic,
                                double speed, const Eigen::VectorXd& momenta,
                                const Eigen::VectorXd& rates) {
   std::vector<SteadyMotion> found;
+  // Driven coordinates are started at the rates they have, slower and faster.
+  const std::vector<double> shares =
+      cyclic.driven.empty() ? std::vector<double>{1.0} : std::vector<double>{1.0, 0.3, 3.0, 30.0, 300.0};
   for (const Eigen::VectorXd& start : grid(dynamics, cyclic)) {
-    auto motion = steadyMotionNear(dynamics, cyclic, {start, rates}, momenta, speed);
-    if (!motion) {
-      continue;
-    }
-    motion->q = tidied(dynamics, motion->q);
-    if (std::none_of(found.begin(), found.end(), [&](const SteadyMotion& other) {
-          return distance(dynamics, cyclic, motion->q, other.q) < kSame;
-        })) {
-      found.push_back(*motion);
+    for (const double share : shares) {
+      auto motion = steadyMotionNear(dynamics, cyclic, {start, share * rates}, momenta, speed);
+      if (!motion) {
+        continue;
+      }
+      motion->q = tidied(dynamics, motion->q);
+      if (std::none_of(found.begin(), found.end(), [&](const SteadyMotion& other) {
+            return same(dynamics, cyclic, *motion, other);
+          })) {
+        found.push_back(*motion);
+      }
     }
   }
   std::sort(found.begin(), found.end(), [](const SteadyMotion& a, const SteadyMotion& b) {
@@ -155,7 +169,11 @@ std::optional<Equilibrium> operatingPoint(const Dynamics& dynamics, const Eigen:
   std::optional<Equilibrium> nearest;
   double nearest_distance = 0.0;
   for (const Equilibrium& e : allOf(dynamics, cyclic, speed, momenta, v)) {
-    const double d = distance(dynamics, cyclic, e.q, q);
+    // Where rates are driven the nearest rate decides, then the shape.
+    const Eigen::VectorXd now = v(cyclic.driven);
+    const Eigen::VectorXd then = e.v(cyclic.driven);
+    const double off = (then - now).norm() / (1.0e-300 + now.norm() + then.norm());
+    const double d = distance(dynamics, cyclic, e.q, q) + kRatesFirst * off;
     if (e.stability.bounded() && (!nearest || d < nearest_distance)) {
       nearest = e;
       nearest_distance = d;

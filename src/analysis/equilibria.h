@@ -37,7 +37,8 @@ std::optional<Eigen::VectorXd> equilibriumNear(const Dynamics& dynamics, const E
                                                double speed);
 
 /// The bounded equilibrium nearest to q (angles by the shorter way round, cyclic coordinates
-/// aside) with the momenta of the motion through q and v, or nothing.
+/// aside; of several rates of a driven one the nearest) with the momenta of the motion through q
+/// and v, or nothing.
 std::optional<Equilibrium> operatingPoint(const Dynamics& dynamics, const Eigen::VectorXd& q,
                                           const Eigen::VectorXd& v, double speed);
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "analysis/mass_matrix.h"
@@ -17,7 +18,7 @@ constexpr int kMaxIterations = 100;
 class ReducedSystem {
  public:
   ReducedSystem(const Dynamics& dynamics, const CyclicCoordinates& cyclic,
-                const Eigen::VectorXd& momenta, double speed)
+                const SteadyMotion& start, const Eigen::VectorXd& momenta, double speed)
       : dynamics_(dynamics.atMeanLoad()),
         cyclic_(cyclic),
         momenta_(momenta),
@@ -25,6 +26,9 @@ class ReducedSystem {
         unit_(naturalUnits(dynamics)),
         rows_(cyclic.shape) {
     rows_.insert(rows_.end(), cyclic.driven.begin(), cyclic.driven.end());
+    for (const Eigen::Index i : cyclic.driven) {
+      unit_[i] *= std::max(1.0, std::fabs(start.v[i]));  // a rate, in units of where it starts
+    }
   }
 
   Eigen::Index shapes() const { return static_cast<Eigen::Index>(cyclic_.shape.size()); }
@@ -134,10 +138,10 @@ std::optional<SteadyMotion> steadyMotionNear(const Dynamics& dynamics,
   if (dynamics.linear()) {
     return deflection(dynamics, cyclic, speed);
   }
-  const ReducedSystem system(dynamics, cyclic, momenta, speed);
   for (const Eigen::Index i : cyclic.driven) {
     x.v[i] = start.v[i] != 0.0 ? start.v[i] : 1.0;  // where rest is no steady motion
   }
+  const ReducedSystem system(dynamics, cyclic, x, momenta, speed);
   system.matchMomenta(x);
   for (int i = 0; i < kMaxIterations; ++i) {
     const Eigen::MatrixXd slope = system.slope(x);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <random>
 
 #include "analysis/equilibria.h"
@@ -141,7 +142,7 @@ TEST_F(SteadyMotions, AGovernedEngineHuntsWithoutEnoughFriction) {
     const double arm = std::acos(load / kappa);
     const auto all = equilibria(*engine, 0.0, vector({arm, 0.0}), vector({0.0, 0.8 * w}));
     const auto up = std::find_if(all.begin(), all.end(), [&](const Equilibrium& e) {
-      return std::fabs(e.q[0] - arm) < 1e-9;
+      return std::fabs(e.q[0] - arm) < 1e-9 && e.v[1] > 0.0;
     });
     ASSERT_NE(up, all.end()) << draw;
     EXPECT_NEAR(up->v[1], w, 1e-9 * w);
@@ -149,6 +150,42 @@ TEST_F(SteadyMotions, AGovernedEngineHuntsWithoutEnoughFriction) {
     EXPECT_EQ(up->stability.routh.verdict,
               share > 1.0 ? Verdict::kAsymptoticallyStable : Verdict::kUnstable)
         << share;
+  }
+}
+
+// T_motor = c w r(w)^2 with r = e w^2 / |p^2 - w^2 + i c w / m|: three steady speeds of a weak
+// motor, of which the middle one, where more speed asks for less torque, is unstable (Sommerfeld).
+TEST_F(SteadyMotions, AWeakMotorHasThreeSteadySpeedsAndStaysAtTheLowest) {
+  for (int draw = 0; draw < 50; ++draw) {
+    const double m = between(0.5, 5.0);
+    const double p = between(5.0, 50.0);
+    const double e = between(1e-3, 1e-2);
+    const double c = 2.0 * m * p * between(0.01, 0.05);
+    const auto torque = [&](double w) {
+      const double r = e * w * w / std::abs(std::complex<double>(p * p - w * w, c * w / m));
+      return c * w * r * r;
+    };
+    const double motor = torque(0.95 * p);
+    const auto rotor = dynamicsOf("free_rotor", {{"mass", m},
+                                                 {"stiffness", m * p * p},
+                                                 {"damping", c},
+                                                 {"eccentricity", e},
+                                                 {"polar_inertia", 50.0 * m * e * e},
+                                                 {"torque", motor}});
+    int stable = 0;
+    for (const Equilibrium& steady :
+         equilibria(*rotor, 0.0, vector({0.0, 0.0, 0.0}), vector({0.0, 0.0, 0.8 * p}))) {
+      const double w = steady.v[2];
+      EXPECT_NEAR(torque(w), motor, 1e-9 * motor) << draw << ": " << w;
+      const double slope = torque(1.0001 * w) - torque(0.9999 * w);
+      EXPECT_EQ(steady.stability.bounded(), slope > 0.0) << draw << ": " << w;
+      stable += slope > 0.0 ? 1 : 0;
+    }
+    EXPECT_GE(stable, 1) << draw;
+    const auto captured =
+        operatingPoint(*rotor, vector({0.0, 0.0, 0.0}), vector({0.0, 0.0, 0.8 * p}), 0.0);
+    ASSERT_TRUE(captured) << draw;
+    EXPECT_NEAR(captured->v[2], 0.95 * p, 1e-6 * p) << draw;
   }
 }
 

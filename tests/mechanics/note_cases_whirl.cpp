@@ -3,7 +3,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <complex>
+#include <map>
 
+#include "analysis/equilibria.h"
 #include "analysis/frequency_response.h"
 #include "analysis/stability.h"
 #include "note_system.h"
@@ -43,38 +45,67 @@ double threshold(double low, double high, const Of& of) {
 
 }  // namespace
 
+namespace {
+
+/// X, Y, phi and their rates of the notes, in the frame that turns with the disc.
+struct TurningState {
+  std::vector<double> q, v;
+};
+
+TurningState turning(double x, double y, double phi, double x_rate, double y_rate, double rate) {
+  const double c = std::cos(phi);
+  const double s = std::sin(phi);
+  const double xi = x * c + y * s;
+  const double eta = y * c - x * s;
+  return {{xi, eta, phi},
+          {x_rate * c + y_rate * s + rate * eta, y_rate * c - x_rate * s - rate * xi, rate}};
+}
+
+/// State `name` of the notes from that of the turning frame.
+double standing(const std::string& name, const std::vector<double>& q,
+                const std::vector<double>& v) {
+  const double c = std::cos(q[2]);
+  const double s = std::sin(q[2]);
+  const double ahead = v[0] - v[2] * q[1];
+  const double aside = v[1] + v[2] * q[0];
+  const std::map<std::string, double> all{
+      {"X", q[0] * c - q[1] * s},     {"Y", q[0] * s + q[1] * c},     {"phi", q[2]},
+      {"X_d", ahead * c - aside * s}, {"Y_d", ahead * s + aside * c}, {"phi_d", v[2]}};
+  return all.at(name);
+}
+
+TurningState given(const NoteCase& c, const std::string& prefix) {
+  const auto value = [&](const char* name) { return c.at(prefix + name); };
+  return turning(value("X"), value("Y"), value("phi"), value("X_d"), value("Y_d"), value("phi_d"));
+}
+
+}  // namespace
+
 std::vector<double> freeRotorAnswers(const NoteCase& c) {
   const double m = c.at("m"), k = c.at("k"), damping = c.at("c"), e = c.at("e");
   const double torque = c.at("Tq");
-  NoteCase renamed = c;  // the notes write X, Y, phi
-  for (const auto& [from, to] :
-       std::map<std::string, std::string>{{"X", "x"}, {"Y", "y"}, {"phi", "spin"}}) {
-    for (const char* prefix : {"ic_", "at_"}) {
-      for (const char* suffix : {"", "_d"}) {
-        const auto found = c.given.find(prefix + from + suffix);
-        if (found != c.given.end()) {
-          renamed.given[prefix + to + suffix] = found->second;
-        }
-      }
-    }
-    for (const char* suffix : {"", "_d"}) {
-      if (c.state == from + suffix) {
-        renamed.state = to + suffix;
-      }
-    }
-    if (c.startsWith("acc.") && c.id.substr(c.id.rfind('.') + 1) == from) {
-      renamed.id = c.id.substr(0, c.id.rfind('.') + 1) + to;
-    }
+  RunningSystem::Setup setup;
+  setup.model = "free_rotor";
+  setup.parameters = {{"mass", m},
+                      {"stiffness", k},
+                      {"damping", damping},
+                      {"eccentricity", e},
+                      {"polar_inertia", c.at("J")},
+                      {"torque", torque}};
+  const ModelInfo& model = *findModel("free_rotor");
+  const auto rotor = model.setUp(completed(model, setup.parameters), {}, 0.0).dynamics;
+  if (c.startsWith("traj.")) {
+    const TurningState start = given(c, "ic_");
+    setup.q = start.q;
+    setup.v = start.v;
+    RunningSystem system(setup, "gauss_legendre_6", 1000000);
+    system.run(std::lround(c.time * 1000.0));
+    return {standing(c.state, {system.q(0), system.q(1), system.q(2)},
+                     {system.v(0), system.v(1), system.v(2)})};
   }
-  const NoteSystem system(renamed, "free_rotor",
-                          {{"mass", m},
-                           {"stiffness", k},
-                           {"damping", damping},
-                           {"eccentricity", e},
-                           {"polar_inertia", c.at("J")},
-                           {"torque", torque}});
-  if (system.asksCommonQuestion()) {
-    return {system.commonAnswer()};
+  if (c.startsWith("acc.") && c.id.substr(c.id.rfind('.') + 1) == "phi") {
+    const TurningState at = given(c, "at_");
+    return {rotor->acceleration(vector(at.q), vector(at.v), {})[2]};
   }
   if (c.startsWith("sommerfeld.w")) {
     // The whirl takes c w r^2 from the motor; r from the response of the lateral motion.
@@ -86,15 +117,14 @@ std::vector<double> freeRotorAnswers(const NoteCase& c) {
     };
     const double critical = std::sqrt(k / m);
     const double beyond = 1.5 * critical;  // the torque falls, then rises again
-    switch (c.id[12]) {
-      case '1':
-        return {lacking(critical) > 0.0 ? zeroBetween(0.1 * critical, critical, lacking)
-                                        : zeroBetween(beyond, 1e4 * critical, lacking)};
-      case '2':
-        return {zeroBetween(critical, beyond, lacking)};
-      default:
-        return {zeroBetween(beyond, 1e4 * critical, lacking)};
-    }
+    const char root = c.id[12];
+    const bool captured = lacking(critical) > 0.0;
+    const double w = root == '1' && captured ? zeroBetween(0.1 * critical, critical, lacking)
+                     : root == '2'           ? zeroBetween(critical, beyond, lacking)
+                                             : zeroBetween(beyond, 1e4 * critical, lacking);
+    // The same as a steady motion of the whole, with its verdict.
+    const auto steady = operatingPoint(*rotor, vector({0.0, 0.0, 0.0}), vector({0.0, 0.0, w}), 0.0);
+    return root == '2' || !steady ? std::vector<double>{w} : std::vector<double>{w, steady->v[2]};
   }
   return {};
 }

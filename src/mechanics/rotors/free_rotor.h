@@ -2,11 +2,14 @@
 // spin, and a weak motor hangs below the critical speed (Sommerfeld effect; lecture notes,
 // "whirling shafts"; Dimentberg et al., Physics of Vibrations, 1997).
 //
-//   T = m/2 |v_G|^2 + J phi'^2 / 2,   G at e (cos phi, sin phi) from the disc's centre S = (x, y)
-//   V = k (x^2 + y^2) / 2,   D = c (x'^2 + y'^2) / 2 + d phi'^2 / 2,   Q = (0, 0, T_motor)
+//   T = m/2 [(xi' - phi' eta)^2 + (eta' + phi' (xi + e))^2] + J phi'^2 / 2
+//   V = k (xi^2 + eta^2) / 2
+//   D = c/2 [(xi' - phi' eta)^2 + (eta' + phi' xi)^2] + d phi'^2 / 2,   Q = (0, 0, T_motor)
 //
-// J is about the mass centre. Steady spin w balances the motor: T_motor = d w + c w r(w)^2, with up
-// to three solutions, the middle one unstable.
+// xi, eta: the disc's centre in the frame that turns with it, xi towards the mass centre; x =
+// xi cos(phi) - eta sin(phi). In this frame a steady whirl stands still, so that the spin is cyclic
+// and each steady speed, T_motor = d w + c w r(w)^2 with up to three solutions, is an equilibrium
+// of the shape with a verdict of its own: the middle one is unstable. J is about the mass centre.
 #pragma once
 
 #include <array>
@@ -29,7 +32,7 @@ struct FreeRotor {
   static constexpr bool kLinear = false;
   static constexpr bool kHasShaft = false;
   static constexpr std::array<Coordinate, kDof> kCoordinates{
-      {{"x", "m"}, {"y", "m"}, {"spin", "rad"}}};
+      {{"xi", "m"}, {"eta", "m"}, {"spin", "rad"}}};
 
   double mass = 0.0;           ///< [kg], of the disc
   double stiffness = 0.0;      ///< [N/m], of the shaft, along x and y
@@ -58,19 +61,20 @@ struct FreeRotor {
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
                               const Moment<S>&) const {
-    const S across = eccentricity * v[2];
-    const S vx = v[0] - across * sin(q[2]);
-    const S vy = v[1] + across * cos(q[2]);
-    return (0.5 * mass) * (vx * vx + vy * vy) + (0.5 * polar_inertia) * (v[2] * v[2]);
+    const S x = v[0] - v[2] * q[1];
+    const S y = v[1] + v[2] * (q[0] + eccentricity);
+    return (0.5 * mass) * (x * x + y * y) + (0.5 * polar_inertia) * (v[2] * v[2]);
   }
   template <class S>
   WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const Moment<S>&) const {
     return (0.5 * stiffness) * (q[0] * q[0] + q[1] * q[1]);
   }
   template <class S>
-  WHIRL_TWIN_INLINE S dissipation(const std::array<S, kDof>&, const std::array<S, kDof>& v,
+  WHIRL_TWIN_INLINE S dissipation(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
                                   const Moment<S>&) const {
-    return (0.5 * damping) * (v[0] * v[0] + v[1] * v[1]) + (0.5 * drag) * (v[2] * v[2]);
+    const S x = v[0] - v[2] * q[1];
+    const S y = v[1] + v[2] * q[0];
+    return (0.5 * damping) * (x * x + y * y) + (0.5 * drag) * (v[2] * v[2]);
   }
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>&,
@@ -82,8 +86,10 @@ struct FreeRotor {
   /// and its heavy spot, to scale.
   Sketch sketch(const std::array<double, kDof>& q, const Moment<double>&) const {
     const double e = naturalLength();
-    const SketchPoint centre{q[0], 0.0, q[1]};
-    const SketchPoint heavy{q[0] + e * std::cos(q[2]), -0.9 * e, q[1] + e * std::sin(q[2])};
+    const double c = std::cos(q[2]);
+    const double d = std::sin(q[2]);
+    const SketchPoint centre{q[0] * c - q[1] * d, 0.0, q[0] * d + q[1] * c};
+    const SketchPoint heavy{centre.x + e * c, -0.9 * e, centre.z + e * d};
     Sketch s;
     s.size = 44.0 * e;
     s.height = 44.0 * e;
