@@ -49,10 +49,10 @@ struct DrivenEquation {
     const auto inverse = l.mass.inverse().eval();
     return {-inverse * (l.stiffness + l.circulatory), -inverse * (l.damping + l.gyroscopic)};
   }
-  /// Is the forcing that of a shaft at one speed? A load that alternates by itself is not.
-  bool constantSpeed(double duration) const {
+  /// Is the forcing that of a shaft at one speed? Loads that alternate by themselves are not.
+  bool constantSpeed([[maybe_unused]] double duration) const {
     if constexpr (HasAlternatingLoads<Model>::value) {
-      return !model.loadAlternates();
+      return false;
     } else {
       return !Model::kHasShaft || drive.constantFor(duration);
     }

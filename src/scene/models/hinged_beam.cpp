@@ -39,8 +39,15 @@ ModelSetup smallSetup(const ParameterValues& values, double gravity) {
 
 ModelInfo hingedBeamInfo() {
   ModelInfo info = modelInfo<HingedBeam>();
-  addVariant<SmallHingedBeam>(info, "geometry", "finite", "small",
-                              "finite rotation, or small as in the lecture notes");
+  info.variants.push_back(variant<SmallHingedBeam>("geometry: small"));
+  info.settings.push_back({"geometry",
+                           SettingKind::kChoice,
+                           "",
+                           "finite rotation, or small as in the lecture notes",
+                           {"finite", "small"},
+                           false,
+                           {},
+                           {}});
   info.setUp = [finite = info.setUp](const ParameterValues& values, const Settings& settings,
                                      double gravity) {
     const auto geometry = settings.choices.find("geometry");
