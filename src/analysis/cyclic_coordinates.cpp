@@ -14,8 +14,8 @@ namespace {
 /// Singular values of a stiffness below this part of the largest are rounding.
 constexpr double kRank = 1.0e-12;
 
-/// States in general position: no symmetry, no zero. Fast and slow, far and near, so that no law
-/// that levels off, such as dry friction, is met only where it is level.
+/// States in general position, without symmetry: fast, slow and at rest, far and near, so that no
+/// law that levels off, such as dry friction, is met only where it is level.
 struct Anywhere {
   Eigen::VectorXd q, v, a;
 };
