@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -68,6 +69,29 @@ Drive::Drive(double speed, double angle, const std::vector<SpeedMove>& moves,
     profile_[i] = following(profile_[i - 1], profile_[i].motion, profile_[i].target);
   }
   begin(start_nanoseconds);
+}
+
+std::pair<double, double> Drive::speedRange() const {
+  std::pair<double, double> range{profile_.front().motion.speed, profile_.front().motion.speed};
+  const auto take = [&range](double speed) {
+    range.first = std::min(range.first, speed);
+    range.second = std::max(range.second, speed);
+  };
+  for (const Segment& segment : profile_) {
+    const SpeedSegment& m = segment.motion;
+    const auto speed = [&m](double tau) {
+      return m.speed + tau * (m.acceleration + 0.5 * tau * m.jerk);
+    };
+    take(m.speed);
+    if (std::isfinite(m.duration)) {
+      take(speed(m.duration));
+    }
+    const double turning = m.jerk != 0.0 ? -m.acceleration / m.jerk : -1.0;
+    if (turning > 0.0 && turning < m.duration) {
+      take(speed(turning));
+    }
+  }
+  return range;
 }
 
 void Drive::begin(std::int64_t time_nanoseconds) noexcept {

@@ -13,6 +13,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "control/shaft_angle.h"
@@ -40,6 +41,9 @@ class Drive {
   /// Throws std::invalid_argument that names the move and the value.
   Drive(double speed, double angle, const std::vector<SpeedMove>& moves,
         std::int64_t start_nanoseconds = 0);
+
+  /// Lowest and highest speed [rad/s] of the profile, as far as its jerk-limited moves reach.
+  std::pair<double, double> speedRange() const;
 
   // Real-time safe: no allocation, no lock, no exception.
 

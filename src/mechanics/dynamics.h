@@ -9,16 +9,13 @@
 #include <vector>
 
 #include "mechanics/lagrangian.h"
+#include "mechanics/linear_rotor.h"
+#include "mechanics/linearization.h"
 #include "mechanics/model_description.h"
 #include "mechanics/reaction.h"
 #include "mechanics/sketch.h"
 
 namespace whirl_twin {
-
-/// M q'' + (C + G) q' + (K + N) q = 0 for small deviations; C, K symmetric, G, N skew. [n x n]
-struct Linearization {
-  Eigen::MatrixXd mass, damping, gyroscopic, stiffness, circulatory;
-};
 
 /// A coordinate of a model as set up: its name may come from the scene.
 struct CoordinateInfo {
@@ -73,6 +70,12 @@ class Dynamics {
                                             const Moment<double>& at) const = 0;
   /// Why the mass matrix can become singular; "" where it cannot.
   virtual std::string singularMass() const = 0;
+  /// Where along its shaft a rotor's whirl is seen, the place that is published first; empty for
+  /// anything else.
+  virtual std::vector<Station> stations() const { return {}; }
+  /// The matrices and forces of a linear model with a shaft, as functions of its speed. Throws
+  /// std::logic_error for any other.
+  virtual LinearRotor linearRotor() const;
   /// Its picture; empty where there is none.
   virtual Sketch sketch(const Eigen::VectorXd& q, const Moment<double>& at) const = 0;
 };
@@ -221,6 +224,13 @@ class LagrangianDynamics final : public Dynamics {
     }
   }
   std::string singularMass() const override { return SingularMass<Model>::of(model_); }
+  std::vector<Station> stations() const override {
+    if constexpr (RotorTraits<Model>::kRotor) {
+      return {{"disc", 0.0, Eigen::VectorXd::Unit(dof(), 0), Eigen::VectorXd::Unit(dof(), 1)}};
+    } else {
+      return {};
+    }
+  }
   Sketch sketch([[maybe_unused]] const Eigen::VectorXd& q,
                 [[maybe_unused]] const Moment<double>& at) const override {
     if constexpr (HasSketch<Model>::value) {

@@ -104,8 +104,8 @@ ModelInfo modelInfo() {
     info.parameters.push_back(parameter);
   }
   info.has_shaft = Model::kHasShaft;
-  info.setUp = [](const ParameterValues& values, const Settings&, double gravity) {
-    return setUp<Model>(values, gravity);
+  info.setUp = [](const ParameterValues& values, const Settings&, const Surroundings& around) {
+    return setUp<Model>(values, around.gravity);
   };
   return info;
 }
@@ -117,9 +117,10 @@ void addVariant(ModelInfo& info, const std::string& when,
                 std::function<bool(const ParameterValues&, const Settings&)> chosen) {
   info.variants.push_back(variant<Model>(when));
   info.setUp = [plain = info.setUp, chosen = std::move(chosen)](
-                   const ParameterValues& values, const Settings& settings, double gravity) {
-    return chosen(values, settings) ? setUp<Model>(values, gravity)
-                                    : plain(values, settings, gravity);
+                   const ParameterValues& values, const Settings& settings,
+                   const Surroundings& around) {
+    return chosen(values, settings) ? setUp<Model>(values, around.gravity)
+                                    : plain(values, settings, around);
   };
 }
 

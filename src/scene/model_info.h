@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "control/drive.h"
+#include "control/motor.h"
 #include "mechanics/dynamics.h"
 #include "mechanics/model_description.h"
 #include "scene/settings.h"
@@ -59,6 +60,15 @@ class SetupError : public std::invalid_argument {
   std::string parameter_;
 };
 
+/// What a scene surrounds a system with.
+struct Surroundings {
+  double gravity = 9.80665;  ///< [m/s^2]
+  /// Of the drive that turns it: then the shaft's angle is a coordinate, `spin`, of the system.
+  std::optional<Motor> motor = std::nullopt;
+
+  Surroundings(double gravity_now) : gravity(gravity_now) {}
+};
+
 struct ModelInfo {
   std::string name;
   std::string summary;
@@ -67,9 +77,10 @@ struct ModelInfo {
   std::vector<ModelVariant> variants;  ///< the plain form first
   bool has_shaft = false;              ///< a scene gives it a drive or a constant speed
 
-  /// The model with these parameters (all of `parameters`) and settings, in a field of gravity
-  /// [m/s^2]. Throws SetupError.
-  std::function<ModelSetup(const ParameterValues&, const Settings&, double gravity)> setUp;
+  bool takes_motor = false;            ///< its drive may be a motor
+
+  /// The model with these parameters (all of `parameters`) and settings. Throws SetupError.
+  std::function<ModelSetup(const ParameterValues&, const Settings&, const Surroundings&)> setUp;
 };
 
 /// "> 0", ">= 0", "a whole number > 0" or "finite".

@@ -151,7 +151,7 @@ ModelInfo cantileverBeamInfo() {
        ""},
       {"base_motion_frequency", "rad/s", Range::kNotNegative, "of the clamp", 0.0, ""}};
   info.variants = {{"", {}, true, false, linearMethodNames()}};
-  info.setUp = [](const ParameterValues& values, const Settings&, double) {
+  info.setUp = [](const ParameterValues& values, const Settings&, const Surroundings&) {
     return setUpCantilever(values);
   };
   return info;

@@ -15,7 +15,7 @@ ModelInfo frictionOscillatorInfo() {
                                               return values.at("regularization") > 0.0;
                                             });
   info.setUp = [plain = info.setUp](const ParameterValues& values, const Settings& settings,
-                                    double gravity) {
+                                    const Surroundings& around) {
     const double half = values.at("half_spacing");
     const double reach = half - values.at("friction_coefficient") * values.at("height");
     if (std::fabs(reach) <= 4.0e-16 * half) {  // no more than rounding
@@ -23,7 +23,7 @@ ModelInfo frictionOscillatorInfo() {
                        "must not equal friction_coefficient x height: there the plank is about to "
                        "tip and its frequency infinite");
     }
-    return plain(values, settings, gravity);
+    return plain(values, settings, around);
   };
   return info;
 }

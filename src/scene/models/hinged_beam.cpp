@@ -49,11 +49,11 @@ ModelInfo hingedBeamInfo() {
                            {},
                            {}});
   info.setUp = [finite = info.setUp](const ParameterValues& values, const Settings& settings,
-                                     double gravity) {
+                                     const Surroundings& around) {
     const auto geometry = settings.choices.find("geometry");
     return geometry != settings.choices.end() && geometry->second == "small"
-               ? smallSetup(values, gravity)
-               : finite(values, settings, gravity);
+               ? smallSetup(values, around.gravity)
+               : finite(values, settings, around);
   };
   return info;
 }

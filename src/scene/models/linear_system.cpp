@@ -210,7 +210,7 @@ ModelInfo linearSystemInfo() {
                               {"frequency", "rad/s", Range::kNotNegative, 0.0},
                               {"phase", "rad", Range::kAny, 0.0}};
   info.variants = {{"", {}, true, false, linearMethodNames()}};
-  info.setUp = [](const ParameterValues&, const Settings& settings, double) {
+  info.setUp = [](const ParameterValues&, const Settings& settings, const Surroundings&) {
     return setUpLinearSystem(settings);
   };
   return info;

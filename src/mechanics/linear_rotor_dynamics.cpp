@@ -1,0 +1,108 @@
+#include "mechanics/linear_rotor_dynamics.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace whirl_twin {
+
+namespace {
+
+void requireSizes(const RotorDescription& description, const LinearRotor& rotor) {
+  const auto n = static_cast<Eigen::Index>(description.coordinates.size());
+  const auto refuse = [&](const std::string& what, Eigen::Index size) {
+    throw std::invalid_argument("rotor of " + std::to_string(n) + " coordinates: " + what +
+                                " has size " + std::to_string(size));
+  };
+  const Linearization l = rotor.matrices(0.0);
+  for (const Eigen::MatrixXd* m :
+       {&l.mass, &l.damping, &l.gyroscopic, &l.stiffness, &l.circulatory}) {
+    if (m->rows() != n || m->cols() != n) {
+      refuse("a matrix", m->rows());
+    }
+  }
+  if (rotor.load.size() != n) {
+    refuse("the load", rotor.load.size());
+  }
+  for (const ShaftForce& force : rotor.forces) {
+    if (force.amplitude.size() != n) {
+      refuse("a force", force.amplitude.size());
+    }
+  }
+  for (const Station& station : description.stations) {
+    if (station.along_x.size() != n || station.along_y.size() != n) {
+      refuse("station " + station.name, station.along_x.size());
+    }
+  }
+}
+
+}  // namespace
+
+LinearRotorDynamics::LinearRotorDynamics(RotorDescription description, LinearRotor rotor)
+    : description_(std::move(description)), rotor_(std::move(rotor)) {
+  requireSizes(description_, rotor_);
+  mass_ = rotor_.matrices(0.0).mass;
+  mass_factor_.compute(mass_);
+  if (mass_factor_.info() != Eigen::Success) {
+    throw std::invalid_argument("rotor: the mass matrix is not positive definite");
+  }
+  if (!rotor_.forces.empty()) {
+    LinearRotor balanced = rotor_;
+    balanced.forces.clear();
+    balanced_ = std::make_unique<LinearRotorDynamics>(description_, std::move(balanced));
+  }
+}
+
+Eigen::VectorXd LinearRotorDynamics::acceleration(const Eigen::VectorXd& q,
+                                                  const Eigen::VectorXd& v,
+                                                  const Moment<double>& at) const {
+  return mass_factor_.solve(unbalancedForce(q, v, at));
+}
+
+Eigen::VectorXd LinearRotorDynamics::unbalancedForce(const Eigen::VectorXd& q,
+                                                     const Eigen::VectorXd& v,
+                                                     const Moment<double>& at) const {
+  const Linearization l = rotor_.matrices(at.speed);
+  return rotor_.shaftForce(at.angle, at.speed, at.acceleration) + rotor_.load -
+         (l.damping + l.gyroscopic) * v - (l.stiffness + l.circulatory) * q;
+}
+
+Eigen::VectorXd LinearRotorDynamics::appliedForce(const Eigen::VectorXd& q,
+                                                  const Eigen::VectorXd& v,
+                                                  const Moment<double>& at) const {
+  const Linearization l = rotor_.matrices(at.speed);
+  return rotor_.shaftForce(at.angle, at.speed, at.acceleration) - l.damping * v -
+         l.circulatory * q;
+}
+
+Eigen::VectorXd LinearRotorDynamics::momenta(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                             const Moment<double>& at) const {
+  // The Lagrangian of the gyroscopic terms is q'^T G q / 2.
+  return mass_ * v + 0.5 * (rotor_.matrices(at.speed).gyroscopic * q);
+}
+
+Energies LinearRotorDynamics::energies(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                       const Moment<double>& at) const {
+  const Linearization l = rotor_.matrices(at.speed);
+  Energies e;
+  e.kinetic = 0.5 * v.dot(mass_ * v);
+  e.potential = 0.5 * q.dot(l.stiffness * q) - rotor_.load.dot(q);
+  e.jacobi = e.kinetic + e.potential;
+  e.dissipated_power = v.dot(l.damping * v);
+  e.input_power = v.dot(rotor_.shaftForce(at.angle, at.speed, at.acceleration) - l.circulatory * q);
+  if (rotor_.speed_dependent && at.acceleration != 0.0) {
+    const double step = 1.0e-5 * std::max(1.0, std::fabs(at.speed));
+    const Eigen::MatrixXd change = rotor_.matrices(at.speed + step).stiffness -
+                                   rotor_.matrices(at.speed - step).stiffness;
+    e.input_power += 0.5 * at.acceleration * q.dot(change * q) / (2.0 * step);
+  }
+  return e;
+}
+
+Linearization LinearRotorDynamics::linearization(const Eigen::VectorXd&, const Eigen::VectorXd&,
+                                                 const Eigen::VectorXd&,
+                                                 const Moment<double>& at) const {
+  return rotor_.matrices(at.speed);
+}
+
+}  // namespace whirl_twin
