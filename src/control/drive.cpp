@@ -94,6 +94,17 @@ std::pair<double, double> Drive::speedRange() const {
   return range;
 }
 
+std::vector<double> Drive::constantSpeeds() const {
+  std::vector<double> speeds;
+  for (const Segment& segment : profile_) {
+    const SpeedSegment& m = segment.motion;
+    if (m.constant() && std::find(speeds.begin(), speeds.end(), m.speed) == speeds.end()) {
+      speeds.push_back(m.speed);
+    }
+  }
+  return speeds;
+}
+
 void Drive::begin(std::int64_t time_nanoseconds) noexcept {
   const Segment* const all = segments();
   const std::size_t count = segmentCount();

@@ -44,6 +44,8 @@ class Drive {
 
   /// Lowest and highest speed [rad/s] of the profile, as far as its jerk-limited moves reach.
   std::pair<double, double> speedRange() const;
+  /// Speeds [rad/s] at which the profile stays for a time, in its order.
+  std::vector<double> constantSpeeds() const;
 
   // Real-time safe: no allocation, no lock, no exception.
 

@@ -158,6 +158,12 @@ class Exponential {
       s(i, kStates + 1) = s(kStates + 1, i) = 0.5 * (linear(0.5 * kPi, i) - steady);
       s(i, kStates + 2) = s(kStates + 2, i) = 0.5 * steady;
     }
+    // Where all rests: a bow turning between springs that differ, twice a turn.
+    const double half_aside = power(0.25 * kPi, 0, 0.0, 0, 0.0);
+    const double aside = power(0.5 * kPi, 0, 0.0, 0, 0.0);
+    s(kStates, kStates) = none;
+    s(kStates + 1, kStates + 1) = aside;
+    s(kStates, kStates + 1) = s(kStates + 1, kStates) = half_aside - 0.5 * (none + aside);
     return s;
   }
 

@@ -17,6 +17,7 @@ enum class StepStatus : std::uint8_t {
   kOk = 0,
   kNotFinite = 1,     ///< the new state has an infinity or a NaN
   kNotConverged = 2,  ///< an implicit step found no solution
+  kOutOfRange = 3,    ///< the shaft runs at a speed that the step was not prepared for
 };
 
 /// sum + increment without losing what does not fit: sum.high is the nearest double.

@@ -2,11 +2,43 @@
 #pragma once
 
 #include <memory>
+#include <utility>
+#include <vector>
 
+#include "integration/rotor_step.h"
 #include "mechanics/dynamics.h"
 #include "scene/model_info.h"
+#include "scene/system.h"
 
 namespace whirl_twin {
+
+class LinearRotorSystem final : public System {
+ public:
+  /// Steps with `exponential`, `substeps` in a step [s] of the twin, on a drive that outlives it,
+  /// at the speeds of the drive's profile.
+  LinearRotorSystem(std::shared_ptr<const Dynamics> dynamics, const Drive& drive, double step,
+                    int substeps);
+
+  StepStatus step(double time) noexcept override;
+  std::size_t dof() const noexcept override { return static_cast<std::size_t>(state_.q.size()); }
+  void write(double* out) const noexcept override;
+  void set(const double* q, const double* v) noexcept override;
+  std::unique_ptr<System> readyFor(double lowest_speed, double highest_speed) const override;
+
+ private:
+  LinearRotorSystem(std::shared_ptr<const Dynamics> dynamics, const Drive& drive, double step,
+                    int substeps, const std::pair<double, double>& speeds,
+                    std::vector<double> constant_speeds);
+
+  std::shared_ptr<const Dynamics> dynamics_;
+  const Drive& drive_;
+  double step_;  ///< [s]
+  int substeps_;
+  std::vector<double> constant_speeds_;  ///< [rad/s]
+  RotorStep method_;
+  LinearMotion state_;
+  LinearMotion next_;
+};
 
 /// The setup of a model whose dynamics are a linear rotor: it steps with `exponential`, at constant
 /// and at changing speed.

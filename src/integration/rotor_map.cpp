@@ -1,0 +1,114 @@
+#include "integration/rotor_map.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "integration/matrix_exponential.h"
+
+namespace whirl_twin {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+double powerOfTwo(double x) {
+  return x > 0.0 && std::isfinite(x) ? std::exp2(std::round(std::log2(x))) : 1.0;
+}
+
+/// Re[F psi] as two columns, by the real and the imaginary part of psi.
+MatrixXd columns(const ForceChannel& channel) {
+  MatrixXd c(channel.amplitude.size(), 2);
+  c << channel.amplitude.real(), -channel.amplitude.imag();
+  return c;
+}
+
+}  // namespace
+
+std::vector<ForceChannel> forceChannels(const LinearRotor& rotor) {
+  std::vector<ForceChannel> channels;
+  for (const ShaftForce& force : rotor.forces) {
+    const auto same = std::find_if(channels.begin(), channels.end(), [&](const ForceChannel& c) {
+      return c.harmonic == force.harmonic && c.inertial == force.inertial;
+    });
+    if (same == channels.end()) {
+      channels.push_back({force.amplitude, force.harmonic, force.inertial});
+    } else {
+      same->amplitude += force.amplitude;
+    }
+  }
+  return channels;
+}
+
+// In x = L^T q, L L^T = M, rates over the highest frequency, forcing over the deflection it causes:
+// then the norm of h A is that of frequency times step, whatever the units and the masses.
+RotorMap::RotorMap(const LinearRotor& rotor, const std::vector<ForceChannel>& channels,
+                   double speed, double h, int degree)
+    : n_(rotor.dof()), h_(h), l_(rotor.matrices(speed)), channels_(channels), degree_(degree) {
+  const Index size = inputs(n_, channels.size(), degree);
+  const Eigen::LLT<MatrixXd> mass(l_.mass);
+  const MatrixXd to_q = mass.matrixU().solve(MatrixXd::Identity(n_, n_));  // q = to_q x
+  const MatrixXd stiffness = to_q.transpose() * (l_.stiffness + l_.circulatory) * to_q;
+  const MatrixXd damping = to_q.transpose() * (l_.damping + l_.gyroscopic) * to_q;
+  const double rate = powerOfTwo(std::sqrt(stiffness.cwiseAbs().maxCoeff()));
+
+  scale_.setZero(size, size);  // scaled y = scale y
+  unscale_.setZero(size, size);
+  scale_.topLeftCorner(n_, n_) = mass.matrixU();
+  unscale_.topLeftCorner(n_, n_) = to_q;
+  scale_.block(n_, n_, n_, n_) = scale_.topLeftCorner(n_, n_) / rate;
+  unscale_.block(n_, n_, n_, n_) = rate * to_q;
+  a_.setZero(size, size);
+  a_.block(0, n_, n_, n_).diagonal().setConstant(rate);
+  a_.block(n_, 0, n_, n_) = -stiffness / rate;
+  a_.block(n_, n_, n_, n_) = -damping;
+
+  Index input = 2 * n_;
+  for (const ForceChannel& channel : channels) {
+    const MatrixXd forcing = to_q.transpose() * columns(channel);
+    const double deflection = powerOfTwo(forcing.cwiseAbs().maxCoeff() / (rate * rate));
+    const double frequency = channel.harmonic * speed;
+    a_.block(n_, input, n_, 2) = forcing / (rate * deflection);
+    for (int k = 0; k <= degree; ++k, input += 2) {
+      scale_.diagonal().segment(input, 2).setConstant(deflection);
+      unscale_.diagonal().segment(input, 2).setConstant(1.0 / deflection);
+      a_(input, input + 1) = -frequency;
+      a_(input + 1, input) = frequency;
+      if (k < degree) {
+        a_(input, input + 2) = a_(input + 1, input + 3) = (k + 1) / h;
+      }
+    }
+  }
+  const Eigen::VectorXd load = to_q.transpose() * rotor.load;
+  const double deflection = powerOfTwo(load.cwiseAbs().maxCoeff() / (rate * rate));
+  scale_(input, input) = deflection;
+  unscale_(input, input) = 1.0 / deflection;
+  a_.block(n_, input, n_, 1) = load / (rate * deflection);
+}
+
+MatrixXd RotorMap::increment() const {
+  const MatrixXd e = exponentialLessIdentity<Eigen::Dynamic>(MatrixXd(h_ * a_));
+  return unscale_.topLeftCorner(2 * n_, 2 * n_) * e.topRows(2 * n_) * scale_;
+}
+
+MatrixXd RotorMap::power() const {
+  MatrixXd s = MatrixXd::Zero(a_.rows(), a_.rows());
+  s.block(n_, n_, n_, n_) = -l_.damping;
+  s.block(n_, 0, n_, n_) = -0.5 * l_.circulatory;
+  s.block(0, n_, n_, n_) = s.block(n_, 0, n_, n_).transpose();
+  Index input = 2 * n_;
+  for (const ForceChannel& channel : channels_) {
+    s.block(n_, input, n_, 2) = 0.5 * columns(channel);
+    s.block(input, n_, 2, n_) = s.block(n_, input, n_, 2).transpose();
+    input += 2 * (degree_ + 1);
+  }
+  return s;
+}
+
+MatrixXd RotorMap::work() const {
+  const MatrixXd scaled = unscale_.transpose() * power() * unscale_;
+  return scale_.transpose() * quadraticIntegral<Eigen::Dynamic>(a_, scaled, h_) * scale_;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,56 @@
+// What one exact step makes of a linear rotor at a speed w: the matrices of rotor_step.h. Prepared
+// off the real-time path.
+//
+// The forcing that turns with the shaft at harmonic m is Re[F g(s) e^(i m w s)] over a step of h,
+// g a polynomial in s/h with complex coefficients g_0 ... g_p. With psi_k' = i m w psi_k +
+// (k+1)/h psi_(k+1), psi_k(0) = g_k, it is Re[F psi_0], so that states and forcing are one linear
+// system with constant coefficients and the step is e^(A h): exact for any h, stiff or not, damped
+// or not, in resonance or not.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "mechanics/linear_rotor.h"
+
+namespace whirl_twin {
+
+/// Forces of one harmonic, all with a factor (w^2 - i a) or all without.
+struct ForceChannel {
+  Eigen::VectorXcd amplitude;
+  int harmonic = 1;
+  bool inertial = true;
+};
+
+/// The rotor's forces gathered in channels.
+std::vector<ForceChannel> forceChannels(const LinearRotor& rotor);
+
+class RotorMap {
+ public:
+  /// Inputs of the step: q, v, then for every channel Re g_0, Im g_0, Re g_1 ..., then 1.
+  static Eigen::Index inputs(Eigen::Index dof, std::size_t channels, int degree) {
+    return 2 * dof + 2 * static_cast<Eigen::Index>(channels) * (degree + 1) + 1;
+  }
+
+  /// At a speed [rad/s], for steps of h [s]; `degree` of the polynomials g.
+  RotorMap(const LinearRotor& rotor, const std::vector<ForceChannel>& channels, double speed,
+           double h, int degree);
+
+  /// B: (dq, dv) = B y. [2 dof x inputs]
+  Eigen::MatrixXd increment() const;
+  /// W: the work done on the system, dh/dt integrated over the step, is y^T W y. [inputs x inputs]
+  Eigen::MatrixXd work() const;
+
+ private:
+  Eigen::MatrixXd power() const;
+
+  Eigen::Index n_;
+  double h_;
+  Linearization l_;
+  const std::vector<ForceChannel>& channels_;
+  int degree_;
+  Eigen::MatrixXd a_;  ///< of the scaled system
+  Eigen::MatrixXd scale_, unscale_;
+};
+
+}  // namespace whirl_twin

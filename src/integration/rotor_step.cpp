@@ -1,0 +1,317 @@
+#include "integration/rotor_step.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <stdexcept>
+
+namespace whirl_twin {
+
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kTableError = 1.0e-12;  // of a cell's map, relative to its largest entry
+constexpr double kMostCells = 4096.0;
+
+/// Symmetric W as an upper triangle U: y^T W y = y^T U y.
+MatrixXd upperTriangle(const MatrixXd& work) {
+  MatrixXd u = 2.0 * MatrixXd(work.triangularView<Eigen::StrictlyUpper>());
+  u.diagonal() = work.diagonal();
+  return u;
+}
+
+/// d(K+N, C+G)/dw at a speed.
+MatrixXd forceSlope(const LinearRotor& rotor, double speed) {
+  const double step = 1.0e-2 * std::max(1.0, std::fabs(speed));
+  const auto at = [&](double w) {
+    const Linearization l = rotor.matrices(w);
+    MatrixXd j(rotor.dof(), 2 * rotor.dof());
+    j << l.stiffness + l.circulatory, l.damping + l.gyroscopic;
+    return j;
+  };
+  return (at(speed + step) - at(speed - step)) / (2.0 * step);
+}
+
+bool finite(const MatrixXd& matrix) {
+  if (!matrix.allFinite()) {
+    throw std::domain_error("the rotor's step is beyond the range of doubles");
+  }
+  return true;
+}
+
+}  // namespace
+
+RotorStep::RotorStep(const LinearRotor& rotor, double h, const std::pair<double, double>& speeds,
+                     const std::vector<double>& constant_speeds)
+    : n_(rotor.dof()), h_(h), channels_(forceChannels(rotor)) {
+  for (const double speed : constant_speeds) {
+    const RotorMap map(rotor, channels_, speed, h, 0);
+    const MatrixXd increment = map.increment();
+    const MatrixXd work = upperTriangle(map.work());
+    MatrixXd both(increment.rows() + work.rows(), increment.cols());
+    both << increment, work;
+    if (finite(both)) {
+      constant_.push_back({speed, PackedMatrix(both)});
+    }
+  }
+  work_ = RotorWork(rotor, channels_, h, speeds);
+  boundaries_ = {speeds.first};
+  if (speeds.second > speeds.first) {
+    prepare(rotor, speeds);
+  } else {
+    boundaries_.push_back(speeds.second);
+  }
+  const Index inputs = tableInputs();
+  y_.setZero(inputs);
+  powers_.setZero(inputs * (kDegree + 1));
+  result_.setZero(PackedMatrix(MatrixXd::Zero(2 * n_ + inputs, 1)).rows());
+  shear_.setZero(PackedMatrix(MatrixXd::Zero(n_, 1)).rows());
+  increment_.setZero(2 * n_);
+  rates_.setZero(n_);
+}
+
+void RotorStep::prepare(const LinearRotor& rotor, const std::pair<double, double>& speeds) {
+  std::vector<double> ends{speeds.first};
+  for (const double knot : rotor.knots) {
+    if (knot > speeds.first && knot < speeds.second) {
+      ends.push_back(knot);
+    }
+  }
+  ends.push_back(speeds.second);
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+    // Narrow enough at both ends of a stretch of smooth matrices: narrow enough throughout.
+    const double range = ends[i + 1] - ends[i];
+    double count = 1.0;
+    const auto enough = [&] {
+      const double width = range / count;
+      return cubicEnough(rotor, ends[i], ends[i] + width) &&
+             cubicEnough(rotor, ends[i + 1] - width, ends[i + 1]);
+    };
+    while (!enough()) {
+      count *= 1.5;
+      if (count + static_cast<double>(cells_.size()) > kMostCells) {
+        throw std::domain_error("the rotor's matrices change too fast with speed for its step");
+      }
+    }
+    count = std::ceil(count);
+    for (double k = 0.0; k < count; k += 1.0) {
+      const double high = k + 1.0 == count ? ends[i + 1] : ends[i] + range * (k + 1.0) / count;
+      cells_.push_back(cell(rotor, boundaries_.back(), high));
+      boundaries_.push_back(high);
+    }
+  }
+}
+
+Index RotorStep::tableInputs() const {
+  return RotorMap::inputs(n_, channels_.size(), kDegree);
+}
+
+MatrixXd RotorStep::tableMap(const LinearRotor& rotor, double speed) const {
+  return RotorMap(rotor, channels_, speed, h_, kDegree).increment();
+}
+
+/// The map as a cubic in s: its coefficients side by side.
+MatrixXd RotorStep::cubic(const LinearRotor& rotor, double low, double high) const {
+  Eigen::Matrix4d powers;
+  std::array<MatrixXd, 4> at;
+  for (int i = 0; i < 4; ++i) {
+    const double s = std::cos((2 * i + 1) * kPi / 8.0);
+    powers.row(i) << 1.0, s, s * s, s * s * s;
+    at[static_cast<std::size_t>(i)] = tableMap(rotor, 0.5 * (low + high) + 0.5 * s * (high - low));
+  }
+  const Eigen::Matrix4d coefficients = powers.inverse();
+  const Index inputs = tableInputs();
+  MatrixXd all = MatrixXd::Zero(2 * n_, 4 * inputs);
+  for (int k = 0; k < 4; ++k) {
+    for (int i = 0; i < 4; ++i) {
+      all.middleCols(k * inputs, inputs) += coefficients(k, i) * at[static_cast<std::size_t>(i)];
+    }
+  }
+  finite(all);
+  return all;
+}
+
+/// In the middle of a cell the cubic through the Chebyshev nodes is off by most.
+bool RotorStep::cubicEnough(const LinearRotor& rotor, double low, double high) const {
+  const MatrixXd exact = tableMap(rotor, 0.5 * (low + high));
+  const MatrixXd error = cubic(rotor, low, high).leftCols(tableInputs()) - exact;
+  // Positions and rates have their own sizes, and so has each input.
+  for (Index j = 0; j < exact.cols(); ++j) {
+    for (const Index rows : {Index{0}, n_}) {
+      const double off = error.col(j).segment(rows, n_).cwiseAbs().maxCoeff();
+      const double size = exact.col(j).segment(rows, n_).cwiseAbs().maxCoeff();
+      const bool of_itself = j < 2 * n_ && (j < n_) == (rows == 0);
+      if (off > kTableError * (size + (of_itself ? 1.0 : 0.0))) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+RotorStep::Cell RotorStep::cell(const LinearRotor& rotor, double low, double high) const {
+  Cell c;
+  c.centre = 0.5 * (low + high);
+  c.half_width = 0.5 * (high - low);
+  c.increment = PackedMatrix(cubic(rotor, low, high));
+  if (rotor.speed_dependent) {
+    const Eigen::LLT<MatrixXd> mass(rotor.matrices(low).mass);
+    const MatrixXd below = -mass.solve(forceSlope(rotor, low));
+    const MatrixXd above = -mass.solve(forceSlope(rotor, high));
+    MatrixXd slope(n_, 4 * n_);
+    slope << 0.5 * (above - below), 0.5 * (below + above);
+    if ((slope.array() != 0.0).any()) {
+      c.slope = PackedMatrix(slope);
+    }
+  }
+  c.work = work_.cell(rotor, low, high);
+  return c;
+}
+
+StepStatus RotorStep::advance(const Drive& drive, double offset, LinearMotion& motion) noexcept {
+  const ShaftMotion shaft = drive.at(offset);
+  if (drive.constantFor(offset + h_)) {
+    for (const ConstantSpeed& constant : constant_) {
+      if (constant.speed == shaft.speed) {
+        constantStep(constant, shaft, motion);
+        return StepStatus::kOk;
+      }
+    }
+  }
+  nodes_.sample(drive, offset, h_);
+  const double mean_speed = nodes_.meanSpeed();
+  // A speed held at the edge may lie beyond it by rounding.
+  const double sliver = 1.0e-9 * (1.0 + std::fabs(mean_speed));
+  if (cells_.empty() || !(mean_speed >= boundaries_.front() - sliver) ||
+      !(mean_speed <= boundaries_.back() + sliver)) {
+    return StepStatus::kOutOfRange;
+  }
+  const auto above = std::upper_bound(boundaries_.begin() + 1, boundaries_.end() - 1, mean_speed);
+  changingStep(cells_[static_cast<std::size_t>(above - boundaries_.begin()) - 1], drive, offset,
+               motion);
+  return StepStatus::kOk;
+}
+
+void RotorStep::constantStep(const ConstantSpeed& at, const ShaftMotion& shaft,
+                             LinearMotion& motion) noexcept {
+  work_.restart();
+  y_.head(n_) = motion.q;
+  y_.segment(n_, n_) = motion.v;
+  Index input = 2 * n_;
+  for (const ForceChannel& channel : channels_) {
+    const double size = channel.inertial ? shaft.speed * shaft.speed : 1.0;
+    y_[input++] = size * std::cos(channel.harmonic * shaft.angle);
+    y_[input++] = size * std::sin(channel.harmonic * shaft.angle);
+  }
+  y_[input++] = 1.0;
+  at.map.multiply(y_.data(), result_.data());
+  motion.work.add(y_.head(input).dot(result_.segment(2 * n_, input)));
+  add(result_.data(), motion);
+}
+
+/// Fills the inputs from 2 n on with the coefficients of g.
+void RotorStep::project() noexcept {
+  auto coefficients = y_.tail(y_.size() - 2 * n_);
+  coefficients.setZero();
+  for (const ShaftNode& node : nodes_) {
+    const double x = 2.0 * node.tau - 1.0;
+    const std::array<double, kDegree + 1> legendre{node.weight, 3.0 * node.weight * x,
+                                                   5.0 * node.weight * (1.5 * x * x - 0.5),
+                                                   7.0 * node.weight * (2.5 * x * x - 1.5) * x};
+    double* coefficient = coefficients.data();
+    for (const ForceChannel& channel : channels_) {
+      Complex g = smallTurn(channel.harmonic * node.lead);
+      if (channel.inertial) {
+        g *= Complex(node.shaft.speed * node.shaft.speed, -node.shaft.acceleration);
+      }
+      for (const double share : legendre) {
+        *coefficient++ += share * g.real();
+        *coefficient++ += share * g.imag();
+      }
+    }
+  }
+  Index input = 0;
+  for (const ForceChannel& channel : channels_) {
+    const Complex turn = std::pow(nodes_.startTurn(), channel.harmonic);
+    std::array<Complex, kDegree + 1> p;
+    for (std::size_t k = 0; k < p.size(); ++k) {
+      const Index at = input + 2 * static_cast<Index>(k);
+      p[k] = turn * Complex(coefficients[at], coefficients[at + 1]);
+    }
+    // Legendre polynomials of 2 tau - 1 as powers of tau.
+    const std::array<Complex, kDegree + 1> powers{p[0] - p[1] + p[2] - p[3],
+                                                  2.0 * p[1] - 6.0 * p[2] + 12.0 * p[3],
+                                                  6.0 * p[2] - 30.0 * p[3], 20.0 * p[3]};
+    for (const Complex& g : powers) {
+      coefficients[input++] = g.real();
+      coefficients[input++] = g.imag();
+    }
+  }
+  coefficients[input] = 1.0;
+}
+
+/// e A'(q, v), for the state in y_ with other rates.
+void RotorStep::shear(const Cell& cell, double s, double e, const double* rates) noexcept {
+  powers_.segment(2 * n_, n_) = y_.head(n_);
+  powers_.segment(3 * n_, n_) = Eigen::Map<const Eigen::VectorXd>(rates, n_);
+  powers_.head(2 * n_) = s * powers_.segment(2 * n_, 2 * n_);
+  cell.slope.multiply(powers_.data(), shear_.data());
+  shear_ *= e;
+}
+
+void RotorStep::changingStep(const Cell& cell, const Drive& drive, double offset,
+                             LinearMotion& motion) noexcept {
+  y_.head(n_) = motion.q;
+  y_.segment(n_, n_) = motion.v;
+  increment_.setZero();
+  work_.start(cell.work, drive, offset, y_.head(2 * n_));
+  project();
+  const double e = nodes_.meanLead();
+  const double s = (nodes_.meanSpeed() - cell.centre) / cell.half_width;
+  const bool sheared = cell.slope.rows() > 0;
+  if (sheared) {
+    shear(cell, s, e, y_.data() + n_);
+    y_.segment(n_, n_) += shear_.head(n_);
+    increment_.tail(n_) = shear_.head(n_);
+  }
+  const Index inputs = y_.size();
+  powers_.head(inputs) = y_;
+  for (int k = 1; k <= kDegree; ++k) {
+    powers_.segment(k * inputs, inputs) = s * powers_.segment((k - 1) * inputs, inputs);
+  }
+  cell.increment.multiply(powers_.data(), result_.data());
+  increment_ += result_.head(2 * n_);
+  y_.head(2 * n_) += result_.head(2 * n_);
+  if (sheared) {
+    // Its inverse, by two rounds: what it leaves is of order e^3, for e^2 would add up.
+    shear(cell, s, e, y_.data() + n_);
+    rates_ = y_.segment(n_, n_) - shear_.head(n_);
+    shear(cell, s, e, rates_.data());
+    y_.segment(n_, n_) -= shear_.head(n_);
+    increment_.tail(n_) -= shear_.head(n_);
+  }
+  motion.work.add(work_.work(cell.work, drive, offset, nodes_, y_.head(2 * n_)));
+  add(increment_.data(), motion);
+}
+
+void RotorStep::add(const double* increment, LinearMotion& motion) const noexcept {
+  for (Index i = 0; i < n_; ++i) {
+    CompensatedSum position{motion.q[i], motion.q_low[i]};
+    position.add(increment[i]);
+    motion.q[i] = position.high;
+    motion.q_low[i] = position.low;
+    CompensatedSum rate{motion.v[i], motion.v_low[i]};
+    rate.add(increment[n_ + i]);
+    motion.v[i] = rate.high;
+    motion.v_low[i] = rate.low;
+  }
+}
+
+}  // namespace whirl_twin

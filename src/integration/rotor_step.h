@@ -1,0 +1,101 @@
+// The exact step of a linear rotor, at constant speed and in a run-up.
+//
+// At constant speed the step is e^(A h) of states and forcing together (rotor_map.h): no truncation
+// error. The same holds of the forcing while the speed changes: with w_m the mean speed of the step
+// the force is Re[F g(s) e^(i m (theta_0 + w_m s))], where g takes up the change of speed and the
+// tangential part and is so nearly a cubic in s that its Legendre projection leaves (a h^2)^2 / 1e3
+// or less of it. The drive's own angle is used throughout, and a corner of its profile inside a
+// step needs no care: the projection is integrated piece by piece.
+//
+// The free motion goes by e^(A(w_m) h), which for matrices linear in the speed is the Magnus series
+// to order two; its next term, h^3 a [A', A] / 12 (Blanes, Casas, Oteo & Ros, Physics Reports 470,
+// 2009, section 4), is a change of variables, x^ = (1 + e A') x with e = the mean of
+// theta - theta_0 - w_m s, - a h^2 / 12, made at the start of the step and undone at its end. What
+// is left is of order h^5 a and, like that, does not add up from step to step.
+//
+// e^(A(w) h) over speed is a table: cells in which it is a cubic in the speed to 1e-12. Preparing
+// it takes a matrix exponential every few rad/s.
+//
+// The audited work is y^T W y, exact, at constant speed, and a quadrature in a run-up
+// (rotor_work.h).
+#pragma once
+
+#include <Eigen/Core>
+#include <utility>
+#include <vector>
+
+#include "control/drive.h"
+#include "integration/linear_step.h"
+#include "integration/packed_matrix.h"
+#include "integration/rotor_map.h"
+#include "integration/rotor_work.h"
+#include "integration/shaft_nodes.h"
+#include "mechanics/linear_rotor.h"
+
+namespace whirl_twin {
+
+class RotorStep {
+ public:
+  /// Prepares steps of h [s] for speeds [rad/s] between `speeds.first` and `speeds.second`, and the
+  /// plain exact step for `constant_speeds`. Throws std::domain_error for matrices beyond the range
+  /// of doubles.
+  RotorStep(const LinearRotor& rotor, double h, const std::pair<double, double>& speeds,
+            const std::vector<double>& constant_speeds);
+
+  double lowestSpeed() const { return boundaries_.front(); }  ///< [rad/s]
+  double highestSpeed() const { return boundaries_.back(); }  ///< [rad/s]
+  std::size_t cells() const { return cells_.size(); }         ///< of the table over speed
+
+  /// The motion is set anew: nothing follows from the last step.
+  void restart() noexcept { work_.restart(); }
+
+  /// Advances by h from offset [s] after the drive's begin(). Real-time safe. kOutOfRange, with the
+  /// motion left as it was, where the mean speed is not between those prepared for.
+  StepStatus advance(const Drive& drive, double offset, LinearMotion& motion) noexcept;
+
+ private:
+  static constexpr int kDegree = 3;  ///< of g over the step, and of the table over speed
+
+  struct ConstantSpeed {
+    double speed;
+    PackedMatrix map;  ///< B, below it W as an upper triangle
+  };
+  struct Cell {
+    double centre, half_width;  ///< [rad/s]
+    PackedMatrix increment;     ///< B_0 ... B_3 side by side: B = sum of s^k B_k
+    PackedMatrix slope;         ///< A' from s (q, v), (q, v) to accelerations; may be empty
+    RotorWorkCell work;
+  };
+
+  void prepare(const LinearRotor& rotor, const std::pair<double, double>& speeds);
+  Cell cell(const LinearRotor& rotor, double low, double high) const;
+  bool cubicEnough(const LinearRotor& rotor, double low, double high) const;
+  void constantStep(const ConstantSpeed& at, const ShaftMotion& shaft,
+                    LinearMotion& motion) noexcept;
+  void changingStep(const Cell& cell, const Drive& drive, double offset,
+                    LinearMotion& motion) noexcept;
+  Eigen::Index tableInputs() const;
+  Eigen::MatrixXd tableMap(const LinearRotor& rotor, double speed) const;
+  Eigen::MatrixXd cubic(const LinearRotor& rotor, double low, double high) const;
+  void project() noexcept;
+  void shear(const Cell& cell, double s, double e, const double* rates) noexcept;
+  void add(const double* increment, LinearMotion& motion) const noexcept;
+
+  Eigen::Index n_;
+  double h_;
+  std::vector<ForceChannel> channels_;
+  std::vector<ConstantSpeed> constant_;
+  std::vector<double> boundaries_;  ///< [rad/s], of the cells
+  std::vector<Cell> cells_;
+  RotorWork work_;
+  // Room for a step.
+  ShaftNodes nodes_;
+  Eigen::VectorXd y_;       ///< inputs of a map
+  Eigen::VectorXd powers_;  ///< y, s y, s^2 y, s^3 y
+  Eigen::VectorXd result_;
+  Eigen::VectorXd shear_;  ///< e A' x
+  Eigen::VectorXd rates_;
+  Eigen::VectorXd increment_;  ///< of q and v
+};
+
+}  // namespace whirl_twin

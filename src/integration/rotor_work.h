@@ -1,0 +1,83 @@
+// The work done on a linear rotor during a step of a run-up,
+//
+//   dh/dt = q'^T (f - C q' - N q) + a q^T (dK/dw) q / 2,
+//
+// by five-point Gauss quadrature (order 10). Only the deflections z = L^T q in which forces act and
+// dampers move do work, often a few of many; between the ends of the step they follow the
+// polynomial of degree seven that has their values and first three derivatives at both ends. What
+// that leaves open is (w h)^8 / 1e7 of the work at a frequency w.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "control/drive.h"
+#include "integration/packed_matrix.h"
+#include "integration/rotor_map.h"
+#include "integration/shaft_nodes.h"
+#include "mechanics/linear_rotor.h"
+
+namespace whirl_twin {
+
+/// The matrices of a cell of speeds as polynomials of s = (w - centre) / half_width.
+struct RotorWorkCell {
+  using Polynomial = std::array<Eigen::MatrixXd, 3>;
+
+  double centre = 0.0;      ///< [rad/s]
+  double half_width = 1.0;  ///< [rad/s]
+  /// From the inputs x, s x, s^2 x, a x, 2 s a x of the state x = (q, v), a = acceleration /
+  /// half_width, then p, s p, s^2 p of the phasors p and 1, then p' to z, h z', h^2 z'', h^3 z'''.
+  PackedMatrix end;
+  Polynomial damping, circulatory, stiffness_slope;  ///< L^T C L, L^T N L, L^T (dK/dw) L
+  std::size_t damping_terms = 0, circulatory_terms = 0, stiffness_slope_terms = 0;
+};
+
+class RotorWork {
+ public:
+  RotorWork() = default;
+  RotorWork(const LinearRotor& rotor, const std::vector<ForceChannel>& channels, double h,
+            const std::pair<double, double>& speeds);
+
+  RotorWorkCell cell(const LinearRotor& rotor, double low, double high) const;
+
+  // Real-time safe.
+
+  /// The state no longer follows from the last step.
+  void restart() noexcept { continued_ = false; }
+  /// The state (q, v) before the step that starts at offset [s].
+  void start(const RotorWorkCell& cell, const Drive& drive, double offset,
+             const Eigen::Ref<const Eigen::VectorXd>& state) noexcept;
+  /// [J], with the state after it; `nodes` of the same step.
+  double work(const RotorWorkCell& cell, const Drive& drive, double offset, const ShaftNodes& nodes,
+              const Eigen::Ref<const Eigen::VectorXd>& state) noexcept;
+
+ private:
+  using Weights = Eigen::Matrix<double, 8, 2>;
+
+  void evaluate(const RotorWorkCell& cell, const ShaftMotion& shaft,
+                const Eigen::Ref<const Eigen::VectorXd>& state, Eigen::VectorXd& end) noexcept;
+  void takeJump(const Drive& drive, double offset, double corner) noexcept;
+  Weights weightsAt(double tau) const noexcept;
+  void deflectionAt(double tau, const Weights& weights, double corner) noexcept;
+  double power(const RotorWorkCell& cell, const ShaftNode& node) noexcept;
+  void setPhasors(const ShaftMotion& shaft, double* phasors, double* rates) const noexcept;
+
+  double h_ = 0.0;
+  std::vector<ForceChannel> channels_;
+  Eigen::MatrixXd basis_;  ///< L [n x size], orthonormal columns
+  Eigen::MatrixXd force_;  ///< L^T F of every channel, real and minus imaginary, a column each
+  Eigen::MatrixXd acceleration_by_force_;  ///< L^T M^-1 F likewise, and that of the load
+  Eigen::Matrix<double, 8, 8> hermite_;    ///< powers of tau as weights of the data at the ends
+  std::array<Weights, ShaftNodes::kNodes.size()> weights_;  ///< at the nodes of a plain step
+  // Room for a step.
+  Eigen::VectorXd from_, to_;  ///< z and its derivatives at the ends
+  bool continued_ = false;     ///< from_ may be taken from the last step
+  double last_acceleration_ = 0.0, last_jerk_ = 0.0;
+  Eigen::VectorXd jump_;  ///< h^2 z'' and h^3 z''', at a corner
+  Eigen::VectorXd inputs_, phasors_, rates_;
+  Eigen::VectorXd z_, z_rate_, pull_;
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,89 @@
+#include "scene/linear_rotor_system.h"
+
+#include <algorithm>
+
+#include "integration/exponential.h"
+#include "scene/finite.h"
+
+namespace whirl_twin {
+
+LinearRotorSystem::LinearRotorSystem(std::shared_ptr<const Dynamics> dynamics, const Drive& drive,
+                                     double step, int substeps)
+    : LinearRotorSystem(std::move(dynamics), drive, step, substeps, drive.speedRange(),
+                        drive.constantSpeeds()) {}
+
+LinearRotorSystem::LinearRotorSystem(std::shared_ptr<const Dynamics> dynamics, const Drive& drive,
+                                     double step, int substeps,
+                                     const std::pair<double, double>& speeds,
+                                     std::vector<double> constant_speeds)
+    : dynamics_(std::move(dynamics)),
+      drive_(drive),
+      step_(step),
+      substeps_(substeps),
+      constant_speeds_(std::move(constant_speeds)),
+      method_(dynamics_->linearRotor(), step / substeps, speeds, constant_speeds_),
+      state_(dynamics_->dof()),
+      next_(dynamics_->dof()) {}
+
+StepStatus LinearRotorSystem::step(double) noexcept {
+  next_ = state_;
+  for (int i = 0; i < substeps_; ++i) {
+    const StepStatus status = method_.advance(drive_, i * (step_ / substeps_), next_);
+    if (status != StepStatus::kOk) {
+      return status;
+    }
+  }
+  bool finite = isFinite(next_.work.high);
+  for (Eigen::Index i = 0; i < next_.q.size(); ++i) {
+    finite = finite && isFinite(next_.q[i]) && isFinite(next_.v[i]);
+  }
+  if (!finite) {
+    return StepStatus::kNotFinite;
+  }
+  state_ = next_;
+  return StepStatus::kOk;
+}
+
+void LinearRotorSystem::write(double* out) const noexcept {
+  out = std::copy_n(state_.q.data(), state_.q.size(), out);
+  out = std::copy_n(state_.v.data(), state_.v.size(), out);
+  *out = state_.work.high;
+}
+
+void LinearRotorSystem::set(const double* q, const double* v) noexcept {
+  std::copy_n(q, state_.q.size(), state_.q.data());
+  std::copy_n(v, state_.v.size(), state_.v.data());
+  state_.q_low.setZero();
+  state_.v_low.setZero();
+  state_.work = CompensatedSum{};
+  method_.restart();
+}
+
+std::unique_ptr<System> LinearRotorSystem::readyFor(double lowest_speed,
+                                                    double highest_speed) const {
+  std::vector<double> constant_speeds = constant_speeds_;
+  for (const double speed : {lowest_speed, highest_speed}) {
+    if (std::find(constant_speeds.begin(), constant_speeds.end(), speed) == constant_speeds.end()) {
+      constant_speeds.push_back(speed);
+    }
+  }
+  const bool covered =
+      method_.lowestSpeed() <= lowest_speed && method_.highestSpeed() >= highest_speed;
+  if (covered && constant_speeds.size() == constant_speeds_.size()) {
+    return nullptr;
+  }
+  const std::pair<double, double> speeds{std::min(lowest_speed, method_.lowestSpeed()),
+                                         std::max(highest_speed, method_.highestSpeed())};
+  return std::unique_ptr<System>(new LinearRotorSystem(dynamics_, drive_, step_, substeps_, speeds,
+                                                       std::move(constant_speeds)));
+}
+
+ModelSetup linearRotorSetup(std::shared_ptr<const Dynamics> dynamics) {
+  return {dynamics,
+          {Exponential<1>::kName},
+          [dynamics](const std::string&, const Drive& drive, double step, int substeps) {
+            return std::make_unique<LinearRotorSystem>(dynamics, drive, step, substeps);
+          }};
+}
+
+}  // namespace whirl_twin
