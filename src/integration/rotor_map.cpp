@@ -24,6 +24,25 @@ MatrixXd columns(const ForceChannel& channel) {
   return c;
 }
 
+/// e^X - I as matrix_exponential.h makes it, but its series in powers of X^4 (Paterson and
+/// Stockmeyer, SIAM J. Computing 2, 1973): six products instead of fifteen, for large matrices.
+MatrixXd largeExponentialLessIdentity(const MatrixXd& X) {
+  const int s = halvings<Eigen::Dynamic>(X);
+  const MatrixXd x = std::ldexp(1.0, -s) * X;
+  const MatrixXd x2 = x * x;
+  const MatrixXd x3 = x2 * x;
+  const MatrixXd x4 = x2 * x2;
+  MatrixXd e = MatrixXd::Zero(x.rows(), x.cols());
+  for (const int first : {13, 9, 5, 1}) {
+    const auto term = [first](int k) { return 1.0 / std::tgamma(first + k + 1.0); };
+    e = (x4 * e).eval() + term(0) * x + term(1) * x2 + term(2) * x3 + term(3) * x4;
+  }
+  for (int i = 0; i < s; ++i) {
+    e = (e * e + 2.0 * e).eval();
+  }
+  return e;
+}
+
 }  // namespace
 
 std::vector<ForceChannel> forceChannels(const LinearRotor& rotor) {
@@ -88,7 +107,7 @@ RotorMap::RotorMap(const LinearRotor& rotor, const std::vector<ForceChannel>& ch
 }
 
 MatrixXd RotorMap::increment() const {
-  const MatrixXd e = exponentialLessIdentity<Eigen::Dynamic>(MatrixXd(h_ * a_));
+  const MatrixXd e = largeExponentialLessIdentity(h_ * a_);
   return unscale_.topLeftCorner(2 * n_, 2 * n_) * e.topRows(2 * n_) * scale_;
 }
 

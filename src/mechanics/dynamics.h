@@ -38,7 +38,8 @@ class Dynamics {
   virtual bool speedDependent() const = 0;    ///< the matrices of a linear model change with speed
   virtual double unbalanceAngle() const = 0;  ///< [rad], of a rotor's unbalance from the mark
   virtual double naturalLength() const = 0;   ///< [m], scale of the sliding coordinates
-  /// The same system without the loads that alternate: its equilibria are those at rest.
+  /// The same system without the loads that alternate and, of a rotor, without what turns with the
+  /// shaft: its equilibria are those at rest.
   virtual const Dynamics& atMeanLoad() const = 0;
 
   virtual Eigen::VectorXd acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
@@ -84,14 +85,21 @@ class Dynamics {
 template <class Model, class = void>
 struct RotorTraits {
   static constexpr bool kRotor = false;
-  static bool speedDependent(const Model&) { return false; }
   static double unbalanceAngle(const Model&) { return 0.0; }
 };
 template <class Model>
 struct RotorTraits<Model, std::void_t<decltype(&Model::unbalanceAngle)>> {
   static constexpr bool kRotor = true;
-  static bool speedDependent(const Model& m) { return m.speedDependent(); }
   static double unbalanceAngle(const Model& m) { return m.unbalanceAngle(); }
+};
+
+template <class Model, class = void>
+struct SpeedDependence {
+  static bool of(const Model&) { return false; }
+};
+template <class Model>
+struct SpeedDependence<Model, std::void_t<decltype(&Model::speedDependent)>> {
+  static bool of(const Model& m) { return m.speedDependent(); }
 };
 
 template <class Model, class = void>
@@ -107,6 +115,12 @@ template <class Model, class = void>
 struct HasAlternatingLoads : std::false_type {};
 template <class Model>
 struct HasAlternatingLoads<Model, std::void_t<decltype(&Model::atMeanLoad)>> : std::true_type {};
+
+/// An unbalance or a bow: balanced() is the model without.
+template <class Model, class = void>
+struct HasUnbalance : std::false_type {};
+template <class Model>
+struct HasUnbalance<Model, std::void_t<decltype(&Model::balanced)>> : std::true_type {};
 
 template <class Model, class = void>
 struct HasReactions : std::false_type {};
@@ -146,6 +160,10 @@ class LagrangianDynamics final : public Dynamics {
       if (loads == Loads::kAll) {
         at_mean_load_ = std::make_unique<LagrangianDynamics>(model.atMeanLoad(), Loads::kMean);
       }
+    } else if constexpr (HasUnbalance<Model>::value) {
+      if (loads == Loads::kAll) {
+        at_mean_load_ = std::make_unique<LagrangianDynamics>(model.balanced(), Loads::kMean);
+      }
     }
   }
 
@@ -161,7 +179,7 @@ class LagrangianDynamics final : public Dynamics {
   bool linear() const override { return Model::kLinear; }
   bool hasShaft() const override { return Model::kHasShaft; }
   bool isRotor() const override { return RotorTraits<Model>::kRotor; }
-  bool speedDependent() const override { return RotorTraits<Model>::speedDependent(model_); }
+  bool speedDependent() const override { return SpeedDependence<Model>::of(model_); }
   double unbalanceAngle() const override { return RotorTraits<Model>::unbalanceAngle(model_); }
   double naturalLength() const override { return NaturalLength<Model>::of(model_); }
   const Dynamics& atMeanLoad() const override { return at_mean_load_ ? *at_mean_load_ : *this; }
@@ -253,7 +271,7 @@ class LagrangianDynamics final : public Dynamics {
   }
 
   Model model_;
-  std::unique_ptr<const LagrangianDynamics> at_mean_load_;  // none: it has no alternating loads
+  std::unique_ptr<const LagrangianDynamics> at_mean_load_;  // none: nothing to leave out
 };
 
 }  // namespace whirl_twin

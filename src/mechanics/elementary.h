@@ -11,6 +11,7 @@
 namespace whirl_twin {
 
 // Energies are written once for every number type, plain doubles among them.
+using std::atan;
 using std::cos;
 using std::sin;
 using std::sqrt;
@@ -48,6 +49,12 @@ WHIRL_TWIN_INLINE Jet<B> tanhJet(const B& x) {
   const B t = tanh(x);
   const B slope = 1.0 - t * t;
   return {t, slope, -2.0 * t * slope};
+}
+
+template <class B>
+WHIRL_TWIN_INLINE Jet<B> atanJet(const B& x) {
+  const B slope = 1.0 / (1.0 + x * x);
+  return {atan(x), slope, -2.0 * x * slope * slope};
 }
 
 template <class B>

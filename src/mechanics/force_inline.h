@@ -1,14 +1,22 @@
 // Inlining is what makes derived equations of motion as fast as hand-written ones: with every dual
 // operation visible the compiler deletes the terms whose seeds are literal zeros. Loops over the
 // directions hide them from it until too late: they are written out instead.
+// Where the equations are long and their terms all alive (a bearing's film, a spin that is a state)
+// that would take minutes and gigabytes to compile and bring nothing: their translation units
+// define WHIRL_TWIN_LONG_EQUATIONS and leave inlining to the compiler.
 #pragma once
 
 #include <cstddef>
 #include <type_traits>
 #include <utility>
 
+#ifdef WHIRL_TWIN_LONG_EQUATIONS
+#define WHIRL_TWIN_INLINE inline
+#define WHIRL_TWIN_FLAT
+#else
 #define WHIRL_TWIN_INLINE inline __attribute__((always_inline))
 #define WHIRL_TWIN_FLAT __attribute__((always_inline))
+#endif
 
 namespace whirl_twin {
 

@@ -74,10 +74,17 @@ struct Gradient {
   friend WHIRL_TWIN_INLINE Gradient operator-(const Gradient& a, double b) { return a + (-b); }
   friend WHIRL_TWIN_INLINE Gradient operator-(double a, const Gradient& b) { return (-b) + a; }
 
+  // A law of several branches chooses by the value.
+  friend WHIRL_TWIN_INLINE bool operator<(const Gradient& a, double b) { return a.value < b; }
+  friend WHIRL_TWIN_INLINE bool operator>(const Gradient& a, double b) { return a.value > b; }
+  friend WHIRL_TWIN_INLINE bool operator<=(const Gradient& a, double b) { return a.value <= b; }
+  friend WHIRL_TWIN_INLINE bool operator>=(const Gradient& a, double b) { return a.value >= b; }
+
   friend WHIRL_TWIN_INLINE Gradient sin(const Gradient& x) { return x.through(sinJet(x.value)); }
   friend WHIRL_TWIN_INLINE Gradient cos(const Gradient& x) { return x.through(cosJet(x.value)); }
   friend WHIRL_TWIN_INLINE Gradient sqrt(const Gradient& x) { return x.through(sqrtJet(x.value)); }
   friend WHIRL_TWIN_INLINE Gradient tanh(const Gradient& x) { return x.through(tanhJet(x.value)); }
+  friend WHIRL_TWIN_INLINE Gradient atan(const Gradient& x) { return x.through(atanJet(x.value)); }
 };
 
 }  // namespace whirl_twin

@@ -156,6 +156,9 @@ struct LagrangianDual {
   friend WHIRL_TWIN_INLINE LagrangianDual tanh(const LagrangianDual& x) {
     return x.through(tanhJet(x.value));
   }
+  friend WHIRL_TWIN_INLINE LagrangianDual atan(const LagrangianDual& x) {
+    return x.through(atanJet(x.value));
+  }
 };
 
 }  // namespace whirl_twin

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+
+#include "scene/parameter_paths.h"
 
 namespace whirl_twin {
 
@@ -31,6 +34,7 @@ std::vector<std::string> systemNames(const Scene& scene) {
 TwinMonitor::Watch::Watch(const Twin::Member& member, std::string drive_name,
                           const AlarmSettings& settings)
     : judge(member),
+      dynamics(member.dynamics),
       rotor(member.dynamics->isRotor()),
       dof(member.spec.q.size()),
       drive(std::move(drive_name)),
@@ -38,7 +42,8 @@ TwinMonitor::Watch::Watch(const Twin::Member& member, std::string drive_name,
       critical_speed_alarm(member.spec.name, settings),
       stability_alarm(member.spec.name, settingsFor(*member.dynamics, settings)),
       state_alarm(member.spec.name, settings),
-      validity_alarm(member.spec.name, member.dynamics, settings) {}
+      validity_alarm(member.spec.name, member.dynamics, settings),
+      spec(member.spec) {}
 
 TwinMonitor::TwinMonitor(const Scene& scene, const AlarmSettings& settings)
     : twin_(scene), settings_(settings), data_lost_alarm_(systemNames(scene), settings) {
@@ -58,11 +63,35 @@ void TwinMonitor::restart() {
     watch.stability_alarm =
         StabilityAlarm(watch.judge.system(), settingsFor(*twin_.members()[i].dynamics, settings_));
     watch.state_alarm = StateAlarm(watch.judge.system(), settings_);
-    watch.validity_alarm =
-        ValidityAlarm(watch.judge.system(), twin_.members()[i].dynamics, settings_);
+    watch.validity_alarm = ValidityAlarm(watch.judge.system(), watch.dynamics, settings_);
     watch.judged = false;
   }
   newest_.clear();
+}
+
+bool TwinMonitor::take(const state::ParameterChange& change) {
+  Watch* watch = find(change.system);
+  if (watch == nullptr) {
+    return false;
+  }
+  const auto system = static_cast<std::size_t>(watch - watches_.data());
+  const ModelInfo& model = *twin_.members()[system].model;
+  SystemSpec spec = watch->spec;
+  if (!takeParameters(change, model, spec)) {
+    return false;
+  }
+  if (change.values == parametersOf(model, watch->spec).values) {
+    return true;
+  }
+  try {
+    watch->next = twin_.changed(system, spec);
+  } catch (const std::exception&) {
+    return false;  // values that the model refuses
+  }
+  watch->spec = spec;
+  watch->dynamics = watch->next->dynamics;
+  watch->validity_alarm.setDynamics(watch->dynamics);
+  return true;
 }
 
 TwinMonitor::Watch* TwinMonitor::find(const std::string& system) {
@@ -100,6 +129,10 @@ void TwinMonitor::judge(Watch& watch, const state::Instant& at, const std::vecto
       (std::fabs(watch.speed) > threshold) != (std::fabs(watch.judged_speed) > threshold);
   if (watch.judged && !passed && at.time < watch.judged_at + kJudgingPeriod * (1.0 - 1.0e-9)) {
     return;
+  }
+  if (watch.next) {  // not before: a ramp changes parameters more often than they are judged
+    watch.judge = SystemJudge(*watch.next);
+    watch.next.reset();
   }
   const state::StabilityMargin margin = watch.judge.judge(at, q, v, watch.speed);
   watch.judged = true;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <map>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,9 @@ class TwinMonitor {
   void take(const state::WhirlState& whirl, double wall_time);
   void take(const state::PendulumState& pendulum, double wall_time);
   void take(const state::DriveState& drive, double wall_time);
+  /// The parameters of a system are others now; margins follow with the next that is judged. False
+  /// for a set that the system does not have, or cannot have.
+  bool take(const state::ParameterChange& change);
   /// Wall time passes though nothing may arrive, to be called a few times a second; paused: the
   /// simulation says that it is held.
   void tick(double wall_time, bool paused);
@@ -44,6 +49,7 @@ class TwinMonitor {
     Watch(const Twin::Member& member, std::string drive, const AlarmSettings& settings);
 
     SystemJudge judge;
+    std::shared_ptr<const Dynamics> dynamics;
     bool rotor;
     std::size_t dof;
     std::string drive;  ///< "" at a constant speed of its own
@@ -52,6 +58,8 @@ class TwinMonitor {
     StabilityAlarm stability_alarm;
     StateAlarm state_alarm;
     ValidityAlarm validity_alarm;
+    SystemSpec spec;                   ///< with its parameters as they are now
+    std::optional<Twin::Member> next;  ///< with changed parameters, to be judged from now on
     bool judged = false;
     double judged_at = 0.0;     ///< [s], simulated
     double judged_speed = 0.0;  ///< [rad/s]

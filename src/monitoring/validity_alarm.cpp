@@ -15,6 +15,11 @@ ValidityAlarm::ValidityAlarm(std::string system, std::shared_ptr<const Dynamics>
       has_conditions_(hasConditions(*dynamics_)),
       alarm_(settings.clear_delay) {}
 
+void ValidityAlarm::setDynamics(std::shared_ptr<const Dynamics> dynamics) {
+  dynamics_ = std::move(dynamics);
+  has_conditions_ = hasConditions(*dynamics_);
+}
+
 void ValidityAlarm::update(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                            const Moment<double>& at, AlertList& alerts) {
   if (!has_conditions_) {

@@ -17,6 +17,8 @@ class ValidityAlarm {
   ValidityAlarm(std::string system, std::shared_ptr<const Dynamics> dynamics,
                 const AlarmSettings& settings);
 
+  /// The parameters of the system have changed.
+  void setDynamics(std::shared_ptr<const Dynamics> dynamics);
   /// The state at at.time [s, simulated].
   void update(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Moment<double>& at,
               AlertList& alerts);

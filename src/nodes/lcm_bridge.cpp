@@ -81,8 +81,16 @@ void LcmBridge::publishState(const state::DriveState& drive) {
   publishOn("drives/" + drive.drive, toRos(drive));
 }
 
+void LcmBridge::publishState(const state::MotorState& motor) {
+  publishOn("drives/" + motor.drive + "/motor", toRos(motor));
+}
+
 void LcmBridge::publishState(const state::StabilityMargin& margin) {
   publishOn(margin.system + "/stability", toRos(margin));
+}
+
+void LcmBridge::publishState(const state::ParameterChange& change) {
+  publishOn(change.system + "/parameters", toRos(change), true);
 }
 
 void LcmBridge::publishState(const state::Alert& alert) {
@@ -104,10 +112,10 @@ void LcmBridge::publishState(const state::Alert& alert) {
 }
 
 template <class Message>
-void LcmBridge::publishOn(const std::string& topic, const Message& message) {
+void LcmBridge::publishOn(const std::string& topic, const Message& message, bool latched) {
   auto [place, is_new] = publishers_.try_emplace(topic);
   if (is_new) {
-    place->second = twin_.advertise<Message>(topic, kQueueSize);
+    place->second = twin_.advertise<Message>(topic, kQueueSize, latched);
     if (place->second) {
       awaitSubscribers(place->second);
     }

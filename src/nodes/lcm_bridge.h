@@ -28,11 +28,13 @@ class LcmBridge {
   void publishState(const state::WhirlState& whirl);
   void publishState(const state::PendulumState& pendulum);
   void publishState(const state::DriveState& drive);
+  void publishState(const state::MotorState& motor);
   void publishState(const state::StabilityMargin& margin);
+  void publishState(const state::ParameterChange& change);
   void publishState(const state::Alert& alert);
 
   template <class Message>
-  void publishOn(const std::string& topic, const Message& message);
+  void publishOn(const std::string& topic, const Message& message, bool latched = false);
 
   ros::NodeHandle twin_;
   std::map<std::string, ros::Publisher> publishers_;

@@ -9,6 +9,7 @@
 #include <deque>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mechanics/dynamics.h"
@@ -25,6 +26,9 @@ class MechanismDisplay : public SystemDisplay {
 
   /// @param name of the system  @param dynamics of its model; null: not known
   MechanismDisplay(std::string name, std::shared_ptr<const Dynamics> dynamics);
+
+  /// The model with other parameters, of the same coordinates.
+  void setDynamics(std::shared_ptr<const Dynamics> dynamics) { dynamics_ = std::move(dynamics); }
 
   /// Takes the next state; cheap enough for every step of the twin. A state that is not finite, or
   /// is not one of this model, leaves the picture as it was.

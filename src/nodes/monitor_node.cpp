@@ -133,6 +133,9 @@ class MonitorNode {
         subscribeTo<PendulumState>(member.spec.name + "/pendulum");
       }
     }
+    for (const Twin::Member& member : twin.members()) {
+      subscribeTo<ParameterChange>(member.spec.name + "/parameters");
+    }
     for (const DriveSpec& drive : scene_.drives) {
       subscribeTo<DriveState>("drives/" + drive.name);
     }
@@ -141,7 +144,8 @@ class MonitorNode {
   void receive(const std::string& url) {
     receiver_ = std::make_unique<LcmReceiver>(
         openLcm(url),
-        std::vector<ChannelKind>{ChannelKind::kWhirl, ChannelKind::kPendulum, ChannelKind::kDrive},
+        std::vector<ChannelKind>{ChannelKind::kWhirl, ChannelKind::kPendulum, ChannelKind::kDrive,
+                                 ChannelKind::kParameter},
         [this](const TwinState& state) {
           std::visit([this](const auto& s) { takeState(s); }, state);
         });
@@ -151,6 +155,14 @@ class MonitorNode {
     newest_arrival_ = wallTime();
     monitor_.take(s, newest_arrival_);
   }
+  void takeState(const state::ParameterChange& change) {
+    if (!monitor_.take(change)) {
+      ++rejected_;
+      ROS_WARN("rejected: parameters of '%s' that are not those of the scene",
+               change.system.c_str());
+    }
+  }
+  void takeState(const state::MotorState&) {}
   void takeState(const state::StabilityMargin&) {}
   void takeState(const state::Alert&) {}
 

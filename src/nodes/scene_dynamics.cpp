@@ -2,10 +2,12 @@
 
 #include <ros/ros.h>
 
+#include <exception>
+
 #include "nodes/scene_parameters.h"
 #include "nodes/twin_listener.h"
+#include "scene/parameter_paths.h"
 #include "scene/scene_reader.h"
-#include "scene/twin.h"
 
 namespace whirl_twin {
 
@@ -18,12 +20,13 @@ bool SceneDynamics::refresh() {
   }
   tree_ = found;
   systems_.clear();
+  twin_.reset();
   if (tree_.empty()) {
     return true;
   }
   try {
-    const Twin twin(sceneFromParameters(node, "scene"));
-    for (const Twin::Member& member : twin.members()) {
+    twin_ = std::make_unique<Twin>(sceneFromParameters(node, "scene"));
+    for (const Twin::Member& member : twin_->members()) {
       systems_[member.spec.name] = {member.spec, member.dynamics};
     }
   } catch (const SceneError& error) {
@@ -31,6 +34,30 @@ bool SceneDynamics::refresh() {
              error.what());
   }
   return true;
+}
+
+bool SceneDynamics::take(const ParameterChange& change) {
+  const auto found = systems_.find(change.header.frame_id);
+  if (found == systems_.end()) {
+    return false;
+  }
+  state::ParameterChange set;
+  set.system = change.header.frame_id;
+  set.names = change.names;
+  set.values = change.values;
+  for (std::size_t i = 0; i < twin_->members().size(); ++i) {
+    const Twin::Member& member = twin_->members()[i];
+    SystemSpec spec = member.spec;
+    if (spec.name == set.system && takeParameters(set, *member.model, spec)) {
+      try {
+        found->second = {spec, twin_->changed(i, spec).dynamics};
+        return true;
+      } catch (const std::exception&) {
+        return false;  // values that the model refuses
+      }
+    }
+  }
+  return false;
 }
 
 std::shared_ptr<const Dynamics> SceneDynamics::dynamics(const std::string& system) const {

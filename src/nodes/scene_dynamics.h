@@ -7,8 +7,9 @@
 #include <string>
 
 #include "mechanics/dynamics.h"
-#include "scene/scene.h"
+#include "scene/twin.h"
 #include "whirl_twin/DriveState.h"
+#include "whirl_twin/ParameterChange.h"
 
 namespace whirl_twin {
 
@@ -16,6 +17,9 @@ class SceneDynamics {
  public:
   /// Reads the scene; true if it is not the one that was there before.
   bool refresh();
+
+  /// Takes over changed parameters; false if they are not of this scene.
+  bool take(const ParameterChange& change);
 
   /// The model of a system; null if it is not known.
   std::shared_ptr<const Dynamics> dynamics(const std::string& system) const;
@@ -34,6 +38,7 @@ class SceneDynamics {
   };
 
   std::string tree_;  // of parameters, as they were read last
+  std::unique_ptr<Twin> twin_;
   std::map<std::string, Entry> systems_;
 };
 

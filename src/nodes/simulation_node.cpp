@@ -34,6 +34,8 @@ constexpr double kSlowestRate = 1.0e-3;         // Hz, of publication
 constexpr std::int64_t kShortestStep = 10'000;  // ns, that the fixed-rate loop takes
 constexpr auto kClockPausePeriod = std::chrono::milliseconds(100);
 constexpr auto kReportPeriod = std::chrono::seconds(1);
+constexpr double kServicePoll = 0.05;  // s
+constexpr double kRampPoll = 0.002;    // s
 
 std::int64_t clockNow(clockid_t clock) {
   timespec now{};
@@ -84,7 +86,7 @@ class Publisher {
             const Settings& settings)
       : live_(live),
         loop_(loop),
-        observer_(live.twin()),
+        observer_(live.twin(), live.generations()),
         states_(live.twin(), node, settings.lcm_url, settings.clock),
         statistics_(node.advertise<LoopStatistics>("loop", 10, true)),
         clock_(settings.clock),
@@ -145,7 +147,8 @@ class Publisher {
     const Scene& scene = live_.twin().scene();
     observer_.setStamp(clock_ ? scene.time + observer_.step() * scene.step
                               : epoch_ + unpacked(record[RecordLayout::kScheduled]));
-    if (observer_.step() % every_ == 0) {
+    states_.publishParameters(observer_);
+    if (observer_.step() % every_ == 0 && !observer_.tellsOnlyChange()) {
       states_.publish(observer_);
     }
     bool stopped_now = false;
@@ -197,8 +200,8 @@ void run() {
   LiveTwin live(scene, std::min<std::size_t>(capacity, 100'000));
   FixedRateLoop loop(settings.loop);
   Publisher publisher(live, loop, node, settings);
-  const TwinServices services(live, private_node,
-                              [&] { return !stopRequested() && ros::ok() && loop.running(); });
+  TwinServices services(live, private_node,
+                        [&] { return !stopRequested() && ros::ok() && loop.running(); });
 
   diagnostic_updater::Updater diagnostics;
   diagnostics.setHardwareID("none");
@@ -223,7 +226,9 @@ void run() {
   // Wall time: simulated time stands still in a pause and goes back in a reset.
   auto next_report = std::chrono::steady_clock::now();
   while (!stopRequested() && ros::ok() && loop.running()) {
-    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.05));
+    ros::getGlobalCallbackQueue()->callAvailable(
+        ros::WallDuration(services.ramping() ? kRampPoll : kServicePoll));
+    services.continueRamps();
     if (std::chrono::steady_clock::now() >= next_report) {
       next_report = std::chrono::steady_clock::now() + kReportPeriod;
       diagnostics.force_update();

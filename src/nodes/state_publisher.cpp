@@ -3,6 +3,7 @@
 #include <rosgraph_msgs/Clock.h>
 #include <sensor_msgs/JointState.h>
 
+#include <cmath>
 #include <cstdlib>
 
 #include "transport/ros_converters.h"
@@ -13,6 +14,7 @@ namespace {
 
 constexpr std::uint32_t kQueue = 2000;            // two seconds at 1 kHz
 constexpr std::int64_t kClockPeriod = 4'000'000;  // ns, simulated: 250 Hz
+constexpr double kParameterPeriod = 10.0;         // s, simulated, on LCM
 
 }  // namespace
 
@@ -22,13 +24,18 @@ StatePublisher::StatePublisher(const Twin& twin, ros::NodeHandle node, const std
   for (const Twin::Member& member : twin.members()) {
     const std::string& name = member.spec.name;
     Topics topics;
-    topics.state = member.dynamics->isRotor() ? node.advertise<WhirlState>(name + "/whirl", kQueue)
-                                       : node.advertise<PendulumState>(name + "/pendulum", kQueue);
+    topics.state = member.dynamics->isRotor()
+                       ? node.advertise<WhirlState>(name + "/whirl", kQueue)
+                       : node.advertise<PendulumState>(name + "/pendulum", kQueue);
     topics.joint_states = node.advertise<sensor_msgs::JointState>(name + "/joint_states", kQueue);
+    topics.parameters = node.advertise<ParameterChange>(name + "/parameters", kQueue, true);
     systems_.push_back(topics);
   }
   for (const DriveSpec& drive : twin.scene().drives) {
     drives_.push_back(node.advertise<DriveState>("drives/" + drive.name, kQueue));
+    motors_.push_back(drive.motor
+                          ? node.advertise<MotorState>("drives/" + drive.name + "/motor", kQueue)
+                          : ros::Publisher());
   }
   if (clock) {
     clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", 10);
@@ -50,11 +57,49 @@ void StatePublisher::publish(const Observer& observer) {
         drives_[i].publish(toRos(drive));
       }
     }
+    if (motors_[i] && observer.status(twin_.turnedBy(i)) == StepStatus::kOk) {
+      publishMotor(observer, i);
+    }
   }
   const std::int64_t time = clockTime(observer);
   if (clock_ && std::abs(time - last_clock_) >= kClockPeriod) {
     publishClock(observer);
     last_clock_ = time;
+  }
+}
+
+void StatePublisher::publishMotor(const Observer& observer, std::size_t drive) {
+  const bool wanted = motors_[drive].getNumSubscribers() > 0;
+  if (!wanted && !lcm_.on()) {
+    return;
+  }
+  const state::MotorState motor = observer.motor(drive);
+  lcm_.publish(motor);
+  if (wanted) {
+    motors_[drive].publish(toRos(motor));
+  }
+}
+
+void StatePublisher::publishParameters(const Observer& observer) {
+  for (std::size_t i = 0; i < systems_.size(); ++i) {
+    Topics& topics = systems_[i];
+    const double time = observer.moment(i).time;
+    if (observer.generation(i) != topics.generation) {
+      topics.generation = observer.generation(i);
+      const state::ParameterChange& now = observer.parameters(i);
+      // A system made ready for other speeds is a new generation with the same parameters.
+      if (topics.parameters_sent.system.empty() || now.values != topics.parameters_sent.values) {
+        topics.parameters_sent = now;
+        topics.parameters_sent.at = observer.instant();
+        topics.parameters.publish(toRos(topics.parameters_sent));
+        lcm_.publish(topics.parameters_sent);
+        topics.parameters_sent_at = time;
+      }
+    }
+    if (std::fabs(time - topics.parameters_sent_at) >= kParameterPeriod) {
+      lcm_.publish(topics.parameters_sent);
+      topics.parameters_sent_at = time;
+    }
   }
 }
 

@@ -17,6 +17,9 @@ class StatePublisher {
   /// Advertises every topic of the scene under `node`. clock: also /clock, at most at 250 Hz.
   StatePublisher(const Twin& twin, ros::NodeHandle node, const std::string& lcm_url, bool clock);
 
+  /// Publishes the parameters of the systems that have others than when last asked; on LCM, which
+  /// latches nothing, also from time to time.
+  void publishParameters(const Observer& observer);
   /// Publishes what the observer stands at. A system that has stopped is silent. Messages without
   /// a subscriber, and channels with LCM off, are not filled.
   void publish(const Observer& observer);
@@ -29,13 +32,19 @@ class StatePublisher {
   struct Topics {
     ros::Publisher state;  // whirl or pendulum
     ros::Publisher joint_states;
+    ros::Publisher parameters;
+    std::int64_t generation = -1;  // of the parameters published
+    state::ParameterChange parameters_sent;
+    double parameters_sent_at = 0.0;  // [s], simulated
   };
   std::int64_t clockTime(const Observer& observer) const;  // [ns], simulated
   void publishSystem(const Observer& observer, std::size_t system);
+  void publishMotor(const Observer& observer, std::size_t drive);
 
   const Twin& twin_;
   std::vector<Topics> systems_;
   std::vector<ros::Publisher> drives_;
+  std::vector<ros::Publisher> motors_;  // of the drives; null where there is none
   ros::Publisher clock_;
   std::int64_t last_clock_ = -1'000'000'000;  // [ns], simulated; before any
   LcmPublisher lcm_;

@@ -37,7 +37,7 @@ std::vector<TwinTopic> twinTopics(const ros::master::V_TopicInfo& all) {
     } else if (isType<DriveState>(info.datatype)) {
       topics.push_back({info.name, info.datatype, rest.substr(slash + 1)});
     } else if (isType<WhirlState>(info.datatype) || isType<PendulumState>(info.datatype) ||
-               isType<StabilityMargin>(info.datatype)) {
+               isType<StabilityMargin>(info.datatype) || isType<ParameterChange>(info.datatype)) {
       topics.push_back({info.name, info.datatype, rest.substr(0, slash)});
     }
   }
@@ -96,6 +96,13 @@ ros::Subscriber TwinListener::subscribe(const TwinTopic& topic) {
   if (isType<StabilityMargin>(topic.type)) {
     return listen<StabilityMargin>(topic, [this, subject](const StabilityMargin::ConstPtr& margin) {
       systems_[subject].margin = margin;
+    });
+  }
+  if (isType<ParameterChange>(topic.type)) {
+    return listen<ParameterChange>(topic, [this](const ParameterChange::ConstPtr& change) {
+      if (parameter_handler_) {
+        parameter_handler_(*change);
+      }
     });
   }
   if (isType<DriveState>(topic.type)) {

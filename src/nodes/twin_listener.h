@@ -12,6 +12,7 @@
 
 #include "whirl_twin/AlertArray.h"
 #include "whirl_twin/DriveState.h"
+#include "whirl_twin/ParameterChange.h"
 #include "whirl_twin/PendulumState.h"
 #include "whirl_twin/StabilityMargin.h"
 #include "whirl_twin/WhirlState.h"
@@ -42,11 +43,13 @@ class TwinListener {
  public:
   using WhirlHandler = std::function<void(const std::string& system, const WhirlState&)>;
   using PendulumHandler = std::function<void(const std::string& system, const PendulumState&)>;
+  using ParameterHandler = std::function<void(const ParameterChange&)>;
   using AlertHandler = std::function<void(const AlertArray&)>;
 
   /// Called with every state, in the spinner's thread; to be set before the first discover().
   void onWhirl(WhirlHandler handler) { whirl_handler_ = std::move(handler); }
   void onPendulum(PendulumHandler handler) { pendulum_handler_ = std::move(handler); }
+  void onParameters(ParameterHandler handler) { parameter_handler_ = std::move(handler); }
   void onAlerts(AlertHandler handler) { alert_handler_ = std::move(handler); }
 
   /// Asks the master and follows it. What has gone is forgotten once something else is there, so a
@@ -74,6 +77,7 @@ class TwinListener {
   ros::NodeHandle node_;
   WhirlHandler whirl_handler_;
   PendulumHandler pendulum_handler_;
+  ParameterHandler parameter_handler_;
   AlertHandler alert_handler_;
   struct Subscription {
     TwinTopic topic;

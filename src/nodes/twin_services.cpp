@@ -21,23 +21,30 @@ constexpr const char* kEnded = "the simulation is ending";
 }  // namespace
 
 TwinServices::TwinServices(LiveTwin& twin, ros::NodeHandle node, std::function<bool()> keep_waiting)
-    : twin_(twin), keep_waiting_(std::move(keep_waiting)) {
+    : twin_(twin),
+      keep_waiting_(std::move(keep_waiting)),
+      parameters_(twin, [this] { return wait(); }) {
   servers_ = {node.advertiseService("pause", &TwinServices::pause, this),
               node.advertiseService("resume", &TwinServices::resume, this),
               node.advertiseService("reset", &TwinServices::reset, this),
               node.advertiseService("step", &TwinServices::step, this),
-              node.advertiseService("set_speed", &TwinServices::setSpeed, this)};
+              node.advertiseService("set_speed", &TwinServices::setSpeed, this),
+              node.advertiseService("set_parameter", &TwinServices::setParameter, this)};
 }
 
-bool TwinServices::carryOut(const TwinCommand& command, TwinAnswer& answer) {
-  if (!twin_.send(command)) {
-    return false;
-  }
+bool TwinServices::wait() {
   while (twin_.carriedOut() < twin_.sent()) {
     if (!keep_waiting_()) {
       return false;
     }
     std::this_thread::sleep_for(std::chrono::microseconds(500));
+  }
+  return true;
+}
+
+bool TwinServices::carryOut(const TwinCommand& command, TwinAnswer& answer) {
+  if (!twin_.send(command) || !wait()) {
+    return false;
   }
   answer = twin_.answer();
   return true;
@@ -61,7 +68,11 @@ bool TwinServices::resume(Trigger::Request&, Trigger::Response& response) {
 }
 
 bool TwinServices::reset(Trigger::Request&, Trigger::Response& response) {
-  return trigger(TwinCommand::Kind::kReset, "reset, now", response);
+  trigger(TwinCommand::Kind::kReset, "reset to the scene's start and parameters, now", response);
+  if (response.success) {
+    parameters_.restored();
+  }
+  return true;
 }
 
 bool TwinServices::step(StepN::Request& request, StepN::Response& response) {
@@ -102,6 +113,11 @@ bool TwinServices::setSpeed(SetSpeed::Request& request, SetSpeed::Response& resp
                     near.empty() ? "" : fmt::format("; did you mean '{}'?", near));
     return true;
   }
+  if (found->motor) {
+    response.message = fmt::format("drive: {} is a motor: its speed is what its torque makes of it",
+                                   request.drive);
+    return true;
+  }
   if (const auto fault =
           faultOf({request.speed, request.max_acceleration, request.max_jerk, 0.0})) {
     response.message = fmt::format("{}, found {}", fault->expected, fault->found);
@@ -114,7 +130,8 @@ bool TwinServices::setSpeed(SetSpeed::Request& request, SetSpeed::Response& resp
   command.max_acceleration = request.max_acceleration;
   command.max_jerk = request.max_jerk;
   TwinAnswer answer;
-  if (!carryOut(command, answer)) {
+  if (!parameters_.prepareFor(command.drive, command.speed, command.max_jerk) ||
+      !carryOut(command, answer)) {
     response.message = kEnded;
     return true;
   }
@@ -125,6 +142,26 @@ bool TwinServices::setSpeed(SetSpeed::Request& request, SetSpeed::Response& resp
                                        request.speed, answer.duration)
                          : "the move cannot be made: it would last too long or run too fast";
   return true;
+}
+
+bool TwinServices::setParameter(SetParameter::Request& request, SetParameter::Response& response) {
+  ParameterRequest change{request.system, {request.parameter}, {request.value}, request.ramp};
+  change.names.insert(change.names.end(), request.further_parameters.begin(),
+                      request.further_parameters.end());
+  change.values.insert(change.values.end(), request.further_values.begin(),
+                       request.further_values.end());
+  const ParameterAnswer answer = parameters_.set(change);
+  response.success = answer.done;
+  response.message = answer.message;
+  response.previous = answer.done ? answer.previous.front() : std::nan("");
+  response.step = answer.step;
+  return true;
+}
+
+void TwinServices::continueRamps() {
+  for (const std::string& given_up : parameters_.continueRamps()) {
+    ROS_WARN("%s", given_up.c_str());
+  }
 }
 
 }  // namespace whirl_twin

@@ -4,11 +4,13 @@
 
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
+#include <whirl_twin/SetParameter.h>
 #include <whirl_twin/SetSpeed.h>
 #include <whirl_twin/StepN.h>
 
 #include <functional>
 
+#include "scene/live_parameters.h"
 #include "scene/live_twin.h"
 
 namespace whirl_twin {
@@ -18,6 +20,11 @@ class TwinServices {
   /// Advertises under `node`. A service waits for its command as long as keep_waiting() is true.
   TwinServices(LiveTwin& twin, ros::NodeHandle node, std::function<bool()> keep_waiting);
 
+  /// Changes of parameters that go in a ramp are under way: continueRamps() is to be called every
+  /// few milliseconds.
+  bool ramping() const { return parameters_.ramping(); }
+  void continueRamps();
+
  private:
   using Trigger = std_srvs::Trigger;
   bool pause(Trigger::Request&, Trigger::Response& response);
@@ -25,13 +32,17 @@ class TwinServices {
   bool reset(Trigger::Request&, Trigger::Response& response);
   bool step(StepN::Request& request, StepN::Response& response);
   bool setSpeed(SetSpeed::Request& request, SetSpeed::Response& response);
+  bool setParameter(SetParameter::Request& request, SetParameter::Response& response);
 
   bool trigger(TwinCommand::Kind kind, const char* done, Trigger::Response& response);
+  /// Until all that was sent is carried out; false when the loop ended first.
+  bool wait();
   /// Sends and waits; false when the loop ended first or takes no commands.
   bool carryOut(const TwinCommand& command, TwinAnswer& answer);
 
   LiveTwin& twin_;
   std::function<bool()> keep_waiting_;
+  LiveParameters parameters_;
   std::vector<ros::ServiceServer> servers_;
 };
 

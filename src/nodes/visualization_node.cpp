@@ -77,6 +77,7 @@ class VisualizationNode {
       const DriveState* drive = listener_.drive(scene_.driveOf(system));
       mechanismOf(system).update(state, scene_.shaft(system, state.time, drive));
     });
+    listener_.onParameters([this](const ParameterChange& change) { takeParameters(change); });
     discover();
     // Wall timers, so that the picture lives on while simulated time stands still.
     discover_timer_ =
@@ -93,6 +94,15 @@ class VisualizationNode {
                : mechanisms_.try_emplace(system, system, scene_.dynamics(system)).first->second;
   }
 
+  void takeParameters(const ParameterChange& change) {
+    const std::string system = change.header.frame_id;
+    parameters_[system] = change;
+    const auto mechanism = mechanisms_.find(system);
+    if (scene_.take(change) && mechanism != mechanisms_.end()) {
+      mechanism->second.setDynamics(scene_.dynamics(system));
+    }
+  }
+
   void discover() {
     listener_.discover();
     const auto gone = [this](const auto& entry) {
@@ -103,6 +113,9 @@ class VisualizationNode {
     }
     if (scene_.refresh()) {
       mechanisms_.clear();
+      for (const auto& [system, change] : parameters_) {  // latched: they came before
+        scene_.take(change);
+      }
     }
     for (auto it = mechanisms_.begin(); it != mechanisms_.end();) {
       it = gone(*it) ? mechanisms_.erase(it) : std::next(it);
@@ -152,6 +165,7 @@ class VisualizationNode {
   TwinListener listener_;
   std::map<std::string, RotorDisplay> rotors_;
   SceneDynamics scene_;
+  std::map<std::string, ParameterChange> parameters_;  // the latest of each system
   std::map<std::string, MechanismDisplay> mechanisms_;
   std::vector<std::string> drawn_;  // systems in the order of the last frame
   ros::Publisher publisher_;

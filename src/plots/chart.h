@@ -2,6 +2,7 @@
 // or several in rows and columns.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,11 +10,23 @@
 
 namespace whirl_twin {
 
+enum class Marks { kNone, kDots, kRings };
+
 /// A curve; x and y of equal length. A point that is not finite (on a logarithmic axis: not
 /// positive) breaks the line.
 struct Series {
-  std::string name;  ///< in the legend, which is there when a chart has several series
+  std::string name;  ///< in the legend, which is there for several names; "": not in it
   std::vector<double> x, y;
+  std::optional<Pen> pen = std::nullopt;  ///< none: the next colour of the palette
+  bool line = true;                       ///< a line through the points
+  Marks marks = Marks::kNone;             ///< at every point
+};
+
+/// A range of x with a ground of its own, behind everything.
+struct Band {
+  std::string name;  ///< in the legend; "": not in it
+  double low = 0.0, high = 0.0;
+  Ink ink;
 };
 
 struct ChartAxis {
@@ -34,7 +47,8 @@ struct Chart {
   std::vector<Series> series;
   std::vector<ReferenceLine> vertical;    ///< at an x
   std::vector<ReferenceLine> horizontal;  ///< at a y
-  bool equal_aspect = false;              ///< one unit is as long along x as along y; linear axes
+  std::vector<Band> bands;
+  bool equal_aspect = false;  ///< one unit is as long along x as along y; linear axes
 };
 
 struct Figure {

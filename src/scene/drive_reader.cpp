@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <vector>
 
 #include "control/drive.h"
+#include "control/motor.h"
 #include "control/speed_profile.h"
 
 namespace whirl_twin {
@@ -35,6 +37,62 @@ std::vector<SpeedMove> readProfile(const YAML::Node& list, const std::string& ke
   return profile;
 }
 
+std::vector<MotorPoint> readTable(const YAML::Node& list, const std::string& key,
+                                  Complaints& complaints) {
+  std::vector<MotorPoint> table;
+  if (!list.IsSequence() || list.size() < 2 || list.size() > Motor::kMostPoints) {
+    complaints.add(
+        key, fmt::format("must be a list of 2 to {} maps of speed and torque, found {}",
+                         Motor::kMostPoints,
+                         list.IsSequence() ? fmt::format("{} of them", list.size()) : shown(list)));
+    return table;
+  }
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const MapReader row(list[i], fmt::format("{}[{}]", key, i), {"speed", "torque"},
+                        "key of a motor's table", complaints);
+    MotorPoint point;
+    point.speed = row.numberBetween("speed", -kLargestSpeed, kLargestSpeed, "rad/s", std::nullopt);
+    point.torque = row.number("torque", Range::kAny, "N m", std::nullopt);
+    if (row.usable() && !table.empty() && !(point.speed > table.back().speed)) {
+      complaints.add(row.key("speed"), fmt::format("must be greater than the one before, {} rad/s, "
+                                                   "found {}",
+                                                   table.back().speed, point.speed));
+    }
+    table.push_back(point);
+  }
+  return table;
+}
+
+Motor readMotor(const YAML::Node& node, const std::string& key, Complaints& complaints) {
+  const MapReader map(node, key, {"torque", "stall_torque", "no_load_speed", "table", "drag"},
+                      "key of a motor", complaints);
+  Motor motor;
+  if (!map.usable()) {
+    return motor;
+  }
+  const bool falls = map.has("stall_torque") || map.has("no_load_speed");
+  if (map.has("torque") + falls + map.has("table") != 1) {
+    complaints.add(key,
+                   "must be one of {torque}, {stall_torque, no_load_speed} and {table}, with a "
+                   "drag or without");
+  }
+  if (map.has("torque")) {
+    motor = Motor::constant(map.number("torque", Range::kAny, "N m", std::nullopt));
+  }
+  if (falls) {
+    const double stall = map.number("stall_torque", Range::kPositive, "N m", std::nullopt);
+    motor =
+        Motor::falling(stall, map.number("no_load_speed", Range::kPositive, "rad/s", std::nullopt));
+  }
+  if (map.has("table")) {
+    const auto table = readTable(map.at("table"), map.key("table"), complaints);
+    std::copy(table.begin(), table.end(), motor.points.begin());
+    motor.count = table.size();
+  }
+  motor.drag = map.number("drag", Range::kNotNegative, "N m s/rad", 0.0);
+  return motor;
+}
+
 }  // namespace
 
 DriveSpec readDrive(const YAML::Node& node, const std::string& key, const std::string& name,
@@ -50,8 +108,11 @@ DriveSpec readDrive(const YAML::Node& node, const std::string& key, const std::s
   drive.speed = map.numberBetween("speed", -kLargestSpeed, kLargestSpeed, "rad/s", 0.0);
   drive.angle = map.numberBetween("angle", -1.0e15, 1.0e15, "rad", 0.0);
   if (map.has("motor")) {
-    complaints.add(map.key("motor"),
-                   "motors are not modelled in this version; give the drive a profile");
+    drive.motor = readMotor(map.at("motor"), map.key("motor"), complaints);
+    if (map.has("profile")) {
+      complaints.add(map.key("profile"),
+                     "a motor's speed is an outcome: give a motor or a profile, not both");
+    }
   }
   if (map.has("profile")) {
     drive.profile = readProfile(map.at("profile"), map.key("profile"), complaints);

@@ -1,4 +1,5 @@
-// Reads a drive of a scene: its speed and angle at the start, and the moves of its profile.
+// Reads a drive of a scene: its speed and angle at the start, and the moves of its profile
+// or the law of its motor.
 #pragma once
 
 #include <cstdint>

@@ -79,11 +79,27 @@ std::unique_ptr<System> LinearRotorSystem::readyFor(double lowest_speed,
 }
 
 ModelSetup linearRotorSetup(std::shared_ptr<const Dynamics> dynamics) {
-  return {dynamics,
-          {Exponential<1>::kName},
-          [dynamics](const std::string&, const Drive& drive, double step, int substeps) {
-            return std::make_unique<LinearRotorSystem>(dynamics, drive, step, substeps);
-          }};
+  ModelSetup setup;
+  setup.dynamics = dynamics;
+  setup.integrators = {Exponential<1>::kName};
+  setup.system = [dynamics](const std::string&, const Drive& drive, double step, int substeps) {
+    return std::make_unique<LinearRotorSystem>(dynamics, drive, step, substeps);
+  };
+  setup.exact_run_ups = true;
+  return setup;
+}
+
+ModelSetup withExactRunUps(ModelSetup setup) {
+  if (!setup.dynamics->linear() || !setup.dynamics->speedDependent()) {
+    return setup;
+  }
+  setup.system = [plain = setup.system, exact = linearRotorSetup(setup.dynamics).system](
+                     const std::string& integrator, const Drive& drive, double step, int substeps) {
+    const bool exponential = integrator == Exponential<1>::kName;
+    return (exponential ? exact : plain)(integrator, drive, step, substeps);
+  };
+  setup.exact_run_ups = true;
+  return setup;
 }
 
 }  // namespace whirl_twin

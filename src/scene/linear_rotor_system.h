@@ -44,4 +44,8 @@ class LinearRotorSystem final : public System {
 /// and at changing speed.
 ModelSetup linearRotorSetup(std::shared_ptr<const Dynamics> dynamics);
 
+/// A setup of a linear model with a shaft, in the fixed frame, whose `exponential` follows a
+/// changing speed by that step where its matrices change with speed; else as it was.
+ModelSetup withExactRunUps(ModelSetup setup);
+
 }  // namespace whirl_twin

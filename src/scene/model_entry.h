@@ -65,13 +65,17 @@ std::vector<std::string> methodNames(MethodList<Methods...>) {
 }
 
 template <class Model>
-ModelSetup setUp(const ParameterValues& values, double gravity) {
-  const Model model = makeModel<Model>(values, gravity);
+ModelSetup setUp(const Model& model) {
   return {std::make_shared<const LagrangianDynamics<Model>>(model),
           methodNames(MethodsFor<Model>{}),
           [model](const std::string& integrator, const Drive& drive, double step, int substeps) {
             return makeSystem(MethodsFor<Model>{}, model, integrator, drive, step, substeps);
           }};
+}
+
+template <class Model>
+ModelSetup setUp(const ParameterValues& values, double gravity) {
+  return setUp(makeModel<Model>(values, gravity));
 }
 
 template <class Model>

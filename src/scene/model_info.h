@@ -37,6 +37,7 @@ struct ModelVariant {
   bool linear = false;
   bool rotor = false;  ///< x, y of a whirling disc: published as WhirlState
   std::vector<std::string> integrators;
+  bool motor = false;  ///< of a rotor that a motor turns
 };
 
 /// A model with its parameters, ready to be analysed and stepped.
@@ -47,6 +48,9 @@ struct ModelSetup {
   std::function<std::unique_ptr<System>(const std::string& integrator, const Drive&, double step,
                                         int substeps)>
       system;
+  std::string note = "";  ///< what the user should know of how it was set up
+  /// `exponential` follows a speed that changes although the matrices change with it.
+  bool exact_run_ups = false;
 };
 
 /// Parameters that are each in range but do not fit together.
@@ -76,7 +80,6 @@ struct ModelInfo {
   std::vector<SettingInfo> settings;
   std::vector<ModelVariant> variants;  ///< the plain form first
   bool has_shaft = false;              ///< a scene gives it a drive or a constant speed
-
   bool takes_motor = false;            ///< its drive may be a motor
 
   /// The model with these parameters (all of `parameters`) and settings. Throws SetupError.

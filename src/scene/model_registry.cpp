@@ -26,13 +26,24 @@ const ModelInfo* find(const std::vector<ModelInfo>& list, const std::string& nam
 }
 
 const std::vector<ModelInfo>& builtInModels() {
-  static const std::vector<ModelInfo> built_in{
-      cantileverBeamInfo(),      cartPendulumInfo(),       doublePendulumInfo(),
-      freeRotorInfo(),           frictionOscillatorInfo(), governorInfo(),
-      hingedBeamInfo(),          jeffcottRotorInfo(),      linearSystemInfo(),
-      rodSliderInfo(),           rollingDiscInfo(),        rotatingPendulumInfo(),
-      slidingMassFlywheelInfo(), spinningPendulumInfo(),   sprungInvertedPendulumInfo(),
-      twoBarLinkageInfo()};
+  static const std::vector<ModelInfo> built_in{cantileverBeamInfo(),
+                                               cartPendulumInfo(),
+                                               doublePendulumInfo(),
+                                               flexibleRotorInfo(),
+                                               freeRotorInfo(),
+                                               frictionOscillatorInfo(),
+                                               governorInfo(),
+                                               hingedBeamInfo(),
+                                               jeffcottRotorInfo(),
+                                               linearSystemInfo(),
+                                               rigidDiscRotorInfo(),
+                                               rodSliderInfo(),
+                                               rollingDiscInfo(),
+                                               rotatingPendulumInfo(),
+                                               slidingMassFlywheelInfo(),
+                                               spinningPendulumInfo(),
+                                               sprungInvertedPendulumInfo(),
+                                               twoBarLinkageInfo()};
   return built_in;
 }
 
@@ -108,7 +119,8 @@ const std::vector<std::string>& integratorNames() {
   return names;
 }
 
-IntegratorChoice chooseIntegrator(const Dynamics& dynamics, bool speed_changes) {
+IntegratorChoice chooseIntegrator(const ModelSetup& setup, bool speed_changes) {
+  const Dynamics& dynamics = *setup.dynamics;
   if (dynamics.linear() && !dynamics.hasShaft()) {
     return {"exponential", "linear: the exact step"};
   }
@@ -117,6 +129,9 @@ IntegratorChoice chooseIntegrator(const Dynamics& dynamics, bool speed_changes) 
   }
   if (dynamics.linear() && !dynamics.speedDependent()) {
     return {"exponential", "linear with matrices that do not change with speed: exact free motion"};
+  }
+  if (dynamics.linear() && setup.exact_run_ups) {
+    return {"exponential", "linear: the exact step, from a table over the drive's speeds"};
   }
   if (dynamics.linear()) {
     return {"gauss_legendre_6", "its matrices change with the drive's speed"};
@@ -133,10 +148,9 @@ std::string integratorObjection(const ModelSetup& setup, bool on_drive,
   if (std::find(suited.begin(), suited.end(), integrator) == suited.end()) {
     return "exponential is for linear systems; " + setup.dynamics->model() + " is not linear";
   }
-  if (on_drive && setup.dynamics->speedDependent()) {
-    return "exponential needs matrices that do not change with speed: rotating damping or a fluid "
-           "on a "
-           "drive excludes it; gauss_legendre_6 or runge_kutta_4 will do";
+  if (on_drive && setup.dynamics->speedDependent() && !setup.exact_run_ups) {
+    return "exponential needs matrices that do not change with the drive's speed; "
+           "gauss_legendre_6 or runge_kutta_4 will do";
   }
   return "";
 }

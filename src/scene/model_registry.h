@@ -33,7 +33,7 @@ struct IntegratorChoice {
   std::string reason;
 };
 /// speed_changes: the model is on a drive that has a profile or may be given a new speed.
-IntegratorChoice chooseIntegrator(const Dynamics& dynamics, bool speed_changes);
+IntegratorChoice chooseIntegrator(const ModelSetup& setup, bool speed_changes);
 
 /// Why a model cannot step with an integrator named in a scene; "" if it can.
 /// on_drive: as speed_changes above.

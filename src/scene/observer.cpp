@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "analysis/equilibria.h"
 
@@ -26,29 +27,28 @@ Eigen::VectorXd vector(const double* x, std::size_t n) {
 
 }  // namespace
 
-Observer::Observer(const Twin& twin)
-    : twin_(twin), record_(twin.layout().size), tracks_(twin.members().size()) {
-  for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    const Dynamics& dynamics = *twin.members()[i].dynamics;
-    if (isRotor(i)) {
-      const Linearization l =
-          linearizationAtRest(dynamics, Eigen::VectorXd::Zero(dynamics.dof()), 0.0);
-      tracks_[i].slowest_orbit =
-          kSlowestOrbit *
-          std::sqrt(std::min(l.stiffness(0, 0) / l.mass(0, 0), l.stiffness(1, 1) / l.mass(1, 1)));
-    }
-  }
+Observer::Observer(const Twin& twin, std::shared_ptr<SystemGenerations> generations)
+    : twin_(twin),
+      generations_(generations ? std::move(generations)
+                               : std::make_shared<SystemGenerations>(twin)),
+      record_(twin.layout().size),
+      tracks_(twin.members().size()),
+      motors_(twin.scene().drives.size()) {
   twin.write(record_.data());
   observe(std::vector<double>(record_).data());
+  tells_only_change_ = false;
 }
 
 void Observer::observe(const double* record) {
-  const bool restarted = unpacked(record[RecordLayout::kStep]) < step();
+  const std::int64_t before = step();
+  const bool restarted = unpacked(record[RecordLayout::kStep]) < before;
+  bool changed = false;
   std::copy(record, record + record_.size(), record_.begin());
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     if (restarted) {
       restart(i);
     }
+    changed = takeGeneration(i) || changed;
     if (status(i) != StepStatus::kOk) {
       if (tracks_[i].stop_reason.empty()) {
         tracks_[i].stop_reason = describeStop(i);
@@ -60,12 +60,36 @@ void Observer::observe(const double* record) {
     }
     trackEnergy(i);
   }
+  trackMotors();
+  tells_only_change_ = changed && step() == before;
 }
 
 void Observer::restart(std::size_t system) {
-  const double slowest_orbit = tracks_[system].slowest_orbit;
   tracks_[system] = Track{};
-  tracks_[system].slowest_orbit = slowest_orbit;
+}
+
+bool Observer::takeGeneration(std::size_t system) {
+  Track& track = tracks_[system];
+  const std::size_t n = twin_.members()[system].spec.q.size();
+  const std::int64_t generation = unpacked(coordinates(system)[2 * n + 1]);
+  if (generation == track.generation) {
+    return false;
+  }
+  const std::shared_ptr<const SystemGeneration> now = generations_->at(system, generation);
+  generations_->forgetBefore(system, generation);
+  track.generation = generation;
+  track.dynamics = now->dynamics;
+  track.parameters = now->parameters;
+  track.started = false;
+  track.scale = track.residual = 0.0;
+  if (isRotor(system)) {
+    const Dynamics& dynamics = *track.dynamics;
+    const Linearization l =
+        linearizationAtRest(dynamics, Eigen::VectorXd::Zero(dynamics.dof()), 0.0);
+    track.slowest_orbit = kSlowestOrbit * std::sqrt(std::min(l.stiffness(0, 0) / l.mass(0, 0),
+                                                             l.stiffness(1, 1) / l.mass(1, 1)));
+  }
+  return true;
 }
 
 std::int64_t Observer::step() const {
@@ -103,8 +127,12 @@ state::Instant Observer::instant() const {
 
 Energies Observer::energies(std::size_t system) const {
   const std::size_t n = twin_.members()[system].spec.q.size();
-  return twin_.members()[system].dynamics->energies(vector(coordinates(system), n),
-                                                    vector(rates(system), n), moment(system));
+  Eigen::VectorXd q = vector(coordinates(system), n);
+  const std::size_t drive = twin_.members()[system].drive;
+  if (twin_.isMotor(drive)) {
+    q[q.size() - 1] = driveRecord(drive)[1];  // the spin to the last digit, without its whole turns
+  }
+  return tracks_[system].dynamics->energies(q, vector(rates(system), n), moment(system));
 }
 
 void Observer::trackEnergy(std::size_t system) {
@@ -117,6 +145,23 @@ void Observer::trackEnergy(std::size_t system) {
   }
   track.scale = std::max(track.scale, std::fabs(e.kinetic) + std::fabs(e.potential));
   track.residual = track.scale > 0.0 ? (e.jacobi - track.jacobi - work) / track.scale : 0.0;
+}
+
+void Observer::trackMotors() {
+  for (std::size_t i = 0; i < motors_.size(); ++i) {
+    const std::size_t system = twin_.turnedBy(i);
+    if (system == Twin::kNoSystem || status(system) != StepStatus::kOk) {
+      continue;
+    }
+    Track& track = tracks_[system];
+    if (track.motor_generation != track.generation) {
+      track.motor_generation = track.generation;
+      motors_[i].restart();
+    }
+    const double* shaft = driveRecord(i);
+    motors_[i].observe(*twin_.scene().drives[i].motor, twin_.seconds(step()), shaft[2], shaft[3],
+                       coordinates(system)[2 * twin_.members()[system].spec.q.size()]);
+  }
 }
 
 std::string Observer::describeStop(std::size_t system) const {
@@ -155,8 +200,8 @@ void Observer::trackPhase(std::size_t system) {
     return;
   }
   const double* q = coordinates(system);
-  const double unbalance = driveRecord(twin_.members()[system].drive)[1] +
-                           twin_.members()[system].dynamics->unbalanceAngle();
+  const double unbalance =
+      driveRecord(twin_.members()[system].drive)[1] + tracks_[system].dynamics->unbalanceAngle();
   const double lag = unbalance - std::atan2(q[1], q[0]);
   const double reference = track.phase_known ? track.phase : 0.0;
   track.phase = reference + std::remainder(lag - reference, 2.0 * kPi);
@@ -227,6 +272,27 @@ state::DriveState Observer::drive(std::size_t drive) const {
   s.jerk = shaft[4];
   s.target_speed = shaft[5];
   s.shaft_angle = ShaftAngle{s.turns, s.remainder}.total();
+  return s;
+}
+
+state::MotorState Observer::motor(std::size_t drive) const {
+  const std::size_t system = twin_.turnedBy(drive);
+  const DriveSpec& spec = twin_.scene().drives[drive];
+  const double* shaft = driveRecord(drive);
+  const Energies e = energies(system);
+  state::MotorState s;
+  s.at = instant();
+  s.drive = spec.name;
+  s.system = twin_.members()[system].spec.name;
+  s.speed = shaft[2];
+  s.acceleration = shaft[3];
+  s.torque = spec.motor->torque(s.speed);
+  s.motor_power = motors_[drive].power();
+  s.drag_power = spec.motor->drag * s.speed * s.speed;
+  s.dissipated_power = e.dissipated_power - s.drag_power;
+  s.energy = e.kinetic + e.potential;
+  s.motor_work = motors_[drive].work();
+  s.dissipated_work = motors_[drive].dissipated();
   return s;
 }
 

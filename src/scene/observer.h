@@ -4,10 +4,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "scene/motor_track.h"
 #include "scene/states.h"
+#include "scene/system_generations.h"
 #include "scene/twin.h"
 
 namespace whirl_twin {
@@ -15,7 +18,8 @@ namespace whirl_twin {
 class Observer {
  public:
   /// The twin outlives the observer; only what does not change while it runs is read from it.
-  explicit Observer(const Twin& twin);
+  /// generations: of a twin whose parameters change while it runs.
+  explicit Observer(const Twin& twin, std::shared_ptr<SystemGenerations> generations = nullptr);
 
   /// Takes the next record. A step count that goes back means the twin was reset.
   void observe(const double* record);
@@ -34,19 +38,35 @@ class Observer {
   state::WhirlState whirl(std::size_t system) const;        ///< of a rotor
   state::PendulumState pendulum(std::size_t system) const;  ///< of any other model
   state::DriveState drive(std::size_t drive) const;         ///< of a drive of the scene
+  state::MotorState motor(std::size_t drive) const;         ///< of a drive that is a motor
   /// Whirl radius [m] and unwrapped phase lag [rad] of a rotor (NaN while undefined).
   double whirlRadius(std::size_t system) const;
   double whirlPhase(std::size_t system) const;
   const double* coordinates(std::size_t system) const;  ///< q
   const double* rates(std::size_t system) const;        ///< q'
-  /// Energy gained beyond the work done, relative to the largest energy in play so far.
+  /// Energy gained beyond the work done, relative to the largest energy in play so far, since the
+  /// start or the last change of parameters: the change itself does work.
   double energyResidual(std::size_t system) const;
   Energies energies(std::size_t system) const;
+  /// The parameters the system has now and what of them changed last, without the instant.
+  const state::ParameterChange& parameters(std::size_t system) const {
+    return tracks_[system].parameters;
+  }
+  /// Of the newest record; another number, perhaps other parameters.
+  std::int64_t generation(std::size_t system) const { return tracks_[system].generation; }
+  /// The newest record has the step of the one before: it tells of a change of parameters, at the
+  /// state that is known.
+  bool tellsOnlyChange() const { return tells_only_change_; }
+  /// Of the newest record, with the stamp last set.
+  state::Instant instant() const;
   /// Time, and the motion of the system's shaft, at the newest record.
   Moment<double> moment(std::size_t system) const;
 
  private:
   struct Track {
+    std::int64_t generation = -1;
+    std::shared_ptr<const Dynamics> dynamics;
+    state::ParameterChange parameters;
     bool started = false;
     double jacobi = 0.0;         // [J], h at the start
     double scale = 0.0;          // [J], largest T + |V| so far
@@ -57,19 +77,24 @@ class Observer {
     bool phase_known = false;
     bool phase_valid = false;
     std::string stop_reason;
+    std::int64_t motor_generation = -1;  // that the motor's work is counted from
   };
 
   const double* driveRecord(std::size_t drive) const;
   void restart(std::size_t system);
+  bool takeGeneration(std::size_t system);
   void trackPhase(std::size_t system);
   void trackEnergy(std::size_t system);
+  void trackMotors();
   std::string describeStop(std::size_t system) const;
-  state::Instant instant() const;
 
   const Twin& twin_;
+  std::shared_ptr<SystemGenerations> generations_;
   std::vector<double> record_;
   std::vector<Track> tracks_;
+  std::vector<MotorTrack> motors_;  // of each drive
   std::int64_t stamp_ = 0;
+  bool tells_only_change_ = false;
 };
 
 }  // namespace whirl_twin

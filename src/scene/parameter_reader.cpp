@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "control/speed_profile.h"
@@ -96,6 +97,16 @@ std::vector<std::string> readNames(const MapReader& map, const SettingInfo& info
   return names;
 }
 
+/// The entries of a list of maps.
+std::optional<std::vector<YAML::Node>> maps(const MapReader& map, const std::string& name,
+                                            Complaints& complaints) {
+  const auto entries = list(map, name, "maps", complaints);
+  if (!entries) {
+    return std::nullopt;
+  }
+  return std::vector<YAML::Node>(entries->begin(), entries->end());
+}
+
 std::vector<TableRow> readTable(const MapReader& map, const SettingInfo& info,
                                 Complaints& complaints) {
   std::vector<std::string> known = info.word_columns;
@@ -103,7 +114,10 @@ std::vector<TableRow> readTable(const MapReader& map, const SettingInfo& info,
     known.push_back(column.name);
   }
   std::vector<TableRow> table;
-  const auto rows = list(map, info.name, "maps", complaints);
+  const YAML::Node node = map.at(info.name);
+  // One row needs no list.
+  const auto rows = node.IsMap() ? std::optional(std::vector<YAML::Node>{node})
+                                 : maps(map, info.name, complaints);
   for (std::size_t i = 0; rows && i < rows->size(); ++i) {
     const MapReader row((*rows)[i], rowKey(map, info.name, i), known, "key of " + info.name,
                         complaints);
@@ -124,11 +138,35 @@ std::vector<TableRow> readTable(const MapReader& map, const SettingInfo& info,
   return table;
 }
 
+/// One of the words, or a whole number of 0 or more.
+std::string readWordOrCount(const MapReader& map, const SettingInfo& info, Complaints& complaints) {
+  constexpr double kLargestCount = 1.0e6;
+  if (!map.has(info.name)) {
+    return info.choices.front();
+  }
+  const YAML::Node node = map.at(info.name);
+  const std::string text = node.IsScalar() ? node.Scalar() : "";
+  if (std::find(info.choices.begin(), info.choices.end(), text) != info.choices.end()) {
+    return text;
+  }
+  const std::optional<double> count = parseNumber(text);
+  if (!count || *count < 0.0 || *count > kLargestCount || *count != std::floor(*count)) {
+    complaints.add(map.key(info.name), fmt::format("must be a whole number >= 0 or {}, found {}",
+                                                   fmt::join(info.choices, ", "), shown(node)));
+    return info.choices.front();
+  }
+  return fmt::format("{:.0f}", *count);
+}
+
 void readSetting(const MapReader& map, const SettingInfo& info, Settings& settings,
                  Complaints& complaints) {
   if (info.kind == SettingKind::kChoice) {
     settings.choices[info.name] =
         map.choice(info.name, info.choices, "one of its words", info.choices.front());
+    return;
+  }
+  if (info.kind == SettingKind::kWordOrCount) {
+    settings.choices[info.name] = readWordOrCount(map, info, complaints);
     return;
   }
   if (!map.has(info.name)) {

@@ -27,10 +27,12 @@ struct RecordLayout {
   static constexpr std::size_t kScheduled = 1;  ///< [ns], when the step was due; set by the loop
   static constexpr std::size_t kDrives = 2;
   /// A drive: turns, remainder [rad], speed [rad/s], acceleration [rad/s^2], jerk [rad/s^3], target
-  /// speed [rad/s].
+  /// speed [rad/s]. Of a motor the jerk is 0 and the target the present speed: it has none.
   static constexpr std::size_t kDriveSize = 6;
 
-  std::vector<std::size_t> system;  ///< status, q, v, work [J] of each system
+  /// Of each system: status, q, v, work [J] since it was set, generation (0: as the scene says; see
+  /// system_generations.h).
+  std::vector<std::size_t> system;
   std::size_t size = 0;
 };
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "control/motor.h"
 #include "control/speed_profile.h"
 #include "scene/settings.h"
 
@@ -18,6 +19,8 @@ struct DriveSpec {
   double speed = 0.0;              ///< [rad/s], at the scene's start
   double angle = 0.0;              ///< [rad], at the scene's start
   std::vector<SpeedMove> profile;  ///< moves in order; empty: the speed stays
+  /// It turns the shaft instead: speed and angle are a state of the one system that names it.
+  std::optional<Motor> motor = std::nullopt;
 };
 
 struct SystemSpec {

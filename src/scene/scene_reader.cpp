@@ -15,6 +15,8 @@
 #include "scene/model_registry.h"
 #include "scene/node_reader.h"
 #include "scene/parameter_reader.h"
+#include "scene/shaft_reader.h"
+#include "scene/surroundings.h"
 
 namespace whirl_twin {
 
@@ -68,33 +70,8 @@ std::int64_t nanoseconds(const MapReader& map, const std::string& name, double s
   return static_cast<std::int64_t>(whole);
 }
 
-void readShaft(const MapReader& system, const ModelInfo& model, const Scene& scene,
-               SystemSpec& spec, Complaints& complaints) {
-  if (system.has("drive")) {
-    const std::string drive = system.text("drive", "");
-    std::vector<std::string> drives;
-    for (const DriveSpec& d : scene.drives) {
-      drives.push_back(d.name);
-    }
-    if (!model.has_shaft) {
-      complaints.add(system.key("drive"), model.name + " has no shaft to drive");
-    } else if (drives.empty()) {
-      complaints.add(system.key("drive"), "the scene has no drives");
-    } else {
-      spec.drive = system.choice("drive", drives, "a drive of the scene", drives.front());
-    }
-  }
-  if (model.has_shaft && spec.drive && spec.speed) {
-    complaints.add(system.key("parameters.speed"),
-                   "the drive sets the speed: give one or the other");
-  } else if (model.has_shaft && !spec.drive && !spec.speed && !system.has("drive")) {
-    complaints.add(system.key("parameters.speed"),
-                   "missing; must be a finite number in rad/s, or name a drive");
-  }
-}
-
-void readInitial(const MapReader& system, const Dynamics& dynamics, SystemSpec& spec,
-                 Complaints& complaints) {
+void readInitial(const MapReader& system, const Scene& scene, const Dynamics& dynamics,
+                 SystemSpec& spec, Complaints& complaints) {
   const std::vector<CoordinateInfo> coordinates = dynamics.coordinates();
   std::vector<std::string> known;
   for (const CoordinateInfo& c : coordinates) {
@@ -108,6 +85,7 @@ void readInitial(const MapReader& system, const Dynamics& dynamics, SystemSpec& 
     spec.q.push_back(map.number(c.name, Range::kAny, c.unit, 0.0));
     spec.v.push_back(map.number(c.name + "_rate", Range::kAny, c.unit + "/s", 0.0));
   }
+  startSpin(map, scene, spec, complaints);
 }
 
 void readIntegrator(const MapReader& system, const ModelSetup& setup, SystemSpec& spec,
@@ -165,8 +143,9 @@ SystemSpec readSystem(const YAML::Node& node, const std::string& key, const std:
   const bool fit = complaints.all().size() == before;
   readShaft(map, *model, scene, spec, complaints);
   try {
-    const ModelSetup setup = model->setUp(spec.parameters, spec.settings, scene.gravity);
-    readInitial(map, *setup.dynamics, spec, complaints);
+    const ModelSetup setup =
+        model->setUp(spec.parameters, spec.settings, surroundingsOf(scene, spec));
+    readInitial(map, scene, *setup.dynamics, spec, complaints);
     readIntegrator(map, setup, spec, complaints);
     if (fit) {
       checkMass(map, *setup.dynamics, spec, scene, complaints);
@@ -218,6 +197,7 @@ Scene readTree(const YAML::Node& tree, const std::string& source, Complaints& co
     scene.systems.push_back(
         readSystem(systems.at(name), systems.key(name), name, scene, complaints));
   }
+  checkMotors(scene, complaints);
   return scene;
 }
 

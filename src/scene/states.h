@@ -62,4 +62,31 @@ struct DriveState {
   double shaft_angle = 0.0;   ///< [rad], total
 };
 
+/// A motor that turns a rotor, and where its work goes: motor_work = dissipated_work + what
+/// `energy` has gained, as well as the energy residual says.
+struct MotorState {
+  Instant at;
+  std::string drive;
+  std::string system;             ///< the rotor it turns
+  double speed = 0.0;             ///< [rad/s]
+  double acceleration = 0.0;      ///< [rad/s^2]
+  double torque = 0.0;            ///< [N m]
+  double motor_power = 0.0;       ///< [W], torque x speed
+  double drag_power = 0.0;        ///< [W], lost to the drag on the spin
+  double dissipated_power = 0.0;  ///< [W], lost in the whirl: all damping but the drag
+  double energy = 0.0;            ///< [J], kinetic and potential
+  double motor_work = 0.0;        ///< [J], since the start or the last change of parameters
+  double dissipated_work = 0.0;   ///< [J], likewise, drag included
+};
+
+/// The parameters of a system from an instant on, and which of them changed then.
+struct ParameterChange {
+  Instant at;
+  std::string system;
+  std::vector<std::string> names;    ///< every number: `damping`, `discs[1].mass`
+  std::vector<double> values;        ///< of each, in the units of the model
+  std::vector<std::string> changed;  ///< some of `names`; none at the start
+  std::vector<double> previous;      ///< values of those before
+};
+
 }  // namespace whirl_twin::state

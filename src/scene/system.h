@@ -2,14 +2,32 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 
+#include "control/shaft_angle.h"
 #include "integration/motion_state.h"
 
 namespace whirl_twin {
 
+/// A shaft whose motion is a system's own.
+struct ShaftState {
+  ShaftAngle angle;
+  double speed = 0.0;         ///< [rad/s]
+  double acceleration = 0.0;  ///< [rad/s^2]
+};
+
 class System {
  public:
   virtual ~System() = default;
+
+  /// Of a system that must prepare for the speeds of its shaft [rad/s] and is not ready for all
+  /// from lowest_speed to highest_speed: one that is, its state yet to be set. nullptr: it is
+  /// ready. Not real-time safe: called by another thread while the system steps, it reads only what
+  /// steps do not change, and not the drive.
+  virtual std::unique_ptr<System> readyFor(double /*lowest_speed*/,
+                                           double /*highest_speed*/) const {
+    return nullptr;
+  }
 
   // Real-time safe.
 
@@ -19,6 +37,8 @@ class System {
   virtual std::size_t dof() const noexcept = 0;
   /// Copies q (dof), v (dof) and the audited work [J] (1) to `out`.
   virtual void write(double* out) const noexcept = 0;
+  /// The shaft that a motor turns, whose angle is a coordinate; false: there is none.
+  virtual bool shaft(ShaftState& /*out*/) const noexcept { return false; }
   /// Sets q and v and forgets the past.
   virtual void set(const double* q, const double* v) noexcept = 0;
 };

@@ -1,9 +1,12 @@
 #include "scene/twin.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 
 #include "scene/model_registry.h"
+#include "scene/surroundings.h"
 
 namespace whirl_twin {
 
@@ -18,6 +21,15 @@ std::size_t driveIndex(const Scene& scene, const std::string& name) {
   return static_cast<std::size_t>(found - scene.drives.begin());
 }
 
+/// "x [m], theta [rad]"
+std::string coordinateNames(const Dynamics& dynamics) {
+  std::string names;
+  for (const CoordinateInfo& c : dynamics.coordinates()) {
+    names += fmt::format("{}{} [{}]", names.empty() ? "" : ", ", c.name, c.unit);
+  }
+  return names;
+}
+
 }  // namespace
 
 Twin::Twin(const Scene& scene) : scene_(scene) {
@@ -26,36 +38,75 @@ Twin::Twin(const Scene& scene) : scene_(scene) {
     drives_.emplace_back(d.speed, d.angle, d.profile, scene.time);
   }
   for (const SystemSpec& spec : scene.systems) {
-    const ModelInfo* model = findModel(spec.model);
-    if (model == nullptr) {
-      throw std::invalid_argument("no model named " + spec.model);
-    }
-    Member member{spec, model, model->setUp(spec.parameters, spec.settings, scene.gravity), {}, "",
-                  "",   0};
-    member.dynamics = member.setup.dynamics;
+    Member member = memberOf(spec);
     if (spec.drive) {
       member.drive = driveIndex(scene, *spec.drive);
     } else {
       member.drive = drives_.size();
       drives_.emplace_back(spec.speed.value_or(0.0), 0.0);
     }
-    member.integrator = spec.integrator;
-    if (spec.integrator == "auto") {
-      const IntegratorChoice choice = chooseIntegrator(*member.dynamics, spec.drive.has_value());
-      member.integrator = choice.integrator;
-      member.integrator_reason = choice.reason;
-    }
-    systems_.push_back(member.setup.system(member.integrator, drives_[member.drive],
-                                           scene.stepSeconds(), spec.substeps));
+    systems_.push_back(systemOf(member));
     members_.push_back(std::move(member));
   }
+  turned_by_.assign(drives_.size(), kNoSystem);
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const std::size_t drive = members_[i].drive;
+    if (drive < scene.drives.size() && scene.drives[drive].motor) {
+      turned_by_[drive] = i;
+    }
+  }
   status_.resize(systems_.size());
+  replacements_.resize(systems_.size());
+  running_.resize(systems_.size());
+  generation_.resize(systems_.size());
   layout_.size = RecordLayout::kDrives + RecordLayout::kDriveSize * drives_.size();
   for (const auto& system : systems_) {
     layout_.system.push_back(layout_.size);
-    layout_.size += 2 + 2 * system->dof();
+    layout_.size += 3 + 2 * system->dof();
+    state_.resize(std::max(state_.size(), 2 * system->dof() + 1));
   }
   reset();
+}
+
+Twin::Member Twin::memberOf(const SystemSpec& spec) const {
+  const ModelInfo* model = findModel(spec.model);
+  if (model == nullptr) {
+    throw std::invalid_argument("no model named " + spec.model);
+  }
+  Member member{spec, model, model->setUp(spec.parameters, spec.settings, surroundingsOf(scene_, spec)),
+                {}, "", "", 0};
+  member.dynamics = member.setup.dynamics;
+  member.integrator = spec.integrator;
+  if (spec.integrator == "auto") {
+    const IntegratorChoice choice = chooseIntegrator(member.setup, spec.drive.has_value());
+    member.integrator = choice.integrator;
+    member.integrator_reason = choice.reason;
+  }
+  return member;
+}
+
+std::unique_ptr<System> Twin::systemOf(const Member& member) const {
+  return member.setup.system(member.integrator, drives_[member.drive], scene_.stepSeconds(),
+                             member.spec.substeps);
+}
+
+Twin::Member Twin::changed(std::size_t system, const SystemSpec& spec) const {
+  Member member = memberOf(spec);
+  member.drive = members_[system].drive;
+  const std::string names = coordinateNames(*member.dynamics);
+  const std::string before = coordinateNames(*members_[system].dynamics);
+  if (names != before || member.dynamics->isRotor() != members_[system].dynamics->isRotor()) {
+    throw std::invalid_argument(
+        fmt::format("would change the coordinates from {} to {}: that needs a new start with "
+                    "another scene",
+                    before, names));
+  }
+  const std::string objection =
+      integratorObjection(member.setup, spec.drive.has_value(), spec.integrator);
+  if (!objection.empty()) {
+    throw std::invalid_argument("integrator: " + objection);
+  }
+  return member;
 }
 
 double Twin::seconds(std::int64_t steps) const noexcept {
@@ -66,7 +117,7 @@ void Twin::step() noexcept {
   const double time = this->time();
   for (std::size_t i = 0; i < systems_.size(); ++i) {
     if (status_[i] == StepStatus::kOk) {
-      status_[i] = systems_[i]->step(time);
+      status_[i] = running_[i]->step(time);
     }
   }
   ++steps_;
@@ -82,34 +133,54 @@ void Twin::reset() noexcept {
     drive.begin(scene_.time);
   }
   for (std::size_t i = 0; i < systems_.size(); ++i) {
-    systems_[i]->set(members_[i].spec.q.data(), members_[i].spec.v.data());
+    running_[i] = systems_[i].get();
+    generation_[i] = 0;
+    running_[i]->set(members_[i].spec.q.data(), members_[i].spec.v.data());
     status_[i] = StepStatus::kOk;
   }
+}
+
+std::unique_ptr<System> Twin::replace(std::size_t system, std::unique_ptr<System> next,
+                                      std::int64_t generation) noexcept {
+  running_[system]->write(state_.data());
+  next->set(state_.data(), state_.data() + next->dof());
+  running_[system] = next.get();
+  generation_[system] = generation;
+  replacements_[system].swap(next);
+  return next;
 }
 
 void Twin::write(double* record) const noexcept {
   record[RecordLayout::kStep] = packed(steps_);
   double* out = record + RecordLayout::kDrives;
-  for (const Drive& drive : drives_) {
-    const ShaftAngle angle = drive.angle();
-    const ShaftMotion motion = drive.at(0.0);
-    out[0] = packed(angle.turns);
-    out[1] = angle.remainder;
-    out[2] = motion.speed;
-    out[3] = motion.acceleration;
-    out[4] = motion.jerk;
-    out[5] = drive.targetSpeed();
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
+    ShaftState shaft;
+    if (isMotor(i) && running_[turned_by_[i]]->shaft(shaft)) {
+      out[4] = 0.0;
+      out[5] = shaft.speed;
+    } else {
+      const ShaftMotion motion = drives_[i].at(0.0);
+      shaft = {drives_[i].angle(), motion.speed, motion.acceleration};
+      out[4] = motion.jerk;
+      out[5] = drives_[i].targetSpeed();
+    }
+    out[0] = packed(shaft.angle.turns);
+    out[1] = shaft.angle.remainder;
+    out[2] = shaft.speed;
+    out[3] = shaft.acceleration;
     out += RecordLayout::kDriveSize;
   }
   for (std::size_t i = 0; i < systems_.size(); ++i) {
     record[layout_.system[i]] = packed(static_cast<std::int64_t>(status_[i]));
-    systems_[i]->write(record + layout_.system[i] + 1);
+    running_[i]->write(record + layout_.system[i] + 1);
+    record[layout_.system[i] + 2 + 2 * running_[i]->dof()] = packed(generation_[i]);
   }
 }
 
 bool Twin::setSpeed(std::size_t drive, double speed, double max_acceleration,
                     double max_jerk) noexcept {
-  return drive < scene_.drives.size() && drives_[drive].setSpeed(speed, max_acceleration, max_jerk);
+  return drive < scene_.drives.size() && !isMotor(drive) &&
+         drives_[drive].setSpeed(speed, max_acceleration, max_jerk);
 }
 
 const char* describe(StepStatus status) {
@@ -118,6 +189,8 @@ const char* describe(StepStatus status) {
       return "state not finite";
     case StepStatus::kNotConverged:
       return "implicit step did not converge";
+    case StepStatus::kOutOfRange:
+      return "its shaft runs at a speed that it was not prepared for";
     case StepStatus::kOk:
       break;
   }

@@ -39,13 +39,26 @@ class Twin {
   const RecordLayout& layout() const { return layout_; }
   /// Drives of the scene first, in its order; then those of systems at constant speed.
   std::size_t driveCount() const { return drives_.size(); }
+  static constexpr std::size_t kNoSystem = static_cast<std::size_t>(-1);
+  /// The system whose spin a drive's motion is, if the drive is a motor; else kNoSystem.
+  std::size_t turnedBy(std::size_t drive) const noexcept { return turned_by_[drive]; }
+  bool isMotor(std::size_t drive) const noexcept { return turned_by_[drive] != kNoSystem; }
+  /// A member as it would be with the parameters of `spec`. Throws std::invalid_argument where
+  /// readScene() would complain of them, and where they change its coordinates.
+  Member changed(std::size_t system, const SystemSpec& spec) const;
+  /// What steps as a member says, on its drive; its state is yet to be set.
+  std::unique_ptr<System> systemOf(const Member& member) const;
 
   // Real-time safe.
 
   /// One step of everything that has not stopped.
   void step() noexcept;
-  /// Back to the scene's start.
+  /// Back to the scene's start, with the scene's own systems.
   void reset() noexcept;
+  /// Puts another in the place of a system, with its coordinates and rates as they are, known from
+  /// now on by a generation > 0. Returns the one it has no more use for.
+  std::unique_ptr<System> replace(std::size_t system, std::unique_ptr<System> next,
+                                  std::int64_t generation) noexcept;
   std::int64_t stepCount() const noexcept { return steps_; }
   /// [s], simulated: start + steps x step, from a whole number of nanoseconds.
   double time() const noexcept { return seconds(steps_); }
@@ -53,21 +66,32 @@ class Twin {
   /// The present state, as laid out by layout(); kScheduled is left alone.
   void write(double* record) const noexcept;
   const Drive& drive(std::size_t index) const noexcept { return drives_[index]; }
-  /// Sends a drive to a new speed from where it is now. False for values out of range.
+  /// Sends a drive to a new speed from where it is now. False for values out of range, and for a
+  /// motor: its speed is an outcome.
   bool setSpeed(std::size_t drive, double speed, double max_acceleration, double max_jerk) noexcept;
   StepStatus status(std::size_t system) const noexcept { return status_[system]; }
+  /// What steps in the place of a system.
+  const System& running(std::size_t system) const noexcept { return *running_[system]; }
 
  private:
+  Member memberOf(const SystemSpec& spec) const;
+
   Scene scene_;
   std::vector<Drive> drives_;
+  std::vector<std::size_t> turned_by_;  // of each drive
   std::vector<Member> members_;
-  std::vector<std::unique_ptr<System>> systems_;
+  std::vector<std::unique_ptr<System>> systems_;       // the scene's
+  std::vector<std::unique_ptr<System>> replacements_;  // latest of each system; null: none yet
+  std::vector<System*> running_;                       // of systems_ or replacements_
+  std::vector<std::int64_t> generation_;               // of running_; 0: the scene's
+  std::vector<double> state_;                          // room for q, v and work of the largest
   std::vector<StepStatus> status_;
   RecordLayout layout_;
   std::int64_t steps_ = 0;
 };
 
-/// "state not finite" or "implicit step did not converge"; "" while running.
+/// "state not finite", "implicit step did not converge" or that it was not prepared for the speed;
+/// "" while running.
 const char* describe(StepStatus status);
 
 }  // namespace whirl_twin

@@ -35,6 +35,10 @@ void addModelsCommand(CLI::App& twin, int& status);
 void addSimulateCommand(CLI::App& twin, int& status);
 void addPlotCommand(CLI::App& twin, int& status);
 void addAnalyzeCommand(CLI::App& twin, int& status);
+void addCampbellCommand(CLI::App& twin, int& status);
+void addResponseCommand(CLI::App& twin, int& status);
+void addOrbitCommand(CLI::App& twin, int& status);
+void addBalanceCommand(CLI::App& twin, int& status);
 void addRouthCommand(CLI::App& twin, int& status);
 void addLogCommand(CLI::App& twin, int& status);
 

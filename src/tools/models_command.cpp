@@ -43,6 +43,10 @@ std::string contents(const SettingInfo& s) {
   if (s.kind == SettingKind::kChoice) {
     return fmt::format("{} (default {})", fmt::join(s.choices, " | "), s.choices.front());
   }
+  if (s.kind == SettingKind::kWordOrCount) {
+    return fmt::format("a whole number or {} (default {})", fmt::join(s.choices, " | "),
+                       s.choices.front());
+  }
   std::vector<std::string> columns = s.word_columns;
   for (const ColumnInfo& c : s.columns) {
     columns.push_back(fmt::format("{} ({})", c.name, c.unit));
@@ -102,12 +106,12 @@ Json parameterJson(const ParameterInfo& p) {
 }
 
 Json settingJson(const SettingInfo& s) {
-  constexpr const char* kKinds[] = {"choice", "matrix", "names", "table"};
+  constexpr const char* kKinds[] = {"choice", "matrix", "names", "table", "word_or_count"};
   Json json;
   json["kind"] = kKinds[static_cast<int>(s.kind)];
   json["required"] = s.required;
   json["meaning"] = s.meaning;
-  if (s.kind == SettingKind::kChoice) {
+  if (s.kind == SettingKind::kChoice || s.kind == SettingKind::kWordOrCount) {
     json["choices"] = s.choices;
     json["default"] = s.choices.front();
   }

@@ -29,20 +29,30 @@ SystemCheck checkSystem(const Twin::Member& member) {
   check.topics = {rotor ? PublishedTopic{"/twin/" + name + "/whirl", "whirl_twin/WhirlState"}
                         : PublishedTopic{"/twin/" + name + "/pendulum", "whirl_twin/PendulumState"},
                   {"/twin/" + name + "/joint_states", "sensor_msgs/JointState"},
-                  {"/twin/" + name + "/stability", "whirl_twin/StabilityMargin"}};
+                  {"/twin/" + name + "/stability", "whirl_twin/StabilityMargin"},
+                  {"/twin/" + name + "/parameters", "whirl_twin/ParameterChange"}};
   check.channels = {channelName(rotor ? ChannelKind::kWhirl : ChannelKind::kPendulum, name),
-                    channelName(ChannelKind::kStability, name)};
+                    channelName(ChannelKind::kStability, name),
+                    channelName(ChannelKind::kParameter, name)};
   return check;
 }
 
 }  // namespace
 
-PublishedTopic driveTopic(const DriveSpec& drive) {
-  return {"/twin/drives/" + drive.name, "whirl_twin/DriveState"};
+std::vector<PublishedTopic> driveTopics(const DriveSpec& drive) {
+  std::vector<PublishedTopic> topics{{"/twin/drives/" + drive.name, "whirl_twin/DriveState"}};
+  if (drive.motor) {
+    topics.push_back({"/twin/drives/" + drive.name + "/motor", "whirl_twin/MotorState"});
+  }
+  return topics;
 }
 
-std::string driveChannel(const DriveSpec& drive) {
-  return channelName(ChannelKind::kDrive, drive.name);
+std::vector<std::string> driveChannels(const DriveSpec& drive) {
+  std::vector<std::string> channels{channelName(ChannelKind::kDrive, drive.name)};
+  if (drive.motor) {
+    channels.push_back(channelName(ChannelKind::kMotor, drive.name));
+  }
+  return channels;
 }
 
 SceneCheck checkScene(const Scene& scene, const std::vector<std::size_t>& systems) {

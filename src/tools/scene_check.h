@@ -46,8 +46,8 @@ SceneCheck checkScene(const Scene& scene, const std::vector<std::size_t>& system
 std::string text(const SceneCheck& check);
 Json json(const SceneCheck& check);
 
-/// The topic and the LCM channel of a drive.
-PublishedTopic driveTopic(const DriveSpec& drive);
-std::string driveChannel(const DriveSpec& drive);
+/// The topics and the LCM channels of a drive.
+std::vector<PublishedTopic> driveTopics(const DriveSpec& drive);
+std::vector<std::string> driveChannels(const DriveSpec& drive);
 
 }  // namespace whirl_twin

@@ -20,9 +20,11 @@ Json driveJson(const DriveSpec& drive) {
                                {"dwell", move.dwell}});
   }
   json["duration"] = profileDuration(drive);
-  const PublishedTopic topic = driveTopic(drive);
-  json["topics"] = {{{"topic", topic.topic}, {"type", topic.type}}};
-  json["channels"] = {driveChannel(drive)};
+  json["topics"] = Json::array();
+  for (const PublishedTopic& topic : driveTopics(drive)) {
+    json["topics"].push_back({{"topic", topic.topic}, {"type", topic.type}});
+  }
+  json["channels"] = driveChannels(drive);
   return json;
 }
 

@@ -22,9 +22,12 @@ std::string driveText(const DriveSpec& drive) {
                        move.max_jerk > 0.0 ? fmt::format(" and {:g} rad/s^3", move.max_jerk) : "",
                        move.dwell);
   }
-  const PublishedTopic topic = driveTopic(drive);
-  return out + fmt::format("    published on {} ({}), LCM {}\n", topic.topic, topic.type,
-                           driveChannel(drive));
+  std::vector<std::string> topics;
+  for (const PublishedTopic& topic : driveTopics(drive)) {
+    topics.push_back(fmt::format("{} ({})", topic.topic, topic.type));
+  }
+  return out + fmt::format("    published on {}, LCM {}\n", fmt::join(topics, ", "),
+                           fmt::join(driveChannels(drive), ", "));
 }
 
 std::string costText(double cost) {

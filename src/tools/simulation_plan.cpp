@@ -5,6 +5,7 @@
 
 #include "scene/model_registry.h"
 #include "scene/scene_reader.h"
+#include "scene/surroundings.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/drive_profile.h"
@@ -62,7 +63,8 @@ void overrideIntegrator(const std::string& name, SimulationPlan& plan) {
   for (const std::size_t i : plan.systems) {
     SystemSpec& spec = plan.scene.systems[i];
     const ModelSetup setup =
-        findModel(spec.model)->setUp(spec.parameters, spec.settings, plan.scene.gravity);
+        findModel(spec.model)
+            ->setUp(spec.parameters, spec.settings, surroundingsOf(plan.scene, spec));
     const std::string objection = integratorObjection(setup, spec.drive.has_value(), name);
     if (!objection.empty()) {
       objections.push_back(fmt::format("--integrator: {}: {}", spec.name, objection));

@@ -97,6 +97,10 @@ int run(int argc, const char* const* argv) {
   addSimulateCommand(twin, status);
   addPlotCommand(twin, status);
   addAnalyzeCommand(twin, status);
+  addCampbellCommand(twin, status);
+  addResponseCommand(twin, status);
+  addOrbitCommand(twin, status);
+  addBalanceCommand(twin, status);
   addRouthCommand(twin, status);
   addLogCommand(twin, status);
 

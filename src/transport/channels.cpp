@@ -17,10 +17,12 @@ struct Suffix {
   ChannelKind kind;
   std::string_view text;
 };
-constexpr std::array<Suffix, 4> kSuffixes{{{ChannelKind::kWhirl, "_WHIRL"},
+constexpr std::array<Suffix, 6> kSuffixes{{{ChannelKind::kWhirl, "_WHIRL"},
                                            {ChannelKind::kPendulum, "_PENDULUM"},
                                            {ChannelKind::kStability, "_STABILITY"},
-                                           {ChannelKind::kDrive, "_DRIVE"}}};
+                                           {ChannelKind::kParameter, "_PARAMETER"},
+                                           {ChannelKind::kDrive, "_DRIVE"},
+                                           {ChannelKind::kMotor, "_MOTOR"}}};
 
 char upper(char c) {
   return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
@@ -40,8 +42,12 @@ const char* toString(ChannelKind kind) {
       return "pendulum";
     case ChannelKind::kStability:
       return "stability";
+    case ChannelKind::kParameter:
+      return "parameter";
     case ChannelKind::kDrive:
       return "drive";
+    case ChannelKind::kMotor:
+      return "motor";
     case ChannelKind::kAlerts:
       return "alerts";
   }

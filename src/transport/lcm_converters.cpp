@@ -93,6 +93,23 @@ state::DriveState fromLcm(const drive_state_t& message) {
   return drive;
 }
 
+motor_state_t toLcm(const state::MotorState& motor) {
+  motor_state_t message;
+  putInstant(motor.at, message);
+  message.drive = motor.drive;
+  putFields(motor, message);
+  return message;
+}
+
+state::MotorState fromLcm(const motor_state_t& message) {
+  requireName("drive", message.drive);
+  state::MotorState motor;
+  motor.at = takeInstant(message);
+  motor.drive = message.drive;
+  takeFields(message, motor);
+  return motor;
+}
+
 stability_margin_t toLcm(const state::StabilityMargin& margin) {
   stability_margin_t message;
   putInstant(margin.at, message);
@@ -117,6 +134,29 @@ state::StabilityMargin fromLcm(const stability_margin_t& message) {
   margin.system = message.system;
   takeFields(message, margin);
   return margin;
+}
+
+parameter_change_t toLcm(const state::ParameterChange& change) {
+  parameter_change_t message;
+  putInstant(change.at, message);
+  message.system = change.system;
+  putFields(change, message);
+  message.parameters = lengthOf(message.names.size());
+  message.values.resize(message.names.size());
+  message.changes = lengthOf(message.changed.size());
+  message.previous.resize(message.changed.size());
+  return message;
+}
+
+state::ParameterChange fromLcm(const parameter_change_t& message) {
+  requireName("system", message.system);
+  requireLength("names", message.names.size(), message.parameters);
+  requireLength("changed", message.changed.size(), message.changes);
+  state::ParameterChange change;
+  change.at = takeInstant(message);
+  change.system = message.system;
+  takeFields(message, change);
+  return change;
 }
 
 alert_t toLcm(const state::Alert& alert) {

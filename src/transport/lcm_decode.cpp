@@ -53,8 +53,12 @@ TwinState decodeEvent(const std::string& channel, const void* data, std::size_t 
       return decode<pendulum_state_t>(channel, data, size);
     case ChannelKind::kStability:
       return decode<stability_margin_t>(channel, data, size);
+    case ChannelKind::kParameter:
+      return decode<parameter_change_t>(channel, data, size);
     case ChannelKind::kDrive:
       return decode<drive_state_t>(channel, data, size);
+    case ChannelKind::kMotor:
+      return decode<motor_state_t>(channel, data, size);
     case ChannelKind::kAlerts:
       return decode<alert_t>(channel, data, size);
   }
@@ -65,7 +69,9 @@ bool hasTwinFingerprint(const void* data, std::size_t size) {
   return hasFingerprintOf<whirl_state_t>(data, size) ||
          hasFingerprintOf<pendulum_state_t>(data, size) ||
          hasFingerprintOf<drive_state_t>(data, size) ||
-         hasFingerprintOf<stability_margin_t>(data, size) || hasFingerprintOf<alert_t>(data, size);
+         hasFingerprintOf<stability_margin_t>(data, size) ||
+         hasFingerprintOf<motor_state_t>(data, size) ||
+         hasFingerprintOf<parameter_change_t>(data, size) || hasFingerprintOf<alert_t>(data, size);
 }
 
 std::optional<std::int64_t> seriesStep(const TwinState& state) {
@@ -77,6 +83,9 @@ std::optional<std::int64_t> seriesStep(const TwinState& state) {
   }
   if (const auto* drive = std::get_if<state::DriveState>(&state)) {
     return drive->at.step;
+  }
+  if (const auto* motor = std::get_if<state::MotorState>(&state)) {
+    return motor->at.step;
   }
   return std::nullopt;
 }
@@ -93,8 +102,16 @@ std::string channelOf(const state::DriveState& drive) {
   return channelName(ChannelKind::kDrive, drive.drive);
 }
 
+std::string channelOf(const state::MotorState& motor) {
+  return channelName(ChannelKind::kMotor, motor.drive);
+}
+
 std::string channelOf(const state::StabilityMargin& margin) {
   return channelName(ChannelKind::kStability, margin.system);
+}
+
+std::string channelOf(const state::ParameterChange& change) {
+  return channelName(ChannelKind::kParameter, change.system);
 }
 
 std::string channelOf(const state::Alert&) {

@@ -27,7 +27,7 @@ struct ChannelSummary {
   std::uint64_t rejected = 0;  ///< payload of the wrong type, undecodable, or not believable
   double first_time = 0.0;     ///< [s], simulated, of the first sound event; NaN for "other"
   double last_time = 0.0;      ///< [s], of the last
-  // Of whirl, pendulum and drive states, 0 for the others: see StepContinuity.
+  // Of whirl, pendulum, drive and motor states, 0 for the others: see StepContinuity.
   std::int64_t stride = 0;
   std::uint64_t gaps = 0;
   std::uint64_t lost = 0;
@@ -82,7 +82,9 @@ class EventLogWriter {
   void write(const state::WhirlState& whirl);
   void write(const state::PendulumState& pendulum);
   void write(const state::DriveState& drive);
+  void write(const state::MotorState& motor);
   void write(const state::StabilityMargin& margin);
+  void write(const state::ParameterChange& change);
   void write(const state::Alert& alert);
 
   /// Hands everything to the file system: only then is a full disk noticed. Throws

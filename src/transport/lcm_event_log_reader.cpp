@@ -33,9 +33,17 @@ std::string subject(const state::DriveState& drive) {
   return drive.drive;
 }
 
+std::string subject(const state::MotorState& motor) {
+  return fmt::format("{}, the motor of {}", motor.drive, motor.system);
+}
+
 std::string subject(const state::StabilityMargin& margin) {
   return fmt::format("{}, a {} ({})", margin.system, margin.model,
                      fmt::join(margin.coordinate, ", "));
+}
+
+std::string subject(const state::ParameterChange& change) {
+  return fmt::format("{} ({})", change.system, fmt::join(change.names, ", "));
 }
 
 std::string subject(const state::Alert&) {

@@ -51,8 +51,16 @@ void EventLogWriter::write(const state::DriveState& drive) {
   writeEvent(drive);
 }
 
+void EventLogWriter::write(const state::MotorState& motor) {
+  writeEvent(motor);
+}
+
 void EventLogWriter::write(const state::StabilityMargin& margin) {
   writeEvent(margin);
+}
+
+void EventLogWriter::write(const state::ParameterChange& change) {
+  writeEvent(change);
 }
 
 void EventLogWriter::write(const state::Alert& alert) {

@@ -38,8 +38,16 @@ void LcmPublisher::publish(const state::DriveState& drive) {
   send(drive);
 }
 
+void LcmPublisher::publish(const state::MotorState& motor) {
+  send(motor);
+}
+
 void LcmPublisher::publish(const state::StabilityMargin& margin) {
   send(margin);
+}
+
+void LcmPublisher::publish(const state::ParameterChange& change) {
+  send(change);
 }
 
 void LcmPublisher::publish(const state::Alert& alert) {

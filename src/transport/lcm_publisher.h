@@ -32,7 +32,9 @@ class LcmPublisher {
   void publish(const state::WhirlState& whirl);
   void publish(const state::PendulumState& pendulum);
   void publish(const state::DriveState& drive);
+  void publish(const state::MotorState& motor);
   void publish(const state::StabilityMargin& margin);
+  void publish(const state::ParameterChange& change);
   void publish(const state::Alert& alert);
 
   /// Messages handed to LCM, and messages LCM could not send.

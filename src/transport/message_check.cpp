@@ -79,6 +79,20 @@ void requireNames(const char* field, const std::vector<std::string>& names) {
   }
 }
 
+void requirePaths(const char* field, const std::vector<std::string>& paths) {
+  for (const auto& path : paths) {
+    const std::size_t end = std::min(path.find_first_of("[."), path.size());
+    if (!isLegalName(path.substr(0, end)) || path.size() > 2 * kMaxNameLength ||
+        !std::all_of(path.begin(), path.end(), [](char c) {
+          return isNameCharacter(c) || c == '[' || c == ']' || c == '.';
+        })) {
+      throw RejectedMessage(
+          fmt::format("{}: expected the path of a parameter such as discs[1].mass, found {}", field,
+                      shown(path)));
+    }
+  }
+}
+
 void requireText(const char* field, const std::string& text) {
   if (text.size() > kMaxTextLength) {
     throw RejectedMessage(fmt::format("{}: expected at most {} bytes of text, found {}", field,

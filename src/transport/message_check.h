@@ -34,6 +34,9 @@ std::int64_t utimeOf(double time);
 // Each throws RejectedMessage unless its condition holds; `field` is the message's own name for it.
 void requireName(const char* field, const std::string& name);
 void requireNames(const char* field, const std::vector<std::string>& names);
+/// Paths of numbers among parameters: names, each with `[row]`, `[column]` or `.name` behind it, as
+/// in discs[1].mass.
+void requirePaths(const char* field, const std::vector<std::string>& paths);
 /// UTF-8 without control characters, at most 1000 bytes.
 void requireText(const char* field, const std::string& text);
 /// "forward" or "backward".

@@ -99,6 +99,55 @@ void takeFields(const Message& message, state::DriveState& drive) {
 }
 
 template <class Message>
+void putFields(const state::MotorState& motor, Message& message) {
+  message.system = motor.system;
+  message.speed = motor.speed;
+  message.acceleration = motor.acceleration;
+  message.torque = motor.torque;
+  message.motor_power = motor.motor_power;
+  message.drag_power = motor.drag_power;
+  message.dissipated_power = motor.dissipated_power;
+  message.energy = motor.energy;
+  message.motor_work = motor.motor_work;
+  message.dissipated_work = motor.dissipated_work;
+}
+
+template <class Message>
+void takeFields(const Message& message, state::MotorState& motor) {
+  requireName("system", message.system);
+  motor.system = message.system;
+  motor.speed = message.speed;
+  motor.acceleration = message.acceleration;
+  motor.torque = message.torque;
+  motor.motor_power = message.motor_power;
+  motor.drag_power = message.drag_power;
+  motor.dissipated_power = message.dissipated_power;
+  motor.energy = message.energy;
+  motor.motor_work = message.motor_work;
+  motor.dissipated_work = message.dissipated_work;
+}
+
+template <class Message>
+void putFields(const state::ParameterChange& change, Message& message) {
+  message.names = change.names;
+  message.values = change.values;
+  message.changed = change.changed;
+  message.previous = change.previous;
+}
+
+template <class Message>
+void takeFields(const Message& message, state::ParameterChange& change) {
+  requirePaths("names", message.names);
+  requireLength("values", message.values.size(), message.names.size());
+  requirePaths("changed", message.changed);
+  requireLength("previous", message.previous.size(), message.changed.size());
+  change.names = message.names;
+  change.values = message.values;
+  change.changed = message.changed;
+  change.previous = message.previous;
+}
+
+template <class Message>
 void putFields(const state::StabilityMargin& margin, Message& message) {
   message.model = margin.model;
   message.verdict = static_cast<decltype(message.verdict)>(margin.verdict);

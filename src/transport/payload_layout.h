@@ -7,6 +7,8 @@
 
 #include "whirl_twin/alert_t.hpp"
 #include "whirl_twin/drive_state_t.hpp"
+#include "whirl_twin/motor_state_t.hpp"
+#include "whirl_twin/parameter_change_t.hpp"
 #include "whirl_twin/pendulum_state_t.hpp"
 #include "whirl_twin/stability_margin_t.hpp"
 #include "whirl_twin/whirl_state_t.hpp"
@@ -25,8 +27,12 @@ inline constexpr const char* kPayloadLayout<pendulum_state_t> = "lllsdnSDDddd";
 template <>
 inline constexpr const char* kPayloadLayout<drive_state_t> = "lllsdddddldd";
 template <>
+inline constexpr const char* kPayloadLayout<motor_state_t> = "lllsdsddddddddd";
+template <>
 inline constexpr const char* kPayloadLayout<stability_margin_t> =
     "lllsdsbsnSDdnDnDiiiddddbnDSDDDDD";
+template <>
+inline constexpr const char* kPayloadLayout<parameter_change_t> = "lllsdnSDnSD";
 template <>
 inline constexpr const char* kPayloadLayout<alert_t> = "llissbbdddddddddds";
 

@@ -63,10 +63,24 @@ DriveState toRos(const state::DriveState& drive) {
   return message;
 }
 
+MotorState toRos(const state::MotorState& motor) {
+  MotorState message;
+  putInstant(motor.at, motor.drive, message);
+  putFields(motor, message);
+  return message;
+}
+
 StabilityMargin toRos(const state::StabilityMargin& margin) {
   StabilityMargin message;
   putInstant(margin.at, margin.system, message);
   putFields(margin, message);
+  return message;
+}
+
+ParameterChange toRos(const state::ParameterChange& change) {
+  ParameterChange message;
+  putInstant(change.at, change.system, message);
+  putFields(change, message);
   return message;
 }
 
@@ -123,12 +137,28 @@ state::DriveState fromRos(const DriveState& message) {
   return drive;
 }
 
+state::MotorState fromRos(const MotorState& message) {
+  state::MotorState motor;
+  motor.at = takeInstant(message);
+  motor.drive = takeName(message);
+  takeFields(message, motor);
+  return motor;
+}
+
 state::StabilityMargin fromRos(const StabilityMargin& message) {
   state::StabilityMargin margin;
   margin.at = takeInstant(message);
   margin.system = takeName(message);
   takeFields(message, margin);
   return margin;
+}
+
+state::ParameterChange fromRos(const ParameterChange& message) {
+  state::ParameterChange change;
+  change.at = takeInstant(message);
+  change.system = takeName(message);
+  takeFields(message, change);
+  return change;
 }
 
 std::vector<state::Alert> fromRos(const AlertArray& message) {

@@ -16,6 +16,8 @@
 #include "transport/message_check.h"
 #include "whirl_twin/AlertArray.h"
 #include "whirl_twin/DriveState.h"
+#include "whirl_twin/MotorState.h"
+#include "whirl_twin/ParameterChange.h"
 #include "whirl_twin/PendulumState.h"
 #include "whirl_twin/StabilityMargin.h"
 #include "whirl_twin/WhirlState.h"
@@ -28,7 +30,9 @@ ros::Time toRosTime(std::int64_t stamp);
 WhirlState toRos(const state::WhirlState& whirl);
 PendulumState toRos(const state::PendulumState& pendulum);
 DriveState toRos(const state::DriveState& drive);
+MotorState toRos(const state::MotorState& motor);
 StabilityMargin toRos(const state::StabilityMargin& margin);
+ParameterChange toRos(const state::ParameterChange& change);
 /// The complete list of active alerts, stamped with the instant [ns] it holds at.
 AlertArray toRos(const std::vector<state::Alert>& alerts, std::int64_t stamp);
 
@@ -40,7 +44,9 @@ sensor_msgs::JointState toJointState(const state::PendulumState& pendulum);
 state::WhirlState fromRos(const WhirlState& message);
 state::PendulumState fromRos(const PendulumState& message);
 state::DriveState fromRos(const DriveState& message);
+state::MotorState fromRos(const MotorState& message);
 state::StabilityMargin fromRos(const StabilityMargin& message);
+state::ParameterChange fromRos(const ParameterChange& message);
 /// The alerts take the stamp of the list: an Alert has none of its own.
 std::vector<state::Alert> fromRos(const AlertArray& message);
 

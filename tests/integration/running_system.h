@@ -40,6 +40,7 @@ class RunningSystem {
     std::vector<SpeedMove> profile{};
     std::vector<double> q{};
     std::vector<double> v{};
+    std::optional<Motor> motor{};  ///< that turns it; then q and v end with the spin
   };
 
   /// step in nanoseconds.
@@ -92,7 +93,9 @@ class RunningSystem {
  private:
   static ModelSetup setUp(const Setup& setup) {
     const ModelInfo& model = *findModel(setup.model);
-    return model.setUp(completed(model, setup.parameters), setup.settings, setup.gravity);
+    Surroundings around(setup.gravity);
+    around.motor = setup.motor;
+    return model.setUp(completed(model, setup.parameters), setup.settings, around);
   }
   static double seconds(std::int64_t nanoseconds) {
     return static_cast<double>(nanoseconds) / 1.0e9;

@@ -37,8 +37,15 @@ inline RandomState anyRandomState(const VariantUnderTest& variant, std::mt19937_
                            : between(0.0, 1.0) < 1.0 / 3.0 ? 0.0
                                                            : size;
   }
+  for (auto& [name, value] : s.parameters) {
+    value = choosesForm(name) ? 0.0 : value;
+  }
+  if (s.parameters.count("stiffness_coupling") != 0) {  // small enough for a shaft
+    s.parameters["stiffness_displacement"] = between(1.0, 4.0);
+    s.parameters["stiffness_rotation"] = between(1.0, 4.0);
+    s.parameters["stiffness_coupling"] = between(-0.9, 0.9);
+  }
   if (s.parameters.count("regularization") != 0) {
-    s.parameters["regularization"] = 0.0;  // a form of its own
     // Far from tipping, where the equations end.
     s.parameters["friction_coefficient"] = between(0.0, 0.5);
     s.parameters["height"] = s.parameters["half_spacing"] * between(0.0, 1.0);
@@ -47,7 +54,7 @@ inline RandomState anyRandomState(const VariantUnderTest& variant, std::mt19937_
     s.parameters[name] = value;
   }
   s.gravity = between(0.0, 20.0);
-  s.dynamics = model.setUp(s.parameters, variant.settings, s.gravity).dynamics;
+  s.dynamics = model.setUp(s.parameters, variant.settings, variant.around(s.gravity)).dynamics;
   const auto n = static_cast<Eigen::Index>(s.dynamics->dof());
   s.q = s.v = Eigen::VectorXd(n);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -72,7 +79,7 @@ inline RandomState randomState(const VariantUnderTest& variant, std::mt19937_64&
 
 /// Of a model in its plain form.
 inline RandomState randomState(const std::string& model, std::mt19937_64& random) {
-  return randomState(VariantUnderTest{model, "", {}, {}}, random);
+  return randomState(VariantUnderTest{model, "", {}, {}, {}}, random);
 }
 
 }  // namespace whirl_twin

@@ -101,6 +101,34 @@ TEST(TwinMonitor, instabilityIsRaisedAtTheThresholdAndClearedBelowIt) {
   }
 }
 
+// Parameters that change while it runs: threshold 100 (1 + 10 / c_i).
+TEST(TwinMonitor, changedParametersAreJudgedFromTheNextMarginOn) {
+  WatchedTwin watched(sceneOf(kSelfExcited));
+  watched.run(0.25);
+  state::ParameterChange change = watched.observer.parameters(0);
+  for (std::size_t i = 0; i < change.names.size(); ++i) {
+    change.values[i] = change.names[i] == "internal_damping" ? 40.0 : change.values[i];
+  }
+  ASSERT_TRUE(watched.monitor.take(change));
+  watched.run(0.15);
+  EXPECT_NEAR(watched.margins.back().instability_speed, 125.0, 1.0e-9);
+  EXPECT_EQ(watched.count("UNSTABLE", true), 1u) << "it runs at 150 rad/s and more";
+
+  EXPECT_TRUE(watched.monitor.take(watched.observer.parameters(0))) << "and back";
+  watched.run(0.15);
+  EXPECT_NEAR(watched.margins.back().instability_speed, 200.0, 1.0e-9);
+
+  state::ParameterChange other = change;
+  other.system = "rotr";
+  EXPECT_FALSE(watched.monitor.take(other));
+  other = change;
+  other.names[0] = "weight";
+  EXPECT_FALSE(watched.monitor.take(other));
+  other = change;
+  other.values.pop_back();
+  EXPECT_FALSE(watched.monitor.take(other));
+}
+
 TEST(TwinMonitor, marginsComeTenASecondAndTellTheThreshold) {
   WatchedTwin watched(sceneOf(kSelfExcited));
   watched.run(0.45);

@@ -245,8 +245,7 @@ INSTANTIATE_TEST_SUITE_P(
              "drives.shaft.profile[1].dwell: must be from 0 to 1e+09 s, found -2"}},
         Broken{"Motor",
                rotorScene(kNoSpeed, ", drive: shaft", ", drives: {shaft: {motor: {torque: 1}}}"),
-               {"drives.shaft.motor: motors are not modelled in this version; give the drive a "
-                "profile"}},
+               {"systems.rotor.parameters.polar_inertia: must be > 0 kg m^2 with a motor"}},
         Broken{"ExponentialForAPendulum",
                "{step: 1, systems: {a: {model: spinning_pendulum, integrator: exponential, "
                "parameters: {mass: 1, length: 1, speed: 1}}}}",

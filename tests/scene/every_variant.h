@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cctype>
+#include <cmath>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -14,15 +16,51 @@ struct VariantUnderTest {
   std::string model;
   std::string when;  ///< as the model says it
   Settings settings;
-  ParameterValues parameters;  ///< those that choose the form
+  ParameterValues parameters;    ///< those that choose the form
+  std::optional<Motor> motor{};  ///< that turns it
+
+  Surroundings around(double gravity) const {
+    Surroundings all(gravity);
+    all.motor = motor;
+    return all;
+  }
 };
+
+/// A number that chooses a form of its model, or belongs to one: 0 in all others.
+inline bool choosesForm(const std::string& parameter) {
+  for (const char* start : {"regularization", "loss_factor", "rub_", "rotor_radius", "bearing_",
+                            "journal_", "stiffness_asymmetry"}) {
+    if (parameter.rfind(start, 0) == 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Some forms need more numbers than the one that chooses them.
+inline void addCompanions(VariantUnderTest& v) {
+  if (v.parameters.count("rub_stiffness") != 0) {
+    for (const char* name : {"rub_clearance", "rub_friction", "rub_damping", "rotor_radius"}) {
+      v.parameters[name] = 0.3;
+    }
+  }
+  if (v.parameters.count("bearing_length") != 0) {
+    for (const char* name : {"bearing_diameter", "bearing_viscosity", "journal_mass"}) {
+      v.parameters[name] = 0.3;
+    }
+    v.parameters["bearing_clearance"] = 10.0;  // beyond every state of these tests
+  }
+  if (v.motor) {
+    v.parameters["polar_inertia"] = 0.3;
+  }
+}
 
 inline void PrintTo(const VariantUnderTest& v, std::ostream* out) {
   *out << v.model << " " << v.when;
 }
 
 /// "setting: value" of the form becomes a choice; matrices that must be given are of two sprung
-/// masses.
+/// masses, tables have one row.
 inline std::vector<VariantUnderTest> everyVariant() {
   std::vector<VariantUnderTest> all;
   for (const ModelInfo& model : models()) {
@@ -34,6 +72,14 @@ inline std::vector<VariantUnderTest> everyVariant() {
           const bool chosen = variant.when.substr(0, colon) == setting.name;
           v.settings.choices[setting.name] =
               chosen ? variant.when.substr(colon + 2) : setting.choices.front();
+        } else if (setting.kind == SettingKind::kWordOrCount) {
+          v.settings.choices[setting.name] = setting.choices.front();
+        } else if (setting.kind == SettingKind::kTable && setting.required) {
+          TableRow row;
+          for (const ColumnInfo& column : setting.columns) {
+            row.numbers[column.name] = std::isnan(column.fallback) ? 0.3 : column.fallback;
+          }
+          v.settings.tables[setting.name] = {row};
         } else if (setting.kind == SettingKind::kMatrix && setting.required) {
           v.settings.matrices[setting.name] =
               setting.name == "mass"
@@ -46,6 +92,10 @@ inline std::vector<VariantUnderTest> everyVariant() {
           v.parameters[p.name] = 0.3;  // "regularization > 0"
         }
       }
+      if (variant.motor) {
+        v.motor = Motor::falling(0.5, 20.0, 0.01);
+      }
+      addCompanions(v);
       all.push_back(v);
     }
   }

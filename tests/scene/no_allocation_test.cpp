@@ -48,19 +48,24 @@ class NoAllocation : public testing::TestWithParam<Pair> {
     if (model.has_shaft) {
       spec.drive = "shaft";
     }
+    if (GetParam().variant.motor) {
+      scene.drives.front().motor = GetParam().variant.motor;
+    }
     for (const ParameterInfo& p : model.parameters) {
       const bool matrices_change = (p.name == "internal_damping" || p.name == "fluid_ratio") &&
                                    spec.integrator == "exponential";
-      const bool chooses = p.name == "regularization";  // 0 is a form of its own
-      spec.parameters[p.name] = matrices_change || chooses ? 0.0
-                                : p.range == Range::kCount ? 3.0
-                                                           : 0.3;
+      spec.parameters[p.name] = matrices_change || choosesForm(p.name) ? 0.0
+                                : p.range == Range::kCount             ? 3.0
+                                : p.name == "stiffness_coupling"       ? 0.1
+                                                                       : 0.3;
     }
     for (const auto& [name, value] : GetParam().variant.parameters) {
       spec.parameters[name] = value;
     }
     spec.settings = GetParam().variant.settings;
-    const auto dynamics = model.setUp(spec.parameters, spec.settings, scene.gravity).dynamics;
+    const auto dynamics =
+        model.setUp(spec.parameters, spec.settings, GetParam().variant.around(scene.gravity))
+            .dynamics;
     spec.q.assign(static_cast<std::size_t>(dynamics->dof()), 0.5);
     spec.v.assign(static_cast<std::size_t>(dynamics->dof()), 0.1);
     scene.systems = {spec};
@@ -79,7 +84,8 @@ TEST_P(NoAllocation, InTheRealTimeThread) {
         twin.step();
         twin.write(record.data());
         if (i == 1500) {
-          set = set && twin.setSpeed(0, 20.0, 30.0, 100.0);
+          // A motor goes as fast as it can.
+          set = set && twin.setSpeed(0, 20.0, 30.0, 100.0) != GetParam().variant.motor.has_value();
         }
       }
       twin.reset();

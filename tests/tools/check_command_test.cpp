@@ -31,13 +31,17 @@ TEST(Check, TellsWhatTheDemoModels) {
             Json({{"topic", "/twin/rotor/whirl"}, {"type", "whirl_twin/WhirlState"}}));
   EXPECT_EQ(rotor["topics"][1],
             Json({{"topic", "/twin/rotor/joint_states"}, {"type", "sensor_msgs/JointState"}}));
-  EXPECT_EQ(rotor["channels"], Json({"TWIN_ROTOR_WHIRL", "TWIN_ROTOR_STABILITY"}));
+  EXPECT_EQ(rotor["topics"][3],
+            Json({{"topic", "/twin/rotor/parameters"}, {"type", "whirl_twin/ParameterChange"}}));
+  EXPECT_EQ(rotor["channels"],
+            Json({"TWIN_ROTOR_WHIRL", "TWIN_ROTOR_STABILITY", "TWIN_ROTOR_PARAMETER"}));
   EXPECT_GT(rotor["ns_per_step"], 0.0);
 
   const Json& pendulum = check["systems"]["pendulum"];
   EXPECT_EQ(pendulum["topics"][0],
             Json({{"topic", "/twin/pendulum/pendulum"}, {"type", "whirl_twin/PendulumState"}}));
-  EXPECT_EQ(pendulum["channels"], Json({"TWIN_PENDULUM_PENDULUM", "TWIN_PENDULUM_STABILITY"}));
+  EXPECT_EQ(pendulum["channels"],
+            Json({"TWIN_PENDULUM_PENDULUM", "TWIN_PENDULUM_STABILITY", "TWIN_PENDULUM_PARAMETER"}));
 
   const Json& shaft = check["drives"]["shaft"];
   EXPECT_EQ(shaft["topics"][0],

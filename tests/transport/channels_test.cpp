@@ -11,7 +11,9 @@ TEST(Channels, AreNamedAsTheInterfaceSays) {
   EXPECT_EQ(channelName(ChannelKind::kWhirl, "rotor"), "TWIN_ROTOR_WHIRL");
   EXPECT_EQ(channelName(ChannelKind::kPendulum, "arm_2"), "TWIN_ARM_2_PENDULUM");
   EXPECT_EQ(channelName(ChannelKind::kStability, "rotor"), "TWIN_ROTOR_STABILITY");
+  EXPECT_EQ(channelName(ChannelKind::kParameter, "rotor"), "TWIN_ROTOR_PARAMETER");
   EXPECT_EQ(channelName(ChannelKind::kDrive, "shaft"), "TWIN_SHAFT_DRIVE");
+  EXPECT_EQ(channelName(ChannelKind::kMotor, "shaft"), "TWIN_SHAFT_MOTOR");
   EXPECT_EQ(channelName(ChannelKind::kAlerts), "TWIN_ALERTS");
 }
 
@@ -19,7 +21,7 @@ TEST(Channels, AreParsedBackToKindAndName) {
   // Names may themselves end like a kind of channel: the last ending counts.
   for (const std::string name : {"ROTOR", "A", "MY_WHIRL", "X_DRIVE", "TWIN_ALERTS", "PENDULUM"}) {
     for (const auto kind : {ChannelKind::kWhirl, ChannelKind::kPendulum, ChannelKind::kStability,
-                            ChannelKind::kDrive}) {
+                            ChannelKind::kParameter, ChannelKind::kDrive, ChannelKind::kMotor}) {
       const auto channel = parseChannel(channelName(kind, name));
       ASSERT_TRUE(channel) << channelName(kind, name);
       EXPECT_EQ(channel->kind, kind);
@@ -43,6 +45,7 @@ TEST(Channels, OfTheLongestNameFitLcm) {
   EXPECT_TRUE(isLegalName(longest));
   EXPECT_FALSE(isLegalName(longest + "a"));
   EXPECT_EQ(channelName(ChannelKind::kStability, longest).size(), 63u);  // LCM's limit
+  EXPECT_EQ(channelName(ChannelKind::kParameter, longest).size(), 63u);
 }
 
 }  // namespace

@@ -22,6 +22,10 @@ TEST(LcmConverters, BringEveryBitBack) {
     EXPECT_EQ(bitsOf(fromLcm(toLcm(drive))), bitsOf(drive));
     const auto margin = samples.margin();
     EXPECT_EQ(bitsOf(fromLcm(toLcm(margin))), bitsOf(margin));
+    const auto motor = samples.motor();
+    EXPECT_EQ(bitsOf(fromLcm(toLcm(motor))), bitsOf(motor));
+    const auto change = samples.change();
+    EXPECT_EQ(bitsOf(fromLcm(toLcm(change))), bitsOf(change));
     const auto alert = samples.alert();
     EXPECT_EQ(bitsOf(fromLcm(toLcm(alert))), bitsOf(alert));
   }
@@ -92,6 +96,12 @@ TEST(LcmConverters, RejectNamesThatAreNone) {
     expectRejected<drive_state_t>(toLcm(samples.drive()), {[&](auto& m) { m.drive = name; }});
     expectRejected<pendulum_state_t>(toLcm(samples.pendulum()),
                                      {[&](auto& m) { m.system = name; }});
+    expectRejected<motor_state_t>(toLcm(samples.motor()), {[&](auto& m) { m.drive = name; },
+                                                           [&](auto& m) { m.system = name; }});
+    expectRejected<parameter_change_t>(
+        toLcm(samples.change()),
+        {[&](auto& m) { m.system = name; }, [&](auto& m) { m.names[0] = name; },
+         [&](auto& m) { m.changed[0] = name; }});
     expectRejected<alert_t>(toLcm(samples.alert()),
                             {[&](auto& m) { m.system = name; }, [&](auto& m) { m.type = name; }});
     expectRejected<stability_margin_t>(
@@ -108,6 +118,7 @@ TEST(LcmConverters, RejectImpossibleWhirlsAndDrives) {
   expectRejected<whirl_state_t>(
       whirl, {[](auto& m) { m.phase_valid = 2; }, [](auto& m) { m.forward = -1; }});
   expectRejected(toLcm(samples.drive()), instantSpoilers<drive_state_t>());
+  expectRejected(toLcm(samples.motor()), instantSpoilers<motor_state_t>());
 }
 
 TEST(LcmConverters, RejectPendulumsWhoseArraysDiffer) {
@@ -122,6 +133,25 @@ TEST(LcmConverters, RejectPendulumsWhoseArraysDiffer) {
       message, {[](auto& m) { m.coordinates = -1; }, [](auto& m) { m.coordinates = 1; },
                 [](auto& m) { m.name.pop_back(); }, [](auto& m) { m.angle.pop_back(); },
                 [](auto& m) { m.rate.push_back(0.0); }, [](auto& m) { m.name[1] = ""; }});
+}
+
+TEST(LcmConverters, RejectChangesOfParametersThatCannotBeMeant) {
+  state::ParameterChange change;
+  change.system = "rotor";
+  change.names = {"mass", "discs[1].mass", "stiffness[0][1]"};
+  change.values = {1.0, 2.0, 3.0};
+  change.changed = {"mass"};
+  change.previous = {0.5};
+  const auto message = toLcm(change);
+  expectRejected(message, instantSpoilers<parameter_change_t>());
+  expectRejected<parameter_change_t>(
+      message,
+      {[](auto& m) { m.parameters = -1; }, [](auto& m) { m.parameters = 2; },
+       [](auto& m) { m.names.pop_back(); }, [](auto& m) { m.values.pop_back(); },
+       [](auto& m) { m.changes = 0; }, [](auto& m) { m.previous.push_back(0.0); },
+       [](auto& m) { m.names[1] = "discs[1]/mass"; }, [](auto& m) { m.names[1] = "[1].mass"; },
+       [](auto& m) { m.changed[0] = "mass\x1b"; },
+       [](auto& m) { m.names[2] = "a[" + std::string(2 * kMaxNameLength, '1') + "]"; }});
 }
 
 TEST(LcmConverters, RejectImpossibleMargins) {

@@ -41,6 +41,8 @@ TEST(LcmDecode, BringsEveryBitBackFromTheWire) {
     expectSameAfterTheWire(samples.pendulum());
     expectSameAfterTheWire(samples.drive());
     expectSameAfterTheWire(samples.margin());
+    expectSameAfterTheWire(samples.motor());
+    expectSameAfterTheWire(samples.change());
     expectSameAfterTheWire(samples.alert());
   }
 }
@@ -74,6 +76,8 @@ TEST(LcmDecode, RejectsAPayloadCutAnywhereOrTooLong) {
   expectEveryCutRejected(doublePendulum());
   expectEveryCutRejected(samples.drive());
   expectEveryCutRejected(samples.margin());
+  expectEveryCutRejected(samples.motor());
+  expectEveryCutRejected(samples.change());
   expectEveryCutRejected(samples.alert());
 }
 

@@ -86,6 +86,47 @@ TEST(EventLog, SaysWhereStatesAreMissing) {
   EXPECT_EQ(channelIn(summary, "TWIN_SHAFT_DRIVE").stride, 10);
 }
 
+TEST(EventLog, HoldsChangesOfParametersWhichComeWhenThereAreSome) {
+  const TemporaryLog log;
+  EventLogWriter writer(log.path());
+  state::ParameterChange change;
+  change.system = "rotor";
+  change.names = {"mass", "damping"};
+  change.values = {1.0, 2.0};
+  writer.write(change);
+  writer.write(whirlAt(0));
+  change.at = {7, 0.007, 0};
+  change.changed = {"damping"};
+  change.previous = {2.0};
+  change.values[1] = 3.0;
+  writer.write(change);
+  writer.finish();
+  const auto summary = readEventLog(log.path());
+  EXPECT_TRUE(summary.intact());
+  EXPECT_TRUE(summary.continuous());
+  const auto& changes = channelIn(summary, "TWIN_ROTOR_PARAMETER");
+  EXPECT_EQ(changes.kind, "parameter");
+  EXPECT_EQ(changes.events, 2u);
+  EXPECT_EQ(changes.last_time, 0.007);
+}
+
+TEST(EventLog, SaysWhereStatesOfAMotorAreMissing) {
+  const TemporaryLog log;
+  EventLogWriter writer(log.path());
+  state::MotorState motor;
+  motor.drive = "shaft";
+  motor.system = "rotor";
+  for (const std::int64_t step : {0, 1, 2, 4}) {
+    motor.at = {step, static_cast<double>(step) * 1.0e-3, 0};
+    writer.write(motor);
+  }
+  writer.finish();
+  const auto summary = readEventLog(log.path());
+  EXPECT_TRUE(summary.intact());
+  EXPECT_EQ(channelIn(summary, "TWIN_SHAFT_MOTOR").kind, "motor");
+  EXPECT_EQ(channelIn(summary, "TWIN_SHAFT_MOTOR").gaps, 1u);
+}
+
 TEST(EventLog, MayHoldOtherChannels) {
   const TemporaryLog log;
   {

@@ -22,6 +22,10 @@ TEST(RosConverters, BringEveryBitBack) {
     EXPECT_EQ(bitsOf(fromRos(toRos(drive))), bitsOf(drive));
     const auto margin = samples.margin();
     EXPECT_EQ(bitsOf(fromRos(toRos(margin))), bitsOf(margin));
+    const auto motor = samples.motor();
+    EXPECT_EQ(bitsOf(fromRos(toRos(motor))), bitsOf(motor));
+    const auto change = samples.change();
+    EXPECT_EQ(bitsOf(fromRos(toRos(change))), bitsOf(change));
     const auto alert = samples.alert();
     const auto alerts = fromRos(toRos(std::vector<state::Alert>{alert}, alert.stamp));
     ASSERT_EQ(alerts.size(), 1u);
@@ -100,6 +104,12 @@ TEST(RosConverters, RejectWhatCannotBeMeant) {
       toRos(samples.margin()),
       {[](auto& m) { m.verdict = 5; }, [](auto& m) { m.band_high.push_back(0.0); },
        [](auto& m) { m.left = 1000; }});
+  expectRejected<MotorState>(toRos(samples.motor()), {[](auto& m) { m.header.frame_id = ""; },
+                                                      [](auto& m) { m.system = "a/b"; }});
+  expectRejected<ParameterChange>(
+      toRos(samples.change()),
+      {[](auto& m) { m.header.frame_id = ""; }, [](auto& m) { m.values.push_back(0.0); },
+       [](auto& m) { m.previous.clear(); }, [](auto& m) { m.names[0] = "a b"; }});
   expectRejected<AlertArray>(
       toRos(std::vector<state::Alert>{samples.alert()}, 0),
       {[](auto& m) { m.alerts[0].severity = 3; }, [](auto& m) { m.alerts[0].text = "\x80"; }});

@@ -48,6 +48,20 @@ void eachField(state::DriveState& s, Visit&& visit) {
 }
 
 template <class Visit>
+void eachField(state::MotorState& s, Visit&& visit) {
+  eachField(s.at, visit);
+  visit(s.drive), visit(s.system), visit(s.speed), visit(s.acceleration), visit(s.torque);
+  visit(s.motor_power), visit(s.drag_power), visit(s.dissipated_power), visit(s.energy);
+  visit(s.motor_work), visit(s.dissipated_work);
+}
+
+template <class Visit>
+void eachField(state::ParameterChange& s, Visit&& visit) {
+  eachField(s.at, visit);
+  visit(s.system), visit(s.names), visit(s.values), visit(s.changed), visit(s.previous);
+}
+
+template <class Visit>
 void eachField(state::StabilityMargin& s, Visit&& visit) {
   eachField(s.at, visit);
   visit(s.system), visit(s.model), visit(s.verdict), visit(s.verdict_name), visit(s.coordinate);
@@ -104,6 +118,17 @@ class StateSamples {
     auto s = sample<state::PendulumState>();
     s.angle = numbers(s.name.size());
     s.rate = numbers(s.name.size());
+    return s;
+  }
+
+  state::MotorState motor() { return sample<state::MotorState>(); }
+
+  state::ParameterChange change() {
+    auto s = sample<state::ParameterChange>();
+    s.names.emplace_back("bearings[0].kxx");
+    s.changed.emplace_back("stiffness[0][1]");
+    s.values = numbers(s.names.size());
+    s.previous = numbers(s.changed.size());
     return s;
   }
 

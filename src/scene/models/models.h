@@ -9,12 +9,14 @@ namespace whirl_twin {
 ModelInfo cantileverBeamInfo();
 ModelInfo cartPendulumInfo();
 ModelInfo doublePendulumInfo();
+ModelInfo flexibleRotorInfo();
 ModelInfo freeRotorInfo();
 ModelInfo frictionOscillatorInfo();
 ModelInfo governorInfo();
 ModelInfo hingedBeamInfo();
 ModelInfo jeffcottRotorInfo();
 ModelInfo linearSystemInfo();
+ModelInfo rigidDiscRotorInfo();
 ModelInfo rodSliderInfo();
 ModelInfo rollingDiscInfo();
 ModelInfo rotatingPendulumInfo();

@@ -1,0 +1,264 @@
+#include "analysis/modal_reduction.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/SparseLU>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <utility>
+
+#include "analysis/eigenvalue_refinement.h"
+
+namespace whirl_twin {
+
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXcd;
+using Eigen::VectorXd;
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr Index kFewestModes = 4;      // two in each plane
+constexpr double kSameShape = 1.0e-9;  // what orthogonalization may leave of a shape
+constexpr double kEveryError = std::numeric_limits<double>::infinity();
+constexpr double kRigid = 1.0e-5;  // of the highest frequency: a rigid-body mode
+
+struct RestModes {
+  VectorXd frequencies;  ///< [rad/s], ascending
+  MatrixXd shapes;
+};
+
+RestModes restModes(const Linearization& l) {
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(l.stiffness, l.mass);
+  return {solver.eigenvalues().cwiseMax(0.0).cwiseSqrt(), solver.eigenvectors()};
+}
+
+/// Everything about the full rotor that the search for shapes needs.
+class FullRotor {
+ public:
+  FullRotor(const LinearRotor& rotor, const std::vector<Station>& stations, double highest_speed)
+      : rotor_(rotor), stations_(stations), highest_(highest_speed) {
+    const bool balanced = rotor_.synchronousForce(1.0).isZero(0.0);
+    if (balanced) {
+      const Station& at = stations_.front();
+      rotor_.forces.push_back(
+          {at.along_x.cast<Complex>() - Complex(0.0, 1.0) * at.along_y, 1, true});
+    }
+    middle_ = rotor_.matrices(0.5 * highest_);
+    modes_ = restModes(middle_);
+    for (int i = 1; i <= kResponseSpeeds; ++i) {
+      points_.push_back(pointAt(highest_ * i / kResponseSpeeds));
+    }
+  }
+
+  Index dof() const { return rotor_.dof(); }
+  /// Modes that the run passes, and four at least.
+  Index modesOfTheRun() const {
+    const auto below = (modes_.frequencies.array() < highest_).count();
+    return std::min(dof(), std::max<Index>(kFewestModes, below));
+  }
+
+  /// `count` shapes, the first `modes` of them modes.
+  MatrixXd shapes(Index count, Index modes) const {
+    MatrixXd kept(dof(), 0);
+    for (Index i = 0; i < std::min(modes, count); ++i) {
+      keep(modes_.shapes.col(i), count, kept);
+    }
+    if (!rotor_.load.isZero(0.0)) {
+      keep((middle_.stiffness + middle_.circulatory).partialPivLu().solve(rotor_.load), count,
+           kept);
+    }
+    const Index points = (count - kept.cols() + 1) / 2;
+    for (Index i = 0; i < points; ++i) {
+      const double place =
+          std::cos(kPi * (static_cast<double>(i) + 0.5) / static_cast<double>(points));
+      const VectorXcd whirl = response(pointAt(0.5 * highest_ * (1.0 - place)));
+      keep(whirl.real(), count, kept);
+      keep(whirl.imag(), count, kept);
+    }
+    for (Index i = modes; i < dof(); ++i) {
+      keep(modes_.shapes.col(i), count, kept);
+    }
+    return modal(kept);
+  }
+
+  /// Once it is above `enough` the rest of the speeds is left out.
+  double responseError(const MatrixXd& shapes, double enough) const {
+    double worst = 0.0;
+    for (const SpeedPoint& point : points_) {
+      const Eigen::MatrixXcd moved = point.dynamic * shapes.cast<Complex>();
+      const Eigen::MatrixXcd dynamic = shapes.transpose() * moved;
+      const VectorXcd force = shapes.transpose() * point.force;
+      const Eigen::Vector2cd found = atStation(shapes * dynamic.partialPivLu().solve(force));
+      const double error = (found - point.response).norm() / point.response.norm();
+      worst = std::isfinite(error) ? std::max(worst, error) : worst;
+      if (worst > enough) {
+        break;
+      }
+    }
+    return worst;
+  }
+
+  double eigenvalueError(const MatrixXd& shapes) const {
+    return largestEigenvalueError(rotor_.matrices(highest_), reduced(highest_, shapes), shapes,
+                                  highest_);
+  }
+
+  double highestSpeed() const { return highest_; }
+
+ private:
+  Linearization reduced(double speed, const MatrixXd& shapes) const {
+    const Linearization l = rotor_.matrices(speed);
+    const auto part = [&](const MatrixXd& m) -> MatrixXd {
+      return shapes.transpose() * (m * shapes);
+    };
+    return {part(l.mass), part(l.damping), part(l.gyroscopic), part(l.stiffness),
+            part(l.circulatory)};
+  }
+
+  struct SpeedPoint {
+    Eigen::SparseMatrix<Complex> dynamic;  // K - w^2 M + i w C
+    VectorXcd force;
+    Eigen::Vector2cd response;
+  };
+
+  SpeedPoint pointAt(double speed) const {
+    const Linearization l = rotor_.matrices(speed);
+    const Eigen::MatrixXcd dynamic =
+        (l.stiffness + l.circulatory - speed * speed * l.mass).cast<Complex>() +
+        Complex(0.0, speed) * (l.damping + l.gyroscopic);
+    SpeedPoint point{dynamic.sparseView(), rotor_.synchronousForce(speed), {}};
+    point.response = atStation(response(point));
+    return point;
+  }
+
+  /// Not a number at an undamped critical speed.
+  VectorXcd response(const SpeedPoint& point) const {
+    const Eigen::SparseLU<Eigen::SparseMatrix<Complex>> solver(point.dynamic);
+    if (solver.info() != Eigen::Success) {
+      return VectorXcd::Constant(dof(), Complex(std::nan(""), 0.0));
+    }
+    return solver.solve(point.force);
+  }
+
+  Eigen::Vector2cd atStation(const VectorXcd& q) const {
+    const Station& at = stations_.front();
+    return {at.along_x.cast<Complex>().cwiseProduct(q).sum(),
+            at.along_y.cast<Complex>().cwiseProduct(q).sum()};
+  }
+
+  /// Adds what is new in a shape, mass-orthonormal, unless there are `count` already.
+  void keep(VectorXd shape, Index count, MatrixXd& kept) const {
+    const MatrixXd& mass = middle_.mass;
+    shape /= std::sqrt(shape.dot(mass * shape));
+    if (kept.cols() >= count || !shape.allFinite()) {
+      return;
+    }
+    for (int pass = 0; pass < 2; ++pass) {
+      shape -= kept * (kept.transpose() * (mass * shape));
+    }
+    const double rest = std::sqrt(shape.dot(mass * shape));
+    if (rest > kSameShape) {
+      kept.conservativeResize(Eigen::NoChange, kept.cols() + 1);
+      kept.rightCols(1) = shape / rest;
+    }
+  }
+
+  /// The rotor's modes in these shapes, of unit largest displacement at a station.
+  MatrixXd modal(const MatrixXd& shapes) const {
+    const MatrixXd stiffness = shapes.transpose() * middle_.stiffness * shapes;
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(0.5 * (stiffness + stiffness.transpose()));
+    MatrixXd modes = shapes * solver.eigenvectors();
+    for (Index i = 0; i < modes.cols(); ++i) {
+      double largest = 0.0;
+      for (const Station& station : stations_) {
+        largest = std::max(largest, std::hypot(station.along_x.dot(modes.col(i)),
+                                               station.along_y.dot(modes.col(i))));
+      }
+      modes.col(i) /= largest;
+    }
+    return modes;
+  }
+
+  LinearRotor rotor_;
+  std::vector<Station> stations_;
+  double highest_;
+  Linearization middle_;  // at half the highest speed: bearings may follow it
+  RestModes modes_;
+  std::vector<SpeedPoint> points_;
+};
+
+struct Choice {
+  MatrixXd shapes;
+  double response_error = 0.0;
+  Index modes = 0;
+};
+
+/// Modes alone, or those of the run and the response: which is better is measured. Errors above
+/// `enough` are not measured to the end.
+Choice choose(const FullRotor& full, Index count, double enough) {
+  Choice best;
+  for (const Index modes : {std::min(count, full.modesOfTheRun()), count}) {
+    MatrixXd shapes = full.shapes(count, modes);
+    const double error = full.responseError(shapes, enough);
+    if (best.modes == 0 || error < best.response_error) {
+      best = {std::move(shapes), error, modes};
+    }
+    if (modes == count) {
+      break;
+    }
+  }
+  return best;
+}
+
+RotorReduction report(const FullRotor& full, const Choice& choice, const std::string& why) {
+  RotorReduction r;
+  r.shapes = choice.shapes;
+  r.error = {choice.response_error, full.eigenvalueError(choice.shapes)};
+  r.highest_speed = full.highestSpeed();
+  const Index others = choice.shapes.cols() - choice.modes;
+  r.note = fmt::format(
+      "{} of {} modes{}: response error {:.1e}{} up to {:.4g} rad/s, eigenvalue error {:.1e}",
+      choice.shapes.cols(), full.dof(),
+      others > 0 ? fmt::format(" ({} of them shapes of the response)", others) : "",
+      r.error.response, why, r.highest_speed, r.error.eigenvalue);
+  return r;
+}
+
+}  // namespace
+
+double usualHighestSpeed(const LinearRotor& rotor) {
+  const RestModes modes = restModes(rotor.matrices(0.0));
+  const Index n = modes.frequencies.size();
+  const double rigid = kRigid * modes.frequencies[n - 1];
+  const auto first = (modes.frequencies.array() <= rigid).count();
+  return 2.0 * modes.frequencies[std::min(n - 1, first + kFewestModes - 1)];
+}
+
+RotorReduction reduceRotor(const LinearRotor& rotor, const std::vector<Station>& stations,
+                           double highest_speed, int count) {
+  const FullRotor full(rotor, stations, highest_speed);
+  return report(full, choose(full, std::min<Index>(count, full.dof()), kEveryError), "");
+}
+
+RotorReduction reduceRotorTo(const LinearRotor& rotor, const std::vector<Station>& stations,
+                             double highest_speed, double tolerance) {
+  const FullRotor full(rotor, stations, highest_speed);
+  for (Index count = 2;; count = std::min(count + 2, full.dof())) {
+    const Choice choice = choose(full, count, tolerance);
+    if (choice.response_error <= tolerance) {
+      return report(full, choice, fmt::format(" <= {:.3g}", tolerance));
+    }
+    if (count == full.dof()) {
+      return report(full, choose(full, count, kEveryError),
+                    fmt::format(" (asked for {:.3g})", tolerance));
+    }
+  }
+}
+
+}  // namespace whirl_twin

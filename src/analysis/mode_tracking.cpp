@@ -1,0 +1,145 @@
+#include "analysis/mode_tracking.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <tuple>
+#include <utility>
+
+namespace whirl_twin {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+using Eigen::VectorXcd;
+
+constexpr double kSame = 0.9;         // correlation of one mode at two speeds
+constexpr double kAtAll = 0.5;        // the least that is accepted where a step is no longer halved
+constexpr double kRepeated = 1.0e-6;  // of an eigenvalue
+constexpr int kMostHalvings = 8;
+
+/// Square root of the energy: the scalar product of states scaled by it is that of the energy.
+class EnergyScale {
+ public:
+  explicit EnergyScale(const Linearization& l) : mass_(Eigen::LLT<MatrixXd>(l.mass).matrixU()) {
+    const Eigen::LLT<MatrixXd> stiffness(l.stiffness);
+    // With a motion that has no stiffness: another length.
+    stiffness_ =
+        stiffness.info() == Eigen::Success
+            ? MatrixXd(stiffness.matrixU())
+            : MatrixXd(std::sqrt(l.stiffness.cwiseAbs().maxCoeff() / l.mass.cwiseAbs().maxCoeff()) *
+                       mass_);
+  }
+  VectorXcd scaled(const WhirlMode& mode) const {
+    const Index n = mode.shape.size();
+    VectorXcd state(2 * n);
+    state.head(n) = stiffness_ * mode.shape;
+    state.tail(n) = mode.eigenvalue * (mass_ * mode.shape);
+    return state;
+  }
+
+ private:
+  MatrixXd mass_, stiffness_;
+};
+
+/// Modes of one eigenvalue: any sum of them is a mode.
+struct Space {
+  std::vector<std::size_t> members;
+  MatrixXcd states, basis;  // scaled, in the lengths of the modes; orthonormal
+  std::size_t taken = 0;
+};
+
+std::vector<Space> spacesOf(const std::vector<WhirlMode>& modes, const EnergyScale& scale) {
+  std::vector<Space> spaces;
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    const bool repeated = i > 0 && std::abs(modes[i].eigenvalue - modes[i - 1].eigenvalue) <=
+                                       kRepeated * std::abs(modes[i].eigenvalue);
+    if (!repeated) {
+      spaces.emplace_back();
+    }
+    spaces.back().members.push_back(i);
+  }
+  for (Space& space : spaces) {
+    const auto count = static_cast<Index>(space.members.size());
+    space.states.resize(2 * modes.front().shape.size(), count);
+    for (Index k = 0; k < count; ++k) {
+      space.states.col(k) = scale.scaled(modes[space.members[static_cast<std::size_t>(k)]]);
+    }
+    space.basis = Eigen::HouseholderQR<MatrixXcd>(space.states).householderQ() *
+                  MatrixXcd::Identity(space.states.rows(), count);
+  }
+  return spaces;
+}
+
+/// The mode nearest to a scaled state within its space.
+WhirlMode nearestIn(const Space& space, std::size_t member, const VectorXcd& state,
+                    const std::vector<WhirlMode>& modes, const std::vector<Station>& stations) {
+  WhirlMode mode = modes[space.members[member]];
+  if (space.members.size() == 1) {
+    return mode;
+  }
+  const VectorXcd parts = space.states.colPivHouseholderQr().solve(state);
+  mode.shape.setZero();
+  for (std::size_t k = 0; k < space.members.size(); ++k) {
+    mode.shape += parts[static_cast<Index>(k)] * modes[space.members[k]].shape;
+  }
+  normalise(mode, stations);
+  return mode;
+}
+
+}  // namespace
+
+ModeTracker::ModeTracker(System system, std::vector<Station> stations)
+    : system_(std::move(system)), stations_(std::move(stations)) {}
+
+ModeTracker::Modes ModeTracker::lowest(double parameter, std::size_t count) const {
+  const WhirlModes all = whirlModes(system_(parameter), stations_);
+  const std::size_t found = std::min(count, all.modes.size());
+  return {all.modes.begin(), all.modes.begin() + static_cast<std::ptrdiff_t>(found)};
+}
+
+ModeTracker::Modes ModeTracker::follow(const Modes& modes, double from, double to) const {
+  return follow(modes, from, to, kMostHalvings);
+}
+
+ModeTracker::Modes ModeTracker::follow(const Modes& modes, double from, double to,
+                                       int halvings) const {
+  const Linearization matrices = system_(to);
+  const EnergyScale scale(matrices);
+  const std::vector<WhirlMode> there = whirlModes(matrices, stations_).modes;
+  std::vector<Space> spaces = there.empty() ? std::vector<Space>() : spacesOf(there, scale);
+
+  std::vector<VectorXcd> states(modes.size());
+  std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;  // correlation, mode, space
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    if (modes[i]) {
+      states[i] = scale.scaled(*modes[i]).normalized();
+      for (std::size_t k = 0; k < spaces.size(); ++k) {
+        pairs.emplace_back((spaces[k].basis.adjoint() * states[i]).squaredNorm(), i, k);
+      }
+    }
+  }
+  std::sort(pairs.begin(), pairs.end(), std::greater<>());
+
+  Modes found(modes.size());
+  for (const auto& [correlation, i, k] : pairs) {
+    if (found[i] || spaces[k].taken == spaces[k].members.size() ||
+        correlation < (halvings > 0 ? kSame : kAtAll)) {
+      continue;
+    }
+    found[i] = nearestIn(spaces[k], spaces[k].taken++, states[i], there, stations_);
+  }
+  const bool all = std::equal(modes.begin(), modes.end(), found.begin(),
+                              [](const auto& a, const auto& b) { return !a || b; });
+  if (all || halvings == 0) {
+    return found;
+  }
+  const double middle = 0.5 * (from + to);
+  return follow(follow(modes, from, middle, halvings - 1), middle, to, halvings - 1);
+}
+
+}  // namespace whirl_twin

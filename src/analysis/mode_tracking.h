@@ -1,0 +1,42 @@
+// Follows modes of whirl while a parameter of the rotor changes: its speed, a cross-coupled
+// stiffness. A mode is known by its shape, not by its place in the list: the correlation of two
+// modes r = (phi, s phi) is the modal assurance criterion with the energy as its scalar product,
+//
+//   <r_i, r_j> = phi_i^H K phi_j + conj(s_i) s_j phi_i^H M phi_j,
+//   c_ij = |<r_i, r_j>|^2 / (<r_i, r_i> <r_j, r_j>),
+//
+// in which the modes of an undamped rotor at one speed are orthogonal (Allemang, Sound and
+// Vibration 37, 2003). Where no mode correlates well the step is halved, so that branches cross
+// where they cross and veer where they veer.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "analysis/whirl_modes.h"
+
+namespace whirl_twin {
+
+class ModeTracker {
+ public:
+  /// The matrices at a value of the parameter.
+  using System = std::function<Linearization(double parameter)>;
+  /// None: the mode has become overdamped, or cannot be told from others.
+  using Modes = std::vector<std::optional<WhirlMode>>;
+
+  ModeTracker(System system, std::vector<Station> stations);
+
+  /// The `count` vibrating modes of lowest frequency, or as many as there are.
+  Modes lowest(double parameter, std::size_t count) const;
+  /// The modes at `from` as they are at `to`, in the same order.
+  Modes follow(const Modes& modes, double from, double to) const;
+
+ private:
+  Modes follow(const Modes& modes, double from, double to, int halvings) const;
+
+  System system_;
+  std::vector<Station> stations_;
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,131 @@
+#include "analysis/synchronous_poles.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace whirl_twin {
+
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::Index;
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+
+constexpr double kPolynomial = 1.0e-9;  // third difference of a polynomial of degree two: rounding
+constexpr double kPiece = 3.0;          // ratio of the ends of a piece
+constexpr double kNarrowest = 1.0e-5;   // of a speed: nearer to a pole the response is rounding
+constexpr double kWidest = 0.9;         // of a speed: no resonance
+
+/// Do the matrices follow polynomials of degree two from `speed` to four times it?
+bool polynomial(const LinearRotor& rotor, double speed) {
+  const std::array<Linearization, 4> l{rotor.matrices(speed), rotor.matrices(2.0 * speed),
+                                       rotor.matrices(3.0 * speed), rotor.matrices(4.0 * speed)};
+  const auto straight = [&](const MatrixXd Linearization::*m) {
+    const MatrixXd difference = l[3].*m - 3.0 * l[2].*m + 3.0 * l[1].*m - l[0].*m;
+    const double size = std::max((l[0].*m).cwiseAbs().maxCoeff(), (l[3].*m).cwiseAbs().maxCoeff());
+    return difference.cwiseAbs().maxCoeff() <= kPolynomial * size;
+  };
+  return straight(&Linearization::damping) && straight(&Linearization::gyroscopic) &&
+         straight(&Linearization::stiffness) && straight(&Linearization::circulatory);
+}
+
+/// Poles of the polynomial through the speeds from, to/2 + from/2 and to: with w = from + scale /
+/// u, (D2 + u D1 + u^2 D0) X = 0.
+std::vector<Complex> polesOfPiece(const LinearRotor& rotor, double from, double to, double scale) {
+  const auto at = [&](double speed) { return synchronousStiffness(rotor.matrices(speed), speed); };
+  const double h = to - from;
+  const MatrixXcd low = at(from);
+  const MatrixXcd middle = at(from + 0.5 * h);
+  const MatrixXcd high = at(to);
+  const MatrixXcd first = (scale / h) * (4.0 * middle - 3.0 * low - high);
+  const MatrixXcd second = (2.0 * scale * scale / (h * h)) * (high - 2.0 * middle + low);
+  const Index n = low.rows();
+  const Eigen::PartialPivLU<MatrixXcd> lu(low);
+  MatrixXcd companion = MatrixXcd::Zero(2 * n, 2 * n);
+  companion.topLeftCorner(n, n) = -lu.solve(first);
+  companion.topRightCorner(n, n) = -lu.solve(second);
+  companion.bottomLeftCorner(n, n).setIdentity();
+  std::vector<Complex> poles;
+  if (!companion.allFinite()) {
+    return poles;
+  }
+  const Eigen::ComplexEigenSolver<MatrixXcd> solver(companion, false);
+  for (const Complex& u : solver.eigenvalues()) {
+    if (std::abs(u) > 0.0) {
+      poles.push_back(from + scale / u);
+    }
+  }
+  return poles;
+}
+
+}  // namespace
+
+MatrixXcd synchronousStiffness(const Linearization& l, double speed) {
+  MatrixXcd d(l.mass.rows(), l.mass.cols());
+  d.real() = l.stiffness + l.circulatory - speed * speed * l.mass;
+  d.imag() = speed * (l.damping + l.gyroscopic);
+  return d;
+}
+
+std::vector<Complex> synchronousPoles(const LinearRotor& rotor, double low, double high) {
+  bool simple = rotor.knots.empty();
+  for (double speed = low; simple && speed < high; speed *= 10.0) {
+    simple = polynomial(rotor, speed);
+  }
+  std::vector<double> ends{low};
+  if (!simple) {
+    while (ends.back() * kPiece < high) {
+      ends.push_back(ends.back() * kPiece);
+    }
+    std::copy_if(rotor.knots.begin(), rotor.knots.end(), std::back_inserter(ends),
+                 [&](double knot) { return knot > low && knot < high; });
+    std::sort(ends.begin(), ends.end());
+  }
+  ends.push_back(high);
+  std::vector<Complex> found;
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+    // Of the whole range every piece of the polynomial tells the same: a short one tells it best.
+    const double to = simple ? std::min(high, 100.0 * low) : ends[i + 1];
+    for (const Complex& pole : polesOfPiece(rotor, ends[i], to, to)) {
+      if (pole.real() >= 0.98 * ends[i] && pole.real() <= 1.02 * ends[i + 1]) {
+        found.push_back(pole);
+      }
+    }
+  }
+  std::sort(found.begin(), found.end(), [](const Complex& a, const Complex& b) {
+    return a.real() != b.real() ? a.real() < b.real() : a.imag() < b.imag();
+  });
+  return found;
+}
+
+std::vector<double> speedsToLookAt(const std::vector<Complex>& poles, double low, double high,
+                                   int coarse) {
+  std::vector<double> speeds;
+  for (int i = 0; i <= coarse; ++i) {
+    speeds.push_back(low * std::pow(high / low, static_cast<double>(i) / coarse));
+  }
+  for (const Complex& pole : poles) {
+    const double width = std::max(std::fabs(pole.imag()), kNarrowest * pole.real());
+    if (width > kWidest * pole.real()) {
+      continue;
+    }
+    for (const double t : {0.02, 0.1, 0.3, 0.6, 1.0, 1.7, 3.0, 6.0, 15.0, 40.0}) {
+      if (t * width < 0.5 * pole.real()) {
+        speeds.push_back(pole.real() - t * width);
+        speeds.push_back(pole.real() + t * width);
+      }
+    }
+  }
+  speeds.erase(
+      std::remove_if(speeds.begin(), speeds.end(), [&](double w) { return w < low || w > high; }),
+      speeds.end());
+  std::sort(speeds.begin(), speeds.end());
+  speeds.erase(std::unique(speeds.begin(), speeds.end()), speeds.end());
+  return speeds;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,30 @@
+// The speeds at which the synchronous response of a linear rotor has its poles: the complex w of
+//
+//   det(K + N - w^2 M + i w (C + G)) = 0.
+//
+// Each with a positive real part stands for a resonance near Re w, about |Im w| wide; between poles
+// the response is smooth. The matrices may follow the speed: where they are polynomials of degree
+// two in it (gyroscopic moments, rotating damping) the poles are exact, else found piece by piece
+// with the polynomial through three speeds of each.
+#pragma once
+
+#include <complex>
+#include <vector>
+
+#include "mechanics/linear_rotor.h"
+
+namespace whirl_twin {
+
+/// [rad/s], by rising real part, from `low` > 0 to `high`.
+std::vector<std::complex<double>> synchronousPoles(const LinearRotor& rotor, double low,
+                                                   double high);
+
+/// K + N - w^2 M + i w (C + G) at a speed w [rad/s].
+Eigen::MatrixXcd synchronousStiffness(const Linearization& matrices, double speed);
+
+/// Where to look for peaks between `low` and `high` [rad/s]: `coarse` speeds in equal ratios, and
+/// some around each pole in units of its width. Ascending.
+std::vector<double> speedsToLookAt(const std::vector<std::complex<double>>& poles, double low,
+                                   double high, int coarse);
+
+}  // namespace whirl_twin

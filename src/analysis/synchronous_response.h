@@ -1,0 +1,40 @@
+// Steady response of a linear rotor to what turns with its shaft, its unbalance and its bow:
+//
+//   (K + N - w^2 M + i w (C + G)) X = F(w),   q = Re(X e^(i theta)), theta the shaft's angle.
+//
+// (Friswell et al., Dynamics of Rotating Machines, 2010, 6.3.) An amplitude's argument is its lead
+// over the shaft's mark; probes show the lag, minus it.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "analysis/orbit.h"
+#include "mechanics/dynamics.h"
+
+namespace whirl_twin {
+
+struct SynchronousResponse {
+  double speed = 0.0;         ///< [rad/s]
+  Eigen::VectorXcd q;         ///< X [dof]
+  std::vector<Orbit> orbits;  ///< [m], at each station
+};
+
+/// The response to the rotor's own forces at one speed [rad/s].
+SynchronousResponse synchronousResponse(const LinearRotor& rotor,
+                                        const std::vector<Station>& stations, double speed);
+
+/// The same over a range of speeds: `points` >= 2 equally spaced, and as many more as show every
+/// peak whole. from < to.
+std::vector<SynchronousResponse> synchronousSweep(const LinearRotor& rotor,
+                                                  const std::vector<Station>& stations, double from,
+                                                  double to, int points);
+
+/// [rad] in (-pi, pi]: by how much the forward whirl lags the unbalance, which leads the shaft's
+/// mark by `unbalance_angle` [rad].
+double phaseLag(const Orbit& orbit, double unbalance_angle);
+
+/// Has the rotor anything that turns with its shaft?
+bool hasSynchronousForce(const LinearRotor& rotor);
+
+}  // namespace whirl_twin

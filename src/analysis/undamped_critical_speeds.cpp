@@ -1,0 +1,165 @@
+#include "analysis/undamped_critical_speeds.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "analysis/bracketed_root.h"
+#include "analysis/whirl_modes.h"
+
+namespace whirl_twin {
+
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::Index;
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kRepeated = 1.0e-9;  // of a critical speed
+constexpr double kStiffened =
+    1.0e-11;  // of the largest stiffness: on springs as soft a free rotor drifts
+constexpr int kStrides = 200;
+
+/// (M - i G/w) phi = mu K phi at one speed: mu descending.
+struct Pencil {
+  VectorXd mu;          // [s^2]
+  MatrixXcd shapes;     // columns
+  double spring = 0.0;  // [N/m], added to every coordinate of a free rotor
+};
+
+Pencil pencil(const LinearRotor& rotor, double speed, bool vectors) {
+  const Linearization l = rotor.matrices(speed);
+  MatrixXd stiffness = 0.5 * (l.stiffness + l.stiffness.transpose());
+  Eigen::LLT<MatrixXd> factor(stiffness);
+  double spring = 0.0;
+  if (factor.info() != Eigen::Success) {
+    spring = kStiffened * stiffness.cwiseAbs().maxCoeff();
+    stiffness.diagonal().array() += spring;
+    factor.compute(stiffness);
+  }
+  if (factor.info() != Eigen::Success) {
+    throw std::domain_error(
+        "undamped critical speeds: the stiffness of the rotor is negative for some motion");
+  }
+  const MatrixXcd inertia =
+      l.mass.cast<Complex>() - Complex(0.0, 1.0 / speed) * l.gyroscopic.cast<Complex>();
+  const MatrixXcd root = factor.matrixL().toDenseMatrix().cast<Complex>();
+  const auto lower = root.triangularView<Eigen::Lower>();
+  const MatrixXcd half = lower.solve(inertia);
+  MatrixXcd a = lower.solve(half.adjoint());
+  const Eigen::SelfAdjointEigenSolver<MatrixXcd> solver(
+      a, vectors ? Eigen::ComputeEigenvectors : Eigen::EigenvaluesOnly);
+  Pencil found{solver.eigenvalues().reverse(), {}, spring};
+  if (vectors) {
+    found.shapes = lower.adjoint().solve(solver.eigenvectors().rowwise().reverse());
+  }
+  return found;
+}
+
+/// Does a shape rest on the added springs alone?
+bool drifts(const LinearRotor& rotor, double speed, const Pencil& there,
+            const Eigen::VectorXcd& shape) {
+  const MatrixXd stiffness = rotor.matrices(speed).stiffness;
+  const double energy = shape.dot(stiffness.cast<Complex>() * shape).real();
+  return there.spring > 0.0 && energy < 10.0 * there.spring * shape.squaredNorm();
+}
+
+/// Roots of w^2 mu_i(w) = 1 for each place i, in (0, highest].
+std::vector<double> roots(const LinearRotor& rotor, double highest) {
+  std::vector<double> speeds;
+  const double any = 0.5 * highest;
+  if (!rotor.speed_dependent || rotor.knots.empty()) {
+    // Gyroscopic terms alone change with the speed, and in proportion: mu does not.
+    const VectorXd mu = pencil(rotor, any, false).mu;
+    const VectorXd elsewhere = pencil(rotor, 0.125 * highest, false).mu;
+    if ((mu - elsewhere).cwiseAbs().maxCoeff() <= 1.0e-11 * mu.cwiseAbs().maxCoeff()) {
+      for (const double one : mu) {
+        if (one > 0.0 && 1.0 <= one * highest * highest) {
+          speeds.push_back(1.0 / std::sqrt(one));
+        }
+      }
+      return speeds;
+    }
+  }
+  std::vector<double> grid = rotor.knots;
+  for (int k = 0; k <= kStrides; ++k) {
+    const double part = static_cast<double>(k) / kStrides;
+    grid.push_back(highest * std::pow(1.0e-3, 1.0 - part));
+  }
+  std::sort(grid.begin(), grid.end());
+  grid.erase(
+      std::remove_if(grid.begin(), grid.end(), [&](double w) { return w <= 0.0 || w > highest; }),
+      grid.end());
+  VectorXd before;
+  for (std::size_t k = 0; k < grid.size(); ++k) {
+    const VectorXd now = grid[k] * grid[k] * pencil(rotor, grid[k], false).mu.array() - 1.0;
+    for (Index i = 0; k > 0 && i < now.size(); ++i) {
+      if ((before[i] < 0.0) != (now[i] < 0.0)) {
+        const auto excess = [&](double w) { return w * w * pencil(rotor, w, false).mu[i] - 1.0; };
+        speeds.push_back(bracketedRoot(excess, grid[k - 1], grid[k], before[i], now[i]));
+      }
+    }
+    before = now;
+  }
+  std::sort(speeds.begin(), speeds.end());
+  return speeds;
+}
+
+}  // namespace
+
+std::vector<UndampedCriticalSpeed> undampedCriticalSpeeds(const LinearRotor& rotor,
+                                                          const std::vector<Station>& stations,
+                                                          double highest) {
+  const std::vector<double> speeds = roots(rotor, highest);
+  std::vector<UndampedCriticalSpeed> found;
+  for (std::size_t first = 0; first < speeds.size();) {
+    std::size_t end = first + 1;
+    while (end < speeds.size() && speeds[end] - speeds[end - 1] <= kRepeated * speeds[end]) {
+      ++end;
+    }
+    const double speed = speeds[first];
+    const Pencil there = pencil(rotor, speed, true);
+    // The shapes whose w^2 mu is nearest to 1, those of one critical speed told apart by direction.
+    const VectorXd distance = (speed * speed * there.mu.array() - 1.0).abs();
+    std::vector<Index> order(static_cast<std::size_t>(distance.size()));
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      order[i] = static_cast<Index>(i);
+    }
+    std::sort(order.begin(), order.end(),
+              [&](Index a, Index b) { return distance[a] < distance[b]; });
+    MatrixXcd shapes(there.shapes.rows(), static_cast<Index>(end - first));
+    for (Index k = 0; k < shapes.cols(); ++k) {
+      shapes.col(k) = there.shapes.col(order[static_cast<std::size_t>(k)]);
+    }
+    if (shapes.cols() > 1) {
+      shapes = separatedByDirection(shapes, stations).rowwise().reverse().eval();
+    }
+    for (Index k = 0; k < shapes.cols(); ++k) {
+      WhirlMode mode;
+      mode.shape = shapes.col(k);
+      if (drifts(rotor, speed, there, mode.shape)) {
+        continue;
+      }
+      normalise(mode, stations);
+      found.push_back({speeds[first + static_cast<std::size_t>(k)], mode.whirl, mode.orbits});
+    }
+    first = end;
+  }
+  return found;
+}
+
+std::vector<CriticalSpeedMapRow> criticalSpeedMap(
+    const std::function<LinearRotor(double stiffness)>& rotor, const std::vector<Station>& stations,
+    const std::vector<double>& stiffnesses, double highest) {
+  std::vector<CriticalSpeedMapRow> rows;
+  for (const double stiffness : stiffnesses) {
+    rows.push_back({stiffness, undampedCriticalSpeeds(rotor(stiffness), stations, highest)});
+  }
+  return rows;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,174 @@
+#include "analysis/whirl_modes.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+#include "analysis/stability_margins.h"
+
+namespace whirl_twin {
+
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::Index;
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+using Eigen::VectorXcd;
+
+constexpr double kRepeated = 1.0e-7;     // of an eigenvalue: nearer ones are one
+constexpr double kStandsStill = 1.0e-6;  // of the widest orbit
+constexpr double kZero = 1.0e-13;        // of the largest eigenvalue: rounding
+
+/// Eigenvalues and the upper half, the displacement, of the eigenvectors of the state matrix.
+struct EigenPairs {
+  VectorXcd values;
+  MatrixXcd shapes;
+};
+
+EigenPairs eigenPairs(const Linearization& l) {
+  const Index n = l.mass.rows();
+  const Eigen::PartialPivLU<MatrixXd> mass(l.mass);
+  const MatrixXd by_q = mass.solve(l.stiffness + l.circulatory);
+  // Rates in units of the highest frequency, a power of two: balanced and free of rounding.
+  const double stiffest = std::sqrt(by_q.cwiseAbs().maxCoeff());
+  const double scale = stiffest > 0.0 ? std::exp2(std::round(std::log2(stiffest))) : 1.0;
+  MatrixXd a = MatrixXd::Zero(2 * n, 2 * n);
+  a.topRightCorner(n, n).diagonal().setConstant(scale);
+  a.bottomLeftCorner(n, n) = -by_q / scale;
+  a.bottomRightCorner(n, n) = -mass.solve(l.damping + l.gyroscopic);
+  const Eigen::EigenSolver<MatrixXd> solver(a);
+  if (solver.info() != Eigen::Success) {
+    throw std::domain_error("the eigenvalues of the rotor cannot be computed");
+  }
+  return {solver.eigenvalues(), solver.eigenvectors().topRows(n)};
+}
+
+void separateRepeated(std::vector<WhirlMode>& modes, const std::vector<Station>& stations) {
+  for (std::size_t first = 0; first < modes.size();) {
+    std::size_t end = first + 1;
+    while (end < modes.size() && std::abs(modes[end].eigenvalue - modes[end - 1].eigenvalue) <=
+                                     kRepeated * std::abs(modes[end].eigenvalue)) {
+      ++end;
+    }
+    if (end - first > 1) {
+      MatrixXcd shapes(modes[first].shape.size(), static_cast<Index>(end - first));
+      for (std::size_t i = first; i < end; ++i) {
+        shapes.col(static_cast<Index>(i - first)) = modes[i].shape;
+      }
+      shapes = separatedByDirection(shapes, stations);
+      for (std::size_t i = first; i < end; ++i) {
+        modes[i].shape = shapes.col(static_cast<Index>(end - 1 - i));  // backward first
+      }
+    }
+    first = end;
+  }
+}
+
+}  // namespace
+
+double WhirlMode::logDecrement() const {
+  return whirl_twin::logDecrement(dampingRatio());
+}
+
+void normalise(WhirlMode& mode, const std::vector<Station>& stations) {
+  mode.orbits = orbitsOf(mode.shape, stations);
+  const auto widest =
+      std::max_element(mode.orbits.begin(), mode.orbits.end(),
+                       [](const Orbit& a, const Orbit& b) { return a.major() < b.major(); });
+  Complex factor = 1.0 / mode.shape.norm();
+  if (widest != mode.orbits.end() && widest->major() > 0.0) {
+    // At the instant t = 0 f and b point the same way.
+    const double turn = widest->backward == 0.0 ? -std::arg(widest->forward)
+                        : widest->forward == 0.0
+                            ? std::arg(widest->backward)
+                            : 0.5 * (std::arg(widest->backward) - std::arg(widest->forward));
+    factor = std::polar(1.0 / widest->major(), turn);
+  }
+  mode.shape *= factor;
+  mode.orbits = orbitsOf(mode.shape, stations);
+  mode.whirl = whirlOf(mode.orbits);
+}
+
+std::vector<Orbit> orbitsOf(const VectorXcd& shape, const std::vector<Station>& stations) {
+  std::vector<Orbit> orbits;
+  orbits.reserve(stations.size());
+  for (const Station& station : stations) {
+    orbits.emplace_back(station.along_x.cast<Complex>().dot(shape),
+                        station.along_y.cast<Complex>().dot(shape));
+  }
+  return orbits;
+}
+
+Whirl whirlOf(const std::vector<Orbit>& orbits) {
+  double widest = 0.0;
+  for (const Orbit& orbit : orbits) {
+    widest = std::max(widest, orbit.major());
+  }
+  bool forward = false;
+  bool backward = false;
+  for (const Orbit& orbit : orbits) {
+    if (orbit.major() > kStandsStill * widest) {
+      forward = forward || orbit.direction() == Whirl::kForward;
+      backward = backward || orbit.direction() == Whirl::kBackward;
+    }
+  }
+  return forward && backward ? Whirl::kMixed
+         : forward           ? Whirl::kForward
+         : backward          ? Whirl::kBackward
+                             : Whirl::kStraight;
+}
+
+MatrixXcd separatedByDirection(const MatrixXcd& shapes, const std::vector<Station>& stations) {
+  const Index count = shapes.cols();
+  // sum |f|^2 - |b|^2 over the stations, on vectors of one size over the whole rotor.
+  const MatrixXcd basis = Eigen::HouseholderQR<MatrixXcd>(shapes).householderQ() *
+                          MatrixXcd::Identity(shapes.rows(), count);
+  MatrixXcd excess = MatrixXcd::Zero(count, count);
+  for (const Station& station : stations) {
+    const Eigen::RowVectorXcd x = station.along_x.transpose().cast<Complex>() * basis;
+    const Eigen::RowVectorXcd y = station.along_y.transpose().cast<Complex>() * basis;
+    const Eigen::RowVectorXcd forward = 0.5 * (x + Complex(0.0, 1.0) * y);
+    const Eigen::RowVectorXcd backward = 0.5 * (x - Complex(0.0, 1.0) * y);
+    excess += forward.adjoint() * forward - backward.adjoint() * backward;
+  }
+  const Eigen::SelfAdjointEigenSolver<MatrixXcd> solver(excess);
+  return (basis * solver.eigenvectors()).rowwise().reverse();
+}
+
+WhirlModes whirlModes(const Linearization& at_speed, const std::vector<Station>& stations) {
+  const EigenPairs pairs = eigenPairs(at_speed);
+  const double zero = kZero * pairs.values.cwiseAbs().maxCoeff();
+  WhirlModes all;
+  for (Index i = 0; i < pairs.values.size(); ++i) {
+    const Complex s = pairs.values[i];
+    if (s.imag() > zero) {
+      WhirlMode mode;
+      mode.eigenvalue = s;
+      mode.shape = pairs.shapes.col(i);
+      all.modes.push_back(mode);
+    } else if (std::fabs(s.imag()) <= zero) {
+      all.real_roots.push_back(s.real());
+    }
+  }
+  std::sort(all.modes.begin(), all.modes.end(), [](const WhirlMode& a, const WhirlMode& b) {
+    return a.eigenvalue.imag() < b.eigenvalue.imag();
+  });
+  std::sort(all.real_roots.begin(), all.real_roots.end());
+  separateRepeated(all.modes, stations);
+  for (WhirlMode& mode : all.modes) {
+    normalise(mode, stations);
+  }
+  return all;
+}
+
+WhirlModes whirlModes(const LinearRotor& rotor, const std::vector<Station>& stations,
+                      double speed) {
+  return whirlModes(rotor.matrices(speed), stations);
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,57 @@
+// Free whirl of a linear rotor at a constant speed: the solutions q = Re(phi e^(s t)) of
+//
+//   M q'' + (C + G) q' + (K + N) q = 0,
+//
+// each with its natural frequency |s|, damped frequency Im s, damping ratio zeta = -Re s / |s|,
+// logarithmic decrement 2 pi zeta / sqrt(1 - zeta^2) and the orbit it runs at every station
+// (Genta, Dynamics of Rotating Systems, 2005; Friswell et al., Dynamics of Rotating Machines,
+// 2010).
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+#include <vector>
+
+#include "analysis/orbit.h"
+#include "mechanics/linear_rotor.h"
+
+namespace whirl_twin {
+
+struct WhirlMode {
+  std::complex<double> eigenvalue;  ///< s [1/s], Im s > 0
+  Eigen::VectorXcd shape;           ///< phi [dof]
+  std::vector<Orbit> orbits;        ///< [-], at each station; the widest has the semi-major axis 1
+  Whirl whirl = Whirl::kForward;    ///< of the whole shaft
+
+  double naturalFrequency() const { return std::abs(eigenvalue); }  ///< [rad/s]
+  double dampedFrequency() const { return eigenvalue.imag(); }      ///< [rad/s]
+  double dampingRatio() const { return 0.0 - eigenvalue.real() / std::abs(eigenvalue); }  ///< [-]
+  double logDecrement() const;                                                            ///< [-]
+};
+
+struct WhirlModes {
+  std::vector<WhirlMode> modes;    ///< by rising damped frequency
+  std::vector<double> real_roots;  ///< [1/s], ascending: overdamped motions, and 0 of free ones
+};
+
+/// Modes that have one eigenvalue (to 1e-7 of it) and so no shapes of their own are told apart by
+/// their direction: of a round rotor one is forward, one backward.
+WhirlModes whirlModes(const Linearization& at_speed, const std::vector<Station>& stations);
+/// At a speed [rad/s].
+WhirlModes whirlModes(const LinearRotor& rotor, const std::vector<Station>& stations, double speed);
+
+/// Gives the shape its length and its instant, and works out the orbits and the direction.
+void normalise(WhirlMode& mode, const std::vector<Station>& stations);
+
+/// The orbits of a motion Re(shape e^(i wt)) at the stations [m].
+std::vector<Orbit> orbitsOf(const Eigen::VectorXcd& shape, const std::vector<Station>& stations);
+
+/// Direction of a whole shaft: kMixed where stations disagree. One that moves less than 1e-6 of the
+/// widest has no say.
+Whirl whirlOf(const std::vector<Orbit>& orbits);
+
+/// Other shapes of the same space (columns): as forward as can be first, backward last.
+Eigen::MatrixXcd separatedByDirection(const Eigen::MatrixXcd& shapes,
+                                      const std::vector<Station>& stations);
+
+}  // namespace whirl_twin

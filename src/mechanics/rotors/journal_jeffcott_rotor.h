@@ -1,0 +1,81 @@
+// A Jeffcott rotor whose shaft ends in two equal short journal bearings: oil whirl and oil whip.
+//
+//   T = m |v_G|^2 / 2 + m_j |v_j|^2 / 2,   V = k |r - r_j - bow|^2 / 2 + g (m y + m_j y_j)
+//   Q on the journals: 2 film forces (short_journal_bearing.h)
+//
+// r: the disc's shaft centre S, r_j: both journals, which move alike; m_j is their mass together.
+// Material damping acts on the shaft's deflection r - r_j. Above a speed the journals whirl
+// forwards at a little less than half the speed of the shaft (oil whirl); once that reaches the
+// rotor's critical speed the whirl stays there, however fast the shaft (oil whip; Newkirk & Taylor
+// 1925; Childs, Turbomachinery Rotordynamics, 1993). The film's drag on the spin is the motor's
+// drag.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "mechanics/reaction.h"
+#include "mechanics/rotors/jeffcott_rotor.h"
+#include "mechanics/rotors/short_journal_bearing.h"
+
+namespace whirl_twin {
+
+struct JournalJeffcottRotor : JeffcottRotor {
+  static constexpr std::size_t kDof = 4;
+  static constexpr bool kLinear = false;
+  static constexpr std::array<Coordinate, kDof> kCoordinates{
+      {{"x", "m"}, {"y", "m"}, {"journal_x", "m"}, {"journal_y", "m"}}};
+
+  static constexpr auto parameters() {
+    return inherited<JournalJeffcottRotor>(JeffcottRotor::parameters());
+  }
+  JournalJeffcottRotor balanced() const {
+    JournalJeffcottRotor same = *this;
+    same.eccentricity = same.bow = 0.0;
+    return same;
+  }
+  double naturalLength() const { return 0.1 * bearing_clearance; }
+
+  template <class S>
+  WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
+                              const Moment<S>& at) const {
+    const S disc = JeffcottRotor::kinetic(std::array<S, 2>{q[0], q[1]}, {v[0], v[1]}, at);
+    return disc + (0.5 * journal_mass) * (v[2] * v[2] + v[3] * v[3]);
+  }
+  template <class S>
+  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const Moment<S>& at) const {
+    const S bent = bending(deflection(q), at);
+    return bent + gravity * (mass * q[1] + journal_mass * q[3]);
+  }
+  template <class S>
+  WHIRL_TWIN_INLINE S dissipation(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
+                                  const Moment<S>& at) const {
+    return externalDissipation(std::array<S, 2>{q[0], q[1]}, {v[0], v[1]}, at) +
+           internalDissipation(deflection(q), deflection(v), at);
+  }
+  template <class S>
+  std::array<S, kDof> force(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
+                            const Moment<S>& at) const {
+    const ShortJournalBearing bearing{bearing_length, bearing_diameter, bearing_clearance,
+                                      bearing_viscosity};
+    const FilmForce<S> film = bearing.force(q[2], q[3], v[2], v[3], at.speed);
+    return {-cross_coupling * q[1], cross_coupling * q[0], 2.0 * film.x, 2.0 * film.y};
+  }
+
+  std::vector<Condition> conditions(const std::array<double, kDof>& q,
+                                    const std::array<double, kDof>&,
+                                    const std::array<double, kDof>&, const Moment<double>&) const {
+    return {{"oil_film", "m", bearing_clearance - std::hypot(q[2], q[3]),
+             "the journals touch their bearings"}};
+  }
+
+ private:
+  template <class S>
+  static WHIRL_TWIN_INLINE std::array<S, 2> deflection(const std::array<S, kDof>& q) {
+    return {q[0] - q[2], q[1] - q[3]};
+  }
+};
+
+}  // namespace whirl_twin

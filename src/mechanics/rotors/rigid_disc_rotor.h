@@ -1,0 +1,61 @@
+// A rigid disc that tilts on a round shaft, in the fixed frame of its bearings (rigid_disc.h).
+//
+//   T = m |v_G|^2 / 2 + Id |b'|^2 / 2 + (Id - Ip) tau w Re[conj(b') i e^(i theta)]
+//   D = c |v_S|^2 / 2 + c_r |b'|^2 / 2 + eta u^T K u / 2,   u: (x, b_x) and (y, b_y) as seen from
+//       the turning shaft change, q' - w x q
+//   Q = i Ip w b'   on the slopes
+//
+// The tilt splits into a forward whirl that the spin stiffens and a backward one that it softens.
+#pragma once
+
+#include <array>
+
+#include "mechanics/rotors/rigid_disc.h"
+
+namespace whirl_twin {
+
+struct RigidDiscRotor : RigidDisc {
+  static constexpr std::array<Coordinate, kDof> kCoordinates{
+      {{"x", "m"}, {"y", "m"}, {"alpha", "rad"}, {"beta", "rad"}}};
+
+  static constexpr auto parameters() { return inherited<RigidDiscRotor>(RigidDisc::parameters()); }
+  /// [rad], of the unbalance from the shaft's mark; without one of the skew.
+  double unbalanceAngle() const { return eccentricity > 0.0 ? eccentricity_angle : skew_angle; }
+  /// Without what turns with the shaft.
+  RigidDiscRotor balanced() const {
+    RigidDiscRotor same = *this;
+    same.eccentricity = same.skew = 0.0;
+    return same;
+  }
+
+  template <class S>
+  WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>&, const std::array<S, kDof>& v,
+                              const Moment<S>& at) const {
+    return kineticOf(v[0], v[1], v[3], -v[2], at.angle, at.speed);
+  }
+  template <class S>
+  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const Moment<S>&) const {
+    return bending(q[0], q[3]) + bending(q[1], -q[2]) + (mass * gravity) * q[1];
+  }
+  template <class S>
+  WHIRL_TWIN_INLINE S dissipation(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
+                                  const Moment<S>& at) const {
+    const S external = (0.5 * damping_displacement) * (v[0] * v[0] + v[1] * v[1]) +
+                       (0.5 * damping_rotation) * (v[2] * v[2] + v[3] * v[3]);
+    if (internal_damping == 0.0) {
+      return external;
+    }
+    const S& w = at.speed;
+    return external + internal_damping * (bending(v[0] + w * q[1], v[3] - w * q[2]) +
+                                          bending(v[1] - w * q[0], -v[2] - w * q[3]));
+  }
+  template <class S>
+  WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>&,
+                                              const std::array<S, kDof>& v,
+                                              const Moment<S>& at) const {
+    const S spin = polar_inertia * at.speed;
+    return {S(0.0), S(0.0), -(spin * v[3]), spin * v[2]};
+  }
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,187 @@
+#include "mechanics/rotors/rotor_assembly.h"
+
+#include <algorithm>
+#include <complex>
+#include <stdexcept>
+#include <string>
+
+namespace whirl_twin {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+Index firstOf(int node) {
+  return node * kNodeCoordinates;
+}
+
+/// J q: the quarter turn from x to y of displacements and rotations.
+MatrixXd quarterTurn(Index dof) {
+  MatrixXd turn = MatrixXd::Zero(dof, dof);
+  for (Index i = 0; i < dof; i += 2) {
+    turn(i, i + 1) = -1.0;
+    turn(i + 1, i) = 1.0;
+  }
+  return turn;
+}
+
+/// Adds a bearing at `place` [dof x 2]; what is not symmetric does not store or dissipate.
+void add(const BearingCoefficients& b, const MatrixXd& place, Linearization& l) {
+  Eigen::Matrix2d k;
+  Eigen::Matrix2d c;
+  k << b.kxx, b.kxy, b.kyx, b.kyy;
+  c << b.cxx, b.cxy, b.cyx, b.cyy;
+  l.stiffness += place * (0.5 * (k + k.transpose())) * place.transpose();
+  l.circulatory += place * (0.5 * (k - k.transpose())) * place.transpose();
+  l.damping += place * (0.5 * (c + c.transpose())) * place.transpose();
+  l.gyroscopic += place * (0.5 * (c - c.transpose())) * place.transpose();
+}
+
+void requireNodes(const FlexibleShaft& shaft) {
+  const auto require = [&](int node, const char* what) {
+    if (node < 0 || node >= shaft.nodes()) {
+      throw std::invalid_argument(std::string(what) + ": node must be 0 to " +
+                                  std::to_string(shaft.nodes() - 1) + ", found " +
+                                  std::to_string(node));
+    }
+  };
+  for (const RotorDisc& disc : shaft.discs) {
+    require(disc.node, "disc");
+  }
+  for (const RotorBearing& bearing : shaft.bearings) {
+    require(bearing.node, "bearing");
+  }
+  for (const SpeedBearing& bearing : shaft.speed_bearings) {
+    require(bearing.node, "bearing");
+  }
+  for (const NodeUnbalance& unbalance : shaft.unbalances) {
+    require(unbalance.node, "unbalance");
+  }
+}
+
+}  // namespace
+
+std::vector<double> FlexibleShaft::positions() const {
+  std::vector<double> z{0.0};
+  for (const ShaftSection& element : elements) {
+    z.push_back(z.back() + element.length);
+  }
+  return z;
+}
+
+RotorAssembly::RotorAssembly(const FlexibleShaft& shaft) {
+  requireNodes(shaft);
+  const Index n = shaft.nodes() * kNodeCoordinates;
+  const MatrixXd zero = MatrixXd::Zero(n, n);
+  constant_ = {zero, zero, zero, zero, zero};
+  gyroscopic_per_speed_ = zero;
+  for (int i = 0; i + 1 < shaft.nodes(); ++i) {
+    const ShaftElement element =
+        shaftElement(shaft.material, shaft.elements[static_cast<std::size_t>(i)]);
+    constexpr Index size = 2 * kNodeCoordinates;
+    constant_.mass.block<size, size>(firstOf(i), firstOf(i)) += element.mass;
+    constant_.stiffness.block<size, size>(firstOf(i), firstOf(i)) += element.stiffness;
+    gyroscopic_per_speed_.block<size, size>(firstOf(i), firstOf(i)) += element.gyroscopic;
+  }
+  constant_.damping = shaft.internal_damping * constant_.stiffness;
+  const MatrixXd circulatory = -constant_.damping * quarterTurn(n);
+  circulatory_per_speed_ = 0.5 * (circulatory - circulatory.transpose());
+
+  for (const RotorDisc& disc : shaft.discs) {
+    const Index x = firstOf(disc.node);
+    constant_.mass(x, x) += disc.mass;
+    constant_.mass(x + 1, x + 1) += disc.mass;
+    constant_.mass(x + 2, x + 2) += disc.transverse_inertia;
+    constant_.mass(x + 3, x + 3) += disc.transverse_inertia;
+    gyroscopic_per_speed_(x + 2, x + 3) += disc.polar_inertia;
+    gyroscopic_per_speed_(x + 3, x + 2) -= disc.polar_inertia;
+  }
+  const auto place = [&](int node) {
+    return MatrixXd::Identity(n, n).middleCols(firstOf(node), 2);
+  };
+  for (const RotorBearing& bearing : shaft.bearings) {
+    add(bearing.coefficients, place(bearing.node), constant_);
+  }
+  for (const SpeedBearing& bearing : shaft.speed_bearings) {
+    speed_bearings_.push_back({bearing, place(bearing.node)});
+  }
+  for (const NodeUnbalance& unbalance : shaft.unbalances) {
+    ShaftForce force{Eigen::VectorXcd::Zero(n), 1, true};
+    const std::complex<double> along_x = std::polar(unbalance.magnitude, unbalance.angle);
+    force.amplitude[firstOf(unbalance.node)] = along_x;
+    force.amplitude[firstOf(unbalance.node) + 1] = std::complex<double>(0.0, -1.0) * along_x;
+    forces_.push_back(force);
+  }
+  // A shaft that moves along y without turning has the inertia of its weight.
+  Eigen::VectorXd along_y = Eigen::VectorXd::Zero(n);
+  const std::vector<double> z = shaft.positions();
+  for (int node = 0; node < shaft.nodes(); ++node) {
+    along_y[firstOf(node) + 1] = 1.0;
+    stations_.push_back({"node_" + std::to_string(node), z[static_cast<std::size_t>(node)],
+                         Eigen::VectorXd::Unit(n, firstOf(node)),
+                         Eigen::VectorXd::Unit(n, firstOf(node) + 1)});
+  }
+  load_ = -shaft.gravity * (constant_.mass * along_y);
+}
+
+Linearization RotorAssembly::matrices(double speed) const {
+  Linearization l = constant_;
+  l.gyroscopic += speed * gyroscopic_per_speed_;
+  l.circulatory += speed * circulatory_per_speed_;
+  for (const PlacedBearing& placed : speed_bearings_) {
+    add(placed.bearing.coefficients(speed), placed.place, l);
+  }
+  return l;
+}
+
+Station RotorAssembly::station(int node) const {
+  return stations_.at(static_cast<std::size_t>(node));
+}
+
+RotorAssembly RotorAssembly::in(const MatrixXd& shapes) const {
+  const auto symmetric = [&](const MatrixXd& m) -> MatrixXd {
+    const MatrixXd r = shapes.transpose() * m * shapes;
+    return 0.5 * (r + r.transpose());
+  };
+  const auto skew = [&](const MatrixXd& m) -> MatrixXd {
+    const MatrixXd r = shapes.transpose() * m * shapes;
+    return 0.5 * (r - r.transpose());
+  };
+  RotorAssembly r = *this;
+  r.constant_ = {symmetric(constant_.mass), symmetric(constant_.damping),
+                 skew(constant_.gyroscopic), symmetric(constant_.stiffness),
+                 skew(constant_.circulatory)};
+  r.gyroscopic_per_speed_ = skew(gyroscopic_per_speed_);
+  r.circulatory_per_speed_ = skew(circulatory_per_speed_);
+  for (PlacedBearing& placed : r.speed_bearings_) {
+    placed.place = shapes.transpose() * placed.place;
+  }
+  for (ShaftForce& force : r.forces_) {
+    force.amplitude = shapes.transpose().cast<std::complex<double>>() * force.amplitude;
+  }
+  r.load_ = shapes.transpose() * load_;
+  for (Station& station : r.stations_) {
+    station.along_x = shapes.transpose() * station.along_x;
+    station.along_y = shapes.transpose() * station.along_y;
+  }
+  return r;
+}
+
+LinearRotor RotorAssembly::linearRotor() const {
+  LinearRotor rotor;
+  rotor.matrices = [assembly = *this](double speed) { return assembly.matrices(speed); };
+  rotor.speed_dependent = !speed_bearings_.empty() ||
+                          (gyroscopic_per_speed_.array() != 0.0).any() ||
+                          (circulatory_per_speed_.array() != 0.0).any();
+  for (const PlacedBearing& placed : speed_bearings_) {
+    rotor.knots.insert(rotor.knots.end(), placed.bearing.knots.begin(), placed.bearing.knots.end());
+  }
+  std::sort(rotor.knots.begin(), rotor.knots.end());
+  rotor.knots.erase(std::unique(rotor.knots.begin(), rotor.knots.end()), rotor.knots.end());
+  rotor.forces = forces_;
+  rotor.load = load_;
+  return rotor;
+}
+
+}  // namespace whirl_twin

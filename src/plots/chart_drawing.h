@@ -1,0 +1,61 @@
+// How one chart is drawn on a canvas: axes, bands, lines, marks and legend.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "plots/chart.h"
+#include "plots/marked_axis.h"
+
+namespace whirl_twin {
+
+/// [px]
+struct Rectangle {
+  double left = 0.0, top = 0.0, width = 0.0, height = 0.0;
+  double right() const { return left + width; }
+  double bottom() const { return top + height; }
+};
+
+class ChartDrawing {
+ public:
+  /// `most_spots` of each series in the file.
+  ChartDrawing(const Chart& chart, const Rectangle& place, std::size_t most_spots, Canvas& canvas);
+
+  /// [px] that the labels of the vertical axis need.
+  double leftMargin() const;
+  void draw(double left_margin);
+
+ private:
+  struct LegendEntry {
+    std::string name;
+    Spot spot;
+    const Series* series = nullptr;
+    const Band* band = nullptr;
+    Pen pen;
+  };
+
+  void placeLegend();
+  void makeAspectEqual();
+  Spot at(double x, double y) const;
+  void drawBands();
+  void drawGrid();
+  void drawReferences();
+  void drawSeries(const Series& series, const Pen& pen);
+  void drawLine(const std::vector<Spot>& line, const Pen& pen);
+  void drawMarks(const Series& series, const Pen& pen);
+  void drawMark(const Spot& spot, Marks marks, const Ink& ink);
+  void drawFrame();
+  void drawExponent(const MarkedAxis& axis, const Spot& spot, Align across);
+  void drawLegend();
+
+  const Chart& chart_;
+  Rectangle place_, plot_;
+  std::size_t most_spots_;
+  Canvas& canvas_;
+  MarkedAxis x_, y_;
+  std::vector<LegendEntry> legend_;
+  int legend_rows_ = 0;
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,33 @@
+// Every number among the parameters of a system, by its path: `damping`, a table's
+// `bearings[0].kxx`, a matrix's `stiffness[0][1]`; rows and columns count from 0.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/model_info.h"
+#include "scene/node_reader.h"
+#include "scene/scene.h"
+#include "scene/states.h"
+
+namespace whirl_twin {
+
+/// Matrices of more entries than this have no paths: their sets of parameters would be too long to
+/// be sent at every change.
+inline constexpr int kMostMatrixEntries = 400;
+
+/// All of them with their values, in the order of the model; nothing `changed`.
+state::ParameterChange parametersOf(const ModelInfo& model, const SystemSpec& spec);
+
+/// Sets a number, and returns what it was. Complains in the words of a scene file under the key
+/// systems.NAME.parameters, and changes nothing, if there is none of that path or it is out of
+/// range.
+std::optional<double> setParameter(const std::string& path, double value, const ModelInfo& model,
+                                   SystemSpec& spec, Complaints& complaints);
+
+/// Takes over a complete set as parametersOf() gives it; false, with nothing changed, if it is of
+/// another system.
+bool takeParameters(const state::ParameterChange& from, const ModelInfo& model, SystemSpec& spec);
+
+}  // namespace whirl_twin

@@ -1,0 +1,19 @@
+// What a scene surrounds a system with: its gravity, and the motor that turns it, if one does.
+#pragma once
+
+#include "scene/model_info.h"
+#include "scene/scene.h"
+
+namespace whirl_twin {
+
+inline Surroundings surroundingsOf(const Scene& scene, const SystemSpec& system) {
+  Surroundings around(scene.gravity);
+  for (const DriveSpec& drive : scene.drives) {
+    if (system.drive && drive.name == *system.drive) {
+      around.motor = drive.motor;
+    }
+  }
+  return around;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,102 @@
+#include <memory>
+#include <optional>
+
+#include "scene/scene_reader.h"
+#include "tools/campbell_report.h"
+#include "tools/commands.h"
+#include "tools/picture_file.h"
+#include "tools/rotor_systems.h"
+#include "tools/shipped_scenes.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr const char* kDescription =
+    "Whirl frequencies of the rotors of a scene over the shaft's speed, their directions and\n"
+    "damping, and the critical speeds where they meet it.";
+
+constexpr const char* kFooter =
+    "Modes are followed by their shapes through every crossing. Directions: forward, backward,\n"
+    "mixed where places along the shaft disagree, straight where the whirl is in a plane.\n"
+    "In the picture: dashed where a mode grows, rings at critical speeds, bands where API 617\n"
+    "wants no running speed.\n"
+    "\n"
+    "Examples:\n"
+    "  twin campbell demo.yaml --to 120 --plot campbell.svg\n"
+    "  twin campbell demo.yaml --system rotor --harmonic 1 2 --json";
+
+struct Request {
+  std::string scene;
+  std::optional<std::string> system, plot;
+  SpeedRangeOptions range;
+  std::vector<double> harmonics{1.0};
+  int modes = 12;
+  bool json = false;
+};
+
+void requireNumbers(const Request& request) {
+  for (const double harmonic : request.harmonics) {
+    if (!(harmonic > 0.0 && harmonic <= 100.0)) {
+      throw BadInput("--harmonic: expected multiples of the speed above 0 and up to 100, found " +
+                     std::to_string(harmonic));
+    }
+  }
+  if (request.modes < 1 || request.modes > 1000) {
+    throw BadInput("--modes: expected from 1 to 1000, found " + std::to_string(request.modes));
+  }
+}
+
+int campbellOf(const Request& request) {
+  requirePictureName(request.plot);
+  requireNumbers(request);
+  const Twin twin(readSceneFile(scenePath(request.scene)));
+  const auto systems = rotorSystems(twin, request.system);
+  Json all;
+  all["scene"] = twin.scene().name;
+  std::string report;
+  for (const RotorSystem& system : systems) {
+    const CampbellReport one = campbellReport(system, request.range.of(system), request.harmonics,
+                                              static_cast<std::size_t>(request.modes));
+    all["systems"][system.name] = json(one);
+    report += (report.empty() ? "" : "\n") + text(one);
+    if (request.plot) {
+      writePicture(pictureName(*request.plot, system.name, systems.size() > 1), figure(one));
+    }
+  }
+  if (request.json) {
+    printJson(all);
+  } else {
+    printText(report);
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void addCampbellCommand(CLI::App& twin, int& status) {
+  CLI::App* command = twin.add_subcommand("campbell", kDescription);
+  const auto request = std::make_shared<Request>();
+  command
+      ->add_option("SCENE", request->scene,
+                   "scene file (YAML), or the name of a scene of the package")
+      ->required()
+      ->type_name("");
+  command->add_option("--system", request->system, "this rotor only")->type_name("NAME");
+  command->add_option("--from", request->range.from, "rad/s; default: 0")->type_name("W");
+  command
+      ->add_option("--to", request->range.to, "rad/s; default: 1.2 times the drive's highest speed")
+      ->type_name("W");
+  command->add_option("--points", request->range.points, "speeds; default: 200")->type_name("N");
+  command->add_option("--harmonic", request->harmonics, "multiples of the speed; default: 1")
+      ->type_name("H");
+  command->add_option("--modes", request->modes, "how many, the lowest; default: 12")
+      ->type_name("N");
+  command->add_option("--plot", request->plot, "the diagram, FILE.svg or FILE.png")
+      ->type_name("FILE");
+  command->add_flag("--json", request->json, "print one JSON object");
+  command->footer(kFooter);
+  command->callback([request, &status] { status = campbellOf(*request); });
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,111 @@
+// `twin response` and `twin orbit`.
+#include <memory>
+#include <optional>
+
+#include "scene/scene_reader.h"
+#include "tools/commands.h"
+#include "tools/picture_file.h"
+#include "tools/response_report.h"
+#include "tools/shipped_scenes.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr const char* kResponseFooter =
+    "Speeds are added where a peak needs them: none is missed between two points. The phase lag "
+    "is\n"
+    "that of the forward whirl behind the unbalance. The picture: amplitude, phase, polar plot.\n"
+    "\n"
+    "Examples:\n"
+    "  twin response demo.yaml --to 120 --plot bode.svg\n"
+    "  twin response demo.yaml --system rotor --station disc --json";
+
+constexpr const char* kOrbitFooter =
+    "In the picture a dot shows where each station is when the shaft's mark passes the x axis.\n"
+    "\n"
+    "Example:\n"
+    "  twin orbit demo.yaml --speed 55 --plot orbit.svg";
+
+struct Request {
+  std::string scene;
+  std::optional<std::string> system, station, plot;
+  SpeedRangeOptions range;
+  double speed = 0.0;
+  bool json = false;
+};
+
+/// `report` of a rotor gives what json(), text() and figure() take.
+template <class Report>
+int show(const Request& request, const Report& report) {
+  requirePictureName(request.plot);
+  const Twin twin(readSceneFile(scenePath(request.scene)));
+  const auto systems = rotorSystems(twin, request.system);
+  Json all;
+  all["scene"] = twin.scene().name;
+  std::string words;
+  for (const RotorSystem& system : systems) {
+    const auto one = report(system);
+    all["systems"][system.name] = json(one);
+    words += (words.empty() ? "" : "\n") + text(one);
+    if (request.plot) {
+      writePicture(pictureName(*request.plot, system.name, systems.size() > 1), figure(one));
+    }
+  }
+  if (request.json) {
+    printJson(all);
+  } else {
+    printText(words);
+  }
+  return kDone;
+}
+
+void addCommonOptions(CLI::App* command, const std::shared_ptr<Request>& request) {
+  command
+      ->add_option("SCENE", request->scene,
+                   "scene file (YAML), or the name of a scene of the package")
+      ->required()
+      ->type_name("");
+  command->add_option("--system", request->system, "this rotor only")->type_name("NAME");
+  command->add_option("--plot", request->plot, "a picture, FILE.svg or FILE.png")
+      ->type_name("FILE");
+  command->add_flag("--json", request->json, "print one JSON object");
+}
+
+}  // namespace
+
+void addResponseCommand(CLI::App& twin, int& status) {
+  CLI::App* command = twin.add_subcommand(
+      "response", "Unbalance response of the rotors of a scene over the shaft's speed.");
+  const auto request = std::make_shared<Request>();
+  addCommonOptions(command, request);
+  command->add_option("--from", request->range.from, "rad/s; default: 0")->type_name("W");
+  command
+      ->add_option("--to", request->range.to, "rad/s; default: 1.2 times the drive's highest speed")
+      ->type_name("W");
+  command->add_option("--points", request->range.points, "speeds, at least; default: 200")
+      ->type_name("N");
+  command->add_option("--station", request->station, "this place along the shaft only")
+      ->type_name("NAME");
+  command->footer(kResponseFooter);
+  command->callback([request, &status] {
+    status = show(*request, [&](const RotorSystem& system) {
+      return responseReport(system, request->range.of(system), request->station);
+    });
+  });
+}
+
+void addOrbitCommand(CLI::App& twin, int& status) {
+  CLI::App* command = twin.add_subcommand(
+      "orbit", "Orbits that the unbalance drives at one speed, at every station of the rotors.");
+  const auto request = std::make_shared<Request>();
+  addCommonOptions(command, request);
+  command->add_option("--speed", request->speed, "rad/s, of the shaft")->required()->type_name("W");
+  command->footer(kOrbitFooter);
+  command->callback([request, &status] {
+    status = show(*request,
+                  [&](const RotorSystem& system) { return orbitReport(system, request->speed); });
+  });
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,97 @@
+// Two-plane balancing from three simulated runs finds the unbalance that was put in.
+#include "analysis/balancing.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "analysis/synchronous_response.h"
+#include "rotors_under_test.h"
+
+namespace whirl_twin {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+/// x of the probes at the outer discs, at two speeds [rad/s], as phasors.
+Eigen::VectorXcd readings(const RotorUnderTest& r) {
+  Eigen::VectorXcd v(4);
+  Eigen::Index i = 0;
+  for (const double speed : {300.0, 520.0}) {
+    const auto response = synchronousResponse(r.rotor, r.stations, speed);
+    v[i++] = response.orbits.front().x;
+    v[i++] = response.orbits.back().x;
+  }
+  return v;
+}
+
+struct Runs {
+  Eigen::VectorXcd initial;
+  std::vector<TrialRun> trials;
+};
+
+const Complex kFirst = std::polar(3.0e-5, 0.7);
+const Complex kSecond = std::polar(2.0e-5, -2.1);
+
+Runs simulatedRuns() {
+  RotorUnderTest r = chainRotor(3, 5.0e5, 1.2);
+  addUnbalance(r, 0, kFirst);
+  addUnbalance(r, 2, kSecond);
+  Runs runs{readings(r), {}};
+  for (const Eigen::Index plane : {0, 1}) {
+    RotorUnderTest with = r;
+    const Complex trial = std::polar(1.0e-5, 0.3 + static_cast<double>(plane));
+    addUnbalance(with, plane == 0 ? 0 : 2, trial);
+    runs.trials.push_back({plane, trial, readings(with)});
+  }
+  return runs;
+}
+
+TEST(Balancing, FindsTheUnbalanceFromThreeRuns) {
+  const Runs runs = simulatedRuns();
+  const auto influence = influenceOfPlanes(runs.initial, runs.trials, 2);
+  const auto correction = balance(influence, runs.initial, Eigen::VectorXd::Ones(4));
+  EXPECT_LT(std::abs(correction.mass_radius[0] + kFirst), 1.0e-9 * std::abs(kFirst));
+  EXPECT_LT(std::abs(correction.mass_radius[1] + kSecond), 1.0e-9 * std::abs(kSecond));
+  EXPECT_LT(correction.rms, 1.0e-9 * runs.initial.norm());
+}
+
+// With one plane for two unbalances a residual is left, and it is the one predicted.
+TEST(Balancing, PredictsTheResidual) {
+  const Runs runs = simulatedRuns();
+  const auto influence = influenceOfPlanes(runs.initial, {runs.trials[0]}, 1);
+  const auto correction = balance(influence, runs.initial, Eigen::VectorXd::Ones(4));
+  RotorUnderTest r = chainRotor(3, 5.0e5, 1.2);
+  addUnbalance(r, 0, kFirst + correction.mass_radius[0]);
+  addUnbalance(r, 2, kSecond);
+  EXPECT_LT((readings(r) - correction.residual).norm(), 1.0e-9 * runs.initial.norm());
+  EXPECT_GT(correction.rms, 0.0);
+  EXPECT_LT(correction.residual.norm(), runs.initial.norm());
+}
+
+// A reading of great weight is met at the cost of the others.
+TEST(Balancing, HonoursTheWeights) {
+  const Runs runs = simulatedRuns();
+  const auto influence = influenceOfPlanes(runs.initial, {runs.trials[0]}, 1);
+  Eigen::VectorXd weights = Eigen::VectorXd::Ones(4);
+  const auto even = balance(influence, runs.initial, weights);
+  weights[2] = 1.0e6;
+  const auto weighted = balance(influence, runs.initial, weights);
+  EXPECT_LT(std::abs(weighted.residual[2]), 1.0e-2 * std::abs(even.residual[2]));
+}
+
+TEST(Balancing, RefusesWhatDoesNotFit) {
+  const Runs runs = simulatedRuns();
+  EXPECT_THROW(influenceOfPlanes(runs.initial, {runs.trials[0]}, 2), std::invalid_argument);
+  EXPECT_THROW(influenceOfPlanes(runs.initial, {{0, 0.0, runs.initial}}, 1), std::invalid_argument);
+  EXPECT_THROW(influenceOfPlanes(runs.initial, {{0, 1.0, runs.initial.head(2)}}, 1),
+               std::invalid_argument);
+  EXPECT_THROW(balance(Eigen::MatrixXcd::Identity(4, 2), runs.initial, Eigen::VectorXd::Ones(3)),
+               std::invalid_argument);
+}
+
+}  // namespace
+
+}  // namespace whirl_twin

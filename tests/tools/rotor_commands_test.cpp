@@ -1,0 +1,126 @@
+// `twin campbell`, `twin response`, `twin orbit` and `twin balance`: what they print, draw and
+// refuse.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "twin_program.h"
+
+namespace whirl_twin {
+namespace {
+
+TEST(Campbell, FindsTheCriticalSpeedOfTheDemo) {
+  const Ending end = twin({"campbell", kDemo, "--points", "20", "--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  const auto rotor = end.json()["systems"]["rotor"];
+  EXPECT_EQ(rotor["speeds"].size(), 20u);
+  EXPECT_NEAR(rotor["speeds"].back().get<double>(), 1.2 * 90.0, 1e-9);
+  ASSERT_EQ(rotor["branches"].size(), 2u);
+  ASSERT_EQ(rotor["crossings"].size(), 2u);
+  // zeta = 0.05: w = p sqrt(1 - zeta^2).
+  for (const auto& crossing : rotor["crossings"]) {
+    EXPECT_NEAR(crossing["speed"].get<double>(), 60.0 * std::sqrt(1.0 - 0.0025), 1e-9);
+  }
+  for (const auto& critical : rotor["undamped_critical_speeds"]) {
+    EXPECT_NEAR(critical["speed"].get<double>(), 60.0, 1e-9);
+  }
+}
+
+TEST(Response, FindsThePeakOfTheDemo) {
+  const Ending end = twin({"response", kDemo, "--points", "5", "--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  const auto rotor = end.json()["systems"]["rotor"];
+  ASSERT_EQ(rotor["peaks"].size(), 1u);
+  EXPECT_NEAR(rotor["peaks"][0]["major"].get<double>(), 1e-4 / (0.1 * std::sqrt(1.0 - 0.0025)),
+              1e-12);
+  EXPECT_EQ(rotor["stations"]["disc"].size(), rotor["speeds"].size());
+}
+
+TEST(Orbit, OfTheDemoAtItsNaturalFrequencyLagsByAQuarter) {
+  const Ending end = twin({"orbit", kDemo, "--speed", "60", "--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  const auto disc = end.json()["systems"]["rotor"]["stations"]["disc"];
+  EXPECT_NEAR(disc["major"].get<double>(), 1e-3, 1e-12);
+  EXPECT_NEAR(disc["phase_lag"].get<double>(), std::acos(0.0), 1e-9);
+  EXPECT_EQ(disc["direction"], "forward");
+}
+
+TEST(RotorCommands, DrawPictures) {
+  const TemporaryDirectory folder;
+  const std::vector<std::vector<std::string>> commands{
+      {"campbell"}, {"response"}, {"orbit", "--speed", "50"}};
+  for (std::vector<std::string> command : commands) {
+    const std::string picture = folder.file(command.front() + ".svg");
+    command.insert(command.begin() + 1, kDemo);
+    command.insert(command.end(), {"--plot", picture});
+    const Ending end = twin(command);
+    EXPECT_EQ(end.status, 0) << end.err;
+    EXPECT_EQ(contentsOf(picture).substr(0, 5), "<?xml");
+  }
+}
+
+// One probe, one plane, v = 2 u: an unbalance of 3 at 0 degrees shows 6, and 1 more at 90 degrees
+// makes 6 + 2i, read as a lag of -18.43 degrees. Three have to be set opposite.
+TEST(Balance, SetsTheMassOpposite) {
+  const TemporaryDirectory folder;
+  const std::string runs =
+      folder.write("runs.yaml",
+                   "probes: [left]\n"
+                   "planes: [disc]\n"
+                   "initial: [[6, 0]]\n"
+                   "trials:\n"
+                   "  - {plane: disc, mass_radius: 1, angle: 90,\n"
+                   "     readings: [[6.324555320336759, -18.43494882292201]]}\n");
+  const Ending end = twin({"balance", runs, "--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  const auto disc = end.json()["correction"]["disc"];
+  EXPECT_NEAR(disc["mass_radius"].get<double>(), 3.0, 1e-12);
+  EXPECT_NEAR(std::fabs(disc["angle"].get<double>()), 180.0, 1e-10);
+  EXPECT_NEAR(end.json()["residual_rms"].get<double>(), 0.0, 1e-12);
+}
+
+TEST(Balance, SaysWhereTheFileIsWrong) {
+  const TemporaryDirectory folder;
+  const std::string runs = folder.write("runs.yaml",
+                                        "probes: [left]\nplanes: [disc]\ninitial: [[6, 0]]\n"
+                                        "trials: [{plane: disk}]\n");
+  const Ending end = twin({"balance", runs});
+  EXPECT_EQ(end.status, 2);
+  EXPECT_EQ(end.err, "twin: " + runs + ": trials[0].plane: expected one of disc, found 'disk'\n");
+}
+
+struct RefusedCommand {
+  std::vector<std::string> arguments;
+  std::string message;
+};
+class RefusedRotorCommand : public testing::TestWithParam<RefusedCommand> {};
+
+TEST_P(RefusedRotorCommand, SaysWhatWasExpected) {
+  const Ending end = twin(GetParam().arguments);
+  EXPECT_EQ(end.status, 2);
+  EXPECT_EQ(end.out, "");
+  EXPECT_EQ(end.err, "twin: " + GetParam().message + "\n");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    RotorCommands, RefusedRotorCommand,
+    testing::Values(
+        RefusedCommand{{"campbell", kDemo, "--system", "pendulum"},
+                       "--system: expected a linear rotor on a shaft of prescribed speed, found "
+                       "pendulum (spinning_pendulum)"},
+        RefusedCommand{{"campbell", kDemo, "--from", "50", "--to", "20"},
+                       "--from, --to: expected --from below --to, found 50 and 20 rad/s"},
+        RefusedCommand{{"campbell", kDemo, "--from", "-1"},
+                       "--from: expected a shaft speed from 0 to 1e+06 rad/s, found -1"},
+        RefusedCommand{{"response", kDemo, "--points", "1"},
+                       "--points: expected from 2 to 10000, found 1"},
+        RefusedCommand{{"response", kDemo, "--plot", "bode.pdf"},
+                       "--plot: expected a name that ends in .svg or .png, found 'bode.pdf'"},
+        RefusedCommand{{"response", kDemo, "--station", "disk"},
+                       "--station: no station 'disk' on rotor (jeffcott_rotor); did you mean "
+                       "'disc'?"},
+        RefusedCommand{{"orbit", kDemo, "--speed", "-3"},
+                       "--speed: expected a shaft speed >= 0 rad/s, found -3"}));
+
+}  // namespace
+}  // namespace whirl_twin
