@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(
         Cause{"internal_damping_and_cross_coupling",
               {{"internal_damping", 12.0}, {"cross_coupling", 3600.0}},
               kP*(1.0 + kDamping / 12.0) - 3600.0 / 12.0}),
-    [](const testing::TestParamInfo<Cause>& info) { return std::string(info.param.name); });
+    [](const testing::TestParamInfo<Cause>& test) { return std::string(test.param.name); });
 
 }  // namespace
 }  // namespace whirl_twin

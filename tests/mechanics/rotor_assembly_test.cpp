@@ -64,7 +64,7 @@ TEST_P(EigenvaluesOfTheTwoDiscRotor, areThoseOfTheReference) {
 
 INSTANTIATE_TEST_SUITE_P(Friswell, EigenvaluesOfTheTwoDiscRotor,
                          testing::Values("D01", "D03", "D04", "D05"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& test) { return std::string(test.param); });
 
 TEST(RotorAssembly, hasTheWhirlSpeedsOfNelsonAndMcVaugh) {
   const json reference = rotorCase("D07");

@@ -43,6 +43,7 @@ struct JournalPosition {
 
 struct ShortJournalBearing {
   static constexpr double kStillFilm = 1.0e-6;       ///< [1/s]
+  static constexpr double kThinnestFilm = 1.0e-4;    ///< [-], of 1 - e^2
   static constexpr double kMostEccentricity = 0.95;  ///< of staticPosition(): slow shafts touch
 
   double length = 0.0;     ///< [m]
@@ -51,7 +52,8 @@ struct ShortJournalBearing {
   double viscosity = 0.0;  ///< [Pa s]
 
   /// Force on a journal at x, y [m] from the bearing's centre that moves with vx, vy [m/s] and
-  /// turns with `speed` [rad/s]. Not a number where the journal touches, x^2 + y^2 >= clearance^2.
+  /// turns with `speed` [rad/s]. Beyond 1 - e^2 = kThinnestFilm it is
+  /// that of a film which gets no thinner: the journal touches, and the equations do not hold.
   template <class S>
   WHIRL_TWIN_INLINE FilmForce<S> force(const S& x, const S& y, const S& vx, const S& vy,
                                        const S& speed) const {
@@ -63,13 +65,14 @@ struct ShortJournalBearing {
     const S turn = 1.0 / sqrt(a * a + b * b + kStillFilm * kStillFilm);
     const S p = turn * (ex * a + ey * b);
     const S q = turn * (ey * a - ex * b);
-    const S s2 = 1.0 / (1.0 - ex * ex - ey * ey);  // 1 / s^2
+    const S room = thinnest(1.0 - ex * ex - ey * ey);
+    const S s2 = 1.0 / room;  // 1 / s^2
     const S s4 = s2 * s2;
     const S s = sqrt(s2);
     const S w = kQuarterTurn + atan(p * s);
     const S along = 6.0 * (p * s4) + 2.0 * (w * s * s2) * (1.0 + 3.0 * (p * p * s2));
-    const S across =
-        4.0 * (q * s4) + 2.0 * (p * p * q * s4) / (1.0 - q * q) + 6.0 * (w * s * s4) * (p * q);
+    const S across = 4.0 * (q * s4) + 2.0 * (p * p * q * s4) / thinnest(1.0 - q * q) +
+                     6.0 * (w * s * s4) * (p * q);
     const double scale = -forceScale();
     return {scale * (a * along - b * across), scale * (b * along + a * across)};
   }
@@ -88,6 +91,12 @@ struct ShortJournalBearing {
   BearingCoefficients coefficients(double load, double speed) const;
 
  private:
+  /// A trial state of an implicit step may lie beyond the bearing: the film stays thin there.
+  template <class S>
+  static WHIRL_TWIN_INLINE S thinnest(const S& film) {
+    return film > kThinnestFilm ? film : S(kThinnestFilm);
+  }
+
   static constexpr double kQuarterTurn = 1.57079632679489661923;
   /// mu R L^3 / (4 c^2) [N s]; velocities are in clearances.
   double forceScale() const {
