@@ -1,29 +1,50 @@
 #include "scene/linear_rotor_system.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "integration/exponential.h"
 #include "scene/finite.h"
 
 namespace whirl_twin {
 
-LinearRotorSystem::LinearRotorSystem(std::shared_ptr<const Dynamics> dynamics, const Drive& drive,
-                                     double step, int substeps)
-    : LinearRotorSystem(std::move(dynamics), drive, step, substeps, drive.speedRange(),
-                        drive.constantSpeeds()) {}
+LinearRotorSystem::LinearRotorSystem(std::shared_ptr<const Dynamics> dynamics,
+                                     JacobiIntegral jacobi, const Drive& drive, double step,
+                                     int substeps)
+    : LinearRotorSystem(std::move(dynamics), std::move(jacobi), drive, step, substeps,
+                        drive.speedRange(), drive.constantSpeeds()) {}
 
-LinearRotorSystem::LinearRotorSystem(std::shared_ptr<const Dynamics> dynamics, const Drive& drive,
-                                     double step, int substeps,
-                                     const std::pair<double, double>& speeds,
+LinearRotorSystem::LinearRotorSystem(std::shared_ptr<const Dynamics> dynamics,
+                                     JacobiIntegral jacobi, const Drive& drive, double step,
+                                     int substeps, const std::pair<double, double>& speeds,
                                      std::vector<double> constant_speeds)
     : dynamics_(std::move(dynamics)),
+      jacobi_(std::move(jacobi)),
       drive_(drive),
       step_(step),
       substeps_(substeps),
       constant_speeds_(std::move(constant_speeds)),
+      at_rest_(dynamics_->linearRotor().matrices(0.0)),
+      load_(dynamics_->linearRotor().load),
       method_(dynamics_->linearRotor(), step / substeps, speeds, constant_speeds_),
       state_(dynamics_->dof()),
       next_(dynamics_->dof()) {}
+
+/// The dynamics' Jacobi integral less T + V of the matrices.
+double LinearRotorSystem::furtherEnergy() const noexcept {
+  if (!jacobi_) {
+    return 0.0;
+  }
+  const ShaftMotion shaft = drive_.at(0.0);
+  double energy = jacobi_(state_.q.data(), state_.v.data(),
+                          {0.0, shaft.angle, shaft.speed, shaft.acceleration});
+  for (Eigen::Index i = 0; i < state_.q.size(); ++i) {
+    energy -= 0.5 * state_.v[i] * at_rest_.mass.col(i).dot(state_.v) +
+              0.5 * state_.q[i] * at_rest_.stiffness.col(i).dot(state_.q) -
+              load_[i] * state_.q[i];
+  }
+  return energy;
+}
 
 StepStatus LinearRotorSystem::step(double) noexcept {
   next_ = state_;
@@ -47,7 +68,7 @@ StepStatus LinearRotorSystem::step(double) noexcept {
 void LinearRotorSystem::write(double* out) const noexcept {
   out = std::copy_n(state_.q.data(), state_.q.size(), out);
   out = std::copy_n(state_.v.data(), state_.v.size(), out);
-  *out = state_.work.high;
+  *out = state_.work.high + (furtherEnergy() - further_energy_);
 }
 
 void LinearRotorSystem::set(const double* q, const double* v) noexcept {
@@ -57,6 +78,7 @@ void LinearRotorSystem::set(const double* q, const double* v) noexcept {
   state_.v_low.setZero();
   state_.work = CompensatedSum{};
   method_.restart();
+  further_energy_ = furtherEnergy();
 }
 
 std::unique_ptr<System> LinearRotorSystem::readyFor(double lowest_speed,
@@ -74,26 +96,35 @@ std::unique_ptr<System> LinearRotorSystem::readyFor(double lowest_speed,
   }
   const std::pair<double, double> speeds{std::min(lowest_speed, method_.lowestSpeed()),
                                          std::max(highest_speed, method_.highestSpeed())};
-  return std::unique_ptr<System>(new LinearRotorSystem(dynamics_, drive_, step_, substeps_, speeds,
+  return std::unique_ptr<System>(new LinearRotorSystem(dynamics_, jacobi_, drive_, step_, substeps_, speeds,
                                                        std::move(constant_speeds)));
 }
 
-ModelSetup linearRotorSetup(std::shared_ptr<const Dynamics> dynamics) {
+namespace {
+
+ModelSetup exactSetup(std::shared_ptr<const Dynamics> dynamics, const JacobiIntegral& jacobi) {
   ModelSetup setup;
   setup.dynamics = dynamics;
   setup.integrators = {Exponential<1>::kName};
-  setup.system = [dynamics](const std::string&, const Drive& drive, double step, int substeps) {
-    return std::make_unique<LinearRotorSystem>(dynamics, drive, step, substeps);
+  setup.system = [dynamics, jacobi](const std::string&, const Drive& drive, double step,
+                                    int substeps) {
+    return std::make_unique<LinearRotorSystem>(dynamics, jacobi, drive, step, substeps);
   };
   setup.exact_run_ups = true;
   return setup;
 }
 
-ModelSetup withExactRunUps(ModelSetup setup) {
+}  // namespace
+
+ModelSetup linearRotorSetup(std::shared_ptr<const Dynamics> dynamics) {
+  return exactSetup(std::move(dynamics), {});
+}
+
+ModelSetup withExactRunUps(ModelSetup setup, JacobiIntegral jacobi) {
   if (!setup.dynamics->linear() || !setup.dynamics->speedDependent()) {
     return setup;
   }
-  setup.system = [plain = setup.system, exact = linearRotorSetup(setup.dynamics).system](
+  setup.system = [plain = setup.system, exact = exactSetup(setup.dynamics, jacobi).system](
                      const std::string& integrator, const Drive& drive, double step, int substeps) {
     const bool exponential = integrator == Exponential<1>::kName;
     return (exponential ? exact : plain)(integrator, drive, step, substeps);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -49,8 +50,9 @@ struct DrivenEquation {
   Jacobian jacobian(const Array& q, const Array& v, double offset) const {
     const Moment<double> at = moment(offset);
     const auto l = linearization(model, q, v, derivative(model, q, v, at).acceleration, at);
-    const auto inverse = l.mass.inverse().eval();
-    return {-inverse * (l.stiffness + l.circulatory), -inverse * (l.damping + l.gyroscopic)};
+    // Not mass.inverse(): Eigen's of size four needs signed zeros, which steps are compiled without.
+    const auto mass = l.mass.partialPivLu();
+    return {-mass.solve(l.stiffness + l.circulatory), -mass.solve(l.damping + l.gyroscopic)};
   }
   /// Is the forcing that of a shaft at one speed? Loads that alternate by themselves are not.
   bool constantSpeed([[maybe_unused]] double duration) const {

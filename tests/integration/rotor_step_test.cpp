@@ -117,8 +117,10 @@ TEST(RotorStep, TakesTheGyroscopicDiscThroughItsCriticalSpeed) {
       const Json row = expected(c06, name)[k];
       VectorXd truth(4);
       truth << row[0], row[1], row[2], row[3];
-      // Slopes and positions are of a size here. Seen: 3e-9.
-      EXPECT_LT((*state - truth).norm(), 2.0e-8 * truth.norm()) << name << " at " << times[k];
+      // Slopes and positions are of a size here. The rates keep (w h)^2 a h^2 / 720 of the second
+      // mode, whose w h is near one.
+      const double bound = name == std::string("q") ? 2.0e-8 : 3.0e-7;
+      EXPECT_LT((*state - truth).norm(), bound * truth.norm()) << name << " at " << times[k];
     }
   }
 }
@@ -321,7 +323,7 @@ TEST(LinearRotorSystem, IsMadeReadyForFurtherSpeeds) {
   const auto dynamics =
       model.setUp(completed(model, setup.parameters), setup.settings, setup.gravity).dynamics;
   Drive drive(30.0, 0.0);
-  const LinearRotorSystem system(dynamics, drive, 1.0e-3, 1);
+  const LinearRotorSystem system(dynamics, {}, drive, 1.0e-3, 1);
   EXPECT_EQ(system.readyFor(30.0, 30.0), nullptr);
   const auto further = system.readyFor(30.0, 90.0);
   ASSERT_NE(further, nullptr);

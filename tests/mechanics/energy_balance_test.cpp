@@ -34,7 +34,10 @@ TEST_P(EnergyBalanceOf, PowerIsTheRateOfTheJacobiIntegral) {
     const double size =
         (std::abs(e.kinetic) + std::abs(e.potential) + std::abs(e.jacobi)) * 1e-3 / d;
     ASSERT_NEAR(e.input_power - e.dissipated_power, rate, 1e-10 * size) << "state " << i;
-    ASSERT_GE(e.kinetic, 0.0);
+    // A turning shaft brings terms linear in the rates; the spin's own energy is left out.
+    Moment<double> standing = s.at;
+    standing.speed = 0.0;
+    ASSERT_GE(s.dynamics->energies(s.q, s.v, standing).kinetic, 0.0);
   }
 }
 

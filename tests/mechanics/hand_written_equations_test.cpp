@@ -73,8 +73,8 @@ TEST(HandWritten, SpinningPendulum) {
   }
 }
 
-// m x'' + (c + cf) x' + ci (x' + w y) + k x + (lambda cf w + q) y
-//     = m e (w^2 cos phi + w' sin phi), and so for y.
+// m x'' + (c + cf) x' + ci (x' + w y) + k (x - b cos psi) + (lambda cf w + q) y
+//     = m e (w^2 cos phi + w' sin phi), and so for y, with psi the angle of the bow.
 TEST(HandWritten, JeffcottRotorOnAnAcceleratingShaft) {
   std::mt19937_64 random(1919);
   for (int i = 0; i < kStates; ++i) {
@@ -86,12 +86,13 @@ TEST(HandWritten, JeffcottRotorOnAnAcceleratingShaft) {
     const double m = p("mass");
     const double cf = p("fluid_damping");
     const double cross = p("fluid_ratio") * cf * w + p("cross_coupling");
-    const double terms[2][7] = {
-        {-p("stiffness") * s.q[0] / m, -p("damping") * s.v[0] / m, -ci * (s.v[0] + w * s.q[1]) / m,
+    const double psi = s.at.angle + p("bow_angle");
+    const double terms[2][8] = {
+        {p("stiffness") * p("bow") * std::cos(psi) / m, -p("stiffness") * s.q[0] / m, -p("damping") * s.v[0] / m, -ci * (s.v[0] + w * s.q[1]) / m,
          p("eccentricity") * w * w * std::cos(phi),
          p("eccentricity") * s.at.acceleration * std::sin(phi), -cf * s.v[0] / m,
          -cross * s.q[1] / m},
-        {-p("stiffness_y") * s.q[1] / m, -p("damping_y") * s.v[1] / m,
+        {p("stiffness_y") * p("bow") * std::sin(psi) / m, -p("stiffness_y") * s.q[1] / m, -p("damping_y") * s.v[1] / m,
          -ci * (s.v[1] - w * s.q[0]) / m, p("eccentricity") * w * w * std::sin(phi),
          -p("eccentricity") * s.at.acceleration * std::cos(phi), -cf * s.v[1] / m,
          cross * s.q[0] / m}};

@@ -251,13 +251,13 @@ INSTANTIATE_TEST_SUITE_P(
                "parameters: {mass: 1, length: 1, speed: 1}}}}",
                {"systems.a.integrator: exponential is for linear systems; spinning_pendulum is not "
                 "linear"}},
-        Broken{"ExponentialForRotatingDampingOnADrive",
-               rotorScene(kNoSpeed + ", internal_damping: 1",
-                          ", drive: shaft, integrator: exponential", kShaft),
-               {"systems.rotor.integrator: exponential needs matrices that do not change with "
-                "speed: rotating damping or a fluid on a drive excludes it; gauss_legendre_6 or "
-                "runge_kutta_4 "
-                "will do"}}),
+        Broken{"ExponentialInTheTurningFrameOfADrive",
+               "{step: 0.001, drives: {shaft: {speed: 1}}, systems: {rotor: {model: "
+               "rigid_disc_rotor, drive: shaft, integrator: exponential, parameters: {mass: 1, "
+               "polar_inertia: 1, transverse_inertia: 1, stiffness_displacement: 1, "
+               "stiffness_rotation: 1, frame: rotating}}}}",
+               {"systems.rotor.integrator: exponential needs matrices that do not change with the "
+                "drive's speed; gauss_legendre_6 or runge_kutta_4 will do"}}),
     kNames);
 
 TEST(BrokenSceneWithManyErrors, NamesThemAllAtOnce) {

@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Refusal{withShaft("modes: many"),
                 "modes: must be a whole number >= 0 or auto, found 'many'"},
-        Refusal{withShaft("modes: 2.5"), "modes: must be a whole number >= 0 or auto, found '2.5'"},
+        Refusal{withShaft("modes: 2.5"), "modes: must be a whole number >= 0 or auto, found 2.5"},
         Refusal{withShaft("modes: 29"),
                 "modes: must be auto or a whole number from 0 to 28, four a node, found 29"},
         Refusal{withShaft("bearing_tables: [{bearing: 0, speed: 1}]"),

@@ -155,7 +155,12 @@ class RandomSystems {
                        {"fluid_ratio", driven ? 0.0 : between(0.0, 0.6)},
                        {"cross_coupling", m * p * between(-0.1, 0.1)},
                        {"eccentricity", between(0.0, 1e-3)},
-                       {"eccentricity_angle", between(-3.0, 3.0)}};
+                       {"eccentricity_angle", between(-3.0, 3.0)},
+                       {"bow", between(0.0, 1e-3)},
+                       {"bow_angle", between(-3.0, 3.0)}};
+    for (const ParameterInfo& effect : findModel(spec.model)->parameters) {
+      spec.parameters.emplace(effect.name, effect.fallback.value_or(0.0));  // the others are off
+    }
     spec.q = {between(-0.01, 0.01), between(-0.01, 0.01)};
     spec.v = {p * between(-0.01, 0.01), p * between(-0.01, 0.01)};
     return std::max(p, 20.0);

@@ -59,15 +59,15 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{
             {},
             "twin: expected a command; there are: check, scenes, models, simulate, plot, analyze, "
-            "routh, log"},
+            "campbell, response, orbit, balance, routh, log"},
         Misuse{{"analyse", kDemo}, "twin: unknown command 'analyse'; did you mean 'analyze'?"},
         Misuse{
-            {"campbell", kDemo},
-            "twin: unknown command 'campbell'; there are: check, scenes, models, simulate, plot, "
-            "analyze, routh, log"},
+            {"bode", kDemo},
+            "twin: unknown command 'bode'; there are: check, scenes, models, simulate, plot, "
+            "analyze, campbell, response, orbit, balance, routh, log"},
         Misuse{{""},
                "twin: unknown command ''; there are: check, scenes, models, simulate, plot, "
-               "analyze, routh, log"},
+               "analyze, campbell, response, orbit, balance, routh, log"},
         Misuse{{"check"}, "twin check: SCENE is required"},
         Misuse{{"routh"}, "twin routh: COEFFICIENTS is required"},
         Misuse{{"log"}, "twin log: FILE is required"},

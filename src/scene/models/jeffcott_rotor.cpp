@@ -56,8 +56,11 @@ void check(const ParameterValues& values, const Surroundings& around) {
 }
 
 ModelSetup setUpLinear(const ParameterValues& values, const Surroundings& around) {
-  return around.motor ? setUpSpinningJeffcott(values, around)
-                      : withExactRunUps(setUp<JeffcottRotor>(values, around.gravity));
+  if (around.motor) {
+    return setUpSpinningJeffcott(values, around);
+  }
+  const JeffcottRotor rotor = makeModel<JeffcottRotor>(values, around.gravity);
+  return withExactRunUps(setUp(rotor), jacobiIntegral(rotor));
 }
 
 }  // namespace

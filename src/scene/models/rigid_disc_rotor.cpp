@@ -88,8 +88,11 @@ ModelInfo rigidDiscRotorInfo() {
     const bool heavy = choice(settings, "gravity_on_shaft", "false") == "true";
     const ParameterValues complete = withShaft(values, settings);
     const double gravity = heavy ? around.gravity : 0.0;
-    return turning ? setUp<TurningRigidDiscRotor>(complete, gravity)
-                   : withExactRunUps(setUp<RigidDiscRotor>(complete, gravity));
+    if (turning) {
+      return setUp<TurningRigidDiscRotor>(complete, gravity);
+    }
+    const RigidDiscRotor rotor = makeModel<RigidDiscRotor>(complete, gravity);
+    return withExactRunUps(setUp(rotor), jacobiIntegral(rotor));
   };
   return info;
 }
