@@ -17,6 +17,7 @@ import rostest
 from whirl_twin.msg import AlertArray, PendulumState, StabilityMargin, WhirlState
 
 SCENES = os.path.join(rospkg.RosPack().get_path('whirl_twin'), 'config', 'scenes', '*.yaml')
+ROTORS = ['flexible_rotor', 'jeffcott_rotor', 'rigid_disc_rotor']
 START = ['_lcm_url:=', '_realtime:=ignore']
 
 
@@ -35,7 +36,7 @@ class EveryScene(unittest.TestCase):
         nodes = [self.start('simulation_node', START), self.start('monitor_node', ['_lcm_url:='])]
         try:
             for name, system in scene['systems'].items():
-                rotor = system['model'] == 'jeffcott_rotor'
+                rotor = system['model'] in ROTORS
                 kind, topic = (WhirlState, 'whirl') if rotor else (PendulumState, 'pendulum')
                 state = rospy.wait_for_message('/twin/%s/%s' % (name, topic), kind, 10)
                 numbers = [state.x, state.y] if rotor else list(state.angle) + list(state.rate)

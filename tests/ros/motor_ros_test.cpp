@@ -52,5 +52,6 @@ TEST(Motor, isNotSentToASpeed) {
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   ros::init(argc, argv, "motor_ros_test");
+  const ros::NodeHandle node;  // ROS shuts down with the last handle: it outlives the tests
   return RUN_ALL_TESTS();
 }
