@@ -67,7 +67,8 @@ std::vector<double> starts(const Dynamics& dynamics, Eigen::Index coordinate, st
 /// All combinations of the starts of each coordinate of the shape.
 std::vector<Eigen::VectorXd> grid(const Dynamics& dynamics, const CyclicCoordinates& cyclic) {
   std::vector<Eigen::VectorXd> points{Eigen::VectorXd::Zero(dynamics.dof())};
-  if (dynamics.linear()) {
+  // A rotor in nonlinear bearings hangs near their line: there is nothing to search further away.
+  if (dynamics.linear() || (dynamics.isRotor() && cyclic.shape.size() > 2)) {
     return points;
   }
   for (const Eigen::Index i : cyclic.shape) {
@@ -92,13 +93,16 @@ bool same(const Dynamics& dynamics, const CyclicCoordinates& cyclic, const Stead
 }
 
 std::vector<Equilibrium> allOf(const Dynamics& dynamics, const CyclicCoordinates& cyclic,
-                               double speed, const Eigen::VectorXd& momenta,
-                               const Eigen::VectorXd& rates) {
+                               double speed, const Eigen::VectorXd& near,
+                               const Eigen::VectorXd& momenta, const Eigen::VectorXd& rates) {
   std::vector<SteadyMotion> found;
   // Driven coordinates are started at the rates they have, slower and faster.
-  const std::vector<double> shares =
-      cyclic.driven.empty() ? std::vector<double>{1.0} : std::vector<double>{1.0, 0.3, 3.0, 30.0, 300.0};
-  for (const Eigen::VectorXd& start : grid(dynamics, cyclic)) {
+  const std::vector<double> shares = cyclic.driven.empty()
+                                         ? std::vector<double>{1.0}
+                                         : std::vector<double>{1.0, 0.3, 3.0, 30.0, 300.0};
+  std::vector<Eigen::VectorXd> points = grid(dynamics, cyclic);
+  points.push_back(near);
+  for (const Eigen::VectorXd& start : points) {
     for (const double share : shares) {
       auto motion = steadyMotionNear(dynamics, cyclic, {start, share * rates}, momenta, speed);
       if (!motion) {
@@ -153,13 +157,13 @@ std::optional<Eigen::VectorXd> equilibriumNear(const Dynamics& dynamics, const E
 
 std::vector<Equilibrium> equilibria(const Dynamics& dynamics, double speed,
                                     const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
-  return allOf(dynamics, cyclicCoordinates(dynamics, speed), speed,
+  return allOf(dynamics, cyclicCoordinates(dynamics, speed), speed, q,
                dynamics.momenta(q, v, {0.0, 0.0, speed, 0.0}), v);
 }
 
 std::vector<Equilibrium> equilibria(const Dynamics& dynamics, double speed) {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(dynamics.dof());
-  return allOf(dynamics, cyclicCoordinates(dynamics, speed), speed, zero, zero);
+  return allOf(dynamics, cyclicCoordinates(dynamics, speed), speed, zero, zero, zero);
 }
 
 std::optional<Equilibrium> operatingPoint(const Dynamics& dynamics, const Eigen::VectorXd& q,
@@ -168,7 +172,7 @@ std::optional<Equilibrium> operatingPoint(const Dynamics& dynamics, const Eigen:
   const Eigen::VectorXd momenta = dynamics.momenta(q, v, {0.0, 0.0, speed, 0.0});
   std::optional<Equilibrium> nearest;
   double nearest_distance = 0.0;
-  for (const Equilibrium& e : allOf(dynamics, cyclic, speed, momenta, v)) {
+  for (const Equilibrium& e : allOf(dynamics, cyclic, speed, q, momenta, v)) {
     // Where rates are driven the nearest rate decides, then the shape.
     const Eigen::VectorXd now = v(cyclic.driven);
     const Eigen::VectorXd then = e.v(cyclic.driven);

@@ -40,8 +40,7 @@ double LinearRotorSystem::furtherEnergy() const noexcept {
                           {0.0, shaft.angle, shaft.speed, shaft.acceleration});
   for (Eigen::Index i = 0; i < state_.q.size(); ++i) {
     energy -= 0.5 * state_.v[i] * at_rest_.mass.col(i).dot(state_.v) +
-              0.5 * state_.q[i] * at_rest_.stiffness.col(i).dot(state_.q) -
-              load_[i] * state_.q[i];
+              0.5 * state_.q[i] * at_rest_.stiffness.col(i).dot(state_.q) - load_[i] * state_.q[i];
   }
   return energy;
 }
@@ -96,8 +95,8 @@ std::unique_ptr<System> LinearRotorSystem::readyFor(double lowest_speed,
   }
   const std::pair<double, double> speeds{std::min(lowest_speed, method_.lowestSpeed()),
                                          std::max(highest_speed, method_.highestSpeed())};
-  return std::unique_ptr<System>(new LinearRotorSystem(dynamics_, jacobi_, drive_, step_, substeps_, speeds,
-                                                       std::move(constant_speeds)));
+  return std::unique_ptr<System>(new LinearRotorSystem(dynamics_, jacobi_, drive_, step_, substeps_,
+                                                       speeds, std::move(constant_speeds)));
 }
 
 namespace {

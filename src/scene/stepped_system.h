@@ -50,7 +50,8 @@ struct DrivenEquation {
   Jacobian jacobian(const Array& q, const Array& v, double offset) const {
     const Moment<double> at = moment(offset);
     const auto l = linearization(model, q, v, derivative(model, q, v, at).acceleration, at);
-    // Not mass.inverse(): Eigen's of size four needs signed zeros, which steps are compiled without.
+    // Not mass.inverse(): Eigen's of size four needs signed zeros, which steps are compiled
+    // without.
     const auto mass = l.mass.partialPivLu();
     return {-mass.solve(l.stiffness + l.circulatory), -mass.solve(l.damping + l.gyroscopic)};
   }
