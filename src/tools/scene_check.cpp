@@ -20,6 +20,7 @@ SystemCheck checkSystem(const Twin::Member& member) {
   check.name = name;
   check.model = member.model;
   check.coordinates = member.dynamics->coordinates();
+  check.note = member.setup.note;
   check.integrator = member.integrator;
   check.reason = member.integrator_reason.empty() ? "named in the scene" : member.integrator_reason;
   check.substeps = member.spec.substeps;

@@ -21,6 +21,7 @@ struct SystemCheck {
   std::string name;
   const ModelInfo* model = nullptr;
   std::vector<CoordinateInfo> coordinates;
+  std::string note;  ///< what the model says of how it was set up; may be empty
   std::string integrator;
   std::string reason;  ///< why this one
   int substeps = 1;

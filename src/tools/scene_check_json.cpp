@@ -38,6 +38,9 @@ Json systemJson(const SystemCheck& system) {
   json["states"] = 2 * system.coordinates.size();
   json["drive"] = system.drive ? Json(*system.drive) : Json();
   json["speed"] = system.speed ? Json(*system.speed) : Json();
+  if (!system.note.empty()) {
+    json["note"] = system.note;
+  }
   json["integrator"] = system.integrator;
   json["reason"] = system.reason;
   json["substeps"] = system.substeps;

@@ -49,6 +49,9 @@ std::string systemText(const SystemCheck& system) {
   } else if (system.speed) {
     out += fmt::format("    shaft         {:g} rad/s, constant\n", *system.speed);
   }
+  if (!system.note.empty()) {
+    out += fmt::format("    set up        {}\n", system.note);
+  }
   out += fmt::format("    integrator    {} ({}), {} a step\n", system.integrator, system.reason,
                      system.substeps);
   for (const PublishedTopic& topic : system.topics) {
