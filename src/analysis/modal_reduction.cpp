@@ -23,8 +23,10 @@ using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr Index kFewestModes = 4;      // two in each plane
-constexpr double kSameShape = 1.0e-9;  // what orthogonalization may leave of a shape
+constexpr Index kFewestModes = 4;               // two in each plane
+constexpr double kSameShape = 1.0e-9;           // what orthogonalization may leave of a shape
+constexpr double kTurnsOfFreeWhirl = 100.0;     // [rad] that a run-up's free whirl lives for
+constexpr double kEigenvalueRounding = 1.0e-9;  // of stiff rotors
 constexpr double kEveryError = std::numeric_limits<double>::infinity();
 constexpr double kRigid = 1.0e-5;  // of the highest frequency: a rigid-body mode
 
@@ -252,7 +254,10 @@ RotorReduction reduceRotorTo(const LinearRotor& rotor, const std::vector<Station
   for (Index count = 2;; count = std::min(count + 2, full.dof())) {
     const Choice choice = choose(full, count, tolerance);
     if (choice.response_error <= tolerance) {
-      return report(full, choice, fmt::format(" <= {:.3g}", tolerance));
+      const RotorReduction r = report(full, choice, fmt::format(" <= {:.3g}", tolerance));
+      if (r.error.eigenvalue <= std::max(tolerance / kTurnsOfFreeWhirl, kEigenvalueRounding)) {
+        return r;
+      }
     }
     if (count == full.dof()) {
       return report(full, choose(full, count, kEveryError),

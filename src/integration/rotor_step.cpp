@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <stdexcept>
 
 namespace whirl_twin {
@@ -18,6 +19,7 @@ using Eigen::MatrixXd;
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kTableError = 1.0e-12;  // of a cell's map, relative to its largest entry
+constexpr double kMostRounding = 1.0e-9;
 constexpr double kMostCells = 4096.0;
 
 /// Symmetric W as an upper triangle U: y^T W y = y^T U y.
@@ -89,13 +91,18 @@ void RotorStep::prepare(const LinearRotor& rotor, const std::pair<double, double
     // Narrow enough at both ends of a stretch of smooth matrices: narrow enough throughout.
     const double range = ends[i + 1] - ends[i];
     double count = 1.0;
-    const auto enough = [&] {
+    double before = std::numeric_limits<double>::infinity();
+    while (true) {
       const double width = range / count;
-      return cubicEnough(rotor, ends[i], ends[i] + width) &&
-             cubicEnough(rotor, ends[i + 1] - width, ends[i + 1]);
-    };
-    while (!enough()) {
-      count *= 1.5;
+      const double error = std::max(cubicError(rotor, ends[i], ends[i] + width),
+                                    cubicError(rotor, ends[i + 1] - width, ends[i + 1]));
+      // What no longer falls is the rounding of a very stiff rotor's map.
+      const bool rounding = error < kMostRounding && error > 0.5 * before;
+      if (error <= kTableError || rounding) {
+        break;
+      }
+      count *= std::clamp(std::pow(error / kTableError, 0.25), 1.5, 8.0);
+      before = error;
       if (count + static_cast<double>(cells_.size()) > kMostCells) {
         throw std::domain_error("the rotor's matrices change too fast with speed for its step");
       }
@@ -139,21 +146,22 @@ MatrixXd RotorStep::cubic(const LinearRotor& rotor, double low, double high) con
 }
 
 /// In the middle of a cell the cubic through the Chebyshev nodes is off by most.
-bool RotorStep::cubicEnough(const LinearRotor& rotor, double low, double high) const {
+double RotorStep::cubicError(const LinearRotor& rotor, double low, double high) const {
   const MatrixXd exact = tableMap(rotor, 0.5 * (low + high));
   const MatrixXd error = cubic(rotor, low, high).leftCols(tableInputs()) - exact;
   // Positions and rates have their own sizes, and so has each input.
+  double largest = 0.0;
   for (Index j = 0; j < exact.cols(); ++j) {
     for (const Index rows : {Index{0}, n_}) {
       const double off = error.col(j).segment(rows, n_).cwiseAbs().maxCoeff();
       const double size = exact.col(j).segment(rows, n_).cwiseAbs().maxCoeff();
       const bool of_itself = j < 2 * n_ && (j < n_) == (rows == 0);
-      if (off > kTableError * (size + (of_itself ? 1.0 : 0.0))) {
-        return false;
+      if (off > 0.0) {
+        largest = std::max(largest, off / (size + (of_itself ? 1.0 : 0.0)));
       }
     }
   }
-  return true;
+  return largest;
 }
 
 RotorStep::Cell RotorStep::cell(const LinearRotor& rotor, double low, double high) const {

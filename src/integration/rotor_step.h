@@ -69,7 +69,7 @@ class RotorStep {
 
   void prepare(const LinearRotor& rotor, const std::pair<double, double>& speeds);
   Cell cell(const LinearRotor& rotor, double low, double high) const;
-  bool cubicEnough(const LinearRotor& rotor, double low, double high) const;
+  double cubicError(const LinearRotor& rotor, double low, double high) const;
   void constantStep(const ConstantSpeed& at, const ShaftMotion& shaft,
                     LinearMotion& motion) noexcept;
   void changingStep(const Cell& cell, const Drive& drive, double offset,

@@ -84,6 +84,7 @@ bool Observer::takeGeneration(std::size_t system) {
   track.scale = track.residual = 0.0;
   if (isRotor(system)) {
     const Dynamics& dynamics = *track.dynamics;
+    track.station = dynamics.stations().front();
     const Linearization l =
         linearizationAtRest(dynamics, Eigen::VectorXd::Zero(dynamics.dof()), 0.0);
     track.slowest_orbit = kSlowestOrbit * std::sqrt(std::min(l.stiffness(0, 0) / l.mass(0, 0),
@@ -182,9 +183,17 @@ double Observer::energyResidual(std::size_t system) const {
   return tracks_[system].residual;
 }
 
+Observer::Whirl Observer::whirlOf(std::size_t system) const {
+  const Station& at = tracks_[system].station;
+  const auto n = at.along_x.size();
+  const Eigen::Map<const Eigen::VectorXd> q(coordinates(system), n);
+  const Eigen::Map<const Eigen::VectorXd> v(rates(system), n);
+  return {at.along_x.dot(q), at.along_y.dot(q), at.along_x.dot(v), at.along_y.dot(v)};
+}
+
 double Observer::whirlRadius(std::size_t system) const {
-  const double* q = coordinates(system);
-  return std::hypot(q[0], q[1]);
+  const Whirl at = whirlOf(system);
+  return std::hypot(at.x, at.y);
 }
 
 double Observer::whirlPhase(std::size_t system) const {
@@ -199,10 +208,10 @@ void Observer::trackPhase(std::size_t system) {
   if (!track.phase_valid) {
     return;
   }
-  const double* q = coordinates(system);
+  const Whirl at = whirlOf(system);
   const double unbalance =
       driveRecord(twin_.members()[system].drive)[1] + tracks_[system].dynamics->unbalanceAngle();
-  const double lag = unbalance - std::atan2(q[1], q[0]);
+  const double lag = unbalance - std::atan2(at.y, at.x);
   const double reference = track.phase_known ? track.phase : 0.0;
   track.phase = reference + std::remainder(lag - reference, 2.0 * kPi);
   track.phase_known = true;
@@ -210,30 +219,30 @@ void Observer::trackPhase(std::size_t system) {
 
 state::WhirlState Observer::whirl(std::size_t system) const {
   const Twin::Member& member = twin_.members()[system];
-  const double* q = coordinates(system);
-  const double* v = rates(system);
+  const Whirl at = whirlOf(system);
   const double* shaft = driveRecord(member.drive);
   state::WhirlState s;
   s.at = instant();
   s.system = member.spec.name;
-  s.x = q[0];
-  s.y = q[1];
-  s.x_rate = v[0];
-  s.y_rate = v[1];
+  s.x = at.x;
+  s.y = at.y;
+  s.x_rate = at.x_rate;
+  s.y_rate = at.y_rate;
   s.radius = whirlRadius(system);
   s.phase_valid = tracks_[system].phase_valid;
   s.phase = whirlPhase(system);
-  s.whirl_angle = s.phase_valid ? std::atan2(q[1], q[0]) : kNaN;
-  s.whirl_rate = s.phase_valid ? (q[0] * v[1] - q[1] * v[0]) / (s.radius * s.radius) : kNaN;
+  s.whirl_angle = s.phase_valid ? std::atan2(at.y, at.x) : kNaN;
+  s.whirl_rate =
+      s.phase_valid ? (at.x * at.y_rate - at.y * at.x_rate) / (s.radius * s.radius) : kNaN;
   s.speed = shaft[2];
   s.shaft_angle = ShaftAngle{unpacked(shaft[0]), shaft[1]}.total();
   s.orbit_major = s.orbit_minor = kNaN;
   if (std::fabs(s.speed) > tracks_[system].slowest_orbit) {
     // z = f e^(iwt) + b e^(-iwt) with z' known too: forward and backward parts of the 1X orbit.
-    const double vx = v[0] / s.speed;
-    const double vy = v[1] / s.speed;
-    const double forward = 0.5 * std::hypot(q[0] + vy, q[1] - vx);
-    const double backward = 0.5 * std::hypot(q[0] - vy, q[1] + vx);
+    const double vx = at.x_rate / s.speed;
+    const double vy = at.y_rate / s.speed;
+    const double forward = 0.5 * std::hypot(at.x + vy, at.y - vx);
+    const double backward = 0.5 * std::hypot(at.x - vy, at.y + vx);
     s.orbit_major = forward + backward;
     s.orbit_minor = std::fabs(forward - backward);
     s.forward = forward >= backward;

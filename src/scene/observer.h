@@ -41,6 +41,11 @@ class Observer {
   state::MotorState motor(std::size_t drive) const;         ///< of a drive that is a motor
   /// Whirl radius [m] and unwrapped phase lag [rad] of a rotor (NaN while undefined).
   double whirlRadius(std::size_t system) const;
+  /// Where a rotor's whirl is seen: position [m] and velocity [m/s] there.
+  struct Whirl {
+    double x, y, x_rate, y_rate;
+  };
+  Whirl whirlOf(std::size_t system) const;
   double whirlPhase(std::size_t system) const;
   const double* coordinates(std::size_t system) const;  ///< q
   const double* rates(std::size_t system) const;        ///< q'
@@ -64,6 +69,7 @@ class Observer {
 
  private:
   struct Track {
+    Station station;  // of a rotor: where its whirl is seen
     std::int64_t generation = -1;
     std::shared_ptr<const Dynamics> dynamics;
     state::ParameterChange parameters;

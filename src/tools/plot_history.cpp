@@ -32,6 +32,8 @@ void PlotHistoryWriter::write(const Observer& observer) {
     history.moments.push_back(observer.moment(system));
     history.speed.push_back(history.moments.back().speed);
     if (observer.isRotor(system)) {
+      history.whirl_x.push_back(running ? observer.whirlOf(system).x : kNaN);
+      history.whirl_y.push_back(running ? observer.whirlOf(system).y : kNaN);
       history.whirl_radius.push_back(running ? observer.whirlRadius(system) : kNaN);
       history.whirl_phase.push_back(running ? observer.whirlPhase(system) : kNaN);
     }

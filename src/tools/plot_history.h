@@ -15,6 +15,7 @@ struct PlotHistory {
   std::vector<double> kinetic, potential, jacobi;       ///< [J]
   std::vector<Moment<double>> moments;                  ///< of the shaft
   std::vector<double> speed;                            ///< [rad/s], of the shaft
+  std::vector<double> whirl_x, whirl_y;                 ///< [m], where a rotor's whirl is seen
   std::vector<double> whirl_radius, whirl_phase;        ///< [m], [rad]; of a rotor
 };
 

@@ -119,8 +119,8 @@ Series turn(const PlotHistory& history, std::size_t start) {
   series.name = fmt::format("{:.3g} s, {:.3g} rad/s", history.time[start], history.speed[start]);
   double angle = 0.0;
   for (std::size_t i = start; i < history.time.size() && angle < 2.0 * kPi; ++i) {
-    series.x.push_back(history.coordinates[0][i]);
-    series.y.push_back(history.coordinates[1][i]);
+    series.x.push_back(history.whirl_x[i]);
+    series.y.push_back(history.whirl_y[i]);
     if (i + 1 < history.time.size()) {
       angle += std::fabs(history.speed[i]) * (history.time[i + 1] - history.time[i]);
     }
@@ -135,7 +135,7 @@ Figure orbitFigure(const PlotHistory& history) {
   chart.y.label = "y (m)";
   chart.equal_aspect = true;
   if (spread(history.speed) == 0.0) {
-    chart.series = {{"orbit", history.coordinates[0], history.coordinates[1]}};
+    chart.series = {{"orbit", history.whirl_x, history.whirl_y}};
   } else {
     std::vector<std::size_t> starts;
     for (int i = 1; i <= kOrbits; ++i) {

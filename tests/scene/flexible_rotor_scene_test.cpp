@@ -3,9 +3,11 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <complex>
 #include <ostream>
 
 #include "scene/model_registry.h"
+#include "scene/observer.h"
 #include "scene/twin.h"
 #include "scenes.h"
 
@@ -210,6 +212,42 @@ TEST(FlexibleRotorScene, IsDrawnWithItsDiscsAndBearings) {
   EXPECT_EQ(sketch.rods[2].radius, 0.025);
   // A steel disc 0.28 m across and 0.07 m wide, on this shaft (32.6 kg; its bore is filled here).
   EXPECT_NEAR(sketch.discs[0].radius, 0.14, 0.005);
+}
+
+TEST(FlexibleRotor, WhirlsAtItsPublishedNodeAsTheHarmonicResponseSays) {
+  // Heavily damped, so that the start is forgotten in 4 s; with all coordinates and with few.
+  std::string rotor = kRotor;
+  for (std::size_t at; (at = rotor.find("cxx: 100, cyy: 100")) != std::string::npos;) {
+    rotor.replace(at, 18, "cxx: 3000, cyy: 3000");
+  }
+  rotor += ", unbalances: [{node: 2, magnitude: 0.001, angle: 0.4}], highest_speed: 300, modes: ";
+  for (const char* modes : {"0", "auto"}) {
+    Twin twin(sceneOf(sceneText(rotor + modes)));
+    const LinearRotor matrices = twin.members()[0].dynamics->linearRotor();
+    const Station node = twin.members()[0].dynamics->stations().front();
+    EXPECT_EQ(node.name, "node_2");
+    const double w = 100.0;
+    const Linearization l = matrices.matrices(w);
+    const std::complex<double> i(0.0, 1.0);
+    const Eigen::MatrixXcd dynamic =
+        (l.stiffness + l.circulatory - w * w * l.mass).cast<std::complex<double>>() +
+        i * w * (l.damping + l.gyroscopic).cast<std::complex<double>>();
+    const Eigen::VectorXcd q = dynamic.partialPivLu().solve(matrices.synchronousForce(w));
+    const std::complex<double> x = node.along_x.cast<std::complex<double>>().cwiseProduct(q).sum();
+    const std::complex<double> y = node.along_y.cast<std::complex<double>>().cwiseProduct(q).sum();
+    for (int step = 0; step < 4000; ++step) {
+      twin.step();
+    }
+    Observer observer(twin);
+    const state::WhirlState whirl = observer.whirl(0);
+    const std::complex<double> turn = std::polar(1.0, whirl.shaft_angle);
+    EXPECT_NEAR(whirl.x, (x * turn).real(), 1.0e-6 * std::abs(x)) << modes;
+    EXPECT_NEAR(whirl.y, (y * turn).real(), 1.0e-6 * std::abs(y)) << modes;
+    // The axes take the rates in, where a little of the start is left.
+    EXPECT_NEAR(whirl.orbit_major, 0.5 * (std::abs(x + i * y) + std::abs(x - i * y)),
+                1.0e-4 * std::abs(x))
+        << modes;
+  }
 }
 
 }  // namespace
