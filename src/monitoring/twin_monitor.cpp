@@ -43,7 +43,26 @@ TwinMonitor::Watch::Watch(const Twin::Member& member, std::string drive_name,
       stability_alarm(member.spec.name, settingsFor(*member.dynamics, settings)),
       state_alarm(member.spec.name, settings),
       validity_alarm(member.spec.name, member.dynamics, settings),
-      spec(member.spec) {}
+      spec(member.spec) {
+  if (rotor) {
+    station = member.dynamics->stations().front();
+    const std::vector<CoordinateInfo> all = member.dynamics->coordinates();
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      spin = all[k].name == "spin" ? static_cast<Eigen::Index>(k) : spin;
+    }
+  }
+}
+
+std::vector<double> TwinMonitor::Watch::coordinates(double x, double y, double turned) const {
+  std::vector<double> all(dof, 0.0);
+  for (std::size_t i = 0; i < dof; ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    all[i] = k == spin ? turned
+                       : x * station.along_x[k] / station.along_x.squaredNorm() +
+                             y * station.along_y[k] / station.along_y.squaredNorm();
+  }
+  return all;
+}
 
 TwinMonitor::TwinMonitor(const Scene& scene, const AlarmSettings& settings)
     : twin_(scene), settings_(settings), data_lost_alarm_(systemNames(scene), settings) {
@@ -156,7 +175,8 @@ void TwinMonitor::take(const state::WhirlState& whirl, double wall_time) {
   }
   watch->speed = whirl.speed;
   watch->state_alarm.updateEnergy(whirl.at.time, whirl.energy_residual, alerts_);
-  judge(*watch, whirl.at, {whirl.x, whirl.y}, {whirl.x_rate, whirl.y_rate});
+  judge(*watch, whirl.at, watch->coordinates(whirl.x, whirl.y, whirl.shaft_angle),
+        watch->coordinates(whirl.x_rate, whirl.y_rate, whirl.speed));
 }
 
 void TwinMonitor::take(const state::PendulumState& pendulum, double wall_time) {

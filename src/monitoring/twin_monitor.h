@@ -52,6 +52,11 @@ class TwinMonitor {
     std::shared_ptr<const Dynamics> dynamics;
     bool rotor;
     std::size_t dof;
+    Station station = {};    ///< of a rotor: where its whirl is seen
+    Eigen::Index spin = -1;  ///< of a rotor that a motor turns: the coordinate of its shaft
+    /// All coordinates of a rotor (or rates) as far as its whirl tells them: the smallest that give
+    /// x and y at the station, and what the shaft has turned.
+    std::vector<double> coordinates(double x, double y, double turned) const;
     std::string drive;  ///< "" at a constant speed of its own
     double speed;       ///< [rad/s], newest
     CriticalSpeedAlarm critical_speed_alarm;
