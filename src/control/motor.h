@@ -61,8 +61,8 @@ struct Motor {
     while (i + 2 < count && speed > points[i + 1].speed) {
       ++i;
     }
-    const double slope = (points[i + 1].torque - points[i].torque) /
-                         (points[i + 1].speed - points[i].speed);
+    const double slope =
+        (points[i + 1].torque - points[i].torque) / (points[i + 1].speed - points[i].speed);
     return points[i].torque + slope * (speed - points[i].speed);
   }
 };

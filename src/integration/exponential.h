@@ -95,7 +95,7 @@ class Exponential {
   StatesMatrix freeMatrix(const Equation& equation, double offset) {
     const auto jacobian = equation.jacobian(Array{}, Array{}, offset);
     const double stiffest = std::sqrt(jacobian.by_q.cwiseAbs().maxCoeff());
-    rate_scale_ = stiffest > 0.0 ? std::exp2(std::round(std::log2(stiffest))) : 1.0;
+    rate_scale_ = powerOfTwo(stiffest);
     StatesMatrix a = StatesMatrix::Zero();
     a.template topRightCorner<n, n>().diagonal().setConstant(rate_scale_);
     a.template bottomLeftCorner<n, n>() = jacobian.by_q / rate_scale_;

@@ -112,10 +112,6 @@ LinearStepMap gaussLegendre6(const LinearEquation& equation, double h) {
   return stepMap(dq, dv, work);
 }
 
-double powerOfTwo(double x) {
-  return x > 0.0 ? std::exp2(std::round(std::log2(x))) : 1.0;
-}
-
 /// In x = L^T q, L L^T = M, rates over the highest frequency, phasors over the deflection they
 /// cause: then the norm of h A is that of frequency times step, whatever the units and the masses.
 LinearStepMap exponential(const LinearEquation& equation, double h) {

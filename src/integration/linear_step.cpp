@@ -8,15 +8,15 @@ namespace whirl_twin {
 
 namespace {
 
-/// W as an upper triangle by blocks: y^T W y = y^T U y, with the terms of states and phasors
-/// together in the rows of the phasors, so that without damping and circulatory forces the rows of
-/// the states are zero.
-Eigen::MatrixXd withoutUpperBlock(const Eigen::MatrixXd& work, Eigen::Index states) {
-  const Eigen::Index phasors = work.rows() - states;
-  Eigen::MatrixXd u = work;
-  u.bottomLeftCorner(phasors, states) += work.topRightCorner(states, phasors).transpose();
-  u.topRightCorner(states, phasors).setZero();
-  return u;
+/// Compensated sums, in a loop that the compiler takes several at a time.
+void addTo(double* __restrict high, double* __restrict low, const double* __restrict increment,
+           Eigen::Index n) noexcept {
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double corrected = increment[i] + low[i];
+    const double sum = high[i] + corrected;
+    low[i] = corrected - (sum - high[i]);
+    high[i] = sum;
+  }
 }
 
 }  // namespace
@@ -27,6 +27,20 @@ LinearMotion::LinearMotion(Eigen::Index n)
       q_low(Eigen::VectorXd::Zero(n)),
       v_low(Eigen::VectorXd::Zero(n)) {}
 
+void LinearMotion::set(const double* position, const double* rate) noexcept {
+  q = Eigen::Map<const Eigen::VectorXd>(position, q.size());
+  v = Eigen::Map<const Eigen::VectorXd>(rate, v.size());
+  q_low.setZero();
+  v_low.setZero();
+  work = CompensatedSum{};
+}
+
+void LinearMotion::advance(const double* position, const double* rate, double energy) noexcept {
+  addTo(q.data(), q_low.data(), position, q.size());
+  addTo(v.data(), v_low.data(), rate, v.size());
+  work.add(energy);
+}
+
 LinearStep::LinearStep(const LinearModel& model, const std::string& method, double h)
     : n_(model.mass.rows()) {
   const LinearEquation equation(model);
@@ -34,12 +48,7 @@ LinearStep::LinearStep(const LinearModel& model, const std::string& method, doub
   const Eigen::Index size = equation.size();
   y_.setZero(size);
   const LinearStepMap map = linearStepMap(equation, method, h);
-  const Eigen::MatrixXd work = withoutUpperBlock(map.work, 2 * n_);
-  const bool conservative = (work.topRows(2 * n_).array() == 0.0).all();
-  const Eigen::Index rows = conservative ? size - 2 * n_ : size;
-  map_.resize(2 * n_ + rows, size);
-  map_.topRows(2 * n_) = map.increment;
-  map_.bottomRows(rows) = work.bottomRows(rows);
+  map_ = stepMatrix(map.increment, map.work);
   result_.setZero(map_.rows());
 }
 
@@ -48,22 +57,13 @@ void LinearStep::advance(double time, LinearMotion& motion) noexcept {
   y_.segment(n_, n_) = motion.v;
   double* phasor = y_.data() + 2 * n_;
   for (const double frequency : frequencies_) {
-    *phasor++ = std::cos(frequency * time);
-    *phasor++ = std::sin(frequency * time);
+    const double cosine = std::cos(frequency * time);  // both together cost little more than one
+    const double sine = std::sin(frequency * time);
+    *phasor++ = cosine;
+    *phasor++ = sine;
   }
-  result_.noalias() = map_ * y_;
-  const Eigen::Index rows = result_.size() - 2 * n_;
-  motion.work.add(y_.tail(rows).dot(result_.tail(rows)));
-  for (Eigen::Index i = 0; i < n_; ++i) {
-    CompensatedSum position{motion.q[i], motion.q_low[i]};
-    position.add(result_[i]);
-    motion.q[i] = position.high;
-    motion.q_low[i] = position.low;
-    CompensatedSum rate{motion.v[i], motion.v_low[i]};
-    rate.add(result_[n_ + i]);
-    motion.v[i] = rate.high;
-    motion.v_low[i] = rate.low;
-  }
+  map_.multiply(y_.data(), result_.data());
+  motion.advance(result_.data(), result_.data() + n_, y_.dot(result_.segment(2 * n_, y_.size())));
 }
 
 }  // namespace whirl_twin

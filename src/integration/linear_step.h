@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "integration/motion_state.h"
+#include "integration/packed_matrix.h"
 #include "mechanics/linear_dynamics.h"
 
 namespace whirl_twin {
@@ -25,6 +26,10 @@ namespace whirl_twin {
 /// The state of n coordinates, each number as a compensated sum (motion_state.h).
 struct LinearMotion {
   explicit LinearMotion(Eigen::Index n);
+
+  // Real-time safe; n numbers each.
+  void set(const double* position, const double* rate) noexcept;
+  void advance(const double* position, const double* rate, double energy) noexcept;
 
   Eigen::VectorXd q, v;  ///< [rad] or [m], and their rates
   Eigen::VectorXd q_low, v_low;
@@ -44,7 +49,7 @@ class LinearStep {
  private:
   Eigen::Index n_;
   std::vector<double> frequencies_;  ///< [rad/s], of the phasors
-  Eigen::MatrixXd map_;              ///< B, below it the rows of W as far as they are needed
+  PackedMatrix map_;                 ///< B and W
   Eigen::VectorXd y_;                ///< q, v and the phasors
   Eigen::VectorXd result_;           ///< map_ y
 };

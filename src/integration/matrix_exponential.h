@@ -19,17 +19,27 @@ int halvings(const Eigen::Matrix<double, N, N>& X) {
   return norm > 0.5 ? static_cast<int>(std::ceil(std::log2(norm / 0.5))) : 0;
 }
 
+/// The power of two nearest to x > 0, an exact scale; 1 where there is none.
+inline double powerOfTwo(double x) {
+  return x > 0.0 && std::isfinite(x) ? std::exp2(std::round(std::log2(x))) : 1.0;
+}
+
 /// e^X - I.
 template <int N>
 Eigen::Matrix<double, N, N> exponentialLessIdentity(const Eigen::Matrix<double, N, N>& X) {
   using Matrix = Eigen::Matrix<double, N, N>;
   const int s = halvings<N>(X);
+  // 0.5^16/16! < 1e-18: sixteen terms, in powers of x^4 (Paterson & Stockmeyer, SIAM J. Computing
+  // 2, 1973), six products in all.
   const Matrix x = std::ldexp(1.0, -s) * X;
-  Matrix e = x;
-  for (int k = 16; k >= 2; --k) {  // 0.5^16/16! < 1e-18: x (1 + x/2 (1 + x/3 (...))) by Horner
-    e = (k == 16 ? Matrix(x / k) : Matrix((x + x * e) / k));
+  const Matrix x2 = x * x;
+  const Matrix x3 = x2 * x;
+  const Matrix x4 = x2 * x2;
+  Matrix e = Matrix::Zero(x.rows(), x.cols());
+  for (const int first : {13, 9, 5, 1}) {
+    const auto term = [first](int k) { return 1.0 / std::tgamma(first + k + 1.0); };
+    e = (x4 * e).eval() + term(0) * x + term(1) * x2 + term(2) * x3 + term(3) * x4;
   }
-  e = x + x * e;
   for (int i = 0; i < s; ++i) {
     e = (e * e + 2.0 * e).eval();
   }

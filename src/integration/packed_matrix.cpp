@@ -1,7 +1,8 @@
 #include "integration/packed_matrix.h"
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define WHIRL_TWIN_VECTOR_WIDTHS __attribute__((target_clones("avx512f", "avx2", "default")))
+#define WHIRL_TWIN_VECTOR_WIDTHS \
+  __attribute__((target_clones("avx512f", "arch=haswell", "default")))
 #else
 #define WHIRL_TWIN_VECTOR_WIDTHS
 #endif
@@ -12,33 +13,34 @@ namespace {
 
 using Eigen::Index;
 
-/// Eight doubles that may lie anywhere; narrower machines take them in parts.
-typedef double Eight __attribute__((vector_size(64), aligned(8)));
+/// Eight doubles; narrower machines take them in parts.
+typedef double Eight __attribute__((vector_size(64)));
+/// Eight doubles that may lie anywhere.
+typedef double EightAnywhere __attribute__((vector_size(64), aligned(8)));
 
 WHIRL_TWIN_VECTOR_WIDTHS
-void multiplyPanels(const double* entries, Index panels, const Index* first, Index columns,
-                    const double* y, double* result) noexcept {
-  for (Index p = 0; p < panels; ++p) {
-    // Even and odd columns apart: four sums under way at a time.
-    Eight low = {};
-    Eight high = {};
-    Eight low_odd = {};
-    Eight high_odd = {};
-    Index j = first[p];
-    for (; j + 1 < columns; j += 2, entries += 2 * PackedMatrix::kPanel) {
-      low += *reinterpret_cast<const Eight*>(entries) * y[j];
-      high += *reinterpret_cast<const Eight*>(entries + 8) * y[j];
-      low_odd += *reinterpret_cast<const Eight*>(entries + 16) * y[j + 1];
-      high_odd += *reinterpret_cast<const Eight*>(entries + 24) * y[j + 1];
+void multiplyPanels(const double* entries, const PackedMatrix::Panel* panels, Index count,
+                    bool backward, Index columns, const double* y, double* result) noexcept {
+  for (Index p = 0; p < count; ++p) {
+    const Index panel = backward ? count - 1 - p : p;
+    const double* entry = entries + panels[panel].start;
+    // Four columns at a time: eight sums under way.
+    Eight low[4] = {};
+    Eight high[4] = {};
+    Index j = panels[panel].first_column;
+    for (; j + 3 < columns; j += 4, entry += 4 * PackedMatrix::kPanel) {
+      for (int k = 0; k < 4; ++k) {
+        low[k] += *reinterpret_cast<const Eight*>(entry + PackedMatrix::kPanel * k) * y[j + k];
+        high[k] += *reinterpret_cast<const Eight*>(entry + PackedMatrix::kPanel * k + 8) * y[j + k];
+      }
     }
-    if (j < columns) {
-      low += *reinterpret_cast<const Eight*>(entries) * y[j];
-      high += *reinterpret_cast<const Eight*>(entries + 8) * y[j];
-      entries += PackedMatrix::kPanel;
+    for (; j < columns; ++j, entry += PackedMatrix::kPanel) {
+      low[0] += *reinterpret_cast<const Eight*>(entry) * y[j];
+      high[0] += *reinterpret_cast<const Eight*>(entry + 8) * y[j];
     }
-    *reinterpret_cast<Eight*>(result) = low + low_odd;
-    *reinterpret_cast<Eight*>(result + 8) = high + high_odd;
-    result += PackedMatrix::kPanel;
+    double* const sums = result + panel * PackedMatrix::kPanel;
+    *reinterpret_cast<EightAnywhere*>(sums) = (low[0] + low[1]) + (low[2] + low[3]);
+    *reinterpret_cast<EightAnywhere*>(sums + 8) = (high[0] + high[1]) + (high[2] + high[3]);
   }
 }
 
@@ -48,24 +50,34 @@ PackedMatrix::PackedMatrix(const Eigen::MatrixXd& matrix)
     : rows_((matrix.rows() + kPanel - 1) / kPanel * kPanel), columns_(matrix.cols()) {
   Eigen::MatrixXd padded = Eigen::MatrixXd::Zero(rows_, columns_);
   padded.topRows(matrix.rows()) = matrix;
-  entries_.resize(rows_ * columns_);
-  Index size = 0;
+  entries_.resize(static_cast<std::size_t>(rows_ * columns_));
+  std::size_t size = 0;
   for (Index p = 0; p < rows_ / kPanel; ++p) {
     const auto panel = padded.middleRows(p * kPanel, kPanel);
     Index first = 0;
     while (first < columns_ && (panel.col(first).array() == 0.0).all()) {
       ++first;
     }
-    first_.push_back(first);
+    panels_.push_back({static_cast<Index>(size), first});
     Eigen::Map<Eigen::MatrixXd>(entries_.data() + size, kPanel, columns_ - first) =
         panel.rightCols(columns_ - first);
-    size += kPanel * (columns_ - first);
+    size += static_cast<std::size_t>(kPanel * (columns_ - first));
   }
-  entries_.conservativeResize(size);
+  entries_.resize(size);
+  entries_.shrink_to_fit();
 }
 
-void PackedMatrix::multiply(const double* y, double* result) const noexcept {
-  multiplyPanels(entries_.data(), rows_ / kPanel, first_.data(), columns_, y, result);
+void PackedMatrix::multiply(const double* y, double* result) noexcept {
+  backward_ = !backward_;
+  multiplyPanels(entries_.data(), panels_.data(), static_cast<Index>(panels_.size()), backward_,
+                 columns_, y, result);
+}
+
+PackedMatrix stepMatrix(const Eigen::MatrixXd& increment, const Eigen::MatrixXd& work) {
+  Eigen::MatrixXd both(increment.rows() + work.rows(), increment.cols());
+  both << increment, 2.0 * Eigen::MatrixXd(work.triangularView<Eigen::StrictlyUpper>());
+  both.bottomRows(work.rows()).diagonal() = work.diagonal();
+  return PackedMatrix(both);
 }
 
 }  // namespace whirl_twin

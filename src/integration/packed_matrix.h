@@ -3,11 +3,12 @@
 //
 // Its rows lie in panels of sixteen, each read once from end to end; columns that are zero at the
 // start of a panel are left out, so that a triangle costs half. On x86-64 the loop is compiled
-// for several vector widths and the machine's own is taken at start; products and sums are made one
-// by one in the order of the columns, never fused, so that every machine gives the same bits.
+// for several vector widths and the machine's own is taken at start; machines with fused products
+// and sums differ from others in the last bits.
 #pragma once
 
 #include <Eigen/Core>
+#include <boost/align/aligned_allocator.hpp>
 #include <vector>
 
 namespace whirl_twin {
@@ -16,6 +17,11 @@ class PackedMatrix {
  public:
   static constexpr Eigen::Index kPanel = 16;  ///< rows
 
+  struct Panel {
+    Eigen::Index start;         ///< of its entries
+    Eigen::Index first_column;  ///< that is not zero
+  };
+
   PackedMatrix() = default;
   explicit PackedMatrix(const Eigen::MatrixXd& matrix);
 
@@ -23,13 +29,19 @@ class PackedMatrix {
   Eigen::Index columns() const { return columns_; }
 
   /// result[0 .. rows()) = M y, zero beyond the matrix' own rows. Real-time safe.
-  void multiply(const double* y, double* result) const noexcept;
+  void multiply(const double* y, double* result) noexcept;
 
  private:
   Eigen::Index rows_ = 0;
   Eigen::Index columns_ = 0;
-  std::vector<Eigen::Index> first_;  // column of each panel that is not zero
-  Eigen::VectorXd entries_;          // Eigen aligns it
+  std::vector<Panel> panels_;
+  bool backward_ = false;  ///< every other time: what was read last is still in the cache
+  /// At the start of a cache line: a load of eight that straddles two costs twice.
+  std::vector<double, boost::alignment::aligned_allocator<double, 64>> entries_;
 };
+
+/// The matrix of a step: the increments' rows and below them, for the work y^T W y of symmetric W,
+/// those of the upper triangle U with y^T U y = y^T W y.
+PackedMatrix stepMatrix(const Eigen::MatrixXd& increment, const Eigen::MatrixXd& work);
 
 }  // namespace whirl_twin

@@ -13,34 +13,11 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-double powerOfTwo(double x) {
-  return x > 0.0 && std::isfinite(x) ? std::exp2(std::round(std::log2(x))) : 1.0;
-}
-
 /// Re[F psi] as two columns, by the real and the imaginary part of psi.
 MatrixXd columns(const ForceChannel& channel) {
   MatrixXd c(channel.amplitude.size(), 2);
   c << channel.amplitude.real(), -channel.amplitude.imag();
   return c;
-}
-
-/// e^X - I as matrix_exponential.h makes it, but its series in powers of X^4 (Paterson and
-/// Stockmeyer, SIAM J. Computing 2, 1973): six products instead of fifteen, for large matrices.
-MatrixXd largeExponentialLessIdentity(const MatrixXd& X) {
-  const int s = halvings<Eigen::Dynamic>(X);
-  const MatrixXd x = std::ldexp(1.0, -s) * X;
-  const MatrixXd x2 = x * x;
-  const MatrixXd x3 = x2 * x;
-  const MatrixXd x4 = x2 * x2;
-  MatrixXd e = MatrixXd::Zero(x.rows(), x.cols());
-  for (const int first : {13, 9, 5, 1}) {
-    const auto term = [first](int k) { return 1.0 / std::tgamma(first + k + 1.0); };
-    e = (x4 * e).eval() + term(0) * x + term(1) * x2 + term(2) * x3 + term(3) * x4;
-  }
-  for (int i = 0; i < s; ++i) {
-    e = (e * e + 2.0 * e).eval();
-  }
-  return e;
 }
 
 }  // namespace
@@ -107,7 +84,7 @@ RotorMap::RotorMap(const LinearRotor& rotor, const std::vector<ForceChannel>& ch
 }
 
 MatrixXd RotorMap::increment() const {
-  const MatrixXd e = largeExponentialLessIdentity(h_ * a_);
+  const MatrixXd e = exponentialLessIdentity<Eigen::Dynamic>(MatrixXd(h_ * a_));
   return unscale_.topLeftCorner(2 * n_, 2 * n_) * e.topRows(2 * n_) * scale_;
 }
 

@@ -20,32 +20,24 @@ using Eigen::MatrixXd;
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kTableError = 1.0e-12;  // of a cell's map, relative to its largest entry
 constexpr double kMostRounding = 1.0e-9;
+constexpr double kSlopeRounding = 1.0e-10;
 constexpr double kMostCells = 4096.0;
 
-/// Symmetric W as an upper triangle U: y^T W y = y^T U y.
-MatrixXd upperTriangle(const MatrixXd& work) {
-  MatrixXd u = 2.0 * MatrixXd(work.triangularView<Eigen::StrictlyUpper>());
-  u.diagonal() = work.diagonal();
-  return u;
-}
-
-/// d(K+N, C+G)/dw at a speed.
+/// d(K+N, C+G)/dw at a speed; part by part, so that what does not change leaves no rounding.
 MatrixXd forceSlope(const LinearRotor& rotor, double speed) {
   const double step = 1.0e-2 * std::max(1.0, std::fabs(speed));
-  const auto at = [&](double w) {
-    const Linearization l = rotor.matrices(w);
-    MatrixXd j(rotor.dof(), 2 * rotor.dof());
-    j << l.stiffness + l.circulatory, l.damping + l.gyroscopic;
-    return j;
-  };
-  return (at(speed + step) - at(speed - step)) / (2.0 * step);
+  const Linearization above = rotor.matrices(speed + step);
+  const Linearization below = rotor.matrices(speed - step);
+  MatrixXd change(rotor.dof(), 2 * rotor.dof());
+  change << (above.stiffness - below.stiffness) + (above.circulatory - below.circulatory),
+      (above.damping - below.damping) + (above.gyroscopic - below.gyroscopic);
+  return change / (2.0 * step);
 }
 
-bool finite(const MatrixXd& matrix) {
+void requireFinite(const MatrixXd& matrix) {
   if (!matrix.allFinite()) {
     throw std::domain_error("the rotor's step is beyond the range of doubles");
   }
-  return true;
 }
 
 }  // namespace
@@ -56,12 +48,10 @@ RotorStep::RotorStep(const LinearRotor& rotor, double h, const std::pair<double,
   for (const double speed : constant_speeds) {
     const RotorMap map(rotor, channels_, speed, h, 0);
     const MatrixXd increment = map.increment();
-    const MatrixXd work = upperTriangle(map.work());
-    MatrixXd both(increment.rows() + work.rows(), increment.cols());
-    both << increment, work;
-    if (finite(both)) {
-      constant_.push_back({speed, PackedMatrix(both)});
-    }
+    const MatrixXd work = map.work();
+    requireFinite(increment);
+    requireFinite(work);
+    constant_.push_back({speed, stepMatrix(increment, work)});
   }
   work_ = RotorWork(rotor, channels_, h, speeds);
   boundaries_ = {speeds.first};
@@ -141,7 +131,7 @@ MatrixXd RotorStep::cubic(const LinearRotor& rotor, double low, double high) con
       all.middleCols(k * inputs, inputs) += coefficients(k, i) * at[static_cast<std::size_t>(i)];
     }
   }
-  finite(all);
+  requireFinite(all);
   return all;
 }
 
@@ -175,6 +165,12 @@ RotorStep::Cell RotorStep::cell(const LinearRotor& rotor, double low, double hig
     const MatrixXd above = -mass.solve(forceSlope(rotor, high));
     MatrixXd slope(n_, 4 * n_);
     slope << 0.5 * (above - below), 0.5 * (below + above);
+    const auto largest = [&](Index half) {
+      return slope.middleCols(2 * n_ * half, 2 * n_).cwiseAbs().maxCoeff();
+    };
+    if (largest(0) <= kSlopeRounding * largest(1)) {
+      slope.leftCols(2 * n_).setZero();
+    }
     if ((slope.array() != 0.0).any()) {
       c.slope = PackedMatrix(slope);
     }
@@ -186,7 +182,7 @@ RotorStep::Cell RotorStep::cell(const LinearRotor& rotor, double low, double hig
 StepStatus RotorStep::advance(const Drive& drive, double offset, LinearMotion& motion) noexcept {
   const ShaftMotion shaft = drive.at(offset);
   if (drive.constantFor(offset + h_)) {
-    for (const ConstantSpeed& constant : constant_) {
+    for (ConstantSpeed& constant : constant_) {
       if (constant.speed == shaft.speed) {
         constantStep(constant, shaft, motion);
         return StepStatus::kOk;
@@ -207,7 +203,7 @@ StepStatus RotorStep::advance(const Drive& drive, double offset, LinearMotion& m
   return StepStatus::kOk;
 }
 
-void RotorStep::constantStep(const ConstantSpeed& at, const ShaftMotion& shaft,
+void RotorStep::constantStep(ConstantSpeed& at, const ShaftMotion& shaft,
                              LinearMotion& motion) noexcept {
   work_.restart();
   y_.head(n_) = motion.q;
@@ -215,13 +211,16 @@ void RotorStep::constantStep(const ConstantSpeed& at, const ShaftMotion& shaft,
   Index input = 2 * n_;
   for (const ForceChannel& channel : channels_) {
     const double size = channel.inertial ? shaft.speed * shaft.speed : 1.0;
-    y_[input++] = size * std::cos(channel.harmonic * shaft.angle);
-    y_[input++] = size * std::sin(channel.harmonic * shaft.angle);
+    const double angle = channel.harmonic * shaft.angle;
+    const double cosine = std::cos(angle);  // both together cost little more than one
+    const double sine = std::sin(angle);
+    y_[input++] = size * cosine;
+    y_[input++] = size * sine;
   }
   y_[input++] = 1.0;
   at.map.multiply(y_.data(), result_.data());
-  motion.work.add(y_.head(input).dot(result_.segment(2 * n_, input)));
-  add(result_.data(), motion);
+  motion.advance(result_.data(), result_.data() + n_,
+                 y_.head(input).dot(result_.segment(2 * n_, input)));
 }
 
 /// Fills the inputs from 2 n on with the coefficients of g.
@@ -266,7 +265,7 @@ void RotorStep::project() noexcept {
 }
 
 /// e A'(q, v), for the state in y_ with other rates.
-void RotorStep::shear(const Cell& cell, double s, double e, const double* rates) noexcept {
+void RotorStep::shear(Cell& cell, double s, double e, const double* rates) noexcept {
   powers_.segment(2 * n_, n_) = y_.head(n_);
   powers_.segment(3 * n_, n_) = Eigen::Map<const Eigen::VectorXd>(rates, n_);
   powers_.head(2 * n_) = s * powers_.segment(2 * n_, 2 * n_);
@@ -274,7 +273,7 @@ void RotorStep::shear(const Cell& cell, double s, double e, const double* rates)
   shear_ *= e;
 }
 
-void RotorStep::changingStep(const Cell& cell, const Drive& drive, double offset,
+void RotorStep::changingStep(Cell& cell, const Drive& drive, double offset,
                              LinearMotion& motion) noexcept {
   y_.head(n_) = motion.q;
   y_.segment(n_, n_) = motion.v;
@@ -305,21 +304,8 @@ void RotorStep::changingStep(const Cell& cell, const Drive& drive, double offset
     y_.segment(n_, n_) -= shear_.head(n_);
     increment_.tail(n_) -= shear_.head(n_);
   }
-  motion.work.add(work_.work(cell.work, drive, offset, nodes_, y_.head(2 * n_)));
-  add(increment_.data(), motion);
-}
-
-void RotorStep::add(const double* increment, LinearMotion& motion) const noexcept {
-  for (Index i = 0; i < n_; ++i) {
-    CompensatedSum position{motion.q[i], motion.q_low[i]};
-    position.add(increment[i]);
-    motion.q[i] = position.high;
-    motion.q_low[i] = position.low;
-    CompensatedSum rate{motion.v[i], motion.v_low[i]};
-    rate.add(increment[n_ + i]);
-    motion.v[i] = rate.high;
-    motion.v_low[i] = rate.low;
-  }
+  motion.advance(increment_.data(), increment_.data() + n_,
+                 work_.work(cell.work, drive, offset, nodes_, y_.head(2 * n_)));
 }
 
 }  // namespace whirl_twin

@@ -58,7 +58,7 @@ class RotorStep {
 
   struct ConstantSpeed {
     double speed;
-    PackedMatrix map;  ///< B, below it W as an upper triangle
+    PackedMatrix map;  ///< B and W
   };
   struct Cell {
     double centre, half_width;  ///< [rad/s]
@@ -70,16 +70,13 @@ class RotorStep {
   void prepare(const LinearRotor& rotor, const std::pair<double, double>& speeds);
   Cell cell(const LinearRotor& rotor, double low, double high) const;
   double cubicError(const LinearRotor& rotor, double low, double high) const;
-  void constantStep(const ConstantSpeed& at, const ShaftMotion& shaft,
-                    LinearMotion& motion) noexcept;
-  void changingStep(const Cell& cell, const Drive& drive, double offset,
-                    LinearMotion& motion) noexcept;
+  void constantStep(ConstantSpeed& at, const ShaftMotion& shaft, LinearMotion& motion) noexcept;
+  void changingStep(Cell& cell, const Drive& drive, double offset, LinearMotion& motion) noexcept;
   Eigen::Index tableInputs() const;
   Eigen::MatrixXd tableMap(const LinearRotor& rotor, double speed) const;
   Eigen::MatrixXd cubic(const LinearRotor& rotor, double low, double high) const;
   void project() noexcept;
-  void shear(const Cell& cell, double s, double e, const double* rates) noexcept;
-  void add(const double* increment, LinearMotion& motion) const noexcept;
+  void shear(Cell& cell, double s, double e, const double* rates) noexcept;
 
   Eigen::Index n_;
   double h_;

@@ -206,7 +206,7 @@ void RotorWork::setPhasors(const ShaftMotion& shaft, double* phasors,
   *rates = 0.0;
 }
 
-void RotorWork::evaluate(const RotorWorkCell& cell, const ShaftMotion& shaft,
+void RotorWork::evaluate(RotorWorkCell& cell, const ShaftMotion& shaft,
                          const Eigen::Ref<const Eigen::VectorXd>& state,
                          Eigen::VectorXd& end) noexcept {
   const Index n2 = state.size();
@@ -227,7 +227,7 @@ void RotorWork::evaluate(const RotorWorkCell& cell, const ShaftMotion& shaft,
   cell.end.multiply(inputs_.data(), end.data());
 }
 
-void RotorWork::start(const RotorWorkCell& cell, const Drive& drive, double offset,
+void RotorWork::start(RotorWorkCell& cell, const Drive& drive, double offset,
                       const Eigen::Ref<const Eigen::VectorXd>& state) noexcept {
   const double hair = ShaftNodes::kSliver * h_;
   const bool corner = drive.nextCorner(offset) - offset < hair;
@@ -290,7 +290,7 @@ void RotorWork::deflectionAt(double tau, const Weights& weights, double corner) 
   z_rate_ /= h_;
 }
 
-double RotorWork::power(const RotorWorkCell& cell, const ShaftNode& node) noexcept {
+double RotorWork::power(RotorWorkCell& cell, const ShaftNode& node) noexcept {
   const double s = (node.shaft.speed - cell.centre) / cell.half_width;
   pull_.setZero();
   Index column = 0;
@@ -323,7 +323,7 @@ double RotorWork::power(const RotorWorkCell& cell, const ShaftNode& node) noexce
   return watts + z_rate_.dot(pull_);
 }
 
-double RotorWork::work(const RotorWorkCell& cell, const Drive& drive, double offset,
+double RotorWork::work(RotorWorkCell& cell, const Drive& drive, double offset,
                        const ShaftNodes& nodes,
                        const Eigen::Ref<const Eigen::VectorXd>& state) noexcept {
   if (basis_.cols() == 0) {

@@ -47,21 +47,21 @@ class RotorWork {
   /// The state no longer follows from the last step.
   void restart() noexcept { continued_ = false; }
   /// The state (q, v) before the step that starts at offset [s].
-  void start(const RotorWorkCell& cell, const Drive& drive, double offset,
+  void start(RotorWorkCell& cell, const Drive& drive, double offset,
              const Eigen::Ref<const Eigen::VectorXd>& state) noexcept;
   /// [J], with the state after it; `nodes` of the same step.
-  double work(const RotorWorkCell& cell, const Drive& drive, double offset, const ShaftNodes& nodes,
+  double work(RotorWorkCell& cell, const Drive& drive, double offset, const ShaftNodes& nodes,
               const Eigen::Ref<const Eigen::VectorXd>& state) noexcept;
 
  private:
   using Weights = Eigen::Matrix<double, 8, 2>;
 
-  void evaluate(const RotorWorkCell& cell, const ShaftMotion& shaft,
+  void evaluate(RotorWorkCell& cell, const ShaftMotion& shaft,
                 const Eigen::Ref<const Eigen::VectorXd>& state, Eigen::VectorXd& end) noexcept;
   void takeJump(const Drive& drive, double offset, double corner) noexcept;
   Weights weightsAt(double tau) const noexcept;
   void deflectionAt(double tau, const Weights& weights, double corner) noexcept;
-  double power(const RotorWorkCell& cell, const ShaftNode& node) noexcept;
+  double power(RotorWorkCell& cell, const ShaftNode& node) noexcept;
   void setPhasors(const ShaftMotion& shaft, double* phasors, double* rates) const noexcept;
 
   double h_ = 0.0;

@@ -38,8 +38,7 @@ Eigen::VectorXd LinearRotor::shaftForce(double angle, double speed, double accel
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(dof());
   for (const ShaftForce& force : forces) {
     const Complex turn = std::polar(1.0, force.harmonic * angle);
-    const Complex factor =
-        force.inertial ? Complex(speed * speed, -acceleration) * turn : turn;
+    const Complex factor = force.inertial ? Complex(speed * speed, -acceleration) * turn : turn;
     sum += (factor * force.amplitude).real();
   }
   return sum;

@@ -71,8 +71,7 @@ Eigen::VectorXd LinearRotorDynamics::appliedForce(const Eigen::VectorXd& q,
                                                   const Eigen::VectorXd& v,
                                                   const Moment<double>& at) const {
   const Linearization l = rotor_.matrices(at.speed);
-  return rotor_.shaftForce(at.angle, at.speed, at.acceleration) - l.damping * v -
-         l.circulatory * q;
+  return rotor_.shaftForce(at.angle, at.speed, at.acceleration) - l.damping * v - l.circulatory * q;
 }
 
 Eigen::VectorXd LinearRotorDynamics::momenta(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
@@ -92,8 +91,8 @@ Energies LinearRotorDynamics::energies(const Eigen::VectorXd& q, const Eigen::Ve
   e.input_power = v.dot(rotor_.shaftForce(at.angle, at.speed, at.acceleration) - l.circulatory * q);
   if (rotor_.speed_dependent && at.acceleration != 0.0) {
     const double step = 1.0e-5 * std::max(1.0, std::fabs(at.speed));
-    const Eigen::MatrixXd change = rotor_.matrices(at.speed + step).stiffness -
-                                   rotor_.matrices(at.speed - step).stiffness;
+    const Eigen::MatrixXd change =
+        rotor_.matrices(at.speed + step).stiffness - rotor_.matrices(at.speed - step).stiffness;
     e.input_power += 0.5 * at.acceleration * q.dot(change * q) / (2.0 * step);
   }
   return e;

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "integration/exponential.h"
-#include "scene/finite.h"
+#include "scene/linear_stepped_system.h"
 
 namespace whirl_twin {
 
@@ -53,29 +53,20 @@ StepStatus LinearRotorSystem::step(double) noexcept {
       return status;
     }
   }
-  bool finite = isFinite(next_.work.high);
-  for (Eigen::Index i = 0; i < next_.q.size(); ++i) {
-    finite = finite && isFinite(next_.q[i]) && isFinite(next_.v[i]);
-  }
-  if (!finite) {
+  if (!isFinite(next_)) {
     return StepStatus::kNotFinite;
   }
-  state_ = next_;
+  std::swap(state_, next_);
   return StepStatus::kOk;
 }
 
 void LinearRotorSystem::write(double* out) const noexcept {
-  out = std::copy_n(state_.q.data(), state_.q.size(), out);
-  out = std::copy_n(state_.v.data(), state_.v.size(), out);
-  *out = state_.work.high + (furtherEnergy() - further_energy_);
+  whirl_twin::write(state_, out);
+  out[2 * dof()] += furtherEnergy() - further_energy_;
 }
 
 void LinearRotorSystem::set(const double* q, const double* v) noexcept {
-  std::copy_n(q, state_.q.size(), state_.q.data());
-  std::copy_n(v, state_.v.size(), state_.v.data());
-  state_.q_low.setZero();
-  state_.v_low.setZero();
-  state_.work = CompensatedSum{};
+  state_.set(q, v);
   method_.restart();
   further_energy_ = furtherEnergy();
 }

@@ -8,6 +8,17 @@
 
 namespace whirl_twin {
 
+bool isFinite(const LinearMotion& motion) noexcept {
+  // What is not finite makes its sum so.
+  return isFinite(motion.work.high + motion.q.sum() + motion.v.sum());
+}
+
+void write(const LinearMotion& motion, double* out) noexcept {
+  out = std::copy_n(motion.q.data(), motion.q.size(), out);
+  out = std::copy_n(motion.v.data(), motion.v.size(), out);
+  *out = motion.work.high;
+}
+
 LinearSteppedSystem::LinearSteppedSystem(const LinearModel& model, const std::string& method,
                                          double step, int substeps)
     : method_(model, method, step / substeps),
@@ -21,29 +32,19 @@ StepStatus LinearSteppedSystem::step(double time) noexcept {
   for (int i = 0; i < substeps_; ++i) {
     method_.advance(time + i * substep_, next_);
   }
-  bool finite = isFinite(next_.work.high);
-  for (Eigen::Index i = 0; i < next_.q.size(); ++i) {
-    finite = finite && isFinite(next_.q[i]) && isFinite(next_.v[i]);
-  }
-  if (!finite) {
+  if (!isFinite(next_)) {
     return StepStatus::kNotFinite;
   }
-  state_ = next_;
+  std::swap(state_, next_);
   return StepStatus::kOk;
 }
 
 void LinearSteppedSystem::write(double* out) const noexcept {
-  out = std::copy_n(state_.q.data(), state_.q.size(), out);
-  out = std::copy_n(state_.v.data(), state_.v.size(), out);
-  *out = state_.work.high;
+  whirl_twin::write(state_, out);
 }
 
 void LinearSteppedSystem::set(const double* q, const double* v) noexcept {
-  std::copy_n(q, state_.q.size(), state_.q.data());
-  std::copy_n(v, state_.v.size(), state_.v.data());
-  state_.q_low.setZero();
-  state_.v_low.setZero();
-  state_.work = CompensatedSum{};
+  state_.set(q, v);
 }
 
 ModelSetup linearSetup(LinearModel model) {

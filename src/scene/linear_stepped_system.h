@@ -11,6 +11,11 @@
 
 namespace whirl_twin {
 
+/// Is every number of a motion finite? Real-time safe.
+bool isFinite(const LinearMotion& motion) noexcept;
+/// q, v and the work, one after the other. Real-time safe.
+void write(const LinearMotion& motion, double* out) noexcept;
+
 class LinearSteppedSystem final : public System {
  public:
   /// step [s] of the twin, made of `substeps` steps of one of linearMethodNames().

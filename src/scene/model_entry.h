@@ -120,9 +120,9 @@ template <class Model>
 void addVariant(ModelInfo& info, const std::string& when,
                 std::function<bool(const ParameterValues&, const Settings&)> chosen) {
   info.variants.push_back(variant<Model>(when));
-  info.setUp = [plain = info.setUp, chosen = std::move(chosen)](
-                   const ParameterValues& values, const Settings& settings,
-                   const Surroundings& around) {
+  info.setUp = [plain = info.setUp, chosen = std::move(chosen)](const ParameterValues& values,
+                                                                const Settings& settings,
+                                                                const Surroundings& around) {
     return chosen(values, settings) ? setUp<Model>(values, around.gravity)
                                     : plain(values, settings, around);
   };

@@ -18,7 +18,8 @@ struct TableRow {
 
 /// As a scene gives them; what it does not give is absent, but for choices, which have a default.
 struct Settings {
-  std::map<std::string, std::string> choices;  ///< words, `true` and `false` among them, or a count as written
+  std::map<std::string, std::string>
+      choices;  ///< words, `true` and `false` among them, or a count as written
   std::map<std::string, Eigen::MatrixXd> matrices;
   std::map<std::string, std::vector<std::string>> names;
   std::map<std::string, std::vector<TableRow>> tables;
@@ -40,9 +41,9 @@ struct SettingInfo {
   SettingKind kind;
   std::string unit;  ///< of a matrix's entries, in words
   std::string meaning;
-  std::vector<std::string> choices = {};       ///< of a choice or instead of a count, the default first
-  bool required = false;                       ///< a matrix, names or a table that must be given
-  std::vector<ColumnInfo> columns = {};        ///< of a table
+  std::vector<std::string> choices = {};  ///< of a choice or instead of a count, the default first
+  bool required = false;                  ///< a matrix, names or a table that must be given
+  std::vector<ColumnInfo> columns = {};   ///< of a table
   std::vector<std::string> word_columns = {};  ///< of a table, all of them required
 };
 

@@ -73,8 +73,10 @@ Twin::Member Twin::memberOf(const SystemSpec& spec) const {
   if (model == nullptr) {
     throw std::invalid_argument("no model named " + spec.model);
   }
-  Member member{spec, model, model->setUp(spec.parameters, spec.settings, surroundingsOf(scene_, spec)),
-                {}, "", "", 0};
+  Member member{
+      spec, model, model->setUp(spec.parameters, spec.settings, surroundingsOf(scene_, spec)),
+      {},   "",    "",
+      0};
   member.dynamics = member.setup.dynamics;
   member.integrator = spec.integrator;
   if (spec.integrator == "auto") {

@@ -94,8 +94,8 @@ LinearRotor overhungDisc() {
   rotor.speed_dependent = true;
   rotor.load = VectorXd::Zero(4);
   const double unbalance = p["unbalance_kgm"];
-  const double skew = (base["Id"].get<double>() - base["Ip"].get<double>()) *
-                      p["disc_skew_rad"].get<double>();
+  const double skew =
+      (base["Id"].get<double>() - base["Ip"].get<double>()) * p["disc_skew_rad"].get<double>();
   Eigen::VectorXcd amplitude(4);
   const std::complex<double> i(0.0, 1.0);
   amplitude << unbalance, -i * unbalance, skew, -i * skew;
@@ -163,9 +163,9 @@ std::pair<double, double> peakOfRunUp(RunningSystem& run, double last_speed) {
         const double middle = 0.5 * (low + high);
         (slope(middle) > 0.0 ? low : high) = middle;
       }
-      const double value = before.value + low * (h * before.slope +
-                                                 low * (0.5 * h * h * before.bend +
-                                                        low * (c3 + low * (c4 + low * c5))));
+      const double value =
+          before.value + low * (h * before.slope + low * (0.5 * h * h * before.bend +
+                                                          low * (c3 + low * (c4 + low * c5))));
       const double acceleration = run.drive().at(0.0).acceleration;
       peak = std::max(peak, {std::sqrt(value), acceleration * (time + low * h)});
     }
@@ -190,8 +190,7 @@ TEST_P(RunUpPeak, IsThatOfTheReferenceAtMillisecondSteps) {
                         {"stiffness", p["k"]},
                         {"damping", 2.0 * p["zeta"].get<double>() * mass * frequency},
                         {"eccentricity", eccentricity}};
-    const double acceleration =
-        row["alpha_over_wn2"].get<double>() * frequency * frequency;
+    const double acceleration = row["alpha_over_wn2"].get<double>() * frequency * frequency;
     setup.profile = {{2.0 * frequency, acceleration, 0.0, 0.0}};
     RunningSystem run(setup, "exponential", 1'000'000);
     const double ratio = row["speed_ratio_at_peak"];
@@ -210,7 +209,8 @@ TEST(RunUpPeak, FeelsTheTangentialForceOfTheUnbalance) {
   const Json f05 = reference("F05_runup_no_tangential");
   RunningSystem::Setup setup;
   setup.model = "jeffcott_rotor";
-  setup.parameters = {{"mass", 1.0}, {"stiffness", 9.0e4}, {"damping", 12.0}, {"eccentricity", 1.0}};
+  setup.parameters = {
+      {"mass", 1.0}, {"stiffness", 9.0e4}, {"damping", 12.0}, {"eccentricity", 1.0}};
   setup.profile = {{600.0, 0.05 * 9.0e4, 0.0, 0.0}};
   RunningSystem run(setup, "exponential", 1'000'000);
   const auto [radius, speed] = peakOfRunUp(run, 550.0);
@@ -223,10 +223,18 @@ TEST(RunUpPeak, FeelsTheTangentialForceOfTheUnbalance) {
 RunningSystem::Setup everythingThatFollowsTheSpeed(double speed, std::vector<SpeedMove> profile) {
   RunningSystem::Setup setup;
   setup.model = "jeffcott_rotor";
-  setup.parameters = {{"mass", 2.0},           {"stiffness", 8.0e4},     {"stiffness_y", 9.0e4},
-                      {"damping", 30.0},       {"internal_damping", 6.0}, {"fluid_damping", 10.0},
-                      {"fluid_ratio", 0.48},   {"cross_coupling", 200.0}, {"eccentricity", 1.0e-4},
-                      {"eccentricity_angle", 0.4}, {"bow", 3.0e-5},       {"bow_angle", -1.0}};
+  setup.parameters = {{"mass", 2.0},
+                      {"stiffness", 8.0e4},
+                      {"stiffness_y", 9.0e4},
+                      {"damping", 30.0},
+                      {"internal_damping", 6.0},
+                      {"fluid_damping", 10.0},
+                      {"fluid_ratio", 0.48},
+                      {"cross_coupling", 200.0},
+                      {"eccentricity", 1.0e-4},
+                      {"eccentricity_angle", 0.4},
+                      {"bow", 3.0e-5},
+                      {"bow_angle", -1.0}};
   setup.settings.choices["gravity_on_shaft"] = "true";
   setup.speed = speed;
   setup.profile = std::move(profile);

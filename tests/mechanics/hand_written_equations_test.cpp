@@ -88,12 +88,14 @@ TEST(HandWritten, JeffcottRotorOnAnAcceleratingShaft) {
     const double cross = p("fluid_ratio") * cf * w + p("cross_coupling");
     const double psi = s.at.angle + p("bow_angle");
     const double terms[2][8] = {
-        {p("stiffness") * p("bow") * std::cos(psi) / m, -p("stiffness") * s.q[0] / m, -p("damping") * s.v[0] / m, -ci * (s.v[0] + w * s.q[1]) / m,
+        {p("stiffness") * p("bow") * std::cos(psi) / m, -p("stiffness") * s.q[0] / m,
+         -p("damping") * s.v[0] / m, -ci * (s.v[0] + w * s.q[1]) / m,
          p("eccentricity") * w * w * std::cos(phi),
          p("eccentricity") * s.at.acceleration * std::sin(phi), -cf * s.v[0] / m,
          -cross * s.q[1] / m},
-        {p("stiffness_y") * p("bow") * std::sin(psi) / m, -p("stiffness_y") * s.q[1] / m, -p("damping_y") * s.v[1] / m,
-         -ci * (s.v[1] - w * s.q[0]) / m, p("eccentricity") * w * w * std::sin(phi),
+        {p("stiffness_y") * p("bow") * std::sin(psi) / m, -p("stiffness_y") * s.q[1] / m,
+         -p("damping_y") * s.v[1] / m, -ci * (s.v[1] - w * s.q[0]) / m,
+         p("eccentricity") * w * w * std::sin(phi),
          -p("eccentricity") * s.at.acceleration * std::cos(phi), -cf * s.v[1] / m,
          cross * s.q[0] / m}};
     const Vector found = s.dynamics->acceleration(s.q, s.v, s.at);

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <set>
 
+#include "mechanics/rotors/short_journal_bearing.h"
 #include "scene/observer.h"
 #include "scene/scene_reader.h"
 
@@ -232,6 +234,53 @@ systems:
 )"));
   watched.run(10.0);
   EXPECT_GE(watched.count("ENERGY_RESIDUAL", true), 1u);
+}
+
+TEST(TwinMonitor, JudgesRotorsWhoseWhirlTellsOnlyTwoOfTheirCoordinates) {
+  // In journal bearings the operating point is where the film carries the weight; with a motor the
+  // shaft's angle is a coordinate; a reduced shaft has none of its whirl's.
+  const Scene scene = sceneOf(R"(
+step: 0.001
+drives: {shaft: {speed: 60.0}, engine: {motor: {torque: 0.01}, speed: 50.0}}
+systems:
+  film:
+    model: jeffcott_rotor
+    drive: shaft
+    parameters: {mass: 2.0, stiffness: 20000.0, gravity_on_shaft: true, bearing_length: 0.01,
+      bearing_diameter: 0.025, bearing_clearance: 1.0e-4, bearing_viscosity: 0.1, journal_mass: 0.2}
+    initial: {y: -1.0e-3, journal_y: -2.0e-5}
+  free:
+    model: jeffcott_rotor
+    drive: engine
+    parameters: {mass: 2.0, stiffness: 20000.0, damping: 20.0, polar_inertia: 0.01}
+  shaft:
+    model: flexible_rotor
+    drive: shaft
+    parameters:
+      youngs_modulus: 211.0e+9
+      density: 7810.0
+      elements: [{length: 0.25, outer_diameter: 0.05, count: 6}]
+      bearings: [{node: 0, kxx: 1.0e+6, kyy: 1.0e+6, cxx: 100, cyy: 100},
+                 {node: 6, kxx: 1.0e+6, kyy: 1.0e+6, cxx: 100, cyy: 100}]
+      modes: 8
+)");
+  WatchedTwin watched(scene);
+  watched.run(0.5);
+  std::map<std::string, state::StabilityMargin> last;
+  for (const state::StabilityMargin& margin : watched.margins) {
+    last[margin.system] = margin;
+  }
+  ASSERT_EQ(last.size(), 3u);
+  EXPECT_EQ(last["film"].verdict_name, "asymptotically_stable");
+  EXPECT_EQ(last["shaft"].verdict_name, "asymptotically_stable");
+  EXPECT_EQ(last["film"].operating_point.size(), 4u);
+  EXPECT_EQ(last["free"].operating_point.size(), 3u);
+  EXPECT_EQ(last["shaft"].operating_point.size(), 8u);
+  // Half of (2 + 0.2) kg on each bearing.
+  const JournalPosition rest =
+      ShortJournalBearing{0.01, 0.025, 1.0e-4, 0.1}.staticPosition(0.5 * 2.2 * scene.gravity, 60.0);
+  EXPECT_NEAR(last["film"].operating_point[2], rest.x, 1.0e-9);
+  EXPECT_NEAR(last["film"].operating_point[3], rest.y, 1.0e-9);
 }
 
 }  // namespace

@@ -61,10 +61,9 @@ INSTANTIATE_TEST_SUITE_P(
             "twin: expected a command; there are: check, scenes, models, simulate, plot, analyze, "
             "campbell, response, orbit, balance, routh, log"},
         Misuse{{"analyse", kDemo}, "twin: unknown command 'analyse'; did you mean 'analyze'?"},
-        Misuse{
-            {"bode", kDemo},
-            "twin: unknown command 'bode'; there are: check, scenes, models, simulate, plot, "
-            "analyze, campbell, response, orbit, balance, routh, log"},
+        Misuse{{"bode", kDemo},
+               "twin: unknown command 'bode'; there are: check, scenes, models, simulate, plot, "
+               "analyze, campbell, response, orbit, balance, routh, log"},
         Misuse{{""},
                "twin: unknown command ''; there are: check, scenes, models, simulate, plot, "
                "analyze, campbell, response, orbit, balance, routh, log"},

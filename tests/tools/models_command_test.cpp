@@ -42,8 +42,8 @@ TEST(Models, OnlyOnesOnAShaftHaveASpeed) {
     EXPECT_EQ(model["parameters"].contains("speed"), model["shaft"].get<bool>()) << name;
     EXPECT_NE(model["summary"], "") << name;
     // A system given by matrices has as many as they have rows.
-    EXPECT_EQ(model["coordinates"].empty(), name == "linear_system" || name == "cantilever_beam" ||
-                                                name == "flexible_rotor")
+    EXPECT_EQ(model["coordinates"].empty(),
+              name == "linear_system" || name == "cantilever_beam" || name == "flexible_rotor")
         << name;
   }
 }
