@@ -2,7 +2,7 @@
 // given.
 //
 // Doubles are rational numbers, so det(M s^2 + (C + G) s + K + N) can be had without any rounding
-// (Faddeev-LeVerrier on the state matrix). Structure then survives: an undamped system has odd
+// (in whole numbers, at 2 n + 1 values of s). Structure then survives: an undamped system has odd
 // coefficients that are zero, not 1e-17, and Routh's test says marginal where it is marginal.
 #pragma once
 

@@ -103,6 +103,13 @@ class Exponential {
     return a;
   }
 
+  /// Zero where two that are opposite differ by their rounding: sin(pi) is not 0.
+  static double mean(double ahead, double behind) {
+    const double sum = ahead + behind;
+    const double rounding = 1.0e-15 * (std::fabs(ahead) + std::fabs(behind));
+    return std::fabs(sum) <= rounding ? 0.0 : 0.5 * sum;
+  }
+
   template <class Equation>
   void prepareExact(const Equation& equation, const Moment<double>& at, double h) {
     AugmentedMatrix a = AugmentedMatrix::Zero();
@@ -114,7 +121,7 @@ class Exponential {
     const auto aside = at_angle(0.5 * kPi, {}, {});
     const auto behind = at_angle(kPi, {}, {});
     for (int i = 0; i < n; ++i) {
-      const double steady = 0.5 * (ahead.acceleration[i] + behind.acceleration[i]);
+      const double steady = mean(ahead.acceleration[i], behind.acceleration[i]);
       a(n + i, kStates) = 0.5 * (ahead.acceleration[i] - behind.acceleration[i]) / rate_scale_;
       a(n + i, kStates + 1) = (aside.acceleration[i] - steady) / rate_scale_;
       a(n + i, kStates + 2) = steady / rate_scale_;
@@ -153,7 +160,7 @@ class Exponential {
       }
       const double ahead = linear(0.0, i);
       const double behind = linear(kPi, i);
-      const double steady = 0.5 * (ahead + behind);
+      const double steady = mean(ahead, behind);
       s(i, kStates) = s(kStates, i) = 0.25 * (ahead - behind);
       s(i, kStates + 1) = s(kStates + 1, i) = 0.5 * (linear(0.5 * kPi, i) - steady);
       s(i, kStates + 2) = s(kStates + 2, i) = 0.5 * steady;

@@ -9,8 +9,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "integration/dormand_prince_8.h"
 #include "integration/exponential.h"
-#include "integration/gauss_legendre_6.h"
+#include "integration/gauss_legendre.h"
 #include "integration/matrix_exponential.h"
 #include "integration/runge_kutta_4.h"
 #include "integration/semi_implicit_euler.h"
@@ -74,40 +75,68 @@ LinearStepMap rungeKutta4(const LinearEquation& equation, double h) {
                       powerAt(equation, z4)));
 }
 
+LinearStepMap dormandPrince8(const LinearEquation& equation, double h) {
+  using dormand_prince::kA;
+  using dormand_prince::kNodes;
+  using dormand_prince::kWeights;
+  const MatrixXd none = MatrixXd::Zero(equation.dof(), equation.size());
+  std::array<MatrixXd, dormand_prince::kStages> rates;
+  std::array<MatrixXd, dormand_prince::kStages> accelerations;
+  LinearStepMap map = stepMap(none, none, MatrixXd::Zero(equation.size(), equation.size()));
+  for (std::size_t k = 0; k < dormand_prince::kStages; ++k) {
+    MatrixXd dq = none;
+    MatrixXd dv = none;
+    for (std::size_t j = 0; j < k; ++j) {
+      dq += h * kA[k][j] * rates[j];
+      dv += h * kA[k][j] * accelerations[j];
+    }
+    const MatrixXd stage = equation.stage(dq, dv, h * kNodes[k]);
+    rates[k] = equation.velocity() * stage;
+    accelerations[k] = equation.acceleration() * stage;
+    map.increment.topRows(equation.dof()) += h * kWeights[k] * rates[k];
+    map.increment.bottomRows(equation.dof()) += h * kWeights[k] * accelerations[k];
+    map.work += h * kWeights[k] * powerAt(equation, stage);
+  }
+  return map;
+}
+
 /// The stages' accelerations solve one linear system.
-LinearStepMap gaussLegendre6(const LinearEquation& equation, double h) {
-  using gauss_tableau::kA;
-  using gauss_tableau::kAA;
-  using gauss_tableau::kNodes;
+template <std::size_t stages>
+LinearStepMap gaussLegendre(const LinearEquation& equation, double h) {
+  using Tableau = gauss_legendre::Tableau<stages>;
+  constexpr auto kA = Tableau::kA;
+  constexpr auto kAA = gauss_legendre::kAA<stages>;
+  constexpr auto kNodes = Tableau::kNodes;
   const Index n = equation.dof();
+  const auto rows = [n](std::size_t stage) { return static_cast<Index>(stage) * n; };
   const MatrixXd acceleration = equation.acceleration();
   const MatrixXd velocity = equation.velocity();
   const MatrixXd none = MatrixXd::Zero(n, equation.size());
-  MatrixXd matrix = MatrixXd::Identity(3 * n, 3 * n);
-  MatrixXd explicit_part(3 * n, equation.size());
-  for (Index k = 0; k < 3; ++k) {
-    for (Index l = 0; l < 3; ++l) {
-      matrix.block(k * n, l * n, n, n) -=
+  MatrixXd matrix = MatrixXd::Identity(rows(stages), rows(stages));
+  MatrixXd explicit_part(rows(stages), equation.size());
+  for (std::size_t k = 0; k < stages; ++k) {
+    for (std::size_t l = 0; l < stages; ++l) {
+      matrix.block(rows(k), rows(l), n, n) -=
           h * (kA[k][l] * acceleration.middleCols(n, n) + h * kAA[k][l] * acceleration.leftCols(n));
     }
-    explicit_part.middleRows(k * n, n) =
+    explicit_part.middleRows(rows(k), n) =
         acceleration * equation.stage(h * kNodes[k] * velocity, none, h * kNodes[k]);
   }
-  const MatrixXd solution = matrix.partialPivLu().solve(explicit_part);
-  const std::array<MatrixXd, 3> a{solution.topRows(n), solution.middleRows(n, n),
-                                  solution.bottomRows(n)};
-  const std::array<double, 3> weights{gauss_tableau::kOuter, gauss_tableau::kMiddle,
-                                      gauss_tableau::kOuter};
+  const MatrixXd a = matrix.partialPivLu().solve(explicit_part);
   MatrixXd dq = h * velocity;
   MatrixXd dv = none;
   MatrixXd work = MatrixXd::Zero(equation.size(), equation.size());
-  for (std::size_t k = 0; k < 3; ++k) {
-    dv += h * weights[k] * a[k];
-    dq += h * h * weights[k] * (1.0 - kNodes[k]) * a[k];
-    const MatrixXd stage = equation.stage(
-        h * (kNodes[k] * velocity + h * (kAA[k][0] * a[0] + kAA[k][1] * a[1] + kAA[k][2] * a[2])),
-        h * (kA[k][0] * a[0] + kA[k][1] * a[1] + kA[k][2] * a[2]), kNodes[k] * h);
-    work += h * weights[k] * powerAt(equation, stage);
+  for (std::size_t k = 0; k < stages; ++k) {
+    dv += h * Tableau::kWeights[k] * a.middleRows(rows(k), n);
+    dq += h * h * Tableau::kWeights[k] * (1.0 - kNodes[k]) * a.middleRows(rows(k), n);
+    MatrixXd stage_dq = h * kNodes[k] * velocity;
+    MatrixXd stage_dv = none;
+    for (std::size_t j = 0; j < stages; ++j) {
+      stage_dq += h * h * kAA[k][j] * a.middleRows(rows(j), n);
+      stage_dv += h * kA[k][j] * a.middleRows(rows(j), n);
+    }
+    const MatrixXd stage = equation.stage(stage_dq, stage_dv, kNodes[k] * h);
+    work += h * Tableau::kWeights[k] * powerAt(equation, stage);
   }
   return stepMap(dq, dv, work);
 }
@@ -163,7 +192,10 @@ const std::vector<std::pair<std::string, Method>>& methods() {
       {SemiImplicitEuler::kName, semiImplicitEuler},
       {VelocityVerlet::kName, velocityVerlet},
       {RungeKutta4::kName, rungeKutta4},
-      {GaussLegendre6<1>::kName, gaussLegendre6},
+      {DormandPrince8::kName, dormandPrince8},
+      {ImplicitMidpoint<1>::kName, gaussLegendre<1>},
+      {GaussLegendre4<1>::kName, gaussLegendre<2>},
+      {GaussLegendre6<1>::kName, gaussLegendre<3>},
       {Exponential<1>::kName, exponential}};
   return all;
 }

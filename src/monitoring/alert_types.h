@@ -8,6 +8,7 @@ inline constexpr char kInCriticalBand[] = "IN_CRITICAL_BAND";
 inline constexpr char kUnstable[] = "UNSTABLE";
 inline constexpr char kLowDamping[] = "LOW_DAMPING";
 inline constexpr char kEnergyResidual[] = "ENERGY_RESIDUAL";
+inline constexpr char kAccuracyLost[] = "ACCURACY_LOST";
 inline constexpr char kNotFinite[] = "NOT_FINITE";
 inline constexpr char kModelInvalid[] = "MODEL_INVALID";
 inline constexpr char kDataLost[] = "DATA_LOST";

@@ -13,6 +13,7 @@ StateAlarm::StateAlarm(std::string system, const AlarmSettings& settings)
     : system_(std::move(system)),
       settings_(settings),
       energy_alarm_(settings.clear_delay),
+      accuracy_alarm_(settings.clear_delay),
       not_finite_alarm_(settings.clear_delay) {}
 
 void StateAlarm::updateEnergy(double time, double residual, AlertList& alerts) {
@@ -35,6 +36,30 @@ void StateAlarm::updateEnergy(double time, double residual, AlertList& alerts) {
     alert.text = fmt::format("{}: energy balance off by {:.2g}, more than {:g}: shorten the step",
                              system_, residual, limit);
     alerts.raise(std::move(alert), "energy residual");
+  }
+}
+
+void StateAlarm::updateAccuracy(double time, double estimate, double tolerance, AlertList& alerts) {
+  AlarmCondition condition = AlarmCondition::kHold;
+  if (estimate > tolerance) {
+    condition = AlarmCondition::kWarning;
+  } else if (estimate <= tolerance * (1.0 - settings_.hysteresis)) {
+    condition = AlarmCondition::kClear;
+  }
+  if (accuracy_alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
+    alerts.clear(
+        system_, alert_type::kAccuracyLost, time,
+        fmt::format("{}: as accurate as the scene asks again, error {:.1g}", system_, estimate));
+  } else if (accuracy_alarm_.active() && isRaising(condition)) {
+    state::Alert alert;
+    alert.system = system_;
+    alert.type = alert_type::kAccuracyLost;
+    alert.severity = accuracy_alarm_.severity();
+    alert.time = time;
+    alert.text = fmt::format(
+        "{}: error about {:.1g} over its horizon, more than its tolerance {:g}: shorten the step",
+        system_, estimate, tolerance);
+    alerts.raise(std::move(alert), "accuracy");
   }
 }
 

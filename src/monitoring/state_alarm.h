@@ -3,7 +3,9 @@
 // ENERGY_RESIDUAL: a warning when the energy balance, change of energy against work and
 // dissipation, is off by more than the setting: the step is too long for the motion, or the model
 // is wrong.
-// NOT_FINITE: danger when the system was stopped because a state was no longer a finite number.
+// ACCURACY_LOST: a warning when the error that the twin estimates of its own steps is above what
+// the scene allows. NOT_FINITE: danger when the system was stopped because a state was no longer a
+// finite number.
 #pragma once
 
 #include <string>
@@ -22,6 +24,10 @@ class StateAlarm {
   /// clears.
   void updateEnergy(double time, double residual, AlertList& alerts);
 
+  /// estimate and tolerance [-] of the error over the horizon, at time [s, simulated]. A NaN
+  /// neither raises nor clears.
+  void updateAccuracy(double time, double estimate, double tolerance, AlertList& alerts);
+
   /// stopped: the system reports that it stopped at time [s, simulated]; cause: the step and the
   /// values it names, for the text. Clears clear_delay after the system runs again.
   void updateFinite(double time, bool stopped, const std::string& cause, AlertList& alerts);
@@ -30,6 +36,7 @@ class StateAlarm {
   std::string system_;
   AlarmSettings settings_;
   ConditionAlarm energy_alarm_;
+  ConditionAlarm accuracy_alarm_;
   ConditionAlarm not_finite_alarm_;
 };
 

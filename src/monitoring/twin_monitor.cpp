@@ -215,6 +215,13 @@ void TwinMonitor::takeStopped(const std::string& system, double time, bool stopp
   }
 }
 
+void TwinMonitor::takeAccuracy(const std::string& system, double time, double estimate,
+                               double tolerance) {
+  if (Watch* watch = find(system)) {
+    watch->state_alarm.updateAccuracy(time, estimate, tolerance, alerts_);
+  }
+}
+
 std::vector<state::StabilityMargin> TwinMonitor::takeMargins() {
   std::vector<state::StabilityMargin> margins;
   margins.swap(margins_);

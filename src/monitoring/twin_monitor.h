@@ -38,6 +38,9 @@ class TwinMonitor {
   /// The simulation says whether a system has stopped, and why.
   void takeStopped(const std::string& system, double time, bool stopped, const std::string& why);
 
+  /// The simulation says how accurate a system is (NaN: it does not know), and is to be.
+  void takeAccuracy(const std::string& system, double time, double estimate, double tolerance);
+
   /// Margins judged since last asked: ten a second of simulated time for each system, and at once
   /// where a rotor passes its threshold speed.
   std::vector<state::StabilityMargin> takeMargins();

@@ -1,5 +1,7 @@
 #include "nodes/loop_report.h"
 
+#include <limits>
+
 namespace whirl_twin {
 
 namespace {
@@ -37,6 +39,10 @@ LoopStatistics loopStatistics(const Twin& twin, const Observer& observer,
   for (std::size_t i = 0; i < twin.members().size(); ++i) {
     m.system.push_back(twin.members()[i].spec.name);
     m.integrator.push_back(twin.members()[i].integrator);
+    m.error_estimate.push_back(observer.errorEstimate(i));
+    const SystemSpec& spec = twin.members()[i].spec;
+    m.tolerance.push_back(spec.integrator == "auto" ? spec.tolerance
+                                                    : std::numeric_limits<double>::quiet_NaN());
     m.stopped.push_back(static_cast<std::uint8_t>(observer.status(i)));
     m.stopped_why.push_back(observer.stopReason(i));
   }
@@ -55,6 +61,10 @@ void summarize(const LoopStatistics& loop, diagnostic_updater::DiagnosticStatusW
   for (std::size_t i = 0; i < loop.system.size(); ++i) {
     if (loop.stopped[i] != 0) {
       status.mergeSummary(DiagnosticStatus::ERROR, loop.stopped_why[i]);
+    } else if (loop.error_estimate[i] > loop.tolerance[i]) {
+      status.mergeSummaryf(DiagnosticStatus::WARN,
+                           "%s: error about %.1e over its horizon, its tolerance is %g",
+                           loop.system[i].c_str(), loop.error_estimate[i], loop.tolerance[i]);
     }
   }
   status.add("step", loop.step);

@@ -172,6 +172,11 @@ class MonitorNode {
          i < loop.system.size() && i < loop.stopped.size() && i < loop.stopped_why.size(); ++i) {
       monitor_.takeStopped(loop.system[i], loop.time, loop.stopped[i] != 0, loop.stopped_why[i]);
     }
+    for (std::size_t i = 0;
+         i < loop.system.size() && i < loop.error_estimate.size() && i < loop.tolerance.size();
+         ++i) {
+      monitor_.takeAccuracy(loop.system[i], loop.time, loop.error_estimate[i], loop.tolerance[i]);
+    }
   }
 
   void publish() {

@@ -24,6 +24,7 @@
 #include "plugins/plugin_models.h"
 #include "realtime/fixed_rate_loop.h"
 #include "scene/live_twin.h"
+#include "scene/step_choice.h"
 #include "transport/channels.h"
 
 namespace whirl_twin {
@@ -191,7 +192,7 @@ void run() {
   ros::NodeHandle node("/twin");
   ros::NodeHandle private_node("~");
   usePluginModels();
-  const Scene scene = sceneFromParameters(node, "scene");
+  const Scene scene = withStepsChosen(sceneFromParameters(node, "scene"));
   const Settings settings = readSettings(scene);
 
   // Half a second of records, or some: what the publisher may be late by.

@@ -7,8 +7,9 @@
 #include <type_traits>
 #include <utility>
 
+#include "integration/dormand_prince_8.h"
 #include "integration/exponential.h"
-#include "integration/gauss_legendre_6.h"
+#include "integration/gauss_legendre.h"
 #include "integration/runge_kutta_4.h"
 #include "integration/semi_implicit_euler.h"
 #include "integration/velocity_verlet.h"
@@ -20,12 +21,22 @@ namespace whirl_twin {
 template <class... Methods>
 struct MethodList {};
 
+template <class List, class Method>
+struct Extended;
+template <class... Methods, class Method>
+struct Extended<MethodList<Methods...>, Method> {
+  using Type = MethodList<Methods..., Method>;
+};
+
+template <std::size_t n>
+using AnyModelsMethods = MethodList<SemiImplicitEuler, VelocityVerlet, RungeKutta4, DormandPrince8,
+                                    ImplicitMidpoint<n>, GaussLegendre4<n>, GaussLegendre6<n>>;
+
 template <class Model>
 using MethodsFor = std::conditional_t<
     Model::kLinear,
-    MethodList<SemiImplicitEuler, VelocityVerlet, RungeKutta4, GaussLegendre6<Model::kDof>,
-               Exponential<Model::kDof>>,
-    MethodList<SemiImplicitEuler, VelocityVerlet, RungeKutta4, GaussLegendre6<Model::kDof>>>;
+    typename Extended<AnyModelsMethods<Model::kDof>, Exponential<Model::kDof>>::Type,
+    AnyModelsMethods<Model::kDof>>;
 
 template <class Model, class = void>
 struct HasGravity : std::false_type {};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "integration/step_methods.h"
 #include "scene/models/models.h"
 
 namespace whirl_twin {
@@ -113,9 +114,13 @@ const ModelInfo* findModel(const std::string& name) {
 }
 
 const std::vector<std::string>& integratorNames() {
-  static const std::vector<std::string> names{
-      "auto",          "semi_implicit_euler", "velocity_verlet",
-      "runge_kutta_4", "gauss_legendre_6",    "exponential"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all{"auto"};
+    for (const StepMethod& method : stepMethods()) {
+      all.push_back(method.name);
+    }
+    return all;
+  }();
   return names;
 }
 

@@ -59,6 +59,7 @@ void Observer::observe(const double* record) {
       trackPhase(i);
     }
     trackEnergy(i);
+    trackError(i);
   }
   trackMotors();
   tells_only_change_ = changed && step() == before;
@@ -134,6 +135,19 @@ Energies Observer::energies(std::size_t system) const {
     q[q.size() - 1] = driveRecord(drive)[1];  // the spin to the last digit, without its whole turns
   }
   return tracks_[system].dynamics->energies(q, vector(rates(system), n), moment(system));
+}
+
+void Observer::trackError(std::size_t system) {
+  Track& track = tracks_[system];
+  const SystemSpec& spec = twin_.members()[system].spec;
+  const double sum = record_[twin_.layout().system[system] + 3 + 2 * spec.q.size()];
+  const bool anew = std::isnan(track.error_sum) || sum < track.error_sum;
+  const double passed = twin_.seconds(step()) - twin_.seconds(track.error_step);
+  const double kept =
+      std::isnan(track.error) ? 0.0 : track.error * std::exp(-passed / spec.horizon);
+  track.error = kept + (anew ? sum : sum - track.error_sum);
+  track.error_sum = sum;
+  track.error_step = step();
 }
 
 void Observer::trackEnergy(std::size_t system) {

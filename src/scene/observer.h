@@ -53,6 +53,11 @@ class Observer {
   /// start or the last change of parameters: the change itself does work.
   double energyResidual(std::size_t system) const;
   Energies energies(std::size_t system) const;
+  /// What its method has got wrong over its horizon [-]: the errors of its steps, of which the last
+  /// one in so many is measured, added up and forgotten with the horizon as time constant. As
+  /// `tolerance`, in parts of the largest coordinates; where the motion magnifies errors the true
+  /// one is larger. NaN: not estimated.
+  double errorEstimate(std::size_t system) const { return tracks_[system].error; }
   /// The parameters the system has now and what of them changed last, without the instant.
   const state::ParameterChange& parameters(std::size_t system) const {
     return tracks_[system].parameters;
@@ -74,12 +79,15 @@ class Observer {
     std::shared_ptr<const Dynamics> dynamics;
     state::ParameterChange parameters;
     bool started = false;
-    double jacobi = 0.0;         // [J], h at the start
-    double scale = 0.0;          // [J], largest T + |V| so far
-    double residual = 0.0;       // [-]
-    double slowest_orbit = 0.0;  // [rad/s], below which there is no 1X orbit to speak of
-    double largest_radius = 0;   // [m]
-    double phase = 0.0;          // [rad], last valid, unwrapped
+    double jacobi = 0.0;          // [J], h at the start
+    double scale = 0.0;           // [J], largest T + |V| so far
+    double residual = 0.0;        // [-]
+    double error = 0.0;           // [-]
+    double error_sum = 0.0;       // [-], of the newest record
+    std::int64_t error_step = 0;  // of the newest record
+    double slowest_orbit = 0.0;   // [rad/s], below which there is no 1X orbit to speak of
+    double largest_radius = 0;    // [m]
+    double phase = 0.0;           // [rad], last valid, unwrapped
     bool phase_known = false;
     bool phase_valid = false;
     std::string stop_reason;
@@ -91,6 +99,7 @@ class Observer {
   bool takeGeneration(std::size_t system);
   void trackPhase(std::size_t system);
   void trackEnergy(std::size_t system);
+  void trackError(std::size_t system);
   void trackMotors();
   std::string describeStop(std::size_t system) const;
 

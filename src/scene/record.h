@@ -31,7 +31,7 @@ struct RecordLayout {
   static constexpr std::size_t kDriveSize = 6;
 
   /// Of each system: status, q, v, work [J] since it was set, generation (0: as the scene says; see
-  /// system_generations.h).
+  /// system_generations.h), sum of its steps' errors [-] since it was set.
   std::vector<std::size_t> system;
   std::size_t size = 0;
 };

@@ -32,6 +32,9 @@ struct SystemSpec {
   double tolerance = 1.0e-6;  ///< [-], for auto
   double horizon = 10.0;      ///< [s], for auto
   int substeps = 1;
+  /// What `auto` stands for, as far as a calibration has found out (step_choice.h), and why.
+  std::string chosen_integrator = "";
+  std::string choice_reason = "";
   std::map<std::string, double> parameters;  ///< complete: defaults filled in
   Settings settings;                         ///< parameters that are not one number
   std::vector<double> q;                     ///< initial coordinates, [rad] or [m]

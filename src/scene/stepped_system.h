@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -84,22 +85,23 @@ class SteppedSystem final : public System {
     const DrivenEquation<Model> equation{model_, drive_, time};
     MotionState<n> next = state_;
     for (int i = 0; i < substeps_; ++i) {
-      const StepStatus status = advance(equation, i * substep_, next);
+      const StepStatus status = advance(method_, equation, i * substep_, substep_, next);
       if (status != StepStatus::kOk) {
-        return status;
+        return finite(state_) ? status : StepStatus::kNotFinite;
       }
     }
-    bool finite = isFinite(next.work.high);
-    for (std::size_t i = 0; i < n; ++i) {
-      finite = finite && isFinite(next.q[i]) && isFinite(next.v[i]);
-    }
-    if (!finite) {
+    if (!finite(next)) {
       return StepStatus::kNotFinite;
+    }
+    if (++steps_since_estimate_ == kEstimateEvery) {
+      steps_since_estimate_ = 0;
+      estimateError(equation, next);
     }
     state_ = next;
     wholeTurns();
     return StepStatus::kOk;
   }
+  double errorSum() const noexcept override { return error_sum_; }
   std::size_t dof() const noexcept override { return n; }
   void write(double* out) const noexcept override {
     for (std::size_t i = 0; i < n; ++i) {
@@ -126,14 +128,32 @@ class SteppedSystem final : public System {
       state_.v[i] = v[i];
     }
     if constexpr (HasSpin<Model>::value) {
-      const ShaftAngle angle = shaftAngle(q[Model::kSpin]);
-      turns_ = angle.turns;
-      state_.q[Model::kSpin] = angle.remainder;
+      if (isFinite(q[Model::kSpin])) {
+        const ShaftAngle angle = shaftAngle(q[Model::kSpin]);
+        turns_ = angle.turns;
+        state_.q[Model::kSpin] = angle.remainder;
+      }
     }
     method_.restart();
+    sizes_ = {};
+    error_sum_ = 0.0;
+    steps_since_estimate_ = 0;
   }
 
  private:
+  /// Largest so far, of the coordinates of a unit.
+  struct Size {
+    double q = 0.0;
+    double v = 0.0;
+  };
+  static WHIRL_TWIN_INLINE bool finite(const MotionState<n>& state) noexcept {
+    bool all = isFinite(state.work.high);
+    for (std::size_t i = 0; i < n; ++i) {
+      all = all && isFinite(state.q[i]) && isFinite(state.v[i]);
+    }
+    return all;
+  }
+
   /// The spin is stepped as whole turns and a remainder, so that its phase is as exact after a
   /// month as after a second; 2 pi is taken off with 106 bits.
   WHIRL_TWIN_INLINE void wholeTurns() noexcept {
@@ -157,36 +177,78 @@ class SteppedSystem final : public System {
     return {turns_, angle < 0.0 ? 0.0 : angle};  // below 0 only by rounding
   }
 
-  /// One substep, in parts where the drive has a corner inside it: across a corner a method would
-  /// lose its order.
-  WHIRL_TWIN_INLINE StepStatus advance(const DrivenEquation<Model>& equation, double offset,
-                                       MotionState<n>& state) noexcept {
+  /// Out of line: one copy of the equations for a system and a method is enough.
+  [[gnu::noinline]] static StepStatus methodStep(Method& method,
+                                                 const DrivenEquation<Model>& equation,
+                                                 double offset, double h,
+                                                 MotionState<n>& state) noexcept {
+    return method.step(equation, offset, h, state);
+  }
+
+  /// One step of the method, in parts where the drive has a corner inside it: across a corner a
+  /// method would lose its order.
+  WHIRL_TWIN_INLINE StepStatus advance(Method& method, const DrivenEquation<Model>& equation,
+                                       double offset, double h, MotionState<n>& state) noexcept {
     if constexpr (Model::kHasShaft) {
-      const double end = offset + substep_;
-      if (drive_.nextCorner(offset) < end - kSliver * substep_) {
-        return advanceInParts(equation, offset, end, state);
+      const double end = offset + h;
+      if (drive_.nextCorner(offset) < end - kSliver * h) {
+        return advanceInParts(method, equation, offset, end, state);
       }
     }
-    return method_.step(equation, offset, substep_, state);
+    return methodStep(method, equation, offset, h, state);
   }
-  StepStatus advanceInParts(const DrivenEquation<Model>& equation, double offset, double end,
-                            MotionState<n>& state) noexcept {
-    const double sliver = kSliver * substep_;
+  StepStatus advanceInParts(Method& method, const DrivenEquation<Model>& equation, double offset,
+                            double end, MotionState<n>& state) noexcept {
+    const double sliver = kSliver * (end - offset);
     StepStatus status = StepStatus::kOk;
     while (status == StepStatus::kOk && end - offset > sliver) {
       double corner = drive_.nextCorner(offset);
       corner = corner < end - sliver ? corner : end;
       if (corner - offset > sliver) {
-        method_.restart();
-        status = method_.step(equation, offset, corner - offset, state);
+        method.restart();
+        status = methodStep(method, equation, offset, corner - offset, state);
       }
       // Just behind the corner, where the jerk (or acceleration) that follows holds.
       offset = std::nextafter(corner, 2.0 * end);
     }
-    method_.restart();
+    method.restart();
     return status;
   }
 
+  /// The error of the step from state_ to `end`: how far two of half the length come out from it.
+  /// Order p leaves out a part of 2^-p of it.
+  void estimateError(const DrivenEquation<Model>& equation, const MotionState<n>& end) noexcept {
+    MotionState<n> finer = state_;
+    const double h = 0.5 * substep_;
+    finer_method_.restart();
+    for (int i = 0; i < 2 * substeps_; ++i) {
+      if (advance(finer_method_, equation, i * h, h, finer) != StepStatus::kOk) {
+        return;
+      }
+    }
+    const auto angular = [](std::size_t i) {
+      return std::size_t{Model::kCoordinates[i].unit[0] == 'r'};
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+      Size& size = sizes_[angular(i)];
+      size.q = std::fmax(size.q, std::fabs(end.q[i]));
+      size.v = std::fmax(size.v, std::fabs(end.v[i]));
+    }
+    const auto relative = [](double error, double size) {
+      return error == 0.0 ? 0.0 : std::fabs(error) / size;
+    };
+    double error = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const Size& size = sizes_[angular(i)];
+      const double q_size = angular(i) == 1 ? std::fmin(size.q, 1.0) : size.q;
+      error = std::fmax(error, std::fmax(relative(end.q[i] - finer.q[i], q_size),
+                                         relative(end.v[i] - finer.v[i], size.v)));
+    }
+    error_sum_ += kEstimateEvery * error;
+  }
+
+  /// One step in so many is taken twice, the second time in halves.
+  static constexpr int kEstimateEvery = 64;
   /// Parts shorter than this share of a substep are not worth a step: they are rounding.
   static constexpr double kSliver = 1.0e-12;
   static constexpr double kTwoPi = 6.283185307179586;
@@ -197,7 +259,11 @@ class SteppedSystem final : public System {
   double substep_;  ///< [s]
   int substeps_;
   Method method_{};
+  Method finer_method_{};
   MotionState<n> state_{};
+  std::array<Size, 2> sizes_{};  ///< of sliding and of angular coordinates
+  double error_sum_ = 0.0;
+  int steps_since_estimate_ = 0;
   std::int64_t turns_ = 0;  ///< of a spin, beyond its coordinate
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 
 #include "control/shaft_angle.h"
@@ -39,6 +40,9 @@ class System {
   virtual void write(double* out) const noexcept = 0;
   /// The shaft that a motor turns, whose angle is a coordinate; false: there is none.
   virtual bool shaft(ShaftState& /*out*/) const noexcept { return false; }
+  /// What the method has got wrong since the state was set: the sum of the errors of its steps, in
+  /// parts of the largest coordinates and rates so far, from a sample of them. NaN: not estimated.
+  virtual double errorSum() const noexcept { return std::numeric_limits<double>::quiet_NaN(); }
   /// Sets q and v and forgets the past.
   virtual void set(const double* q, const double* v) noexcept = 0;
 };

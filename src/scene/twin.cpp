@@ -21,6 +21,12 @@ std::size_t driveIndex(const Scene& scene, const std::string& name) {
   return static_cast<std::size_t>(found - scene.drives.begin());
 }
 
+bool suits(const ModelSetup& setup, bool on_drive, const std::string& integrator) {
+  const std::vector<std::string>& all = setup.integrators;
+  return std::find(all.begin(), all.end(), integrator) != all.end() &&
+         integratorObjection(setup, on_drive, integrator).empty();
+}
+
 /// "x [m], theta [rad]"
 std::string coordinateNames(const Dynamics& dynamics) {
   std::string names;
@@ -62,7 +68,7 @@ Twin::Twin(const Scene& scene) : scene_(scene) {
   layout_.size = RecordLayout::kDrives + RecordLayout::kDriveSize * drives_.size();
   for (const auto& system : systems_) {
     layout_.system.push_back(layout_.size);
-    layout_.size += 3 + 2 * system->dof();
+    layout_.size += 4 + 2 * system->dof();
     state_.resize(std::max(state_.size(), 2 * system->dof() + 1));
   }
   reset();
@@ -73,16 +79,25 @@ Twin::Member Twin::memberOf(const SystemSpec& spec) const {
   if (model == nullptr) {
     throw std::invalid_argument("no model named " + spec.model);
   }
-  Member member{
-      spec, model, model->setUp(spec.parameters, spec.settings, surroundingsOf(scene_, spec)),
-      {},   "",    "",
-      0};
+  Member member{spec,
+                model,
+                model->setUp(spec.parameters, spec.settings, surroundingsOf(scene_, spec)),
+                {},
+                spec.integrator,
+                "",
+                0};
   member.dynamics = member.setup.dynamics;
-  member.integrator = spec.integrator;
   if (spec.integrator == "auto") {
-    const IntegratorChoice choice = chooseIntegrator(member.setup, spec.drive.has_value());
-    member.integrator = choice.integrator;
-    member.integrator_reason = choice.reason;
+    const bool on_drive = spec.drive.has_value();
+    // A choice made for other parameters may not suit these.
+    if (suits(member.setup, on_drive, spec.chosen_integrator)) {
+      member.integrator = spec.chosen_integrator;
+      member.integrator_reason = spec.choice_reason;
+    } else {
+      const IntegratorChoice choice = chooseIntegrator(member.setup, on_drive);
+      member.integrator = choice.integrator;
+      member.integrator_reason = choice.reason;
+    }
   }
   return member;
 }
@@ -176,6 +191,7 @@ void Twin::write(double* record) const noexcept {
     record[layout_.system[i]] = packed(static_cast<std::int64_t>(status_[i]));
     running_[i]->write(record + layout_.system[i] + 1);
     record[layout_.system[i] + 2 + 2 * running_[i]->dof()] = packed(generation_[i]);
+    record[layout_.system[i] + 3 + 2 * running_[i]->dof()] = running_[i]->errorSum();
   }
 }
 

@@ -38,6 +38,7 @@ void addAnalyzeCommand(CLI::App& twin, int& status);
 void addCampbellCommand(CLI::App& twin, int& status);
 void addResponseCommand(CLI::App& twin, int& status);
 void addOrbitCommand(CLI::App& twin, int& status);
+void addTradeoffCommand(CLI::App& twin, int& status);
 void addBalanceCommand(CLI::App& twin, int& status);
 void addRouthCommand(CLI::App& twin, int& status);
 void addLogCommand(CLI::App& twin, int& status);

@@ -11,7 +11,6 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::int64_t kStepsPerLook = 1024;  // a look at the clock costs as much as a step
 constexpr std::size_t kWidth = 40;
 constexpr std::chrono::milliseconds kInterval{100};
 
@@ -23,7 +22,7 @@ ProgressBar::ProgressBar(std::int64_t steps, bool results_on_standard_output)
           !(results_on_standard_output && ::isatty(STDOUT_FILENO) != 0)) {}
 
 void ProgressBar::show(std::int64_t step) {
-  if (!on_ || step % kStepsPerLook != 0) {
+  if (!on_) {
     return;
   }
   const auto now = std::chrono::steady_clock::now();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "scene/step_choice.h"
+#include "scene/trajectory.h"
 #include "tools/step_cost.h"
 #include "transport/channels.h"
 
@@ -63,6 +65,7 @@ SceneCheck checkScene(const Scene& scene, const std::vector<std::size_t>& system
   for (const std::size_t i : systems) {
     check.scene.systems.push_back(scene.systems[i]);
   }
+  check.scene = withStepsChosen(check.scene);
   const Twin twin(check.scene);
   const double budget =
       std::min(kSystemBudget, kSystemsBudget / static_cast<double>(twin.members().size()));

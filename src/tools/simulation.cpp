@@ -12,6 +12,8 @@ namespace whirl_twin {
 
 namespace {
 
+constexpr std::int64_t kStepsPerLook = 1024;  // the bar's look at the clock costs as much as a step
+
 std::atomic<bool> stop_requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
 
@@ -26,12 +28,14 @@ Simulation::Simulation(const SimulationPlan& plan)
       twin_(plan.scene),
       observer_(twin_),
       validity_(twin_, plan_.systems),
-      stopped_(plan.scene.systems.size()) {}
+      stopped_(plan.scene.systems.size()) {
+  // Before a writer begins its file, which an interrupted run takes away.
+  std::signal(SIGINT, requestStop);
+  std::signal(SIGTERM, requestStop);
+}
 
 void Simulation::run(SampleWriter* writer, bool results_on_standard_output) {
   const DenormalsToZero denormals_to_zero;  // as the real-time loop does: the same numbers
-  std::signal(SIGINT, requestStop);
-  std::signal(SIGTERM, requestStop);
   ProgressBar bar(plan_.steps, results_on_standard_output);
   std::vector<double> record(twin_.layout().size);
   warn(bar);
@@ -50,7 +54,9 @@ void Simulation::run(SampleWriter* writer, bool results_on_standard_output) {
     if (stop_requested.load(std::memory_order_relaxed)) {
       throw RunFailed(fmt::format("interrupted after {} of {} steps", i, plan_.steps));
     }
-    bar.show(i);
+    if (i % kStepsPerLook == 0) {
+      bar.show(i);
+    }
   }
 }
 
@@ -106,6 +112,7 @@ Json Simulation::systemJson(std::size_t system) const {
     json["energy"] = {{"kinetic", e.kinetic}, {"potential", e.potential}, {"jacobi", e.jacobi}};
   }
   json["energy_residual"] = observer_.energyResidual(system);
+  json["error_estimate"] = observer_.errorEstimate(system);
   json["invalid"] = validity_.json(system);
   return json;
 }

@@ -39,6 +39,7 @@ SimulationPlan planSimulation(const SimulationRequest& request);
 
 class Simulation {
  public:
+  /// From now on SIGINT and SIGTERM end a run in order.
   explicit Simulation(const SimulationPlan& plan);
 
   /// Runs to the end. `writer` may be null. A system that stops is reported on standard error and

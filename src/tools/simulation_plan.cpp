@@ -5,6 +5,7 @@
 
 #include "scene/model_registry.h"
 #include "scene/scene_reader.h"
+#include "scene/step_choice.h"
 #include "scene/surroundings.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
@@ -92,6 +93,7 @@ SimulationPlan planSimulation(const SimulationRequest& request) {
   if (request.sample) {
     plan.stride = wholeSteps("--sample", *request.sample, step, step);
   }
+  plan.scene = withStepsChosen(plan.scene);
   plan.steps =
       request.duration ? wholeSteps("--duration", *request.duration, 0, step) : defaultSteps(plan);
   return plan;

@@ -56,22 +56,6 @@ double stepCost(const Scene& scene, double budget) {
   return 1.0e9 * *middle / static_cast<double>(steps);
 }
 
-Scene sceneOfOne(const Scene& scene, std::size_t system) {
-  Scene one;
-  one.source = scene.source;
-  one.name = scene.name;
-  one.step = scene.step;
-  one.time = scene.time;
-  one.gravity = scene.gravity;
-  one.systems = {scene.systems[system]};
-  for (const DriveSpec& drive : scene.drives) {
-    if (one.systems.front().drive == drive.name) {
-      one.drives.push_back(drive);
-    }
-  }
-  return one;
-}
-
 std::size_t twinMemory(const Scene& scene) {
   const std::size_t before = ::mallinfo2().uordblks;
   const Twin twin(scene);

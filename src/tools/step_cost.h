@@ -11,9 +11,6 @@ namespace whirl_twin {
 /// short rounds from the start, together about `budget` [s]. NaN if a system stops in them.
 double stepCost(const Scene& scene, double budget);
 
-/// The scene with one of its systems only.
-Scene sceneOfOne(const Scene& scene, std::size_t system);
-
 /// Heap that the running twin of a scene takes [bytes].
 std::size_t twinMemory(const Scene& scene);
 

@@ -101,6 +101,7 @@ int run(int argc, const char* const* argv) {
   addResponseCommand(twin, status);
   addOrbitCommand(twin, status);
   addBalanceCommand(twin, status);
+  addTradeoffCommand(twin, status);
   addRouthCommand(twin, status);
   addLogCommand(twin, status);
 

@@ -154,8 +154,7 @@ TEST(ExactStep, FollowsALoadThatAlternatesWithoutAShaft) {
   RunningSystem beam(s, "exponential", 1000000);
   ASSERT_EQ(beam.run(1700), StepStatus::kOk);
   const double m = mass / 3.0;  // the equation of the notes, divided by l^2
-  const std::complex<double> steady =
-      0.5 * f / std::complex<double>(0.25 * k - m * w * w, c * w);
+  const std::complex<double> steady = 0.5 * f / std::complex<double>(0.25 * k - m * w * w, c * w);
   const double decay = c / (2.0 * m);
   const double p = std::sqrt(0.25 * k / m - decay * decay);
   const double q0 = -steady.real();

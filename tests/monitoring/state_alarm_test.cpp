@@ -33,6 +33,26 @@ TEST(StateAlarm, AnEnergyBalanceThatIsOffInEitherDirectionWarns) {
   }
 }
 
+TEST(StateAlarm, AnErrorBeyondWhatIsPromisedWarns) {
+  AlertList list;
+  StateAlarm alarm("rods", AlarmSettings());
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  alarm.updateAccuracy(0.0, 0.9e-6, 1e-6, list);
+  alarm.updateAccuracy(1.0, none, 1e-6, list);
+  alarm.updateAccuracy(2.0, 1.0, none, list);  // an integrator that was named promises nothing
+  EXPECT_TRUE(list.active().empty());
+  alarm.updateAccuracy(3.0, 3e-6, 1e-6, list);
+  const state::Alert* alert = list.find("rods", alert_type::kAccuracyLost);
+  ASSERT_NE(alert, nullptr);
+  EXPECT_EQ(alert->severity, state::Severity::kWarning);
+  EXPECT_EQ(alert->text,
+            "rods: error about 3e-06 over its horizon, more than its tolerance 1e-06: shorten the "
+            "step");
+  alarm.updateAccuracy(4.0, 1e-7, 1e-6, list);
+  alarm.updateAccuracy(10.0, 1e-7, 1e-6, list);
+  EXPECT_TRUE(list.active().empty());
+}
+
 TEST(StateAlarm, AStoppedSystemIsDangerAndNamesItsCause) {
   AlertList list;
   StateAlarm alarm("rotor", AlarmSettings());

@@ -59,14 +59,14 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{
             {},
             "twin: expected a command; there are: check, scenes, models, simulate, plot, analyze, "
-            "campbell, response, orbit, balance, routh, log"},
+            "campbell, response, orbit, balance, tradeoff, routh, log"},
         Misuse{{"analyse", kDemo}, "twin: unknown command 'analyse'; did you mean 'analyze'?"},
         Misuse{{"bode", kDemo},
                "twin: unknown command 'bode'; there are: check, scenes, models, simulate, plot, "
-               "analyze, campbell, response, orbit, balance, routh, log"},
+               "analyze, campbell, response, orbit, balance, tradeoff, routh, log"},
         Misuse{{""},
                "twin: unknown command ''; there are: check, scenes, models, simulate, plot, "
-               "analyze, campbell, response, orbit, balance, routh, log"},
+               "analyze, campbell, response, orbit, balance, tradeoff, routh, log"},
         Misuse{{"check"}, "twin check: SCENE is required"},
         Misuse{{"routh"}, "twin routh: COEFFICIENTS is required"},
         Misuse{{"log"}, "twin log: FILE is required"},

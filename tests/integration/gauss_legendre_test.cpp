@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <complex>
+#include <string>
 
 #include "running_system.h"
 
@@ -55,12 +56,27 @@ TEST(GaussLegendre6, RunsBackToWhereItCameFrom) {
   EXPECT_NEAR(-back.v(0), there.v[0], 1e-10);
 }
 
-/// The method's stability function: the diagonal Pade approximant of e^z.
-Complex pade(const Complex& z) {
-  return (1.0 + z * (0.5 + z * (0.1 + z / 120.0))) / (1.0 - z * (0.5 - z * (0.1 - z / 120.0)));
+/// The methods' stability functions: the diagonal Pade approximants of e^z.
+Complex pade(int stages, const Complex& z) {
+  switch (stages) {
+    case 1:
+      return (1.0 + 0.5 * z) / (1.0 - 0.5 * z);
+    case 2:
+      return (1.0 + z * (0.5 + z / 12.0)) / (1.0 - z * (0.5 - z / 12.0));
+    default:
+      return (1.0 + z * (0.5 + z * (0.1 + z / 120.0))) / (1.0 - z * (0.5 - z * (0.1 - z / 120.0)));
+  }
 }
 
-TEST(GaussLegendre6, OnAStiffWhirlIsItsStabilityFunction) {
+class GaussLegendre : public testing::TestWithParam<int> {
+ protected:
+  const char* method() const {
+    const char* const names[] = {"implicit_midpoint", "gauss_legendre_4", "gauss_legendre_6"};
+    return names[GetParam() - 1];
+  }
+};
+
+TEST_P(GaussLegendre, OnAStiffWhirlIsItsStabilityFunction) {
   // z'' + 2 zeta p z' + p^2 z = 0 in its eigenvalues: each part is multiplied by R(h s) every step.
   // Fixed-point iteration diverges above h p of about 3, so these steps are Newton's.
   for (const double hp : {5.0, 50.0, 500.0}) {
@@ -72,7 +88,7 @@ TEST(GaussLegendre6, OnAStiffWhirlIsItsStabilityFunction) {
       setup.parameters = {{"mass", 1.0}, {"stiffness", p * p}, {"damping", 2.0 * zeta * p}};
       setup.q = {1.0, 0.3};
       setup.v = {0.2 * p, -0.5 * p};
-      RunningSystem rotor(setup, "gauss_legendre_6", 10000000);
+      RunningSystem rotor(setup, method(), 10000000);
       const Complex s1 = p * Complex(-zeta, std::sqrt(1.0 - zeta * zeta));
       const Complex s2 = std::conj(s1);
       const Complex z0(1.0, 0.3);
@@ -81,13 +97,17 @@ TEST(GaussLegendre6, OnAStiffWhirlIsItsStabilityFunction) {
       const Complex a2 = z0 - a1;
       for (int steps = 1; steps <= 20; ++steps) {
         ASSERT_EQ(rotor.run(1), StepStatus::kOk) << "h p = " << hp;
-        const Complex z = a1 * std::pow(pade(h * s1), steps) + a2 * std::pow(pade(h * s2), steps);
+        const Complex z = a1 * std::pow(pade(GetParam(), h * s1), steps) +
+                          a2 * std::pow(pade(GetParam(), h * s2), steps);
         ASSERT_NEAR(rotor.q(0), z.real(), 1e-10) << "h p = " << hp << ", zeta = " << zeta;
         ASSERT_NEAR(rotor.q(1), z.imag(), 1e-10) << "h p = " << hp << ", zeta = " << zeta;
       }
     }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Stages, GaussLegendre, testing::Values(1, 2, 3),
+                         [](const auto& test) { return std::to_string(test.param); });
 
 TEST(GaussLegendre6, FollowsTheSlowSwingOfAStiffDoublePendulum) {
   // m2 >> m1: the slow swing is that of one pendulum of two metres, and across it the upper bob

@@ -1,16 +1,16 @@
-// Gauss-Legendre collocation with three stages (Butcher 1964; Hairer & Wanner, Solving Ordinary
-// Differential Equations II, IV.5, table 5.2), for q'' = a(q, v, t):
+// Gauss-Legendre collocation with one, two or three stages (Butcher 1964; Hairer & Wanner, Solving
+// Ordinary Differential Equations II, IV.5, tables 5.1 and 5.2), for q'' = a(q, v, t):
 //
 //   A_i = a(q + h c_i v + h^2 sum (A^2)_ij A_j,  v + h sum A_ij A_j,  t + c_i h)
 //   v1 = v + h sum b_i A_i,    q1 = q + h v + h^2 sum b_i (1 - c_i) A_i
 //
-// Order 6, symplectic, time-reversible, A-stable; conserves quadratic invariants, has bounded
-// energy error over any time, treats damping and gyroscopic terms like any other. The stages are
-// found by fixed-point iteration started from the previous step's polynomial; where that contracts
-// too slowly (stiff systems) by simplified Newton; where that does not converge either, in up to 16
-// parts of the step. If nothing does, the state is left as it was and kNotConverged is returned. It
-// does not damp stiff modes (it is not L-stable), and it does not see discontinuities inside a
-// step.
+// Order 2 (the implicit midpoint rule), 4 and 6; symplectic, time-reversible, A-stable; conserves
+// quadratic invariants, has bounded energy error over any time, treats damping and gyroscopic terms
+// like any other. The stages are found by fixed-point iteration started from the previous step's
+// polynomial, two to five rounds as a rule; where that contracts too slowly (stiff systems) by
+// simplified Newton; where that does not converge either, in up to 16 parts of the step. If nothing
+// does, the state is left as it was and kNotConverged is returned. It does not damp stiff modes (it
+// is not L-stable), and it does not see discontinuities inside a step.
 #pragma once
 
 #include <Eigen/LU>
@@ -20,30 +20,85 @@
 
 namespace whirl_twin {
 
-namespace gauss_tableau {
+namespace gauss_legendre {
 
-inline constexpr double kRoot15 = 3.872983346207416885;
-inline constexpr double kOuter = 5.0 / 18.0;
-inline constexpr double kMiddle = 4.0 / 9.0;
-inline constexpr std::array<double, 3> kNodes{0.5 - kRoot15 / 10.0, 0.5, 0.5 + kRoot15 / 10.0};
-using Table = std::array<std::array<double, 3>, 3>;
-inline constexpr Table kA{{{5.0 / 36.0, 2.0 / 9.0 - kRoot15 / 15.0, 5.0 / 36.0 - kRoot15 / 30.0},
-                           {5.0 / 36.0 + kRoot15 / 24.0, 2.0 / 9.0, 5.0 / 36.0 - kRoot15 / 24.0},
-                           {5.0 / 36.0 + kRoot15 / 30.0, 2.0 / 9.0 + kRoot15 / 15.0, 5.0 / 36.0}}};
-constexpr double squared(std::size_t i, std::size_t j) {
-  return kA[i][0] * kA[0][j] + kA[i][1] * kA[1][j] + kA[i][2] * kA[2][j];
-}
-/// A^2, for q.
-inline constexpr Table kAA{{{squared(0, 0), squared(0, 1), squared(0, 2)},
-                            {squared(1, 0), squared(1, 1), squared(1, 2)},
-                            {squared(2, 0), squared(2, 1), squared(2, 2)}}};
+/// Nodes c, weights b and coefficients a of the method with s stages.
+template <std::size_t s>
+struct Tableau;
 
-}  // namespace gauss_tableau
+template <>
+struct Tableau<1> {
+  static constexpr const char* kName = "implicit_midpoint";
+  static constexpr std::array<double, 1> kNodes{0.5};
+  static constexpr std::array<double, 1> kWeights{1.0};
+  static constexpr std::array<std::array<double, 1>, 1> kA{{{0.5}}};
+};
 
-template <std::size_t n>
-class GaussLegendre6 {
- public:
+template <>
+struct Tableau<2> {
+  static constexpr const char* kName = "gauss_legendre_4";
+  static constexpr double kRoot3 = 1.7320508075688772935;
+  static constexpr std::array<double, 2> kNodes{0.5 - kRoot3 / 6.0, 0.5 + kRoot3 / 6.0};
+  static constexpr std::array<double, 2> kWeights{0.5, 0.5};
+  static constexpr std::array<std::array<double, 2>, 2> kA{
+      {{0.25, 0.25 - kRoot3 / 6.0}, {0.25 + kRoot3 / 6.0, 0.25}}};
+};
+
+template <>
+struct Tableau<3> {
   static constexpr const char* kName = "gauss_legendre_6";
+  static constexpr double kRoot15 = 3.872983346207416885;
+  static constexpr std::array<double, 3> kNodes{0.5 - kRoot15 / 10.0, 0.5, 0.5 + kRoot15 / 10.0};
+  static constexpr std::array<double, 3> kWeights{5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0};
+  static constexpr std::array<std::array<double, 3>, 3> kA{
+      {{5.0 / 36.0, 2.0 / 9.0 - kRoot15 / 15.0, 5.0 / 36.0 - kRoot15 / 30.0},
+       {5.0 / 36.0 + kRoot15 / 24.0, 2.0 / 9.0, 5.0 / 36.0 - kRoot15 / 24.0},
+       {5.0 / 36.0 + kRoot15 / 30.0, 2.0 / 9.0 + kRoot15 / 15.0, 5.0 / 36.0}}};
+};
+
+template <std::size_t s>
+using Table = std::array<std::array<double, s>, s>;
+
+/// A^2, for q.
+template <std::size_t s>
+constexpr Table<s> squared() {
+  Table<s> result{};
+  for (std::size_t i = 0; i < s; ++i) {
+    for (std::size_t j = 0; j < s; ++j) {
+      for (std::size_t k = 0; k < s; ++k) {
+        result[i][j] += Tableau<s>::kA[i][k] * Tableau<s>::kA[k][j];
+      }
+    }
+  }
+  return result;
+}
+template <std::size_t s>
+inline constexpr Table<s> kAA = squared<s>();
+
+/// The polynomial through the values at the nodes of a step, at the nodes of the step after it.
+template <std::size_t s>
+constexpr Table<s> continued() {
+  constexpr auto c = Tableau<s>::kNodes;
+  Table<s> result{};
+  for (std::size_t i = 0; i < s; ++i) {
+    for (std::size_t j = 0; j < s; ++j) {
+      result[i][j] = 1.0;
+      for (std::size_t k = 0; k < s; ++k) {
+        result[i][j] *= k == j ? 1.0 : (1.0 + c[i] - c[k]) / (c[j] - c[k]);
+      }
+    }
+  }
+  return result;
+}
+template <std::size_t s>
+inline constexpr Table<s> kContinued = continued<s>();
+
+}  // namespace gauss_legendre
+
+template <std::size_t stages, std::size_t n>
+class GaussLegendre {
+ public:
+  static constexpr const char* kName = gauss_legendre::Tableau<stages>::kName;
 
   /// Forgets the previous step: needed after the state was changed from outside.
   void restart() { warm_ = false; }
@@ -53,7 +108,12 @@ class GaussLegendre6 {
   template <class Equation>
   WHIRL_TWIN_INLINE StepStatus step(const Equation& equation, double offset, double h,
                                     MotionState<n>& state) {
-    Stages a = warm_ ? extrapolated() : constant(equation(state.q, state.v, offset).acceleration);
+    Stages a;
+    if (warm_) {
+      a = extrapolated();
+    } else {
+      a.fill(equation(state.q, state.v, offset).acceleration);
+    }
     Powers power;
     if (!fixedPoint(equation, offset, h, state, a, power)) {
       return stiffStep(equation, offset, h, kMaxHalvings, state);
@@ -65,15 +125,17 @@ class GaussLegendre6 {
   }
 
  private:
-  using Stages = std::array<std::array<double, n>, 3>;
-  using Powers = std::array<double, 3>;
+  using Tableau = gauss_legendre::Tableau<stages>;
+  using Stages = std::array<std::array<double, n>, stages>;
+  using Powers = std::array<double, stages>;
 
   /// A step by Newton's method; where that does not converge, two of half the length.
   template <class Equation>
   StepStatus stiffStep(const Equation& equation, double offset, double h, int halvings,
                        MotionState<n>& state) {
     const std::array<double, n> start = equation(state.q, state.v, offset).acceleration;
-    Stages a = constant(start);
+    Stages a;
+    a.fill(start);
     Powers power;
     if (newton(equation, offset, h, state, a, power) && plausible(h, state, start, a)) {
       last_ = a;
@@ -105,7 +167,7 @@ class GaussLegendre6 {
     for (std::size_t i = 0; i < n; ++i) {
       suggested = std::fmax(suggested, std::fabs(state.q[i]) + h * std::fabs(state.v[i]) +
                                            h * h * std::fabs(start[i]));
-      for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t k = 0; k < stages; ++k) {
         found = std::fmax(found, h * h * std::fabs(a[k][i]));
       }
     }
@@ -118,16 +180,23 @@ class GaussLegendre6 {
     std::array<double, n> dq;
     std::array<double, n> dv;
     for (std::size_t i = 0; i < n; ++i) {
-      dv[i] = h * (gauss_tableau::kOuter * (a[0][i] + a[2][i]) + gauss_tableau::kMiddle * a[1][i]);
-      dq[i] = h * (state.v[i] + h * (gauss_tableau::kOuter * (gauss_tableau::kNodes[2] * a[0][i] +
-                                                              gauss_tableau::kNodes[0] * a[2][i]) +
-                                     0.5 * gauss_tableau::kMiddle * a[1][i]));
+      double rate = 0.0;
+      double position = 0.0;
+      for (std::size_t k = 0; k < stages; ++k) {
+        rate += Tableau::kWeights[k] * a[k][i];
+        position += Tableau::kWeights[k] * (1.0 - Tableau::kNodes[k]) * a[k][i];
+      }
+      dv[i] = h * rate;
+      dq[i] = h * (state.v[i] + h * position);
     }
-    state.advance(
-        dq, dv,
-        h * (gauss_tableau::kOuter * (power[0] + power[2]) + gauss_tableau::kMiddle * power[1]));
+    double mean_power = 0.0;
+    for (std::size_t k = 0; k < stages; ++k) {
+      mean_power += Tableau::kWeights[k] * power[k];
+    }
+    state.advance(dq, dv, h * mean_power);
   }
 
+  static constexpr std::size_t kMiddle = stages / 2;  ///< a stage in or near the middle
   static constexpr int kMaxFixedPoint = 16;
   static constexpr int kMaxNewton = 24;
   static constexpr int kMaxJacobians = 3;
@@ -135,6 +204,8 @@ class GaussLegendre6 {
   /// Iteration ends when the acceleration changes by less than this part of its size: what is left
   /// then enters q and v multiplied by h and is below their rounding.
   static constexpr double kTolerance = 4.0e-16;
+  /// [rad/s^2] or [m/s^2]: where the product above would underflow.
+  static constexpr double kNothing = 1.0e-290;
   /// A fixed point that contracts slower than this is left to Newton.
   static constexpr double kSlow = 0.5;
   /// Newton that no longer contracts has reached the rounding of the accelerations themselves,
@@ -145,18 +216,14 @@ class GaussLegendre6 {
   /// spring makes it a large part of an acceleration that is itself small.
   static constexpr double kRoundingsOfPosition = 512.0 * 2.2e-16;
 
-  static WHIRL_TWIN_INLINE Stages constant(const std::array<double, n>& a) { return {a, a, a}; }
-
-  /// The previous step's stages, continued by their parabola to this step's nodes.
+  /// The previous step's stages, continued by their polynomial to this step's nodes.
   WHIRL_TWIN_INLINE Stages extrapolated() const {
-    Stages a;
-    for (std::size_t k = 0; k < 3; ++k) {
-      // In units of the spacing d of the nodes: the next nodes lie at 1/d - 1, 1/d, 1/d + 1.
-      const double x = (1.0 + gauss_tableau::kNodes[k] - 0.5) / (gauss_tableau::kRoot15 / 10.0);
-      for (std::size_t i = 0; i < n; ++i) {
-        const double slope = 0.5 * (last_[2][i] - last_[0][i]);
-        const double bend = 0.5 * (last_[2][i] + last_[0][i]) - last_[1][i];
-        a[k][i] = last_[1][i] + x * (slope + x * bend);
+    Stages a{};
+    for (std::size_t k = 0; k < stages; ++k) {
+      for (std::size_t j = 0; j < stages; ++j) {
+        for (std::size_t i = 0; i < n; ++i) {
+          a[k][i] += gauss_legendre::kContinued<stages>[k][j] * last_[j][i];
+        }
       }
     }
     return a;
@@ -167,13 +234,14 @@ class GaussLegendre6 {
                                       const Stages& a, std::array<double, n>& q,
                                       std::array<double, n>& v) {
     for (std::size_t i = 0; i < n; ++i) {
-      v[i] =
-          state.v[i] + h * (gauss_tableau::kA[k][0] * a[0][i] + gauss_tableau::kA[k][1] * a[1][i] +
-                            gauss_tableau::kA[k][2] * a[2][i]);
-      q[i] = state.q[i] +
-             h * (gauss_tableau::kNodes[k] * state.v[i] +
-                  h * (gauss_tableau::kAA[k][0] * a[0][i] + gauss_tableau::kAA[k][1] * a[1][i] +
-                       gauss_tableau::kAA[k][2] * a[2][i]));
+      double rate = 0.0;
+      double position = 0.0;
+      for (std::size_t j = 0; j < stages; ++j) {
+        rate += Tableau::kA[k][j] * a[j][i];
+        position += gauss_legendre::kAA<stages>[k][j] * a[j][i];
+      }
+      v[i] = state.v[i] + h * rate;
+      q[i] = state.q[i] + h * (Tableau::kNodes[k] * state.v[i] + h * position);
     }
   }
 
@@ -181,11 +249,11 @@ class GaussLegendre6 {
   WHIRL_TWIN_INLINE void evaluate(const Equation& equation, double offset, double h,
                                   const MotionState<n>& state, const Stages& a, Stages& result,
                                   Powers& power) const {
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < stages; ++k) {
       std::array<double, n> q;
       std::array<double, n> v;
       stage(k, h, state, a, q, v);
-      const auto d = equation(q, v, offset + gauss_tableau::kNodes[k] * h);
+      const auto d = equation(q, v, offset + Tableau::kNodes[k] * h);
       result[k] = d.acceleration;
       power[k] = d.power;
     }
@@ -196,7 +264,7 @@ class GaussLegendre6 {
                                         double& size) {
     change = 0.0;
     size = 0.0;
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < stages; ++k) {
       for (std::size_t i = 0; i < n; ++i) {
         const double c = std::fabs(now[k][i] - before[k][i]);
         const double s = std::fabs(now[k][i]);
@@ -241,8 +309,8 @@ class GaussLegendre6 {
       if (iterate(equation, offset, h, state, equation.jacobian(q, v, at), a, power)) {
         return true;
       }
-      stage(1, h, state, a, q, v);
-      at = offset + gauss_tableau::kNodes[1] * h;
+      stage(kMiddle, h, state, a, q, v);
+      at = offset + Tableau::kNodes[kMiddle] * h;
     }
     return false;
   }
@@ -251,14 +319,14 @@ class GaussLegendre6 {
   template <class Equation, class Jacobian>
   bool iterate(const Equation& equation, double offset, double h, const MotionState<n>& state,
                const Jacobian& jacobian, Stages& a, Powers& power) const {
-    constexpr int kSize = 3 * static_cast<int>(n);
+    constexpr int kSize = static_cast<int>(stages * n);
     Eigen::Matrix<double, kSize, kSize> matrix;
-    for (int k = 0; k < 3; ++k) {
-      for (int l = 0; l < 3; ++l) {
-        matrix.template block<static_cast<int>(n), static_cast<int>(n)>(k * static_cast<int>(n),
-                                                                        l * static_cast<int>(n)) =
-            -h * (gauss_tableau::kA[k][l] * jacobian.by_v +
-                  h * gauss_tableau::kAA[k][l] * jacobian.by_q);
+    constexpr int kDof = static_cast<int>(n);
+    for (std::size_t k = 0; k < stages; ++k) {
+      for (std::size_t l = 0; l < stages; ++l) {
+        matrix.template block<kDof, kDof>(static_cast<int>(k * n), static_cast<int>(l * n)) =
+            -h * (Tableau::kA[k][l] * jacobian.by_v +
+                  h * gauss_legendre::kAA<stages>[k][l] * jacobian.by_q);
       }
     }
     matrix.diagonal().array() += 1.0;
@@ -268,7 +336,7 @@ class GaussLegendre6 {
       Stages next;
       evaluate(equation, offset, h, state, a, next, power);
       Eigen::Matrix<double, kSize, 1> residual;
-      for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t k = 0; k < stages; ++k) {
         for (std::size_t i = 0; i < n; ++i) {
           residual[static_cast<int>(k * n + i)] = next[k][i] - a[k][i];
         }
@@ -277,7 +345,7 @@ class GaussLegendre6 {
       double size = 0.0;
       double change = 0.0;
       bool small = true;
-      for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t k = 0; k < stages; ++k) {
         for (std::size_t i = 0; i < n; ++i) {
           const double c = correction[static_cast<int>(k * n + i)];
           a[k][i] += c;
@@ -288,7 +356,7 @@ class GaussLegendre6 {
           size = std::fmax(size, std::fmax(std::fabs(a[k][i]), std::fabs(next[k][i])));
         }
       }
-      if (change <= kTolerance * size) {
+      if (change <= kTolerance * size + kNothing) {
         return true;
       }
       if (iteration > 1 && change > 0.9 * previous) {
@@ -302,5 +370,12 @@ class GaussLegendre6 {
   Stages last_{};
   bool warm_ = false;
 };
+
+template <std::size_t n>
+using ImplicitMidpoint = GaussLegendre<1, n>;
+template <std::size_t n>
+using GaussLegendre4 = GaussLegendre<2, n>;
+template <std::size_t n>
+using GaussLegendre6 = GaussLegendre<3, n>;
 
 }  // namespace whirl_twin

@@ -1,0 +1,80 @@
+#include "scene/trajectory.h"
+
+#include <algorithm>
+
+#include "realtime/denormals.h"
+#include "scene/observer.h"
+#include "scene/twin.h"
+
+namespace whirl_twin {
+
+Scene sceneOfOne(const Scene& scene, std::size_t system) {
+  Scene one;
+  one.source = scene.source;
+  one.name = scene.name;
+  one.step = scene.step;
+  one.time = scene.time;
+  one.gravity = scene.gravity;
+  one.systems = {scene.systems[system]};
+  for (const DriveSpec& drive : scene.drives) {
+    if (one.systems.front().drive == drive.name) {
+      one.drives.push_back(drive);
+    }
+  }
+  return one;
+}
+
+Scene withSetting(const Scene& one, const StepSetting& setting) {
+  Scene scene = one;
+  scene.step = setting.step;
+  scene.systems.front().integrator = setting.integrator;
+  scene.systems.front().substeps = setting.substeps;
+  return scene;
+}
+
+Trajectory trajectory(const Scene& one, std::int64_t duration, std::int64_t interval,
+                      const std::vector<double>& dq) {
+  const DenormalsToZero denormals_to_zero;
+  Scene scene = one;
+  for (std::size_t i = 0; i < dq.size(); ++i) {
+    scene.systems.front().q[i] += dq[i];
+  }
+  Twin twin(scene);
+  Observer observer(twin);
+  std::vector<double> record(twin.layout().size);
+  const Dynamics& dynamics = *twin.members().front().dynamics;
+  Trajectory result;
+  result.interval = static_cast<double>(interval) * 1.0e-9;
+  result.dof = static_cast<std::size_t>(dynamics.dof());
+  for (const CoordinateInfo& c : dynamics.coordinates()) {
+    result.angular.push_back(c.isAngle());
+  }
+  const auto sample = [&] {
+    twin.write(record.data());
+    observer.observe(record.data());
+    result.coordinates.insert(result.coordinates.end(), observer.coordinates(0),
+                              observer.coordinates(0) + result.dof);
+    if (dynamics.isRotor()) {
+      result.whirl_radius.push_back(observer.whirlRadius(0));
+      result.whirl_phase.push_back(observer.whirlPhase(0));
+    }
+    const Energies energies = observer.energies(0);
+    result.energy.push_back(energies.kinetic + energies.potential);
+    result.energy_drift = std::max(result.energy_drift, std::abs(observer.energyResidual(0)));
+  };
+  sample();
+  const std::int64_t stride = interval / scene.step;
+  for (std::int64_t time = interval; time <= duration; time += interval) {
+    for (std::int64_t i = 0; i < stride; ++i) {
+      twin.step();
+    }
+    result.status = twin.status(0);
+    if (result.status != StepStatus::kOk) {
+      break;
+    }
+    sample();
+  }
+  return result;
+}
+
+}  // namespace whirl_twin

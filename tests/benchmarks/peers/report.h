@@ -1,0 +1,30 @@
+// What was measured, as Markdown for people and as JSON for programs.
+#pragma once
+
+#include <ostream>
+#include <vector>
+
+#include "peers.h"
+#include "work_precision.h"
+
+namespace whirl_twin::comparison {
+
+struct MeasuredScene {
+  ComparedScene scene;
+  std::vector<Curve> curves;  ///< of its contenders
+};
+
+/// What surrounded the measurement.
+struct Circumstances {
+  Peers peers;
+  Effort effort;
+  double load_before = 0.0;  ///< processes that wanted a processor, mean over a minute
+  double load_after = 0.0;
+};
+
+void writeMarkdown(std::ostream& out, const std::vector<MeasuredScene>& scenes,
+                   const Circumstances& circumstances);
+void writeJson(std::ostream& out, const std::vector<MeasuredScene>& scenes,
+               const Circumstances& circumstances);
+
+}  // namespace whirl_twin::comparison

@@ -1,0 +1,135 @@
+// A state that is no number - an infinity or a NaN, from a start or in the middle of a run, in any
+// coordinate or rate, of any model and method - stops its system, which says so; the systems beside
+// it go on as if it had never been there, bit for bit.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "../scene/scenes.h"
+#include "general_position.h"
+#include "scene/observer.h"
+
+namespace whirl_twin {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<double> record(const Twin& twin) {
+  std::vector<double> r(twin.layout().size);
+  twin.write(r.data());
+  return r;
+}
+
+/// Bits of the first three systems, which do not know of a fourth.
+bool sameNeighbours(const Twin& a, const Twin& b) {
+  const std::vector<double> x = record(a);
+  const std::vector<double> y = record(b);
+  bool same = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t size = 2 * a.members()[i].spec.q.size() + 3;
+    same = same && std::memcmp(x.data() + a.layout().system[i], y.data() + b.layout().system[i],
+                               size * sizeof(double)) == 0;
+  }
+  return same;
+}
+
+class BrokenState : public testing::TestWithParam<MovingVariant> {};
+
+TEST_P(BrokenState, StopsItsSystemAndNoOther) {
+  Scene scene = sceneOf(kThreeSystems);
+  Twin without(scene);
+  scene.systems.push_back(inGeneralPosition(GetParam(), scene));
+  const std::size_t n = scene.systems[3].q.size();
+  for (int i = 0; i < 20; ++i) {
+    without.step();
+  }
+  for (const double value : {kNaN, -kNaN, kInfinity, -kInfinity}) {
+    for (std::size_t place = 0; place < 2 * n; ++place) {
+      Scene broken = scene;
+      (place < n ? broken.systems[3].q[place] : broken.systems[3].v[place - n]) = value;
+      Twin twin(broken);
+      twin.step();
+      EXPECT_EQ(twin.status(3), StepStatus::kNotFinite) << value << " at " << place;
+      for (int i = 1; i < 20; ++i) {
+        twin.step();
+      }
+      EXPECT_EQ(twin.status(3), StepStatus::kNotFinite)
+          << "it stays stopped, " << value << " at " << place;
+      for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(twin.status(i), StepStatus::kOk);
+      }
+      EXPECT_TRUE(sameNeighbours(twin, without)) << value << " at " << place;
+    }
+  }
+}
+
+TEST_P(BrokenState, DoesNotComeOfTheSameStartWithNumbers) {
+  Scene scene = sceneOf(kThreeSystems);
+  scene.systems.push_back(inGeneralPosition(GetParam(), scene));
+  Twin twin(scene);
+  for (int i = 0; i < 20; ++i) {
+    twin.step();
+  }
+  EXPECT_EQ(twin.status(3), StepStatus::kOk);
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, BrokenState, testing::ValuesIn(everyMovingVariant()),
+                         [](const auto& test) {
+                           return testName(test.param.variant) + "_" + test.param.integrator;
+                         });
+
+/// A system that is struck by a value after some steps.
+class Struck final : public System {
+ public:
+  Struck(std::unique_ptr<System> inner, int steps, double value)
+      : inner_(std::move(inner)), left_(steps), value_(value) {}
+  StepStatus step(double time) noexcept override {
+    if (left_-- == 0) {
+      const double q[2] = {1e-3, value_};
+      const double v[2] = {0.0, 0.0};
+      inner_->set(q, v);
+    }
+    return inner_->step(time);
+  }
+  std::size_t dof() const noexcept override { return inner_->dof(); }
+  void write(double* out) const noexcept override { inner_->write(out); }
+  void set(const double* q, const double* v) noexcept override { inner_->set(q, v); }
+
+ private:
+  std::unique_ptr<System> inner_;
+  int left_;
+  double value_;
+};
+
+TEST(StateBrokenInTheMiddleOfARun, StopsItsSystemAtThatStepAndTheObserverSaysSo) {
+  for (const double value : {kNaN, kInfinity}) {
+    Scene scene = sceneOf(kThreeSystems);
+    SystemSpec spec = scene.systems[0];
+    spec.name = "struck";
+    spec.parameters["bow"] = 1e-5;
+    scene.systems.push_back(spec);
+    Twin twin(scene);
+    Twin without(sceneOf(kThreeSystems));
+    Observer observer(twin);
+    // The generation is the scene's own: the parameters are.
+    twin.replace(3, std::make_unique<Struck>(twin.systemOf(twin.members()[3]), 100, value), 0);
+    for (int i = 0; i < 1000; ++i) {
+      twin.step();
+      without.step();
+      ASSERT_EQ(twin.status(3), i < 100 ? StepStatus::kOk : StepStatus::kNotFinite) << i;
+      observer.observe(record(twin).data());
+    }
+    EXPECT_TRUE(sameNeighbours(twin, without));
+    EXPECT_NE(observer.stopReason(3).find("state not finite"), std::string::npos)
+        << observer.stopReason(3);
+    EXPECT_EQ(observer.stopReason(0), "");
+  }
+}
+
+}  // namespace
+}  // namespace whirl_twin

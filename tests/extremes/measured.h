@@ -1,0 +1,60 @@
+// Runs at the extremes: how long they are, and what they found. They are shortened wherever every
+// test is run; with WHIRL_TWIN_EXTREMES=full in the environment (scripts/extremes sets it) they
+// have their whole length, up to a billion steps.
+#pragma once
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "scene/model_registry.h"
+
+namespace whirl_twin {
+
+constexpr std::int64_t kMicrosecond = 1000;  // [ns]
+constexpr std::int64_t kMillisecond = 1000 * kMicrosecond;
+constexpr std::int64_t kSecond = 1000 * kMillisecond;
+
+inline bool fullLength() {
+  const char* length = std::getenv("WHIRL_TWIN_EXTREMES");
+  return length != nullptr && std::string(length) == "full";
+}
+
+/// As many steps as this run is to have.
+inline std::int64_t runOf(std::int64_t shortened, std::int64_t full) {
+  return fullLength() ? full : shortened;
+}
+
+/// A value that must lie within its bound (NaN does not), and is worth telling.
+inline void expectWithin(double bound, double value, const std::string& what) {
+  fmt::print("[ MEASURED ] {}: {:.2e}, at most {:.2e}\n", what, value, bound);
+  EXPECT_LE(value, bound) << what;
+}
+
+/// The methods a model can step with, in its plain form.
+inline std::vector<std::string> integratorsOf(const std::string& model) {
+  return findModel(model)->variants.front().integrators;
+}
+
+/// Order of a method's error; one not named here has at least the last.
+inline int orderOf(const std::string& integrator) {
+  return integrator == "semi_implicit_euler"                                    ? 1
+         : integrator == "velocity_verlet" || integrator == "implicit_midpoint" ? 2
+         : integrator == "runge_kutta_4" || integrator == "gauss_legendre_4"    ? 4
+                                                                                : 6;
+}
+
+/// At most this part of a frequency p is a method's own frequency off, z = p h well below 1: z^2/24
+/// (semi-implicit Euler, Verlet), z^2/12 (implicit midpoint), z^4/120 (Runge-Kutta 4), z^4/720
+/// (Gauss-Legendre 4), z^6/100800 (Gauss-Legendre 6), less for those of a higher order.
+inline double detuning(const std::string& integrator, double z) {
+  const int order = orderOf(integrator);
+  return order <= 2 ? z * z / 12.0 : std::pow(z, order) / (order == 4 ? 120.0 : 1e5);
+}
+
+}  // namespace whirl_twin

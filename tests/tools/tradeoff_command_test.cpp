@@ -1,0 +1,124 @@
+// twin tradeoff: rows that a reader can trust, and files only when they are complete.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "twin_program.h"
+
+namespace whirl_twin {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* kTwo = R"(
+name: two
+step: 0.002
+drives: {shaft: {speed: 4.0}}
+systems:
+  rotor: {model: jeffcott_rotor, drive: shaft, tolerance: 1.0e-4, horizon: 1.0,
+    parameters: {mass: 1, stiffness: 100, damping: 0.4, eccentricity: 0.001}, initial: {x: 0.01}}
+  swing: {model: spinning_pendulum, drive: shaft, horizon: 1.0,
+    parameters: {mass: 1, length: 1}, initial: {theta: 0.7}}
+)";
+
+TEST(Tradeoff, ErrorsFallWithTheOrderAndTheRecommendedRowKeepsTheTolerance) {
+  const TemporaryDirectory directory;
+  const std::string scene = directory.write("two.yaml", kTwo);
+  const Ending end = twin({"tradeoff", scene, "--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  const Json report = Json::parse(end.out);
+  const std::map<std::string, int> orders{{"semi_implicit_euler", 1}, {"velocity_verlet", 2},
+                                          {"implicit_midpoint", 2},   {"runge_kutta_4", 4},
+                                          {"gauss_legendre_4", 4},    {"gauss_legendre_6", 6}};
+  std::map<std::string, std::vector<Json>> rows;
+  for (const Json& row : report["rows"]) {
+    for (const char* key :
+         {"integrator", "step", "substeps", "error", "ns_per_step", "cpu_per_simulated_second",
+          "real_time_factor", "energy_drift", "stable", "pareto"}) {
+      EXPECT_TRUE(row.contains(key)) << key;
+    }
+    // [ns] a step, in parts of the step.
+    const double cpu = 1e-9 * row["ns_per_step"].get<double>() / row["step"].get<double>();
+    EXPECT_NEAR(row["cpu_per_simulated_second"].get<double>(), cpu, 1e-9 * cpu);
+    rows[row["system"].get<std::string>() + "/" + row["integrator"].get<std::string>()].push_back(
+        row);
+  }
+  EXPECT_EQ(rows.count("rotor/exponential"), 1u);
+  EXPECT_EQ(rows.count("swing/exponential"), 0u);
+  EXPECT_EQ(rows.count("swing/dormand_prince_8"), 1u);
+  for (const auto& [method, order] : orders) {
+    for (const char* system : {"rotor/", "swing/"}) {
+      const std::vector<Json>& ladder = rows.at(system + method);
+      // From the scene's step to half of it: p h is 0.02 and 0.006.
+      for (std::size_t i = 0; i + 1 < ladder.size(); ++i) {
+        const double coarse = ladder[i]["error"];
+        const double fine = ladder[i + 1]["error"];
+        if (ladder[i]["step"] == 0.002 && ladder[i]["substeps"] == 1 && fine > 1e-12) {
+          EXPECT_NEAR(std::log2(coarse / fine), order, 0.3) << system << method;
+        }
+        EXPECT_GE(ladder[i]["worst_error"].get<double>(), fine) << "a level counts only with all";
+      }
+    }
+  }
+  for (const Json& best : report["recommended"]) {
+    EXPECT_LE(best["error"].get<double>(), best["tolerance"].get<double>());
+    EXPECT_EQ(best["step"].get<double>(), 0.002);
+    EXPECT_LT(best["reference"]["error"].get<double>(), 1e-9);
+    EXPECT_EQ(best["compared_until"].get<double>(), best["duration"].get<double>());
+  }
+  ASSERT_EQ(report["recommended"].size(), 2u);
+  EXPECT_EQ(report["recommended"][0]["auto"], "exponential, 1 a step");
+  EXPECT_NEAR(report["recommended"][0]["largest_stable_step"]["semi_implicit_euler"].get<double>(),
+              0.064, 1e-12)
+      << "the coarsest that is tried: far below 2 / p";
+}
+
+TEST(Tradeoff, WritesItsTableAndItsPicture) {
+  const TemporaryDirectory directory;
+  const std::string scene = directory.write("two.yaml", kTwo);
+  const Ending end = twin({"tradeoff", scene, "--system", "swing", "--output",
+                           directory.file("rows.csv"), "--plot", directory.file("rows.svg")});
+  ASSERT_EQ(end.status, 0) << end.err;
+  EXPECT_NE(end.out.find("<- recommended"), std::string::npos) << end.out;
+  const std::vector<std::string> lines = linesOf(contentsOf(directory.file("rows.csv")));
+  EXPECT_EQ(lines.front().substr(0, 32), "system,integrator,step,substeps,");
+  EXPECT_GT(lines.size(), 40u);
+  EXPECT_EQ(contentsOf(directory.file("rows.svg")).substr(0, 5), "<?xml");
+}
+
+TEST(Tradeoff, SaysHowFarAChaoticMotionIsCompared) {
+  const TemporaryDirectory directory;
+  const std::string scene = directory.write("chaos.yaml", R"(
+name: chaos
+step: 0.004
+systems:
+  rods: {model: double_pendulum, horizon: 20.0,
+    parameters: {mass1: 1, mass2: 1, length1: 1, length2: 1}, initial: {theta1: 2.0, theta2: 2.5}}
+)");
+  const Ending end = twin({"tradeoff", scene, "--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  const Json best = Json::parse(end.out)["recommended"][0];
+  EXPECT_LT(best["compared_until"].get<double>(), best["duration"].get<double>());
+  EXPECT_GT(best["compared_until"].get<double>(), 2.0);
+  EXPECT_GT(best["disturbance_growth"].get<double>(), 1e4);
+}
+
+TEST(Tradeoff, RefusesNamesOfFilesAndDurationsItCannotMean) {
+  for (const auto& [option, value] :
+       std::vector<std::pair<std::string, std::string>>{{"--output", "rows.txt"},
+                                                        {"--plot", "rows.pdf"},
+                                                        {"--duration", "-1"},
+                                                        {"--system", "none"}}) {
+    const Ending end = twin({"tradeoff", "demo", option, value});
+    EXPECT_EQ(end.status, 2) << option;
+    EXPECT_EQ(end.out, "");
+    EXPECT_NE(end.err.find(value), std::string::npos) << end.err;
+  }
+}
+
+}  // namespace
+}  // namespace whirl_twin
