@@ -5,12 +5,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "integration/step_methods.h"
+#include "realtime/denormals.h"
+#include "scene/drive_profile.h"
 #include "scene/model_registry.h"
+#include "scene/observer.h"
 #include "scene/reference_trajectory.h"
 #include "scene/surroundings.h"
+#include "scene/twin.h"
 
 namespace whirl_twin {
 
@@ -19,6 +24,9 @@ namespace {
 constexpr std::size_t kMostCalibrations = 32;
 constexpr double kSafety = 4.0;  // the error aimed at is so much below the tolerance
 constexpr int kMostSubsteps = 64;
+constexpr double kHorizons = 3.0;  // looked ahead, without a profile
+constexpr int kRounds = 2;
+constexpr std::int64_t kLook = 64;
 constexpr int kMostReferenceSubsteps = 8;
 constexpr std::int64_t kSamples = 128;
 /// Evaluations that a step of the twin takes in a calibration: the reference's two runs and a
@@ -39,11 +47,15 @@ struct Calibration {
   double growth = 1.0;        // of the error from the calibration's end to the horizon's
 };
 
+/// Accelerations cost as the square of the coordinates, two of them what the budget counts in.
+double sizeOf(const SystemSpec& spec) {
+  const double pairs = std::max(1.0, 0.5 * static_cast<double>(spec.q.size()));
+  return pairs * pairs;
+}
+
 Calibration calibration(const Scene& one, double budget) {
   const double steps = one.systems.front().horizon / one.stepSeconds();
-  // Accelerations cost as the square of the coordinates, two of them what the budget counts in.
-  const double size = std::max(1.0, 0.5 * static_cast<double>(one.systems.front().q.size()));
-  const double affordable = budget / (kEvaluationsPerStep * size * size);
+  const double affordable = budget / (kEvaluationsPerStep * sizeOf(one.systems.front()));
   Calibration c{one};
   c.whole = steps <= affordable;
   const auto whole =
@@ -127,8 +139,9 @@ std::string reasonFor(const StepChoice& choice, const SystemSpec& spec, const Ca
     return fmt::format("the best here: error {:.1g} over {:g} s{}, above the tolerance {:g}",
                        choice.error, spec.horizon, where, spec.tolerance);
   }
-  return fmt::format("error {:.1g} over {:g} s where {:g} is allowed{}", choice.error, spec.horizon,
-                     spec.tolerance, where);
+  return fmt::format("error {:.1g} over {:g} s where {:g} is allowed{}{}", choice.error,
+                     spec.horizon, spec.tolerance, where,
+                     choice.raised ? "; its later motion needs shorter steps" : "");
 }
 
 /// The coarsest step of the reference's own method that is good enough, or its finest.
@@ -156,11 +169,56 @@ StepChoice ofReference(const Judge& j) {
   return best;
 }
 
+/// Largest error over a horizon that the twin would see in itself (observer.h) in so many steps.
+double largestEstimate(const Scene& one, const StepChoice& choice, std::int64_t steps) {
+  const DenormalsToZero denormals_to_zero;
+  Twin twin(withSetting(one, {choice.integrator, one.step, choice.substeps}));
+  Observer observer(twin);
+  std::vector<double> record(twin.layout().size);
+  double largest = 0.0;
+  for (std::int64_t i = 1; i <= steps; ++i) {
+    twin.step();
+    if (i % kLook == 0 || i == steps) {
+      twin.write(record.data());
+      observer.observe(record.data());
+      largest = std::max(largest, observer.errorEstimate(0));
+    }
+  }
+  return twin.status(0) == StepStatus::kOk ? largest : std::numeric_limits<double>::infinity();
+}
+
+/// With as many substeps as the motion after the horizon needs: through the drive's profile, or a
+/// few horizons, as far as the budget goes.
+StepChoice lasting(const Scene& one, StepChoice choice, double budget) {
+  const SystemSpec& spec = one.systems.front();
+  const double later = one.drives.empty() ? 0.0 : profileDuration(one.drives.front());
+  const double steps = std::max(later, kHorizons * spec.horizon) / one.stepSeconds();
+  const StepMethod& method = stepMethod(choice.integrator);
+  for (int round = 0; round < kRounds; ++round) {
+    const double affordable = budget / (cost(choice) * sizeOf(spec));
+    const double estimate = largestEstimate(
+        one, choice, static_cast<std::int64_t>(std::max(1.0, std::min(steps, affordable))));
+    if (!(estimate > spec.tolerance)) {
+      break;
+    }
+    const double missing = std::log2(std::min(estimate / spec.tolerance, 1.0e6)) / method.order;
+    const int more = choice.substeps << std::max(1, static_cast<int>(std::ceil(missing)));
+    if (more > kMostSubsteps) {
+      break;
+    }
+    choice.substeps = more;
+    choice.raised = true;
+  }
+  return choice;
+}
+
 /// The cheapest of the methods that a nonlinear system has.
-StepChoice calibrated(const Scene& one, const ModelSetup& setup, const Calibration& c) {
+StepChoice calibrated(const Scene& one, const ModelSetup& setup, const Calibration& c,
+                      double budget) {
   const SystemSpec& spec = one.systems.front();
   const Judge j = judge(c, kReference, spec.tolerance / kSafety);
   StepChoice best = ofReference(j);
+  const StepChoice reference = best;
   const double implicit_cost = cost(best);
   const bool rate_forces = hasRateForces(setup, spec);
   for (const StepMethod& method : stepMethods()) {
@@ -187,6 +245,11 @@ StepChoice calibrated(const Scene& one, const ModelSetup& setup, const Calibrati
       choice.substeps <<= std::clamp(static_cast<int>(std::ceil(missing)), 1, 16);
     }
   }
+  best = lasting(one, best, 0.5 * budget);
+  if (best.raised && best.integrator != kReference) {
+    const StepChoice other = lasting(one, reference, 0.5 * budget);
+    best = cost(other) < cost(best) ? other : best;
+  }
   return best;
 }
 
@@ -201,12 +264,16 @@ StepChoice chooseStep(const Scene& one, double budget) {
   const bool table = exponential && spec.drive && setup.dynamics->speedDependent();
   if (budget <= 0.0 || (exponential && !(table && spec.tolerance < kTableError)) ||
       (!exponential && setup.integrators.size() == 1)) {
-    return {structural.integrator, spec.substeps, 0.0,
-            spec.horizon,          spec.horizon,  structural.reason};
+    StepChoice plain;
+    plain.integrator = structural.integrator;
+    plain.substeps = spec.substeps;
+    plain.until = plain.calibrated = spec.horizon;
+    plain.reason = structural.reason;
+    return plain;
   }
   const Calibration c = calibration(one, budget);
   StepChoice choice = exponential ? ofReference(judge(c, kExact, spec.tolerance / kSafety))
-                                  : calibrated(one, setup, c);
+                                  : calibrated(one, setup, c, budget);
   choice.reason = reasonFor(choice, spec, c);
   return choice;
 }

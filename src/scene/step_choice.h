@@ -4,8 +4,9 @@
 // A linear system takes the exact step where it has one, in a run-up in as many parts as a
 // tolerance below 1e-7 asks for. For any other a short calibration, from the scene's start over the
 // horizon or as much of it as the budget allows, finds the error of each method against a far finer
-// run. It counts evaluations and never looks at a clock: the same scene gets the same choice on any
-// day.
+// run; then the running estimate is followed through the drive's profile, and the substeps are
+// raised where it says so. It counts evaluations and never looks at a clock: the same scene gets
+// the same choice on any day.
 #pragma once
 
 #include <string>
@@ -20,7 +21,8 @@ struct StepChoice {
   double error = 0.0;  ///< [-], expected of the positions over the horizon; 0: no truncation error
   double until = 0.0;  ///< [s], how long the tolerance is kept: the horizon, if it can be
   double calibrated = 0.0;  ///< [s], how much of that was looked at; the rest is extrapolated
-  std::string reason;
+  bool raised = false;      ///< for the motion after the horizon, which needs shorter steps
+  std::string reason = "";
 };
 
 /// Evaluations of accelerations that a scene's calibrations may take.

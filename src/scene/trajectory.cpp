@@ -1,7 +1,9 @@
 #include "scene/trajectory.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "analysis/cyclic_coordinates.h"
 #include "realtime/denormals.h"
 #include "scene/observer.h"
 #include "scene/twin.h"
@@ -32,6 +34,49 @@ Scene withSetting(const Scene& one, const StepSetting& setting) {
   return scene;
 }
 
+namespace {
+
+/// Follows the momenta that the equations conserve.
+class MomentumWatch {
+ public:
+  MomentumWatch(const Dynamics& dynamics, double speed) : dynamics_(dynamics) {
+    if (!dynamics.linear()) {
+      conserved_ = cyclicCoordinates(dynamics, speed).conserved;
+    }
+  }
+
+  void take(const double* q, const double* v, const Moment<double>& at) {
+    if (conserved_.empty()) {
+      return;
+    }
+    const Eigen::Map<const Eigen::VectorXd> position(q, dynamics_.dof());
+    const Eigen::Map<const Eigen::VectorXd> rate(v, dynamics_.dof());
+    const Eigen::VectorXd momenta = dynamics_.momenta(position, rate, at);
+    if (start_.size() == 0) {
+      start_ = momenta;
+    }
+    const Eigen::MatrixXd mass = dynamics_.massMatrix(position, rate, at);
+    for (const Eigen::Index i : conserved_) {
+      size_ = std::max(size_, mass.row(i).cwiseAbs().dot(rate.cwiseAbs()));
+      change_ = std::max(change_, std::fabs(momenta[i] - start_[i]));
+    }
+  }
+  double drift() const {
+    return conserved_.empty() ? std::numeric_limits<double>::quiet_NaN()
+           : change_ == 0.0   ? 0.0
+                              : change_ / size_;
+  }
+
+ private:
+  const Dynamics& dynamics_;
+  CyclicCoordinates::Places conserved_;
+  Eigen::VectorXd start_;
+  double size_ = 0.0;
+  double change_ = 0.0;
+};
+
+}  // namespace
+
 Trajectory trajectory(const Scene& one, std::int64_t duration, std::int64_t interval,
                       const std::vector<double>& dq) {
   const DenormalsToZero denormals_to_zero;
@@ -49,6 +94,7 @@ Trajectory trajectory(const Scene& one, std::int64_t duration, std::int64_t inte
   for (const CoordinateInfo& c : dynamics.coordinates()) {
     result.angular.push_back(c.isAngle());
   }
+  MomentumWatch momentum(dynamics, twin.drive(twin.members().front().drive).at(0.0).speed);
   const auto sample = [&] {
     twin.write(record.data());
     observer.observe(record.data());
@@ -58,6 +104,7 @@ Trajectory trajectory(const Scene& one, std::int64_t duration, std::int64_t inte
       result.whirl_radius.push_back(observer.whirlRadius(0));
       result.whirl_phase.push_back(observer.whirlPhase(0));
     }
+    momentum.take(observer.coordinates(0), observer.rates(0), observer.moment(0));
     const Energies energies = observer.energies(0);
     result.energy.push_back(energies.kinetic + energies.potential);
     result.energy_drift = std::max(result.energy_drift, std::abs(observer.energyResidual(0)));
@@ -74,6 +121,7 @@ Trajectory trajectory(const Scene& one, std::int64_t duration, std::int64_t inte
     }
     sample();
   }
+  result.momentum_drift = momentum.drift();
   return result;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,9 @@ struct Trajectory {
   std::vector<double> whirl_phase;   ///< [rad], of a rotor; NaN where there is none
   std::vector<double> energy;        ///< [J], T + V
   double energy_drift = 0.0;         ///< largest energy residual, as the twin publishes it
+  /// Largest change of a conserved momentum, in parts of the largest momenta that make it up; NaN
+  /// where a model from energies has no cyclic coordinate, and for linear ones.
+  double momentum_drift = std::numeric_limits<double>::quiet_NaN();
   StepStatus status = StepStatus::kOk;  ///< why the samples end before the duration
 
   std::size_t samples() const { return dof == 0 ? 0 : coordinates.size() / dof; }

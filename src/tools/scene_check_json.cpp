@@ -1,4 +1,4 @@
-#include "tools/drive_profile.h"
+#include "scene/drive_profile.h"
 #include "tools/scene_check.h"
 
 namespace whirl_twin {

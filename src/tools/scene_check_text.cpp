@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "tools/drive_profile.h"
+#include "scene/drive_profile.h"
 #include "tools/scene_check.h"
 
 namespace whirl_twin {

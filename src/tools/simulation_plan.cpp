@@ -9,7 +9,7 @@
 #include "scene/surroundings.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
-#include "tools/drive_profile.h"
+#include "scene/drive_profile.h"
 #include "tools/shipped_scenes.h"
 #include "tools/simulation.h"
 

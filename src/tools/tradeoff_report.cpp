@@ -100,6 +100,7 @@ void measureErrors(const Scene& one, const StepMethod& method, const Judge& judg
       row.error = trajectoryError(t, judge.reference.trajectory, judge.samples);
       row.energy_drift =
           t.status == StepStatus::kOk ? t.energy_drift : std::numeric_limits<double>::infinity();
+      row.momentum_drift = t.momentum_drift;
       row.stable = t.status == StepStatus::kOk && row.error.position < 10.0;
       report.rows.push_back(row);
       // Finer ones would show the reference's error, or rounding; or nobody waits for them.

@@ -19,11 +19,12 @@ struct TradeoffRow {
   TrajectoryError error;  ///< against the reference
   /// Largest position error of this and every finer step of the method: what it can be trusted for.
   double worst = 0.0;
-  double energy_drift = 0.0;  ///< [-], largest energy residual over the whole duration
-  bool stable = false;        ///< ran to the end and stayed within ten times the motion's size
-  bool pareto = false;        ///< nothing stable is both cheaper and more accurate
-  double step_cost = 0.0;     ///< [ns], of a step of the twin: median of the rounds
-  double cost_spread = 0.0;   ///< [ns], from the fastest round to the slowest
+  double energy_drift = 0.0;    ///< [-], largest energy residual over the whole duration
+  double momentum_drift = 0.0;  ///< [-], of conserved momenta; NaN: there is none
+  bool stable = false;          ///< ran to the end and stayed within ten times the motion's size
+  bool pareto = false;          ///< nothing stable is both cheaper and more accurate
+  double step_cost = 0.0;       ///< [ns], of a step of the twin: median of the rounds
+  double cost_spread = 0.0;     ///< [ns], from the fastest round to the slowest
 
   /// [s]
   double methodStep() const {

@@ -74,6 +74,7 @@ Json rowJson(const TradeoffReport& report, const TradeoffRow& row) {
   j["cpu_per_simulated_second"] = row.cpuPerSecond();
   j["real_time_factor"] = 1.0 / row.cpuPerSecond();
   j["energy_drift"] = row.energy_drift;
+  j["momentum_drift"] = row.momentum_drift;
   j["stable"] = row.stable;
   j["pareto"] = row.pareto;
   return j;
@@ -118,17 +119,18 @@ Json summaryJson(const TradeoffReport& r) {
 std::string csv(const std::vector<TradeoffReport>& reports) {
   std::string out =
       "system,integrator,step,substeps,error,radius_error,phase_error,energy_error,worst_error,"
-      "energy_drift,stable,ns_per_step,ns_per_step_spread,cpu_per_simulated_second,"
+      "energy_drift,momentum_drift,stable,ns_per_step,ns_per_step_spread,cpu_per_simulated_second,"
       "real_time_factor,pareto\n";
   for (const TradeoffReport& report : reports) {
     for (const TradeoffRow& row : report.rows) {
       out += fmt::format(
-          "{},{},{:.9g},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{:.6g},"
+          "{},{},{:.9g},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{:.6g},"
           "{:.6g},{:.6g},{:.6g},{}\n",
           report.system, row.setting.integrator, 1.0e-9 * static_cast<double>(row.setting.step),
           row.setting.substeps, row.error.position, row.error.radius, row.error.phase,
-          row.error.energy, row.worst, row.energy_drift, row.stable ? 1 : 0, row.step_cost,
-          row.cost_spread, row.cpuPerSecond(), 1.0 / row.cpuPerSecond(), row.pareto ? 1 : 0);
+          row.error.energy, row.worst, row.energy_drift, row.momentum_drift, row.stable ? 1 : 0,
+          row.step_cost, row.cost_spread, row.cpuPerSecond(), 1.0 / row.cpuPerSecond(),
+          row.pareto ? 1 : 0);
     }
   }
   return out;

@@ -107,6 +107,12 @@ TEST_F(LiveTopics, loopStatisticsSayWhatWasObtained) {
   EXPECT_EQ(std::set<std::string>(loop.system.begin(), loop.system.end()),
             (std::set<std::string>{"pendulum", "rotor"}));
   EXPECT_EQ(loop.stopped, (std::vector<std::uint8_t>{0, 0}));
+  EXPECT_EQ(loop.tolerance, (std::vector<double>{1.0e-6, 1.0e-6}));
+  ASSERT_EQ(loop.error_estimate.size(), 2u);
+  for (const double error : loop.error_estimate) {
+    EXPECT_GT(error, 0.0);
+    EXPECT_LT(error, 1.0e-6);  // auto's promise, and no alert
+  }
 }
 
 }  // namespace

@@ -90,6 +90,29 @@ TEST(Tradeoff, WritesItsTableAndItsPicture) {
   EXPECT_EQ(contentsOf(directory.file("rows.svg")).substr(0, 5), "<?xml");
 }
 
+TEST(Tradeoff, FollowsAConservedMomentumAsTheMethodsOrderLetsIt) {
+  const TemporaryDirectory directory;
+  const std::string scene = directory.write("hub.yaml", R"(
+name: hub
+step: 0.01
+systems:
+  hub: {model: rotating_pendulum, horizon: 2.0,
+    parameters: {mass: 1, length: 1, hub_inertia: 0.2}, initial: {theta: 0.8, phi_rate: 3.0}}
+)");
+  const Ending end = twin({"tradeoff", scene, "--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  std::map<std::string, std::vector<double>> drifts;  // from 0.01 s to a quarter
+  const Json report = Json::parse(end.out);
+  for (const Json& row : report["rows"]) {
+    if (row["step"] == 0.01 && row["substeps"].get<int>() <= 4) {
+      drifts[row["integrator"]].push_back(row["momentum_drift"].get<double>());
+    }
+  }
+  EXPECT_NEAR(std::log2(drifts.at("velocity_verlet")[0] / drifts.at("velocity_verlet")[1]), 2, 0.3);
+  EXPECT_NEAR(std::log2(drifts.at("runge_kutta_4")[0] / drifts.at("runge_kutta_4")[1]), 4, 1.1);
+  EXPECT_LT(drifts.at("gauss_legendre_6")[0], 1e-9);
+}
+
 TEST(Tradeoff, SaysHowFarAChaoticMotionIsCompared) {
   const TemporaryDirectory directory;
   const std::string scene = directory.write("chaos.yaml", R"(

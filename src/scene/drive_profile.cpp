@@ -1,4 +1,4 @@
-#include "tools/drive_profile.h"
+#include "scene/drive_profile.h"
 
 #include "control/speed_profile.h"
 
