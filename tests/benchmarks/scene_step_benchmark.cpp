@@ -7,6 +7,7 @@
 
 #include "realtime/denormals.h"
 #include "scene/scene_reader.h"
+#include "scene/step_choice.h"
 #include "scene/twin.h"
 
 namespace whirl_twin {
@@ -15,7 +16,7 @@ namespace {
 void steps(benchmark::State& state, Scene scene, const std::string& integrator) {
   scene.systems.front().integrator = integrator;
   const DenormalsToZero denormals_to_zero;
-  Twin twin(scene);
+  Twin twin(withStepsChosen(scene));
   for (auto _ : state) {
     twin.step();
     // Starts over before a motion has died out or gone round too often.
