@@ -103,11 +103,12 @@ class Exponential {
     return a;
   }
 
-  /// Zero where two that are opposite differ by their rounding: sin(pi) is not 0.
-  static double mean(double ahead, double behind) {
+  /// Half the sum of what is found at opposite angles; zero where it is the rounding of what turns:
+  /// sin(pi) is not 0.
+  static double mean(double ahead, double aside, double behind) {
     const double sum = ahead + behind;
-    const double rounding = 1.0e-15 * (std::fabs(ahead) + std::fabs(behind));
-    return std::fabs(sum) <= rounding ? 0.0 : 0.5 * sum;
+    const double size = std::fabs(ahead) + std::fabs(aside) + std::fabs(behind);
+    return std::fabs(sum) <= 1.0e-15 * size ? 0.0 : 0.5 * sum;
   }
 
   template <class Equation>
@@ -121,7 +122,8 @@ class Exponential {
     const auto aside = at_angle(0.5 * kPi, {}, {});
     const auto behind = at_angle(kPi, {}, {});
     for (int i = 0; i < n; ++i) {
-      const double steady = mean(ahead.acceleration[i], behind.acceleration[i]);
+      const double steady =
+          mean(ahead.acceleration[i], aside.acceleration[i], behind.acceleration[i]);
       a(n + i, kStates) = 0.5 * (ahead.acceleration[i] - behind.acceleration[i]) / rate_scale_;
       a(n + i, kStates + 1) = (aside.acceleration[i] - steady) / rate_scale_;
       a(n + i, kStates + 2) = steady / rate_scale_;
@@ -160,9 +162,10 @@ class Exponential {
       }
       const double ahead = linear(0.0, i);
       const double behind = linear(kPi, i);
-      const double steady = mean(ahead, behind);
+      const double aside = linear(0.5 * kPi, i);
+      const double steady = mean(ahead, aside, behind);
       s(i, kStates) = s(kStates, i) = 0.25 * (ahead - behind);
-      s(i, kStates + 1) = s(kStates + 1, i) = 0.5 * (linear(0.5 * kPi, i) - steady);
+      s(i, kStates + 1) = s(kStates + 1, i) = 0.5 * (aside - steady);
       s(i, kStates + 2) = s(kStates + 2, i) = 0.5 * steady;
     }
     // Where all rests: a bow turning between springs that differ, twice a turn.
