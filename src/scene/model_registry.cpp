@@ -160,4 +160,10 @@ std::string integratorObjection(const ModelSetup& setup, bool on_drive,
   return "";
 }
 
+bool canStepWith(const ModelSetup& setup, bool on_drive, const std::string& integrator) {
+  const std::vector<std::string>& all = setup.integrators;
+  return std::find(all.begin(), all.end(), integrator) != all.end() &&
+         integratorObjection(setup, on_drive, integrator).empty();
+}
+
 }  // namespace whirl_twin

@@ -40,4 +40,7 @@ IntegratorChoice chooseIntegrator(const ModelSetup& setup, bool speed_changes);
 std::string integratorObjection(const ModelSetup& setup, bool on_drive,
                                 const std::string& integrator);
 
+/// The setup has that integrator, and there is no objection to it.
+bool canStepWith(const ModelSetup& setup, bool on_drive, const std::string& integrator);
+
 }  // namespace whirl_twin

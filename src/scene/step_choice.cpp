@@ -222,9 +222,8 @@ StepChoice calibrated(const Scene& one, const ModelSetup& setup, const Calibrati
   const double implicit_cost = cost(best);
   const bool rate_forces = hasRateForces(setup, spec);
   for (const StepMethod& method : stepMethods()) {
-    const auto& suited = setup.integrators;
     if (method.order == 0 || method.name == kReference || (method.predicts_rates && rate_forces) ||
-        std::find(suited.begin(), suited.end(), method.name) == suited.end()) {
+        !canStepWith(setup, spec.drive.has_value(), method.name)) {
       continue;
     }
     StepChoice choice = best;

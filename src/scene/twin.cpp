@@ -21,12 +21,6 @@ std::size_t driveIndex(const Scene& scene, const std::string& name) {
   return static_cast<std::size_t>(found - scene.drives.begin());
 }
 
-bool suits(const ModelSetup& setup, bool on_drive, const std::string& integrator) {
-  const std::vector<std::string>& all = setup.integrators;
-  return std::find(all.begin(), all.end(), integrator) != all.end() &&
-         integratorObjection(setup, on_drive, integrator).empty();
-}
-
 /// "x [m], theta [rad]"
 std::string coordinateNames(const Dynamics& dynamics) {
   std::string names;
@@ -90,7 +84,7 @@ Twin::Member Twin::memberOf(const SystemSpec& spec) const {
   if (spec.integrator == "auto") {
     const bool on_drive = spec.drive.has_value();
     // A choice made for other parameters may not suit these.
-    if (suits(member.setup, on_drive, spec.chosen_integrator)) {
+    if (canStepWith(member.setup, on_drive, spec.chosen_integrator)) {
       member.integrator = spec.chosen_integrator;
       member.integrator_reason = spec.choice_reason;
     } else {

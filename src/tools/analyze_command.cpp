@@ -59,11 +59,7 @@ int analyzeScene(const Request& request) {
 void addAnalyzeCommand(CLI::App& twin, int& status) {
   CLI::App* command = twin.add_subcommand("analyze", kDescription);
   const auto request = std::make_shared<Request>();
-  command
-      ->add_option("SCENE", request->scene,
-                   "scene file (YAML), or the name of a scene of the package")
-      ->required()
-      ->type_name("");
+  addSceneOption(command, request->scene);
   command->add_option("--system", request->system, "show this system only")->type_name("NAME");
   command->add_flag("--json", request->json, "print one JSON object");
   command->footer(kFooter);

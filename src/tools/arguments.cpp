@@ -16,6 +16,12 @@ std::string hint(const std::string& name, const std::vector<std::string>& candid
                       : fmt::format("; did you mean '{}'?", near);
 }
 
+void addSceneOption(CLI::App* command, std::string& scene) {
+  command->add_option("SCENE", scene, "scene file (YAML), or the name of a scene of the package")
+      ->required()
+      ->type_name("");
+}
+
 std::vector<std::size_t> selectedSystems(const Scene& scene,
                                          const std::optional<std::string>& name) {
   std::vector<std::size_t> selected;

@@ -1,6 +1,7 @@
 // What the command line's words mean: scenes, names, and numbers with a unit.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -13,6 +14,9 @@ namespace whirl_twin {
 
 /// "; did you mean 'NEAREST'?", or, without a near one, "; there are: ALL".
 std::string hint(const std::string& name, const std::vector<std::string>& candidates);
+
+/// The scene that a command is about.
+void addSceneOption(CLI::App* command, std::string& scene);
 
 /// The system of that name, or all of them without a name: indices into scene.systems.
 /// Throws BadInput with a hint.

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "scene/scene_reader.h"
+#include "tools/arguments.h"
 #include "tools/campbell_report.h"
 #include "tools/commands.h"
 #include "tools/picture_file.h"
@@ -77,11 +78,7 @@ int campbellOf(const Request& request) {
 void addCampbellCommand(CLI::App& twin, int& status) {
   CLI::App* command = twin.add_subcommand("campbell", kDescription);
   const auto request = std::make_shared<Request>();
-  command
-      ->add_option("SCENE", request->scene,
-                   "scene file (YAML), or the name of a scene of the package")
-      ->required()
-      ->type_name("");
+  addSceneOption(command, request->scene);
   command->add_option("--system", request->system, "this rotor only")->type_name("NAME");
   command->add_option("--from", request->range.from, "rad/s; default: 0")->type_name("W");
   command

@@ -45,11 +45,7 @@ int check(const Request& request) {
 void addCheckCommand(CLI::App& twin, int& status) {
   CLI::App* command = twin.add_subcommand("check", kDescription);
   const auto request = std::make_shared<Request>();
-  command
-      ->add_option("SCENE", request->scene,
-                   "scene file (YAML), or the name of a scene of the package")
-      ->required()
-      ->type_name("");
+  addSceneOption(command, request->scene);
   command->add_option("--system", request->system, "show this system only")->type_name("NAME");
   command->add_flag("--json", request->json, "print one JSON object");
   command->footer(kFooter);

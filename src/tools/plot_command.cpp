@@ -6,6 +6,7 @@
 #include <fstream>
 #include <memory>
 
+#include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/output.h"
 #include "tools/plot_history.h"
@@ -100,11 +101,7 @@ int plot(const PlotRequest& request) {
 void addPlotCommand(CLI::App& twin, int& status) {
   CLI::App* command = twin.add_subcommand("plot", kDescription);
   const auto request = std::make_shared<PlotRequest>();
-  command
-      ->add_option("SCENE", request->run.scene,
-                   "scene file (YAML), or the name of a scene of the package")
-      ->required()
-      ->type_name("");
+  addSceneOption(command, request->run.scene);
   command->add_option("--system", request->run.system, "plot this system only")->type_name("NAME");
   command
       ->add_option("--duration", request->run.duration,

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "scene/scene_reader.h"
+#include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/picture_file.h"
 #include "tools/response_report.h"
@@ -61,11 +62,7 @@ int show(const Request& request, const Report& report) {
 }
 
 void addCommonOptions(CLI::App* command, const std::shared_ptr<Request>& request) {
-  command
-      ->add_option("SCENE", request->scene,
-                   "scene file (YAML), or the name of a scene of the package")
-      ->required()
-      ->type_name("");
+  addSceneOption(command, request->scene);
   command->add_option("--system", request->system, "this rotor only")->type_name("NAME");
   command->add_option("--plot", request->plot, "a picture, FILE.svg or FILE.png")
       ->type_name("FILE");

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/simulation.h"
 
@@ -69,11 +70,7 @@ int simulate(const SimulationRequest& request) {
 void addSimulateCommand(CLI::App& twin, int& status) {
   CLI::App* command = twin.add_subcommand("simulate", kDescription);
   const auto request = std::make_shared<SimulationRequest>();
-  command
-      ->add_option("SCENE", request->scene,
-                   "scene file (YAML), or the name of a scene of the package")
-      ->required()
-      ->type_name("");
+  addSceneOption(command, request->scene);
   command
       ->add_option("--duration", request->duration,
                    "s, simulated, whole steps; default: the longest drive profile, else 10 s")

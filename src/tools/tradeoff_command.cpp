@@ -110,11 +110,7 @@ int tradeoffOf(const Request& request) {
 void addTradeoffCommand(CLI::App& twin, int& status) {
   CLI::App* command = twin.add_subcommand("tradeoff", kDescription);
   const auto request = std::make_shared<Request>();
-  command
-      ->add_option("SCENE", request->scene,
-                   "scene file (YAML), or the name of a scene of the package")
-      ->required()
-      ->type_name("");
+  addSceneOption(command, request->scene);
   command->add_option("--system", request->system, "this system only")->type_name("NAME");
   command
       ->add_option("--duration", request->duration,

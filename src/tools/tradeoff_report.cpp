@@ -33,9 +33,7 @@ std::vector<StepMethod> methodsOf(const Scene& one) {
       findModel(spec.model)->setUp(spec.parameters, spec.settings, surroundingsOf(one, spec));
   std::vector<StepMethod> suited;
   for (const StepMethod& method : stepMethods()) {
-    const auto& all = setup.integrators;
-    if (std::find(all.begin(), all.end(), method.name) != all.end() &&
-        integratorObjection(setup, spec.drive.has_value(), method.name).empty()) {
+    if (canStepWith(setup, spec.drive.has_value(), method.name)) {
       suited.push_back(method);
     }
   }
