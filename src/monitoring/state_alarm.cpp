@@ -19,11 +19,13 @@ StateAlarm::StateAlarm(std::string system, const AlarmSettings& settings)
 void StateAlarm::updateEnergy(double time, double residual, AlertList& alerts) {
   const double limit = settings_.energy_residual;
   AlarmCondition condition = AlarmCondition::kHold;
-  if (std::abs(residual) > limit) {
+  const bool above = std::abs(residual) > limit;
+  if (above && energy_above_) {
     condition = AlarmCondition::kWarning;
   } else if (std::abs(residual) <= limit * (1.0 - settings_.hysteresis)) {
     condition = AlarmCondition::kClear;
   }
+  energy_above_ = above;
   if (energy_alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
     alerts.clear(system_, alert_type::kEnergyResidual, time,
                  fmt::format("{}: energy balance holds again, residual {:.2g}", system_, residual));

@@ -1,8 +1,9 @@
 // Whether the states of one system can be trusted at all.
 //
 // ENERGY_RESIDUAL: a warning when the energy balance, change of energy against work and
-// dissipation, is off by more than the setting: the step is too long for the motion, or the model
-// is wrong.
+// dissipation, is off by more than the setting in two messages running: the step is too long for
+// the motion, or the model is wrong. Two, for the residual is relative to the largest energy so
+// far, and after one step from rest there is next to none to compare with.
 // ACCURACY_LOST: a warning when the error that the twin estimates of its own steps is above what
 // the scene allows. NOT_FINITE: danger when the system was stopped because a state was no longer a
 // finite number.
@@ -35,6 +36,7 @@ class StateAlarm {
  private:
   std::string system_;
   AlarmSettings settings_;
+  bool energy_above_ = false;
   ConditionAlarm energy_alarm_;
   ConditionAlarm accuracy_alarm_;
   ConditionAlarm not_finite_alarm_;

@@ -16,6 +16,11 @@ TEST(StateAlarm, AnEnergyBalanceThatIsOffInEitherDirectionWarns) {
     StateAlarm alarm("pendulum", AlarmSettings());
     alarm.updateEnergy(0.0, 0.99e-6, list);
     EXPECT_TRUE(list.active().empty());
+    alarm.updateEnergy(0.5, residual, list);
+    EXPECT_TRUE(list.active().empty()) << "one message alone, as after one step from rest";
+    alarm.updateEnergy(0.6, 0.99e-6, list);
+    alarm.updateEnergy(0.7, residual, list);
+    EXPECT_TRUE(list.active().empty()) << "not two running";
     alarm.updateEnergy(1.0, residual, list);
     ASSERT_NE(list.find("pendulum", alert_type::kEnergyResidual), nullptr);
     EXPECT_EQ(list.active()[0].severity, state::Severity::kWarning);

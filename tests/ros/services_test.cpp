@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <optional>
+#include <string>
 
 #include "waiting.h"
 
@@ -25,7 +26,10 @@ class Services : public testing::Test {
         [this](const DriveState::ConstPtr& m) { shaft_ = *m; };
     whirl_subscriber_ = node_.subscribe<WhirlState>("/twin/rotor/whirl", 10000, on_whirl);
     drive_subscriber_ = node_.subscribe<DriveState>("/twin/drives/shaft", 10000, on_drive);
-    ASSERT_TRUE(ros::service::waitForService("/simulation_node/pause", 40000));
+    for (const char* service : {"pause", "resume", "reset", "step", "set_speed"}) {
+      ASSERT_TRUE(
+          ros::service::waitForService(std::string("/simulation_node/") + service, 40000));
+    }
     ASSERT_TRUE(trigger("resume").success);
     ASSERT_TRUE(waitUntil([this] { return whirl_ && shaft_; }));
   }
