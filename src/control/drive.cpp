@@ -11,6 +11,7 @@ namespace whirl_twin {
 namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
+constexpr std::int64_t kLatest = std::numeric_limits<std::int64_t>::max();
 
 }  // namespace
 
@@ -106,6 +107,35 @@ std::vector<double> Drive::constantSpeeds() const {
 }
 
 void Drive::begin(std::int64_t time_nanoseconds) noexcept {
+  if (time_nanoseconds < first_tick_ || time_nanoseconds >= until_) {
+    enter(time_nanoseconds);
+  }
+  time_ = time_nanoseconds;
+  if (until_ != kLatest) {
+    // Unsigned: times further apart than 292 years are no overflow.
+    const std::uint64_t ticks =
+        static_cast<std::uint64_t>(until_) - static_cast<std::uint64_t>(time_nanoseconds);
+    remaining_ = static_cast<double>(ticks) / 1e9 - next_lead_;
+  }
+  if (steady_) {
+    angle_ = turn_.at(time_nanoseconds - first_tick_);
+  } else {
+    beginChanging();
+  }
+}
+
+// The motion at time_ in a piece whose speed changes.
+void Drive::beginChanging() noexcept {
+  const Segment& segment = segments()[cursor_];
+  const SpeedSegment& motion = segment.motion;
+  const SplitTime tau = later(splitTime(time_ - segment.first_tick), segment.lead);
+  angle_ = advance(segment.angle, motion.speed, motion.acceleration, motion.jerk, tau);
+  speed_ = motion.speed + tau.high * (motion.acceleration + 0.5 * tau.high * motion.jerk);
+  acceleration_ = motion.acceleration + tau.high * motion.jerk;
+}
+
+// Steps onto the segment that holds this time, and keeps what begin() needs of it.
+void Drive::enter(std::int64_t time_nanoseconds) noexcept {
   const Segment* const all = segments();
   const std::size_t count = segmentCount();
   if (time_nanoseconds < all[cursor_].first_tick) {
@@ -114,17 +144,23 @@ void Drive::begin(std::int64_t time_nanoseconds) noexcept {
   while (cursor_ + 1 < count && time_nanoseconds >= all[cursor_ + 1].first_tick) {
     ++cursor_;
   }
-
   const Segment& segment = all[cursor_];
   const SpeedSegment& motion = segment.motion;
-  const SplitTime tau = later(splitTime(time_nanoseconds - segment.first_tick), segment.lead);
-  time_ = time_nanoseconds;
-  angle_ = advance(segment.angle, motion.speed, motion.acceleration, motion.jerk, tau);
-  speed_ = motion.speed + tau.high * (motion.acceleration + 0.5 * tau.high * motion.jerk);
-  acceleration_ = motion.acceleration + tau.high * motion.jerk;
+  first_tick_ = segment.first_tick;
+  steady_ = motion.constant();
+  if (steady_) {
+    turn_ = SteadyTurn(segment.angle, motion.speed, segment.lead);
+  }
+  speed_ = motion.speed;
+  acceleration_ = motion.acceleration;
   jerk_ = motion.jerk;
-  // High part first: near the end of the segment that difference is exact.
-  remaining_ = (motion.duration - tau.high) - tau.low;
+  if (cursor_ + 1 < count) {
+    until_ = all[cursor_ + 1].first_tick;
+    next_lead_ = all[cursor_ + 1].lead;
+  } else {
+    until_ = kLatest;
+    remaining_ = kForever;
+  }
 }
 
 ShaftMotion Drive::beyond(double offset) const noexcept {
@@ -172,6 +208,7 @@ bool Drive::setSpeed(double speed, double max_acceleration, double max_jerk) noe
   live_count_ = change.count + 1;
   cursor_ = 0;
   move_duration_ = change.duration;
+  enter(time_);
   begin(time_);
   return true;
 }
@@ -180,6 +217,7 @@ void Drive::reset() noexcept {
   live_count_ = 0;
   cursor_ = 0;
   move_duration_ = 0.0;
+  enter(profile_.front().first_tick);
   begin(profile_.front().first_tick);
 }
 

@@ -114,6 +114,8 @@ class Drive {
   std::size_t segmentCount() const noexcept {
     return live_count_ > 0 ? live_count_ : profile_.size();
   }
+  void beginChanging() noexcept;
+  void enter(std::int64_t time_nanoseconds) noexcept;
   ShaftMotion beyond(double offset) const noexcept;
   double cornerBeyond(double offset) const noexcept;
 
@@ -122,6 +124,13 @@ class Drive {
   std::size_t live_count_ = 0;     // 0: the profile holds
   std::size_t cursor_ = 0;
   double move_duration_ = 0.0;
+
+  // Of the segment at the cursor.
+  std::int64_t first_tick_ = 0;
+  std::int64_t until_ = 0;  // [ns], first tick of the next; of the last the latest time there is
+  double next_lead_ = 0.0;  // [s], from the end to until_
+  bool steady_ = false;     // at constant speed
+  SteadyTurn turn_;         // if so, counted from first_tick_
 
   // At begin().
   std::int64_t time_ = 0;

@@ -6,8 +6,12 @@ namespace whirl_twin {
 namespace {
 
 // 2 pi as the sum of two doubles.
-constexpr double kTwoPi = 6.283185307179586;
+constexpr double kTwoPi = ShaftAngle::kTurn;
 constexpr double kTwoPiLow = 2.4492935982947064e-16;
+
+// Turns per nanosecond at 1 rad/s, 1e-9 / (2 pi), as the sum of two doubles.
+constexpr double kTurnRate = 1.5915494309189532e-10;
+constexpr double kTurnRateLow = 1.1274188717473671e-26;
 
 // high + low, with |low| <= ulp(high) / 2 after each operation.
 using DoubleDouble = SplitTime;
@@ -99,8 +103,18 @@ ShaftAngle shaftAngle(double angle) noexcept {
   return add({}, {angle, 0.0});
 }
 
+SteadyTurn::SteadyTurn(const ShaftAngle& angle, double speed, double lead) noexcept
+    : start_(angle) {
+  const DoubleDouble turns = times({kTurnRate, kTurnRateLow}, speed);
+  const Int128 rate =
+      static_cast<Int128>(turns.high * 0x1p128) + static_cast<Int128>(turns.low * 0x1p128);
+  rate_high_ = static_cast<std::int64_t>(rate >> 64);
+  rate_low_ = static_cast<std::uint64_t>(rate);
+  lead_ = static_cast<std::int64_t>(turns.high * (lead * 1e9) * 0x1p64) + (1 << 10);
+}
+
 ShaftAngle advance(const ShaftAngle& angle, double speed, std::int64_t nanoseconds) noexcept {
-  return add(angle, times(splitTime(nanoseconds), speed));
+  return SteadyTurn(angle, speed, 0.0).at(nanoseconds);
 }
 
 ShaftAngle advance(const ShaftAngle& angle, double speed, double acceleration, double jerk,

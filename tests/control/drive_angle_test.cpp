@@ -7,6 +7,7 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -108,6 +109,55 @@ TEST(DriveAngle, RandomProfilesAgreeWithTheExactOnes) {
       t += static_cast<std::int64_t>(std::pow(10.0, 9.0 + 1.2 * unit(random)));
     }
   }
+}
+
+TEST(DriveAngle, IsTheSameInWhateverOrderTimesAreAskedFor) {
+  // Dwells that start between two nanoseconds, between changes at finite and at unlimited jerk.
+  const std::vector<SpeedMove> moves{
+      {300.0, 20.0, 200.0, 1.0 / 3.0}, {-70.0, 90.0, 0.0, 2.0 / 7.0}, {1e4, 7e3, 1e4, 0.1}};
+  Drive drive(11.0, 0.5, moves);
+  const ExactProfile exact(11.0, 0.5, moves);
+  std::mt19937_64 random(9);
+  std::uniform_int_distribution<std::int64_t> time(0, 30000000000);
+  for (int i = 0; i < 3000; ++i) {
+    const std::int64_t t = time(random);
+    drive.begin(t);
+    Drive fresh(11.0, 0.5, moves);
+    fresh.begin(t);
+    ASSERT_EQ(drive.angle().turns, fresh.angle().turns) << t;
+    ASSERT_EQ(drive.angle().remainder, fresh.angle().remainder) << t;
+    ASSERT_EQ(drive.at(0.0).speed, fresh.at(0.0).speed) << t;
+    ASSERT_EQ(drive.nextCorner(0.0), fresh.nextCorner(0.0)) << t;
+    ASSERT_EQ(drive.targetSpeed(), fresh.targetSpeed()) << t;
+    // At most ten pieces, 3e-15 rad each.
+    ASSERT_LT(std::abs(error(drive.angle(), exact.angleAt(t))), 10 * 3e-15) << t;
+  }
+}
+
+TEST(DriveAngle, ADwellIsContinuedBackwardsFor250Years) {
+  // The first move changes nothing, so the profile begins with a dwell.
+  const std::int64_t start = 1000000000000000000;
+  Drive drive(-1e5, 2.0, {{-1e5, 1.0, 0.0, 2.5}, {0.0, 1e4, 0.0, 0.0}}, start);
+  for (const std::int64_t t : {-8000000000000000000, -1234567890123456789, start - 1, start}) {
+    drive.begin(t);
+    const Exact before = (Exact(start) - Exact(t)) / Exact(1000000000);
+    EXPECT_LT(std::abs(error(drive.angle(), Exact(2.0) + Exact(1e5) * before)), 3e-15) << t;
+    EXPECT_EQ(drive.at(0.0).speed, -1e5);
+    EXPECT_DOUBLE_EQ(drive.nextCorner(0.0), static_cast<double>(before + Exact(2.5)));
+  }
+}
+
+TEST(DriveAngle, CornersAreAsExactAsTheClock) {
+  Drive drive(0.0, 0.0, {{100.0, 50.0, 0.0, 0.3}, {0.0, 50.0, 0.0, 0.0}});
+  for (const std::int64_t t : {0LL, 1LL, 1999999999LL, 2000000000LL, 2000000001LL, 2299999999LL}) {
+    drive.begin(t);
+    const double end = t < 2000000000 ? 2.0 : 2.3;
+    const double left = static_cast<double>(Exact(end) - Exact(t) / Exact(1000000000));
+    // An ulp of 2.3, which is a double here and 2 and 0.3 in the drive.
+    EXPECT_NEAR(drive.nextCorner(0.0), left, 4.5e-16) << t;
+  }
+  drive.begin(5000000000);
+  EXPECT_EQ(drive.nextCorner(0.0), std::numeric_limits<double>::infinity());
 }
 
 // Acceleration of a move from rest at zero to `speed`, straight from its definition.

@@ -237,6 +237,17 @@ TEST(Drive, ResetBringsTheProfileBack) {
   }
 }
 
+TEST(Drive, ResetForgetsAnOrderGivenAtTheFirstInstant) {
+  Drive drive(10.0, 1.0);
+  ASSERT_TRUE(drive.setSpeed(-10.0, 1.0, 0.0));
+  drive.reset();
+  drive.begin(kSecond);
+  EXPECT_NEAR(drive.angle().total(), 11.0, 1e-14);
+  EXPECT_EQ(drive.at(0.0).speed, 10.0);
+  EXPECT_EQ(drive.at(0.0).acceleration, 0.0);
+  EXPECT_TRUE(drive.constantFor(1e9));
+}
+
 TEST(Drive, CopiesAreIndependent) {
   Drive drive(0.0, 0.0, kUpAndDown);
   drive.begin(5 * kSecond);

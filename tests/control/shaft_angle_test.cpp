@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <boost/math/constants/constants.hpp>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
@@ -44,6 +45,68 @@ TEST(ShaftAngle, ConstantSpeedIsExactForSpeedsAndDurationsOfAnySize) {
                            Exact(speed) * Exact(nanoseconds) / Exact(1000000000);
     ASSERT_LT(std::abs(error(to, expected)), kPromised) << speed << " rad/s, " << nanoseconds;
     ASSERT_TRUE(remainderInRange(to)) << to.remainder;
+  }
+}
+
+// 250 years, the largest time a drive accepts.
+constexpr std::int64_t kLongest = 8000000000000000000;
+
+TEST(SteadyTurn, IsExactFor250YearsForwardsAndBackwards) {
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> digits(0.0, 18.9);
+  std::uniform_real_distribution<double> decade(-12.0, 5.0);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int i = 0; i < 50000; ++i) {
+    const double size = i % 2 == 0 ? 1e5 * unit(random) : std::pow(10.0, decade(random));
+    const double speed = i % 4 < 2 ? size : -size;
+    const double lead = i % 5 == 0 ? 0.0 : 1e-9 * unit(random);
+    const auto count =
+        std::min(kLongest, static_cast<std::int64_t>(std::pow(10.0, digits(random))));
+    const std::int64_t nanoseconds = i % 3 == 0 ? -count : count;
+    const ShaftAngle from{i - 25000, i % 7 == 0 ? 0.0 : 2.0 * M_PI * unit(random)};
+    const ShaftAngle to = SteadyTurn(from, speed, lead).at(nanoseconds);
+
+    const Exact expected = kTwoPi * from.turns + Exact(from.remainder) +
+                           Exact(speed) * (Exact(nanoseconds) / Exact(1000000000) + Exact(lead));
+    // The header promises 2.5e-15 rad. From zero the sum with the start is exact: 1.1e-15 rad.
+    const double promised = from.remainder == 0.0 ? 1.1e-15 : 2.5e-15;
+    ASSERT_LT(std::abs(error(to, expected)), promised) << speed << " rad/s, " << nanoseconds;
+    ASSERT_TRUE(remainderInRange(to)) << to.remainder;
+
+    // The double-double route promises 3e-15 rad, and shares no arithmetic with this one.
+    const ShaftAngle other = advance(from, speed, 0.0, 0.0, later(splitTime(nanoseconds), lead));
+    ASSERT_LT(std::abs(static_cast<double>(to.turns - other.turns) * 2.0 * M_PI +
+                       (to.remainder - other.remainder)),
+              5.5e-15)
+        << speed << " rad/s, " << nanoseconds;
+  }
+}
+
+TEST(SteadyTurn, StartsAtItsAngleToTheLastBit) {
+  for (const double remainder : {0.0, 1e-300, 0.25, std::nextafter(2.0 * M_PI, 0.0)}) {
+    for (const double speed : {-1e5, -1e-300, 0.0, 314.159, 1e6}) {
+      const ShaftAngle at = SteadyTurn({-3, remainder}, speed, 0.0).at(0);
+      EXPECT_EQ(at.turns, -3);
+      EXPECT_EQ(at.remainder, remainder);
+    }
+  }
+}
+
+TEST(SteadyTurn, StaysWithinOneTurnAtTheEndOfEachTurn) {
+  // 1000 turns/s within an ulp or two: every millisecond the phase stands just beside a whole turn.
+  const double speed = 2000.0 * M_PI;
+  for (const double near : {std::nextafter(speed, 0.0), speed, std::nextafter(speed, 1e9)}) {
+    for (const double start : {0.0, 1e-16, std::nextafter(2.0 * M_PI, 0.0)}) {
+      for (const double direction : {-1.0, 1.0}) {
+        const SteadyTurn turn({0, start}, direction * near, 0.0);
+        for (std::int64_t k = -1000; k <= 1000; ++k) {
+          const ShaftAngle at = turn.at(k * 1000000);
+          ASSERT_TRUE(remainderInRange(at)) << at.remainder;
+          const Exact expected = Exact(start) + Exact(direction * near) * k / 1000;
+          ASSERT_LT(std::abs(error(at, expected)), 2.5e-15) << k;
+        }
+      }
+    }
   }
 }
 
