@@ -75,6 +75,37 @@ inline constexpr Row kWeights{5.42937341165687622380535766363e-2,
                               2.01365400804030348374776537501e-1,
                               4.47106157277725905176885569043e-2};
 
+/// The values of n coordinates. Two are a vector register: stored one by one and loaded as a pair,
+/// as compilers do with an array, they would be late by as much as the equations take.
+template <std::size_t n>
+class Lanes {
+ public:
+  Lanes() = default;
+  WHIRL_TWIN_INLINE explicit Lanes(const std::array<double, n>& x) : x_(x) {}
+  WHIRL_TWIN_INLINE const std::array<double, n>& array() const { return x_; }
+  WHIRL_TWIN_INLINE void add(double factor, const Lanes& other) {
+    for (std::size_t i = 0; i < n; ++i) {
+      x_[i] += factor * other.x_[i];
+    }
+  }
+
+ private:
+  std::array<double, n> x_;
+};
+
+template <>
+class Lanes<2> {
+ public:
+  Lanes() = default;
+  WHIRL_TWIN_INLINE explicit Lanes(const std::array<double, 2>& x) : x_{x[0], x[1]} {}
+  WHIRL_TWIN_INLINE std::array<double, 2> array() const { return {x_[0], x_[1]}; }
+  WHIRL_TWIN_INLINE void add(double factor, const Lanes& other) { x_ += factor * other.x_; }
+
+ private:
+  using Pair = double __attribute__((vector_size(16)));
+  Pair x_;
+};
+
 }  // namespace dormand_prince
 
 struct DormandPrince8 {
@@ -90,50 +121,46 @@ struct DormandPrince8 {
     using dormand_prince::kNodes;
     using dormand_prince::kStages;
     using dormand_prince::kWeights;
-    using Array = std::array<double, n>;
-    std::array<Array, kStages> rates;
-    std::array<Array, kStages> accelerations;
-    Array dq{};
-    Array dv{};
+    using Lanes = dormand_prince::Lanes<n>;
+    const Lanes q0(state.q);
+    const Lanes v0(state.v);
+    std::array<Lanes, kStages> rates;
+    std::array<Lanes, kStages> accelerations;
+    Lanes q = q0;
+    Lanes v = v0;
+    Lanes dq{};
+    Lanes dv{};
     double energy = 0.0;
-    unrolled<kStages>([&](auto stage) WHIRL_TWIN_FLAT {
-      constexpr std::size_t k = stage;
-      Array q{};
-      Array v{};
-      unrolled<k>([&](auto earlier) WHIRL_TWIN_FLAT {
-        constexpr std::size_t j = earlier;
-        if constexpr (kA[k][j] != 0.0) {
-          for (std::size_t i = 0; i < n; ++i) {
-            q[i] += kA[k][j] * rates[j][i];
-            v[i] += kA[k][j] * accelerations[j][i];
-          }
-        }
-      });
-      for (std::size_t i = 0; i < n; ++i) {
-        q[i] = state.q[i] + h * q[i];
-        v[i] = state.v[i] + h * v[i];
-      }
-      const auto found = evaluated(equation, q, v, offset + kNodes[k] * h);
+    // A loop, not twelve copies of the equations: what they make of the parameters alone is then
+    // computed once a step.
+    for (std::size_t k = 0; k < kStages; ++k) {
       rates[k] = v;
-      accelerations[k] = found.acceleration;
-      if constexpr (kWeights[k] != 0.0) {
-        for (std::size_t i = 0; i < n; ++i) {
-          dq[i] += h * kWeights[k] * v[i];
-          dv[i] += h * kWeights[k] * found.acceleration[i];
-        }
-        energy += h * kWeights[k] * found.power;
+      // The next stage as far as it is known before this one's acceleration: its q entirely, so
+      // that its sines need not wait; of its v all but the last term.
+      Lanes q_next = q0;
+      Lanes v_next = v0;
+      const std::size_t next = k + 1 < kStages ? k + 1 : k;
+      Lanes q_sum{};
+      Lanes v_sum{};
+      for (std::size_t j = 0; j < k; ++j) {
+        q_sum.add(kA[next][j], rates[j]);
+        v_sum.add(kA[next][j], accelerations[j]);
       }
-    });
-    state.advance(dq, dv, energy);
-    return StepStatus::kOk;
-  }
+      q_next.add(h, q_sum);
+      q_next.add(h * kA[next][k], v);
+      v_next.add(h, v_sum);
 
- private:
-  /// Out of line: twelve copies of the equations would take minutes to compile and bring nothing.
-  template <class Equation, class Array>
-  [[gnu::noinline]] static auto evaluated(const Equation& equation, const Array& q, const Array& v,
-                                          double offset) {
-    return equation(q, v, offset);
+      const auto found = equation(q.array(), v.array(), offset + kNodes[k] * h);
+      accelerations[k] = Lanes(found.acceleration);
+      v_next.add(h * kA[next][k], accelerations[k]);
+      dq.add(h * kWeights[k], v);
+      dv.add(h * kWeights[k], accelerations[k]);
+      energy += h * kWeights[k] * found.power;
+      q = q_next;
+      v = v_next;
+    }
+    state.advance(dq.array(), dv.array(), energy);
+    return StepStatus::kOk;
   }
 };
 

@@ -7,15 +7,21 @@
 #include <cmath>
 
 #include "mechanics/force_inline.h"
+#include "mechanics/sine_cosine.h"
 
 namespace whirl_twin {
 
 // Energies are written once for every number type, plain doubles among them.
 using std::atan;
-using std::cos;
-using std::sin;
 using std::sqrt;
 using std::tanh;
+
+WHIRL_TWIN_INLINE double sin(double x) {
+  return sineCosine(x).sine;
+}
+WHIRL_TWIN_INLINE double cos(double x) {
+  return sineCosine(x).cosine;
+}
 
 /// Value, first and second derivative of a function of one variable.
 template <class B>
@@ -35,6 +41,22 @@ template <class B>
 WHIRL_TWIN_INLINE Jet<B> cosJet(const B& x) {
   const B c = cos(x);
   return {c, -sin(x), -c};
+}
+
+/// cos(a - b) as a function of a - b, from the sines and cosines of a and b, where an energy has
+/// those anyway.
+template <class B>
+WHIRL_TWIN_INLINE Jet<B> cosOfDifferenceJet(const B& a, const B& b) {
+  const B cos_a = cos(a);
+  const B sin_a = sin(a);
+  const B cos_b = cos(b);
+  const B sin_b = sin(b);
+  const B c = cos_a * cos_b + sin_a * sin_b;
+  return {c, cos_a * sin_b - sin_a * cos_b, -c};
+}
+
+WHIRL_TWIN_INLINE double cosOfDifference(double a, double b) {
+  return cosOfDifferenceJet(a, b).value;
 }
 
 template <class B>

@@ -82,6 +82,9 @@ struct Gradient {
 
   friend WHIRL_TWIN_INLINE Gradient sin(const Gradient& x) { return x.through(sinJet(x.value)); }
   friend WHIRL_TWIN_INLINE Gradient cos(const Gradient& x) { return x.through(cosJet(x.value)); }
+  friend WHIRL_TWIN_INLINE Gradient cosOfDifference(const Gradient& a, const Gradient& b) {
+    return (a - b).through(cosOfDifferenceJet(a.value, b.value));
+  }
   friend WHIRL_TWIN_INLINE Gradient sqrt(const Gradient& x) { return x.through(sqrtJet(x.value)); }
   friend WHIRL_TWIN_INLINE Gradient tanh(const Gradient& x) { return x.through(tanhJet(x.value)); }
   friend WHIRL_TWIN_INLINE Gradient atan(const Gradient& x) { return x.through(atanJet(x.value)); }

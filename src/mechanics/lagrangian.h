@@ -88,11 +88,11 @@ WHIRL_TWIN_INLINE EquationsOfMotion<B, n> equationsOfMotion(const Model& model,
   const std::array<B, n> applied = model.force(q, v, moment_of_force);
 
   EquationsOfMotion<B, n> r;
-  r.mass = t.by_vv;
-  r.power = u.slope[n] - t.rate;
+  unrolled<n*(n + 1) / 2>([&](auto p) WHIRL_TWIN_FLAT { r.mass[p] = t.by_vv[p]; });
+  r.power = u.slope[n] - t.by_t;
   unrolled<n>([&](auto j) WHIRL_TWIN_FLAT {
     r.force[j] = t.by_q[j] - u.slope[j] - t.by_v_rate[j] - d.slope[j] + applied[j];
-    r.power = r.power + v[j] * (t.by_q[j] - d.slope[j] + applied[j]);
+    r.power = r.power + v[j] * (applied[j] - d.slope[j]);
   });
   return r;
 }
@@ -102,7 +102,9 @@ template <class B, std::size_t n>
 WHIRL_TWIN_INLINE std::array<B, n> solveMass(const std::array<B, n*(n + 1) / 2>& mass,
                                              const std::array<B, n>& b) {
   const auto at = [](std::size_t row, std::size_t column) { return row * (row + 1) / 2 + column; };
-  std::array<B, n*(n + 1) / 2> l = mass;
+  // Entry by entry: a copy of the whole would go through memory.
+  std::array<B, n*(n + 1) / 2> l;
+  unrolled<n*(n + 1) / 2>([&](auto p) WHIRL_TWIN_FLAT { l[p] = mass[p]; });
   std::array<B, n> inverse_pivot;
   unrolled<n>([&](auto j) WHIRL_TWIN_FLAT {
     unrolled<decltype(j)::value>([&](auto k) WHIRL_TWIN_FLAT {
@@ -114,7 +116,8 @@ WHIRL_TWIN_INLINE std::array<B, n> solveMass(const std::array<B, n*(n + 1) / 2>&
     });
     inverse_pivot[j] = 1.0 / l[at(j, j)];
   });
-  std::array<B, n> x = b;
+  std::array<B, n> x;
+  unrolled<n>([&](auto j) WHIRL_TWIN_FLAT { x[j] = b[j]; });
   unrolled<n>([&](auto j) WHIRL_TWIN_FLAT {
     unrolled<n - decltype(j)::value - 1>([&](auto below) WHIRL_TWIN_FLAT {
       const std::size_t i = j + 1 + below;

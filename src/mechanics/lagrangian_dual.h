@@ -1,8 +1,8 @@
 // The dual number that carries just what the Euler-Lagrange equations ask of T(q, v, t):
 //
 //   f,  df/dq_j,  df/dv_j,  d2f/dv_j dv_k  (the mass matrix),
-//   f' = v . df/dq + df/dt  (the rate along the motion with v held), and  d(f')/dv_j  without the
-//   term df/dq_j, i.e.  (d2f/dv_j dq) v + d2f/dv_j dt.
+//   f' = v . df/dq + df/dt  (the rate along the motion with v held),  df/dt,  and  d(f')/dv_j
+//   without the term df/dq_j, i.e.  (d2f/dv_j dq) v + d2f/dv_j dt.
 //
 // q is seeded with dq_j = 1 and rate v_j, v with dv_j = 1 and rate 0, time with rate 1. Second
 // derivatives by q alone, which a general second-order dual would carry, are never needed.
@@ -26,6 +26,7 @@ struct LagrangianDual {
   std::array<B, n> by_v{};
   std::array<B, kPairs> by_vv{};  ///< packed lower triangle: (j, k), k <= j, at j (j + 1) / 2 + k
   B rate{};                       ///< along q' = v, t' = 1
+  B by_t{};                       ///< df/dt, with q and v held
   std::array<B, n> by_v_rate{};   ///< (d2/dv_j dq) v + d2/dv_j dt
 
   LagrangianDual() = default;
@@ -48,6 +49,7 @@ struct LagrangianDual {
     LagrangianDual r;
     r.value = at;
     r.rate = at_rate;
+    r.by_t = at_rate;
     return r;
   }
 
@@ -56,6 +58,7 @@ struct LagrangianDual {
     LagrangianDual r;
     r.value = g.value;
     r.rate = g.slope * rate;
+    r.by_t = g.slope * by_t;
     unrolled<n>([&](auto j) WHIRL_TWIN_FLAT {
       r.by_q[j] = g.slope * by_q[j];
       r.by_v[j] = g.slope * by_v[j];
@@ -73,6 +76,7 @@ struct LagrangianDual {
     LagrangianDual r;
     r.value = a.value + b.value;
     r.rate = a.rate + b.rate;
+    r.by_t = a.by_t + b.by_t;
     unrolled<n>([&](auto j) WHIRL_TWIN_FLAT {
       r.by_q[j] = a.by_q[j] + b.by_q[j];
       r.by_v[j] = a.by_v[j] + b.by_v[j];
@@ -85,6 +89,7 @@ struct LagrangianDual {
     LagrangianDual r;
     r.value = a * b.value;
     r.rate = a * b.rate;
+    r.by_t = a * b.by_t;
     unrolled<n>([&](auto j) WHIRL_TWIN_FLAT {
       r.by_q[j] = a * b.by_q[j];
       r.by_v[j] = a * b.by_v[j];
@@ -98,6 +103,7 @@ struct LagrangianDual {
     LagrangianDual r;
     r.value = a.value * b.value;
     r.rate = a.value * b.rate + a.rate * b.value;
+    r.by_t = a.value * b.by_t + a.by_t * b.value;
     unrolled<n>([&](auto j) WHIRL_TWIN_FLAT {
       r.by_q[j] = a.value * b.by_q[j] + a.by_q[j] * b.value;
       r.by_v[j] = a.value * b.by_v[j] + a.by_v[j] * b.value;
@@ -149,6 +155,10 @@ struct LagrangianDual {
   }
   friend WHIRL_TWIN_INLINE LagrangianDual cos(const LagrangianDual& x) {
     return x.through(cosJet(x.value));
+  }
+  friend WHIRL_TWIN_INLINE LagrangianDual cosOfDifference(const LagrangianDual& a,
+                                                          const LagrangianDual& b) {
+    return (a - b).through(cosOfDifferenceJet(a.value, b.value));
   }
   friend WHIRL_TWIN_INLINE LagrangianDual sqrt(const LagrangianDual& x) {
     return x.through(sqrtJet(x.value));

@@ -17,6 +17,10 @@
 #include "scene/finite.h"
 #include "scene/system.h"
 
+#if defined(__x86_64__) && !defined(__clang__) && !defined(WHIRL_TWIN_LONG_EQUATIONS)
+#define WHIRL_TWIN_FUSED_STEPS
+#endif
+
 namespace whirl_twin {
 
 /// q'' = a(q, v, t) of a model on its drive during one step; offset [s] counts from its start.
@@ -185,6 +189,29 @@ class SteppedSystem final : public System {
     return method.step(equation, offset, h, state);
   }
 
+#ifdef WHIRL_TWIN_FUSED_STEPS
+  /// The same with fused multiply-add, which takes half as long for sums of products.
+  [[gnu::noinline, gnu::target("avx2,fma")]] static StepStatus fusedMethodStep(
+      Method& method, const DrivenEquation<Model>& equation, double offset, double h,
+      MotionState<n>& state) noexcept {
+    return method.step(equation, offset, h, state);
+  }
+#endif
+  using MethodStep = StepStatus (*)(Method&, const DrivenEquation<Model>&, double, double,
+                                    MotionState<n>&) noexcept;
+  /// The one for the processor this runs on; linear models have the exact steps if they must be
+  /// fast.
+  static MethodStep methodStepHere() {
+#ifdef WHIRL_TWIN_FUSED_STEPS
+    if constexpr (!Model::kLinear) {
+      if (__builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0) {
+        return fusedMethodStep;
+      }
+    }
+#endif
+    return methodStep;
+  }
+
   /// One step of the method, in parts where the drive has a corner inside it: across a corner a
   /// method would lose its order.
   WHIRL_TWIN_INLINE StepStatus advance(Method& method, const DrivenEquation<Model>& equation,
@@ -195,7 +222,7 @@ class SteppedSystem final : public System {
         return advanceInParts(method, equation, offset, end, state);
       }
     }
-    return methodStep(method, equation, offset, h, state);
+    return method_step_(method, equation, offset, h, state);
   }
   StepStatus advanceInParts(Method& method, const DrivenEquation<Model>& equation, double offset,
                             double end, MotionState<n>& state) noexcept {
@@ -206,7 +233,7 @@ class SteppedSystem final : public System {
       corner = corner < end - sliver ? corner : end;
       if (corner - offset > sliver) {
         method.restart();
-        status = methodStep(method, equation, offset, corner - offset, state);
+        status = method_step_(method, equation, offset, corner - offset, state);
       }
       // Just behind the corner, where the jerk (or acceleration) that follows holds.
       offset = std::nextafter(corner, 2.0 * end);
@@ -258,6 +285,7 @@ class SteppedSystem final : public System {
   const Drive& drive_;
   double substep_;  ///< [s]
   int substeps_;
+  MethodStep method_step_ = methodStepHere();
   Method method_{};
   Method finer_method_{};
   MotionState<n> state_{};

@@ -197,6 +197,7 @@ TEST_F(RandomExpressions, LagrangianDualHasWhatTheEulerLagrangeEquationsAsk) {
     const double v[kDof] = {x[kDof], x[kDof + 1]};
     EXPECT_NEAR(f.value, evaluate(e, x), tolerance);
     ASSERT_NEAR(f.rate, v[0] * d.first(0) + v[1] * d.first(1) + d.first(kTime), tolerance);
+    ASSERT_NEAR(f.by_t, d.first(kTime), tolerance);
     for (std::size_t j = 0; j < kDof; ++j) {
       ASSERT_NEAR(f.by_q[j], d.first(j), tolerance);
       ASSERT_NEAR(f.by_v[j], d.first(kDof + j), tolerance);

@@ -8,8 +8,9 @@
 //
 // v are the velocities of the mass centres, h their heights above where they hang at rest.
 //
-// The kinetic energy is written in the mass centres' Cartesian velocities: that costs fewer dual
-// operations than the expanded cosine form.
+// The kinetic energy is written out in the angles, |v1|^2 = (lc1 theta1')^2 and |v2|^2 =
+// (l1 theta1')^2 + (lc2 theta2')^2 + 2 l1 lc2 theta1' theta2' cos(theta1 - theta2), the last cosine
+// from the sines and cosines that the weights need anyway.
 //
 // Coulomb friction in the joints is regularised: s(w) = sqrt(w^2 + w0^2) makes of the jump at w = 0
 // a moment Mc w / sqrt(w^2 + w0^2), short of Mc by the share (w0 / w)^2 / 2; w0 is `coulomb_rate`.
@@ -101,7 +102,7 @@ struct DoublePendulum {
     return (0.5 * (mass1 * center1 * center1 + inertia1 + mass2 * length1 * length1)) *
                (v[0] * v[0]) +
            (0.5 * (inertia2 + mass2 * center2 * center2)) * (v[1] * v[1]) +
-           (mass2 * length1 * center2) * (cos(q[0] - q[1]) * (v[0] * v[1]));
+           (mass2 * length1 * center2) * (cosOfDifference(q[0], q[1]) * (v[0] * v[1]));
   }
   template <class S>
   WHIRL_TWIN_INLINE S potential(const std::array<S, 2>& q, const Moment<S>&) const {
