@@ -8,15 +8,18 @@
 //
 // While the speed changes the free motion still goes by its propagator, and the forcing is
 // integrated by Gauss-Legendre quadrature with four nodes at the drive's exact angle (variation of
-// constants): order 8 in h while the highest frequency times h stays below about 1. It needs
-// matrices that do not change with speed: rotating damping excludes it on a drive that changes
-// speed.
+// constants): order 8 in h while the highest frequency times h stays below about 1. A force that
+// turns with the shaft is known by a few amplitudes (turning_force.h), any other by evaluating the
+// equations. It needs matrices that do not change with speed: rotating damping excludes it on a
+// drive that changes speed.
 #pragma once
 
 #include <cmath>
 
 #include "integration/matrix_exponential.h"
 #include "integration/motion_state.h"
+#include "integration/shaft_phasor.h"
+#include "integration/turning_force.h"
 #include "mechanics/lagrangian.h"
 
 namespace whirl_twin {
@@ -26,7 +29,10 @@ class Exponential {
  public:
   static constexpr const char* kName = "exponential";
 
-  void restart() {}
+  void restart() {
+    phasor_.restart();
+    known_ = false;
+  }
 
   /// Advances by h [s] from offset [s] after the start of the twin's step. Equation also gives
   /// moment(offset), evaluate(q, v, moment), jacobian(q, v, offset), and
@@ -72,8 +78,9 @@ class Exponential {
       y[i] = state.q[i];
       y[n + i] = state.v[i] / rate_scale_;
     }
-    y[kStates] = std::cos(at.angle);
-    y[kStates + 1] = std::sin(at.angle);
+    phasor_.turnTo(at.angle);
+    y[kStates] = phasor_.cosine();
+    y[kStates + 1] = phasor_.sine();
     y[kStates + 2] = 1.0;
     const States increment = increment_ * y;
     const double work = y.dot(work_ * y);
@@ -103,14 +110,6 @@ class Exponential {
     return a;
   }
 
-  /// Half the sum of what is found at opposite angles; zero where it is the rounding of what turns:
-  /// sin(pi) is not 0.
-  static double mean(double ahead, double aside, double behind) {
-    const double sum = ahead + behind;
-    const double size = std::fabs(ahead) + std::fabs(aside) + std::fabs(behind);
-    return std::fabs(sum) <= 1.0e-15 * size ? 0.0 : 0.5 * sum;
-  }
-
   template <class Equation>
   void prepareExact(const Equation& equation, const Moment<double>& at, double h) {
     AugmentedMatrix a = AugmentedMatrix::Zero();
@@ -123,7 +122,7 @@ class Exponential {
     const auto behind = at_angle(kPi, {}, {});
     for (int i = 0; i < n; ++i) {
       const double steady =
-          mean(ahead.acceleration[i], aside.acceleration[i], behind.acceleration[i]);
+          steadyPart(ahead.acceleration[i], aside.acceleration[i], behind.acceleration[i]);
       a(n + i, kStates) = 0.5 * (ahead.acceleration[i] - behind.acceleration[i]) / rate_scale_;
       a(n + i, kStates + 1) = (aside.acceleration[i] - steady) / rate_scale_;
       a(n + i, kStates + 2) = steady / rate_scale_;
@@ -132,6 +131,7 @@ class Exponential {
     a(kStates + 1, kStates) = at.speed;
     increment_ = exponentialLessIdentity<kAll>(AugmentedMatrix(h * a)).template topRows<kStates>();
     work_ = quadraticIntegral<kAll>(a, powerForm(at_angle), h);
+    phasor_.prepare(at.speed * h);
     exact_step_ = h;
     exact_speed_ = at.speed;
   }
@@ -163,7 +163,7 @@ class Exponential {
       const double ahead = linear(0.0, i);
       const double behind = linear(kPi, i);
       const double aside = linear(0.5 * kPi, i);
-      const double steady = mean(ahead, aside, behind);
+      const double steady = steadyPart(ahead, aside, behind);
       s(i, kStates) = s(kStates, i) = 0.25 * (ahead - behind);
       s(i, kStates + 1) = s(kStates + 1, i) = 0.5 * (aside - steady);
       s(i, kStates + 2) = s(kStates + 2, i) = 0.5 * steady;
@@ -182,27 +182,50 @@ class Exponential {
     if (h != quadrature_step_) {
       prepareQuadrature(equation, offset, h);
     }
-    const auto start = equation(state.q, state.v, offset);
+    const MotionState<n_> from = state;
+    const Derivative<n_> start = atStart(equation, offset, from);
     States x;
     for (int i = 0; i < n; ++i) {
-      x[i] = state.q[i];
-      x[n + i] = state.v[i] / rate_scale_;
+      x[i] = from.q[i];
+      x[n + i] = from.v[i] / rate_scale_;
     }
     States increment = free_increment_ * x;
     for (int k = 0; k < kNodes; ++k) {
-      const auto forced = equation(Array{}, Array{}, offset + kGaussNodes[k] * h);
+      const Array forced =
+          forcedAcceleration(equation, equation.moment(offset + kGaussNodes[k] * h));
       for (int i = 0; i < n; ++i) {
-        increment += forced.acceleration[i] * forced_[k].col(i);
+        increment += forced[i] * forced_[k].col(i);
       }
     }
-    Array end_q;
-    Array end_v;
-    for (int i = 0; i < n; ++i) {
-      end_q[i] = state.q[i] + increment[i];
-      end_v[i] = state.v[i] + rate_scale_ * increment[n + i];
+    advance(state, increment, 0.0);
+    known_q_ = state.q;
+    known_v_ = state.v;
+    known_at_ = equation.moment(offset + h);
+    known_derivative_ = equation.evaluate(state.q, state.v, known_at_);
+    known_ = true;
+    state.work.add(
+        lobattoWork(equation, offset, h, from, start, state.q, state.v, known_derivative_));
+  }
+
+  /// The derivative at the start of a step, which is that at the end of the one before unless the
+  /// motion or the shaft's was changed between.
+  template <class Equation>
+  Derivative<n_> atStart(const Equation& equation, double offset, const MotionState<n_>& from) {
+    const Moment<double> at = equation.moment(offset);
+    const auto same = [](double now, double before) {
+      return std::fabs(now - before) <= 1.0e-12 * std::fabs(before);
+    };
+    const double turned = std::remainder(at.angle - known_at_.angle, 2.0 * kPi);
+    if (known_ && from.q == known_q_ && from.v == known_v_ && std::fabs(turned) <= 1.0e-12 &&
+        same(at.speed, known_at_.speed) && same(at.acceleration, known_at_.acceleration)) {
+      return known_derivative_;
     }
-    const auto end = equation(end_q, end_v, offset + h);
-    advance(state, increment, lobattoWork(equation, offset, h, state, start, end_q, end_v, end));
+    return equation.evaluate(from.q, from.v, at);
+  }
+
+  template <class Equation>
+  Array forcedAcceleration(const Equation& equation, const Moment<double>& at) const {
+    return turns_ ? force_.at(at) : equation.evaluate(Array{}, Array{}, at).acceleration;
   }
 
   template <class Equation>
@@ -215,6 +238,11 @@ class Exponential {
       rest.diagonal().array() += 1.0;
       forced_[k] = kGaussWeights[k] * h / rate_scale_ * rest.template rightCols<n>();
     }
+    turns_ = force_.find(
+        [&](const Moment<double>& at) {
+          return equation.evaluate(Array{}, Array{}, at).acceleration;
+        },
+        rate_scale_);
     quadrature_step_ = h;
   }
 
@@ -251,8 +279,16 @@ class Exponential {
   double quadrature_step_ = 0.0;  ///< [s], that free_increment_ and forced_ were made for
   Eigen::Matrix<double, kStates, kAll> increment_;
   AugmentedMatrix work_;
+  ShaftPhasor phasor_;
   StatesMatrix free_increment_;
   std::array<Eigen::Matrix<double, kStates, n>, kNodes> forced_;
+  TurningForce<n_> force_;  ///< on the system at rest
+  bool turns_ = false;      ///< it is of that form
+  // The end of the last step, if it is known.
+  bool known_ = false;
+  Array known_q_{}, known_v_{};
+  Moment<double> known_at_{};
+  Derivative<n_> known_derivative_{};
 };
 
 }  // namespace whirl_twin

@@ -1,0 +1,54 @@
+// e^(i theta) of a shaft at constant speed at the start of each of many equal steps: by one complex
+// product a step, anew from the angle every so often, and whenever the angle is not the one
+// foreseen.
+//
+// A product rounds by some 1e-16, and so does the angle it is for; between two fresh starts that
+// adds up to some 5e-15.
+#pragma once
+
+#include <cmath>
+
+#include "mechanics/sine_cosine.h"
+
+namespace whirl_twin {
+
+class ShaftPhasor {
+ public:
+  /// A step turns the shaft by `turn` [rad].
+  void prepare(double turn) noexcept {
+    turn_ = std::remainder(turn, kTwoPi);
+    rotation_ = {std::sin(turn_), std::cos(turn_)};
+    restart();
+  }
+  void restart() noexcept { steps_left_ = 0; }
+
+  /// To the next step, whose angle [rad] is a remainder of whole turns.
+  void turnTo(double angle) noexcept {
+    double off = angle - angle_ - turn_;
+    off = off > 0.5 * kTwoPi ? off - kTwoPi : off < -0.5 * kTwoPi ? off + kTwoPi : off;
+    angle_ = angle;
+    if (--steps_left_ < 0 || !(std::fabs(off) < kRounding)) {
+      phasor_ = sineCosine(angle);
+      steps_left_ = kSteps;
+      return;
+    }
+    const double sine = phasor_.sine * rotation_.cosine + phasor_.cosine * rotation_.sine;
+    const double cosine = phasor_.cosine * rotation_.cosine - phasor_.sine * rotation_.sine;
+    phasor_ = {sine + off * cosine, cosine - off * sine};
+  }
+  double sine() const noexcept { return phasor_.sine; }
+  double cosine() const noexcept { return phasor_.cosine; }
+
+ private:
+  static constexpr double kTwoPi = 6.283185307179586;
+  static constexpr double kRounding = 1.0e-9;  ///< [rad]; its square is nothing
+  static constexpr int kSteps = 16;
+
+  double turn_ = 0.0;   ///< [rad], of a step
+  double angle_ = 0.0;  ///< [rad], that phasor_ stands at
+  int steps_left_ = 0;  ///< until it is made anew
+  SineCosine phasor_{0.0, 1.0};
+  SineCosine rotation_{0.0, 1.0};
+};
+
+}  // namespace whirl_twin
