@@ -1,0 +1,288 @@
+// What the twin takes for what a scene does not ask for: a bare rotor beside the shortest loop that
+// can be written for it, and what each effect costs once a scene switches it on.
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstdint>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "control/drive.h"
+#include "integration/isotropic_rotors.h"
+#include "realtime/denormals.h"
+#include "scene/scene_reader.h"
+#include "scene/twin.h"
+#include "step_costs.h"
+
+namespace whirl_twin {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr std::int64_t kStep = 1000000;  // ns
+constexpr double kStepSeconds = 1.0e-3;
+constexpr double kMass = 2.0;             // kg
+constexpr double kStiffness = 20000.0;    // N/m: 100 rad/s
+constexpr double kDamping = 8.0;          // N s/m
+constexpr double kEccentricity = 2.0e-4;  // m
+constexpr double kSpeed = 100.0;          // rad/s
+constexpr std::size_t kRotors = 1000;
+constexpr int kSettled = 5000;  // steps
+
+/// The product alone: the operator of std::complex also looks after infinities.
+Complex product(const Complex& a, const Complex& b) {
+  return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
+
+/// The rotor as one would write it who needs nothing else: at constant speed z = x + i y and its
+/// rate go by their exact propagator, and the unbalance by a phasor that every step turns.
+class HandWrittenRotor {
+ public:
+  HandWrittenRotor() {
+    const double n = 0.5 * kDamping / kMass;
+    const double p_squared = kStiffness / kMass;
+    const double damped = std::sqrt(p_squared - n * n);
+    const double decay = std::exp(-n * kStepSeconds);
+    const double c = decay * std::cos(damped * kStepSeconds);
+    const double s = decay * std::sin(damped * kStepSeconds) / damped;
+    zz_ = c + n * s;
+    zw_ = s;
+    wz_ = -p_squared * s;
+    ww_ = c - n * s;
+    turn_ = std::polar(1.0, kSpeed * kStepSeconds);
+    const Complex whirl =
+        kEccentricity * kSpeed * kSpeed / Complex(p_squared - kSpeed * kSpeed, 2.0 * n * kSpeed);
+    const Complex rate = Complex(0.0, kSpeed) * whirl;
+    to_z_ = turn_ * whirl - zz_ * whirl - zw_ * rate;
+    to_w_ = turn_ * rate - wz_ * whirl - ww_ * rate;
+  }
+
+  void advance(int steps) {
+    Complex z = z_;
+    Complex w = w_;
+    Complex phasor = phasor_;
+    for (int i = 0; i < steps; ++i) {
+      const Complex next = zz_ * z + (zw_ * w + product(to_z_, phasor));
+      w = wz_ * z + (ww_ * w + product(to_w_, phasor));
+      z = next;
+      phasor = product(turn_, phasor);
+    }
+    z_ = z;
+    w_ = w;
+    phasor_ = phasor;
+  }
+  Complex position() const { return z_; }
+
+ private:
+  double zz_, zw_, wz_, ww_;
+  Complex to_z_, to_w_, turn_;
+  Complex z_, w_, phasor_ = 1.0;
+};
+
+/// A rotor of a scene: what it switches on, and how it is turned and stepped.
+struct Rotor {
+  std::string name;
+  std::string integrator = "exponential";
+  std::string parameters = "";
+  std::string drive = fmt::format("speed: {}", kSpeed);
+};
+
+const char* const kRunUp =
+    "speed: 0.0, profile: [{speed: 300.0, max_acceleration: 20.0, dwell: 0.0}]";
+const char* const kMotor = "motor: {stall_torque: 0.45, no_load_speed: 400.0}";
+
+std::shared_ptr<Twin> twinOf(const Rotor& rotor) {
+  const std::string text = fmt::format(
+      "step: 0.001\ndrives: {{shaft: {{{}}}}}\nsystems:\n  rotor:\n    model: jeffcott_rotor\n"
+      "    drive: shaft\n    integrator: {}\n    parameters: {{mass: {}, stiffness: {}, "
+      "damping: {}, eccentricity: {}{}}}\n",
+      rotor.drive, rotor.integrator, kMass, kStiffness, kDamping, kEccentricity,
+      rotor.parameters.empty() ? "" : ", " + rotor.parameters);
+  return std::make_shared<Twin>(readScene(YAML::Load(text), rotor.name));
+}
+
+/// From where it has settled.
+Stepped stepped(const Rotor& rotor) {
+  const std::shared_ptr<Twin> twin = twinOf(rotor);
+  advance(*twin, kSettled);
+  return {rotor.name, [twin](int steps) { advance(*twin, steps); }};
+}
+
+/// Who compares two loops had better compare what comes out of them.
+double disagreement() {
+  constexpr int kSteps = 1000;
+  HandWrittenRotor by_hand;
+  by_hand.advance(kSteps);
+  const std::shared_ptr<Twin> twin = twinOf({"bare"});
+  advance(*twin, kSteps);
+  std::vector<double> record(twin->layout().size);
+  twin->write(record.data());
+  const double* q = record.data() + twin->layout().system[0] + 1;
+  const double error =
+      std::abs(Complex(q[0], q[1]) - by_hand.position()) / std::abs(by_hand.position());
+  if (!(error < 1.0e-9)) {
+    throw std::runtime_error(
+        fmt::format("the hand-written rotor is not the twin's: they differ by {:.2g}", error));
+  }
+  return error;
+}
+
+Stepped sideBySide() {
+  std::vector<IsotropicRotor> rotors(kRotors);
+  for (std::size_t i = 0; i < kRotors; ++i) {
+    rotors[i].damping = kDamping / kMass;
+    rotors[i].stiffness = kStiffness / kMass * (1.0 + 1.0e-4 * static_cast<double>(i));
+    rotors[i].eccentricity = kEccentricity;
+  }
+  const auto all = std::make_shared<IsotropicRotors>(rotors, kStepSeconds, kSpeed);
+  return {"", [all, drive = Drive(kSpeed, 0.0), step = std::int64_t{0}](int steps) mutable {
+            for (int i = 0; i < steps; ++i) {
+              all->step(drive);
+              drive.begin(++step * kStep);
+            }
+          }};
+}
+
+Stepped driveAlone() {
+  return {"", [drive = Drive(kSpeed, 0.0), step = std::int64_t{0}](int steps) mutable {
+            for (int i = 0; i < steps; ++i) {
+              drive.begin(++step * kStep);
+            }
+          }};
+}
+
+std::string middleHalf(const StepCost& cost) {
+  return fmt::format("{:.1f} to {:.1f}", cost.lower_quartile, cost.upper_quartile);
+}
+
+void writeBare(const Effort& effort) {
+  const auto by_hand = std::make_shared<HandWrittenRotor>();
+  const std::vector<StepCost> costs =
+      stepCosts({{"", [by_hand](int steps) { by_hand->advance(steps); }},
+                 stepped({"bare"}),
+                 driveAlone(),
+                 sideBySide()},
+                effort);
+  const auto row = [&](const std::string& what, StepCost cost, double rotors) {
+    cost.median /= rotors;
+    cost.lower_quartile /= rotors;
+    cost.upper_quartile /= rotors;
+    std::cout << fmt::format("| {} | {:.1f} | {} | {:.2f} |\n", what, cost.median, middleHalf(cost),
+                             cost.median / costs[0].median);
+  };
+  std::cout << fmt::format(
+      "An isotropic rotor of one disc at constant speed, steps of 1 ms. The hand-written loop has "
+      "the exact\npropagator of z = x + i y and nothing else; its whirl after 1 s is the twin's to "
+      "{:.0e}. The twin's step\nalso has the audit of the energy, compensated sums, a shaft's "
+      "angle that is as exact after a year as\nafter a second, and a look whether all is finite. "
+      "An ensemble does without the audit and steps its rotors\nside by side in vectors.\n\n",
+      disagreement());
+  std::cout << "| one rotor, one step | ns | middle half of the rounds | times by hand |\n"
+               "|---|---|---|---|\n";
+  row("written by hand", costs[0], 1.0);
+  row("the twin", costs[1], 1.0);
+  row("of which its drive", costs[2], 1.0);
+  row(fmt::format("an ensemble of {}, each", kRotors), costs[3], static_cast<double>(kRotors));
+}
+
+/// The bare rotor, and what is switched on beside it.
+struct Family {
+  Rotor bare;
+  std::vector<Rotor> effects;
+};
+
+std::vector<Family> families() {
+  const std::string rk4 = "runge_kutta_4";
+  const std::string gl6 = "gauss_legendre_6";
+  const std::string rub =
+      "rub_stiffness: 4.0e5, rub_friction: 0.02, rub_damping: 60.0, rotor_radius: 0.05, "
+      "rub_clearance: ";
+  const std::string journal =
+      "gravity_on_shaft: true, bearing_length: 0.01, bearing_diameter: 0.025, "
+      "bearing_clearance: 1.0e-4, bearing_viscosity: 0.1, journal_mass: 0.2";
+  const std::string all =
+      "internal_damping: 2.0, fluid_damping: 2.0, fluid_ratio: 0.5, cross_coupling: 100.0, "
+      "stiffness_y: 22000.0, bow: 1.0e-4, gravity_on_shaft: true";
+  const Rotor bare{"nothing"};
+  const auto in_run_up = [](Rotor rotor) {
+    rotor.name += ", in a run-up";
+    rotor.drive = kRunUp;
+    return rotor;
+  };
+  const Rotor internal{"`internal_damping`", "exponential", "internal_damping: 2.0"};
+  const Rotor fluid{"`fluid_damping`, `fluid_ratio`", "exponential",
+                    "fluid_damping: 2.0, fluid_ratio: 0.5"};
+  const Rotor coupled{"`cross_coupling`", "exponential", "cross_coupling: 100.0"};
+  const Rotor uneven{"`stiffness_y`", "exponential", "stiffness_y: 22000.0"};
+  const Rotor bowed{"`bow`", "exponential", "bow: 1.0e-4"};
+  const Rotor sagging{"`gravity_on_shaft`", "exponential", "gravity_on_shaft: true"};
+  const Rotor six{"these six together", "exponential", all};
+  return {{bare, {internal, fluid, coupled, uneven, bowed, sagging, six}},
+          {in_run_up(bare), {in_run_up(bowed), in_run_up(internal), in_run_up(six)}},
+          {{"nothing", rk4},
+           {{"`loss_factor`", rk4, "loss_factor: 0.01"},
+            {"rub, far from the stator", rk4, rub + "1.0"},
+            {"rub, on the stator", rk4, rub + "1.0e-3"},
+            {"a motor", rk4, "polar_inertia: 0.02", kMotor}}},
+          {{"nothing", gl6}, {{"journal bearings", gl6, journal}}}};
+}
+
+void writeEffects(const Effort& effort) {
+  std::vector<Stepped> all;
+  const std::vector<Family> every = families();
+  for (const Family& family : every) {
+    all.push_back(stepped(family.bare));
+    for (const Rotor& rotor : family.effects) {
+      all.push_back(stepped(rotor));
+    }
+  }
+  const std::vector<StepCost> costs = stepCosts(all, effort);
+  std::cout << "\nThe same rotor, with what a scene switches on; each line beside the line "
+               "\"nothing\" above it, which is\nstepped and turned in the same way.\n\n"
+               "| switched on | method | ns a step | middle half of the rounds | more than "
+               "without, ns |\n|---|---|---|---|---|\n";
+  auto cost = costs.begin();
+  for (const Family& family : every) {
+    const double bare = cost->median;
+    std::cout << fmt::format("| {} | {} | {:.1f} | {} | |\n", family.bare.name,
+                             family.bare.integrator, bare, middleHalf(*cost++));
+    for (const Rotor& rotor : family.effects) {
+      std::cout << fmt::format("| {} | {} | {:.1f} | {} | {:+.1f} |\n", rotor.name,
+                               rotor.integrator, cost->median, middleHalf(*cost),
+                               cost->median - bare);
+      ++cost;
+    }
+  }
+}
+
+int run(int argc, char** argv) {
+  Effort effort{25, 4.0};
+  if (argc == 2 && std::string(argv[1]) == "--quick") {
+    effort = {3, 0.2};
+  } else if (argc != 1) {
+    std::cerr << "usage: required_effects_benchmark [--quick]\n";
+    return 2;
+  }
+  const DenormalsToZero denormals_to_zero;
+  writeBare(effort);
+  writeEffects(effort);
+  return 0;
+}
+
+}  // namespace
+}  // namespace whirl_twin
+
+int main(int argc, char** argv) {
+  try {
+    return whirl_twin::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "required_effects_benchmark: " << error.what() << "\n";
+    return 1;
+  }
+}
