@@ -1,11 +1,6 @@
 #include "integration/packed_matrix.h"
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define WHIRL_TWIN_VECTOR_WIDTHS \
-  __attribute__((target_clones("avx512f", "arch=haswell", "default")))
-#else
-#define WHIRL_TWIN_VECTOR_WIDTHS
-#endif
+#include "integration/vector_widths.h"
 
 namespace whirl_twin {
 

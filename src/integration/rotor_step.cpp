@@ -36,7 +36,7 @@ MatrixXd forceSlope(const LinearRotor& rotor, double speed) {
 
 void requireFinite(const MatrixXd& matrix) {
   if (!matrix.allFinite()) {
-    throw std::domain_error("the rotor's step is beyond the range of doubles");
+    throw std::domain_error("the rotor's step is beyond the range of doubles: shorten the step");
   }
 }
 
@@ -94,7 +94,7 @@ void RotorStep::prepare(const LinearRotor& rotor, const std::pair<double, double
       count *= std::clamp(std::pow(error / kTableError, 0.25), 1.5, 8.0);
       before = error;
       if (count + static_cast<double>(cells_.size()) > kMostCells) {
-        throw std::domain_error("the rotor's matrices change too fast with speed for its step");
+        throw std::domain_error("the rotor's matrices change too fast with speed for its step: shorten the step");
       }
     }
     count = std::ceil(count);

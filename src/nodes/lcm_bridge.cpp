@@ -85,6 +85,10 @@ void LcmBridge::publishState(const state::MotorState& motor) {
   publishOn("drives/" + motor.drive + "/motor", toRos(motor));
 }
 
+void LcmBridge::publishState(const state::EnsembleState& ensemble) {
+  publishOn(ensemble.system + "/ensemble", toRos(ensemble));
+}
+
 void LcmBridge::publishState(const state::StabilityMargin& margin) {
   publishOn(margin.system + "/stability", toRos(margin));
 }

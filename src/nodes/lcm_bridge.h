@@ -29,6 +29,7 @@ class LcmBridge {
   void publishState(const state::PendulumState& pendulum);
   void publishState(const state::DriveState& drive);
   void publishState(const state::MotorState& motor);
+  void publishState(const state::EnsembleState& ensemble);
   void publishState(const state::StabilityMargin& margin);
   void publishState(const state::ParameterChange& change);
   void publishState(const state::Alert& alert);

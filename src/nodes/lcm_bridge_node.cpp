@@ -29,8 +29,9 @@ constexpr std::chrono::milliseconds kPoll{50};
 const ros::WallDuration kReportPeriod(1.0);
 
 std::vector<ChannelKind> kindsOf(bool derived) {
-  std::vector<ChannelKind> kinds{ChannelKind::kWhirl, ChannelKind::kPendulum, ChannelKind::kDrive,
-                                 ChannelKind::kMotor, ChannelKind::kParameter};
+  std::vector<ChannelKind> kinds{ChannelKind::kWhirl,     ChannelKind::kPendulum,
+                                 ChannelKind::kDrive,     ChannelKind::kMotor,
+                                 ChannelKind::kParameter, ChannelKind::kEnsemble};
   if (derived) {
     kinds.insert(kinds.end(), {ChannelKind::kStability, ChannelKind::kAlerts});
   }

@@ -163,6 +163,7 @@ class MonitorNode {
     }
   }
   void takeState(const state::MotorState&) {}
+  void takeState(const state::EnsembleState&) {}
   void takeState(const state::StabilityMargin&) {}
   void takeState(const state::Alert&) {}
 

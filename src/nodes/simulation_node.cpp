@@ -88,7 +88,7 @@ class Publisher {
       : live_(live),
         loop_(loop),
         observer_(live.twin(), live.generations()),
-        states_(live.twin(), node, settings.lcm_url, settings.clock),
+        states_(live.twin(), live.ensembles(), node, settings.lcm_url, settings.clock),
         statistics_(node.advertise<LoopStatistics>("loop", 10, true)),
         clock_(settings.clock),
         every_(settings.every),
@@ -152,6 +152,7 @@ class Publisher {
     if (observer_.step() % every_ == 0 && !observer_.tellsOnlyChange()) {
       states_.publish(observer_);
     }
+    states_.publishEnsembles(observer_);
     bool stopped_now = false;
     for (std::size_t i = 0; i < stopped_.size(); ++i) {
       const bool stopped = observer_.status(i) != StepStatus::kOk;

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "transport/ros_converters.h"
 
@@ -18,9 +19,9 @@ constexpr double kParameterPeriod = 10.0;         // s, simulated, on LCM
 
 }  // namespace
 
-StatePublisher::StatePublisher(const Twin& twin, ros::NodeHandle node, const std::string& lcm_url,
-                               bool clock)
-    : twin_(twin), lcm_(lcm_url) {
+StatePublisher::StatePublisher(const Twin& twin, EnsembleObserver ensembles, ros::NodeHandle node,
+                               const std::string& lcm_url, bool clock)
+    : twin_(twin), ensembles_(std::move(ensembles)), lcm_(lcm_url) {
   for (const Twin::Member& member : twin.members()) {
     const std::string& name = member.spec.name;
     Topics topics;
@@ -36,6 +37,10 @@ StatePublisher::StatePublisher(const Twin& twin, ros::NodeHandle node, const std
     motors_.push_back(drive.motor
                           ? node.advertise<MotorState>("drives/" + drive.name + "/motor", kQueue)
                           : ros::Publisher());
+  }
+  for (const std::size_t system : ensembles_.systems()) {
+    const std::string& name = twin.members()[system].spec.name;
+    ensemble_topics_.push_back({system, node.advertise<EnsembleState>(name + "/ensemble", kQueue)});
   }
   if (clock) {
     clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", 10);
@@ -77,6 +82,20 @@ void StatePublisher::publishMotor(const Observer& observer, std::size_t drive) {
   lcm_.publish(motor);
   if (wanted) {
     motors_[drive].publish(toRos(motor));
+  }
+}
+
+void StatePublisher::publishEnsembles(const Observer& observer) {
+  state::EnsembleState ensemble;
+  for (const EnsembleTopic& topic : ensemble_topics_) {
+    const bool wanted = topic.publisher.getNumSubscribers() > 0;
+    if ((!wanted && !lcm_.on()) || !ensembles_.take(topic.system, observer.instant(), ensemble)) {
+      continue;
+    }
+    lcm_.publish(ensemble);
+    if (wanted) {
+      topic.publisher.publish(toRos(ensemble));
+    }
   }
 }
 

@@ -3,10 +3,12 @@
 
 #include <ros/ros.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "scene/ensemble_observer.h"
 #include "scene/observer.h"
 #include "transport/lcm_publisher.h"
 
@@ -14,8 +16,10 @@ namespace whirl_twin {
 
 class StatePublisher {
  public:
-  /// Advertises every topic of the scene under `node`. clock: also /clock, at most at 250 Hz.
-  StatePublisher(const Twin& twin, ros::NodeHandle node, const std::string& lcm_url, bool clock);
+  /// Advertises every topic of the scene under `node`; `ensembles` are the twin's. clock: also
+  /// /clock, at most at 250 Hz.
+  StatePublisher(const Twin& twin, EnsembleObserver ensembles, ros::NodeHandle node,
+                 const std::string& lcm_url, bool clock);
 
   /// Publishes the parameters of the systems that have others than when last asked; on LCM, which
   /// latches nothing, also from time to time.
@@ -23,6 +27,9 @@ class StatePublisher {
   /// Publishes what the observer stands at. A system that has stopped is silent. Messages without
   /// a subscriber, and channels with LCM off, are not filled.
   void publish(const Observer& observer);
+  /// Publishes the statistics of those ensembles that have newer ones than when last asked, if
+  /// somebody listens; the observer says when now is.
+  void publishEnsembles(const Observer& observer);
   /// The clock alone, for those who join while the twin is paused; only with clock.
   void publishClock(const Observer& observer);
 
@@ -37,6 +44,10 @@ class StatePublisher {
     state::ParameterChange parameters_sent;
     double parameters_sent_at = 0.0;  // [s], simulated
   };
+  struct EnsembleTopic {
+    std::size_t system;
+    ros::Publisher publisher;
+  };
   std::int64_t clockTime(const Observer& observer) const;  // [ns], simulated
   void publishSystem(const Observer& observer, std::size_t system);
   void publishMotor(const Observer& observer, std::size_t drive);
@@ -45,6 +56,8 @@ class StatePublisher {
   std::vector<Topics> systems_;
   std::vector<ros::Publisher> drives_;
   std::vector<ros::Publisher> motors_;  // of the drives; null where there is none
+  EnsembleObserver ensembles_;
+  std::vector<EnsembleTopic> ensemble_topics_;  // of ensembles_.systems()
   ros::Publisher clock_;
   std::int64_t last_clock_ = -1'000'000'000;  // [ns], simulated; before any
   LcmPublisher lcm_;

@@ -20,6 +20,8 @@ struct Series {
   std::optional<Pen> pen = std::nullopt;  ///< none: the next colour of the palette
   bool line = true;                       ///< a line through the points
   Marks marks = Marks::kNone;             ///< at every point
+  /// The points go around an area of this colour, behind the curves; it has no line of its own.
+  std::optional<Ink> fill = std::nullopt;
 };
 
 /// A range of x with a ground of its own, behind everything.

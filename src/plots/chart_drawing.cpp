@@ -83,8 +83,13 @@ void ChartDrawing::draw(double left_margin) {
   drawGrid();
   drawReferences();
   canvas_.clip({plot_.left - 1.0, plot_.top - 1.0}, plot_.width + 2.0, plot_.height + 2.0);
+  for (const Series& series : chart_.series) {
+    if (series.fill) {
+      drawArea(series);
+    }
+  }
   for (std::size_t i = 0; i < chart_.series.size(); ++i) {
-    if (chart_.series[i].line) {
+    if (chart_.series[i].line && !chart_.series[i].fill) {
       drawSeries(chart_.series[i], penOf(chart_, i));
     }
   }
@@ -182,6 +187,17 @@ void ChartDrawing::drawReferences() {
   }
 }
 
+void ChartDrawing::drawArea(const Series& series) {
+  std::vector<Spot> border;
+  for (std::size_t i = 0; i < series.x.size(); ++i) {
+    const Spot spot = at(series.x[i], series.y[i]);
+    if (std::isfinite(spot.x) && std::isfinite(spot.y)) {
+      border.push_back(spot);
+    }
+  }
+  canvas_.polygon(border, *series.fill, {*series.fill, 0.0});
+}
+
 void ChartDrawing::drawSeries(const Series& series, const Pen& pen) {
   std::vector<Spot> line;
   const auto finish = [&] {
@@ -237,12 +253,13 @@ void ChartDrawing::drawLegend() {
   for (const LegendEntry& entry : legend_) {
     const Spot start{entry.spot.x, top + entry.spot.y};
     const Spot end{start.x + kSample, start.y};
-    if (entry.band != nullptr) {
+    if (entry.band != nullptr || entry.series->fill) {
       canvas_.polygon({{start.x, start.y - 6.0},
                        {end.x, start.y - 6.0},
                        {end.x, start.y + 6.0},
                        {start.x, start.y + 6.0}},
-                      entry.band->ink, {ink::kGrey, 0.6});
+                      entry.band != nullptr ? entry.band->ink : *entry.series->fill,
+                      {ink::kGrey, 0.6});
     } else {
       if (entry.series->line) {
         canvas_.line({start, end}, entry.pen);

@@ -41,6 +41,7 @@ class ChartDrawing {
   void drawBands();
   void drawGrid();
   void drawReferences();
+  void drawArea(const Series& series);
   void drawSeries(const Series& series, const Pen& pen);
   void drawLine(const std::vector<Spot>& line, const Pen& pen);
   void drawMarks(const Series& series, const Pen& pen);

@@ -6,7 +6,9 @@ LiveTwin::LiveTwin(const Scene& scene, std::size_t ring_capacity)
     : twin_(scene),
       generations_(std::make_shared<SystemGenerations>(twin_)),
       ring_(twin_.layout().size, ring_capacity),
-      record_(twin_.layout().size) {}
+      record_(twin_.layout().size) {
+  twin_.buildEnsembles();
+}
 
 LiveTwin::~LiveTwin() {
   TwinCommand command;

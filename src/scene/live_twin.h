@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "realtime/record_ring.h"
+#include "scene/ensemble_observer.h"
 #include "scene/system_generations.h"
 #include "scene/twin.h"
 
@@ -78,6 +79,8 @@ class LiveTwin {
   // One other thread: records, in order.
   bool pop(double* record) noexcept { return ring_.pop(record); }
   std::uint64_t dropped() const noexcept { return ring_.dropped(); }
+  /// The statistics of its ensembles, for the thread of the records; the twin outlives it.
+  EnsembleObserver ensembles() { return EnsembleObserver(twin_); }
 
  private:
   void carryOut(const TwinCommand& command) noexcept;

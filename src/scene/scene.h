@@ -1,6 +1,8 @@
 // A checked scene: what is simulated, with every number in range. Made by readScene() only.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -23,10 +25,28 @@ struct DriveSpec {
   std::optional<Motor> motor = std::nullopt;
 };
 
+/// How one number differs from member to member of an ensemble, about what the scene gives.
+struct Spread {
+  enum class Kind { kParameter, kCoordinate, kRate };
+  std::string path;  ///< `stiffness`, `bearings[0].kxx`, `initial.x`, `initial.x_rate`
+  Kind kind = Kind::kParameter;
+  std::size_t coordinate = 0;  ///< of an initial value
+  bool normal = false;         ///< distributed normally, else uniformly
+  double width = 0.0;          ///< standard deviation, or half the uniform's width; > 0
+};
+
+/// A system many times over. The system itself, as the scene gives it, runs beside them.
+struct EnsembleSpec {
+  std::size_t count = 0;  ///< members; 0: no ensemble
+  std::uint32_t seed = 1;
+  std::vector<Spread> spread;
+};
+
 struct SystemSpec {
   std::string name;
   std::string model;
   std::optional<std::string> drive;  ///< name of the drive that turns it
+  std::size_t drive_place = 0;       ///< where Scene::driveOf() looks for it first
   std::optional<double> speed;       ///< [rad/s], a constant speed of its own instead
   std::string integrator = "auto";
   double tolerance = 1.0e-6;  ///< [-], for auto
@@ -39,6 +59,7 @@ struct SystemSpec {
   Settings settings;                         ///< parameters that are not one number
   std::vector<double> q;                     ///< initial coordinates, [rad] or [m]
   std::vector<double> v;                     ///< initial rates, [rad/s] or [m/s]
+  EnsembleSpec ensemble;
 };
 
 struct Scene {
@@ -49,6 +70,19 @@ struct Scene {
   double gravity = 9.80665;  ///< [m/s^2]
   std::vector<DriveSpec> drives;
   std::vector<SystemSpec> systems;
+
+  /// Place in `drives` of the one that turns the system; drives.size() if none does.
+  std::size_t driveOf(const SystemSpec& system) const {
+    if (!system.drive) {
+      return drives.size();
+    }
+    const auto is_it = [&](const DriveSpec& drive) { return drive.name == *system.drive; };
+    if (system.drive_place < drives.size() && is_it(drives[system.drive_place])) {
+      return system.drive_place;
+    }
+    const auto found = std::find_if(drives.begin(), drives.end(), is_it);
+    return static_cast<std::size_t>(found - drives.begin());
+  }
 
   double stepSeconds() const { return static_cast<double>(step) * 1.0e-9; }
 };

@@ -12,6 +12,7 @@
 
 #include "analysis/mass_matrix.h"
 #include "scene/drive_reader.h"
+#include "scene/ensemble_reader.h"
 #include "scene/model_registry.h"
 #include "scene/node_reader.h"
 #include "scene/parameter_reader.h"
@@ -117,13 +118,13 @@ void checkMass(const MapReader& system, const Dynamics& dynamics, const SystemSp
 }
 
 SystemSpec readSystem(const YAML::Node& node, const std::string& key, const std::string& name,
-                      const Scene& scene, Complaints& complaints) {
+                      const Scene& scene, const DrivePlaces& places, Complaints& complaints) {
   SystemSpec spec;
   spec.name = name;
-  const MapReader map(
-      node, key,
-      {"model", "drive", "integrator", "tolerance", "horizon", "substeps", "parameters", "initial"},
-      "key of a system", complaints);
+  const MapReader map(node, key,
+                      {"model", "drive", "integrator", "tolerance", "horizon", "substeps",
+                       "parameters", "initial", "count", "seed", "spread"},
+                      "key of a system", complaints);
   if (!map.usable()) {
     return spec;
   }
@@ -141,12 +142,13 @@ SystemSpec readSystem(const YAML::Node& node, const std::string& key, const std:
   const std::size_t before = complaints.all().size();
   readParameters(map, *model, spec, complaints);
   const bool fit = complaints.all().size() == before;
-  readShaft(map, *model, scene, spec, complaints);
+  readShaft(map, *model, scene, places, spec, complaints);
   try {
     const ModelSetup setup =
         model->setUp(spec.parameters, spec.settings, surroundingsOf(scene, spec));
     readInitial(map, scene, *setup.dynamics, spec, complaints);
     readIntegrator(map, setup, spec, complaints);
+    readEnsemble(map, *model, setup.dynamics->coordinates(), spec, complaints);
     if (fit) {
       checkMass(map, *setup.dynamics, spec, scene, complaints);
     }
@@ -176,10 +178,12 @@ Scene readTree(const YAML::Node& tree, const std::string& source, Complaints& co
   scene.step = nanoseconds(map, "step", step, complaints);
   scene.time = nanoseconds(map, "time", time, complaints);
   scene.gravity = map.number("gravity", Range::kNotNegative, "m/s^2", scene.gravity);
+  DrivePlaces places;
   if (map.has("drives")) {
     const MapReader drives(map.at("drives"), "drives", {}, "", complaints);
     checkNames(drives, "drive", complaints);
     for (const std::string& name : drives.names()) {
+      places.emplace(name, scene.drives.size());
       scene.drives.push_back(
           readDrive(drives.at(name), drives.key(name), name, scene.time, complaints));
     }
@@ -195,7 +199,7 @@ Scene readTree(const YAML::Node& tree, const std::string& source, Complaints& co
   checkNames(systems, "system", complaints);
   for (const std::string& name : systems.names()) {
     scene.systems.push_back(
-        readSystem(systems.at(name), systems.key(name), name, scene, complaints));
+        readSystem(systems.at(name), systems.key(name), name, scene, places, complaints));
   }
   checkMotors(scene, complaints);
   return scene;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -10,20 +9,35 @@
 
 namespace whirl_twin {
 
+namespace {
+
+/// The drive that the system names; complains of an unknown one and takes the first.
+std::size_t namedDrive(const MapReader& system, const Scene& scene, const DrivePlaces& places) {
+  const YAML::Node node = system.at("drive");
+  const auto found = node.IsScalar() ? places.find(node.Scalar()) : places.end();
+  if (found != places.end()) {
+    return found->second;
+  }
+  std::vector<std::string> names;
+  for (const DriveSpec& drive : scene.drives) {
+    names.push_back(drive.name);
+  }
+  static_cast<void>(system.choice("drive", names, "a drive of the scene", names.front()));
+  return 0;
+}
+
+}  // namespace
+
 void readShaft(const MapReader& system, const ModelInfo& model, const Scene& scene,
-               SystemSpec& spec, Complaints& complaints) {
+               const DrivePlaces& places, SystemSpec& spec, Complaints& complaints) {
   if (system.has("drive")) {
-    const std::string drive = system.text("drive", "");
-    std::vector<std::string> drives;
-    for (const DriveSpec& d : scene.drives) {
-      drives.push_back(d.name);
-    }
     if (!model.has_shaft) {
       complaints.add(system.key("drive"), model.name + " has no shaft to drive");
-    } else if (drives.empty()) {
+    } else if (scene.drives.empty()) {
       complaints.add(system.key("drive"), "the scene has no drives");
     } else {
-      spec.drive = system.choice("drive", drives, "a drive of the scene", drives.front());
+      spec.drive_place = namedDrive(system, scene, places);
+      spec.drive = scene.drives[spec.drive_place].name;
       if (surroundingsOf(scene, spec).motor && !model.takes_motor) {
         complaints.add(system.key("drive"), model.name +
                                                 " cannot be turned by a motor; name a drive "
@@ -42,32 +56,32 @@ void readShaft(const MapReader& system, const ModelInfo& model, const Scene& sce
 
 void startSpin(const MapReader& initial, const Scene& scene, SystemSpec& spec,
                Complaints& complaints) {
-  const auto named =
-      std::find_if(scene.drives.begin(), scene.drives.end(),
-                   [&](const DriveSpec& drive) { return spec.drive && drive.name == *spec.drive; });
-  if (named == scene.drives.end() || !named->motor) {
+  const std::size_t place = scene.driveOf(spec);
+  if (place == scene.drives.size() || !scene.drives[place].motor) {
     return;
   }
+  const DriveSpec& drive = scene.drives[place];
   for (const char* name : {"spin", "spin_rate"}) {
     if (initial.has(name)) {
       complaints.add(initial.key(name),
                      fmt::format("the shaft starts with the angle and the speed of its drive: give "
                                  "them under drives.{}",
-                                 named->name));
+                                 drive.name));
     }
   }
-  spec.q.back() = named->angle;
-  spec.v.back() = named->speed;
+  spec.q.back() = drive.angle;
+  spec.v.back() = drive.speed;
 }
 
 void checkMotors(const Scene& scene, Complaints& complaints) {
-  for (const DriveSpec& drive : scene.drives) {
-    const auto turned = std::count_if(
-        scene.systems.begin(), scene.systems.end(),
-        [&](const SystemSpec& system) { return system.drive && *system.drive == drive.name; });
-    if (drive.motor && turned != 1) {
-      complaints.add(fmt::format("drives.{}.motor", drive.name),
-                     fmt::format("a motor turns exactly one system, found {}", turned));
+  std::vector<int> turned(scene.drives.size() + 1);  // the last: those that no drive turns
+  for (const SystemSpec& system : scene.systems) {
+    ++turned[scene.driveOf(system)];
+  }
+  for (std::size_t i = 0; i < scene.drives.size(); ++i) {
+    if (scene.drives[i].motor && turned[i] != 1) {
+      complaints.add(fmt::format("drives.{}.motor", scene.drives[i].name),
+                     fmt::format("a motor turns exactly one system, found {}", turned[i]));
     }
   }
 }

@@ -79,6 +79,23 @@ struct MotorState {
   double dissipated_work = 0.0;   ///< [J], likewise, drag included
 };
 
+/// The spread of an ensemble: a system `count` times over, each with parameters of its own. One
+/// entry per quantity: a rotor's radius, or the coordinates of any other model. Of the members that
+/// still run; the peaks are each member's largest magnitude since the start.
+struct EnsembleState {
+  Instant at;
+  std::string system;
+  std::int64_t count = 0;    ///< members
+  std::int64_t running = 0;  ///< of them, not stopped
+  std::vector<std::string> quantity;
+  std::vector<std::string> unit;  ///< "m" or "rad"
+  std::vector<double> mean, standard_deviation;
+  std::vector<double> smallest, percentile_5, percentile_25, median, percentile_75, percentile_95,
+      largest;
+  std::vector<double> peak_mean, peak_standard_deviation;
+  std::vector<double> peak_percentile_5, peak_median, peak_percentile_95, peak_largest;
+};
+
 /// The parameters of a system from an instant on, and which of them changed then.
 struct ParameterChange {
   Instant at;

@@ -8,10 +8,9 @@ namespace whirl_twin {
 
 inline Surroundings surroundingsOf(const Scene& scene, const SystemSpec& system) {
   Surroundings around(scene.gravity);
-  for (const DriveSpec& drive : scene.drives) {
-    if (system.drive && drive.name == *system.drive) {
-      around.motor = drive.motor;
-    }
+  const std::size_t drive = scene.driveOf(system);
+  if (drive < scene.drives.size()) {
+    around.motor = scene.drives[drive].motor;
   }
   return around;
 }

@@ -18,10 +18,10 @@ Scene sceneOfOne(const Scene& scene, std::size_t system) {
   one.time = scene.time;
   one.gravity = scene.gravity;
   one.systems = {scene.systems[system]};
-  for (const DriveSpec& drive : scene.drives) {
-    if (one.systems.front().drive == drive.name) {
-      one.drives.push_back(drive);
-    }
+  const std::size_t drive = scene.driveOf(one.systems.front());
+  if (drive < scene.drives.size()) {
+    one.drives = {scene.drives[drive]};
+    one.systems.front().drive_place = 0;
   }
   return one;
 }

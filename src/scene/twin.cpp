@@ -6,20 +6,12 @@
 #include <stdexcept>
 
 #include "scene/model_registry.h"
+#include "scene/scene_reader.h"
 #include "scene/surroundings.h"
 
 namespace whirl_twin {
 
 namespace {
-
-std::size_t driveIndex(const Scene& scene, const std::string& name) {
-  const auto found = std::find_if(scene.drives.begin(), scene.drives.end(),
-                                  [&](const DriveSpec& d) { return d.name == name; });
-  if (found == scene.drives.end()) {
-    throw std::invalid_argument("no drive named " + name);
-  }
-  return static_cast<std::size_t>(found - scene.drives.begin());
-}
 
 /// "x [m], theta [rad]"
 std::string coordinateNames(const Dynamics& dynamics) {
@@ -40,12 +32,19 @@ Twin::Twin(const Scene& scene) : scene_(scene) {
   for (const SystemSpec& spec : scene.systems) {
     Member member = memberOf(spec);
     if (spec.drive) {
-      member.drive = driveIndex(scene, *spec.drive);
+      member.drive = scene.driveOf(spec);
+      if (member.drive == scene.drives.size()) {
+        throw std::invalid_argument("no drive named " + *spec.drive);
+      }
     } else {
       member.drive = drives_.size();
       drives_.emplace_back(spec.speed.value_or(0.0), 0.0);
     }
-    systems_.push_back(systemOf(member));
+    try {
+      systems_.push_back(systemOf(member));
+    } catch (const std::domain_error& error) {
+      throw SceneError({fmt::format("{}: systems.{}: {}", scene.source, spec.name, error.what())});
+    }
     members_.push_back(std::move(member));
   }
   turned_by_.assign(drives_.size(), kNoSystem);
@@ -59,11 +58,29 @@ Twin::Twin(const Scene& scene) : scene_(scene) {
   replacements_.resize(systems_.size());
   running_.resize(systems_.size());
   generation_.resize(systems_.size());
+  ensembles_.resize(systems_.size());
   layout_.size = RecordLayout::kDrives + RecordLayout::kDriveSize * drives_.size();
   for (const auto& system : systems_) {
     layout_.system.push_back(layout_.size);
     layout_.size += 4 + 2 * system->dof();
     state_.resize(std::max(state_.size(), 2 * system->dof() + 1));
+  }
+  reset();
+}
+
+void Twin::buildEnsembles() {
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const Member& member = members_[i];
+    if (member.spec.ensemble.count == 0) {
+      continue;
+    }
+    try {
+      ensembles_[i] = std::make_unique<Ensemble>(scene_, member.spec, *member.model,
+                                                 member.integrator, drives_[member.drive]);
+    } catch (const std::logic_error& error) {  // invalid arguments and domains
+      throw SceneError({fmt::format("{}: systems.{}.spread: {}", scene_.source, member.spec.name,
+                                    error.what())});
+    }
   }
   reset();
 }
@@ -102,6 +119,10 @@ std::unique_ptr<System> Twin::systemOf(const Member& member) const {
 }
 
 Twin::Member Twin::changed(std::size_t system, const SystemSpec& spec) const {
+  if (spec.ensemble.count > 0) {
+    throw std::invalid_argument(
+        "are those of an ensemble, drawn at the start: they cannot be changed while it runs");
+  }
   Member member = memberOf(spec);
   member.drive = members_[system].drive;
   const std::string names = coordinateNames(*member.dynamics);
@@ -131,9 +152,19 @@ void Twin::step() noexcept {
       status_[i] = running_[i]->step(time);
     }
   }
+  for (const std::unique_ptr<Ensemble>& ensemble : ensembles_) {
+    if (ensemble) {
+      ensemble->step(time);
+    }
+  }
   ++steps_;
   for (Drive& drive : drives_) {
     drive.begin(scene_.time + steps_ * scene_.step);
+  }
+  for (const std::unique_ptr<Ensemble>& ensemble : ensembles_) {
+    if (ensemble) {
+      ensemble->publish(steps_);
+    }
   }
 }
 
@@ -148,6 +179,10 @@ void Twin::reset() noexcept {
     generation_[i] = 0;
     running_[i]->set(members_[i].spec.q.data(), members_[i].spec.v.data());
     status_[i] = StepStatus::kOk;
+    if (ensembles_[i]) {
+      ensembles_[i]->reset();
+      ensembles_[i]->publish(0);
+    }
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "control/drive.h"
 #include "mechanics/dynamics.h"
+#include "scene/ensemble.h"
 #include "scene/model_info.h"
 #include "scene/record.h"
 #include "scene/scene.h"
@@ -29,7 +30,7 @@ class Twin {
   };
 
   /// Builds what the scene names, at its start. Throws std::invalid_argument for a scene that
-  /// readScene() would have refused.
+  /// readScene() would have refused, SceneError for one whose steps cannot be prepared.
   explicit Twin(const Scene& scene);
   Twin(const Twin&) = delete;
   Twin& operator=(const Twin&) = delete;
@@ -46,6 +47,13 @@ class Twin {
   /// A member as it would be with the parameters of `spec`. Throws std::invalid_argument where
   /// readScene() would complain of them, and where they change its coordinates.
   Member changed(std::size_t system, const SystemSpec& spec) const;
+  /// Also steps the ensembles of the scene from now on, which a twin that is only analysed, or
+  /// followed, does without. Before the first step. Throws SceneError for members whose parameters
+  /// do not fit together.
+  void buildEnsembles();
+  /// The ensemble of a system; nullptr: it has none, or they were not built.
+  Ensemble* ensemble(std::size_t system) noexcept { return ensembles_[system].get(); }
+  const Ensemble* ensemble(std::size_t system) const noexcept { return ensembles_[system].get(); }
   /// What steps as a member says, on its drive; its state is yet to be set.
   std::unique_ptr<System> systemOf(const Member& member) const;
 
@@ -84,6 +92,7 @@ class Twin {
   std::vector<std::unique_ptr<System>> replacements_;  // latest of each system; null: none yet
   std::vector<System*> running_;                       // of systems_ or replacements_
   std::vector<std::int64_t> generation_;               // of running_; 0: the scene's
+  std::vector<std::unique_ptr<Ensemble>> ensembles_;   // of each system; null: none
   std::vector<double> state_;                          // room for q, v and work of the largest
   std::vector<StepStatus> status_;
   RecordLayout layout_;

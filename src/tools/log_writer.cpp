@@ -1,5 +1,6 @@
 #include <set>
 
+#include "scene/ensemble_statistics.h"
 #include "tools/output.h"
 #include "tools/sample_writer.h"
 #include "transport/lcm_event_log.h"
@@ -11,7 +12,7 @@ namespace {
 class LogWriter final : public SampleWriter {
  public:
   LogWriter(const Twin& twin, std::vector<std::size_t> systems, const std::string& path)
-      : systems_(std::move(systems)), pending_(path), log_(pending_.path()) {
+      : twin_(twin), systems_(std::move(systems)), pending_(path), log_(pending_.path()) {
     for (const std::size_t i : systems_) {
       const std::size_t drive = twin.members()[i].drive;
       if (drive < twin.scene().drives.size()) {  // the others are constant speeds, not drives
@@ -33,6 +34,14 @@ class LogWriter final : public SampleWriter {
     }
     for (const std::size_t drive : drives_) {
       log_.write(observer.drive(drive));
+      if (twin_.isMotor(drive) && observer.status(twin_.turnedBy(drive)) == StepStatus::kOk) {
+        log_.write(observer.motor(drive));
+      }
+    }
+    for (const std::size_t i : systems_) {
+      if (twin_.ensemble(i) != nullptr && twin_.ensemble(i)->isDue(observer.step())) {
+        writeEnsemble(observer, i);
+      }
     }
   }
 
@@ -42,10 +51,22 @@ class LogWriter final : public SampleWriter {
   }
 
  private:
+  void writeEnsemble(const Observer& observer, std::size_t system) {
+    const Ensemble& ensemble = *twin_.ensemble(system);
+    record_.resize(ensemble.recordSize());
+    ensemble.write(observer.step(), record_.data());
+    state::EnsembleState state = ensembleStatistics(ensemble, record_.data());
+    state.at = observer.instant();
+    state.system = twin_.members()[system].spec.name;
+    log_.write(state);
+  }
+
+  const Twin& twin_;
   std::vector<std::size_t> systems_;
   std::set<std::size_t> drives_;
   PendingFile pending_;
   EventLogWriter log_;
+  std::vector<double> record_;  // of an ensemble
 };
 
 }  // namespace

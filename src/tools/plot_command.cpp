@@ -28,6 +28,7 @@ constexpr const char* kFooter =
     "  NAME_time      its coordinates; of a rotor whirl radius, phase and shaft speed\n"
     "  NAME_phase     the rate of each coordinate over it; of a rotor the orbit\n"
     "  NAME_energy    kinetic and potential energy, and h\n"
+    "  NAME_ensemble  of a system with a count: percentiles over time, and the members' peaks\n"
     "Files appear only when all of them are complete.\n"
     "\n"
     "Examples:\n"
@@ -35,6 +36,7 @@ constexpr const char* kFooter =
     "  twin plot my_scene.yaml --output pictures --format png";
 
 constexpr std::int64_t kMostSamples = 100'000;
+constexpr std::int64_t kEnsembleSamples = 600;
 
 struct PlotRequest {
   SimulationRequest run;
@@ -79,13 +81,15 @@ int plot(const PlotRequest& request) {
   }
   plan.stride = 1 + plan.steps / kMostSamples;
   Simulation simulation(plan);
-  PlotHistoryWriter writer(simulation.twin(), plan.systems);
+  const std::int64_t samples = plan.steps / plan.stride;
+  PlotHistoryWriter writer(simulation.twin(), plan.systems, 1 + samples / kEnsembleSamples);
   simulation.run(&writer, false);
 
   std::vector<std::unique_ptr<WaitingFile>> files;
   for (std::size_t i = 0; i < plan.systems.size(); ++i) {
     const Twin::Member& member = simulation.twin().members()[plan.systems[i]];
-    for (const SystemPlot& plot : systemPlots(member, writer.histories()[i], format)) {
+    const Ensemble* const ensemble = simulation.twin().ensemble(plan.systems[i]);
+    for (const SystemPlot& plot : systemPlots(member, ensemble, writer.histories()[i], format)) {
       const std::string name = fmt::format("{}_{}.{}", member.spec.name, plot.kind, request.format);
       files.push_back(std::make_unique<WaitingFile>((folder / name).string(), plot.image));
     }

@@ -3,10 +3,16 @@
 #include <limits>
 #include <utility>
 
+#include "scene/ensemble_statistics.h"
+
 namespace whirl_twin {
 
-PlotHistoryWriter::PlotHistoryWriter(const Twin& twin, std::vector<std::size_t> systems)
-    : twin_(twin), systems_(std::move(systems)), histories_(systems_.size()) {
+PlotHistoryWriter::PlotHistoryWriter(const Twin& twin, std::vector<std::size_t> systems,
+                                     std::int64_t ensemble_stride)
+    : twin_(twin),
+      systems_(std::move(systems)),
+      histories_(systems_.size()),
+      ensemble_stride_(ensemble_stride) {
   for (std::size_t i = 0; i < systems_.size(); ++i) {
     const std::size_t n = twin_.members()[systems_[i]].spec.q.size();
     histories_[i].coordinates.resize(n);
@@ -37,7 +43,19 @@ void PlotHistoryWriter::write(const Observer& observer) {
       history.whirl_radius.push_back(running ? observer.whirlRadius(system) : kNaN);
       history.whirl_phase.push_back(running ? observer.whirlPhase(system) : kNaN);
     }
+    if (twin_.ensemble(system) != nullptr && samples_ % ensemble_stride_ == 0) {
+      writeEnsemble(system, history);
+    }
   }
+  ++samples_;
+}
+
+void PlotHistoryWriter::writeEnsemble(std::size_t system, PlotHistory& history) {
+  const Ensemble& ensemble = *twin_.ensemble(system);
+  record_.resize(ensemble.recordSize());
+  ensemble.write(twin_.stepCount(), record_.data());
+  history.ensemble.push_back(ensembleStatistics(ensemble, record_.data()));
+  history.ensemble.back().at.time = twin_.time();
 }
 
 }  // namespace whirl_twin

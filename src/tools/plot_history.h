@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "tools/sample_writer.h"
@@ -17,12 +18,15 @@ struct PlotHistory {
   std::vector<double> speed;                            ///< [rad/s], of the shaft
   std::vector<double> whirl_x, whirl_y;                 ///< [m], where a rotor's whirl is seen
   std::vector<double> whirl_radius, whirl_phase;        ///< [m], [rad]; of a rotor
+  std::vector<state::EnsembleState> ensemble;           ///< at some of the samples
 };
 
 class PlotHistoryWriter final : public SampleWriter {
  public:
-  /// `systems`: which ones of the twin's; the twin outlives the writer.
-  PlotHistoryWriter(const Twin& twin, std::vector<std::size_t> systems);
+  /// `systems`: which ones of the twin's; the twin outlives the writer. Of every so many samples
+  /// (`ensemble_stride`) it also keeps the statistics of the ensembles.
+  PlotHistoryWriter(const Twin& twin, std::vector<std::size_t> systems,
+                    std::int64_t ensemble_stride);
 
   void write(const Observer& observer) override;
   void finish() override {}
@@ -31,9 +35,14 @@ class PlotHistoryWriter final : public SampleWriter {
   const std::vector<PlotHistory>& histories() const { return histories_; }
 
  private:
+  void writeEnsemble(std::size_t system, PlotHistory& history);
+
   const Twin& twin_;
   std::vector<std::size_t> systems_;
   std::vector<PlotHistory> histories_;
+  std::int64_t ensemble_stride_;
+  std::int64_t samples_ = 0;
+  std::vector<double> record_;  // of an ensemble
 };
 
 }  // namespace whirl_twin

@@ -37,6 +37,10 @@ SystemCheck checkSystem(const Twin::Member& member) {
   check.channels = {channelName(rotor ? ChannelKind::kWhirl : ChannelKind::kPendulum, name),
                     channelName(ChannelKind::kStability, name),
                     channelName(ChannelKind::kParameter, name)};
+  if (member.spec.ensemble.count > 0) {
+    check.topics.push_back({"/twin/" + name + "/ensemble", "whirl_twin/EnsembleState"});
+    check.channels.push_back(channelName(ChannelKind::kEnsemble, name));
+  }
   return check;
 }
 
@@ -71,10 +75,20 @@ SceneCheck checkScene(const Scene& scene, const std::vector<std::size_t>& system
       std::min(kSystemBudget, kSystemsBudget / static_cast<double>(twin.members().size()));
   for (std::size_t i = 0; i < twin.members().size(); ++i) {
     check.systems.push_back(checkSystem(twin.members()[i]));
-    check.systems.back().step_cost = stepCost(sceneOfOne(check.scene, i), budget);
+    SystemCheck& system = check.systems.back();
+    const RunningCost cost = runningCost(sceneOfOne(check.scene, i), budget);
+    system.step_cost = cost.step;
+    system.memory = cost.memory;
+    system.ensemble = cost.ensembles.front();
   }
-  check.step_cost = stepCost(check.scene, kWholeBudget);
-  check.memory = twinMemory(check.scene);
+  if (check.systems.size() == 1) {
+    check.step_cost = check.systems[0].step_cost;
+    check.memory = check.systems[0].memory;
+  } else {
+    const RunningCost cost = runningCost(check.scene, kWholeBudget);
+    check.step_cost = cost.step;
+    check.memory = cost.memory;
+  }
   check.record = twin.layout().size * sizeof(double);
   return check;
 }

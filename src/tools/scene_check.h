@@ -30,6 +30,8 @@ struct SystemCheck {
   std::vector<PublishedTopic> topics;
   std::vector<std::string> channels;  ///< LCM
   double step_cost = 0.0;             ///< [ns]; NaN: it stops at once
+  std::size_t memory = 0;             ///< [bytes], heap of a twin of it alone
+  std::string ensemble;               ///< "1000 members, side by side in vectors", or ""
 };
 
 struct SceneCheck {

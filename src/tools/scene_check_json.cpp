@@ -49,7 +49,11 @@ Json systemJson(const SystemCheck& system) {
     json["topics"].push_back({{"topic", topic.topic}, {"type", topic.type}});
   }
   json["channels"] = system.channels;
+  if (!system.ensemble.empty()) {
+    json["ensemble"] = system.ensemble;
+  }
   json["ns_per_step"] = system.step_cost;
+  json["memory_bytes"] = system.memory;
   return json;
 }
 
@@ -72,6 +76,7 @@ Json json(const SceneCheck& check) {
   json["ns_per_step"] = check.step_cost;
   json["real_time_factor"] = static_cast<double>(check.scene.step) / check.step_cost;
   json["memory_bytes"] = check.memory;
+  json["threads"] = 3;  // of the live node, however many systems there are
   json["record_bytes"] = check.record;
   return json;
 }

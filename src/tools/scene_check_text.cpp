@@ -58,7 +58,11 @@ std::string systemText(const SystemCheck& system) {
     out += fmt::format("    ROS           {} ({})\n", topic.topic, topic.type);
   }
   out += fmt::format("    LCM           {}\n", fmt::join(system.channels, ", "));
-  return out + fmt::format("    a step costs  {}\n", costText(system.step_cost));
+  if (!system.ensemble.empty()) {
+    out += fmt::format("    ensemble      {}\n", system.ensemble);
+  }
+  return out + fmt::format("    a step costs  {}, memory {:.1f} kB, no thread of its own\n",
+                           costText(system.step_cost), static_cast<double>(system.memory) / 1000.0);
 }
 
 }  // namespace
@@ -86,8 +90,10 @@ std::string text(const SceneCheck& check) {
         fmt::format(": {} times faster than real time",
                     factor < 100.0 ? fmt::format("{:.3g}", factor) : fmt::format("{:.0f}", factor));
   }
-  return out + fmt::format("\n  memory {:.1f} kB, and {} bytes for each step in flight\n",
-                           static_cast<double>(check.memory) / 1000.0, check.record);
+  return out + fmt::format(
+                   "\n  memory {:.1f} kB, and {} bytes for each step in flight\n  live, three "
+                   "threads: one steps everything, one publishes, one answers services\n",
+                   static_cast<double>(check.memory) / 1000.0, check.record);
 }
 
 }  // namespace whirl_twin

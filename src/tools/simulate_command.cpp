@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
 #include "tools/arguments.h"
 #include "tools/commands.h"
+#include "tools/members_table.h"
 #include "tools/simulation.h"
 
 namespace whirl_twin {
@@ -48,16 +50,35 @@ std::unique_ptr<SampleWriter> makeWriter(const SimulationRequest& request, const
                                                 : makeLogWriter(twin, systems, *request.output);
 }
 
+void requireOneEnsemble(const SimulationPlan& plan) {
+  const auto ensembles =
+      std::count_if(plan.systems.begin(), plan.systems.end(),
+                    [&](std::size_t i) { return plan.scene.systems[i].ensemble.count > 0; });
+  if (ensembles != 1) {
+    throw BadInput(fmt::format("--members: needs one system with a count, found {}{}", ensembles,
+                               ensembles > 1 ? "; choose one by --system" : ""));
+  }
+}
+
 int simulate(const SimulationRequest& request) {
   if (request.output) {
     extensionOf(*request.output);
   }
+  if (request.members && std::filesystem::path(*request.members).extension() != ".csv") {
+    throw BadInput(fmt::format("--members: must end in .csv, found '{}'", *request.members));
+  }
   const SimulationPlan plan = planSimulation(request);
+  if (request.members) {
+    requireOneEnsemble(plan);
+  }
   Simulation simulation(plan);
   const auto writer = makeWriter(request, simulation.twin(), plan.systems);
   simulation.run(writer.get(), !request.output && !request.json);
   if (writer) {
     writer->finish();
+  }
+  if (request.members) {
+    writeMembers(simulation.twin(), plan.systems, *request.members);
   }
   if (request.json) {
     printJson(simulation.json());
@@ -86,6 +107,10 @@ void addSimulateCommand(CLI::App& twin, int& status) {
   command
       ->add_option("--output", request->output,
                    "FILE.csv or FILE.lcmlog; default: a table on standard output")
+      ->type_name("FILE");
+  command
+      ->add_option("--members", request->members,
+                   "FILE.csv: of a system with a count, what each member was and came to")
       ->type_name("FILE");
   command->add_option("--system", request->system, "show this system only")->type_name("NAME");
   command->add_flag("--json", request->json, "print the final state as one JSON object");

@@ -6,6 +6,7 @@
 #include <csignal>
 
 #include "realtime/denormals.h"
+#include "scene/ensemble_statistics.h"
 #include "tools/commands.h"
 
 namespace whirl_twin {
@@ -29,6 +30,7 @@ Simulation::Simulation(const SimulationPlan& plan)
       observer_(twin_),
       validity_(twin_, plan_.systems),
       stopped_(plan.scene.systems.size()) {
+  twin_.buildEnsembles();
   // Before a writer begins its file, which an interrupted run takes away.
   std::signal(SIGINT, requestStop);
   std::signal(SIGTERM, requestStop);
@@ -114,6 +116,38 @@ Json Simulation::systemJson(std::size_t system) const {
   json["energy_residual"] = observer_.energyResidual(system);
   json["error_estimate"] = observer_.errorEstimate(system);
   json["invalid"] = validity_.json(system);
+  if (twin_.ensemble(system) != nullptr) {
+    json["ensemble"] = ensembleJson(*twin_.ensemble(system));
+  }
+  return json;
+}
+
+Json Simulation::ensembleJson(const Ensemble& ensemble) const {
+  std::vector<double> record(ensemble.recordSize());
+  ensemble.write(twin_.stepCount(), record.data());
+  const state::EnsembleState s = ensembleStatistics(ensemble, record.data());
+  Json json;
+  json["count"] = s.count;
+  json["running"] = s.running;
+  for (std::size_t k = 0; k < s.quantity.size(); ++k) {
+    json[s.quantity[k]] = {{"unit", s.unit[k]},
+                           {"mean", s.mean[k]},
+                           {"standard_deviation", s.standard_deviation[k]},
+                           {"smallest", s.smallest[k]},
+                           {"percentile_5", s.percentile_5[k]},
+                           {"percentile_25", s.percentile_25[k]},
+                           {"median", s.median[k]},
+                           {"percentile_75", s.percentile_75[k]},
+                           {"percentile_95", s.percentile_95[k]},
+                           {"largest", s.largest[k]},
+                           {"peak",
+                            {{"mean", s.peak_mean[k]},
+                             {"standard_deviation", s.peak_standard_deviation[k]},
+                             {"percentile_5", s.peak_percentile_5[k]},
+                             {"median", s.peak_median[k]},
+                             {"percentile_95", s.peak_percentile_95[k]},
+                             {"largest", s.peak_largest[k]}}}};
+  }
   return json;
 }
 

@@ -23,6 +23,7 @@ struct SimulationRequest {
   std::optional<std::string> sample;    ///< [s], as typed
   std::optional<std::string> integrator;
   std::optional<std::string> output;
+  std::optional<std::string> members;  ///< path of their table
   bool json = false;
 };
 
@@ -56,6 +57,7 @@ class Simulation {
   void noteStops(ProgressBar& bar);
   void warn(ProgressBar& bar);
   Json systemJson(std::size_t system) const;
+  Json ensembleJson(const Ensemble& ensemble) const;
 
   SimulationPlan plan_;
   Twin twin_;

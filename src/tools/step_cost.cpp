@@ -1,5 +1,6 @@
 #include "tools/step_cost.h"
 
+#include <fmt/format.h>
 #include <malloc.h>
 
 #include <algorithm>
@@ -36,9 +37,19 @@ double timed(Twin& twin, std::int64_t steps) {
 
 }  // namespace
 
-double stepCost(const Scene& scene, double budget) {
+RunningCost runningCost(const Scene& scene, double budget) {
   const DenormalsToZero denormals_to_zero;
+  RunningCost cost;
+  const std::size_t before = ::mallinfo2().uordblks;
   Twin twin(scene);
+  twin.buildEnsembles();
+  cost.memory = ::mallinfo2().uordblks - before;
+  for (std::size_t i = 0; i < twin.members().size(); ++i) {
+    const Ensemble* const ensemble = twin.ensemble(i);
+    cost.ensembles.push_back(ensemble == nullptr ? ""
+                                                 : fmt::format("{} members, {}", ensemble->count(),
+                                                               ensemble->steps().description()));
+  }
   // Double the steps until a round is long enough to be timed, which warms up as well.
   const double round = budget / (2 * kRounds);
   std::int64_t steps = 1;
@@ -53,13 +64,8 @@ double stepCost(const Scene& scene, double budget) {
   }
   const auto middle = rounds.begin() + static_cast<std::ptrdiff_t>(rounds.size() / 2);
   std::nth_element(rounds.begin(), middle, rounds.end());
-  return 1.0e9 * *middle / static_cast<double>(steps);
-}
-
-std::size_t twinMemory(const Scene& scene) {
-  const std::size_t before = ::mallinfo2().uordblks;
-  const Twin twin(scene);
-  return ::mallinfo2().uordblks - before;
+  cost.step = 1.0e9 * *middle / static_cast<double>(steps);
+  return cost;
 }
 
 }  // namespace whirl_twin

@@ -2,16 +2,23 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
+#include <vector>
 
 #include "scene/scene.h"
 
 namespace whirl_twin {
 
-/// Wall time of one step [ns] of these systems of the scene on their drives: the median of several
-/// short rounds from the start, together about `budget` [s]. NaN if a system stops in them.
-double stepCost(const Scene& scene, double budget);
+struct RunningCost {
+  /// Wall time of one step [ns] of all systems and ensembles on their drives: the median of several
+  /// short rounds from the start. NaN if a system stops in them.
+  double step = 0.0;
+  std::size_t memory = 0;  ///< [bytes], heap of the twin
+  /// Of each system: "1000 members, side by side in vectors"; "" where there is no ensemble.
+  std::vector<std::string> ensembles;
+};
 
-/// Heap that the running twin of a scene takes [bytes].
-std::size_t twinMemory(const Scene& scene);
+/// Of a scene, measured for about `budget` [s] once it is built.
+RunningCost runningCost(const Scene& scene, double budget);
 
 }  // namespace whirl_twin

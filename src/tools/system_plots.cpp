@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "plots/chart.h"
+#include "tools/ensemble_figure.h"
 #include "tools/motion_picture.h"
 
 namespace whirl_twin {
@@ -196,8 +197,8 @@ Figure energyFigure(const PlotHistory& history) {
 
 }  // namespace
 
-std::vector<SystemPlot> systemPlots(const Twin::Member& member, const PlotHistory& history,
-                                    ImageFormat format) {
+std::vector<SystemPlot> systemPlots(const Twin::Member& member, const Ensemble* ensemble,
+                                    const PlotHistory& history, ImageFormat format) {
   const std::string system = fmt::format("{} ({})", member.spec.name, member.spec.model);
   std::vector<SystemPlot> plots;
   if (const auto picture = motionPicture(system, *member.dynamics, history)) {
@@ -211,6 +212,10 @@ std::vector<SystemPlot> systemPlots(const Twin::Member& member, const PlotHistor
   add("phase", member.dynamics->isRotor() ? "orbit" : "phase portrait",
       phaseFigure(member, history));
   add("energy", "energies", energyFigure(history));
+  if (ensemble != nullptr) {
+    add("ensemble", fmt::format("{} members", ensemble->count()),
+        ensembleFigure(*ensemble, history));
+  }
   return plots;
 }
 

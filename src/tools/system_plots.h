@@ -11,13 +11,13 @@
 namespace whirl_twin {
 
 struct SystemPlot {
-  std::string kind;   ///< "picture", "time", "phase" or "energy"
+  std::string kind;   ///< "picture", "time", "phase", "energy" or "ensemble"
   std::string image;  ///< the file
 };
 
-/// Its picture (where it has one), time history, phase portrait (of a rotor: orbit) and energies.
-/// Throws std::runtime_error.
-std::vector<SystemPlot> systemPlots(const Twin::Member& member, const PlotHistory& history,
-                                    ImageFormat format);
+/// Its picture (where it has one), time history, phase portrait (of a rotor: orbit) and energies,
+/// and its ensemble, at the end of the run, unless that is null. Throws std::runtime_error.
+std::vector<SystemPlot> systemPlots(const Twin::Member& member, const Ensemble* ensemble,
+                                    const PlotHistory& history, ImageFormat format);
 
 }  // namespace whirl_twin

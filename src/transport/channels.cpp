@@ -17,10 +17,11 @@ struct Suffix {
   ChannelKind kind;
   std::string_view text;
 };
-constexpr std::array<Suffix, 6> kSuffixes{{{ChannelKind::kWhirl, "_WHIRL"},
+constexpr std::array<Suffix, 7> kSuffixes{{{ChannelKind::kWhirl, "_WHIRL"},
                                            {ChannelKind::kPendulum, "_PENDULUM"},
                                            {ChannelKind::kStability, "_STABILITY"},
                                            {ChannelKind::kParameter, "_PARAMETER"},
+                                           {ChannelKind::kEnsemble, "_ENSEMBLE"},
                                            {ChannelKind::kDrive, "_DRIVE"},
                                            {ChannelKind::kMotor, "_MOTOR"}}};
 
@@ -44,6 +45,8 @@ const char* toString(ChannelKind kind) {
       return "stability";
     case ChannelKind::kParameter:
       return "parameter";
+    case ChannelKind::kEnsemble:
+      return "ensemble";
     case ChannelKind::kDrive:
       return "drive";
     case ChannelKind::kMotor:

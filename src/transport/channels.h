@@ -1,4 +1,4 @@
-// The LCM channels of the twin: TWIN_<SYSTEM>_WHIRL, _PENDULUM, _STABILITY, _PARAMETER,
+// The LCM channels of the twin: TWIN_<SYSTEM>_WHIRL, _PENDULUM, _STABILITY, _PARAMETER, _ENSEMBLE,
 // TWIN_<DRIVE>_DRIVE, TWIN_<DRIVE>_MOTOR and TWIN_ALERTS, names upper-cased.
 #pragma once
 
@@ -10,9 +10,18 @@ namespace whirl_twin {
 /// Where the twin's LCM traffic goes unless told otherwise; ttl=0 keeps it on this machine.
 inline constexpr const char* kDefaultLcmUrl = "udpm://239.255.76.67:7667?ttl=0";
 
-enum class ChannelKind { kWhirl, kPendulum, kStability, kParameter, kDrive, kMotor, kAlerts };
+enum class ChannelKind {
+  kWhirl,
+  kPendulum,
+  kStability,
+  kParameter,
+  kEnsemble,
+  kDrive,
+  kMotor,
+  kAlerts
+};
 
-/// "whirl", "pendulum", "stability", "parameter", "drive", "motor" or "alerts".
+/// "whirl", "pendulum", "stability", "parameter", "ensemble", "drive", "motor" or "alerts".
 const char* toString(ChannelKind kind);
 
 /// The channel of a system or drive: (kWhirl, "rotor") -> "TWIN_ROTOR_WHIRL". Alerts have one

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "transport/ensemble_fields.h"
 #include "transport/message_fields.h"
 
 namespace whirl_twin {
@@ -108,6 +109,29 @@ state::MotorState fromLcm(const motor_state_t& message) {
   motor.drive = message.drive;
   takeFields(message, motor);
   return motor;
+}
+
+ensemble_state_t toLcm(const state::EnsembleState& ensemble) {
+  ensemble_state_t message;
+  putInstant(ensemble.at, message);
+  message.system = ensemble.system;
+  putFields(ensemble, message);
+  const std::size_t quantities = message.quantity.size();
+  message.quantities = lengthOf(quantities);
+  message.unit.resize(quantities);
+  eachStatistic(ensemble, message,
+                [&](const char*, const auto&, auto& statistic) { statistic.resize(quantities); });
+  return message;
+}
+
+state::EnsembleState fromLcm(const ensemble_state_t& message) {
+  requireName("system", message.system);
+  requireLength("quantity", message.quantity.size(), message.quantities);
+  state::EnsembleState ensemble;
+  ensemble.at = takeInstant(message);
+  ensemble.system = message.system;
+  takeFields(message, ensemble);
+  return ensemble;
 }
 
 stability_margin_t toLcm(const state::StabilityMargin& margin) {

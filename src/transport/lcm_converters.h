@@ -9,6 +9,7 @@
 #include "transport/message_check.h"
 #include "whirl_twin/alert_t.hpp"
 #include "whirl_twin/drive_state_t.hpp"
+#include "whirl_twin/ensemble_state_t.hpp"
 #include "whirl_twin/motor_state_t.hpp"
 #include "whirl_twin/parameter_change_t.hpp"
 #include "whirl_twin/pendulum_state_t.hpp"
@@ -21,6 +22,7 @@ whirl_state_t toLcm(const state::WhirlState& whirl);
 pendulum_state_t toLcm(const state::PendulumState& pendulum);
 drive_state_t toLcm(const state::DriveState& drive);
 motor_state_t toLcm(const state::MotorState& motor);
+ensemble_state_t toLcm(const state::EnsembleState& ensemble);
 stability_margin_t toLcm(const state::StabilityMargin& margin);
 parameter_change_t toLcm(const state::ParameterChange& change);
 alert_t toLcm(const state::Alert& alert);
@@ -29,6 +31,7 @@ state::WhirlState fromLcm(const whirl_state_t& message);
 state::PendulumState fromLcm(const pendulum_state_t& message);
 state::DriveState fromLcm(const drive_state_t& message);
 state::MotorState fromLcm(const motor_state_t& message);
+state::EnsembleState fromLcm(const ensemble_state_t& message);
 state::StabilityMargin fromLcm(const stability_margin_t& message);
 state::ParameterChange fromLcm(const parameter_change_t& message);
 state::Alert fromLcm(const alert_t& message);

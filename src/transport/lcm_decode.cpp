@@ -55,6 +55,8 @@ TwinState decodeEvent(const std::string& channel, const void* data, std::size_t 
       return decode<stability_margin_t>(channel, data, size);
     case ChannelKind::kParameter:
       return decode<parameter_change_t>(channel, data, size);
+    case ChannelKind::kEnsemble:
+      return decode<ensemble_state_t>(channel, data, size);
     case ChannelKind::kDrive:
       return decode<drive_state_t>(channel, data, size);
     case ChannelKind::kMotor:
@@ -71,6 +73,7 @@ bool hasTwinFingerprint(const void* data, std::size_t size) {
          hasFingerprintOf<drive_state_t>(data, size) ||
          hasFingerprintOf<stability_margin_t>(data, size) ||
          hasFingerprintOf<motor_state_t>(data, size) ||
+         hasFingerprintOf<ensemble_state_t>(data, size) ||
          hasFingerprintOf<parameter_change_t>(data, size) || hasFingerprintOf<alert_t>(data, size);
 }
 
@@ -104,6 +107,10 @@ std::string channelOf(const state::DriveState& drive) {
 
 std::string channelOf(const state::MotorState& motor) {
   return channelName(ChannelKind::kMotor, motor.drive);
+}
+
+std::string channelOf(const state::EnsembleState& ensemble) {
+  return channelName(ChannelKind::kEnsemble, ensemble.system);
 }
 
 std::string channelOf(const state::StabilityMargin& margin) {

@@ -19,9 +19,9 @@
 namespace whirl_twin {
 
 /// Whatever one event of the twin can say.
-using TwinState =
-    std::variant<state::WhirlState, state::PendulumState, state::DriveState, state::MotorState,
-                 state::StabilityMargin, state::ParameterChange, state::Alert>;
+using TwinState = std::variant<state::WhirlState, state::PendulumState, state::DriveState,
+                               state::MotorState, state::EnsembleState, state::StabilityMargin,
+                               state::ParameterChange, state::Alert>;
 
 /// Decodes an event of a channel for which parseChannel() knows a kind. Throws RejectedMessage if
 /// the payload is of another type, is damaged, does not hold what fromLcm() asks for, or names
@@ -33,7 +33,7 @@ bool hasTwinFingerprint(const void* data, std::size_t size);
 
 /// The step of a whirl, pendulum, drive or motor state, of which a channel carries every n-th
 /// without a hole; nothing for stability margins, parameters and alerts, which are sent when there
-/// is news.
+/// is news, and for ensembles, of which the newest is sent.
 std::optional<std::int64_t> seriesStep(const TwinState& state);
 
 /// The channel on which a state belongs.
@@ -41,6 +41,7 @@ std::string channelOf(const state::WhirlState& whirl);
 std::string channelOf(const state::PendulumState& pendulum);
 std::string channelOf(const state::DriveState& drive);
 std::string channelOf(const state::MotorState& motor);
+std::string channelOf(const state::EnsembleState& ensemble);
 std::string channelOf(const state::StabilityMargin& margin);
 std::string channelOf(const state::ParameterChange& change);
 std::string channelOf(const state::Alert& alert);

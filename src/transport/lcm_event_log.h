@@ -83,6 +83,7 @@ class EventLogWriter {
   void write(const state::PendulumState& pendulum);
   void write(const state::DriveState& drive);
   void write(const state::MotorState& motor);
+  void write(const state::EnsembleState& ensemble);
   void write(const state::StabilityMargin& margin);
   void write(const state::ParameterChange& change);
   void write(const state::Alert& alert);

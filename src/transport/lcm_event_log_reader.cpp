@@ -37,6 +37,11 @@ std::string subject(const state::MotorState& motor) {
   return fmt::format("{}, the motor of {}", motor.drive, motor.system);
 }
 
+std::string subject(const state::EnsembleState& ensemble) {
+  return fmt::format("{} times {} ({})", ensemble.count, ensemble.system,
+                     fmt::join(ensemble.quantity, ", "));
+}
+
 std::string subject(const state::StabilityMargin& margin) {
   return fmt::format("{}, a {} ({})", margin.system, margin.model,
                      fmt::join(margin.coordinate, ", "));

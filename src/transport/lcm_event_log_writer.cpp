@@ -55,6 +55,10 @@ void EventLogWriter::write(const state::MotorState& motor) {
   writeEvent(motor);
 }
 
+void EventLogWriter::write(const state::EnsembleState& ensemble) {
+  writeEvent(ensemble);
+}
+
 void EventLogWriter::write(const state::StabilityMargin& margin) {
   writeEvent(margin);
 }

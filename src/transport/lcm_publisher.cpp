@@ -42,6 +42,10 @@ void LcmPublisher::publish(const state::MotorState& motor) {
   send(motor);
 }
 
+void LcmPublisher::publish(const state::EnsembleState& ensemble) {
+  send(ensemble);
+}
+
 void LcmPublisher::publish(const state::StabilityMargin& margin) {
   send(margin);
 }

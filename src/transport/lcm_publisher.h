@@ -33,6 +33,7 @@ class LcmPublisher {
   void publish(const state::PendulumState& pendulum);
   void publish(const state::DriveState& drive);
   void publish(const state::MotorState& motor);
+  void publish(const state::EnsembleState& ensemble);
   void publish(const state::StabilityMargin& margin);
   void publish(const state::ParameterChange& change);
   void publish(const state::Alert& alert);

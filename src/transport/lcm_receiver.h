@@ -20,7 +20,7 @@ namespace whirl_twin {
 /// What arrived on one channel.
 struct ChannelCount {
   std::uint64_t received = 0;
-  StepContinuity steps;  ///< of states; alerts and stability margins come at irregular steps
+  StepContinuity steps;  ///< of the channels that have a series, see seriesStep()
 };
 
 class LcmReceiver {

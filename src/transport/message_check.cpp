@@ -116,6 +116,12 @@ void requireDirection(const std::string& direction) {
   }
 }
 
+void requireCoordinateUnit(const std::string& unit) {
+  if (unit != "m" && unit != "rad") {
+    throw RejectedMessage(fmt::format("unit: expected m or rad, found {}", shown(unit)));
+  }
+}
+
 void requireFlag(const char* field, int flag) {
   requireRange(field, flag, 0, 1);
 }

@@ -41,6 +41,8 @@ void requirePaths(const char* field, const std::vector<std::string>& paths);
 void requireText(const char* field, const std::string& text);
 /// "forward" or "backward".
 void requireDirection(const std::string& direction);
+/// "m" or "rad".
+void requireCoordinateUnit(const std::string& unit);
 void requireFlag(const char* field, int flag);
 void requireRange(const char* field, std::int64_t value, std::int64_t low, std::int64_t high);
 void requireLength(const char* field, std::size_t length, std::int64_t expected);

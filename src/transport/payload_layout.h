@@ -7,6 +7,7 @@
 
 #include "whirl_twin/alert_t.hpp"
 #include "whirl_twin/drive_state_t.hpp"
+#include "whirl_twin/ensemble_state_t.hpp"
 #include "whirl_twin/motor_state_t.hpp"
 #include "whirl_twin/parameter_change_t.hpp"
 #include "whirl_twin/pendulum_state_t.hpp"
@@ -28,6 +29,8 @@ template <>
 inline constexpr const char* kPayloadLayout<drive_state_t> = "lllsdddddldd";
 template <>
 inline constexpr const char* kPayloadLayout<motor_state_t> = "lllsdsddddddddd";
+template <>
+inline constexpr const char* kPayloadLayout<ensemble_state_t> = "lllsdllnSSDDDDDDDDDDDDDDD";
 template <>
 inline constexpr const char* kPayloadLayout<stability_margin_t> =
     "lllsdsbsnSDdnDnDiiiddddbnDSDDDDD";

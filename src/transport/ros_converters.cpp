@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "transport/ensemble_fields.h"
 #include "transport/message_fields.h"
 
 namespace whirl_twin {
@@ -67,6 +68,13 @@ MotorState toRos(const state::MotorState& motor) {
   MotorState message;
   putInstant(motor.at, motor.drive, message);
   putFields(motor, message);
+  return message;
+}
+
+EnsembleState toRos(const state::EnsembleState& ensemble) {
+  EnsembleState message;
+  putInstant(ensemble.at, ensemble.system, message);
+  putFields(ensemble, message);
   return message;
 }
 
@@ -143,6 +151,14 @@ state::MotorState fromRos(const MotorState& message) {
   motor.drive = takeName(message);
   takeFields(message, motor);
   return motor;
+}
+
+state::EnsembleState fromRos(const EnsembleState& message) {
+  state::EnsembleState ensemble;
+  ensemble.at = takeInstant(message);
+  ensemble.system = takeName(message);
+  takeFields(message, ensemble);
+  return ensemble;
 }
 
 state::StabilityMargin fromRos(const StabilityMargin& message) {

@@ -16,6 +16,7 @@
 #include "transport/message_check.h"
 #include "whirl_twin/AlertArray.h"
 #include "whirl_twin/DriveState.h"
+#include "whirl_twin/EnsembleState.h"
 #include "whirl_twin/MotorState.h"
 #include "whirl_twin/ParameterChange.h"
 #include "whirl_twin/PendulumState.h"
@@ -31,6 +32,7 @@ WhirlState toRos(const state::WhirlState& whirl);
 PendulumState toRos(const state::PendulumState& pendulum);
 DriveState toRos(const state::DriveState& drive);
 MotorState toRos(const state::MotorState& motor);
+EnsembleState toRos(const state::EnsembleState& ensemble);
 StabilityMargin toRos(const state::StabilityMargin& margin);
 ParameterChange toRos(const state::ParameterChange& change);
 /// The complete list of active alerts, stamped with the instant [ns] it holds at.
@@ -45,6 +47,7 @@ state::WhirlState fromRos(const WhirlState& message);
 state::PendulumState fromRos(const PendulumState& message);
 state::DriveState fromRos(const DriveState& message);
 state::MotorState fromRos(const MotorState& message);
+state::EnsembleState fromRos(const EnsembleState& message);
 state::StabilityMargin fromRos(const StabilityMargin& message);
 state::ParameterChange fromRos(const ParameterChange& message);
 /// The alerts take the stamp of the list: an Alert has none of its own.

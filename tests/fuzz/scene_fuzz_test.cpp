@@ -55,6 +55,7 @@ Lines errorsOf(const std::string& path) {
   try {
     const Scene scene = readSceneFile(path);
     Twin twin(scene);
+    twin.buildEnsembles();
     Observer observer(twin);
     std::vector<double> record(twin.layout().size);
     for (int i = 0; i < kSteps; ++i) {

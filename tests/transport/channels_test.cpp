@@ -12,6 +12,7 @@ TEST(Channels, AreNamedAsTheInterfaceSays) {
   EXPECT_EQ(channelName(ChannelKind::kPendulum, "arm_2"), "TWIN_ARM_2_PENDULUM");
   EXPECT_EQ(channelName(ChannelKind::kStability, "rotor"), "TWIN_ROTOR_STABILITY");
   EXPECT_EQ(channelName(ChannelKind::kParameter, "rotor"), "TWIN_ROTOR_PARAMETER");
+  EXPECT_EQ(channelName(ChannelKind::kEnsemble, "rotor"), "TWIN_ROTOR_ENSEMBLE");
   EXPECT_EQ(channelName(ChannelKind::kDrive, "shaft"), "TWIN_SHAFT_DRIVE");
   EXPECT_EQ(channelName(ChannelKind::kMotor, "shaft"), "TWIN_SHAFT_MOTOR");
   EXPECT_EQ(channelName(ChannelKind::kAlerts), "TWIN_ALERTS");
@@ -19,9 +20,11 @@ TEST(Channels, AreNamedAsTheInterfaceSays) {
 
 TEST(Channels, AreParsedBackToKindAndName) {
   // Names may themselves end like a kind of channel: the last ending counts.
-  for (const std::string name : {"ROTOR", "A", "MY_WHIRL", "X_DRIVE", "TWIN_ALERTS", "PENDULUM"}) {
+  for (const std::string name :
+       {"ROTOR", "A", "MY_WHIRL", "AN_ENSEMBLE", "X_DRIVE", "TWIN_ALERTS", "PENDULUM"}) {
     for (const auto kind : {ChannelKind::kWhirl, ChannelKind::kPendulum, ChannelKind::kStability,
-                            ChannelKind::kParameter, ChannelKind::kDrive, ChannelKind::kMotor}) {
+                            ChannelKind::kParameter, ChannelKind::kEnsemble, ChannelKind::kDrive,
+                            ChannelKind::kMotor}) {
       const auto channel = parseChannel(channelName(kind, name));
       ASSERT_TRUE(channel) << channelName(kind, name);
       EXPECT_EQ(channel->kind, kind);
@@ -46,6 +49,7 @@ TEST(Channels, OfTheLongestNameFitLcm) {
   EXPECT_FALSE(isLegalName(longest + "a"));
   EXPECT_EQ(channelName(ChannelKind::kStability, longest).size(), 63u);  // LCM's limit
   EXPECT_EQ(channelName(ChannelKind::kParameter, longest).size(), 63u);
+  EXPECT_LE(channelName(ChannelKind::kEnsemble, longest).size(), 63u);
 }
 
 }  // namespace

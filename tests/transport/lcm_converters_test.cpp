@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <type_traits>
 #include <vector>
 
 #include "state_samples.h"
@@ -24,6 +25,8 @@ TEST(LcmConverters, BringEveryBitBack) {
     EXPECT_EQ(bitsOf(fromLcm(toLcm(margin))), bitsOf(margin));
     const auto motor = samples.motor();
     EXPECT_EQ(bitsOf(fromLcm(toLcm(motor))), bitsOf(motor));
+    const auto ensemble = samples.ensemble();
+    EXPECT_EQ(bitsOf(fromLcm(toLcm(ensemble))), bitsOf(ensemble));
     const auto change = samples.change();
     EXPECT_EQ(bitsOf(fromLcm(toLcm(change))), bitsOf(change));
     const auto alert = samples.alert();
@@ -98,6 +101,9 @@ TEST(LcmConverters, RejectNamesThatAreNone) {
                                      {[&](auto& m) { m.system = name; }});
     expectRejected<motor_state_t>(toLcm(samples.motor()), {[&](auto& m) { m.drive = name; },
                                                            [&](auto& m) { m.system = name; }});
+    expectRejected<ensemble_state_t>(
+        toLcm(samples.ensemble()),
+        {[&](auto& m) { m.system = name; }, [&](auto& m) { m.quantity[0] = name; }});
     expectRejected<parameter_change_t>(
         toLcm(samples.change()),
         {[&](auto& m) { m.system = name; }, [&](auto& m) { m.names[0] = name; },
@@ -133,6 +139,54 @@ TEST(LcmConverters, RejectPendulumsWhoseArraysDiffer) {
       message, {[](auto& m) { m.coordinates = -1; }, [](auto& m) { m.coordinates = 1; },
                 [](auto& m) { m.name.pop_back(); }, [](auto& m) { m.angle.pop_back(); },
                 [](auto& m) { m.rate.push_back(0.0); }, [](auto& m) { m.name[1] = ""; }});
+}
+
+TEST(LcmConverters, RejectEnsemblesThatCannotBeMeant) {
+  state::EnsembleState ensemble;
+  eachField(ensemble, [](auto& field) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(field)>, std::vector<double>>) {
+      field = {1.0, 2.0};
+    }
+  });
+  ensemble.system = "arm";
+  ensemble.count = 50;
+  ensemble.running = 50;
+  ensemble.quantity = {"theta", "slide"};
+  ensemble.unit = {"rad", "m"};
+  const auto message = toLcm(ensemble);
+  expectRejected(message, instantSpoilers<ensemble_state_t>());
+  expectRejected<ensemble_state_t>(
+      message, {[](auto& m) { m.count = 0; }, [](auto& m) { m.count = -50; },
+                [](auto& m) { m.running = -1; }, [](auto& m) { m.running = 51; },
+                [](auto& m) { m.quantities = -1; }, [](auto& m) { m.quantities = 1; },
+                [](auto& m) { m.quantity.pop_back(); }, [](auto& m) { m.unit.pop_back(); },
+                [](auto& m) { m.unit[0] = ""; }, [](auto& m) { m.unit[1] = "mm\x1b"; }});
+  // A statistic is missing or has one entry too many, whichever it is.
+  const auto statistics = [](ensemble_state_t& m) {
+    return std::vector<std::vector<double>*>{
+        &m.mean,          &m.standard_deviation, &m.smallest,
+        &m.percentile_5,  &m.percentile_25,      &m.median,
+        &m.percentile_75, &m.percentile_95,      &m.largest,
+        &m.peak_mean,     &m.peak_median,        &m.peak_standard_deviation,
+        &m.peak_largest,  &m.peak_percentile_5,  &m.peak_percentile_95};
+  };
+  for (std::size_t i = 0; i < 15; ++i) {
+    expectRejected<ensemble_state_t>(message, {[&](auto& m) { statistics(m)[i]->pop_back(); },
+                                               [&](auto& m) { statistics(m)[i]->push_back(0.0); }});
+  }
+}
+
+TEST(LcmConverters, EnsemblesWithArraysOfTheWrongLengthAreFilledUp) {
+  state::EnsembleState ensemble;
+  ensemble.system = "rotor";
+  ensemble.count = ensemble.running = 3;
+  ensemble.quantity = {"radius"};
+  ensemble.unit = {"m"};
+  ensemble.mean = {1.0, 2.0};
+  const auto message = toLcm(ensemble);
+  EXPECT_EQ(message.mean, std::vector<double>{1.0});
+  EXPECT_EQ(message.peak_largest, std::vector<double>{0.0});
+  EXPECT_NO_THROW(fromLcm(message));
 }
 
 TEST(LcmConverters, RejectChangesOfParametersThatCannotBeMeant) {

@@ -127,6 +127,28 @@ TEST(EventLog, SaysWhereStatesOfAMotorAreMissing) {
   EXPECT_EQ(channelIn(summary, "TWIN_SHAFT_MOTOR").gaps, 1u);
 }
 
+TEST(EventLog, HoldsStatisticsOfAnEnsembleOfWhichSomeMayBeLeftOut) {
+  const TemporaryLog log;
+  EventLogWriter writer(log.path());
+  auto ensemble = StateSamples(1).ensemble();
+  ensemble.system = "rotor";
+  for (const std::int64_t step : {0, 20, 60, 80}) {
+    ensemble.at = {step, static_cast<double>(step) * 1.0e-3, 0};
+    writer.write(ensemble);
+  }
+  ++ensemble.count;  // another ensemble
+  writer.write(ensemble);
+  writer.finish();
+  const auto summary = readEventLog(log.path());
+  EXPECT_TRUE(summary.continuous());
+  EXPECT_EQ(summary.defect_count, 1u);
+  const auto& channel = channelIn(summary, "TWIN_ROTOR_ENSEMBLE");
+  EXPECT_EQ(channel.kind, "ensemble");
+  EXPECT_EQ(channel.events, 4u);
+  EXPECT_EQ(channel.rejected, 1u);
+  EXPECT_EQ(channel.last_time, 0.08);
+}
+
 TEST(EventLog, MayHoldOtherChannels) {
   const TemporaryLog log;
   {

@@ -15,9 +15,9 @@ namespace whirl_twin {
 namespace {
 
 constexpr std::chrono::milliseconds kNow{0};
-const std::vector<ChannelKind> kAllKinds{ChannelKind::kWhirl, ChannelKind::kPendulum,
-                                         ChannelKind::kStability, ChannelKind::kDrive,
-                                         ChannelKind::kAlerts};
+const std::vector<ChannelKind> kAllKinds{ChannelKind::kWhirl,     ChannelKind::kPendulum,
+                                         ChannelKind::kStability, ChannelKind::kEnsemble,
+                                         ChannelKind::kDrive,     ChannelKind::kAlerts};
 
 class LcmLink : public testing::Test {
  protected:
@@ -37,22 +37,25 @@ TEST_F(LcmLink, CarriesEveryKindInOrder) {
   const auto pendulum = samples.pendulum();
   const auto drive = samples.drive();
   const auto margin = samples.margin();
+  const auto ensemble = samples.ensemble();
   const auto alert = samples.alert();
   publisher_.publish(whirl);
   publisher_.publish(pendulum);
   publisher_.publish(drive);
   publisher_.publish(margin);
+  publisher_.publish(ensemble);
   publisher_.publish(alert);
-  EXPECT_EQ(receiver.receive(kNow), 5);
-  ASSERT_EQ(arrived_.size(), 5u);
+  EXPECT_EQ(receiver.receive(kNow), 6);
+  ASSERT_EQ(arrived_.size(), 6u);
   EXPECT_EQ(bitsOf(std::get<state::WhirlState>(arrived_[0])), bitsOf(whirl));
   EXPECT_EQ(bitsOf(std::get<state::PendulumState>(arrived_[1])), bitsOf(pendulum));
   EXPECT_EQ(bitsOf(std::get<state::DriveState>(arrived_[2])), bitsOf(drive));
   EXPECT_EQ(bitsOf(std::get<state::StabilityMargin>(arrived_[3])), bitsOf(margin));
-  EXPECT_EQ(bitsOf(std::get<state::Alert>(arrived_[4])), bitsOf(alert));
-  EXPECT_EQ(publisher_.sent(), 5u);
+  EXPECT_EQ(bitsOf(std::get<state::EnsembleState>(arrived_[4])), bitsOf(ensemble));
+  EXPECT_EQ(bitsOf(std::get<state::Alert>(arrived_[5])), bitsOf(alert));
+  EXPECT_EQ(publisher_.sent(), 6u);
   EXPECT_EQ(publisher_.failed(), 0u);
-  EXPECT_EQ(receiver.received(), 5u);
+  EXPECT_EQ(receiver.received(), 6u);
   EXPECT_EQ(receiver.lost() + receiver.rejected(), 0u);
 }
 

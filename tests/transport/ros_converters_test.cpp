@@ -24,6 +24,8 @@ TEST(RosConverters, BringEveryBitBack) {
     EXPECT_EQ(bitsOf(fromRos(toRos(margin))), bitsOf(margin));
     const auto motor = samples.motor();
     EXPECT_EQ(bitsOf(fromRos(toRos(motor))), bitsOf(motor));
+    const auto ensemble = samples.ensemble();
+    EXPECT_EQ(bitsOf(fromRos(toRos(ensemble))), bitsOf(ensemble));
     const auto change = samples.change();
     EXPECT_EQ(bitsOf(fromRos(toRos(change))), bitsOf(change));
     const auto alert = samples.alert();
@@ -106,6 +108,13 @@ TEST(RosConverters, RejectWhatCannotBeMeant) {
        [](auto& m) { m.left = 1000; }});
   expectRejected<MotorState>(toRos(samples.motor()), {[](auto& m) { m.header.frame_id = ""; },
                                                       [](auto& m) { m.system = "a/b"; }});
+  expectRejected<EnsembleState>(
+      toRos(samples.ensemble()),
+      {[](auto& m) { m.header.frame_id = ""; }, [](auto& m) { m.count = 0; },
+       [](auto& m) { m.running = m.count + 1; }, [](auto& m) { m.running = -1; },
+       [](auto& m) { m.quantity[0] = "a b"; }, [](auto& m) { m.unit[0] = "mm"; },
+       [](auto& m) { m.unit.pop_back(); }, [](auto& m) { m.mean.clear(); },
+       [](auto& m) { m.peak_largest.push_back(0.0); }});
   expectRejected<ParameterChange>(
       toRos(samples.change()),
       {[](auto& m) { m.header.frame_id = ""; }, [](auto& m) { m.values.push_back(0.0); },

@@ -56,6 +56,17 @@ void eachField(state::MotorState& s, Visit&& visit) {
 }
 
 template <class Visit>
+void eachField(state::EnsembleState& s, Visit&& visit) {
+  eachField(s.at, visit);
+  visit(s.system), visit(s.count), visit(s.running), visit(s.quantity), visit(s.unit);
+  visit(s.mean), visit(s.standard_deviation), visit(s.smallest), visit(s.percentile_5);
+  visit(s.percentile_25), visit(s.median), visit(s.percentile_75), visit(s.percentile_95);
+  visit(s.largest), visit(s.peak_mean), visit(s.peak_standard_deviation);
+  visit(s.peak_percentile_5), visit(s.peak_median), visit(s.peak_percentile_95);
+  visit(s.peak_largest);
+}
+
+template <class Visit>
 void eachField(state::ParameterChange& s, Visit&& visit) {
   eachField(s.at, visit);
   visit(s.system), visit(s.names), visit(s.values), visit(s.changed), visit(s.previous);
@@ -122,6 +133,23 @@ class StateSamples {
   }
 
   state::MotorState motor() { return sample<state::MotorState>(); }
+
+  state::EnsembleState ensemble() {
+    auto s = sample<state::EnsembleState>();
+    s.count = 1 + static_cast<std::int64_t>(below(std::uint64_t{1} << 62));
+    s.running = static_cast<std::int64_t>(below(static_cast<std::uint64_t>(s.count) + 1));
+    s.quantity.emplace_back("radius");
+    s.unit.clear();
+    for (std::size_t i = 0; i < s.quantity.size(); ++i) {
+      s.unit.emplace_back(below(2) == 0 ? "m" : "rad");
+    }
+    eachField(s, [&](auto& field) {
+      if constexpr (std::is_same_v<std::decay_t<decltype(field)>, std::vector<double>>) {
+        field = numbers(s.quantity.size());
+      }
+    });
+    return s;
+  }
 
   state::ParameterChange change() {
     auto s = sample<state::ParameterChange>();

@@ -1,0 +1,206 @@
+#include "integration/isotropic_rotors.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "integration/matrix_exponential.h"
+#include "integration/vector_widths.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kLongestPart = 2.0;  // rad, of shaft and whirl together
+constexpr int kMostParts = 1000000;
+
+/// Gauss-Legendre on 0..1, order 12.
+constexpr std::array<double, 6> kGaussNodes{0.033765242898423986094, 0.16939530676686774317,
+                                            0.38069040695840154568,  0.61930959304159845432,
+                                            0.83060469323313225683,  0.96623475710157601391};
+constexpr std::array<double, 6> kGaussWeights{0.085662246189585172520, 0.18038078652406930378,
+                                              0.23395696728634552369,  0.23395696728634552369,
+                                              0.18038078652406930378,  0.085662246189585172520};
+
+/// (w^2 - i a) e^(i theta) with e^(i theta) given.
+std::complex<double> unbalanceForce(const ShaftMotion& shaft, std::complex<double> turn) noexcept {
+  const double square = shaft.speed * shaft.speed;
+  return {square * turn.real() + shaft.acceleration * turn.imag(),
+          square * turn.imag() - shaft.acceleration * turn.real()};
+}
+
+/// Legendre polynomials P_0 ... P_5 at x in -1..1.
+std::array<double, 6> legendre(double x) noexcept {
+  std::array<double, 6> p{1.0, x};
+  for (std::size_t k = 2; k < p.size(); ++k) {
+    const auto n = static_cast<double>(k);
+    p[k] = ((2.0 * n - 1.0) * x * p[k - 1] - (n - 1.0) * p[k - 2]) / n;
+  }
+  return p;
+}
+
+int partsFor(const std::vector<IsotropicRotor>& rotors, double h, double highest_speed) {
+  double fastest = 0.0;
+  for (const IsotropicRotor& rotor : rotors) {
+    fastest = std::max(fastest, std::sqrt(rotor.stiffness));
+  }
+  const double parts = std::ceil(h * (fastest + std::fabs(highest_speed)) / kLongestPart);
+  return static_cast<int>(std::clamp(parts, 1.0, static_cast<double>(kMostParts)));
+}
+
+}  // namespace
+
+IsotropicRotors::IsotropicRotors(const std::vector<IsotropicRotor>& rotors, double h,
+                                 double highest_speed)
+    : count_(rotors.size()),
+      parts_(partsFor(rotors, h, highest_speed)),
+      part_(h / parts_),
+      rotors_(rotors),
+      frequencies_(rotors.size()),
+      blocks_((rotors.size() + kLanes - 1) / kLanes) {
+  for (std::size_t i = 0; i < count_; ++i) {
+    frequencies_[i] = powerOfTwo(std::sqrt(rotors[i].stiffness));
+    prepare(blocks_[i / kLanes], i % kLanes, rotors[i]);
+    kinds_ = rotors[i].bow_force != 0.0 ? 2 : kinds_;
+  }
+  reset();
+}
+
+void IsotropicRotors::prepare(Block& block, std::size_t lane, const IsotropicRotor& rotor) const {
+  const double frequency = powerOfTwo(std::sqrt(rotor.stiffness));
+  Eigen::Matrix2d a;
+  a << 0.0, frequency, -rotor.stiffness / frequency, -rotor.damping;
+  const Eigen::Matrix2d increment = exponentialLessIdentity<2>(Eigen::Matrix2d(part_ * a));
+  block.p_zz[lane] = increment(0, 0);
+  block.p_zw[lane] = increment(0, 1);
+  block.p_wz[lane] = increment(1, 0);
+  block.p_ww[lane] = increment(1, 1);
+  for (std::size_t k = 0; k < kNodes; ++k) {
+    const Eigen::Matrix2d rest =
+        exponentialLessIdentity<2>(Eigen::Matrix2d((1.0 - kGaussNodes[k]) * part_ * a));
+    const double weight = kGaussWeights[k] * part_ / frequency;
+    block.to_z[k][lane] = weight * rest(0, 1);
+    block.to_w[k][lane] = weight * (rest(1, 1) + 1.0);
+  }
+  block.factor_re[0][lane] = rotor.eccentricity.real();
+  block.factor_im[0][lane] = rotor.eccentricity.imag();
+  block.factor_re[1][lane] = rotor.bow_force.real();
+  block.factor_im[1][lane] = rotor.bow_force.imag();
+  const std::complex<double> rest = rotor.load / rotor.stiffness;
+  block.rest_re[lane] = rest.real();
+  block.rest_im[lane] = rest.imag();
+}
+
+void IsotropicRotors::reset() noexcept {
+  for (std::size_t i = 0; i < count_; ++i) {
+    Block& block = blocks_[i / kLanes];
+    const std::size_t lane = i % kLanes;
+    const IsotropicRotor& rotor = rotors_[i];
+    block.z_re[lane] = rotor.start.real() - block.rest_re[lane];
+    block.z_im[lane] = rotor.start.imag() - block.rest_im[lane];
+    block.w_re[lane] = rotor.start_rate.real() / frequencies_[i];
+    block.w_im[lane] = rotor.start_rate.imag() / frequencies_[i];
+    block.peak_square[lane] = std::norm(rotor.start);
+  }
+}
+
+void IsotropicRotors::step(const Drive& drive) noexcept {
+  for (int i = 0; i < parts_; ++i) {
+    const double offset = i * part_;
+    const double corner = drive.nextCorner(offset) - offset;
+    const double sliver = ShaftNodes::kSliver * part_;
+    const bool smooth = corner < sliver || corner > part_ - sliver;
+    advance(blocks_.data(), blocks_.size(),
+            smooth ? sampled(drive, offset) : projected(drive, offset), kinds_);
+  }
+}
+
+IsotropicRotors::Forces IsotropicRotors::sampled(const Drive& drive, double offset) const noexcept {
+  Forces forces;
+  for (std::size_t k = 0; k < kNodes; ++k) {
+    const ShaftMotion shaft = drive.at(offset + kGaussNodes[k] * part_);
+    const std::complex<double> turn{std::cos(shaft.angle), std::sin(shaft.angle)};
+    const std::complex<double> unbalance = unbalanceForce(shaft, turn);
+    forces[0].re[k] = unbalance.real();
+    forces[0].im[k] = unbalance.imag();
+    forces[1].re[k] = turn.real();
+    forces[1].im[k] = turn.imag();
+  }
+  return forces;
+}
+
+IsotropicRotors::Forces IsotropicRotors::projected(const Drive& drive,
+                                                   double offset) const noexcept {
+  ShaftNodes nodes;
+  nodes.sample(drive, offset, part_);
+  std::array<std::array<std::complex<double>, kNodes>, 2> coefficients{};
+  for (const ShaftNode& node : nodes) {
+    const std::array<double, kNodes> p = legendre(2.0 * node.tau - 1.0);
+    for (std::size_t j = 0; j < kNodes; ++j) {
+      const double share = (2.0 * static_cast<double>(j) + 1.0) * node.weight * p[j];
+      coefficients[0][j] += share * unbalanceForce(node.shaft, node.turn);
+      coefficients[1][j] += share * node.turn;
+    }
+  }
+  Forces forces;
+  for (std::size_t k = 0; k < kNodes; ++k) {
+    const std::array<double, kNodes> p = legendre(2.0 * kGaussNodes[k] - 1.0);
+    for (std::size_t kind = 0; kind < forces.size(); ++kind) {
+      for (std::size_t j = 0; j < kNodes; ++j) {
+        forces[kind].re[k] += p[j] * coefficients[kind][j].real();
+        forces[kind].im[k] += p[j] * coefficients[kind][j].imag();
+      }
+    }
+  }
+  return forces;
+}
+
+WHIRL_TWIN_VECTOR_WIDTHS
+void IsotropicRotors::advance(Block* blocks, std::size_t count, const Forces& forces,
+                              std::size_t kinds) noexcept {
+  for (std::size_t i = 0; i < count; ++i) {
+    Block& b = blocks[i];
+    Lanes z_re = b.p_zz * b.z_re + b.p_zw * b.w_re;
+    Lanes z_im = b.p_zz * b.z_im + b.p_zw * b.w_im;
+    Lanes w_re = b.p_wz * b.z_re + b.p_ww * b.w_re;
+    Lanes w_im = b.p_wz * b.z_im + b.p_ww * b.w_im;
+    for (std::size_t kind = 0; kind < kinds; ++kind) {
+      const Force& force = forces[kind];
+      Lanes to_z_re{};
+      Lanes to_z_im{};
+      Lanes to_w_re{};
+      Lanes to_w_im{};
+      for (std::size_t k = 0; k < kNodes; ++k) {
+        to_z_re += b.to_z[k] * force.re[k];
+        to_z_im += b.to_z[k] * force.im[k];
+        to_w_re += b.to_w[k] * force.re[k];
+        to_w_im += b.to_w[k] * force.im[k];
+      }
+      const Lanes re = b.factor_re[kind];
+      const Lanes im = b.factor_im[kind];
+      z_re += re * to_z_re - im * to_z_im;
+      z_im += re * to_z_im + im * to_z_re;
+      w_re += re * to_w_re - im * to_w_im;
+      w_im += re * to_w_im + im * to_w_re;
+    }
+    b.z_re += z_re;
+    b.z_im += z_im;
+    b.w_re += w_re;
+    b.w_im += w_im;
+    const Lanes x = b.z_re + b.rest_re;
+    const Lanes y = b.z_im + b.rest_im;
+    const Lanes square = x * x + y * y;
+    b.peak_square = square > b.peak_square ? square : b.peak_square;
+  }
+}
+
+std::complex<double> IsotropicRotors::position(std::size_t rotor) const noexcept {
+  const Block& block = blocks_[rotor / kLanes];
+  const std::size_t lane = rotor % kLanes;
+  return {block.z_re[lane] + block.rest_re[lane], block.z_im[lane] + block.rest_im[lane]};
+}
+
+double IsotropicRotors::peak(std::size_t rotor) const noexcept {
+  return std::sqrt(blocks_[rotor / kLanes].peak_square[rotor % kLanes]);
+}
+
+}  // namespace whirl_twin

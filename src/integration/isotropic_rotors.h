@@ -1,0 +1,95 @@
+// Many isotropic linear rotors on one shaft, stepped side by side in vectors.
+//
+// A disc whose support is the same all around, without rotating damping or cross-coupling, whirls
+// as one complex number z = x + i y (lecture notes, "whirling of shafts"):
+//
+//   z'' + 2 n z' + p^2 z = E (w^2 - i a) e^(i theta) + B e^(i theta) + g
+//
+// E: eccentricity [m], B: what a bow adds [m/s^2], g: a constant load over mass [m/s^2]. The free
+// motion goes by its propagator, exact for any step, and the forces by Gauss-Legendre quadrature of
+// six nodes at the shaft's exact angle (variation of constants). They are the same for all rotors
+// but for the factors E and B: a step evaluates them once, and every rotor takes their sum with
+// weights of its own. Steps are parted so that a part turns the shaft and the whirl by no more than
+// 2 rad together at the highest speed prepared for; six nodes then leave 2e-12 of the force, and
+// (beyond that speed) 2^12 times as much at twice the angle. A corner of the drive's profile inside
+// a step costs nothing: the nodes then stand for the force's projection on quintics.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <complex>
+#include <cstddef>
+#include <vector>
+
+#include "control/drive.h"
+#include "integration/shaft_nodes.h"
+
+namespace whirl_twin {
+
+struct IsotropicRotor {
+  double damping = 0.0;                        ///< [1/s], 2 n
+  double stiffness = 0.0;                      ///< [1/s^2], p^2
+  std::complex<double> eccentricity;           ///< [m], E: along the shaft's mark and across it
+  std::complex<double> bow_force;              ///< [m/s^2], B
+  std::complex<double> load;                   ///< [m/s^2], g
+  std::complex<double> start{}, start_rate{};  ///< [m], [m/s]
+};
+
+class IsotropicRotors {
+ public:
+  /// Prepares steps of h [s] for shaft speeds up to `highest_speed` [rad/s] of either sign.
+  IsotropicRotors(const std::vector<IsotropicRotor>& rotors, double h, double highest_speed);
+
+  std::size_t count() const noexcept { return count_; }
+  std::size_t bytes() const noexcept { return blocks_.size() * sizeof(Block); }
+
+  // Real-time safe.
+
+  /// Back to where they started.
+  void reset() noexcept;
+  /// Advances all by h from the drive's begin().
+  void step(const Drive& drive) noexcept;
+  /// [m], z of a rotor. Not finite: it ran away.
+  std::complex<double> position(std::size_t rotor) const noexcept;
+  /// [m], the largest |z| of a rotor since its start.
+  double peak(std::size_t rotor) const noexcept;
+
+ private:
+  static constexpr std::size_t kLanes = 8;
+  static constexpr std::size_t kNodes = 6;
+  /// One number of each of eight rotors; narrower machines take them in parts.
+  typedef double Lanes __attribute__((vector_size(64)));
+
+  /// Eight rotors; positions from where the load holds them, rates in parts of the frequency.
+  struct alignas(64) Block {
+    Lanes z_re, z_im, w_re, w_im;
+    Lanes peak_square;             // [m^2]
+    Lanes p_zz, p_zw, p_wz, p_ww;  // e^(A h) - I
+    Lanes to_z[kNodes];            // of the force at each node
+    Lanes to_w[kNodes];
+    Lanes factor_re[2], factor_im[2];  // eccentricity and bow
+    Lanes rest_re, rest_im;
+  };
+  /// At the nodes.
+  struct Force {
+    std::array<double, kNodes> re{}, im{};
+  };
+  /// Of unit eccentricity and of unit bow.
+  using Forces = std::array<Force, 2>;
+
+  static void advance(Block* blocks, std::size_t count, const Forces& forces,
+                      std::size_t kinds) noexcept;
+  void prepare(Block& block, std::size_t lane, const IsotropicRotor& rotor) const;
+  Forces sampled(const Drive& drive, double offset) const noexcept;
+  Forces projected(const Drive& drive, double offset) const noexcept;
+
+  std::size_t count_;
+  int parts_ = 1;
+  double part_;            // [s]
+  std::size_t kinds_ = 1;  // of force: 2 where there is a bow
+  std::vector<IsotropicRotor> rotors_;
+  std::vector<double> frequencies_;  // [rad/s], the rates' units
+  std::vector<Block> blocks_;
+};
+
+}  // namespace whirl_twin

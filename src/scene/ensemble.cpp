@@ -1,0 +1,73 @@
+#include "scene/ensemble.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "scene/ensemble_draw.h"
+#include "scene/ensemble_members.h"
+#include "scene/record.h"
+#include "scene/surroundings.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kRecordPeriod = 0.02;  // s, simulated
+
+std::vector<EnsembleQuantity> quantitiesOf(const Dynamics& dynamics) {
+  if (dynamics.isRotor()) {
+    return {{"radius", "m"}};
+  }
+  std::vector<EnsembleQuantity> quantities;
+  for (const CoordinateInfo& c : dynamics.coordinates()) {
+    quantities.push_back({c.name, c.unit});
+  }
+  return quantities;
+}
+
+}  // namespace
+
+Ensemble::Ensemble(const Scene& scene, const SystemSpec& spec, const ModelInfo& model,
+                   const std::string& integrator, const Drive& drive)
+    : count_(spec.ensemble.count),
+      quantities_(quantitiesOf(
+          *model.setUp(spec.parameters, spec.settings, surroundingsOf(scene, spec)).dynamics)),
+      every_(std::max<std::int64_t>(1, std::llround(kRecordPeriod / scene.stepSeconds()))),
+      latest_(recordSize()) {
+  std::vector<EnsembleMember> members;
+  for (std::size_t i = 0; i < count_; ++i) {
+    try {
+      DrawnMember member = drawnMember(spec, model, i);
+      ModelSetup setup = model.setUp(member.spec.parameters, member.spec.settings,
+                                     surroundingsOf(scene, member.spec));
+      drawn_.push_back(std::move(member.values));
+      members.push_back({std::move(member.spec), std::move(setup)});
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(fmt::format("member {}: {}", i, error.what()));
+    }
+  }
+  steps_ = ensembleSteps(members, integrator, drive, scene.stepSeconds());
+}
+
+void Ensemble::reset() noexcept {
+  steps_->reset();
+}
+
+void Ensemble::write(std::int64_t step, double* record) const noexcept {
+  record[0] = packed(step);
+  const std::size_t values = count_ * quantities_.size();
+  steps_->write(record + 1, record + 1 + values);
+}
+
+void Ensemble::publish(std::int64_t step) noexcept {
+  if (isDue(step)) {
+    write(step, latest_.room());
+    latest_.publish();
+  }
+}
+
+}  // namespace whirl_twin

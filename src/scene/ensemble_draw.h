@@ -1,0 +1,27 @@
+// Draws the members of an ensemble. A member depends on the seed and its own number only: another
+// count, or another machine, gives the same members.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "scene/model_info.h"
+#include "scene/scene.h"
+
+namespace whirl_twin {
+
+struct DrawnMember {
+  SystemSpec spec;             ///< of a single system
+  std::vector<double> values;  ///< of spec.ensemble.spread, in its order
+};
+
+/// Member `index` of the ensemble of `spec`. A value outside its parameter's range is drawn again;
+/// a parameter that takes the value of another where the scene does not give it goes with that
+/// one. Throws std::invalid_argument where hardly a draw is in range.
+DrawnMember drawnMember(const SystemSpec& spec, const ModelInfo& model, std::size_t index);
+
+/// Why an ensemble cannot be drawn; "" if it can.
+std::string spreadObjection(const SystemSpec& spec, const ModelInfo& model);
+
+}  // namespace whirl_twin

@@ -1,0 +1,143 @@
+#include "scene/ensemble_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "scene/ensemble_draw.h"
+#include "scene/parameter_paths.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr int kMostMembers = 100000;
+constexpr int kLargestSeed = 1000000000;
+const std::string kInitial = "initial.";
+
+struct Width {
+  const char* key;
+  bool normal;
+  bool relative;
+};
+constexpr std::array<Width, 4> kWidths{{{"standard_deviation", true, false},
+                                        {"half_width", false, false},
+                                        {"relative_standard_deviation", true, true},
+                                        {"relative_half_width", false, true}}};
+
+/// What the scene gives for the number that is spread, and where it is.
+std::optional<double> centre(const std::string& path, const ModelInfo& model,
+                             const std::vector<CoordinateInfo>& coordinates, const SystemSpec& spec,
+                             Spread& spread, const std::string& key, Complaints& complaints) {
+  spread.path = path;
+  if (path.compare(0, kInitial.size(), kInitial) == 0) {
+    std::vector<std::string> known;
+    for (std::size_t i = 0; i < coordinates.size(); ++i) {
+      for (const bool rate : {false, true}) {
+        known.push_back(kInitial + coordinates[i].name + (rate ? "_rate" : ""));
+        if (path == known.back()) {
+          spread.kind = rate ? Spread::Kind::kRate : Spread::Kind::kCoordinate;
+          spread.coordinate = i;
+          return rate ? spec.v[i] : spec.q[i];
+        }
+      }
+    }
+    const std::string near = nearestName(path, known);
+    complaints.add(key, fmt::format("unknown coordinate of {}{}", spec.model,
+                                    near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+    return std::nullopt;
+  }
+  const state::ParameterChange all = parametersOf(model, spec);
+  const auto found = std::find(all.names.begin(), all.names.end(), path);
+  if (found == all.names.end()) {
+    const std::string near = nearestName(path, all.names);
+    complaints.add(key, fmt::format("unknown number of {}{}", spec.model,
+                                    near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+    return std::nullopt;
+  }
+  return all.values[static_cast<std::size_t>(found - all.names.begin())];
+}
+
+/// The one width that is given, complained of unless there is exactly one.
+void readWidth(const MapReader& map, const std::string& key, double about, Spread& spread,
+               Complaints& complaints) {
+  int given = 0;
+  for (const Width& width : kWidths) {
+    if (!map.has(width.key)) {
+      continue;
+    }
+    ++given;
+    const double value = map.number(width.key, Range::kPositive,
+                                    width.relative ? "-" : "the number's own unit", std::nullopt);
+    spread.normal = width.normal;
+    spread.width = width.relative ? value * std::fabs(about) : value;
+    if (width.relative && about == 0.0) {
+      complaints.add(map.key(width.key), "is relative to 0: give the width in the number's unit");
+    }
+  }
+  if (given != 1) {
+    complaints.add(key, fmt::format("must have one of standard_deviation, half_width, "
+                                    "relative_standard_deviation, relative_half_width, found {}",
+                                    given == 0 ? "none" : "several"));
+  }
+}
+
+void readSpread(const MapReader& map, const ModelInfo& model,
+                const std::vector<CoordinateInfo>& coordinates, SystemSpec& spec,
+                Complaints& complaints) {
+  std::vector<std::string> known;
+  for (const Width& width : kWidths) {
+    known.emplace_back(width.key);
+  }
+  for (const std::string& path : map.names()) {
+    const MapReader entry(map.at(path), map.key(path), known, "key of a spread", complaints);
+    Spread spread;
+    const auto about = centre(path, model, coordinates, spec, spread, map.key(path), complaints);
+    if (entry.usable() && about) {
+      readWidth(entry, map.key(path), *about, spread, complaints);
+      spec.ensemble.spread.push_back(spread);
+    }
+  }
+}
+
+}  // namespace
+
+void readEnsemble(const MapReader& system, const ModelInfo& model,
+                  const std::vector<CoordinateInfo>& coordinates, SystemSpec& spec,
+                  Complaints& complaints) {
+  if (!system.has("count")) {
+    for (const char* key : {"spread", "seed"}) {
+      if (system.has(key)) {
+        complaints.add(system.key(key), "needs a count, the number of members");
+      }
+    }
+    return;
+  }
+  const std::size_t before = complaints.all().size();
+  spec.ensemble.count = static_cast<std::size_t>(system.integer("count", 1, kMostMembers, 1));
+  spec.ensemble.seed = static_cast<std::uint32_t>(system.integer("seed", 0, kLargestSeed, 1));
+  if (!system.has("spread")) {
+    complaints.add(system.key("spread"), "missing; must say what differs from member to member");
+    return;
+  }
+  const MapReader spread(system.at("spread"), system.key("spread"), {}, "", complaints);
+  if (!spread.usable()) {
+    return;
+  }
+  if (spread.names().empty()) {
+    complaints.add(system.key("spread"), "must name a parameter or initial value, found none");
+  }
+  readSpread(spread, model, coordinates, spec, complaints);
+  if (complaints.all().size() == before) {
+    const std::string objection = spreadObjection(spec, model);
+    if (!objection.empty()) {
+      complaints.add(system.key("spread"), objection);
+    }
+  }
+}
+
+}  // namespace whirl_twin

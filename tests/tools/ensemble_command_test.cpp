@@ -1,0 +1,119 @@
+// What `twin` shows of a system that stands for many.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "twin_program.h"
+
+namespace whirl_twin {
+namespace {
+
+const char* const kScene = R"(
+step: 0.001
+systems:
+  rotor:
+    model: jeffcott_rotor
+    parameters: {mass: 1, stiffness: 1.0e4, damping: 10, eccentricity: 1.0e-4, speed: 60}
+    count: 21
+    spread: {stiffness: {relative_half_width: 0.2}, initial.x: {half_width: 1.0e-5}}
+  single:
+    model: spinning_pendulum
+    parameters: {mass: 0.5, length: 0.2, speed: 3}
+    initial: {theta: 0.1}
+)";
+
+std::vector<double> column(const Lines& table, std::size_t place) {
+  std::vector<double> values;
+  for (std::size_t i = 1; i < table.size(); ++i) {
+    std::istringstream row(table[i]);
+    std::string field;
+    for (std::size_t k = 0; k <= place; ++k) {
+      std::getline(row, field, ',');
+    }
+    values.push_back(std::strtod(field.c_str(), nullptr));
+  }
+  return values;
+}
+
+TEST(EnsembleCommands, SimulateTellsStatisticsAndMembers) {
+  const TemporaryDirectory folder;
+  const std::string scene = folder.write("many.yaml", kScene);
+  const Ending end = twin(
+      {"simulate", scene, "--duration", "0.5", "--json", "--members", folder.file("members.csv")});
+  ASSERT_EQ(end.status, 0) << end.err;
+  const nlohmann::json ensemble = end.json()["systems"]["rotor"]["ensemble"];
+  EXPECT_FALSE(end.json()["systems"]["single"].contains("ensemble"));
+  EXPECT_EQ(ensemble["count"], 21);
+  EXPECT_EQ(ensemble["running"], 21);
+  const Lines table = linesOf(contentsOf(folder.file("members.csv")));
+  ASSERT_EQ(table.size(), 1u + 21u);
+  EXPECT_EQ(table[0], "member,stiffness,initial.x,radius,radius_peak");
+  std::vector<double> radius = column(table, 3);
+  std::sort(radius.begin(), radius.end());
+  EXPECT_EQ(ensemble["radius"]["unit"], "m");
+  EXPECT_EQ(ensemble["radius"]["median"], radius[10]);
+  EXPECT_EQ(ensemble["radius"]["largest"], radius[20]);
+  std::vector<double> peak = column(table, 4);
+  EXPECT_EQ(ensemble["radius"]["peak"]["largest"], *std::max_element(peak.begin(), peak.end()));
+  for (const double stiffness : column(table, 1)) {
+    EXPECT_GE(stiffness, 0.8e4);
+    EXPECT_LE(stiffness, 1.2e4);
+  }
+}
+
+TEST(EnsembleCommands, MembersNeedOneEnsemble) {
+  const TemporaryDirectory folder;
+  const std::string scene = folder.write("many.yaml", kScene);
+  const Ending other = twin({"simulate", scene, "--system", "single", "--duration", "0.1", "--json",
+                             "--members", folder.file("members.csv")});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_NE(other.err.find("--members: needs one system with a count, found 0"), std::string::npos)
+      << other.err;
+  const Ending name = twin({"simulate", scene, "--members", folder.file("members.txt")});
+  EXPECT_EQ(name.status, 2);
+  EXPECT_NE(name.err.find("--members: must end in .csv"), std::string::npos) << name.err;
+  EXPECT_EQ(folder.files(), Lines{"many.yaml"});
+}
+
+TEST(EnsembleCommands, CheckSaysHowItIsStepped) {
+  const TemporaryDirectory folder;
+  const Ending end = twin({"check", folder.write("many.yaml", kScene), "--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  const nlohmann::json rotor = end.json()["systems"]["rotor"];
+  EXPECT_EQ(rotor["ensemble"], "21 members, side by side in vectors");
+  EXPECT_EQ(rotor["topics"][4], nlohmann::json({{"topic", "/twin/rotor/ensemble"},
+                                                {"type", "whirl_twin/EnsembleState"}}));
+  EXPECT_EQ(rotor["channels"][3], "TWIN_ROTOR_ENSEMBLE");
+  EXPECT_GT(rotor["memory_bytes"], 21 * 200);
+  EXPECT_FALSE(end.json()["systems"]["single"].contains("ensemble"));
+  EXPECT_EQ(end.json()["threads"], 3);
+}
+
+TEST(EnsembleCommands, PlotDrawsThem) {
+  const TemporaryDirectory folder;
+  const std::string scene = folder.write("many.yaml", kScene);
+  const TemporaryDirectory pictures;
+  const Ending end = twin(
+      {"plot", scene, "--duration", "0.5", "--system", "rotor", "--output", pictures.file("")});
+  EXPECT_EQ(end.status, 0) << end.err;
+  EXPECT_EQ(pictures.files(),
+            (Lines{"rotor_energy.svg", "rotor_ensemble.svg", "rotor_phase.svg", "rotor_time.svg"}));
+  const std::string svg = contentsOf(pictures.file("rotor_ensemble.svg"));
+  EXPECT_NE(svg.find("5 to 95 %"), std::string::npos);
+  EXPECT_NE(svg.find("members over largest radius of a member (m)"), std::string::npos);
+}
+
+TEST(EnsembleCommands, TheLogHasThem) {
+  const TemporaryDirectory folder;
+  const std::string scene = folder.write("many.yaml", kScene);
+  const std::string log = folder.file("run.lcmlog");
+  ASSERT_EQ(twin({"simulate", scene, "--duration", "0.5", "--output", log}).status, 0);
+  const Ending end = twin({"log", log, "--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  EXPECT_NE(end.out.find("TWIN_ROTOR_ENSEMBLE"), std::string::npos) << end.out;
+}
+
+}  // namespace
+}  // namespace whirl_twin
