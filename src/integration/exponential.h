@@ -14,7 +14,9 @@
 // drive that changes speed.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "integration/matrix_exponential.h"
 #include "integration/motion_state.h"

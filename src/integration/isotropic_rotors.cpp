@@ -1,7 +1,9 @@
 #include "integration/isotropic_rotors.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <complex>
 
 #include "integration/matrix_exponential.h"
 #include "integration/vector_widths.h"
@@ -38,12 +40,17 @@ std::array<double, 6> legendre(double x) noexcept {
   return p;
 }
 
-int partsFor(const std::vector<IsotropicRotor>& rotors, double h, double highest_speed) {
-  double fastest = 0.0;
+/// [rad/s] of the whirl, or [1/s] of its decay.
+double fastest(const std::vector<IsotropicRotor>& rotors) {
+  double rate = 0.0;
   for (const IsotropicRotor& rotor : rotors) {
-    fastest = std::max(fastest, std::sqrt(rotor.stiffness));
+    rate = std::max({rate, std::sqrt(rotor.stiffness), rotor.damping});
   }
-  const double parts = std::ceil(h * (fastest + std::fabs(highest_speed)) / kLongestPart);
+  return rate;
+}
+
+int partsFor(const std::vector<IsotropicRotor>& rotors, double h, double highest_speed) {
+  const double parts = std::ceil(h * (fastest(rotors) + std::fabs(highest_speed)) / kLongestPart);
   return static_cast<int>(std::clamp(parts, 1.0, static_cast<double>(kMostParts)));
 }
 
@@ -54,6 +61,7 @@ IsotropicRotors::IsotropicRotors(const std::vector<IsotropicRotor>& rotors, doub
     : count_(rotors.size()),
       parts_(partsFor(rotors, h, highest_speed)),
       part_(h / parts_),
+      limit_speed_(2.0 * kLongestPart / part_ - fastest(rotors)),
       rotors_(rotors),
       frequencies_(rotors.size()),
       blocks_((rotors.size() + kLanes - 1) / kLanes) {
@@ -106,11 +114,10 @@ void IsotropicRotors::reset() noexcept {
 void IsotropicRotors::step(const Drive& drive) noexcept {
   for (int i = 0; i < parts_; ++i) {
     const double offset = i * part_;
-    const double corner = drive.nextCorner(offset) - offset;
     const double sliver = ShaftNodes::kSliver * part_;
-    const bool smooth = corner < sliver || corner > part_ - sliver;
+    const bool smooth = drive.nextCorner(offset + sliver) - offset > part_ - sliver;
     advance(blocks_.data(), blocks_.size(),
-            smooth ? sampled(drive, offset) : projected(drive, offset), kinds_);
+            smooth ? sampled(drive, offset) : projected(drive, offset), kinds_, i + 1 == parts_);
   }
 }
 
@@ -156,7 +163,7 @@ IsotropicRotors::Forces IsotropicRotors::projected(const Drive& drive,
 
 WHIRL_TWIN_VECTOR_WIDTHS
 void IsotropicRotors::advance(Block* blocks, std::size_t count, const Forces& forces,
-                              std::size_t kinds) noexcept {
+                              std::size_t kinds, bool peaks) noexcept {
   for (std::size_t i = 0; i < count; ++i) {
     Block& b = blocks[i];
     Lanes z_re = b.p_zz * b.z_re + b.p_zw * b.w_re;
@@ -186,6 +193,9 @@ void IsotropicRotors::advance(Block* blocks, std::size_t count, const Forces& fo
     b.z_im += z_im;
     b.w_re += w_re;
     b.w_im += w_im;
+    if (!peaks) {
+      continue;
+    }
     const Lanes x = b.z_re + b.rest_re;
     const Lanes y = b.z_im + b.rest_im;
     const Lanes square = x * x + y * y;

@@ -9,10 +9,11 @@
 // motion goes by its propagator, exact for any step, and the forces by Gauss-Legendre quadrature of
 // six nodes at the shaft's exact angle (variation of constants). They are the same for all rotors
 // but for the factors E and B: a step evaluates them once, and every rotor takes their sum with
-// weights of its own. Steps are parted so that a part turns the shaft and the whirl by no more than
-// 2 rad together at the highest speed prepared for; six nodes then leave 2e-12 of the force, and
-// (beyond that speed) 2^12 times as much at twice the angle. A corner of the drive's profile inside
-// a step costs nothing: the nodes then stand for the force's projection on quintics.
+// weights of its own. Steps are parted so that in a part the shaft turns, and the free motion
+// whirls or decays, by no more than 2 rad together at the highest speed prepared for; six nodes
+// then leave 2e-12 of the force, and 2^12 times as much at twice the angle. Sums are not
+// compensated. A corner of the drive's profile inside a step costs nothing: the nodes then stand
+// for the force's projection on quintics.
 #pragma once
 
 #include <Eigen/Core>
@@ -41,7 +42,9 @@ class IsotropicRotors {
   IsotropicRotors(const std::vector<IsotropicRotor>& rotors, double h, double highest_speed);
 
   std::size_t count() const noexcept { return count_; }
-  std::size_t bytes() const noexcept { return blocks_.size() * sizeof(Block); }
+  int parts() const noexcept { return parts_; }  ///< of a step
+  /// [rad/s], at which parts turn twice as far as they are meant to.
+  double limitSpeed() const noexcept { return limit_speed_; }
 
   // Real-time safe.
 
@@ -51,7 +54,7 @@ class IsotropicRotors {
   void step(const Drive& drive) noexcept;
   /// [m], z of a rotor. Not finite: it ran away.
   std::complex<double> position(std::size_t rotor) const noexcept;
-  /// [m], the largest |z| of a rotor since its start.
+  /// [m], the largest |z| of a rotor at the start and after any step since.
   double peak(std::size_t rotor) const noexcept;
 
  private:
@@ -77,15 +80,16 @@ class IsotropicRotors {
   /// Of unit eccentricity and of unit bow.
   using Forces = std::array<Force, 2>;
 
-  static void advance(Block* blocks, std::size_t count, const Forces& forces,
-                      std::size_t kinds) noexcept;
+  static void advance(Block* blocks, std::size_t count, const Forces& forces, std::size_t kinds,
+                      bool peaks) noexcept;
   void prepare(Block& block, std::size_t lane, const IsotropicRotor& rotor) const;
   Forces sampled(const Drive& drive, double offset) const noexcept;
   Forces projected(const Drive& drive, double offset) const noexcept;
 
   std::size_t count_;
   int parts_ = 1;
-  double part_;            // [s]
+  double part_;  // [s]
+  double limit_speed_;
   std::size_t kinds_ = 1;  // of force: 2 where there is a bow
   std::vector<IsotropicRotor> rotors_;
   std::vector<double> frequencies_;  // [rad/s], the rates' units

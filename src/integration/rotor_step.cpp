@@ -94,7 +94,8 @@ void RotorStep::prepare(const LinearRotor& rotor, const std::pair<double, double
       count *= std::clamp(std::pow(error / kTableError, 0.25), 1.5, 8.0);
       before = error;
       if (count + static_cast<double>(cells_.size()) > kMostCells) {
-        throw std::domain_error("the rotor's matrices change too fast with speed for its step: shorten the step");
+        throw std::domain_error(
+            "the rotor's matrices change too fast with speed for its step: shorten the step");
       }
     }
     count = std::ceil(count);

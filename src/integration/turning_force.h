@@ -38,17 +38,15 @@ class TurningForce {
     const auto turning = [&](double angle) {
       return accelerationAtRest({0.0, angle, frequency, 0.0});
     };
-    const Array behind = standing(kPi);
-    cosine_ = standing(0.0);
-    sine_ = standing(0.5 * kPi);
-    inertial_cosine_ = turning(0.0);
-    inertial_sine_ = turning(0.5 * kPi);
+    // Differences of opposite angles: a load, however large, leaves little of itself in them.
+    const Array still[]{standing(0.0), standing(0.5 * kPi), standing(kPi), standing(1.5 * kPi)};
+    const Array fast[]{turning(0.0), turning(0.5 * kPi), turning(kPi), turning(1.5 * kPi)};
     for (std::size_t i = 0; i < n; ++i) {
-      inertial_cosine_[i] = (inertial_cosine_[i] - cosine_[i]) / square;
-      inertial_sine_[i] = (inertial_sine_[i] - sine_[i]) / square;
-      steady_[i] = steadyPart(cosine_[i], sine_[i], behind[i]);
-      cosine_[i] -= steady_[i];
-      sine_[i] -= steady_[i];
+      steady_[i] = steadyPart(still[0][i], still[1][i], still[2][i]);
+      cosine_[i] = 0.5 * (still[0][i] - still[2][i]);
+      sine_[i] = 0.5 * (still[1][i] - still[3][i]);
+      inertial_cosine_[i] = (0.5 * (fast[0][i] - fast[2][i]) - cosine_[i]) / square;
+      inertial_sine_[i] = (0.5 * (fast[1][i] - fast[3][i]) - sine_[i]) / square;
     }
     const Moment<double> other{0.9 / frequency, 0.7, 1.3 * frequency, 0.4 * square};
     const Array expected = at(other);

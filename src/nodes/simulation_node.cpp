@@ -123,8 +123,13 @@ class Publisher {
     while (true) {
       const bool last_round = ending_.load();
       bool stopped_now = false;
+      bool any = false;
       while (live_.pop(record.data())) {
         stopped_now = take(record.data()) || stopped_now;
+        any = true;
+      }
+      if (any) {  // once for all records, which are not to wait for statistics
+        states_.publishEnsembles(observer_);
       }
       const auto now = std::chrono::steady_clock::now();
       if (stopped_now || now >= next_report) {
@@ -152,7 +157,6 @@ class Publisher {
     if (observer_.step() % every_ == 0 && !observer_.tellsOnlyChange()) {
       states_.publish(observer_);
     }
-    states_.publishEnsembles(observer_);
     bool stopped_now = false;
     for (std::size_t i = 0; i < stopped_.size(); ++i) {
       const bool stopped = observer_.status(i) != StepStatus::kOk;

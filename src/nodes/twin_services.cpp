@@ -130,6 +130,10 @@ bool TwinServices::setSpeed(SetSpeed::Request& request, SetSpeed::Response& resp
   command.max_acceleration = request.max_acceleration;
   command.max_jerk = request.max_jerk;
   TwinAnswer answer;
+  response.message = parameters_.objectionToSpeed(command.drive, command.speed);
+  if (!response.message.empty()) {
+    return true;
+  }
   if (!parameters_.prepareFor(command.drive, command.speed, command.max_jerk) ||
       !carryOut(command, answer)) {
     response.message = kEnded;

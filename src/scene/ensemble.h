@@ -1,15 +1,16 @@
 // A system many times over, each member with parameters of its own, on the shaft of the system as
 // the scene gives it: Monte Carlo over tolerances, beside the twin.
 //
-// Members are stepped as the system is, without the audit of its energy where they can go side by
-// side in vectors: isotropic linear rotors on a shaft whose motion is prescribed
-// (integration/isotropic_rotors.h). Members that run away stop; the others go on.
+// Members are stepped with the system's method, or one as good: isotropic linear rotors on a shaft
+// whose motion is prescribed go side by side in vectors (integration/isotropic_rotors.h), without
+// the audit of their energy. Members that run away stop; the others go on.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "control/drive.h"
@@ -24,7 +25,8 @@ class EnsembleSteps {
  public:
   virtual ~EnsembleSteps() = default;
   virtual const char* description() const = 0;  ///< "side by side in vectors", "one by one"
-  virtual std::size_t bytes() const = 0;        ///< of memory, about
+  /// [rad/s], lowest and highest, of the shaft, that it is prepared for.
+  virtual std::pair<double, double> speeds() const = 0;
 
   // Real-time safe.
 
@@ -45,7 +47,8 @@ struct EnsembleQuantity {
 class Ensemble {
  public:
   /// Of a system of a scene, which steps with `integrator` on `drive`; the drive outlives it.
-  /// Throws std::invalid_argument that names the member whose parameters do not fit together.
+  /// Throws std::invalid_argument that names the member whose parameters do not fit together, or
+  /// would make it a system of another kind.
   Ensemble(const Scene& scene, const SystemSpec& spec, const ModelInfo& model,
            const std::string& integrator, const Drive& drive);
 
@@ -57,13 +60,17 @@ class Ensemble {
 
   /// A record: the step, then values and peaks, each members times quantities.
   std::size_t recordSize() const { return 1 + 2 * count_ * quantities_.size(); }
+  const double* values(const double* record) const { return record + 1; }
+  const double* peaks(const double* record) const {
+    return record + 1 + count_ * quantities_.size();
+  }
 
   // Real-time safe.
 
   void reset() noexcept;
   void step(double time) noexcept { steps_->step(time); }
-  /// Every so many steps, some fifty a simulated second, its statistics are told.
-  bool isDue(std::int64_t step) const noexcept { return step % every_ == 0; }
+  /// Its statistics are told every so many steps, some fifty times a simulated second.
+  std::int64_t period() const noexcept { return every_; }
   /// The present record.
   void write(std::int64_t step, double* record) const noexcept;
   /// Hands a record to the reader where it is due.

@@ -38,7 +38,7 @@ bool draw(const Spread& spread, const ModelInfo& model, std::mt19937_64& random,
   if (spread.kind != Spread::Kind::kParameter) {
     std::vector<double>& start = spread.kind == Spread::Kind::kRate ? member.v : member.q;
     value = start[spread.coordinate] += away;
-    return true;
+    return std::isfinite(value);
   }
   const state::ParameterChange all = parametersOf(model, member);
   const auto found = std::find(all.names.begin(), all.names.end(), spread.path);

@@ -17,8 +17,8 @@ struct DrawnMember {
 };
 
 /// Member `index` of the ensemble of `spec`. A value outside its parameter's range is drawn again;
-/// a parameter that takes the value of another where the scene does not give it goes with that
-/// one. Throws std::invalid_argument where hardly a draw is in range.
+/// a parameter that by default is another's (stiffness_y), and has that one's value in the scene,
+/// goes with it. Throws std::invalid_argument where hardly a draw is in range.
 DrawnMember drawnMember(const SystemSpec& spec, const ModelInfo& model, std::size_t index);
 
 /// Why an ensemble cannot be drawn; "" if it can.

@@ -75,6 +75,9 @@ void readWidth(const MapReader& map, const std::string& key, double about, Sprea
                                     width.relative ? "-" : "the number's own unit", std::nullopt);
     spread.normal = width.normal;
     spread.width = width.relative ? value * std::fabs(about) : value;
+    if (!std::isfinite(spread.width)) {
+      complaints.add(map.key(width.key), "is beyond the range of doubles");
+    }
     if (width.relative && about == 0.0) {
       complaints.add(map.key(width.key), "is relative to 0: give the width in the number's unit");
     }

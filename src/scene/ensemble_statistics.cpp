@@ -63,8 +63,8 @@ state::EnsembleState ensembleStatistics(const Ensemble& ensemble, const double* 
   s.at.step = unpacked(record[0]);
   s.count = static_cast<std::int64_t>(ensemble.count());
   const std::size_t quantities = ensemble.quantities().size();
-  const double* const values = record + 1;
-  const double* const peaks = values + ensemble.count() * quantities;
+  const double* const values = ensemble.values(record);
+  const double* const peaks = ensemble.peaks(record);
   for (std::size_t k = 0; k < quantities; ++k) {
     s.quantity.push_back(ensemble.quantities()[k].name);
     s.unit.push_back(ensemble.quantities()[k].unit);

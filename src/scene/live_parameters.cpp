@@ -205,6 +205,22 @@ std::vector<std::string> LiveParameters::continueRamps() {
   return given_up;
 }
 
+std::string LiveParameters::objectionToSpeed(std::size_t drive, double speed) const {
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const Ensemble* const ensemble = twin_.twin().ensemble(i);
+    if (members_[i].drive == drive && ensemble != nullptr) {
+      const auto [low, high] = ensemble->steps().speeds();
+      if (speed < low || speed > high) {
+        return fmt::format(
+            "speed: must be from {:g} to {:g} rad/s, which the ensemble of {} is prepared for, "
+            "found {:g}",
+            low, high, members_[i].spec.name, speed);
+      }
+    }
+  }
+  return "";
+}
+
 bool LiveParameters::prepareFor(std::size_t drive, double speed, double max_jerk) {
   TwinCommand look;
   look.kind = TwinCommand::Kind::kLook;

@@ -49,7 +49,7 @@ class Twin {
   Member changed(std::size_t system, const SystemSpec& spec) const;
   /// Also steps the ensembles of the scene from now on, which a twin that is only analysed, or
   /// followed, does without. Before the first step. Throws SceneError for members whose parameters
-  /// do not fit together.
+  /// do not fit together or whose steps cannot be prepared.
   void buildEnsembles();
   /// The ensemble of a system; nullptr: it has none, or they were not built.
   Ensemble* ensemble(std::size_t system) noexcept { return ensembles_[system].get(); }

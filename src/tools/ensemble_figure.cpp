@@ -67,7 +67,7 @@ Chart peakChart(const Ensemble& ensemble, std::size_t quantity) {
   ensemble.write(0, record.data());
   std::vector<double> peaks;
   for (std::size_t i = 0; i < ensemble.count(); ++i) {
-    const double peak = record[1 + (ensemble.count() + i) * quantities + quantity];
+    const double peak = ensemble.peaks(record.data())[i * quantities + quantity];
     if (std::isfinite(peak)) {
       peaks.push_back(peak);
     }

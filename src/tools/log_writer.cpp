@@ -1,3 +1,4 @@
+#include <map>
 #include <set>
 
 #include "scene/ensemble_statistics.h"
@@ -39,8 +40,10 @@ class LogWriter final : public SampleWriter {
       }
     }
     for (const std::size_t i : systems_) {
-      if (twin_.ensemble(i) != nullptr && twin_.ensemble(i)->isDue(observer.step())) {
+      const Ensemble* const ensemble = twin_.ensemble(i);
+      if (ensemble != nullptr && observer.step() >= next_ensemble_[i]) {
         writeEnsemble(observer, i);
+        next_ensemble_[i] = (observer.step() / ensemble->period() + 1) * ensemble->period();
       }
     }
   }
@@ -66,7 +69,8 @@ class LogWriter final : public SampleWriter {
   std::set<std::size_t> drives_;
   PendingFile pending_;
   EventLogWriter log_;
-  std::vector<double> record_;  // of an ensemble
+  std::map<std::size_t, std::int64_t> next_ensemble_;  // step, of each system
+  std::vector<double> record_;                         // of an ensemble
 };
 
 }  // namespace

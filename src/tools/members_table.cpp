@@ -27,8 +27,8 @@ void writeMembers(const Twin& twin, const std::vector<std::size_t>& systems,
   const std::size_t quantities = ensemble.quantities().size();
   std::vector<double> record(ensemble.recordSize());
   ensemble.write(twin.stepCount(), record.data());
-  const double* const values = record.data() + 1;
-  const double* const peaks = values + ensemble.count() * quantities;
+  const double* const values = ensemble.values(record.data());
+  const double* const peaks = ensemble.peaks(record.data());
   for (std::size_t i = 0; i < ensemble.count(); ++i) {
     text += fmt::format("\n{}", i);
     for (const double value : ensemble.drawn(i)) {

@@ -67,6 +67,9 @@ int simulate(const SimulationRequest& request) {
   if (request.members && std::filesystem::path(*request.members).extension() != ".csv") {
     throw BadInput(fmt::format("--members: must end in .csv, found '{}'", *request.members));
   }
+  if (request.members && request.members == request.output) {
+    throw BadInput("--members: must be another file than --output");
+  }
   const SimulationPlan plan = planSimulation(request);
   if (request.members) {
     requireOneEnsemble(plan);

@@ -35,15 +35,21 @@ double timed(Twin& twin, std::int64_t steps) {
   return taken.count();
 }
 
+/// [bytes] in use; large blocks are mapped each by itself.
+std::size_t heap() {
+  const auto info = ::mallinfo2();
+  return info.uordblks + info.hblkhd;
+}
+
 }  // namespace
 
 RunningCost runningCost(const Scene& scene, double budget) {
   const DenormalsToZero denormals_to_zero;
   RunningCost cost;
-  const std::size_t before = ::mallinfo2().uordblks;
+  const std::size_t before = heap();
   Twin twin(scene);
   twin.buildEnsembles();
-  cost.memory = ::mallinfo2().uordblks - before;
+  cost.memory = heap() - before;
   for (std::size_t i = 0; i < twin.members().size(); ++i) {
     const Ensemble* const ensemble = twin.ensemble(i);
     cost.ensembles.push_back(ensemble == nullptr ? ""

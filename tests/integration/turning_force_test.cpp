@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "control/shaft_angle.h"
 #include "integration/shaft_phasor.h"

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <sstream>
 
 #include "twin_program.h"
 
@@ -86,7 +87,12 @@ TEST(EnsembleCommands, CheckSaysHowItIsStepped) {
   EXPECT_EQ(rotor["topics"][4], nlohmann::json({{"topic", "/twin/rotor/ensemble"},
                                                 {"type", "whirl_twin/EnsembleState"}}));
   EXPECT_EQ(rotor["channels"][3], "TWIN_ROTOR_ENSEMBLE");
-  EXPECT_GT(rotor["memory_bytes"], 21 * 200);
+  const std::string many = std::string(kScene).replace(std::string(kScene).find("21"), 2, "9021");
+  const Ending larger = twin({"check", folder.write("more.yaml", many), "--json"});
+  EXPECT_GT(larger.json()["systems"]["rotor"]["memory_bytes"].get<double>() -
+                rotor["memory_bytes"].get<double>(),
+            9000.0 * 200.0)
+      << "its matrices and sums alone";
   EXPECT_FALSE(end.json()["systems"]["single"].contains("ensemble"));
   EXPECT_EQ(end.json()["threads"], 3);
 }
@@ -112,7 +118,11 @@ TEST(EnsembleCommands, TheLogHasThem) {
   ASSERT_EQ(twin({"simulate", scene, "--duration", "0.5", "--output", log}).status, 0);
   const Ending end = twin({"log", log, "--json"});
   ASSERT_EQ(end.status, 0) << end.err;
-  EXPECT_NE(end.out.find("TWIN_ROTOR_ENSEMBLE"), std::string::npos) << end.out;
+  const nlohmann::json found = end.json();
+  EXPECT_EQ(found["corrupt"], 0);
+  const nlohmann::json channel = found["channels"]["TWIN_ROTOR_ENSEMBLE"];
+  EXPECT_EQ(channel["events"], 26) << "at the start and every 20 ms";
+  EXPECT_EQ(channel["rejected"], 0);
 }
 
 }  // namespace
