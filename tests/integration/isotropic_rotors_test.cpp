@@ -69,23 +69,21 @@ std::unique_ptr<System> single(const IsotropicRotor& r, const Drive& drive, doub
   return system;
 }
 
-// 1e-11 of the motion: the single step leaves about 1e-13 of the force at 1 ms, and here sums are
-// not compensated. A corner that were stepped across would show as 1e-6.
-TEST(IsotropicRotors, AreWhatTheyAreOneByOne) {
-  const std::vector<IsotropicRotor> rotors = someRotors(21);  // not whole blocks
-  Drive drive = runUp();
-  IsotropicRotors together(rotors, 1.0e-3, 90.0);
+/// Steps rotors of 1 ms on a drive together and one by one; the largest difference of a position,
+/// in parts of the largest so far of that rotor. The peaks come out the same.
+double worstDifference(const std::vector<IsotropicRotor>& rotors, Drive& drive,
+                       IsotropicRotors& together, int steps) {
   std::vector<std::unique_ptr<System>> apart;
   for (const IsotropicRotor& rotor : rotors) {
     apart.push_back(single(rotor, drive, 1.0e-3));
   }
   std::vector<double> largest(rotors.size(), 0.0);
   double worst = 0.0;
-  for (int i = 0; i < 1500; ++i) {
+  for (int i = 0; i < steps; ++i) {
     drive.begin(i * kMillisecond);
     together.step(drive);
     for (std::size_t k = 0; k < rotors.size(); ++k) {
-      ASSERT_EQ(apart[k]->step(1.0e-3 * i), StepStatus::kOk);
+      EXPECT_EQ(apart[k]->step(1.0e-3 * i), StepStatus::kOk);
       double state[5];
       apart[k]->write(state);
       const Complex z(state[0], state[1]);
@@ -93,10 +91,19 @@ TEST(IsotropicRotors, AreWhatTheyAreOneByOne) {
       worst = std::max(worst, std::abs(together.position(k) - z) / largest[k]);
     }
   }
-  EXPECT_LT(worst, 1.0e-11);
   for (std::size_t k = 0; k < rotors.size(); ++k) {
-    EXPECT_NEAR(together.peak(k), largest[k], 1.0e-11 * largest[k]) << k;
+    EXPECT_NEAR(together.peak(k), largest[k], 1.0e-10 * largest[k]) << k;
   }
+  return worst;
+}
+
+// 1e-11 of the motion: the single step leaves about 1e-13 of the force at 1 ms, and here sums are
+// not compensated. A corner that were stepped across would show as 1e-6.
+TEST(IsotropicRotors, AreWhatTheyAreOneByOne) {
+  const std::vector<IsotropicRotor> rotors = someRotors(21);  // not whole blocks
+  Drive drive = runUp();
+  IsotropicRotors together(rotors, 1.0e-3, 90.0);
+  EXPECT_LT(worstDifference(rotors, drive, together, 1500), 1.0e-11);
 }
 
 // At constant speed one by one is exact. One rotor decays in a twentieth of a step, which parts the
@@ -107,25 +114,7 @@ TEST(IsotropicRotors, FollowAMotionMuchFasterThanTheStep) {
   Drive drive(120.0, 0.3);
   IsotropicRotors together(rotors, 1.0e-3, 120.0);
   EXPECT_GT(together.parts(), 5);
-  std::vector<std::unique_ptr<System>> apart;
-  for (const IsotropicRotor& rotor : rotors) {
-    apart.push_back(single(rotor, drive, 1.0e-3));
-  }
-  std::vector<double> largest(rotors.size(), 0.0);
-  double worst = 0.0;
-  for (int i = 0; i < 1000; ++i) {
-    drive.begin(i * kMillisecond);
-    together.step(drive);
-    for (std::size_t k = 0; k < rotors.size(); ++k) {
-      ASSERT_EQ(apart[k]->step(1.0e-3 * i), StepStatus::kOk);
-      double state[5];
-      apart[k]->write(state);
-      const Complex z(state[0], state[1]);
-      largest[k] = std::max({largest[k], std::abs(z), std::abs(rotors[k].start)});
-      worst = std::max(worst, std::abs(together.position(k) - z) / largest[k]);
-    }
-  }
-  EXPECT_LT(worst, 1.0e-10);
+  EXPECT_LT(worstDifference(rotors, drive, together, 1000), 1.0e-10);
 }
 
 // From the start of the closed form at constant speed: steady whirl E w^2 / (p^2 - w^2 + 2 i n w),
