@@ -16,7 +16,6 @@
 // for the force's projection on quintics.
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <complex>
 #include <cstddef>

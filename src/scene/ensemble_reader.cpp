@@ -29,6 +29,32 @@ constexpr std::array<Width, 4> kWidths{{{"standard_deviation", true, false},
                                         {"relative_standard_deviation", true, true},
                                         {"relative_half_width", false, true}}};
 
+/// "-" for a number that the model does not have.
+std::string unitOf(const std::string& path, const ModelInfo& model,
+                   const std::vector<CoordinateInfo>& coordinates, const Spread& spread) {
+  if (spread.kind != Spread::Kind::kParameter) {
+    const std::string& unit = coordinates[spread.coordinate].unit;
+    return spread.kind == Spread::Kind::kRate ? unit + "/s" : unit;
+  }
+  for (const ParameterInfo& parameter : model.parameters) {
+    if (parameter.name == path) {
+      return parameter.unit;
+    }
+  }
+  for (const SettingInfo& setting : model.settings) {
+    if (setting.name != path.substr(0, path.find('['))) {
+      continue;
+    }
+    for (const ColumnInfo& column : setting.columns) {
+      if (column.name == path.substr(path.find('.') + 1)) {
+        return column.unit;
+      }
+    }
+    return setting.unit;
+  }
+  return "-";
+}
+
 /// What the scene gives for the number that is spread, and where it is.
 std::optional<double> centre(const std::string& path, const ModelInfo& model,
                              const std::vector<CoordinateInfo>& coordinates, const SystemSpec& spec,
@@ -63,23 +89,24 @@ std::optional<double> centre(const std::string& path, const ModelInfo& model,
 }
 
 /// The one width that is given, complained of unless there is exactly one.
-void readWidth(const MapReader& map, const std::string& key, double about, Spread& spread,
-               Complaints& complaints) {
+void readWidth(const MapReader& map, const std::string& key, double about, const std::string& unit,
+               Spread& spread, Complaints& complaints) {
   int given = 0;
   for (const Width& width : kWidths) {
     if (!map.has(width.key)) {
       continue;
     }
     ++given;
-    const double value = map.number(width.key, Range::kPositive,
-                                    width.relative ? "-" : "the number's own unit", std::nullopt);
+    const double value =
+        map.number(width.key, Range::kPositive, width.relative ? "-" : unit, std::nullopt);
     spread.normal = width.normal;
     spread.width = width.relative ? value * std::fabs(about) : value;
     if (!std::isfinite(spread.width)) {
       complaints.add(map.key(width.key), "is beyond the range of doubles");
     }
     if (width.relative && about == 0.0) {
-      complaints.add(map.key(width.key), "is relative to 0: give the width in the number's unit");
+      complaints.add(map.key(width.key),
+                     fmt::format("is relative to 0: give the width in {}", unit));
     }
   }
   if (given != 1) {
@@ -101,7 +128,8 @@ void readSpread(const MapReader& map, const ModelInfo& model,
     Spread spread;
     const auto about = centre(path, model, coordinates, spec, spread, map.key(path), complaints);
     if (entry.usable() && about) {
-      readWidth(entry, map.key(path), *about, spread, complaints);
+      readWidth(entry, map.key(path), *about, unitOf(path, model, coordinates, spread), spread,
+                complaints);
       spec.ensemble.spread.push_back(spread);
     }
   }

@@ -92,7 +92,8 @@ std::string text(const SceneCheck& check) {
   }
   return out + fmt::format(
                    "\n  memory {:.1f} kB, and {} bytes for each step in flight\n  live, three "
-                   "threads: one steps everything, one publishes, one answers services\n",
+                   "threads beside ROS's own: one steps everything, one publishes, one answers "
+                   "services\n",
                    static_cast<double>(check.memory) / 1000.0, check.record);
 }
 

@@ -104,16 +104,22 @@ TEST(EnsembleReader, SaysWhatIsWrong) {
             "half_width, relative_standard_deviation, relative_half_width, found none");
   EXPECT_EQ(errorOf(rotorScene("    count: 10\n    spread: {bow: {relative_half_width: 0.1}}\n")),
             "test.yaml: systems.rotor.spread.bow.relative_half_width: is relative to 0: give the "
-            "width in the number's unit");
+            "width in m");
   EXPECT_EQ(errorOf(rotorScene(
                 "    count: 9\n    spread: {stiffness: {relative_half_width: 1.0e305}}\n")),
             "test.yaml: systems.rotor.spread.stiffness.relative_half_width: is beyond the range of "
             "doubles");
   EXPECT_EQ(errorsOf(rotorScene("    count: 0\n    seed: -1\n    spread: 3\n")).size(), 3u);
-  EXPECT_EQ(errorsOf(rotorScene("    count: 4\n    spread: {mass: {half_width: -1}, damping: "
-                                "{half_width: 1, standard_deviation: 1}}\n"))
-                .size(),
-            2u);
+  EXPECT_EQ(errorOf(rotorScene("    count: 4\n    spread: {mass: {half_width: -1}}\n")),
+            "test.yaml: systems.rotor.spread.mass.half_width: must be > 0 kg, found -1");
+  EXPECT_EQ(
+      errorOf(rotorScene("    count: 4\n    spread: {initial.x_rate: {standard_deviation: 0}}\n")),
+      "test.yaml: systems.rotor.spread.initial.x_rate.standard_deviation: must be > 0 m/s, "
+      "found 0");
+  EXPECT_EQ(errorOf(rotorScene("    count: 4\n    spread: {damping: {half_width: 1, "
+                               "standard_deviation: 1}}\n")),
+            "test.yaml: systems.rotor.spread.damping: must have one of standard_deviation, "
+            "half_width, relative_standard_deviation, relative_half_width, found several");
 }
 
 TEST(EnsembleDraw, MembersDependOnTheSeedAndTheirNumberOnly) {

@@ -4,12 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define WHIRL_TWIN_VECTOR_WIDTHS \
-  __attribute__((target_clones("avx512f", "arch=haswell", "default")))
-#else
-#define WHIRL_TWIN_VECTOR_WIDTHS
-#endif
+#include "integration/vector_widths.h"
 
 namespace whirl_twin::comparison {
 namespace {
