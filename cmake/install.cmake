@@ -36,7 +36,7 @@ endif()
 install(TARGETS whirl_twin_core
   ARCHIVE DESTINATION ${whirl_twin_library_dir}
   LIBRARY DESTINATION ${whirl_twin_library_dir})
-foreach(room realtime control mechanics integration analysis scene monitoring)
+foreach(room ${whirl_twin_core_rooms})
   install(DIRECTORY src/${room} DESTINATION include/whirl_twin FILES_MATCHING PATTERN *.h)
 endforeach()
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "monitoring/alert.h"
+#include "messages/alert.h"
 
 namespace whirl_twin {
 

@@ -10,7 +10,7 @@
 
 #include <optional>
 
-#include "monitoring/alert.h"
+#include "messages/alert.h"
 
 namespace whirl_twin {
 

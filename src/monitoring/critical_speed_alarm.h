@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
+#include "messages/stability_margin.h"
+#include "messages/states.h"
 #include "monitoring/alarm_settings.h"
 #include "monitoring/alert_list.h"
 #include "monitoring/condition_alarm.h"
-#include "monitoring/stability_margin.h"
-#include "scene/states.h"
 
 namespace whirl_twin {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "monitoring/alert_types.h"
+#include "messages/alert_types.h"
 
 namespace whirl_twin {
 namespace {

@@ -11,7 +11,7 @@
 
 #include <string>
 
-#include "monitoring/stability_margin.h"
+#include "messages/stability_margin.h"
 
 namespace whirl_twin {
 

@@ -12,10 +12,10 @@
 
 #include <string>
 
+#include "messages/stability_margin.h"
 #include "monitoring/alarm_settings.h"
 #include "monitoring/alert_list.h"
 #include "monitoring/condition_alarm.h"
-#include "monitoring/stability_margin.h"
 
 namespace whirl_twin {
 

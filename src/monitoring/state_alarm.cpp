@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "monitoring/alert_types.h"
+#include "messages/alert_types.h"
 
 namespace whirl_twin {
 

@@ -12,8 +12,8 @@
 
 #include "analysis/critical_speeds.h"
 #include "analysis/equilibria.h"
-#include "monitoring/stability_margin.h"
-#include "scene/twin.h"
+#include "messages/stability_margin.h"
+#include "twin/twin.h"
 
 namespace whirl_twin {
 

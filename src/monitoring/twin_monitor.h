@@ -15,7 +15,7 @@
 #include "monitoring/state_alarm.h"
 #include "monitoring/system_judge.h"
 #include "monitoring/validity_alarm.h"
-#include "scene/twin.h"
+#include "twin/twin.h"
 
 namespace whirl_twin {
 

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "monitoring/alert_types.h"
+#include "messages/alert_types.h"
 
 namespace whirl_twin {
 

@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "monitoring/alert.h"
+#include "messages/alert.h"
 #include "transport/lcm_decode.h"
 
 namespace whirl_twin {

@@ -5,7 +5,7 @@
 #include <whirl_twin/LoopStatistics.h>
 
 #include "realtime/fixed_rate_loop.h"
-#include "scene/observer.h"
+#include "twin/observer.h"
 
 namespace whirl_twin {
 

@@ -11,17 +11,18 @@
 #include <map>
 #include <memory>
 
+#include "messages/message_check.h"
 #include "monitoring/twin_monitor.h"
 #include "nodes/private_parameter.h"
 #include "nodes/run_node.h"
-#include "nodes/scene_parameters.h"
 #include "plugins/plugin_models.h"
+#include "scene/scene_reader.h"
 #include "transport/channels.h"
 #include "transport/lcm_connection.h"
 #include "transport/lcm_publisher.h"
 #include "transport/lcm_receiver.h"
-#include "transport/message_check.h"
 #include "transport/ros_converters.h"
+#include "transport/ros_parameters.h"
 
 namespace whirl_twin {
 
@@ -54,11 +55,15 @@ AlarmSettings alarmSettings() {
   return s;
 }
 
+Scene sceneOf(const ParameterTree& given) {
+  return readScene(given.tree, given.source);
+}
+
 class MonitorNode {
  public:
   explicit MonitorNode(ros::NodeHandle node)
       : node_(node),
-        scene_(sceneFromParameters(node, "scene")),
+        scene_(sceneOf(parameterTree(node, "scene"))),
         settings_(alarmSettings()),
         monitor_(scene_, settings_),
         url_(privateParameter<std::string>("lcm_url", "an LCM url, or nothing", kDefaultLcmUrl)),

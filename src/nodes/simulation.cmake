@@ -1,7 +1,6 @@
 add_executable(simulation_node
   ${CMAKE_CURRENT_LIST_DIR}/loop_report.cpp
   ${CMAKE_CURRENT_LIST_DIR}/run_node.cpp
-  ${CMAKE_CURRENT_LIST_DIR}/scene_parameters.cpp
   ${CMAKE_CURRENT_LIST_DIR}/simulation_node.cpp
   ${CMAKE_CURRENT_LIST_DIR}/state_publisher.cpp
   ${CMAKE_CURRENT_LIST_DIR}/twin_services.cpp)

@@ -15,17 +15,18 @@
 #include <mutex>
 #include <thread>
 
+#include "accuracy/step_choice.h"
 #include "nodes/loop_report.h"
 #include "nodes/private_parameter.h"
 #include "nodes/run_node.h"
-#include "nodes/scene_parameters.h"
 #include "nodes/state_publisher.h"
 #include "nodes/twin_services.h"
 #include "plugins/plugin_models.h"
 #include "realtime/fixed_rate_loop.h"
-#include "scene/live_twin.h"
-#include "scene/step_choice.h"
+#include "scene/scene_reader.h"
 #include "transport/channels.h"
+#include "transport/ros_parameters.h"
+#include "twin/live_twin.h"
 
 namespace whirl_twin {
 
@@ -197,7 +198,8 @@ void run() {
   ros::NodeHandle node("/twin");
   ros::NodeHandle private_node("~");
   usePluginModels();
-  const Scene scene = withStepsChosen(sceneFromParameters(node, "scene"));
+  const ParameterTree given = parameterTree(node, "scene");
+  const Scene scene = withStepsChosen(readScene(given.tree, given.source));
   const Settings settings = readSettings(scene);
 
   // Half a second of records, or some: what the publisher may be late by.

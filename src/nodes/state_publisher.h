@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "scene/ensemble_observer.h"
-#include "scene/observer.h"
 #include "transport/lcm_publisher.h"
+#include "twin/ensemble_observer.h"
+#include "twin/observer.h"
 
 namespace whirl_twin {
 

@@ -9,8 +9,8 @@
 
 #include <cstdio>
 
-#include "nodes/terminal_text.h"
-#include "nodes/twin_listener.h"
+#include "display/terminal_text.h"
+#include "display/twin_listener.h"
 
 namespace whirl_twin {
 namespace {

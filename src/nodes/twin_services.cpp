@@ -7,6 +7,7 @@
 #include <cmath>
 #include <thread>
 
+#include "messages/names.h"
 #include "scene/node_reader.h"
 
 namespace whirl_twin {

@@ -10,8 +10,8 @@
 
 #include <functional>
 
-#include "scene/live_parameters.h"
-#include "scene/live_twin.h"
+#include "twin/live_parameters.h"
+#include "twin/live_twin.h"
 
 namespace whirl_twin {
 

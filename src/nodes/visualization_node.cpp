@@ -16,10 +16,10 @@
 #include <memory>
 #include <stdexcept>
 
-#include "nodes/mechanism_display.h"
-#include "nodes/rotor_display.h"
-#include "nodes/scene_dynamics.h"
-#include "nodes/twin_listener.h"
+#include "display/mechanism_display.h"
+#include "display/rotor_display.h"
+#include "display/scene_dynamics.h"
+#include "display/twin_listener.h"
 #include "plugins/plugin_models.h"
 
 namespace whirl_twin {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "scene/model_plugin.h"
-#include "scene/model_registry.h"
+#include "models/model_plugin.h"
+#include "models/model_registry.h"
 
 namespace whirl_twin {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/model_info.h"
+#include "models/model_info.h"
 #include "scene/scene.h"
 
 namespace whirl_twin {

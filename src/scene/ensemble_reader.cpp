@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "messages/names.h"
 #include "scene/ensemble_draw.h"
 #include "scene/parameter_paths.h"
 

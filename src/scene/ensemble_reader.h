@@ -1,7 +1,7 @@
 // Reads a system's `count`, `seed` and `spread`: the ensemble it stands for.
 #pragma once
 
-#include "scene/model_info.h"
+#include "models/model_info.h"
 #include "scene/node_reader.h"
 #include "scene/scene.h"
 

@@ -14,9 +14,6 @@
 
 namespace whirl_twin {
 
-/// The candidate nearest in spelling, or "" if none is near.
-std::string nearestName(const std::string& name, const std::vector<std::string>& candidates);
-
 /// A finite number written in decimal, or nothing.
 std::optional<double> parseNumber(const std::string& text);
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "scene/model_info.h"
+#include "messages/states.h"
+#include "models/model_info.h"
 #include "scene/node_reader.h"
 #include "scene/scene.h"
-#include "scene/states.h"
 
 namespace whirl_twin {
 

@@ -2,7 +2,7 @@
 // matrices, names and tables.
 #pragma once
 
-#include "scene/model_info.h"
+#include "models/model_info.h"
 #include "scene/node_reader.h"
 #include "scene/scene.h"
 

@@ -11,7 +11,7 @@
 
 #include "control/motor.h"
 #include "control/speed_profile.h"
-#include "scene/settings.h"
+#include "models/settings.h"
 
 namespace whirl_twin {
 

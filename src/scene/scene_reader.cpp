@@ -11,9 +11,10 @@
 #include <set>
 
 #include "analysis/mass_matrix.h"
+#include "messages/names.h"
+#include "models/model_registry.h"
 #include "scene/drive_reader.h"
 #include "scene/ensemble_reader.h"
-#include "scene/model_registry.h"
 #include "scene/node_reader.h"
 #include "scene/parameter_reader.h"
 #include "scene/shaft_reader.h"
@@ -24,16 +25,7 @@ namespace whirl_twin {
 namespace {
 
 constexpr std::uintmax_t kLargestFile = 4u << 20;  // bytes; a scene of ten thousand systems is less
-constexpr std::size_t kLongestName = 48;           // characters; an LCM channel holds 63
 constexpr double kLargestTime = 1.0e9;             // s
-
-/// Names become ROS topics and, upper-cased, LCM channels.
-bool isName(const std::string& text) {
-  return !text.empty() && text.size() <= kLongestName &&
-         std::isalpha(static_cast<unsigned char>(text[0])) &&
-         std::all_of(text.begin(), text.end(),
-                     [](unsigned char c) { return std::isalnum(c) || c == '_'; });
-}
 
 std::string upper(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -44,10 +36,10 @@ std::string upper(std::string text) {
 void checkNames(const MapReader& map, const std::string& what, Complaints& complaints) {
   std::set<std::string> channels;
   for (const std::string& name : map.names()) {
-    if (!isName(name)) {
+    if (!isLegalName(name)) {
       complaints.add(map.key(name),
                      fmt::format("a {} is named by up to {} letters, digits and _, a letter first",
-                                 what, kLongestName));
+                                 what, kMaxNameLength));
     } else if (what == "system" && name == "drives") {
       complaints.add(map.key(name),
                      "a system cannot be named so: the drives have their topics there");
@@ -205,14 +197,7 @@ Scene readTree(const YAML::Node& tree, const std::string& source, Complaints& co
   return scene;
 }
 
-std::string joined(const std::vector<std::string>& lines) {
-  return fmt::format("{}", fmt::join(lines, "\n"));
-}
-
 }  // namespace
-
-SceneError::SceneError(std::vector<std::string> errors)
-    : std::runtime_error(joined(errors)), errors_(std::move(errors)) {}
 
 Scene readScene(const YAML::Node& tree, const std::string& source) {
   Complaints complaints(source);

@@ -5,7 +5,7 @@
 #include <string>
 #include <unordered_map>
 
-#include "scene/model_info.h"
+#include "models/model_info.h"
 #include "scene/node_reader.h"
 #include "scene/scene.h"
 

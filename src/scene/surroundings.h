@@ -1,7 +1,7 @@
 // What a scene surrounds a system with: its gravity, and the motor that turns it, if one does.
 #pragma once
 
-#include "scene/model_info.h"
+#include "models/model_info.h"
 #include "scene/scene.h"
 
 namespace whirl_twin {

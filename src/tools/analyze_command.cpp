@@ -1,12 +1,13 @@
 #include <memory>
 #include <optional>
 
+#include "reports/method_analysis.h"
+#include "reports/selected_systems.h"
+#include "reports/system_analysis.h"
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
-#include "tools/method_analysis.h"
 #include "tools/shipped_scenes.h"
-#include "tools/system_analysis.h"
 
 namespace whirl_twin {
 

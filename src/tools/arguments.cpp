@@ -5,38 +5,15 @@
 #include <algorithm>
 
 #include "analysis/exact_number.h"
-#include "scene/node_reader.h"
-#include "tools/commands.h"
+#include "messages/names.h"
+#include "messages/refusal.h"
 
 namespace whirl_twin {
-
-std::string hint(const std::string& name, const std::vector<std::string>& candidates) {
-  const std::string near = nearestName(name, candidates);
-  return near.empty() ? fmt::format("; there are: {}", fmt::join(candidates, ", "))
-                      : fmt::format("; did you mean '{}'?", near);
-}
 
 void addSceneOption(CLI::App* command, std::string& scene) {
   command->add_option("SCENE", scene, "scene file (YAML), or the name of a scene of the package")
       ->required()
       ->type_name("");
-}
-
-std::vector<std::size_t> selectedSystems(const Scene& scene,
-                                         const std::optional<std::string>& name) {
-  std::vector<std::size_t> selected;
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < scene.systems.size(); ++i) {
-    names.push_back(scene.systems[i].name);
-    if (!name || *name == names.back()) {
-      selected.push_back(i);
-    }
-  }
-  if (selected.empty()) {
-    throw BadInput(
-        fmt::format("--system: no system '{}' in {}{}", *name, scene.source, hint(*name, names)));
-  }
-  return selected;
 }
 
 std::string inSeconds(std::int64_t nanoseconds) {
@@ -51,13 +28,13 @@ std::int64_t parseNanoseconds(const std::string& option, const std::string& text
   try {
     nanoseconds = parseRational(text) * 1000000000;
   } catch (const std::invalid_argument&) {
-    throw BadInput(fmt::format("{}: {}, found '{}'", option, expected, text));
+    throw Refusal(fmt::format("{}: {}, found '{}'", option, expected, text));
   }
   if (nanoseconds < low || nanoseconds > high) {
-    throw BadInput(fmt::format("{}: {}, found {} s", option, expected, text));
+    throw Refusal(fmt::format("{}: {}, found {} s", option, expected, text));
   }
   if (denominator(nanoseconds) != 1) {
-    throw BadInput(
+    throw Refusal(
         fmt::format("{}: must be a whole number of nanoseconds, found {} s", option, text));
   }
   return static_cast<std::int64_t>(numerator(nanoseconds));

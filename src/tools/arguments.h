@@ -2,29 +2,17 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "scene/scene.h"
-
 namespace whirl_twin {
-
-/// "; did you mean 'NEAREST'?", or, without a near one, "; there are: ALL".
-std::string hint(const std::string& name, const std::vector<std::string>& candidates);
 
 /// The scene that a command is about.
 void addSceneOption(CLI::App* command, std::string& scene);
 
-/// The system of that name, or all of them without a name: indices into scene.systems.
-/// Throws BadInput with a hint.
-std::vector<std::size_t> selectedSystems(const Scene& scene,
-                                         const std::optional<std::string>& name);
-
 /// Seconds, as typed, as a whole number of nanoseconds from `low` to `high` [ns]. Exact: no binary
-/// fraction comes in between. `option` names it in the message. Throws BadInput.
+/// fraction comes in between. `option` names it in the message. Throws Refusal.
 std::int64_t parseNanoseconds(const std::string& option, const std::string& text, std::int64_t low,
                               std::int64_t high);
 

@@ -6,10 +6,11 @@
 #include <memory>
 
 #include "analysis/balancing.h"
+#include "messages/refusal.h"
+#include "reports/output.h"
 #include "scene/node_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
-#include "tools/output.h"
 
 namespace whirl_twin {
 
@@ -55,7 +56,7 @@ class RunsReader {
     try {
       root = YAML::LoadFile(file_);
     } catch (const YAML::Exception& error) {
-      throw BadInput(fmt::format("{}: cannot be read: {}", file_, error.what()));
+      throw Refusal(fmt::format("{}: cannot be read: {}", file_, error.what()));
     }
     if (!root.IsMap()) {
       refuse("the file", "a map with probes, planes, initial and trials", root);
@@ -85,8 +86,8 @@ class RunsReader {
  private:
   [[noreturn]] void refuse(const std::string& key, const std::string& expected,
                            const YAML::Node& found) const {
-    throw BadInput(fmt::format("{}: {}: expected {}, found {}", file_, key, expected,
-                               found ? shown(found) : "nothing"));
+    throw Refusal(fmt::format("{}: {}: expected {}, found {}", file_, key, expected,
+                              found ? shown(found) : "nothing"));
   }
   void requireList(const YAML::Node& node, const std::string& key, std::size_t size) const {
     if (!node || !node.IsSequence() || node.size() != size) {
@@ -192,7 +193,7 @@ int balanceRuns(const Request& request) {
         influenceOfPlanes(runs.initial, runs.trials, static_cast<Eigen::Index>(runs.planes.size())),
         runs.initial, runs.weights);
   } catch (const std::invalid_argument& error) {
-    throw BadInput(fmt::format("{}: {}", request.file, error.what()));
+    throw Refusal(fmt::format("{}: {}", request.file, error.what()));
   }
   if (request.json) {
     printJson(json(runs, correction));

@@ -1,12 +1,13 @@
 #include <memory>
 #include <optional>
 
+#include "messages/refusal.h"
+#include "reports/campbell_report.h"
+#include "reports/picture_file.h"
+#include "reports/rotor_systems.h"
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
-#include "tools/campbell_report.h"
 #include "tools/commands.h"
-#include "tools/picture_file.h"
-#include "tools/rotor_systems.h"
 #include "tools/shipped_scenes.h"
 
 namespace whirl_twin {
@@ -39,12 +40,12 @@ struct Request {
 void requireNumbers(const Request& request) {
   for (const double harmonic : request.harmonics) {
     if (!(harmonic > 0.0 && harmonic <= 100.0)) {
-      throw BadInput("--harmonic: expected multiples of the speed above 0 and up to 100, found " +
-                     std::to_string(harmonic));
+      throw Refusal("--harmonic: expected multiples of the speed above 0 and up to 100, found " +
+                    std::to_string(harmonic));
     }
   }
   if (request.modes < 1 || request.modes > 1000) {
-    throw BadInput("--modes: expected from 1 to 1000, found " + std::to_string(request.modes));
+    throw Refusal("--modes: expected from 1 to 1000, found " + std::to_string(request.modes));
   }
 }
 

@@ -1,10 +1,11 @@
 #include <memory>
 #include <optional>
 
+#include "reports/scene_check.h"
+#include "reports/selected_systems.h"
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
-#include "tools/scene_check.h"
 #include "tools/shipped_scenes.h"
 
 namespace whirl_twin {

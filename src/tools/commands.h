@@ -1,13 +1,11 @@
 // The commands of `twin`, one file each. Every function adds its command to the command line; when
-// the command is given, parsing runs it. A command that cannot do its work throws one of the
-// exceptions below (or SceneError), which main() turns into messages and an exit status.
+// the command is given, parsing runs it. A command that cannot do its work throws a
+// Refusal or a RunFailure, which main() turns into messages and an exit status.
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
+
+#include "messages/refusal.h"
 
 namespace whirl_twin {
 
@@ -15,18 +13,6 @@ namespace whirl_twin {
 inline constexpr int kDone = 0;
 inline constexpr int kFailed = 1;    ///< the run failed: diverged, a file cannot be written
 inline constexpr int kBadInput = 2;  ///< a scene, a file or an option is wrong
-
-/// Input or usage is wrong: exit status 2. One message a line.
-class BadInput : public std::runtime_error {
- public:
-  explicit BadInput(const std::string& message) : std::runtime_error(message) {}
-};
-
-/// The run itself failed: exit status 1.
-class RunFailed : public std::runtime_error {
- public:
-  explicit RunFailed(const std::string& message) : std::runtime_error(message) {}
-};
 
 // `status` outlives the command line; it is what the program exits with if nothing is thrown.
 void addCheckCommand(CLI::App& twin, int& status);

@@ -3,8 +3,9 @@
 #include <cmath>
 #include <memory>
 
+#include "messages/refusal.h"
+#include "reports/output.h"
 #include "tools/commands.h"
-#include "tools/output.h"
 #include "transport/lcm_event_log.h"
 
 namespace whirl_twin {
@@ -123,10 +124,10 @@ int summarize(const Request& request) {
   try {
     log = readEventLog(request.file);
   } catch (const std::runtime_error& error) {
-    throw BadInput(error.what());
+    throw Refusal(error.what());
   }
   if (log.events == 0) {
-    throw BadInput(
+    throw Refusal(
         fmt::format("{}: expected an LCM log, found no event in {} bytes", request.file, log.size));
   }
   if (request.json) {

@@ -3,10 +3,12 @@
 #include <memory>
 #include <optional>
 
-#include "scene/model_registry.h"
+#include "messages/names.h"
+#include "messages/refusal.h"
+#include "models/model_registry.h"
+#include "reports/output.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
-#include "tools/output.h"
 
 namespace whirl_twin {
 
@@ -170,7 +172,7 @@ int list(const Request& request) {
     }
   }
   if (texts.empty()) {
-    throw BadInput(fmt::format("no model '{}'{}", *request.model, hint(*request.model, names)));
+    throw Refusal(fmt::format("no model '{}'{}", *request.model, hint(*request.model, names)));
   }
   if (request.json) {
     printJson(all);

@@ -6,12 +6,13 @@
 #include <fstream>
 #include <memory>
 
+#include "messages/refusal.h"
+#include "reports/output.h"
+#include "reports/plot_history.h"
+#include "reports/system_plots.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
-#include "tools/output.h"
-#include "tools/plot_history.h"
 #include "tools/simulation.h"
-#include "tools/system_plots.h"
 
 namespace whirl_twin {
 
@@ -46,7 +47,7 @@ struct PlotRequest {
 
 ImageFormat formatOf(const std::string& name) {
   if (name != "svg" && name != "png") {
-    throw BadInput(fmt::format("--format: must be svg or png, found '{}'", name));
+    throw Refusal(fmt::format("--format: must be svg or png, found '{}'", name));
   }
   return imageFormat("plot." + name);
 }
@@ -59,7 +60,7 @@ class WaitingFile {
     file << contents;
     file.close();
     if (!file) {
-      throw RunFailed(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
+      throw RunFailure(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
     }
   }
   void complete() {
@@ -77,7 +78,7 @@ int plot(const PlotRequest& request) {
   SimulationPlan plan = planSimulation(request.run);
   const std::filesystem::path folder = request.folder;
   if (!std::filesystem::is_directory(folder)) {
-    throw BadInput(fmt::format("--output: must be a folder, found '{}'", request.folder));
+    throw Refusal(fmt::format("--output: must be a folder, found '{}'", request.folder));
   }
   plan.stride = 1 + plan.steps / kMostSamples;
   Simulation simulation(plan);

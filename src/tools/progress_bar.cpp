@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "tools/output.h"
+#include "reports/output.h"
 
 namespace whirl_twin {
 

@@ -2,11 +2,11 @@
 #include <memory>
 #include <optional>
 
+#include "reports/picture_file.h"
+#include "reports/response_report.h"
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
-#include "tools/picture_file.h"
-#include "tools/response_report.h"
 #include "tools/shipped_scenes.h"
 
 namespace whirl_twin {

@@ -8,9 +8,10 @@
 #include "analysis/polynomial_roots.h"
 #include "analysis/routh.h"
 #include "analysis/stability_margins.h"
+#include "messages/refusal.h"
+#include "reports/output.h"
+#include "reports/verdict_text.h"
 #include "tools/commands.h"
-#include "tools/output.h"
-#include "tools/verdict_text.h"
 
 namespace whirl_twin {
 
@@ -50,7 +51,7 @@ std::vector<ComplexRational> parseCoefficients(const std::vector<std::string>& t
     }
   }
   if (!errors.empty()) {
-    throw BadInput(fmt::format("{}", fmt::join(errors, "\ntwin: ")));
+    throw Refusal(fmt::format("{}", fmt::join(errors, "\ntwin: ")));
   }
   return coefficients;
 }
@@ -152,7 +153,7 @@ int test(const Request& request) {
   const auto coefficients = parseCoefficients(request.coefficients);
   if (std::all_of(coefficients.begin(), coefficients.end(),
                   [](const ComplexRational& c) { return c.re == 0 && c.im == 0; })) {
-    throw BadInput("coefficients: expected at least one that is not zero, found none");
+    throw Refusal("coefficients: expected at least one that is not zero, found none");
   }
   Judgement judgement = judge(coefficients);
   addMargins(judgement);

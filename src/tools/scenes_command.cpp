@@ -4,9 +4,10 @@
 #include <memory>
 #include <optional>
 
+#include "messages/refusal.h"
+#include "reports/output.h"
 #include "scene/scene_reader.h"
 #include "tools/commands.h"
-#include "tools/output.h"
 #include "tools/shipped_scenes.h"
 
 namespace whirl_twin {
@@ -96,8 +97,8 @@ int listScenes(const std::optional<std::string>& folder, bool as_json) {
       folder ? std::filesystem::path(*folder) : shippedSceneFolder();
   std::error_code error;
   if (!std::filesystem::is_directory(where, error)) {
-    throw BadInput(folder ? fmt::format("{}: must be a folder of scene files", *folder)
-                          : "the scenes of the package were not found; name their folder");
+    throw Refusal(folder ? fmt::format("{}: must be a folder of scene files", *folder)
+                         : "the scenes of the package were not found; name their folder");
   }
   Json all;
   all["folder"] = where.string();

@@ -4,9 +4,10 @@
 #include <filesystem>
 #include <memory>
 
+#include "messages/refusal.h"
+#include "reports/members_table.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
-#include "tools/members_table.h"
 #include "tools/simulation.h"
 
 namespace whirl_twin {
@@ -32,11 +33,11 @@ constexpr const char* kFooter =
     "  twin simulate demo.yaml --duration 60 --output demo.lcmlog     for lcm-logplayer\n"
     "  twin simulate demo.yaml --system pendulum --integrator runge_kutta_4 --step 0.0005 --json";
 
-/// ".csv" or ".lcmlog". Throws BadInput.
+/// ".csv" or ".lcmlog". Throws Refusal.
 std::string extensionOf(const std::string& output) {
   std::string extension = std::filesystem::path(output).extension();
   if (extension != ".csv" && extension != ".lcmlog") {
-    throw BadInput(fmt::format("--output: must end in .csv or .lcmlog, found '{}'", output));
+    throw Refusal(fmt::format("--output: must end in .csv or .lcmlog, found '{}'", output));
   }
   return extension;
 }
@@ -55,8 +56,8 @@ void requireOneEnsemble(const SimulationPlan& plan) {
       std::count_if(plan.systems.begin(), plan.systems.end(),
                     [&](std::size_t i) { return plan.scene.systems[i].ensemble.count > 0; });
   if (ensembles != 1) {
-    throw BadInput(fmt::format("--members: needs one system with a count, found {}{}", ensembles,
-                               ensembles > 1 ? "; choose one by --system" : ""));
+    throw Refusal(fmt::format("--members: needs one system with a count, found {}{}", ensembles,
+                              ensembles > 1 ? "; choose one by --system" : ""));
   }
 }
 
@@ -65,10 +66,10 @@ int simulate(const SimulationRequest& request) {
     extensionOf(*request.output);
   }
   if (request.members && std::filesystem::path(*request.members).extension() != ".csv") {
-    throw BadInput(fmt::format("--members: must end in .csv, found '{}'", *request.members));
+    throw Refusal(fmt::format("--members: must end in .csv, found '{}'", *request.members));
   }
   if (request.members && request.members == request.output) {
-    throw BadInput("--members: must be another file than --output");
+    throw Refusal("--members: must be another file than --output");
   }
   const SimulationPlan plan = planSimulation(request);
   if (request.members) {

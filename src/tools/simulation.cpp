@@ -5,9 +5,10 @@
 #include <atomic>
 #include <csignal>
 
+#include "messages/refusal.h"
 #include "realtime/denormals.h"
-#include "scene/ensemble_statistics.h"
 #include "tools/commands.h"
+#include "twin/ensemble_statistics.h"
 
 namespace whirl_twin {
 
@@ -54,7 +55,7 @@ void Simulation::run(SampleWriter* writer, bool results_on_standard_output) {
       writer->write(observer_);
     }
     if (stop_requested.load(std::memory_order_relaxed)) {
-      throw RunFailed(fmt::format("interrupted after {} of {} steps", i, plan_.steps));
+      throw RunFailure(fmt::format("interrupted after {} of {} steps", i, plan_.steps));
     }
     if (i % kStepsPerLook == 0) {
       bar.show(i);

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "scene/observer.h"
-#include "tools/output.h"
+#include "reports/output.h"
+#include "reports/sample_writer.h"
 #include "tools/progress_bar.h"
-#include "tools/sample_writer.h"
 #include "tools/validity_watch.h"
+#include "twin/observer.h"
 
 namespace whirl_twin {
 
@@ -35,7 +35,7 @@ struct SimulationPlan {
   std::int64_t stride = 1;  ///< steps from one sample to the next
 };
 
-/// Reads the scene and checks the options against it. Throws SceneError or BadInput.
+/// Reads the scene and checks the options against it. Throws SceneError or Refusal.
 SimulationPlan planSimulation(const SimulationRequest& request);
 
 class Simulation {
@@ -44,7 +44,7 @@ class Simulation {
   explicit Simulation(const SimulationPlan& plan);
 
   /// Runs to the end. `writer` may be null. A system that stops is reported on standard error and
-  /// the others go on. Throws RunFailed if SIGINT or SIGTERM ends it before.
+  /// the others go on. Throws RunFailure if SIGINT or SIGTERM ends it before.
   void run(SampleWriter* writer, bool results_on_standard_output);
 
   const Twin& twin() const { return twin_; }

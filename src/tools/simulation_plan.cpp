@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/model_registry.h"
+#include "accuracy/step_choice.h"
+#include "messages/names.h"
+#include "messages/refusal.h"
+#include "models/model_registry.h"
+#include "reports/selected_systems.h"
+#include "scene/drive_profile.h"
 #include "scene/scene_reader.h"
-#include "scene/step_choice.h"
 #include "scene/surroundings.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
-#include "scene/drive_profile.h"
 #include "tools/shipped_scenes.h"
 #include "tools/simulation.h"
 
@@ -27,7 +30,7 @@ std::int64_t wholeSteps(const std::string& option, const std::string& text, std:
   const std::int64_t time = parseNanoseconds(option, text, low, kLongestRun);
   if (time % step != 0) {
     const std::int64_t before = time - time % step;
-    throw BadInput(
+    throw Refusal(
         fmt::format("{}: must be a whole number of steps of {}, found {} s; next to it "
                     "are {} and {}",
                     option, inSeconds(step), text, inSeconds(before), inSeconds(before + step)));
@@ -45,7 +48,7 @@ std::int64_t defaultSteps(const SimulationPlan& plan) {
     duration = kDefaultDuration;
   }
   if (duration > static_cast<double>(kLongestRun) / kSecond) {
-    throw BadInput(
+    throw Refusal(
         fmt::format("--duration: the drive's profile lasts {:.3g} s; give a duration up "
                     "to {}",
                     duration, inSeconds(kLongestRun)));
@@ -58,7 +61,7 @@ std::int64_t defaultSteps(const SimulationPlan& plan) {
 void overrideIntegrator(const std::string& name, SimulationPlan& plan) {
   const auto& names = integratorNames();
   if (std::find(names.begin(), names.end(), name) == names.end()) {
-    throw BadInput(fmt::format("--integrator: no integrator '{}'{}", name, hint(name, names)));
+    throw Refusal(fmt::format("--integrator: no integrator '{}'{}", name, hint(name, names)));
   }
   std::vector<std::string> objections;
   for (const std::size_t i : plan.systems) {
@@ -73,7 +76,7 @@ void overrideIntegrator(const std::string& name, SimulationPlan& plan) {
     spec.integrator = name;
   }
   if (!objections.empty()) {
-    throw BadInput(fmt::format("{}", fmt::join(objections, "\ntwin: ")));
+    throw Refusal(fmt::format("{}", fmt::join(objections, "\ntwin: ")));
   }
 }
 

@@ -4,14 +4,16 @@
 #include <memory>
 #include <optional>
 
+#include "accuracy/trajectory.h"
+#include "messages/refusal.h"
+#include "reports/picture_file.h"
+#include "reports/selected_systems.h"
+#include "reports/tradeoff_report.h"
 #include "scene/scene_reader.h"
-#include "scene/trajectory.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
-#include "tools/picture_file.h"
 #include "tools/progress_bar.h"
 #include "tools/shipped_scenes.h"
-#include "tools/tradeoff_report.h"
 
 namespace whirl_twin {
 
@@ -42,7 +44,7 @@ struct Request {
 
 void requireTableName(const std::optional<std::string>& path) {
   if (path && (path->size() < 5 || path->substr(path->size() - 4) != ".csv")) {
-    throw BadInput("--output: must end in .csv, found '" + *path + "'");
+    throw Refusal("--output: must end in .csv, found '" + *path + "'");
   }
 }
 
@@ -52,7 +54,7 @@ void writeTable(const std::string& path, const std::vector<TradeoffReport>& repo
   out << csv(reports);
   out.close();
   if (!out) {
-    throw RunFailed(path + ": could not be written");
+    throw RunFailure(path + ": could not be written");
   }
   file.complete();
 }

@@ -9,11 +9,13 @@
 #ifdef WHIRL_TWIN_PLUGINS
 #include "plugins/plugin_models.h"
 #endif
+#include "messages/names.h"
+#include "messages/refusal.h"
+#include "reports/output.h"
 #include "scene/node_reader.h"
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
-#include "tools/output.h"
 
 namespace whirl_twin {
 
@@ -138,7 +140,7 @@ int main(int argc, char** argv) {
   } catch (const whirl_twin::SceneError& error) {
     whirl_twin::complain(fmt::format("{}\n", error.what()));
     return whirl_twin::kBadInput;
-  } catch (const whirl_twin::BadInput& error) {
+  } catch (const whirl_twin::Refusal& error) {
     whirl_twin::complain(fmt::format("twin: {}\n", error.what()));
     return whirl_twin::kBadInput;
   } catch (const std::exception& error) {

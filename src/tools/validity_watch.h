@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "analysis/validity.h"
-#include "scene/observer.h"
-#include "tools/output.h"
+#include "reports/output.h"
+#include "twin/observer.h"
 
 namespace whirl_twin {
 

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <string_view>
 
-#include "transport/message_check.h"
+#include "messages/message_check.h"
 
 namespace whirl_twin {
 namespace {

@@ -6,8 +6,8 @@
 #include <limits>
 #include <string>
 
-#include "scene/states.h"
-#include "transport/message_check.h"
+#include "messages/message_check.h"
+#include "messages/states.h"
 
 namespace whirl_twin {
 

@@ -3,10 +3,10 @@
 // a number outside its range, a utime that is not the time.
 #pragma once
 
-#include "monitoring/alert.h"
-#include "monitoring/stability_margin.h"
-#include "scene/states.h"
-#include "transport/message_check.h"
+#include "messages/alert.h"
+#include "messages/message_check.h"
+#include "messages/stability_margin.h"
+#include "messages/states.h"
 #include "whirl_twin/alert_t.hpp"
 #include "whirl_twin/drive_state_t.hpp"
 #include "whirl_twin/ensemble_state_t.hpp"

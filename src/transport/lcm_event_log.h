@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "monitoring/alert.h"
-#include "monitoring/stability_margin.h"
-#include "scene/states.h"
+#include "messages/alert.h"
+#include "messages/stability_margin.h"
+#include "messages/states.h"
 
 namespace whirl_twin {
 

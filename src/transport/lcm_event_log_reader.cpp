@@ -6,11 +6,11 @@
 #include <optional>
 #include <utility>
 
+#include "messages/message_check.h"
 #include "transport/channels.h"
 #include "transport/event_scan.h"
 #include "transport/lcm_decode.h"
 #include "transport/lcm_event_log.h"
-#include "transport/message_check.h"
 #include "transport/step_continuity.h"
 
 namespace whirl_twin {

@@ -4,8 +4,8 @@
 
 #include <utility>
 
+#include "messages/message_check.h"
 #include "transport/lcm_connection.h"
-#include "transport/message_check.h"
 
 namespace whirl_twin {
 

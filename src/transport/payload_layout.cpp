@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "transport/message_check.h"
+#include "messages/message_check.h"
 
 namespace whirl_twin {
 namespace {

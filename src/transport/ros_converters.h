@@ -10,10 +10,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "monitoring/alert.h"
-#include "monitoring/stability_margin.h"
-#include "scene/states.h"
-#include "transport/message_check.h"
+#include "messages/alert.h"
+#include "messages/message_check.h"
+#include "messages/stability_margin.h"
+#include "messages/states.h"
 #include "whirl_twin/AlertArray.h"
 #include "whirl_twin/DriveState.h"
 #include "whirl_twin/EnsembleState.h"

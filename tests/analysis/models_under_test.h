@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "scene/model_registry.h"
+#include "models/model_registry.h"
 
 namespace whirl_twin {
 

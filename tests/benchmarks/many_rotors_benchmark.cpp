@@ -15,8 +15,8 @@
 #include "plots/chart.h"
 #include "realtime/denormals.h"
 #include "scene/scene_reader.h"
-#include "scene/twin.h"
 #include "step_costs.h"
+#include "twin/twin.h"
 
 namespace whirl_twin {
 namespace {

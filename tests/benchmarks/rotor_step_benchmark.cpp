@@ -7,7 +7,7 @@
 
 #include "realtime/denormals.h"
 #include "scene/scene_reader.h"
-#include "scene/twin.h"
+#include "twin/twin.h"
 
 namespace whirl_twin {
 namespace {

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <string>
 
+#include "accuracy/step_choice.h"
 #include "realtime/denormals.h"
 #include "scene/scene_reader.h"
-#include "scene/step_choice.h"
-#include "scene/twin.h"
+#include "twin/twin.h"
 
 namespace whirl_twin {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/twin.h"
+#include "twin/twin.h"
 
 namespace whirl_twin {
 

@@ -11,7 +11,7 @@
 
 #include "../scene/scenes.h"
 #include "general_position.h"
-#include "scene/observer.h"
+#include "twin/observer.h"
 
 namespace whirl_twin {
 namespace {
@@ -84,9 +84,9 @@ INSTANTIATE_TEST_SUITE_P(Models, BrokenState, testing::ValuesIn(everyMovingVaria
                          });
 
 /// A system that is struck by a value after some steps.
-class Struck final : public System {
+class Struck final : public Stepper {
  public:
-  Struck(std::unique_ptr<System> inner, int steps, double value)
+  Struck(std::unique_ptr<Stepper> inner, int steps, double value)
       : inner_(std::move(inner)), left_(steps), value_(value) {}
   StepStatus step(double time) noexcept override {
     if (left_-- == 0) {
@@ -101,7 +101,7 @@ class Struck final : public System {
   void set(const double* q, const double* v) noexcept override { inner_->set(q, v); }
 
  private:
-  std::unique_ptr<System> inner_;
+  std::unique_ptr<Stepper> inner_;
   int left_;
   double value_;
 };
@@ -117,7 +117,7 @@ TEST(StateBrokenInTheMiddleOfARun, StopsItsSystemAtThatStepAndTheObserverSaysSo)
     Twin without(sceneOf(kThreeSystems));
     Observer observer(twin);
     // The generation is the scene's own: the parameters are.
-    twin.replace(3, std::make_unique<Struck>(twin.systemOf(twin.members()[3]), 100, value), 0);
+    twin.replace(3, std::make_unique<Struck>(twin.stepperOf(twin.members()[3]), 100, value), 0);
     for (int i = 0; i < 1000; ++i) {
       twin.step();
       without.step();

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "../scene/every_variant.h"
+#include "../models/every_variant.h"
 #include "scene/scene.h"
 
 namespace whirl_twin {

@@ -9,8 +9,8 @@
 #include "../scene/scenes.h"
 #include "allocation_guard.h"
 #include "measured.h"
-#include "scene/observer.h"
-#include "scene/twin.h"
+#include "twin/observer.h"
+#include "twin/twin.h"
 
 namespace whirl_twin {
 namespace {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/model_registry.h"
+#include "models/model_registry.h"
 
 namespace whirl_twin {
 

@@ -10,7 +10,7 @@
 #include "../scene/scenes.h"
 #include "measured.h"
 #include "realtime/denormals.h"
-#include "scene/observer.h"
+#include "twin/observer.h"
 
 namespace whirl_twin {
 namespace {

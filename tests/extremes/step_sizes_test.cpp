@@ -8,7 +8,7 @@
 #include "../integration/whirl_closed_form.h"
 #include "../scene/scenes.h"
 #include "measured.h"
-#include "scene/twin.h"
+#include "twin/twin.h"
 
 namespace whirl_twin {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "../scene/scenes.h"
 #include "measured.h"
-#include "scene/observer.h"
+#include "twin/observer.h"
 
 namespace whirl_twin {
 namespace {

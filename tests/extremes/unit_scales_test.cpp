@@ -11,7 +11,7 @@
 
 #include "general_position.h"
 #include "measured.h"
-#include "scene/twin.h"
+#include "twin/twin.h"
 
 namespace whirl_twin {
 namespace {

@@ -11,9 +11,9 @@
 #include <filesystem>
 
 #include "../tools/twin_program.h"
-#include "scene/observer.h"
 #include "scene/scene_reader.h"
 #include "scene_mutations.h"
+#include "twin/observer.h"
 
 namespace whirl_twin {
 namespace {

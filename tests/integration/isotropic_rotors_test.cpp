@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "allocation_guard.h"
-#include "scene/model_registry.h"
-#include "scene/system.h"
+#include "integration/stepper.h"
+#include "models/model_registry.h"
 
 namespace whirl_twin {
 namespace {
@@ -46,7 +46,7 @@ std::vector<IsotropicRotor> someRotors(std::size_t count) {
 }
 
 /// The same rotor as a system of its own, of mass 1, without substeps.
-std::unique_ptr<System> single(const IsotropicRotor& r, const Drive& drive, double step) {
+std::unique_ptr<Stepper> single(const IsotropicRotor& r, const Drive& drive, double step) {
   const ModelInfo& model = *findModel("jeffcott_rotor");
   ParameterValues values;
   for (const ParameterInfo& p : model.parameters) {
@@ -73,7 +73,7 @@ std::unique_ptr<System> single(const IsotropicRotor& r, const Drive& drive, doub
 /// in parts of the largest so far of that rotor. The peaks come out the same.
 double worstDifference(const std::vector<IsotropicRotor>& rotors, Drive& drive,
                        IsotropicRotors& together, int steps) {
-  std::vector<std::unique_ptr<System>> apart;
+  std::vector<std::unique_ptr<Stepper>> apart;
   for (const IsotropicRotor& rotor : rotors) {
     apart.push_back(single(rotor, drive, 1.0e-3));
   }

@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 
 #include "allocation_guard.h"
+#include "models/linear_rotor_setup.h"
 #include "running_system.h"
-#include "scene/linear_rotor_system.h"
 
 namespace whirl_twin {
 namespace {
@@ -325,13 +325,13 @@ TEST(RotorStep, RefusesASpeedItWasNotPreparedFor) {
   EXPECT_EQ(run.motion.q, before);
 }
 
-TEST(LinearRotorSystem, IsMadeReadyForFurtherSpeeds) {
+TEST(LinearRotorStepper, IsMadeReadyForFurtherSpeeds) {
   const auto setup = everythingThatFollowsTheSpeed(30.0, {});
   const ModelInfo& model = *findModel(setup.model);
   const auto dynamics =
       model.setUp(completed(model, setup.parameters), setup.settings, setup.gravity).dynamics;
   Drive drive(30.0, 0.0);
-  const LinearRotorSystem system(dynamics, {}, drive, 1.0e-3, 1);
+  const LinearRotorStepper system(dynamics, {}, drive, 1.0e-3, 1);
   EXPECT_EQ(system.readyFor(30.0, 30.0), nullptr);
   const auto further = system.readyFor(30.0, 90.0);
   ASSERT_NE(further, nullptr);

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "control/drive.h"
-#include "scene/model_registry.h"
+#include "models/model_registry.h"
 
 namespace whirl_twin {
 
@@ -107,7 +107,7 @@ class RunningSystem {
   std::shared_ptr<const Dynamics> dynamics_;
   std::size_t dof_;
   std::vector<double> record_;
-  std::unique_ptr<System> system_;
+  std::unique_ptr<Stepper> system_;
 };
 
 }  // namespace whirl_twin

@@ -7,9 +7,9 @@
 #include <random>
 #include <string>
 
-#include "../scene/every_variant.h"
+#include "../models/every_variant.h"
 #include "analysis/mass_matrix.h"
-#include "scene/model_registry.h"
+#include "models/model_registry.h"
 
 namespace whirl_twin {
 

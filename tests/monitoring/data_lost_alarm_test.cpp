@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "monitoring/alert_types.h"
+#include "messages/alert_types.h"
 
 namespace whirl_twin {
 namespace {

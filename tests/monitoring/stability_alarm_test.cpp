@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "analysis/routh.h"
-#include "monitoring/alert_types.h"
+#include "messages/alert_types.h"
 
 namespace whirl_twin {
 namespace {

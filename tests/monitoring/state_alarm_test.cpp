@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "monitoring/alert_types.h"
+#include "messages/alert_types.h"
 
 namespace whirl_twin {
 namespace {

@@ -9,8 +9,8 @@
 #include <set>
 
 #include "mechanics/rotors/short_journal_bearing.h"
-#include "scene/observer.h"
 #include "scene/scene_reader.h"
+#include "twin/observer.h"
 
 namespace whirl_twin {
 

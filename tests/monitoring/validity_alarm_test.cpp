@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "../analysis/models_under_test.h"
-#include "monitoring/alert_types.h"
+#include "messages/alert_types.h"
 
 namespace whirl_twin {
 namespace {

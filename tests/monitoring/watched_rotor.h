@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "monitoring/alert_types.h"
+#include "messages/alert_types.h"
 #include "monitoring/critical_speed_alarm.h"
 
 namespace whirl_twin {

@@ -7,8 +7,8 @@
 #include <set>
 #include <utility>
 
+#include "display/rotor_display.h"
 #include "drawn_markers.h"
-#include "nodes/rotor_display.h"
 
 namespace whirl_twin {
 namespace {

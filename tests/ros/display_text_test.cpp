@@ -3,8 +3,8 @@
 
 #include <limits>
 
-#include "nodes/status_text.h"
-#include "nodes/terminal_text.h"
+#include "display/status_text.h"
+#include "display/terminal_text.h"
 
 namespace whirl_twin {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "nodes/system_display.h"
+#include "display/system_display.h"
 
 namespace whirl_twin {
 

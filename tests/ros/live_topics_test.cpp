@@ -110,7 +110,7 @@ TEST_F(LiveTopics, loopStatisticsSayWhatWasObtained) {
   EXPECT_EQ(loop.tolerance, (std::vector<double>{1.0e-6, 1.0e-6}));
   ASSERT_EQ(loop.error_estimate.size(), 2u);
   for (const double error : loop.error_estimate) {
-    EXPECT_GE(error, 0.0);  // the first of the estimates may be yet to come
+    EXPECT_GE(error, 0.0);     // the first of the estimates may be yet to come
     EXPECT_LT(error, 1.0e-6);  // auto's promise, and no alert
   }
 }

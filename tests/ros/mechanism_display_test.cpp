@@ -1,6 +1,6 @@
 // What the display of mechanisms draws: the model's sketch at its scale, the trail, and bars where
 // there is no sketch.
-#include "nodes/mechanism_display.h"
+#include "display/mechanism_display.h"
 
 #include <gtest/gtest.h>
 
@@ -11,11 +11,11 @@
 #include <set>
 #include <utility>
 
+#include "display/sketch_drawing.h"
 #include "drawn_markers.h"
-#include "nodes/sketch_drawing.h"
-#include "scene/model_registry.h"
+#include "models/model_registry.h"
 #include "scene/scene_reader.h"
-#include "scene/twin.h"
+#include "twin/twin.h"
 
 namespace whirl_twin {
 namespace {

@@ -27,8 +27,7 @@ class Services : public testing::Test {
     whirl_subscriber_ = node_.subscribe<WhirlState>("/twin/rotor/whirl", 10000, on_whirl);
     drive_subscriber_ = node_.subscribe<DriveState>("/twin/drives/shaft", 10000, on_drive);
     for (const char* service : {"pause", "resume", "reset", "step", "set_speed"}) {
-      ASSERT_TRUE(
-          ros::service::waitForService(std::string("/simulation_node/") + service, 40000));
+      ASSERT_TRUE(ros::service::waitForService(std::string("/simulation_node/") + service, 40000));
     }
     ASSERT_TRUE(trigger("resume").success);
     ASSERT_TRUE(waitUntil([this] { return whirl_ && shaft_; }));

@@ -4,7 +4,7 @@
 
 #include <ostream>
 
-#include "scene/model_registry.h"
+#include "models/model_registry.h"
 #include "scenes.h"
 
 namespace whirl_twin {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "transport/message_check.h"
+#include "messages/message_check.h"
 
 namespace whirl_twin {
 namespace {

@@ -1,8 +1,8 @@
 #include <pluginlib/class_list_macros.hpp>
 
+#include "models/model_entry.h"
+#include "models/model_plugin.h"
 #include "saddle_trap.h"
-#include "scene/model_entry.h"
-#include "scene/model_plugin.h"
 
 namespace saddle_trap {
 

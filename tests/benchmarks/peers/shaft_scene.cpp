@@ -11,8 +11,8 @@
 #include "reference.h"
 #include "scene.h"
 #include "scene/scene_reader.h"
-#include "scene/twin.h"
 #include "shaft_equations.h"
+#include "twin/twin.h"
 #include "twin_contender.h"
 
 namespace whirl_twin::comparison {

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "scene/scene_reader.h"
-#include "scene/twin.h"
+#include "twin/twin.h"
 
 namespace whirl_twin::comparison {
 namespace {

@@ -1,0 +1,128 @@
+#include "accuracy/trajectory.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/cyclic_coordinates.h"
+#include "realtime/denormals.h"
+#include "twin/observer.h"
+#include "twin/twin.h"
+
+namespace whirl_twin {
+
+Scene sceneOfOne(const Scene& scene, std::size_t system) {
+  Scene one;
+  one.source = scene.source;
+  one.name = scene.name;
+  one.step = scene.step;
+  one.time = scene.time;
+  one.gravity = scene.gravity;
+  one.systems = {scene.systems[system]};
+  const std::size_t drive = scene.driveOf(one.systems.front());
+  if (drive < scene.drives.size()) {
+    one.drives = {scene.drives[drive]};
+    one.systems.front().drive_place = 0;
+  }
+  return one;
+}
+
+Scene withSetting(const Scene& one, const StepSetting& setting) {
+  Scene scene = one;
+  scene.step = setting.step;
+  scene.systems.front().integrator = setting.integrator;
+  scene.systems.front().substeps = setting.substeps;
+  return scene;
+}
+
+namespace {
+
+/// Follows the momenta that the equations conserve.
+class MomentumWatch {
+ public:
+  MomentumWatch(const Dynamics& dynamics, double speed) : dynamics_(dynamics) {
+    if (!dynamics.linear()) {
+      conserved_ = cyclicCoordinates(dynamics, speed).conserved;
+    }
+  }
+
+  void take(const double* q, const double* v, const Moment<double>& at) {
+    if (conserved_.empty()) {
+      return;
+    }
+    const Eigen::Map<const Eigen::VectorXd> position(q, dynamics_.dof());
+    const Eigen::Map<const Eigen::VectorXd> rate(v, dynamics_.dof());
+    const Eigen::VectorXd momenta = dynamics_.momenta(position, rate, at);
+    if (start_.size() == 0) {
+      start_ = momenta;
+    }
+    const Eigen::MatrixXd mass = dynamics_.massMatrix(position, rate, at);
+    for (const Eigen::Index i : conserved_) {
+      size_ = std::max(size_, mass.row(i).cwiseAbs().dot(rate.cwiseAbs()));
+      change_ = std::max(change_, std::fabs(momenta[i] - start_[i]));
+    }
+  }
+  double drift() const {
+    return conserved_.empty() ? std::numeric_limits<double>::quiet_NaN()
+           : change_ == 0.0   ? 0.0
+                              : change_ / size_;
+  }
+
+ private:
+  const Dynamics& dynamics_;
+  CyclicCoordinates::Places conserved_;
+  Eigen::VectorXd start_;
+  double size_ = 0.0;
+  double change_ = 0.0;
+};
+
+}  // namespace
+
+Trajectory trajectory(const Scene& one, std::int64_t duration, std::int64_t interval,
+                      const std::vector<double>& dq) {
+  const DenormalsToZero denormals_to_zero;
+  Scene scene = one;
+  for (std::size_t i = 0; i < dq.size(); ++i) {
+    scene.systems.front().q[i] += dq[i];
+  }
+  Twin twin(scene);
+  Observer observer(twin);
+  std::vector<double> record(twin.layout().size);
+  const Dynamics& dynamics = *twin.members().front().dynamics;
+  Trajectory result;
+  result.interval = static_cast<double>(interval) * 1.0e-9;
+  result.dof = static_cast<std::size_t>(dynamics.dof());
+  for (const CoordinateInfo& c : dynamics.coordinates()) {
+    result.angular.push_back(c.isAngle());
+  }
+  MomentumWatch momentum(dynamics, twin.drive(twin.members().front().drive).at(0.0).speed);
+  const auto sample = [&] {
+    twin.write(record.data());
+    observer.observe(record.data());
+    result.coordinates.insert(result.coordinates.end(), observer.coordinates(0),
+                              observer.coordinates(0) + result.dof);
+    if (dynamics.isRotor()) {
+      result.whirl_radius.push_back(observer.whirlRadius(0));
+      result.whirl_phase.push_back(observer.whirlPhase(0));
+    }
+    momentum.take(observer.coordinates(0), observer.rates(0), observer.moment(0));
+    const Energies energies = observer.energies(0);
+    result.energy.push_back(energies.kinetic + energies.potential);
+    result.energy_drift = std::max(result.energy_drift, std::abs(observer.energyResidual(0)));
+  };
+  sample();
+  const std::int64_t stride = interval / scene.step;
+  for (std::int64_t time = interval; time <= duration; time += interval) {
+    for (std::int64_t i = 0; i < stride; ++i) {
+      twin.step();
+    }
+    result.status = twin.status(0);
+    if (result.status != StepStatus::kOk) {
+      break;
+    }
+    sample();
+  }
+  result.momentum_drift = momentum.drift();
+  return result;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,50 @@
+// What a system of a scene does over a time, sampled: for comparing one way to step with another.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "integration/stepper.h"
+#include "scene/scene.h"
+
+namespace whirl_twin {
+
+/// A way to step a system.
+struct StepSetting {
+  std::string integrator;
+  std::int64_t step = 0;  ///< [ns], of the twin
+  int substeps = 1;       ///< steps of the method inside one of the twin
+};
+
+/// The scene with one of its systems only.
+Scene sceneOfOne(const Scene& scene, std::size_t system);
+
+/// A scene of one system, stepped as the setting says.
+Scene withSetting(const Scene& one, const StepSetting& setting);
+
+struct Trajectory {
+  double interval = 0.0;             ///< [s], from one sample to the next; the first is the start
+  std::size_t dof = 0;               ///< numbers of each sample in `coordinates`
+  std::vector<bool> angular;         ///< of each coordinate: [rad], not [m]
+  std::vector<double> coordinates;   ///< sample by sample
+  std::vector<double> whirl_radius;  ///< [m], of a rotor
+  std::vector<double> whirl_phase;   ///< [rad], of a rotor; NaN where there is none
+  std::vector<double> energy;        ///< [J], T + V
+  double energy_drift = 0.0;         ///< largest energy residual, as the twin publishes it
+  /// Largest change of a conserved momentum, in parts of the largest momenta that make it up; NaN
+  /// where a model from energies has no cyclic coordinate, and for linear ones.
+  double momentum_drift = std::numeric_limits<double>::quiet_NaN();
+  StepStatus status = StepStatus::kOk;  ///< why the samples end before the duration
+
+  std::size_t samples() const { return dof == 0 ? 0 : coordinates.size() / dof; }
+};
+
+/// Runs a scene of one system from its start, from q + dq if that is given. duration and interval
+/// [ns] are multiples of the step. A system that stops ends it.
+Trajectory trajectory(const Scene& one, std::int64_t duration, std::int64_t interval,
+                      const std::vector<double>& dq = {});
+
+}  // namespace whirl_twin

@@ -1,0 +1,204 @@
+#include "display/mechanism_display.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "display/sketch_drawing.h"
+#include "display/status_text.h"
+
+namespace whirl_twin {
+namespace {
+
+// Sizes of the picture [m]. Machines are drawn true to length as long as they fit their place.
+constexpr double kWidest = 1.5;
+constexpr double kTallest = 1.3;
+constexpr double kNarrowest = 1.0;
+constexpr double kBaseHeight = 0.04;
+constexpr double kBoardThickness = 0.02;
+constexpr double kTextGap = 0.14;  // between the picture and its words
+constexpr double kFacing = -0.55;  // rad about the vertical, towards who looks at the row
+
+constexpr Color kBase{0.75F, 0.80F, 0.88F};
+constexpr Color kBoard{0.17F, 0.21F, 0.26F};
+constexpr Color kCalmMass{0.30F, 0.62F, 0.52F};
+constexpr Color kTrail{0.95F, 0.60F, 0.95F};
+
+bool allFinite(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
+}
+
+// Whether coordinates of these names are those of the model.
+bool isOf(const std::vector<std::string>& name, const Dynamics* dynamics) {
+  if (dynamics == nullptr) {
+    return false;
+  }
+  const std::vector<CoordinateInfo> own = dynamics->coordinates();
+  return std::equal(own.begin(), own.end(), name.begin(), name.end(),
+                    [](const CoordinateInfo& c, const std::string& n) { return c.name == n; });
+}
+
+std::vector<CoordinateInfo> coordinatesOf(const std::vector<std::string>& name,
+                                          const Dynamics* dynamics) {
+  return isOf(name, dynamics) ? dynamics->coordinates() : coordinatesByName(name);
+}
+
+}  // namespace
+
+MechanismDisplay::MechanismDisplay(std::string name, std::shared_ptr<const Dynamics> dynamics)
+    : name_(std::move(name)), dynamics_(std::move(dynamics)) {}
+
+void MechanismDisplay::update(const PendulumState& state, const Moment<double>& shaft) {
+  if (!allFinite(state.angle) || !std::isfinite(state.time) ||
+      state.name.size() != state.angle.size()) {
+    trail_.clear();
+    return;
+  }
+  state_ = state;
+  shaft_ = shaft;
+  coordinates_ = coordinatesOf(state.name, dynamics_.get());
+  sketch_ = {};
+  if (isOf(state.name, dynamics_.get())) {
+    sketch_ =
+        dynamics_->sketch(Eigen::Map<const Eigen::VectorXd>(
+                              state.angle.data(), static_cast<Eigen::Index>(state.angle.size())),
+                          shaft);
+  }
+  if (sketch_.empty()) {
+    bars_.update(coordinates_, state.angle, state.time);
+  }
+  if (!trail_.empty() && (state.time < trail_.back().time || !sketch_.has_tracer)) {
+    trail_.clear();
+  }
+  if (sketch_.has_tracer && (trail_.empty() || state.time - trail_.back().time >= kTrailStep)) {
+    trail_.push_back({state.time, toVector(sketch_.tracer)});
+  }
+  while (!trail_.empty() && state.time - trail_.front().time > kTrailTime) {
+    trail_.pop_front();
+  }
+}
+
+double MechanismDisplay::pictureScale() const {
+  if (sketch_.empty()) {
+    return 1.0;
+  }
+  const double tall = sketch_.height > 0.0 ? sketch_.height : sketch_.size;
+  return std::min(std::clamp(sketch_.size, kNarrowest, kWidest) / sketch_.size, kTallest / tall);
+}
+
+double MechanismDisplay::width() const {
+  return sketch_.empty() ? CoordinateBars::kWidth : pictureScale() * sketch_.size;
+}
+
+double MechanismDisplay::height() const {
+  if (sketch_.empty()) {
+    return CoordinateBars::kHeight;
+  }
+  return pictureScale() * (sketch_.height > 0.0 ? sketch_.height : sketch_.size);
+}
+
+Eigen::Vector3d MechanismDisplay::centre() const {
+  return sketch_.empty() ? Eigen::Vector3d::Zero().eval()
+                         : (pictureScale() * toVector(sketch_.centre)).eval();
+}
+
+Eigen::Isometry3d MechanismDisplay::placedAt(const Eigen::Vector3d& place) const {
+  Eigen::Matrix3d axes;
+  axes << Eigen::Vector3d::UnitY(), -Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitZ();
+  const double facing = sketch_.spatial ? 0.0 : kFacing;
+  const Eigen::Isometry3d turned = Eigen::Translation3d(place) *
+                                   Eigen::AngleAxisd(facing, Eigen::Vector3d::UnitZ()) *
+                                   Eigen::Isometry3d(axes);
+  return turned *
+         Eigen::Translation3d(Eigen::Vector3d(0, 0, kBaseHeight + 0.5 * height()) - centre());
+}
+
+Eigen::Isometry3d MechanismDisplay::bodyPose() const {
+  const Eigen::Vector3d body = toVector(sketch_.tracer);
+  Eigen::Isometry3d pose(Eigen::Translation3d(pictureScale() * body));
+  for (const Sketch::Rod& rod : sketch_.rods) {
+    const Eigen::Vector3d back = toVector(rod.from) - toVector(rod.to);
+    if ((toVector(rod.to) - body).norm() < 1e-9 * sketch_.size && back.norm() > 0.0) {
+      pose.linear() =
+          Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), back).toRotationMatrix();
+    }
+  }
+  return pose;
+}
+
+void MechanismDisplay::drawBoard(MarkerCanvas& canvas) const {
+  const Eigen::Vector3d middle = centre();
+  const double foot = middle.z() - 0.5 * height();
+  const auto at = [&](double y, double z) {
+    return Eigen::Isometry3d(Eigen::Translation3d(middle.x(), y, z));
+  };
+  if (sketch_.spatial) {
+    // A bracket stands at its back edge.
+    canvas.box("stand", at(0.14 * width(), foot - 0.5 * kBaseHeight),
+               {0.5 * width(), 0.88 * width(), kBaseHeight}, kBase);
+    return;
+  }
+  const double board = kBoardDistance * width() + 0.5 * kBoardThickness;
+  canvas.box("stand", at(board - 0.09, foot - 0.5 * kBaseHeight),
+             {width() + 0.1, 0.34, kBaseHeight}, kBase);
+  canvas.box("stand", at(board, middle.z()), {width(), kBoardThickness, height()}, kBoard);
+}
+
+void MechanismDisplay::drawTrail(MarkerCanvas& canvas) const {
+  std::vector<Eigen::Vector3d> path;
+  path.reserve(trail_.size() + 1);
+  for (const auto& point : trail_) {
+    path.push_back(pictureScale() * point.position);
+  }
+  path.push_back(pictureScale() * toVector(sketch_.tracer));
+  canvas.line("trail", path, 0.012, kTrail, true);
+}
+
+std::vector<std::string> MechanismDisplay::lines(const SystemStatus& status) const {
+  std::vector<std::string> lines = {coordinateText(coordinates_, state_.angle)};
+  if (dynamics_ && dynamics_->hasShaft()) {
+    lines.push_back(speedText(shaft_.speed));
+  }
+  lines.push_back(energyText(state_));
+  if (status.margin) {
+    const auto& margin = *status.margin;
+    if (!margin.coordinate.empty()) {
+      lines.push_back("about " +
+                      coordinateText(coordinatesOf(margin.coordinate, dynamics_.get()),
+                                     margin.operating_point) +
+                      ":");
+    }
+    const auto margins = marginLines(margin);
+    lines.insert(lines.end(), margins.begin(), margins.end());
+  }
+  return lines;
+}
+
+void MechanismDisplay::draw(const SystemStatus& status, MarkerCanvas& canvas) const {
+  if (coordinates_.empty()) {
+    return;
+  }
+  const Color mass = severityColor(status.alerts, kCalmMass);
+  const Eigen::Vector3d middle = centre();
+  drawBoard(canvas);
+  if (sketch_.empty()) {
+    bars_.draw(mass, canvas);
+  } else {
+    drawSketch(sketch_, pictureScale(), mass, canvas);
+    if (sketch_.has_tracer) {
+      drawTrail(canvas);
+    }
+    if (std::abs(pictureScale() - 1.0) > 0.005) {
+      const double before = sketch_.spatial ? -0.3 * width() - 0.14 : -0.3;  // the base
+      canvas.text("scale", {middle.x(), before, middle.z() - 0.5 * height()}, 0.06,
+                  fmt::format("lengths x {:.2g}", pictureScale()), kTrail);
+    }
+  }
+  const Eigen::Vector3d foot(middle.x(), 0.0, middle.z() + 0.5 * height() + kTextGap);
+  drawStatus(name_, lines(status), status.alerts, foot, Eigen::Vector3d::UnitZ(), canvas);
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,72 @@
+// A mechanism as a picture: the sketch of its model before a board, the trail of a point of it, its
+// coordinates, energies, margins and alerts in words. A system whose model is not known, or has no
+// sketch, is shown as bars, one a coordinate.
+//
+// The sketch's axes (see mechanics/sketch.h) stand upright in the world and face the viewer of the
+// row of systems; what turns about the vertical has x = world y, as the rotors beside it.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "display/coordinate_bars.h"
+#include "display/system_display.h"
+#include "mechanics/dynamics.h"
+#include "whirl_twin/PendulumState.h"
+
+namespace whirl_twin {
+
+class MechanismDisplay : public SystemDisplay {
+ public:
+  static constexpr double kTrailTime = 2.0;               ///< [s], simulated
+  static constexpr double kTrailStep = kTrailTime / 400;  ///< [s] between points of the trail
+
+  /// @param name of the system  @param dynamics of its model; null: not known
+  MechanismDisplay(std::string name, std::shared_ptr<const Dynamics> dynamics);
+
+  /// The model with other parameters, of the same coordinates.
+  void setDynamics(std::shared_ptr<const Dynamics> dynamics) { dynamics_ = std::move(dynamics); }
+
+  /// Takes the next state; cheap enough for every step of the twin. A state that is not finite, or
+  /// is not one of this model, leaves the picture as it was.
+  /// @param shaft the motion of its shaft at that time; zero without one
+  void update(const PendulumState& state, const Moment<double>& shaft);
+
+  /// [-], metres in the picture for a metre of the machine.
+  double pictureScale() const;
+
+  Eigen::Isometry3d placedAt(const Eigen::Vector3d& place) const override;
+  void draw(const SystemStatus& status, MarkerCanvas& canvas) const override;
+  std::string bodyName() const override { return "body"; }
+  /// At the traced point, its z axis back along the rod that ends there.
+  Eigen::Isometry3d bodyPose() const override;
+
+ private:
+  struct TrailPoint {
+    double time;               // s, simulated
+    Eigen::Vector3d position;  // m, unscaled
+  };
+
+  // Of the picture on the screen [m].
+  double width() const;
+  double height() const;
+  Eigen::Vector3d centre() const;
+
+  void drawBoard(MarkerCanvas& canvas) const;
+  void drawTrail(MarkerCanvas& canvas) const;
+  std::vector<std::string> lines(const SystemStatus& status) const;
+
+  std::string name_;
+  std::shared_ptr<const Dynamics> dynamics_;
+  PendulumState state_;
+  std::vector<CoordinateInfo> coordinates_;
+  Moment<double> shaft_;
+  Sketch sketch_;
+  CoordinateBars bars_;
+  std::deque<TrailPoint> trail_;
+};
+
+}  // namespace whirl_twin

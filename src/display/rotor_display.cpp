@@ -1,0 +1,148 @@
+#include "display/rotor_display.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "display/status_text.h"
+
+namespace whirl_twin {
+namespace {
+
+// Sizes of the picture [m]; only the whirl is to scale, and that to the scale written beside it.
+constexpr double kShaftHeight = 0.66;
+constexpr double kShaftLength = 1.3;
+constexpr double kShaftRadius = 0.022;
+constexpr double kDiscRadius = 0.26;
+constexpr double kDiscThickness = 0.05;
+constexpr double kTextFoot = 0.62;  // above the shaft
+
+constexpr Color kSteel{0.66F, 0.69F, 0.73F};
+constexpr Color kIron{0.48F, 0.52F, 0.58F};
+constexpr Color kBase{0.75F, 0.80F, 0.88F};
+constexpr Color kCalmDisc{0.30F, 0.62F, 0.52F};
+constexpr Color kMark{1.0F, 0.93F, 0.45F};
+constexpr Color kTrail{0.35F, 0.85F, 1.0F};
+constexpr Color kThin{0.80F, 0.83F, 0.87F, 0.55F};
+
+Eigen::Isometry3d at(double x, double y, double z) {
+  return Eigen::Isometry3d(Eigen::Translation3d(x, y, z));
+}
+
+// "500", "0.02", "1 000 000": a round number as one writes it.
+std::string scaleNumber(double scale) {
+  return scale >= 1.0 ? fmt::format("{:.0f}", scale) : fmt::format("{:.3g}", scale);
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3d> bentShaft(double length, const Eigen::Vector2d& whirl,
+                                       std::size_t points) {
+  std::vector<Eigen::Vector3d> line;
+  line.reserve(points);
+  for (std::size_t i = 0; i < points; ++i) {
+    const double s = static_cast<double>(i) / static_cast<double>(points - 1);
+    const double bend = std::sin(M_PI * s);
+    line.emplace_back(bend * whirl.x(), bend * whirl.y(), (s - 0.5) * length);
+  }
+  return line;
+}
+
+RotorDisplay::RotorDisplay(std::string name, double whirl_scale, double trail_turns)
+    : name_(std::move(name)), scale_(whirl_scale), trail_(trail_turns) {}
+
+void RotorDisplay::update(const WhirlState& state) {
+  trail_.add(state);
+  if (std::isfinite(state.x) && std::isfinite(state.y)) {
+    state_ = state;
+    scale_.observe(std::hypot(state.x, state.y), state.time);
+  }
+}
+
+Eigen::Isometry3d RotorDisplay::placedAt(const Eigen::Vector3d& place) const {
+  Eigen::Matrix3d axes;
+  axes << Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX();
+  return Eigen::Translation3d(place + kShaftHeight * Eigen::Vector3d::UnitZ()) *
+         Eigen::Isometry3d(axes);
+}
+
+Eigen::Isometry3d RotorDisplay::bodyPose() const {
+  const Eigen::Vector2d whirl = scale_.value() * Eigen::Vector2d(state_.x, state_.y);
+  return at(whirl.x(), whirl.y(), 0.0) *
+         Eigen::AngleAxisd(state_.shaft_angle, Eigen::Vector3d::UnitZ());
+}
+
+void RotorDisplay::drawStand(MarkerCanvas& canvas) const {
+  for (const double end : {-0.5 * kShaftLength, 0.5 * kShaftLength}) {
+    canvas.box("stand", at(0.0, 0.0, end), {0.13, 0.13, 0.09}, kIron);
+    canvas.box("stand", at(0.0, -0.5 * kShaftHeight, end), {0.09, kShaftHeight, 0.06}, kIron);
+  }
+  canvas.box("stand", at(0.0, 0.02 - kShaftHeight, 0.0), {0.34, 0.04, kShaftLength + 0.2}, kBase);
+  const double beyond = 0.5 * kShaftLength + 0.2;
+  canvas.line("bearing_line", {{0.0, 0.0, -beyond}, {0.0, 0.0, beyond}}, 0.004, kThin);
+}
+
+void RotorDisplay::drawShaft(MarkerCanvas& canvas) const {
+  const Eigen::Vector2d whirl = bodyPose().translation().head<2>();
+  canvas.tube("shaft", bentShaft(kShaftLength, whirl, 25), kShaftRadius, kSteel);
+  // Stubs beyond the bearings; the front one carries the keyphasor's reference mark, which stands
+  // at shaft angle zero like the unbalance, under a probe on the rotor's x axis.
+  const double bearing = 0.5 * kShaftLength;
+  canvas.cylinder("shaft", {0, 0, -bearing - 0.12}, {0, 0, -bearing}, kShaftRadius, kSteel);
+  canvas.cylinder("shaft", {0, 0, bearing}, {0, 0, bearing + 0.12}, kShaftRadius, kSteel);
+  const Eigen::Isometry3d turned(Eigen::AngleAxisd(state_.shaft_angle, Eigen::Vector3d::UnitZ()));
+  canvas.box("keyphasor", turned * at(kShaftRadius, 0.0, bearing + 0.085), {0.016, 0.016, 0.05},
+             kMark);
+  canvas.cylinder("keyphasor", {0.05, 0.0, bearing + 0.085}, {0.13, 0.0, bearing + 0.085}, 0.012,
+                  kIron);
+}
+
+void RotorDisplay::drawDisc(const Color& color, MarkerCanvas& canvas) const {
+  const Eigen::Isometry3d disc = bodyPose();
+  const double face = 0.5 * kDiscThickness;
+  canvas.cylinder("disc", disc * Eigen::Vector3d(0, 0, -face), disc * Eigen::Vector3d(0, 0, face),
+                  kDiscRadius, color);
+  for (const double side : {-face - 0.004, face + 0.004}) {
+    canvas.line("unbalance",
+                {disc * Eigen::Vector3d(0, 0, side), disc * Eigen::Vector3d(kDiscRadius, 0, side)},
+                0.012, kMark);
+  }
+  canvas.sphere("unbalance", disc * Eigen::Vector3d(kDiscRadius, 0, 0), 0.036, kMark);
+}
+
+void RotorDisplay::drawOrbit(MarkerCanvas& canvas) const {
+  // Just in front of the disc, which would hide it.
+  const double plane = 0.5 * kDiscThickness + 0.012;
+  std::vector<Eigen::Vector3d> orbit;
+  for (const auto& point : trail_.points()) {
+    orbit.emplace_back(scale_.value() * point.x(), scale_.value() * point.y(), plane);
+  }
+  canvas.line("orbit", orbit, 0.014, kTrail, true);
+  const Eigen::Vector3d centre = bodyPose().translation() + plane * Eigen::Vector3d::UnitZ();
+  canvas.line("whirl_radius", {{0.0, 0.0, plane}, centre}, 0.006, kTrail);
+}
+
+void RotorDisplay::draw(const SystemStatus& status, MarkerCanvas& canvas) const {
+  drawStand(canvas);
+  drawShaft(canvas);
+  drawDisc(severityColor(status.alerts, kCalmDisc), canvas);
+  drawOrbit(canvas);
+  canvas.text("scale", {0.0, -0.14, 0.5 * kShaftLength + 0.25}, 0.072,
+              "whirl x " + scaleNumber(scale_.value()), kTrail);
+
+  std::vector<std::string> lines;
+  if (status.margin) {
+    lines = marginLines(*status.margin);
+  }
+  std::string whirl = whirlText(state_);
+  if (state_.phase_valid) {
+    whirl += state_.forward ? ", forward" : ", backward";
+  }
+  lines.insert(lines.begin(), {speedText(state_.speed), whirl});
+  drawStatus(name_, lines, status.alerts, kTextFoot * Eigen::Vector3d::UnitY(),
+             Eigen::Vector3d::UnitY(), canvas);
+}
+
+}  // namespace whirl_twin

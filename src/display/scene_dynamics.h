@@ -1,0 +1,45 @@
+// The models of the scene under /twin/scene, for displays. Without a scene, or with one that is not
+// right, nothing is known of any system.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "mechanics/dynamics.h"
+#include "twin/twin.h"
+#include "whirl_twin/DriveState.h"
+#include "whirl_twin/ParameterChange.h"
+
+namespace whirl_twin {
+
+class SceneDynamics {
+ public:
+  /// Reads the scene; true if it is not the one that was there before.
+  bool refresh();
+
+  /// Takes over changed parameters; false if they are not of this scene.
+  bool take(const ParameterChange& change);
+
+  /// The model of a system; null if it is not known.
+  std::shared_ptr<const Dynamics> dynamics(const std::string& system) const;
+
+  /// Name of the drive that turns a system; "" without one.
+  std::string driveOf(const std::string& system) const;
+
+  /// The motion of a system's shaft at a time [s], simulated.
+  /// @param drive the latest state of its drive; null without one
+  Moment<double> shaft(const std::string& system, double time, const DriveState* drive) const;
+
+ private:
+  struct Entry {
+    SystemSpec spec;
+    std::shared_ptr<const Dynamics> dynamics;
+  };
+
+  std::string tree_;  // of parameters, as they were read last
+  std::unique_ptr<Twin> twin_;
+  std::map<std::string, Entry> systems_;
+};
+
+}  // namespace whirl_twin

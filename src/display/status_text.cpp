@@ -1,0 +1,169 @@
+#include "display/status_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <sstream>
+
+namespace whirl_twin {
+namespace {
+
+constexpr double kDegrees = 180.0 / M_PI;
+constexpr double kRpm = 30.0 / M_PI;
+
+bool isAngle(const std::string& coordinate) {
+  for (const char* name : {"theta", "phi", "alpha", "beta", "spin"}) {
+    if (coordinate.rfind(name, 0) == 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+double wrappedDegrees(double angle) {
+  const double wrapped = std::remainder(angle, 2.0 * M_PI) * kDegrees;
+  return wrapped <= -180.0 ? wrapped + 360.0 : wrapped;
+}
+
+std::string speedText(double speed) {
+  return fmt::format("speed {:.2f} rad/s ({:.1f} rpm)", speed, speed * kRpm);
+}
+
+std::string whirlText(const WhirlState& state) {
+  std::string text = fmt::format("whirl {:.1f} um", state.radius * 1e6);
+  if (state.phase_valid) {
+    text += fmt::format(", lag {:.1f} deg", wrappedDegrees(state.phase));
+  }
+  return text;
+}
+
+std::vector<CoordinateInfo> coordinatesByName(const std::vector<std::string>& name) {
+  std::vector<CoordinateInfo> coordinates;
+  for (const std::string& n : name) {
+    coordinates.push_back({n, isAngle(n) ? "rad" : "m"});
+  }
+  return coordinates;
+}
+
+std::string coordinateText(const std::vector<CoordinateInfo>& coordinates,
+                           const std::vector<double>& value) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(coordinates.size(), value.size()); ++i) {
+    const CoordinateInfo& c = coordinates[i];
+    text += i == 0 ? "" : ", ";
+    text += c.isAngle() ? fmt::format("{} {:.1f} deg", c.name, wrappedDegrees(value[i]))
+                        : fmt::format("{} {:.4g} m", c.name, value[i]);
+  }
+  return text;
+}
+
+std::string energyText(const PendulumState& state) {
+  return fmt::format("kinetic {:.3g} J, potential {:.3g} J", state.kinetic, state.potential);
+}
+
+int nearestCriticalSpeed(const StabilityMargin& margin) {
+  int nearest = -1;
+  double least = INFINITY;
+  const double speed = std::isfinite(margin.speed) ? std::abs(margin.speed) : 0.0;
+  for (std::size_t i = 0; i < margin.critical_speed.size(); ++i) {
+    const double distance = std::abs(margin.critical_speed[i] - speed);
+    if (distance < least) {
+      least = distance;
+      nearest = static_cast<int>(i);
+    }
+  }
+  return nearest;
+}
+
+std::string criticalSpeedText(const StabilityMargin& margin, int index) {
+  const auto i = static_cast<std::size_t>(index);
+  if (index < 0 || i >= margin.critical_speed.size()) {
+    return {};
+  }
+  return fmt::format("critical {:.1f} rad/s{}", margin.critical_speed[i],
+                     i < margin.direction.size() ? " " + margin.direction[i] : "");
+}
+
+std::string separationText(const StabilityMargin& margin, int index) {
+  const auto i = static_cast<std::size_t>(index);
+  if (index < 0 || i >= margin.separation_margin.size() ||
+      !std::isfinite(margin.separation_margin[i])) {
+    return {};
+  }
+  std::string text = fmt::format("margin {:.1f} %", margin.separation_margin[i]);
+  if (i < margin.required_separation_margin.size() &&
+      std::isfinite(margin.required_separation_margin[i])) {
+    text += fmt::format(" ({:.1f} % required)", margin.required_separation_margin[i]);
+  }
+  return text;
+}
+
+std::string verdictText(const StabilityMargin& margin) {
+  std::string text = margin.verdict_name;
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return text;
+}
+
+std::string decayText(const StabilityMargin& margin) {
+  std::string text;
+  if (std::isfinite(margin.decay_rate)) {
+    text = margin.decay_rate < 0.0 ? fmt::format("growth rate {:.3g} 1/s", -margin.decay_rate)
+                                   : fmt::format("decay rate {:.3g} 1/s", margin.decay_rate);
+  }
+  if (std::isfinite(margin.log_decrement)) {
+    text += fmt::format("{}log decrement {:.3g}", text.empty() ? "" : ", ", margin.log_decrement);
+  }
+  return text;
+}
+
+std::vector<std::string> marginLines(const StabilityMargin& margin) {
+  // A rotor with many critical speeds fills the picture: those around the present speed are enough.
+  constexpr int kShown = 3;
+  std::vector<std::string> lines;
+  const int count = static_cast<int>(margin.critical_speed.size());
+  const int first = std::clamp(nearestCriticalSpeed(margin) - 1, 0, std::max(0, count - kShown));
+  for (int i = first; i < std::min(count, first + kShown); ++i) {
+    lines.push_back(criticalSpeedText(margin, i));
+    if (const std::string separation = separationText(margin, i); !separation.empty()) {
+      lines.push_back("  " + separation);
+    }
+  }
+  lines.push_back(verdictText(margin));
+  if (const std::string decay = decayText(margin); !decay.empty()) {
+    lines.push_back(decay);
+  }
+  if (margin.instability_speed_valid) {
+    lines.push_back(fmt::format("unstable above {:.1f} rad/s", margin.instability_speed));
+  }
+  return lines;
+}
+
+std::string severityName(int severity) {
+  return severity >= Alert::DANGER ? "DANGER" : severity == Alert::WARNING ? "WARNING" : "INFO";
+}
+
+std::vector<std::string> wrapText(const std::string& sentence, std::size_t width) {
+  std::vector<std::string> lines;
+  const std::string indent(std::min(sentence.find_first_not_of(' '), sentence.size()), ' ');
+  std::istringstream words(sentence);
+  for (std::string word; words >> word;) {
+    if (lines.empty()) {
+      lines.push_back(indent + word);
+    } else if (lines.back().size() + 1 + word.size() > width) {
+      lines.push_back(indent + "  " + word);
+    } else {
+      lines.back() += " " + word;
+    }
+  }
+  return lines;
+}
+
+std::string joinedLines(const std::vector<std::string>& lines) {
+  return fmt::format("{}", fmt::join(lines, "\n"));
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,72 @@
+#include "display/terminal_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "display/status_text.h"
+
+namespace whirl_twin {
+namespace {
+
+const Alert* findAlert(const std::vector<Alert>& alerts, const Alert& wanted) {
+  // The number alone would mistake alerts of a restarted monitor, which counts from one again.
+  const auto found = std::find_if(alerts.begin(), alerts.end(), [&](const Alert& alert) {
+    return alert.id == wanted.id && alert.type == wanted.type && alert.system == wanted.system &&
+           alert.raised_time == wanted.raised_time;
+  });
+  return found == alerts.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+std::string readoutText(const std::string& system, const SystemReadout& readout) {
+  std::vector<std::string> parts;
+  if (readout.whirl) {
+    parts.push_back(speedText(readout.whirl->speed));
+    parts.push_back(whirlText(*readout.whirl));
+  }
+  if (readout.pendulum) {
+    parts.push_back(
+        coordinateText(coordinatesByName(readout.pendulum->name), readout.pendulum->angle));
+  }
+  if (readout.margin) {
+    const int nearest = nearestCriticalSpeed(*readout.margin);
+    for (const auto& part :
+         {verdictText(*readout.margin), decayText(*readout.margin),
+          criticalSpeedText(*readout.margin, nearest), separationText(*readout.margin, nearest)}) {
+      if (!part.empty()) {
+        parts.push_back(part);
+      }
+    }
+  }
+  return fmt::format("{}: {}", system, fmt::join(parts, ", "));
+}
+
+std::vector<std::string> alertChanges(const std::vector<Alert>& before,
+                                      const std::vector<Alert>& now, double time) {
+  std::vector<std::string> lines;
+  for (const auto& alert : now) {
+    const Alert* known = findAlert(before, alert);
+    if (known == nullptr || known->severity != alert.severity) {
+      lines.push_back(fmt::format("[{:.3f} s] {} {}: {}", alert.time, severityName(alert.severity),
+                                  known == nullptr ? "raised" : "now", alert.text));
+    }
+  }
+  for (const auto& alert : before) {
+    if (findAlert(now, alert) == nullptr) {
+      lines.push_back(fmt::format("[{:.3f} s] {} cleared: {} {}", time,
+                                  severityName(alert.severity), alert.system, alert.type));
+    }
+  }
+  return lines;
+}
+
+std::string fitted(const std::string& line, std::size_t columns) {
+  if (line.size() <= columns) {
+    return line;
+  }
+  return columns < 3 ? line.substr(0, columns) : line.substr(0, columns - 3) + "...";
+}
+
+}  // namespace whirl_twin

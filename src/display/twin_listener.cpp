@@ -1,0 +1,153 @@
+#include "display/twin_listener.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <iterator>
+
+namespace whirl_twin {
+namespace {
+
+// Two seconds of a 1 kHz topic: the master is asked, and answers, in the spinner's thread.
+constexpr std::uint32_t kQueue = 2000;
+
+template <class Message>
+bool isType(const std::string& type) {
+  return type == ros::message_traits::datatype<Message>();
+}
+
+bool isState(const TwinTopic& topic) {
+  return isType<WhirlState>(topic.type) || isType<PendulumState>(topic.type);
+}
+
+}  // namespace
+
+std::vector<TwinTopic> twinTopics(const ros::master::V_TopicInfo& all) {
+  const std::string prefix = std::string(kTwinNamespace) + "/";
+  std::vector<TwinTopic> topics;
+  for (const auto& info : all) {
+    if (info.name.rfind(prefix, 0) != 0) {
+      continue;
+    }
+    const std::string rest = info.name.substr(prefix.size());
+    const std::size_t slash = rest.find('/');
+    if (isType<AlertArray>(info.datatype) && slash == std::string::npos) {
+      topics.push_back({info.name, info.datatype, ""});
+    } else if (slash == std::string::npos || rest.find('/', slash + 1) != std::string::npos) {
+      continue;
+    } else if (isType<DriveState>(info.datatype)) {
+      topics.push_back({info.name, info.datatype, rest.substr(slash + 1)});
+    } else if (isType<WhirlState>(info.datatype) || isType<PendulumState>(info.datatype) ||
+               isType<StabilityMargin>(info.datatype) || isType<ParameterChange>(info.datatype)) {
+      topics.push_back({info.name, info.datatype, rest.substr(0, slash)});
+    }
+  }
+  return topics;
+}
+
+void TwinListener::discover() {
+  ros::master::V_TopicInfo all;
+  if (!ros::master::getTopics(all)) {
+    return;
+  }
+  const auto topics = twinTopics(all);
+  if (std::any_of(topics.begin(), topics.end(), isState)) {
+    for (auto it = subscriptions_.begin(); it != subscriptions_.end();) {
+      const bool published = std::any_of(topics.begin(), topics.end(), [&](const TwinTopic& topic) {
+        return topic.topic == it->first && topic.type == it->second.topic.type;
+      });
+      if (!published) {
+        forget(it->second.topic);
+      }
+      it = published ? std::next(it) : subscriptions_.erase(it);
+    }
+  }
+  for (const auto& topic : topics) {
+    if (subscriptions_.count(topic.topic) == 0) {
+      subscriptions_[topic.topic] = {topic, subscribe(topic)};
+    }
+  }
+}
+
+template <class Message>
+ros::Subscriber TwinListener::listen(const TwinTopic& topic,
+                                     std::function<void(const typename Message::ConstPtr&)> take) {
+  return node_.subscribe<Message>(topic.topic, kQueue, take, ros::VoidConstPtr(),
+                                  ros::TransportHints().tcpNoDelay());
+}
+
+ros::Subscriber TwinListener::subscribe(const TwinTopic& topic) {
+  const std::string subject = topic.subject;
+  if (isType<WhirlState>(topic.type)) {
+    return listen<WhirlState>(topic, [this, subject](const WhirlState::ConstPtr& state) {
+      systems_[subject].whirl = state;
+      if (whirl_handler_) {
+        whirl_handler_(subject, *state);
+      }
+    });
+  }
+  if (isType<PendulumState>(topic.type)) {
+    return listen<PendulumState>(topic, [this, subject](const PendulumState::ConstPtr& state) {
+      systems_[subject].pendulum = state;
+      if (pendulum_handler_) {
+        pendulum_handler_(subject, *state);
+      }
+    });
+  }
+  if (isType<StabilityMargin>(topic.type)) {
+    return listen<StabilityMargin>(topic, [this, subject](const StabilityMargin::ConstPtr& margin) {
+      systems_[subject].margin = margin;
+    });
+  }
+  if (isType<ParameterChange>(topic.type)) {
+    return listen<ParameterChange>(topic, [this](const ParameterChange::ConstPtr& change) {
+      if (parameter_handler_) {
+        parameter_handler_(*change);
+      }
+    });
+  }
+  if (isType<DriveState>(topic.type)) {
+    return listen<DriveState>(
+        topic, [this, subject](const DriveState::ConstPtr& drive) { drives_[subject] = drive; });
+  }
+  return listen<AlertArray>(topic, [this](const AlertArray::ConstPtr& alerts) {
+    alerts_ = alerts;
+    if (alert_handler_) {
+      alert_handler_(*alerts);
+    }
+  });
+}
+
+void TwinListener::forget(const TwinTopic& topic) {
+  if (isState(topic)) {
+    systems_.erase(topic.subject);
+  } else if (isType<DriveState>(topic.type)) {
+    drives_.erase(topic.subject);
+  } else if (isType<AlertArray>(topic.type)) {
+    alerts_.reset();
+  }
+}
+
+std::vector<Alert> TwinListener::alertsOf(const std::string& system) const {
+  std::vector<Alert> found;
+  if (alerts_) {
+    std::copy_if(alerts_->alerts.begin(), alerts_->alerts.end(), std::back_inserter(found),
+                 [&](const Alert& alert) { return alert.system == system; });
+  }
+  return found;
+}
+
+const DriveState* TwinListener::drive(const std::string& name) const {
+  const auto found = drives_.find(name);
+  return found == drives_.end() ? nullptr : found->second.get();
+}
+
+double TwinListener::time() const {
+  double latest = 0.0;
+  for (const auto& [name, readout] : systems_) {
+    latest = std::max({latest, readout.whirl ? readout.whirl->time : 0.0,
+                       readout.pendulum ? readout.pendulum->time : 0.0});
+  }
+  return latest;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,92 @@
+#include "integration/linear_rotor_stepper.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "integration/linear_stepper.h"
+
+namespace whirl_twin {
+
+LinearRotorStepper::LinearRotorStepper(std::shared_ptr<const Dynamics> dynamics,
+                                       JacobiIntegral jacobi, const Drive& drive, double step,
+                                       int substeps)
+    : LinearRotorStepper(std::move(dynamics), std::move(jacobi), drive, step, substeps,
+                         drive.speedRange(), drive.constantSpeeds()) {}
+
+LinearRotorStepper::LinearRotorStepper(std::shared_ptr<const Dynamics> dynamics,
+                                       JacobiIntegral jacobi, const Drive& drive, double step,
+                                       int substeps, const std::pair<double, double>& speeds,
+                                       std::vector<double> constant_speeds)
+    : dynamics_(std::move(dynamics)),
+      jacobi_(std::move(jacobi)),
+      drive_(drive),
+      step_(step),
+      substeps_(substeps),
+      constant_speeds_(std::move(constant_speeds)),
+      at_rest_(dynamics_->linearRotor().matrices(0.0)),
+      load_(dynamics_->linearRotor().load),
+      method_(dynamics_->linearRotor(), step / substeps, speeds, constant_speeds_),
+      state_(dynamics_->dof()),
+      next_(dynamics_->dof()) {}
+
+/// The dynamics' Jacobi integral less T + V of the matrices.
+double LinearRotorStepper::furtherEnergy() const noexcept {
+  if (!jacobi_) {
+    return 0.0;
+  }
+  const ShaftMotion shaft = drive_.at(0.0);
+  double energy = jacobi_(state_.q.data(), state_.v.data(),
+                          {0.0, shaft.angle, shaft.speed, shaft.acceleration});
+  for (Eigen::Index i = 0; i < state_.q.size(); ++i) {
+    energy -= 0.5 * state_.v[i] * at_rest_.mass.col(i).dot(state_.v) +
+              0.5 * state_.q[i] * at_rest_.stiffness.col(i).dot(state_.q) - load_[i] * state_.q[i];
+  }
+  return energy;
+}
+
+StepStatus LinearRotorStepper::step(double) noexcept {
+  next_ = state_;
+  for (int i = 0; i < substeps_; ++i) {
+    const StepStatus status = method_.advance(drive_, i * (step_ / substeps_), next_);
+    if (status != StepStatus::kOk) {
+      return status;
+    }
+  }
+  if (!isFinite(next_)) {
+    return StepStatus::kNotFinite;
+  }
+  std::swap(state_, next_);
+  return StepStatus::kOk;
+}
+
+void LinearRotorStepper::write(double* out) const noexcept {
+  whirl_twin::write(state_, out);
+  out[2 * dof()] += furtherEnergy() - further_energy_;
+}
+
+void LinearRotorStepper::set(const double* q, const double* v) noexcept {
+  state_.set(q, v);
+  method_.restart();
+  further_energy_ = furtherEnergy();
+}
+
+std::unique_ptr<Stepper> LinearRotorStepper::readyFor(double lowest_speed,
+                                                      double highest_speed) const {
+  std::vector<double> constant_speeds = constant_speeds_;
+  for (const double speed : {lowest_speed, highest_speed}) {
+    if (std::find(constant_speeds.begin(), constant_speeds.end(), speed) == constant_speeds.end()) {
+      constant_speeds.push_back(speed);
+    }
+  }
+  const bool covered =
+      method_.lowestSpeed() <= lowest_speed && method_.highestSpeed() >= highest_speed;
+  if (covered && constant_speeds.size() == constant_speeds_.size()) {
+    return nullptr;
+  }
+  const std::pair<double, double> speeds{std::min(lowest_speed, method_.lowestSpeed()),
+                                         std::max(highest_speed, method_.highestSpeed())};
+  return std::unique_ptr<Stepper>(new LinearRotorStepper(
+      dynamics_, jacobi_, drive_, step_, substeps_, speeds, std::move(constant_speeds)));
+}
+
+}  // namespace whirl_twin

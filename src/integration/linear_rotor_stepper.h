@@ -1,0 +1,54 @@
+// A linear rotor given by its matrices, stepped exactly.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "integration/rotor_step.h"
+#include "integration/stepper.h"
+#include "mechanics/dynamics.h"
+
+namespace whirl_twin {
+
+/// The Jacobi integral h [J] of a model at a state of dof() numbers each. Real-time safe.
+using JacobiIntegral =
+    std::function<double(const double* q, const double* v, const Moment<double>& at)>;
+
+class LinearRotorStepper final : public Stepper {
+ public:
+  /// Steps with `exponential`, `substeps` in a step [s] of the twin, on a drive that outlives it,
+  /// at the speeds of the drive's profile. The step audits h = T + V of its matrices; where the
+  /// dynamics have another Jacobi integral, with the motion of the unbalance in it, `jacobi` is
+  /// that, and what it changes by besides is added to the work.
+  LinearRotorStepper(std::shared_ptr<const Dynamics> dynamics, JacobiIntegral jacobi,
+                     const Drive& drive, double step, int substeps);
+
+  StepStatus step(double time) noexcept override;
+  std::size_t dof() const noexcept override { return static_cast<std::size_t>(state_.q.size()); }
+  void write(double* out) const noexcept override;
+  void set(const double* q, const double* v) noexcept override;
+  std::unique_ptr<Stepper> readyFor(double lowest_speed, double highest_speed) const override;
+
+ private:
+  LinearRotorStepper(std::shared_ptr<const Dynamics> dynamics, JacobiIntegral jacobi,
+                     const Drive& drive, double step, int substeps,
+                     const std::pair<double, double>& speeds, std::vector<double> constant_speeds);
+  double furtherEnergy() const noexcept;
+
+  std::shared_ptr<const Dynamics> dynamics_;
+  JacobiIntegral jacobi_;  ///< may be empty
+  const Drive& drive_;
+  double step_;  ///< [s]
+  int substeps_;
+  std::vector<double> constant_speeds_;  ///< [rad/s]
+  Linearization at_rest_;
+  Eigen::VectorXd load_;
+  double further_energy_ = 0.0;  ///< [J], at the start
+  RotorStep method_;
+  LinearMotion state_;
+  LinearMotion next_;
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,298 @@
+// Model x method, composed at compile time. Compiled only in the translation units of models/, with
+// the flags that let the compiler delete a dual's dead terms; the finiteness check reads bits.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <type_traits>
+
+#include "control/drive.h"
+#include "control/shaft_angle.h"
+#include "integration/finite.h"
+#include "integration/stepper.h"
+#include "mechanics/dynamics.h"
+#include "mechanics/lagrangian.h"
+
+#if defined(__x86_64__) && !defined(__clang__) && !defined(WHIRL_TWIN_LONG_EQUATIONS)
+#define WHIRL_TWIN_FUSED_STEPS
+#endif
+
+namespace whirl_twin {
+
+/// q'' = a(q, v, t) of a model on its drive during one step; offset [s] counts from its start.
+template <class Model>
+struct DrivenEquation {
+  static constexpr std::size_t n = Model::kDof;
+  using Array = std::array<double, n>;
+  struct Jacobian {
+    Eigen::Matrix<double, static_cast<int>(n), static_cast<int>(n)> by_q, by_v;
+  };
+
+  const Model& model;
+  const Drive& drive;
+  double time;  ///< [s], simulated, at the start of the step
+
+  WHIRL_TWIN_INLINE Moment<double> moment(double offset) const {
+    if constexpr (Model::kHasShaft) {
+      const ShaftMotion shaft = drive.at(offset);
+      return {time + offset, shaft.angle, shaft.speed, shaft.acceleration};
+    } else {
+      return {time + offset, 0.0, 0.0, 0.0};
+    }
+  }
+  WHIRL_TWIN_INLINE Derivative<n> evaluate(const Array& q, const Array& v,
+                                           const Moment<double>& at) const {
+    return derivative(model, q, v, at);
+  }
+  WHIRL_TWIN_INLINE Derivative<n> operator()(const Array& q, const Array& v, double offset) const {
+    return evaluate(q, v, moment(offset));
+  }
+  /// da/dq and da/dv.
+  Jacobian jacobian(const Array& q, const Array& v, double offset) const {
+    const Moment<double> at = moment(offset);
+    const auto l = linearization(model, q, v, derivative(model, q, v, at).acceleration, at);
+    // Not mass.inverse(): Eigen's of size four needs signed zeros, which steps are compiled
+    // without.
+    const auto mass = l.mass.partialPivLu();
+    return {-mass.solve(l.stiffness + l.circulatory), -mass.solve(l.damping + l.gyroscopic)};
+  }
+  /// Is the forcing that of a shaft at one speed? Loads that alternate by themselves are not.
+  bool constantSpeed([[maybe_unused]] double duration) const {
+    if constexpr (HasAlternatingLoads<Model>::value) {
+      return false;
+    } else {
+      return !Model::kHasShaft || drive.constantFor(duration);
+    }
+  }
+};
+
+/// A shaft whose angle is the coordinate kSpin.
+template <class Model, class = void>
+struct HasSpin : std::false_type {};
+template <class Model>
+struct HasSpin<Model, std::void_t<decltype(Model::kSpin)>> : std::true_type {};
+
+template <class Model, class Method>
+class SteppedSystem final : public Stepper {
+ public:
+  static constexpr std::size_t n = Model::kDof;
+
+  /// step [s] of the twin, made of `substeps` steps of the method. The drive outlives the system.
+  SteppedSystem(const Model& model, const Drive& drive, double step, int substeps)
+      : model_(model), drive_(drive), substep_(step / substeps), substeps_(substeps) {}
+
+  StepStatus step(double time) noexcept override {
+    const DrivenEquation<Model> equation{model_, drive_, time};
+    MotionState<n> next = state_;
+    for (int i = 0; i < substeps_; ++i) {
+      const StepStatus status = advance(method_, equation, i * substep_, substep_, next);
+      if (status != StepStatus::kOk) {
+        return finite(state_) ? status : StepStatus::kNotFinite;
+      }
+    }
+    if (!finite(next)) {
+      return StepStatus::kNotFinite;
+    }
+    if (++steps_since_estimate_ == kEstimateEvery) {
+      steps_since_estimate_ = 0;
+      estimateError(equation, next);
+    }
+    state_ = next;
+    wholeTurns();
+    return StepStatus::kOk;
+  }
+  double errorSum() const noexcept override { return error_sum_; }
+  std::size_t dof() const noexcept override { return n; }
+  void write(double* out) const noexcept override {
+    for (std::size_t i = 0; i < n; ++i) {
+      out[i] = state_.q[i];
+      out[n + i] = state_.v[i];
+    }
+    out[2 * n] = state_.work.high;
+    if constexpr (HasSpin<Model>::value) {
+      out[Model::kSpin] = spin().total();
+    }
+  }
+  bool shaft([[maybe_unused]] ShaftState& out) const noexcept override {
+    if constexpr (HasSpin<Model>::value) {
+      // No load on a rotor depends on the time by itself.
+      const auto now = derivative(model_, state_.q, state_.v, Moment<double>{});
+      out = {spin(), state_.v[Model::kSpin], now.acceleration[Model::kSpin]};
+    }
+    return HasSpin<Model>::value;
+  }
+  void set(const double* q, const double* v) noexcept override {
+    state_ = MotionState<n>{};
+    for (std::size_t i = 0; i < n; ++i) {
+      state_.q[i] = q[i];
+      state_.v[i] = v[i];
+    }
+    if constexpr (HasSpin<Model>::value) {
+      if (isFinite(q[Model::kSpin])) {
+        const ShaftAngle angle = shaftAngle(q[Model::kSpin]);
+        turns_ = angle.turns;
+        state_.q[Model::kSpin] = angle.remainder;
+      }
+    }
+    method_.restart();
+    sizes_ = {};
+    error_sum_ = 0.0;
+    steps_since_estimate_ = 0;
+  }
+
+ private:
+  /// Largest so far, of the coordinates of a unit.
+  struct Size {
+    double q = 0.0;
+    double v = 0.0;
+  };
+  static WHIRL_TWIN_INLINE bool finite(const MotionState<n>& state) noexcept {
+    bool all = isFinite(state.work.high);
+    for (std::size_t i = 0; i < n; ++i) {
+      all = all && isFinite(state.q[i]) && isFinite(state.v[i]);
+    }
+    return all;
+  }
+
+  /// The spin is stepped as whole turns and a remainder, so that its phase is as exact after a
+  /// month as after a second; 2 pi is taken off with 106 bits.
+  WHIRL_TWIN_INLINE void wholeTurns() noexcept {
+    if constexpr (HasSpin<Model>::value) {
+      double& angle = state_.q[Model::kSpin];
+      if (angle >= 0.0 && angle < kTwoPi) {
+        return;
+      }
+      const double turns = std::floor(angle / kTwoPi);
+      const double whole = turns * kTwoPi;
+      const double error = std::fma(turns, kTwoPi, -whole) + turns * kTwoPiLow;
+      CompensatedSum rest{angle - whole, state_.q_low[Model::kSpin]};
+      rest.add(-error);
+      angle = rest.high;
+      state_.q_low[Model::kSpin] = rest.low;
+      turns_ += static_cast<std::int64_t>(turns);
+    }
+  }
+  ShaftAngle spin() const noexcept {
+    const double angle = state_.q[n - 1];        // the spin is the last
+    return {turns_, angle < 0.0 ? 0.0 : angle};  // below 0 only by rounding
+  }
+
+  /// Out of line: one copy of the equations for a system and a method is enough.
+  [[gnu::noinline]] static StepStatus methodStep(Method& method,
+                                                 const DrivenEquation<Model>& equation,
+                                                 double offset, double h,
+                                                 MotionState<n>& state) noexcept {
+    return method.step(equation, offset, h, state);
+  }
+
+#ifdef WHIRL_TWIN_FUSED_STEPS
+  /// The same with fused multiply-add, which takes half as long for sums of products.
+  [[gnu::noinline, gnu::target("avx2,fma")]] static StepStatus fusedMethodStep(
+      Method& method, const DrivenEquation<Model>& equation, double offset, double h,
+      MotionState<n>& state) noexcept {
+    return method.step(equation, offset, h, state);
+  }
+#endif
+  using MethodStep = StepStatus (*)(Method&, const DrivenEquation<Model>&, double, double,
+                                    MotionState<n>&) noexcept;
+  /// The one for the processor this runs on; linear models have the exact steps if they must be
+  /// fast.
+  static MethodStep methodStepHere() {
+#ifdef WHIRL_TWIN_FUSED_STEPS
+    if constexpr (!Model::kLinear) {
+      if (__builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0) {
+        return fusedMethodStep;
+      }
+    }
+#endif
+    return methodStep;
+  }
+
+  /// One step of the method, in parts where the drive has a corner inside it: across a corner a
+  /// method would lose its order.
+  WHIRL_TWIN_INLINE StepStatus advance(Method& method, const DrivenEquation<Model>& equation,
+                                       double offset, double h, MotionState<n>& state) noexcept {
+    if constexpr (Model::kHasShaft) {
+      const double end = offset + h;
+      if (drive_.nextCorner(offset) < end - kSliver * h) {
+        return advanceInParts(method, equation, offset, end, state);
+      }
+    }
+    return method_step_(method, equation, offset, h, state);
+  }
+  StepStatus advanceInParts(Method& method, const DrivenEquation<Model>& equation, double offset,
+                            double end, MotionState<n>& state) noexcept {
+    const double sliver = kSliver * (end - offset);
+    StepStatus status = StepStatus::kOk;
+    while (status == StepStatus::kOk && end - offset > sliver) {
+      double corner = drive_.nextCorner(offset);
+      corner = corner < end - sliver ? corner : end;
+      if (corner - offset > sliver) {
+        method.restart();
+        status = method_step_(method, equation, offset, corner - offset, state);
+      }
+      // Just behind the corner, where the jerk (or acceleration) that follows holds.
+      offset = std::nextafter(corner, 2.0 * end);
+    }
+    method.restart();
+    return status;
+  }
+
+  /// The error of the step from state_ to `end`: how far two of half the length come out from it.
+  /// Order p leaves out a part of 2^-p of it.
+  void estimateError(const DrivenEquation<Model>& equation, const MotionState<n>& end) noexcept {
+    MotionState<n> finer = state_;
+    const double h = 0.5 * substep_;
+    finer_method_.restart();
+    for (int i = 0; i < 2 * substeps_; ++i) {
+      if (advance(finer_method_, equation, i * h, h, finer) != StepStatus::kOk) {
+        return;
+      }
+    }
+    const auto angular = [](std::size_t i) {
+      return std::size_t{Model::kCoordinates[i].unit[0] == 'r'};
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+      Size& size = sizes_[angular(i)];
+      size.q = std::fmax(size.q, std::fabs(end.q[i]));
+      size.v = std::fmax(size.v, std::fabs(end.v[i]));
+    }
+    const auto relative = [](double error, double size) {
+      return error == 0.0 ? 0.0 : std::fabs(error) / size;
+    };
+    double error = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const Size& size = sizes_[angular(i)];
+      const double q_size = angular(i) == 1 ? std::fmin(size.q, 1.0) : size.q;
+      error = std::fmax(error, std::fmax(relative(end.q[i] - finer.q[i], q_size),
+                                         relative(end.v[i] - finer.v[i], size.v)));
+    }
+    error_sum_ += kEstimateEvery * error;
+  }
+
+  /// One step in so many is taken twice, the second time in halves.
+  static constexpr int kEstimateEvery = 64;
+  /// Parts shorter than this share of a substep are not worth a step: they are rounding.
+  static constexpr double kSliver = 1.0e-12;
+  static constexpr double kTwoPi = 6.283185307179586;
+  static constexpr double kTwoPiLow = 2.4492935982947064e-16;
+
+  Model model_;
+  const Drive& drive_;
+  double substep_;  ///< [s]
+  int substeps_;
+  MethodStep method_step_ = methodStepHere();
+  Method method_{};
+  Method finer_method_{};
+  MotionState<n> state_{};
+  std::array<Size, 2> sizes_{};  ///< of sliding and of angular coordinates
+  double error_sum_ = 0.0;
+  int steps_since_estimate_ = 0;
+  std::int64_t turns_ = 0;  ///< of a spin, beyond its coordinate
+};
+
+}  // namespace whirl_twin

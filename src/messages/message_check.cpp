@@ -1,0 +1,136 @@
+#include "messages/message_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace whirl_twin {
+namespace {
+
+constexpr std::size_t kMaxTextLength = 1000;
+/// Simulated times beyond this [s] have no microseconds in 64 bits.
+constexpr double kMaxTime = 9.0e12;
+
+/// Length of the UTF-8 character at `at`, 0 if there is none (RFC 3629: no overlong forms, no
+/// surrogates, nothing beyond U+10FFFF).
+std::size_t utf8Length(const std::string& text, std::size_t at) {
+  const auto byte = [&](std::size_t i) {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
+  };
+  const unsigned lead = byte(at);
+  const std::size_t length = lead < 0x80   ? 1
+                             : lead < 0xc2 ? 0
+                             : lead < 0xe0 ? 2
+                             : lead < 0xf0 ? 3
+                             : lead < 0xf5 ? 4
+                                           : 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(at + i) & 0xc0u) != 0x80u) {
+      return 0;
+    }
+  }
+  const unsigned second = byte(at + 1);
+  const bool impossible = (lead == 0xe0 && second < 0xa0) || (lead == 0xed && second > 0x9f) ||
+                          (lead == 0xf0 && second < 0x90) || (lead == 0xf4 && second > 0x8f);
+  return impossible ? 0 : length;
+}
+
+}  // namespace
+
+std::int64_t utimeOf(double time) {
+  return std::abs(time) <= kMaxTime ? std::llround(time * 1e6) : 0;
+}
+
+void requireName(const char* field, const std::string& name) {
+  if (!isLegalName(name)) {
+    throw RejectedMessage(fmt::format(
+        "{}: expected a letter and then letters, digits or _, at most {} of them, found {}", field,
+        kMaxNameLength, quoted(name)));
+  }
+}
+
+void requireNames(const char* field, const std::vector<std::string>& names) {
+  for (const auto& name : names) {
+    requireName(field, name);
+  }
+}
+
+void requirePaths(const char* field, const std::vector<std::string>& paths) {
+  for (const auto& path : paths) {
+    const std::size_t end = std::min(path.find_first_of("[."), path.size());
+    if (!isLegalName(path.substr(0, end)) || path.size() > 2 * kMaxNameLength ||
+        !std::all_of(path.begin(), path.end(), [](char c) {
+          return isNameCharacter(c) || c == '[' || c == ']' || c == '.';
+        })) {
+      throw RejectedMessage(
+          fmt::format("{}: expected the path of a parameter such as discs[1].mass, found {}", field,
+                      quoted(path)));
+    }
+  }
+}
+
+void requireText(const char* field, const std::string& text) {
+  if (text.size() > kMaxTextLength) {
+    throw RejectedMessage(fmt::format("{}: expected at most {} bytes of text, found {}", field,
+                                      kMaxTextLength, text.size()));
+  }
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = utf8Length(text, at);
+    const auto character = static_cast<unsigned char>(text[at]);
+    if (length == 0 || character < 0x20 || character == 0x7f) {
+      throw RejectedMessage(
+          fmt::format("{}: expected UTF-8 text, found the byte {:#04x}", field, character));
+    }
+    at += length;
+  }
+}
+
+void requireDirection(const std::string& direction) {
+  if (direction != "forward" && direction != "backward") {
+    throw RejectedMessage(
+        fmt::format("direction: expected forward or backward, found {}", quoted(direction)));
+  }
+}
+
+void requireCoordinateUnit(const std::string& unit) {
+  if (unit != "m" && unit != "rad") {
+    throw RejectedMessage(fmt::format("unit: expected m or rad, found {}", quoted(unit)));
+  }
+}
+
+void requireFlag(const char* field, int flag) {
+  requireRange(field, flag, 0, 1);
+}
+
+void requireRange(const char* field, std::int64_t value, std::int64_t low, std::int64_t high) {
+  if (value < low || value > high) {
+    throw RejectedMessage(fmt::format("{}: expected {} to {}, found {}", field, low, high, value));
+  }
+}
+
+void requireStep(std::int64_t step) {
+  if (step < 0) {
+    throw RejectedMessage(fmt::format("step: expected at least 0, found {}", step));
+  }
+}
+
+void requireTime(const char* field, double time) {
+  if (!(std::abs(time) <= kMaxTime)) {
+    throw RejectedMessage(fmt::format("{}: expected a finite number of s, found {}", field, time));
+  }
+}
+
+void requireStamp(std::int64_t stamp) {
+  requireRange("stamp [ns]", stamp, 0, kMaxStamp);
+}
+
+void requireLength(const char* field, std::size_t length, std::int64_t expected) {
+  if (expected < 0 || length != static_cast<std::size_t>(expected)) {
+    throw RejectedMessage(
+        fmt::format("{}: expected {} entries, found {}", field, expected, length));
+  }
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,49 @@
+// What is asked of a message before the twin believes it: names that are names, numbers that are
+// possible, arrays of one length. A message that fails is rejected with a sentence, never used in
+// part. LCM and ROS messages go through the same questions.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "messages/names.h"
+#include "messages/refusal.h"
+
+namespace whirl_twin {
+
+/// The latest stamp [ns] that a ROS header carries: it has 32 bits of seconds.
+inline constexpr std::int64_t kMaxStamp = 4294967295LL * 1000000000LL + 999999999LL;
+
+/// A message that is not to be used; what() says why.
+class RejectedMessage : public Refusal {
+ public:
+  using Refusal::Refusal;
+};
+
+/// The 64-bit utime of LCM [us] for a simulated time [s].
+std::int64_t utimeOf(double time);
+
+// Each throws RejectedMessage unless its condition holds; `field` is the message's own name for it.
+void requireName(const char* field, const std::string& name);
+void requireNames(const char* field, const std::vector<std::string>& names);
+/// Paths of numbers among parameters: names, each with `[row]`, `[column]` or `.name` behind it, as
+/// in discs[1].mass.
+void requirePaths(const char* field, const std::vector<std::string>& paths);
+/// UTF-8 without control characters, at most 1000 bytes.
+void requireText(const char* field, const std::string& text);
+/// "forward" or "backward".
+void requireDirection(const std::string& direction);
+/// "m" or "rad".
+void requireCoordinateUnit(const std::string& unit);
+void requireFlag(const char* field, int flag);
+void requireRange(const char* field, std::int64_t value, std::int64_t low, std::int64_t high);
+void requireLength(const char* field, std::size_t length, std::int64_t expected);
+void requireStep(std::int64_t step);
+/// Finite [s].
+void requireTime(const char* field, double time);
+/// 0 to kMaxStamp [ns].
+void requireStamp(std::int64_t stamp);
+
+}  // namespace whirl_twin

@@ -1,0 +1,195 @@
+// A rotor of shaft elements, discs and bearings, in the coordinates of its nodes or reduced to the
+// amplitudes of a few shapes (mechanics/rotors/rotor_assembly.h, analysis/modal_reduction.h).
+//
+// Whirl is published at the probe: the first unbalance's node, else the first disc's, else the
+// middle one. A rotor without bearings floats: its rigid-body modes are motions like any other.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "analysis/modal_reduction.h"
+#include "integration/exponential.h"
+#include "mechanics/linear_rotor_dynamics.h"
+#include "models/flexible_rotor_picture.h"
+#include "models/flexible_shaft_settings.h"
+#include "models/linear_rotor_setup.h"
+#include "models/models.h"
+
+namespace whirl_twin {
+
+namespace {
+
+using Eigen::Index;
+
+int probeNode(const Settings& settings, const FlexibleShaft& shaft) {
+  const std::string& given = settings.choices.at("probe_node");
+  const int last = shaft.nodes() - 1;
+  if (given == "auto") {
+    return !shaft.unbalances.empty() ? shaft.unbalances.front().node
+           : !shaft.discs.empty()    ? shaft.discs.front().node
+                                     : last / 2;
+  }
+  const int node = std::stoi(given);
+  if (node > last) {
+    throw SetupError(
+        "probe_node",
+        fmt::format("must be auto or a whole number from 0 to {}, found {}", last, node));
+  }
+  return node;
+}
+
+/// The stations with the one of `node` first.
+std::vector<Station> publishedFirst(std::vector<Station> stations, int node) {
+  std::rotate(stations.begin(), stations.begin() + node, stations.begin() + node + 1);
+  return stations;
+}
+
+std::vector<CoordinateInfo> nodeCoordinates(int nodes) {
+  std::vector<CoordinateInfo> all;
+  for (int i = 0; i < nodes; ++i) {
+    all.push_back({fmt::format("x_{}", i), "m"});
+    all.push_back({fmt::format("y_{}", i), "m"});
+    all.push_back({fmt::format("alpha_{}", i), "rad"});
+    all.push_back({fmt::format("beta_{}", i), "rad"});
+  }
+  return all;
+}
+
+std::vector<CoordinateInfo> shapeCoordinates(Index count) {
+  std::vector<CoordinateInfo> all;
+  for (Index i = 1; i <= count; ++i) {
+    all.push_back({fmt::format("q{}", i), "m"});
+  }
+  return all;
+}
+
+/// [m]: the mass centre's distance from the shaft if all unbalance were in one place.
+double whirlLength(const FlexibleShaft& shaft, double mass) {
+  double sum = 0.0;
+  for (const NodeUnbalance& unbalance : shaft.unbalances) {
+    sum += unbalance.magnitude;
+  }
+  return sum > 0.0 ? sum / mass : 1.0;
+}
+
+double totalMass(const FlexibleShaft& shaft) {
+  double mass = 0.0;
+  for (const ShaftSection& element : shaft.elements) {
+    mass += shaft.material.density * element.area() * element.length;
+  }
+  for (const RotorDisc& disc : shaft.discs) {
+    mass += disc.mass;
+  }
+  return mass;
+}
+
+RotorReduction reduction(const LinearRotor& rotor, const std::vector<Station>& stations,
+                         const ParameterValues& values, const std::string& modes) {
+  const double given = values.at("highest_speed");
+  const double highest = given > 0.0 ? given : usualHighestSpeed(rotor);
+  if (modes == "auto") {
+    return reduceRotorTo(rotor, stations, highest, values.at("tolerance"));
+  }
+  const int count = std::stoi(modes);
+  if (count > rotor.dof()) {
+    throw SetupError("modes", fmt::format("must be auto or a whole number from 0 to {}, four a "
+                                          "node, found {}",
+                                          rotor.dof(), count));
+  }
+  return reduceRotor(rotor, stations, highest, count);
+}
+
+void requireFinite(const LinearRotor& rotor) {
+  const Linearization l = rotor.matrices(0.0);
+  if (!l.mass.allFinite() || !l.stiffness.allFinite() || !l.damping.allFinite() ||
+      !(l.mass.diagonal().array() > 0.0).all()) {
+    throw SetupError("elements",
+                     "must give masses and stiffnesses that doubles can hold; those of "
+                     "this shaft and material are beyond their range");
+  }
+}
+
+std::shared_ptr<const Dynamics> dynamicsOf(RotorDescription description,
+                                           const RotorAssembly& assembly) {
+  try {
+    return std::make_shared<const LinearRotorDynamics>(std::move(description),
+                                                       assembly.linearRotor());
+  } catch (const std::invalid_argument&) {
+    throw SetupError("elements",
+                     "must give a mass in every motion that rounding does not hide "
+                     "beside the others");
+  }
+}
+
+ModelSetup setUpFlexibleRotor(const ParameterValues& values, const Settings& settings,
+                              const Surroundings& around) {
+  const FlexibleShaft shaft = flexibleShaft(values, settings, around.gravity);
+  const int probe = probeNode(settings, shaft);
+  RotorAssembly assembly(shaft);
+  requireFinite(assembly.linearRotor());
+
+  RotorDescription description;
+  description.model = "flexible_rotor";
+  description.natural_length = whirlLength(shaft, totalMass(shaft));
+  if (!shaft.unbalances.empty()) {
+    description.unbalance_angle = shaft.unbalances.front().angle;
+  }
+  std::string note;
+  const std::string& modes = settings.choices.at("modes");
+  if (modes == "0") {
+    description.coordinates = nodeCoordinates(shaft.nodes());
+  } else {
+    const RotorReduction kept = reduction(
+        assembly.linearRotor(), publishedFirst(assembly.stations(), probe), values, modes);
+    assembly = assembly.in(kept.shapes);
+    description.coordinates = shapeCoordinates(kept.shapes.cols());
+    note = kept.note;
+  }
+  description.stations = publishedFirst(assembly.stations(), probe);
+  description.sketch = FlexibleRotorPicture(shaft, assembly.stations(), probe);
+  ModelSetup setup = linearRotorSetup(dynamicsOf(std::move(description), assembly));
+  setup.note = note;
+  return setup;
+}
+
+}  // namespace
+
+ModelInfo flexibleRotorInfo() {
+  ModelInfo info;
+  info.name = "flexible_rotor";
+  info.summary = "shaft of finite elements with discs, bearings and unbalances";
+  info.parameters = {
+      {"youngs_modulus", "Pa", Range::kPositive, "of the shaft", {}, ""},
+      {"shear_modulus", "Pa", Range::kNotNegative, "of the shaft; 0: youngs_modulus / 2.6", 0.0,
+       ""},
+      {"density", "kg/m^3", Range::kPositive, "of the shaft", {}, ""},
+      {"internal_damping", "s", Range::kNotNegative,
+       "of the shaft's material: stress = E (strain + this * strain rate)", 0.0, ""},
+      {"highest_speed", "rad/s", Range::kNotNegative,
+       "up to which reduced modes must hold; 0: twice the fourth natural frequency", 0.0, ""},
+      {"tolerance", "-", Range::kPositive, "of the unbalance response, for modes: auto", 1.0e-6,
+       ""}};
+  info.settings = flexibleShaftSettings();
+  info.settings.push_back({"modes",
+                           SettingKind::kWordOrCount,
+                           "",
+                           "coordinates kept; 0: x, y, alpha, beta of every node; auto: as many as "
+                           "tolerance asks for",
+                           {"auto"}});
+  info.settings.push_back({"probe_node",
+                           SettingKind::kWordOrCount,
+                           "",
+                           "where whirl is published; auto: at the first unbalance, else the first "
+                           "disc, else in the middle",
+                           {"auto"}});
+  info.variants = {{"", {}, true, true, {Exponential<1>::kName}}};
+  info.has_shaft = true;
+  info.setUp = setUpFlexibleRotor;
+  return info;
+}
+
+}  // namespace whirl_twin

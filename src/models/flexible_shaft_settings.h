@@ -1,0 +1,18 @@
+// The shaft, discs, bearings and unbalances that a scene gives for a flexible_rotor.
+#pragma once
+
+#include <vector>
+
+#include "mechanics/rotors/rotor_assembly.h"
+#include "models/model_info.h"
+
+namespace whirl_twin {
+
+/// What a scene may give of a flexible rotor's shaft, by tables.
+std::vector<SettingInfo> flexibleShaftSettings();
+
+/// Throws SetupError for what does not fit together: where, what was expected, what was found.
+FlexibleShaft flexibleShaft(const ParameterValues& values, const Settings& settings,
+                            double gravity);
+
+}  // namespace whirl_twin

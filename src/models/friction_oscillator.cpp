@@ -1,0 +1,31 @@
+#include "mechanics/oscillators/friction_oscillator.h"
+
+#include <cmath>
+
+#include "mechanics/oscillators/regularized_friction_oscillator.h"
+#include "models/model_entry.h"
+#include "models/models.h"
+
+namespace whirl_twin {
+
+ModelInfo frictionOscillatorInfo() {
+  ModelInfo info = modelInfo<FrictionOscillator>();
+  addVariant<RegularizedFrictionOscillator>(info, "regularization > 0",
+                                            [](const ParameterValues& values, const Settings&) {
+                                              return values.at("regularization") > 0.0;
+                                            });
+  info.setUp = [plain = info.setUp](const ParameterValues& values, const Settings& settings,
+                                    const Surroundings& around) {
+    const double half = values.at("half_spacing");
+    const double reach = half - values.at("friction_coefficient") * values.at("height");
+    if (std::fabs(reach) <= 4.0e-16 * half) {  // no more than rounding
+      throw SetupError("half_spacing",
+                       "must not equal friction_coefficient x height: there the plank is about to "
+                       "tip and its frequency infinite");
+    }
+    return plain(values, settings, around);
+  };
+  return info;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,15 @@
+#include "mechanics/rotors/nonlinear_jeffcott_rotor.h"
+#include "models/jeffcott_forms.h"
+#include "models/spinning_setup.h"
+
+namespace whirl_twin {
+
+ModelSetup setUpNonlinearJeffcott(const ParameterValues& values, const Surroundings& around) {
+  return setUpEither<NonlinearJeffcottRotor>(values, around);
+}
+
+ModelVariant nonlinearJeffcottVariant(const std::string& when) {
+  return variant<NonlinearJeffcottRotor>(when);
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,98 @@
+#include "mechanics/rotors/jeffcott_rotor.h"
+
+#include "models/jeffcott_forms.h"
+#include "models/linear_rotor_setup.h"
+#include "models/model_entry.h"
+#include "models/models.h"
+
+namespace whirl_twin {
+
+namespace {
+
+bool given(const ParameterValues& values, const char* name) {
+  return values.at(name) > 0.0;
+}
+
+void need(const ParameterValues& values, const char* name, const std::string& unit,
+          const std::string& with) {
+  if (!given(values, name)) {
+    throw SetupError(name, "must be > 0 " + unit + " with " + with);
+  }
+}
+
+bool isNonlinear(const ParameterValues& values) {
+  return given(values, "loss_factor") || given(values, "rub_stiffness");
+}
+
+/// What fits in each range but not together.
+void check(const ParameterValues& values, const Surroundings& around) {
+  if (around.motor) {
+    need(values, "polar_inertia", "kg m^2", "a motor");
+  }
+  for (const char* name : {"rub_clearance", "rub_friction", "rub_damping", "rotor_radius"}) {
+    if (given(values, name)) {
+      need(values, "rub_stiffness", "N/m", name);
+    }
+  }
+  if (given(values, "rub_friction")) {
+    need(values, "rotor_radius", "m", "rub_friction");
+  }
+  for (const char* name :
+       {"bearing_diameter", "bearing_clearance", "bearing_viscosity", "journal_mass"}) {
+    if (given(values, name)) {
+      need(values, "bearing_length", "m", name);
+    }
+  }
+  if (given(values, "bearing_length")) {
+    need(values, "bearing_diameter", "m", "bearing_length");
+    need(values, "bearing_clearance", "m", "bearing_length");
+    need(values, "bearing_viscosity", "Pa s", "bearing_length");
+    need(values, "journal_mass", "kg", "bearing_length");
+    if (isNonlinear(values)) {
+      throw SetupError("bearing_length",
+                       "a rotor in journal bearings has neither a loss_factor nor a rub");
+    }
+  }
+}
+
+ModelSetup setUpLinear(const ParameterValues& values, const Surroundings& around) {
+  if (around.motor) {
+    return setUpSpinningJeffcott(values, around);
+  }
+  const JeffcottRotor rotor = makeModel<JeffcottRotor>(values, around.gravity);
+  return withExactRunUps(setUp(rotor), jacobiIntegral(rotor));
+}
+
+}  // namespace
+
+ModelInfo jeffcottRotorInfo() {
+  ModelInfo info = modelInfo<JeffcottRotor>();
+  info.takes_motor = true;
+  info.settings.push_back({"gravity_on_shaft",
+                           SettingKind::kChoice,
+                           "",
+                           "the scene's gravity acts on the rotor, along -y",
+                           {"false", "true"},
+                           false,
+                           {},
+                           {}});
+  info.variants.push_back(nonlinearJeffcottVariant("loss_factor > 0"));
+  info.variants.push_back(nonlinearJeffcottVariant("rub_stiffness > 0"));
+  info.variants.push_back(journalJeffcottVariant("bearing_length > 0"));
+  info.variants.push_back(spinningJeffcottVariant("a motor"));
+  info.setUp = [](const ParameterValues& values, const Settings& settings,
+                  const Surroundings& around) {
+    check(values, around);
+    const auto gravity_on = settings.choices.find("gravity_on_shaft");
+    Surroundings felt = around;
+    if (gravity_on == settings.choices.end() || gravity_on->second != "true") {
+      felt.gravity = 0.0;
+    }
+    return isNonlinear(values)               ? setUpNonlinearJeffcott(values, felt)
+           : given(values, "bearing_length") ? setUpJournalJeffcott(values, felt)
+                                             : setUpLinear(values, felt);
+  };
+  return info;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,209 @@
+// A linear system that a scene gives by its matrices and forces, or by assumed modes of them.
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "analysis/assumed_modes.h"
+#include "integration/linear_methods.h"
+#include "messages/names.h"
+#include "models/linear_setup.h"
+#include "models/matrix_settings.h"
+#include "models/models.h"
+
+namespace whirl_twin {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+std::vector<std::string> numbered(Index count) {
+  std::vector<std::string> names;
+  for (Index i = 1; i <= count; ++i) {
+    names.push_back(fmt::format("q{}", i));
+  }
+  return names;
+}
+
+/// The names of n coordinates: the scene's, or q1 ... qn.
+std::vector<std::string> coordinateNames(const Settings& settings, Index n) {
+  const auto given = settings.names.find("names");
+  if (given == settings.names.end()) {
+    return numbered(n);
+  }
+  const std::vector<std::string>& names = given->second;
+  if (static_cast<Index>(names.size()) != n) {
+    throw SetupError("names", fmt::format("must be one name a coordinate, {} in all, found {}", n,
+                                          names.size()));
+  }
+  std::set<std::string> taken;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string key = fmt::format("names[{}]", i);
+    if (!isLegalName(names[i])) {
+      throw SetupError(key, fmt::format("must be up to {} letters, digits and _, a letter first, "
+                                        "found {}",
+                                        kMaxNameLength, quoted(names[i])));
+    }
+    // A coordinate x also takes x_rate, the name of its rate.
+    if (!taken.insert(names[i]).second || !taken.insert(names[i] + "_rate").second) {
+      throw SetupError(key, fmt::format("must be a name that no other coordinate or its rate has, "
+                                        "found '{}'",
+                                        names[i]));
+    }
+  }
+  return names;
+}
+
+std::vector<HarmonicForce> forcesOf(const Settings& settings,
+                                    const std::vector<std::string>& names) {
+  std::vector<HarmonicForce> forces;
+  const auto table = settings.tables.find("force");
+  if (table == settings.tables.end()) {
+    return forces;
+  }
+  for (std::size_t row = 0; row < table->second.size(); ++row) {
+    const TableRow& values = table->second[row];
+    const std::string& name = values.words.at("coordinate");
+    const auto place = std::find(names.begin(), names.end(), name);
+    if (place == names.end()) {
+      const std::string near = nearestName(name, names);
+      throw SetupError(
+          fmt::format("force[{}].coordinate", row),
+          fmt::format("must be a coordinate of the system, found {}{}", quoted(name),
+                      near.empty() ? fmt::format("; there are: {}", fmt::join(names, ", "))
+                                   : fmt::format("; did you mean '{}'?", near)));
+    }
+    HarmonicForce force;
+    force.amplitude = Eigen::VectorXd::Zero(static_cast<Index>(names.size()));
+    force.amplitude[place - names.begin()] = values.numbers.at("amplitude");
+    force.frequency = values.numbers.at("frequency");
+    force.phase = values.numbers.at("phase");
+    forces.push_back(force);
+  }
+  return forces;
+}
+
+/// The model in the amplitudes of the scene's shapes.
+LinearModel inAssumedModes(const LinearModel& full, const MatrixXd& shapes) {
+  const Index n = full.mass.rows();
+  if (shapes.rows() != n || shapes.cols() > n) {
+    throw SetupError("assumed_modes",
+                     fmt::format("must have {} rows, one a coordinate, and up to {} columns, one a "
+                                 "shape, found {} x {}",
+                                 n, n, shapes.rows(), shapes.cols()));
+  }
+  const SetupError dependent(
+      "assumed_modes", fmt::format("must be linearly independent shapes, found {} of which one is "
+                                   "zero or a sum of the others",
+                                   shapes.cols()));
+  LinearModel model;
+  try {
+    const Linearization r = reduced(
+        {full.mass, full.damping, full.gyroscopic, full.stiffness, full.circulatory}, shapes);
+    const auto part = [](const MatrixXd& a, double sign) {
+      return MatrixXd(0.5 * (a + sign * a.transpose()));
+    };
+    model.mass = part(r.mass, 1.0);
+    model.damping = part(r.damping, 1.0);
+    model.gyroscopic = part(r.gyroscopic, -1.0);
+    model.stiffness = part(r.stiffness, 1.0);
+    model.circulatory = part(r.circulatory, -1.0);
+  } catch (const std::invalid_argument&) {
+    throw SetupError(dependent);
+  }
+  if (!hasMassInEveryMotion(model.mass)) {
+    throw SetupError(dependent);
+  }
+  for (HarmonicForce force : full.forces) {
+    force.amplitude = (shapes.transpose() * force.amplitude).eval();
+    model.forces.push_back(force);
+  }
+  return model;
+}
+
+void requireFiniteAccelerations(const LinearModel& model) {
+  const Eigen::LLT<MatrixXd> mass(model.mass);
+  bool finite = mass.solve(model.stiffness + model.circulatory).allFinite() &&
+                mass.solve(model.damping + model.gyroscopic).allFinite();
+  for (const HarmonicForce& force : model.forces) {
+    finite = finite && mass.solve(force.amplitude).allFinite();
+  }
+  if (!finite) {
+    throw SetupError("mass",
+                     "must give finite accelerations; those of this stiffness, damping or force "
+                     "are beyond the range of doubles");
+  }
+}
+
+ModelSetup setUpLinearSystem(const Settings& settings) {
+  const auto mass = settings.matrices.find("mass");
+  if (mass == settings.matrices.end()) {
+    throw SetupError("mass", "missing");
+  }
+  const Index n = mass->second.rows();
+  if (mass->second.cols() != n) {
+    throw SetupError("mass", fmt::format("must be square, found {} x {}", n, mass->second.cols()));
+  }
+  LinearModel model;
+  std::vector<std::string> names = coordinateNames(settings, n);
+  model.mass = symmetricMatrix(settings, "mass", n);
+  requirePositiveDefinite(model.mass, names);
+  model.stiffness = symmetricMatrix(settings, "stiffness", n);
+  model.damping = symmetricMatrix(settings, "damping", n);
+  model.gyroscopic = skewMatrix(settings, "gyroscopic", n);
+  model.circulatory = skewMatrix(settings, "circulatory", n);
+  model.forces = forcesOf(settings, names);
+  const auto shapes = settings.matrices.find("assumed_modes");
+  if (shapes != settings.matrices.end()) {
+    model = inAssumedModes(model, shapes->second);
+    names = numbered(model.mass.rows());
+  }
+  model.model = "linear_system";
+  for (const std::string& name : names) {
+    model.coordinates.push_back({name, "m"});
+  }
+  requireFiniteAccelerations(model);
+  return linearSetup(std::move(model));
+}
+
+}  // namespace
+
+ModelInfo linearSystemInfo() {
+  const auto matrix = [](const char* name, const char* unit, const char* meaning) {
+    return SettingInfo{name, SettingKind::kMatrix, unit, meaning};
+  };
+  constexpr double kRequired = std::numeric_limits<double>::quiet_NaN();
+  ModelInfo info;
+  info.name = "linear_system";
+  info.summary = "any linear system, by its matrices";
+  info.settings = {
+      matrix("mass", "kg", "symmetric, positive definite; a row a coordinate"),
+      matrix("stiffness", "N/m", "symmetric; rigid-body modes are allowed"),
+      matrix("damping", "N s/m", "symmetric; none if not given"),
+      matrix("gyroscopic", "N s/m", "skew-symmetric; none if not given"),
+      matrix("circulatory", "N/m", "skew-symmetric; none if not given"),
+      {"names", SettingKind::kNames, "", "of the coordinates; q1, q2 ... if not given"},
+      {"force", SettingKind::kTable, "", "amplitude cos(frequency t + phase) on a coordinate"},
+      matrix("assumed_modes", "of a shape",
+             "a column a shape: the system is reduced to their amplitudes q1, q2 ..."),
+  };
+  info.settings[0].required = true;
+  info.settings[1].required = true;
+  info.settings[6].word_columns = {"coordinate"};
+  info.settings[6].columns = {{"amplitude", "N", Range::kAny, kRequired},
+                              {"frequency", "rad/s", Range::kNotNegative, 0.0},
+                              {"phase", "rad", Range::kAny, 0.0}};
+  info.variants = {{"", {}, true, false, linearMethodNames()}};
+  info.setUp = [](const ParameterValues&, const Settings& settings, const Surroundings&) {
+    return setUpLinearSystem(settings);
+  };
+  return info;
+}
+
+}  // namespace whirl_twin

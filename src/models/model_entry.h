@@ -1,0 +1,155 @@
+// Makes a ModelInfo of a model struct: every method that suits it, composed at compile time.
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+
+#include "integration/dormand_prince_8.h"
+#include "integration/exponential.h"
+#include "integration/gauss_legendre.h"
+#include "integration/runge_kutta_4.h"
+#include "integration/semi_implicit_euler.h"
+#include "integration/stepped_system.h"
+#include "integration/velocity_verlet.h"
+#include "models/model_info.h"
+
+namespace whirl_twin {
+
+template <class... Methods>
+struct MethodList {};
+
+template <class List, class Method>
+struct Extended;
+template <class... Methods, class Method>
+struct Extended<MethodList<Methods...>, Method> {
+  using Type = MethodList<Methods..., Method>;
+};
+
+template <std::size_t n>
+using AnyModelsMethods = MethodList<SemiImplicitEuler, VelocityVerlet, RungeKutta4, DormandPrince8,
+                                    ImplicitMidpoint<n>, GaussLegendre4<n>, GaussLegendre6<n>>;
+
+template <class Model>
+using MethodsFor = std::conditional_t<
+    Model::kLinear,
+    typename Extended<AnyModelsMethods<Model::kDof>, Exponential<Model::kDof>>::Type,
+    AnyModelsMethods<Model::kDof>>;
+
+template <class Model, class = void>
+struct HasGravity : std::false_type {};
+template <class Model>
+struct HasGravity<Model, std::void_t<decltype(&Model::gravity)>> : std::true_type {};
+
+template <class Model>
+Model makeModel(const ParameterValues& values, double gravity) {
+  Model model{};
+  for (const auto& p : Model::parameters()) {
+    model.*p.member = values.at(p.name);
+  }
+  if constexpr (HasGravity<Model>::value) {
+    model.gravity = gravity;
+  }
+  return model;
+}
+
+template <class Model, class... Methods>
+std::unique_ptr<Stepper> makeStepper(MethodList<Methods...>, const Model& model,
+                                     const std::string& integrator, const Drive& drive, double step,
+                                     int substeps) {
+  std::unique_ptr<Stepper> system;
+  ((integrator == Methods::kName ? void(system = std::make_unique<SteppedSystem<Model, Methods>>(
+                                            model, drive, step, substeps))
+                                 : void()),
+   ...);
+  if (!system) {
+    throw std::invalid_argument(std::string(Model::kName) + " has no integrator " + integrator);
+  }
+  return system;
+}
+
+template <class... Methods>
+std::vector<std::string> methodNames(MethodList<Methods...>) {
+  return {Methods::kName...};
+}
+
+template <class Model>
+ModelSetup setUp(const Model& model) {
+  return {std::make_shared<const LagrangianDynamics<Model>>(model),
+          methodNames(MethodsFor<Model>{}),
+          [model](const std::string& integrator, const Drive& drive, double step, int substeps) {
+            return makeStepper(MethodsFor<Model>{}, model, integrator, drive, step, substeps);
+          }};
+}
+
+template <class Model>
+ModelSetup setUp(const ParameterValues& values, double gravity) {
+  return setUp(makeModel<Model>(values, gravity));
+}
+
+template <class Model>
+ModelVariant variant(const std::string& when) {
+  ModelVariant v;
+  v.when = when;
+  for (const Coordinate& c : Model::kCoordinates) {
+    v.coordinates.push_back({c.name, c.unit});
+  }
+  v.linear = Model::kLinear;
+  v.rotor = RotorTraits<Model>::kRotor;
+  v.integrators = methodNames(MethodsFor<Model>{});
+  return v;
+}
+
+/// A model of one form.
+template <class Model>
+ModelInfo modelInfo() {
+  ModelInfo info;
+  info.name = Model::kName;
+  info.summary = Model::kSummary;
+  info.variants = {variant<Model>("")};
+  for (const auto& p : Model::parameters()) {
+    ParameterInfo parameter{p.name, p.unit, p.range, p.meaning, std::nullopt, ""};
+    if (p.fallback_parameter != nullptr) {
+      parameter.fallback_parameter = p.fallback_parameter;
+    } else if (isFinite(p.fallback)) {
+      parameter.fallback = p.fallback;
+    }
+    info.parameters.push_back(parameter);
+  }
+  info.has_shaft = Model::kHasShaft;
+  info.setUp = [](const ParameterValues& values, const Settings&, const Surroundings& around) {
+    return setUp<Model>(values, around.gravity);
+  };
+  return info;
+}
+
+/// A further form of a model with the same parameters, taken where `chosen` says so; `when` is said
+/// to users.
+template <class Model>
+void addVariant(ModelInfo& info, const std::string& when,
+                std::function<bool(const ParameterValues&, const Settings&)> chosen) {
+  info.variants.push_back(variant<Model>(when));
+  info.setUp = [plain = info.setUp, chosen = std::move(chosen)](const ParameterValues& values,
+                                                                const Settings& settings,
+                                                                const Surroundings& around) {
+    return chosen(values, settings) ? setUp<Model>(values, around.gravity)
+                                    : plain(values, settings, around);
+  };
+}
+
+/// The same, taken where a choice of the scene has the second of its two values.
+template <class Model>
+void addVariant(ModelInfo& info, const std::string& setting, const std::string& plain_value,
+                const std::string& value, const std::string& meaning) {
+  info.settings.push_back(
+      {setting, SettingKind::kChoice, "", meaning, {plain_value, value}, false, {}, {}});
+  addVariant<Model>(info, setting + ": " + value,
+                    [setting, value](const ParameterValues&, const Settings& settings) {
+                      const auto found = settings.choices.find(setting);
+                      return found != settings.choices.end() && found->second == value;
+                    });
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,169 @@
+#include "models/model_registry.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "integration/step_methods.h"
+#include "models/models.h"
+
+namespace whirl_twin {
+
+namespace {
+
+struct ModelSource {
+  std::function<std::vector<ModelInfo>()> models;
+  std::function<void(const std::string&)> warn;
+};
+
+ModelSource& modelSource() {
+  static ModelSource source;
+  return source;
+}
+
+const ModelInfo* find(const std::vector<ModelInfo>& list, const std::string& name) {
+  const auto found = std::find_if(list.begin(), list.end(),
+                                  [&](const ModelInfo& model) { return model.name == name; });
+  return found == list.end() ? nullptr : &*found;
+}
+
+const std::vector<ModelInfo>& builtInModels() {
+  static const std::vector<ModelInfo> built_in{cantileverBeamInfo(),
+                                               cartPendulumInfo(),
+                                               doublePendulumInfo(),
+                                               flexibleRotorInfo(),
+                                               freeRotorInfo(),
+                                               frictionOscillatorInfo(),
+                                               governorInfo(),
+                                               hingedBeamInfo(),
+                                               jeffcottRotorInfo(),
+                                               linearSystemInfo(),
+                                               rigidDiscRotorInfo(),
+                                               rodSliderInfo(),
+                                               rollingDiscInfo(),
+                                               rotatingPendulumInfo(),
+                                               slidingMassFlywheelInfo(),
+                                               spinningPendulumInfo(),
+                                               sprungInvertedPendulumInfo(),
+                                               twoBarLinkageInfo()};
+  return built_in;
+}
+
+/// Why a model of the source cannot join `list`; "" if it can.
+std::string objection(const ModelInfo& model, const std::vector<ModelInfo>& list) {
+  if (model.name.empty() || model.variants.empty() || !model.setUp) {
+    return "model '" + model.name +
+           "' is left out: it has no name, no form or nothing to set it up";
+  }
+  if (find(list, model.name) != nullptr) {
+    return "model '" + model.name + "' is left out: there is a model of that name already";
+  }
+  return "";
+}
+
+}  // namespace
+
+void setModelSource(std::function<std::vector<ModelInfo>()> source,
+                    std::function<void(const std::string&)> warn) {
+  modelSource() = {std::move(source), std::move(warn)};
+}
+
+const char* describe(Range range) {
+  switch (range) {
+    case Range::kPositive:
+      return "> 0";
+    case Range::kNotNegative:
+      return ">= 0";
+    case Range::kCount:
+      return "a whole number from 1 to 1000000";
+    case Range::kAny:
+      break;
+  }
+  return "finite";
+}
+
+const std::vector<ModelInfo>& models() {
+  static const std::vector<ModelInfo> all = [] {
+    std::vector<ModelInfo> list = builtInModels();
+    const ModelSource& source = modelSource();
+    for (ModelInfo& model : source.models ? source.models() : std::vector<ModelInfo>()) {
+      const std::string why = objection(model, list);
+      if (why.empty()) {
+        list.push_back(std::move(model));
+      } else {
+        source.warn(why);
+      }
+    }
+    std::sort(list.begin(), list.end(),
+              [](const ModelInfo& a, const ModelInfo& b) { return a.name < b.name; });
+    return list;
+  }();
+  return all;
+}
+
+std::vector<std::string> modelNames() {
+  std::vector<std::string> names;
+  for (const ModelInfo& model : models()) {
+    names.push_back(model.name);
+  }
+  return names;
+}
+
+const ModelInfo* findModel(const std::string& name) {
+  const ModelInfo* built_in = find(builtInModels(), name);
+  return built_in != nullptr ? built_in : find(models(), name);
+}
+
+const std::vector<std::string>& integratorNames() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all{"auto"};
+    for (const StepMethod& method : stepMethods()) {
+      all.push_back(method.name);
+    }
+    return all;
+  }();
+  return names;
+}
+
+IntegratorChoice chooseIntegrator(const ModelSetup& setup, bool speed_changes) {
+  const Dynamics& dynamics = *setup.dynamics;
+  if (dynamics.linear() && !dynamics.hasShaft()) {
+    return {"exponential", "linear: the exact step"};
+  }
+  if (dynamics.linear() && !speed_changes) {
+    return {"exponential", "linear at constant speed: the exact step"};
+  }
+  if (dynamics.linear() && !dynamics.speedDependent()) {
+    return {"exponential", "linear with matrices that do not change with speed: exact free motion"};
+  }
+  if (dynamics.linear() && setup.exact_run_ups) {
+    return {"exponential", "linear: the exact step, from a table over the drive's speeds"};
+  }
+  if (dynamics.linear()) {
+    return {"gauss_legendre_6", "its matrices change with the drive's speed"};
+  }
+  return {"gauss_legendre_6", "nonlinear: order 6, symplectic, stable at any step"};
+}
+
+std::string integratorObjection(const ModelSetup& setup, bool on_drive,
+                                const std::string& integrator) {
+  if (integrator != "exponential") {
+    return "";
+  }
+  const auto& suited = setup.integrators;
+  if (std::find(suited.begin(), suited.end(), integrator) == suited.end()) {
+    return "exponential is for linear systems; " + setup.dynamics->model() + " is not linear";
+  }
+  if (on_drive && setup.dynamics->speedDependent() && !setup.exact_run_ups) {
+    return "exponential needs matrices that do not change with the drive's speed; "
+           "gauss_legendre_6 or runge_kutta_4 will do";
+  }
+  return "";
+}
+
+bool canStepWith(const ModelSetup& setup, bool on_drive, const std::string& integrator) {
+  const std::vector<std::string>& all = setup.integrators;
+  return std::find(all.begin(), all.end(), integrator) != all.end() &&
+         integratorObjection(setup, on_drive, integrator).empty();
+}
+
+}  // namespace whirl_twin

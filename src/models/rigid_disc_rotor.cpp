@@ -1,0 +1,100 @@
+#include "mechanics/rotors/rigid_disc_rotor.h"
+
+#include "mechanics/rotors/turning_rigid_disc_rotor.h"
+#include "models/linear_rotor_setup.h"
+#include "models/model_entry.h"
+#include "models/models.h"
+
+namespace whirl_twin {
+
+namespace {
+
+std::string choice(const Settings& settings, const std::string& name, const std::string& plain) {
+  const auto found = settings.choices.find(name);
+  return found == settings.choices.end() ? plain : found->second;
+}
+
+/// An overhung shaft as the three stiffnesses of a cantilever.
+ParameterValues withShaft(ParameterValues values, const Settings& settings) {
+  const auto overhung = settings.tables.find("overhung");
+  double& k11 = values.at("stiffness_displacement");
+  double& k12 = values.at("stiffness_coupling");
+  double& k22 = values.at("stiffness_rotation");
+  if (overhung != settings.tables.end()) {
+    if (overhung->second.size() != 1) {
+      throw SetupError("overhung", "must be one map of length and bending_stiffness");
+    }
+    if (k11 != 0.0 || k12 != 0.0 || k22 != 0.0) {
+      throw SetupError("overhung",
+                       "is the shaft already: leave out stiffness_displacement, "
+                       "stiffness_coupling and stiffness_rotation");
+    }
+    const double l = overhung->second.front().numbers.at("length");
+    const double ei = overhung->second.front().numbers.at("bending_stiffness");
+    k11 = 12.0 * ei / (l * l * l);
+    k12 = -6.0 * ei / (l * l);
+    k22 = 4.0 * ei / l;
+  }
+  if (!(k11 > 0.0)) {
+    throw SetupError("stiffness_displacement", "must be > 0 N/m, unless the shaft is overhung");
+  }
+  if (!(k22 > 0.0)) {
+    throw SetupError("stiffness_rotation", "must be > 0 N m, unless the shaft is overhung");
+  }
+  if (!(k12 * k12 < k11 * k22)) {
+    throw SetupError("stiffness_coupling",
+                     "its square must be less than stiffness_displacement x stiffness_rotation: "
+                     "no shaft has such a stiffness");
+  }
+  return values;
+}
+
+SettingInfo choiceOf(const char* name, const char* meaning, std::vector<std::string> words) {
+  return {name, SettingKind::kChoice, "", meaning, std::move(words), false, {}, {}};
+}
+
+}  // namespace
+
+ModelInfo rigidDiscRotorInfo() {
+  ModelInfo info = modelInfo<RigidDiscRotor>();
+  info.variants.push_back(variant<TurningRigidDiscRotor>("frame: rotating"));
+  info.settings.push_back(choiceOf("frame", "of the coordinates: fixed, or turning with the shaft",
+                                   {"fixed", "rotating"}));
+  info.settings.push_back(choiceOf(
+      "gravity_on_shaft", "the scene's gravity acts on the rotor, along -y", {"false", "true"}));
+  const double needed = std::nan("");
+  info.settings.push_back({"overhung",
+                           SettingKind::kTable,
+                           "",
+                           "a shaft clamped at one end, the disc at the other, instead of the "
+                           "three stiffnesses",
+                           {},
+                           false,
+                           {{"length", "m", Range::kPositive, needed},
+                            {"bending_stiffness", "N m^2", Range::kPositive, needed}},
+                           {}});
+  info.setUp = [](const ParameterValues& values, const Settings& settings,
+                  const Surroundings& around) {
+    const bool turning = choice(settings, "frame", "fixed") == "rotating";
+    const double asymmetry = values.at("stiffness_asymmetry");
+    if (asymmetry > 0.0 && !turning) {
+      throw SetupError("stiffness_asymmetry",
+                       "needs frame: rotating, where the matrices of a shaft that is not round are "
+                       "constant");
+    }
+    if (!(asymmetry < 1.0)) {
+      throw SetupError("stiffness_asymmetry", "must be < 1: beyond, the shaft has no stiffness");
+    }
+    const bool heavy = choice(settings, "gravity_on_shaft", "false") == "true";
+    const ParameterValues complete = withShaft(values, settings);
+    const double gravity = heavy ? around.gravity : 0.0;
+    if (turning) {
+      return setUp<TurningRigidDiscRotor>(complete, gravity);
+    }
+    const RigidDiscRotor rotor = makeModel<RigidDiscRotor>(complete, gravity);
+    return withExactRunUps(setUp(rotor), jacobiIntegral(rotor));
+  };
+  return info;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,30 @@
+// What `twin campbell` shows of one rotor.
+#pragma once
+
+#include <vector>
+
+#include "analysis/campbell.h"
+#include "analysis/critical_speeds.h"
+#include "analysis/undamped_critical_speeds.h"
+#include "plots/chart.h"
+#include "reports/output.h"
+#include "reports/rotor_systems.h"
+
+namespace whirl_twin {
+
+struct CampbellReport {
+  const RotorSystem* system = nullptr;
+  SpeedRange range;
+  CampbellDiagram diagram;
+  std::vector<UndampedCriticalSpeed> undamped;  ///< within the range
+  std::vector<CriticalSpeed> peaks;             ///< of the unbalance response, within the range
+};
+
+CampbellReport campbellReport(const RotorSystem& system, const SpeedRange& range,
+                              const std::vector<double>& harmonics, std::size_t branches);
+
+Json json(const CampbellReport& report);
+std::string text(const CampbellReport& report);
+Figure figure(const CampbellReport& report);
+
+}  // namespace whirl_twin

@@ -1,0 +1,45 @@
+// Where results go: standard output, or a file that appears only when it is complete.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+namespace whirl_twin {
+
+/// Keys in the order they were put in; NaN and infinities are printed as null.
+using Json = nlohmann::ordered_json;
+
+/// Prints results on standard output. Throws RunFailure if they cannot be written.
+void printText(std::string_view text);
+void printJson(const Json& json);
+
+/// Prints a message on standard error, whether it can be written or not.
+void complain(const std::string& message);
+
+/// Hands everything printed to the system: only then is a full device noticed. Throws RunFailure.
+void finishStandardOutput();
+
+/// A file that is written under another name beside it and gets its own name when it is complete:
+/// a run that fails leaves nothing behind, and what was there before stays. What is not a regular
+/// file (a pipe, a device) is written directly.
+class PendingFile {
+ public:
+  /// Throws RunFailure if there is no such directory or `path` is a directory.
+  explicit PendingFile(const std::string& path);
+  ~PendingFile();
+  PendingFile(const PendingFile&) = delete;
+  PendingFile& operator=(const PendingFile&) = delete;
+
+  /// The name to write to.
+  const std::string& path() const { return written_; }
+  /// Gives the file its name; it must have been written entirely. Throws RunFailure.
+  void complete();
+
+ private:
+  std::string final_;
+  std::string written_;
+  bool complete_ = false;
+};
+
+}  // namespace whirl_twin

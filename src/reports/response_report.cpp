@@ -1,0 +1,152 @@
+#include "reports/response_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "messages/names.h"
+#include "messages/refusal.h"
+#include "reports/verdict_text.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kDegrees = 180.0 / kPi;
+
+void requireForce(const RotorSystem& system) {
+  if (!hasSynchronousForce(system.rotor)) {
+    throw Refusal(fmt::format(
+        "{}: expected an unbalance or a bow, found a balanced rotor: it does not respond",
+        system.title()));
+  }
+}
+
+Json orbitJson(const Orbit& orbit, double unbalance_angle) {
+  const auto part = [](const std::complex<double>& z) { return Json{z.real(), z.imag()}; };
+  return {{"x", part(orbit.x)},
+          {"y", part(orbit.y)},
+          {"forward", std::abs(orbit.forward)},
+          {"backward", std::abs(orbit.backward)},
+          {"major", orbit.major()},
+          {"minor", orbit.minor()},
+          {"inclination", orbit.inclination()},
+          {"direction", name(orbit.direction())},
+          {"phase_lag", phaseLag(orbit, unbalance_angle)}};
+}
+
+std::string orbitText(const std::string& start, const Orbit& orbit, double unbalance_angle) {
+  return fmt::format("    {:<14} {:>11.5g} {:>11.5g} {:>11.5g}  {:<9} {:>12.5g} {:>10.5g}\n", start,
+                     orbit.major(), orbit.minor(), orbit.inclination() * kDegrees,
+                     name(orbit.direction()), std::abs(orbit.forward),
+                     phaseLag(orbit, unbalance_angle) * kDegrees);
+}
+
+constexpr const char* kOrbitHead =
+    "     major, m    minor, m  inclined, deg  direction forward, m   lag, deg\n";
+
+}  // namespace
+
+ResponseReport responseReport(const RotorSystem& system, const SpeedRange& range,
+                              const std::optional<std::string>& station) {
+  requireForce(system);
+  ResponseReport r;
+  r.system = &system;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < system.stations.size(); ++i) {
+    names.push_back(system.stations[i].name);
+    if (!station || *station == names.back()) {
+      r.stations.push_back(i);
+    }
+  }
+  if (r.stations.empty()) {
+    throw Refusal(fmt::format("--station: no station '{}' on {}{}", *station, system.title(),
+                              hint(*station, names)));
+  }
+  r.sweep = synchronousSweep(system.rotor, system.stations, range.from, range.to, range.points);
+  r.peaks = criticalSpeeds(*system.dynamics);
+  r.peaks.erase(std::remove_if(r.peaks.begin(), r.peaks.end(),
+                               [&](const CriticalSpeed& peak) {
+                                 return peak.speed < range.from || peak.speed > range.to;
+                               }),
+                r.peaks.end());
+  return r;
+}
+
+Json json(const ResponseReport& r) {
+  Json json;
+  json["model"] = r.system->model;
+  json["unbalance_angle"] = r.system->dynamics->unbalanceAngle();
+  json["speeds"] = Json::array();
+  for (const SynchronousResponse& response : r.sweep) {
+    json["speeds"].push_back(response.speed);
+  }
+  for (const std::size_t i : r.stations) {
+    Json list = Json::array();
+    for (const SynchronousResponse& response : r.sweep) {
+      list.push_back(orbitJson(response.orbits[i], r.system->dynamics->unbalanceAngle()));
+    }
+    json["stations"][r.system->stations[i].name] = list;
+  }
+  json["peaks"] = Json::array();
+  for (const CriticalSpeed& peak : r.peaks) {
+    json["peaks"].push_back({{"speed", peak.speed},
+                             {"major", peak.peak},
+                             {"direction", peak.forward ? "forward" : "backward"},
+                             {"amplification_factor", peak.amplification_factor}});
+  }
+  return json;
+}
+
+std::string text(const ResponseReport& r) {
+  constexpr std::size_t kRows = 20;
+  std::string out = fmt::format("{}: response to its unbalance\n", r.system->title());
+  for (const std::size_t i : r.stations) {
+    out += fmt::format("  at {}\n    speed, rad/s{}", r.system->stations[i].name, kOrbitHead);
+    const std::size_t stride = 1 + r.sweep.size() / kRows;
+    for (std::size_t k = 0; k < r.sweep.size(); k += stride) {
+      out += orbitText(fmt::format("{:.6g}", r.sweep[k].speed), r.sweep[k].orbits[i],
+                       r.system->dynamics->unbalanceAngle());
+    }
+  }
+  out += fmt::format("  peaks at {}\n", r.system->stations.front().name);
+  for (const CriticalSpeed& peak : r.peaks) {
+    out +=
+        fmt::format("    {:.6g} rad/s: {:.5g} m, {}, amplification {}\n", peak.speed, peak.peak,
+                    peak.forward ? "forward" : "backward", defined(peak.amplification_factor, "-"));
+  }
+  return r.peaks.empty() ? out + "    none in the range\n" : out;
+}
+
+OrbitReport orbitReport(const RotorSystem& system, double speed) {
+  requireForce(system);
+  if (!(speed >= 0.0 && std::isfinite(speed))) {
+    throw Refusal(fmt::format("--speed: expected a shaft speed >= 0 rad/s, found {:g}", speed));
+  }
+  return {&system, synchronousResponse(system.rotor, system.stations, speed)};
+}
+
+Json json(const OrbitReport& r) {
+  Json json{{"model", r.system->model}, {"speed", r.response.speed}};
+  for (std::size_t i = 0; i < r.response.orbits.size(); ++i) {
+    const Station& station = r.system->stations[i];
+    json["stations"][station.name] =
+        orbitJson(r.response.orbits[i], r.system->dynamics->unbalanceAngle());
+    json["stations"][station.name]["position"] = station.position;
+  }
+  return json;
+}
+
+std::string text(const OrbitReport& r) {
+  std::string out = fmt::format("{}: orbits at {:g} rad/s\n    station     {}", r.system->title(),
+                                r.response.speed, kOrbitHead);
+  for (std::size_t i = 0; i < r.response.orbits.size(); ++i) {
+    out += orbitText(r.system->stations[i].name, r.response.orbits[i],
+                     r.system->dynamics->unbalanceAngle());
+  }
+  return out;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,87 @@
+#include "reports/rotor_systems.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/whirl_modes.h"
+#include "messages/refusal.h"
+#include "reports/selected_systems.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kBeyond = 1.2;  // of the drive's highest speed
+constexpr double kFastest = 1.0e6;
+constexpr int kMostPoints = 10'000;
+
+bool isLinearRotor(const Dynamics& dynamics) {
+  return dynamics.linear() && dynamics.hasShaft() && !dynamics.stations().empty();
+}
+
+double speedOption(const char* option, double speed) {
+  if (!(speed >= 0.0 && speed <= kFastest)) {
+    throw Refusal(fmt::format("{}: expected a shaft speed from 0 to {:g} rad/s, found {:g}", option,
+                              kFastest, speed));
+  }
+  return speed;
+}
+
+}  // namespace
+
+std::vector<RotorSystem> rotorSystems(const Twin& twin, const std::optional<std::string>& name) {
+  std::vector<RotorSystem> rotors;
+  std::vector<std::string> others;
+  for (const std::size_t i : selectedSystems(twin.scene(), name)) {
+    const Twin::Member& member = twin.members()[i];
+    const Dynamics& dynamics = *member.dynamics;
+    if (!isLinearRotor(dynamics)) {
+      others.push_back(fmt::format("{} ({})", member.spec.name, member.spec.model));
+      continue;
+    }
+    const auto [low, high] = twin.drive(member.drive).speedRange();
+    rotors.push_back({member.spec.name, member.spec.model, &dynamics, dynamics.linearRotor(),
+                      dynamics.stations(), std::max(0.0, low),
+                      std::max(std::fabs(low), std::fabs(high))});
+  }
+  if (rotors.empty()) {
+    throw Refusal(
+        fmt::format("{}: expected a linear rotor on a shaft of prescribed speed, found {}",
+                    name ? "--system" : twin.scene().source, fmt::join(others, ", ")));
+  }
+  return rotors;
+}
+
+std::vector<double> SpeedRange::speeds() const {
+  std::vector<double> all;
+  for (int i = 0; i < points; ++i) {
+    all.push_back(from + (to - from) * i / (points - 1));
+  }
+  return all;
+}
+
+SpeedRange SpeedRangeOptions::of(const RotorSystem& system) const {
+  SpeedRange range{speedOption("--from", from.value_or(0.0)), 0.0, points};
+  if (points < 2 || points > kMostPoints) {
+    throw Refusal(fmt::format("--points: expected from 2 to {}, found {}", kMostPoints, points));
+  }
+  if (to) {
+    range.to = speedOption("--to", *to);
+  } else if (system.highest_speed > 0.0) {
+    range.to = kBeyond * system.highest_speed;
+  } else {
+    const auto modes = whirlModes(system.rotor, system.stations, 0.0).modes;
+    range.to = modes.empty()
+                   ? 100.0
+                   : 2.0 * modes[std::min<std::size_t>(2, modes.size() - 1)].naturalFrequency();
+  }
+  if (!(range.from < range.to)) {
+    throw Refusal(fmt::format("--from, --to: expected --from below --to, found {:g} and {:g} rad/s",
+                              range.from, range.to));
+  }
+  return range;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,44 @@
+// The rotors of a scene, as `twin campbell`, `twin response` and `twin orbit` look at them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mechanics/linear_rotor.h"
+#include "twin/twin.h"
+
+namespace whirl_twin {
+
+struct RotorSystem {
+  std::string name, model;
+  const Dynamics* dynamics = nullptr;  ///< the twin's
+  LinearRotor rotor;
+  std::vector<Station> stations;
+  double lowest_speed = 0.0, highest_speed = 0.0;  ///< [rad/s], that its drive runs through
+
+  /// "NAME (MODEL)"
+  std::string title() const { return name + " (" + model + ")"; }
+};
+
+/// The linear rotors of a scene, or the one of that name. Throws Refusal where there is none.
+std::vector<RotorSystem> rotorSystems(const Twin& twin, const std::optional<std::string>& name);
+
+struct SpeedRange {
+  double from = 0.0, to = 0.0;  ///< [rad/s]
+  int points = 200;
+
+  std::vector<double> speeds() const;
+};
+
+/// Options of a command that looks at a range of speeds.
+struct SpeedRangeOptions {
+  std::optional<double> from, to;  ///< [rad/s]
+  int points = 200;
+
+  /// Missing: from 0 to 1.2 times the drive's highest speed; of a shaft that stands still to twice
+  /// the third natural frequency. Throws Refusal.
+  SpeedRange of(const RotorSystem& system) const;
+};
+
+}  // namespace whirl_twin

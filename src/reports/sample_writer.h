@@ -1,0 +1,35 @@
+// Where the samples of a run go.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "twin/observer.h"
+
+namespace whirl_twin {
+
+class SampleWriter {
+ public:
+  virtual ~SampleWriter() = default;
+  /// The state the observer has seen last.
+  virtual void write(const Observer& observer) = 0;
+  /// Completes the file. A writer destroyed without leaves no file behind.
+  virtual void finish() = 0;
+};
+
+// All throw RunFailure (or std::runtime_error) when they cannot write. `systems`: which ones of the
+// twin's; the twin outlives the writer.
+
+/// Comma-separated values, 17 significant digits: time, then for each system its coordinates, its
+/// rates and, for a rotor, whirl radius [m] and unwrapped phase [rad]. A system that has stopped is
+/// nan. An empty path means standard output.
+std::unique_ptr<SampleWriter> makeTableWriter(const Twin& twin, std::vector<std::size_t> systems,
+                                              const std::string& path);
+
+/// An LCM event log: the messages the simulation node publishes, of the systems and their drives.
+std::unique_ptr<SampleWriter> makeLogWriter(const Twin& twin, std::vector<std::size_t> systems,
+                                            const std::string& path);
+
+}  // namespace whirl_twin

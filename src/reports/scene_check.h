@@ -1,0 +1,56 @@
+// What `twin check` says of a sound scene.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reports/output.h"
+#include "twin/twin.h"
+
+namespace whirl_twin {
+
+/// A message on a ROS topic.
+struct PublishedTopic {
+  std::string topic;
+  std::string type;
+};
+
+struct SystemCheck {
+  std::string name;
+  const ModelInfo* model = nullptr;
+  std::vector<CoordinateInfo> coordinates;
+  std::string note;  ///< what the model says of how it was set up; may be empty
+  std::string integrator;
+  std::string reason;  ///< why this one
+  int substeps = 1;
+  std::optional<std::string> drive;
+  std::optional<double> speed;  ///< [rad/s], constant
+  std::vector<PublishedTopic> topics;
+  std::vector<std::string> channels;  ///< LCM
+  double step_cost = 0.0;             ///< [ns]; NaN: it stops at once
+  std::size_t memory = 0;             ///< [bytes], heap of a twin of it alone
+  std::string ensemble;               ///< "1000 members, side by side in vectors", or ""
+};
+
+struct SceneCheck {
+  Scene scene;
+  std::vector<SystemCheck> systems;
+  double step_cost = 0.0;  ///< [ns], of all systems together
+  std::size_t memory = 0;  ///< [bytes], heap of the running twin
+  std::size_t record = 0;  ///< [bytes], of one step's snapshot
+};
+
+/// Checks the systems chosen (indices into scene.systems), all the others aside. Takes a few
+/// hundredths of a second to measure what a step costs, besides choosing the steps.
+SceneCheck checkScene(const Scene& scene, const std::vector<std::size_t>& systems);
+
+std::string text(const SceneCheck& check);
+Json json(const SceneCheck& check);
+
+/// The topics and the LCM channels of a drive.
+std::vector<PublishedTopic> driveTopics(const DriveSpec& drive);
+std::vector<std::string> driveChannels(const DriveSpec& drive);
+
+}  // namespace whirl_twin

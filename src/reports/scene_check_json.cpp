@@ -1,0 +1,84 @@
+#include "reports/scene_check.h"
+#include "scene/drive_profile.h"
+
+namespace whirl_twin {
+
+namespace {
+
+Json driveJson(const DriveSpec& drive) {
+  Json json;
+  json["speed"] = drive.speed;
+  json["angle"] = drive.angle;
+  json["profile"] = Json::array();
+  const std::vector<double> durations = changeDurations(drive);
+  for (std::size_t i = 0; i < durations.size(); ++i) {
+    const SpeedMove& move = drive.profile[i];
+    json["profile"].push_back({{"speed", move.speed},
+                               {"max_acceleration", move.max_acceleration},
+                               {"max_jerk", move.max_jerk > 0.0 ? Json(move.max_jerk) : Json()},
+                               {"duration", durations[i]},
+                               {"dwell", move.dwell}});
+  }
+  json["duration"] = profileDuration(drive);
+  json["topics"] = Json::array();
+  for (const PublishedTopic& topic : driveTopics(drive)) {
+    json["topics"].push_back({{"topic", topic.topic}, {"type", topic.type}});
+  }
+  json["channels"] = driveChannels(drive);
+  return json;
+}
+
+Json systemJson(const SystemCheck& system) {
+  Json json;
+  json["model"] = system.model->name;
+  json["coordinates"] = Json::array();
+  for (const CoordinateInfo& c : system.coordinates) {
+    json["coordinates"].push_back(c.name);
+  }
+  json["states"] = 2 * system.coordinates.size();
+  json["drive"] = system.drive ? Json(*system.drive) : Json();
+  json["speed"] = system.speed ? Json(*system.speed) : Json();
+  if (!system.note.empty()) {
+    json["note"] = system.note;
+  }
+  json["integrator"] = system.integrator;
+  json["reason"] = system.reason;
+  json["substeps"] = system.substeps;
+  json["topics"] = Json::array();
+  for (const PublishedTopic& topic : system.topics) {
+    json["topics"].push_back({{"topic", topic.topic}, {"type", topic.type}});
+  }
+  json["channels"] = system.channels;
+  if (!system.ensemble.empty()) {
+    json["ensemble"] = system.ensemble;
+  }
+  json["ns_per_step"] = system.step_cost;
+  json["memory_bytes"] = system.memory;
+  return json;
+}
+
+}  // namespace
+
+Json json(const SceneCheck& check) {
+  Json json;
+  json["scene"] = check.scene.name;
+  json["file"] = check.scene.source;
+  json["step"] = check.scene.stepSeconds();
+  json["time"] = static_cast<double>(check.scene.time) / 1.0e9;
+  json["gravity"] = check.scene.gravity;
+  json["drives"] = Json::object();
+  for (const DriveSpec& drive : check.scene.drives) {
+    json["drives"][drive.name] = driveJson(drive);
+  }
+  for (const SystemCheck& system : check.systems) {
+    json["systems"][system.name] = systemJson(system);
+  }
+  json["ns_per_step"] = check.step_cost;
+  json["real_time_factor"] = static_cast<double>(check.scene.step) / check.step_cost;
+  json["memory_bytes"] = check.memory;
+  json["threads"] = 3;  // of the live node, however many systems there are
+  json["record_bytes"] = check.record;
+  return json;
+}
+
+}  // namespace whirl_twin

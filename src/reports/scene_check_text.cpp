@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "reports/scene_check.h"
+#include "scene/drive_profile.h"
+
+namespace whirl_twin {
+
+namespace {
+
+std::string driveText(const DriveSpec& drive) {
+  std::string out = fmt::format("  {}: {:g} rad/s", drive.name, drive.speed);
+  out += drive.profile.empty()
+             ? ", constant until it is given another speed\n"
+             : fmt::format(" at the start, a profile of {:.4g} s\n", profileDuration(drive));
+  const std::vector<double> durations = changeDurations(drive);
+  for (std::size_t i = 0; i < durations.size(); ++i) {
+    const SpeedMove& move = drive.profile[i];
+    out += fmt::format("    to {:g} rad/s in {:.4g} s (within {:g} rad/s^2{}), then {:g} s there\n",
+                       move.speed, durations[i], move.max_acceleration,
+                       move.max_jerk > 0.0 ? fmt::format(" and {:g} rad/s^3", move.max_jerk) : "",
+                       move.dwell);
+  }
+  std::vector<std::string> topics;
+  for (const PublishedTopic& topic : driveTopics(drive)) {
+    topics.push_back(fmt::format("{} ({})", topic.topic, topic.type));
+  }
+  return out + fmt::format("    published on {}, LCM {}\n", fmt::join(topics, ", "),
+                           fmt::join(driveChannels(drive), ", "));
+}
+
+std::string costText(double cost) {
+  return std::isnan(cost) ? "not measured: it stops within the first steps"
+                          : fmt::format("about {:.0f} ns", cost);
+}
+
+std::string systemText(const SystemCheck& system) {
+  std::string coordinates;
+  for (const CoordinateInfo& c : system.coordinates) {
+    coordinates += fmt::format("{}{} ({})", coordinates.empty() ? "" : ", ", c.name, c.unit);
+  }
+  std::string out =
+      fmt::format("  {}: {}, {}\n", system.name, system.model->name, system.model->summary);
+  out +=
+      fmt::format("    coordinates   {}: {} states\n", coordinates, 2 * system.coordinates.size());
+  if (system.drive) {
+    out += fmt::format("    shaft         turned by the drive {}\n", *system.drive);
+  } else if (system.speed) {
+    out += fmt::format("    shaft         {:g} rad/s, constant\n", *system.speed);
+  }
+  if (!system.note.empty()) {
+    out += fmt::format("    set up        {}\n", system.note);
+  }
+  out += fmt::format("    integrator    {} ({}), {} a step\n", system.integrator, system.reason,
+                     system.substeps);
+  for (const PublishedTopic& topic : system.topics) {
+    out += fmt::format("    ROS           {} ({})\n", topic.topic, topic.type);
+  }
+  out += fmt::format("    LCM           {}\n", fmt::join(system.channels, ", "));
+  if (!system.ensemble.empty()) {
+    out += fmt::format("    ensemble      {}\n", system.ensemble);
+  }
+  return out + fmt::format("    a step costs  {}, memory {:.1f} kB, no thread of its own\n",
+                           costText(system.step_cost), static_cast<double>(system.memory) / 1000.0);
+}
+
+}  // namespace
+
+std::string text(const SceneCheck& check) {
+  const Scene& scene = check.scene;
+  std::string out = fmt::format(
+      "{}: scene '{}' is sound\n  step {:g} s ({:g} Hz), from t = {:g} s, gravity {:g} m/s^2\n",
+      scene.source, scene.name, scene.stepSeconds(), 1.0 / scene.stepSeconds(),
+      static_cast<double>(scene.time) / 1.0e9, scene.gravity);
+  if (!scene.drives.empty()) {
+    out += "drives\n";
+  }
+  for (const DriveSpec& drive : scene.drives) {
+    out += driveText(drive);
+  }
+  out += "systems\n";
+  for (const SystemCheck& system : check.systems) {
+    out += systemText(system);
+  }
+  out += fmt::format("all together\n  a step costs {}", costText(check.step_cost));
+  if (!std::isnan(check.step_cost)) {
+    const double factor = static_cast<double>(scene.step) / check.step_cost;
+    out +=
+        fmt::format(": {} times faster than real time",
+                    factor < 100.0 ? fmt::format("{:.3g}", factor) : fmt::format("{:.0f}", factor));
+  }
+  return out + fmt::format(
+                   "\n  memory {:.1f} kB, and {} bytes for each step in flight\n  live, three "
+                   "threads beside ROS's own: one steps everything, one publishes, one answers "
+                   "services\n",
+                   static_cast<double>(check.memory) / 1000.0, check.record);
+}
+
+}  // namespace whirl_twin

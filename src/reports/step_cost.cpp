@@ -1,0 +1,77 @@
+#include "reports/step_cost.h"
+
+#include <fmt/format.h>
+#include <malloc.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "realtime/denormals.h"
+#include "twin/twin.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr int kRounds = 7;
+constexpr std::int64_t kMostSteps = 1 << 20;
+
+/// [s] for so many steps from the start, or NaN.
+double timed(Twin& twin, std::int64_t steps) {
+  twin.reset();
+  const auto start = std::chrono::steady_clock::now();
+  for (std::int64_t i = 0; i < steps; ++i) {
+    twin.step();
+  }
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  for (std::size_t i = 0; i < twin.members().size(); ++i) {
+    if (twin.status(i) != StepStatus::kOk) {
+      return std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+  return taken.count();
+}
+
+/// [bytes] in use; large blocks are mapped each by itself.
+std::size_t heap() {
+  const auto info = ::mallinfo2();
+  return info.uordblks + info.hblkhd;
+}
+
+}  // namespace
+
+RunningCost runningCost(const Scene& scene, double budget) {
+  const DenormalsToZero denormals_to_zero;
+  RunningCost cost;
+  const std::size_t before = heap();
+  Twin twin(scene);
+  twin.buildEnsembles();
+  cost.memory = heap() - before;
+  for (std::size_t i = 0; i < twin.members().size(); ++i) {
+    const Ensemble* const ensemble = twin.ensemble(i);
+    cost.ensembles.push_back(ensemble == nullptr ? ""
+                                                 : fmt::format("{} members, {}", ensemble->count(),
+                                                               ensemble->steps().description()));
+  }
+  // Double the steps until a round is long enough to be timed, which warms up as well.
+  const double round = budget / (2 * kRounds);
+  std::int64_t steps = 1;
+  double taken = timed(twin, steps);
+  while (taken < round && steps < kMostSteps) {
+    steps *= 2;
+    taken = timed(twin, steps);
+  }
+  std::vector<double> rounds{taken};
+  for (int i = 1; i < kRounds && taken < budget; ++i) {
+    rounds.push_back(timed(twin, steps));
+  }
+  const auto middle = rounds.begin() + static_cast<std::ptrdiff_t>(rounds.size() / 2);
+  std::nth_element(rounds.begin(), middle, rounds.end());
+  cost.step = 1.0e9 * *middle / static_cast<double>(steps);
+  return cost;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,85 @@
+#include "reports/system_analysis.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "analysis/critical_speeds.h"
+#include "analysis/instability_speed.h"
+#include "messages/refusal.h"
+#include "monitoring/separation_margin.h"
+
+namespace whirl_twin {
+
+namespace {
+
+Eigen::VectorXd vector(const std::vector<double>& x) {
+  return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
+}
+
+void linearize(const Dynamics& dynamics, double speed, SystemAnalysis& a) {
+  if (const auto point = operatingPoint(dynamics, a.q, a.v, speed)) {
+    a.at_equilibrium = true;
+    a.about = point->q;
+    a.about_v = point->v;
+    a.linearization = linearizationAbout(dynamics, a.about, a.about_v, speed);
+  } else {
+    a.about = a.q;
+    a.about_v = a.v;
+    a.linearization = dynamics.linearization(a.q, a.v, a.acceleration, a.moment);
+  }
+}
+
+SystemAnalysis analyzeMember(const Twin& twin, const Twin::Member& member) {
+  const Dynamics& dynamics = *member.dynamics;
+  const Drive& drive = twin.drive(member.drive);
+  const ShaftMotion shaft = drive.at(0.0);
+  SystemAnalysis a;
+  a.name = member.spec.name;
+  a.model = member.model;
+  a.dynamics = &dynamics;
+  a.coordinates = dynamics.coordinates();
+  a.moment = {twin.time(), shaft.angle, shaft.speed, shaft.acceleration};
+  if (member.model->has_shaft) {
+    a.speed = shaft.speed;
+  }
+  a.q = vector(member.spec.q);
+  a.v = vector(member.spec.v);
+  a.acceleration = dynamics.acceleration(a.q, a.v, a.moment);
+  a.energies = dynamics.energies(a.q, a.v, a.moment);
+  a.momenta = dynamics.momenta(a.q, a.v, a.moment);
+  a.cyclic = cyclicCoordinates(dynamics, shaft.speed);
+  a.equilibria = equilibria(dynamics, shaft.speed, a.q, a.v);
+  linearize(dynamics, shaft.speed, a);
+  a.stability = stability(a.linearization);
+  a.reduced_stability = a.cyclic.any() ? reducedStability(a.linearization, a.cyclic) : a.stability;
+  for (const double coefficient : a.stability.polynomial) {
+    if (std::fabs(coefficient) == std::numeric_limits<double>::max()) {  // it has been capped
+      throw std::overflow_error("a coefficient of the characteristic polynomial");
+    }
+  }
+  a.instability_speed = instabilitySpeed(dynamics, a.about, shaft.speed);
+  for (const CriticalSpeed& critical : criticalSpeeds(dynamics)) {
+    a.critical_speeds.push_back(criticalSpeedMargin(shaft.speed, critical.speed,
+                                                    critical.forward ? "forward" : "backward",
+                                                    critical.amplification_factor));
+  }
+  return a;
+}
+
+}  // namespace
+
+SystemAnalysis analyze(const Twin& twin, std::size_t system) {
+  const Twin::Member& member = twin.members()[system];
+  try {
+    return analyzeMember(twin, member);
+  } catch (const std::exception& error) {  // an overflow: exact numbers refuse infinities
+    throw RunFailure(
+        fmt::format("{}: cannot be analysed, a number is beyond the range of a double: {}",
+                    member.spec.name, error.what()));
+  }
+}
+
+}  // namespace whirl_twin

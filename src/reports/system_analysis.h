@@ -1,0 +1,49 @@
+// What linear theory says of one system of a scene: equilibria, modes, stability and its margins,
+// critical speeds. Everything `twin analyze` shows.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/equilibria.h"
+#include "analysis/stability.h"
+#include "mechanics/dynamics.h"
+#include "messages/stability_margin.h"
+#include "reports/output.h"
+#include "twin/twin.h"
+
+namespace whirl_twin {
+
+struct SystemAnalysis {
+  std::string name;
+  const ModelInfo* model = nullptr;
+  const Dynamics* dynamics = nullptr;  ///< the twin's
+  std::vector<CoordinateInfo> coordinates;
+  Moment<double> moment;                ///< the scene's start
+  std::optional<double> speed;          ///< [rad/s], of the shaft at the start
+  Eigen::VectorXd q, v;                 ///< the scene's initial state
+  Eigen::VectorXd acceleration;         ///< [rad/s^2] or [m/s^2], there
+  Energies energies;                    ///< there
+  std::vector<Equilibrium> equilibria;  ///< at the initial shaft speed
+
+  bool at_equilibrium = false;     ///< linearized about an equilibrium, not the initial state
+  Eigen::VectorXd about, about_v;  ///< the state linearized about
+  Linearization linearization;
+  Stability stability;  ///< of all coordinates
+
+  CyclicCoordinates cyclic;
+  Eigen::VectorXd momenta;                  ///< generalized, of the initial state
+  Stability reduced_stability;              ///< of the shape with its momenta as they are
+  std::optional<double> instability_speed;  ///< [rad/s]
+  std::vector<state::CriticalSpeedMargin> critical_speeds;  ///< seen from the initial speed
+};
+
+/// Throws RunFailure where the numbers of the scene are too large to be analysed.
+SystemAnalysis analyze(const Twin& twin, std::size_t system);
+
+Json json(const SystemAnalysis& analysis);
+std::string text(const SystemAnalysis& analysis);
+
+}  // namespace whirl_twin

@@ -1,0 +1,136 @@
+#include "reports/matrix_json.h"
+#include "reports/system_analysis.h"
+
+namespace whirl_twin {
+
+namespace {
+
+/// {coordinate: value}.
+Json byCoordinate(const SystemAnalysis& a, const Eigen::VectorXd& x) {
+  Json json;
+  for (std::size_t i = 0; i < a.coordinates.size(); ++i) {
+    json[a.coordinates[i].name] = x[static_cast<Eigen::Index>(i)];
+  }
+  return json;
+}
+
+/// {coordinate: value, ..., coordinate_rate: value, ...}.
+Json stateJson(const SystemAnalysis& a, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
+  Json json = byCoordinate(a, q);
+  for (std::size_t i = 0; i < a.coordinates.size(); ++i) {
+    json[a.coordinates[i].name + "_rate"] = v[static_cast<Eigen::Index>(i)];
+  }
+  return json;
+}
+
+Json linearizationJson(const SystemAnalysis& a) {
+  Json json;
+  json["about"] = stateJson(a, a.about, a.about_v);
+  json["mass"] = matrixJson(a.linearization.mass);
+  json["damping"] = matrixJson(a.linearization.damping);
+  json["gyroscopic"] = matrixJson(a.linearization.gyroscopic);
+  json["stiffness"] = matrixJson(a.linearization.stiffness);
+  json["circulatory"] = matrixJson(a.linearization.circulatory);
+  return json;
+}
+
+Json routhJson(const RouthResult& routh) {
+  Json json;
+  json["verdict"] = name(routh.verdict);
+  json["right"] = routh.right;
+  json["imaginary"] = routh.imaginary;
+  json["left"] = routh.left;
+  json["first_column"] = routh.first_column;
+  return json;
+}
+
+/// The motion of the shape, its momenta conserved.
+Json reducedJson(const SystemAnalysis& a) {
+  const auto names = [&](const CyclicCoordinates::Places& places) {
+    Json list = Json::array();
+    for (const Eigen::Index i : places) {
+      list.push_back(a.coordinates[static_cast<std::size_t>(i)].name);
+    }
+    return list;
+  };
+  const bool rigid_body = a.dynamics->linear();
+  Json json;
+  if (rigid_body) {
+    json["rigid_body_modes"] = a.cyclic.conserved.size() + a.cyclic.driven.size();
+  } else {
+    json["cyclic"] = names(a.cyclic.conserved);
+    json["driven"] = names(a.cyclic.driven);
+    for (const Eigen::Index i : a.cyclic.conserved) {
+      json["momenta"][a.coordinates[static_cast<std::size_t>(i)].name] = a.momenta[i];
+    }
+  }
+  json["natural_frequencies"] = arrayJson(a.reduced_stability.natural_frequencies);
+  json["damping_ratios"] = arrayJson(a.reduced_stability.damping_ratios);
+  json["characteristic_polynomial"] = arrayJson(a.reduced_stability.polynomial);
+  json["routh"] = routhJson(a.reduced_stability.routh);
+  return json;
+}
+
+Json criticalSpeedJson(const state::CriticalSpeedMargin& critical) {
+  Json json;
+  json["speed"] = critical.speed;
+  json["direction"] = critical.direction;
+  json["amplification_factor"] = critical.amplification_factor;
+  json["separation_margin"] = critical.separation_margin;
+  json["required_separation_margin"] = critical.required_separation_margin;
+  return json;
+}
+
+}  // namespace
+
+Json json(const SystemAnalysis& a) {
+  Json json;
+  json["model"] = a.model->name;
+  json["coordinates"] = Json::array();
+  for (const CoordinateInfo& c : a.coordinates) {
+    json["coordinates"].push_back(c.name);
+  }
+  json["time"] = a.moment.time;
+  json["speed"] = a.speed ? Json(*a.speed) : Json();
+  json["state"] = stateJson(a, a.q, a.v);
+  json["acceleration"] = byCoordinate(a, a.acceleration);
+  json["energy"] = {{"kinetic", a.energies.kinetic},
+                    {"potential", a.energies.potential},
+                    {"jacobi", a.energies.jacobi},
+                    {"dissipated_power", a.energies.dissipated_power},
+                    {"input_power", a.energies.input_power}};
+  json["equilibria"] = Json::array();
+  for (const Equilibrium& e : a.equilibria) {
+    Json entry{{"state", byCoordinate(a, e.q)}, {"verdict", name(e.stability.routh.verdict)}};
+    for (const auto* places : {&a.cyclic.conserved, &a.cyclic.driven}) {
+      for (const Eigen::Index i : *places) {
+        entry["steady_rates"][a.coordinates[static_cast<std::size_t>(i)].name] = e.v[i];
+      }
+    }
+    json["equilibria"].push_back(entry);
+  }
+  json["linearization"] = linearizationJson(a);
+  json["eigenvalues"] = Json::array();
+  for (const auto& root : a.stability.eigenvalues) {
+    json["eigenvalues"].push_back({root.real() + 0.0, root.imag() + 0.0});
+  }
+  json["natural_frequencies"] = arrayJson(a.reduced_stability.natural_frequencies);
+  json["damping_ratios"] = arrayJson(a.reduced_stability.damping_ratios);
+  json["characteristic_polynomial"] = arrayJson(a.stability.polynomial);
+  json["routh"] = routhJson(a.stability.routh);
+  if (a.cyclic.any()) {
+    json["reduced"] = reducedJson(a);
+  }
+  json["margins"] = {
+      {"decay_rate", a.reduced_stability.decay_rate},
+      {"damping_ratio", a.reduced_stability.damping_ratio},
+      {"log_decrement", a.reduced_stability.log_decrement},
+      {"instability_speed", a.instability_speed ? Json(*a.instability_speed) : Json()}};
+  json["critical_speeds"] = Json::array();
+  for (const auto& critical : a.critical_speeds) {
+    json["critical_speeds"].push_back(criticalSpeedJson(critical));
+  }
+  return json;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,157 @@
+#include <fmt/format.h>
+
+#include "reports/matrix_text.h"
+#include "reports/system_analysis.h"
+#include "reports/verdict_text.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// "x = 0 m, y = 1e-05 m": values of the coordinates, or of their `derivative`-th time derivative.
+std::string values(const SystemAnalysis& a, const Eigen::VectorXd& x, int derivative) {
+  static constexpr const char* kPrime[] = {"", "'", "''"};
+  static constexpr const char* kPer[] = {"", "/s", "/s^2"};
+  std::string out;
+  for (std::size_t i = 0; i < a.coordinates.size(); ++i) {
+    out += fmt::format("{}{}{} = {:.6g} {}{}", i == 0 ? "" : ", ", a.coordinates[i].name,
+                       kPrime[derivative], x[static_cast<Eigen::Index>(i)], a.coordinates[i].unit,
+                       kPer[derivative]);
+  }
+  return out;
+}
+
+std::string startText(const SystemAnalysis& a) {
+  std::string out = fmt::format("  at the start, t = {:g} s", a.moment.time);
+  if (a.speed) {
+    out += fmt::format(", shaft at {:g} rad/s ({:.4g} rpm)", *a.speed, *a.speed * 30.0 / kPi);
+  }
+  out += fmt::format("\n    position        {}\n", values(a, a.q, 0));
+  out += fmt::format("    velocity        {}\n", values(a, a.v, 1));
+  out += fmt::format("    acceleration    {}\n", values(a, a.acceleration, 2));
+  out += fmt::format("    energy          kinetic {:.6g} J, potential {:.6g} J, Jacobi {:.6g} J\n",
+                     a.energies.kinetic, a.energies.potential, a.energies.jacobi);
+  return out + fmt::format("    power           dissipated {:.6g} W, put in {:.6g} W\n",
+                           a.energies.dissipated_power, a.energies.input_power);
+}
+
+std::string names(const SystemAnalysis& a, const CyclicCoordinates::Places& places) {
+  std::string out;
+  for (const Eigen::Index i : places) {
+    out += (out.empty() ? "" : ", ") + a.coordinates[static_cast<std::size_t>(i)].name;
+  }
+  return out;
+}
+
+/// Which coordinates only turn or slide along, and what they keep.
+std::string cyclicText(const SystemAnalysis& a) {
+  const auto& conserved = a.cyclic.conserved;
+  const auto& driven = a.cyclic.driven;
+  if (a.dynamics->linear()) {
+    const std::size_t count = conserved.size() + driven.size();
+    return count == 0
+               ? ""
+               : fmt::format("  rigid-body modes: {}, left out of the stability below\n", count);
+  }
+  std::string out;
+  for (const Eigen::Index i : conserved) {
+    const CoordinateInfo& c = a.coordinates[static_cast<std::size_t>(i)];
+    out += fmt::format("  cyclic: {}, its momentum {:.9g} {} is conserved\n", c.name, a.momenta[i],
+                       c.isAngle() ? "N m s" : "N s");
+  }
+  return driven.empty() ? out
+                        : out + fmt::format("  cyclic, driven or damped: {}\n", names(a, driven));
+}
+
+/// ", phi' = 6 rad/s" of a steady motion; "" at rest.
+std::string steadyRates(const SystemAnalysis& a, const Eigen::VectorXd& v) {
+  std::string out;
+  for (Eigen::Index i = 0; i < v.size(); ++i) {
+    const CoordinateInfo& c = a.coordinates[static_cast<std::size_t>(i)];
+    out += v[i] == 0.0 ? "" : fmt::format(", {}' = {:.6g} {}/s", c.name, v[i], c.unit);
+  }
+  return out;
+}
+
+std::string equilibriaText(const SystemAnalysis& a) {
+  const bool moving = a.cyclic.any() && !a.dynamics->linear();
+  std::string out = a.speed  ? fmt::format("  equilibria at {:g} rad/s\n", *a.speed)
+                    : moving ? std::string("  steady motions\n")
+                             : std::string("  equilibria\n");
+  for (const Equilibrium& e : a.equilibria) {
+    out += fmt::format("    {}{}: {}\n", values(a, e.q, 0), steadyRates(a, e.v),
+                       verdictText(e.stability.routh.verdict));
+  }
+  return a.equilibria.empty() ? out + "    none found\n" : out;
+}
+
+std::string modesText(const SystemAnalysis& a) {
+  const Stability& s = a.reduced_stability;
+  std::string out = "  modes           rad/s          Hz   damping ratio\n";
+  for (std::size_t i = 0; i < s.natural_frequencies.size(); ++i) {
+    out += fmt::format("    {:<6} {:>12.6g} {:>11.6g} {:>15.6g}\n", i + 1, s.natural_frequencies[i],
+                       s.natural_frequencies[i] / (2.0 * kPi), s.damping_ratios[i]);
+  }
+  out += "  eigenvalues, 1/s\n";
+  for (const auto& root : a.stability.eigenvalues) {
+    out += fmt::format("    {:>14.6g} {:+.6g}i\n", root.real(), root.imag());
+  }
+  return out;
+}
+
+std::string stabilityText(const SystemAnalysis& a) {
+  const Stability& s = a.reduced_stability;
+  std::string out = fmt::format("  stability: {}\n", verdictText(s.routh.verdict));
+  out += s.eigenvalues.empty()
+             ? std::string("    polynomial      none: no motion is left to judge\n")
+         : s.polynomial.empty()
+             ? fmt::format("    polynomial      left out beyond {} coordinates\n",
+                           kMostExactCoordinates)
+             : fmt::format("    polynomial      {:.6g}\n", fmt::join(s.polynomial, "  "));
+  out += routhText(s.routh);
+  out += marginsText(s.decay_rate, s.damping_ratio, s.log_decrement);
+  if (a.speed) {
+    out += fmt::format("    unstable above  {}\n",
+                       a.instability_speed ? fmt::format("{:.6g} rad/s", *a.instability_speed)
+                                           : std::string("no speed found"));
+  }
+  return out;
+}
+
+std::string criticalSpeedsText(const SystemAnalysis& a) {
+  if (a.critical_speeds.empty()) {
+    return a.dynamics->isRotor() ? "  critical speeds: none\n" : "";
+  }
+  std::string out = fmt::format(
+      "  critical speeds seen from {:g} rad/s\n"
+      "           rad/s         rpm  direction   amplification      margin    required\n",
+      *a.speed);
+  for (const auto& c : a.critical_speeds) {
+    const bool too_near = c.separation_margin < c.required_separation_margin;
+    out += fmt::format("    {:>12.6g} {:>11.6g}  {:<9} {:>15} {:>9} % {:>9.4g} %{}\n", c.speed,
+                       c.speed * 30.0 / kPi, c.direction, defined(c.amplification_factor, "-"),
+                       defined(c.separation_margin, "-"), c.required_separation_margin,
+                       too_near ? "  too near" : "");
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string text(const SystemAnalysis& a) {
+  std::string out = fmt::format("{}: {}, {}\n", a.name, a.model->name, a.model->summary);
+  out += startText(a) + cyclicText(a) + equilibriaText(a);
+  out += fmt::format("  linearized about {}: {}{}\n",
+                     a.at_equilibrium ? "the operating point" : "the initial state",
+                     values(a, a.about, 0),
+                     a.at_equilibrium ? steadyRates(a, a.about_v) : ", " + values(a, a.about_v, 1));
+  out += matrixText("mass", a.linearization.mass) + matrixText("damping", a.linearization.damping) +
+         matrixText("gyroscopic", a.linearization.gyroscopic) +
+         matrixText("stiffness", a.linearization.stiffness) +
+         matrixText("circulatory", a.linearization.circulatory);
+  return out + modesText(a) + stabilityText(a) + criticalSpeedsText(a);
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,127 @@
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "messages/refusal.h"
+#include "reports/output.h"
+#include "reports/sample_writer.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+class TableWriter final : public SampleWriter {
+ public:
+  TableWriter(const Twin& twin, std::vector<std::size_t> systems, const std::string& path)
+      : twin_(twin), systems_(std::move(systems)), name_(path.empty() ? "standard output" : path) {
+    if (!path.empty()) {
+      pending_.emplace(path);
+      file_ = std::fopen(pending_->path().c_str(), "wb");
+      if (file_ == nullptr) {
+        fail();
+      }
+    }
+    put(header());
+  }
+  ~TableWriter() override {
+    if (pending_ && file_ != nullptr) {
+      std::fclose(file_);
+    }
+  }
+  TableWriter(const TableWriter&) = delete;
+  TableWriter& operator=(const TableWriter&) = delete;
+
+  void write(const Observer& observer) override {
+    row_.clear();
+    append(twin_.seconds(observer.step()));
+    for (const std::size_t i : systems_) {
+      const bool running = observer.status(i) == StepStatus::kOk;
+      const std::size_t n = twin_.members()[i].spec.q.size();
+      for (std::size_t k = 0; k < n; ++k) {
+        append(running ? observer.coordinates(i)[k] : kNaN);
+      }
+      for (std::size_t k = 0; k < n; ++k) {
+        append(running ? observer.rates(i)[k] : kNaN);
+      }
+      if (observer.isRotor(i)) {
+        append(running ? observer.whirlRadius(i) : kNaN);
+        append(running ? observer.whirlPhase(i) : kNaN);
+      }
+    }
+    row_.back() = '\n';
+    put(row_);
+  }
+
+  void finish() override {
+    if (!pending_) {
+      return;  // standard output is finished by main()
+    }
+    const int closed = std::fclose(file_);
+    file_ = nullptr;
+    if (closed != 0) {
+      fail();
+    }
+    pending_->complete();
+  }
+
+ private:
+  std::string header() const {
+    std::string text = "time";
+    for (const std::size_t i : systems_) {
+      const Twin::Member& member = twin_.members()[i];
+      for (const char* suffix : {"", "_rate"}) {
+        for (const CoordinateInfo& c : member.dynamics->coordinates()) {
+          text += fmt::format(",{}.{}{}", member.spec.name, c.name, suffix);
+        }
+      }
+      if (member.dynamics->isRotor()) {
+        text += fmt::format(",{0}.whirl_radius,{0}.whirl_phase", member.spec.name);
+      }
+    }
+    return text + "\n";
+  }
+  void append(double value) {
+    if (std::isnan(value)) {
+      row_ += "nan,";
+      return;
+    }
+    char text[32];
+    const auto end =
+        std::to_chars(text, text + sizeof text, value, std::chars_format::general, 17).ptr;
+    row_.append(text, end);
+    row_ += ',';
+  }
+  void put(const std::string& text) {
+    if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) {
+      fail();
+    }
+  }
+  [[noreturn]] void fail() const {
+    throw RunFailure(fmt::format("{}: cannot be written: {}", name_, std::strerror(errno)));
+  }
+
+  const Twin& twin_;
+  std::vector<std::size_t> systems_;
+  std::string name_;
+  std::optional<PendingFile> pending_;
+  std::FILE* file_ = stdout;
+  std::string row_;
+};
+
+}  // namespace
+
+std::unique_ptr<SampleWriter> makeTableWriter(const Twin& twin, std::vector<std::size_t> systems,
+                                              const std::string& path) {
+  return std::make_unique<TableWriter>(twin, std::move(systems), path);
+}
+
+}  // namespace whirl_twin

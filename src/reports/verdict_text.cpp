@@ -1,0 +1,41 @@
+#include "reports/verdict_text.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace whirl_twin {
+
+std::string defined(double x, const char* undefined) {
+  return std::isnan(x) ? std::string(undefined) : fmt::format("{:.6g}", x);
+}
+
+std::string verdictText(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kAsymptoticallyStable:
+      return "asymptotically stable";
+    case Verdict::kMarginal:
+      return "marginal: neither decays nor grows";
+    case Verdict::kRepeatedImaginary:
+      return "repeated imaginary roots: may grow with time";
+    case Verdict::kUnstable:
+      return "unstable";
+    case Verdict::kUncertain:
+      break;
+  }
+  return "uncertain: too near the boundary for the numbers at hand";
+}
+
+std::string routhText(const RouthResult& routh) {
+  return fmt::format("    roots           {} right, {} on the imaginary axis, {} left\n",
+                     routh.right, routh.imaginary, routh.left) +
+         fmt::format("    first column    {:.6g}\n", fmt::join(routh.first_column, "  "));
+}
+
+std::string marginsText(double decay_rate, double damping_ratio, double log_decrement) {
+  return fmt::format("    decay rate      {:.6g} 1/s\n", decay_rate) +
+         fmt::format("    damping ratio   {}\n", defined(damping_ratio, "none: no motion")) +
+         fmt::format("    log decrement   {}\n", defined(log_decrement, "none: no vibration"));
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,23 @@
+// A tree of ROS parameters as YAML: what rosparam loaded from a file, read like the file.
+#pragma once
+
+#include <ros/ros.h>
+#include <yaml-cpp/yaml.h>
+
+#include <string>
+
+namespace whirl_twin {
+
+struct ParameterTree {
+  YAML::Node tree;
+  std::string
+      source;  ///< names it in messages: the file, if NAME_file says which, or the parameter
+};
+
+/// The tree under the parameter `name`. Throws Refusal if there is none.
+ParameterTree parameterTree(const ros::NodeHandle& node, const std::string& name);
+
+/// A parameter as YAML.
+YAML::Node toYaml(XmlRpc::XmlRpcValue& value);
+
+}  // namespace whirl_twin

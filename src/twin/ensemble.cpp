@@ -1,0 +1,105 @@
+#include "twin/ensemble.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "analysis/mass_matrix.h"
+#include "models/model_registry.h"
+#include "scene/ensemble_draw.h"
+#include "scene/surroundings.h"
+#include "twin/ensemble_members.h"
+#include "twin/record.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kRecordPeriod = 0.02;  // s, simulated
+
+std::vector<EnsembleQuantity> quantitiesOf(const Dynamics& dynamics) {
+  if (dynamics.isRotor()) {
+    return {{"radius", "m"}};
+  }
+  std::vector<EnsembleQuantity> quantities;
+  for (const CoordinateInfo& c : dynamics.coordinates()) {
+    quantities.push_back({c.name, c.unit});
+  }
+  return quantities;
+}
+
+/// A parameter that is 0 in the scene and spread about it may switch a member to another form of
+/// its model.
+void requireSameKind(const Dynamics& given, const ModelSetup& setup, const SystemSpec& spec,
+                     const std::string& integrator) {
+  const auto names = [](const Dynamics& dynamics) {
+    std::vector<std::string> all;
+    for (const CoordinateInfo& c : dynamics.coordinates()) {
+      all.push_back(c.name);
+    }
+    return all;
+  };
+  if (names(given) != names(*setup.dynamics) || given.isRotor() != setup.dynamics->isRotor()) {
+    throw std::invalid_argument("has other coordinates than the system as given");
+  }
+  if (!canStepWith(setup, spec.drive.has_value(), integrator)) {
+    throw std::invalid_argument(fmt::format("cannot be stepped with {}", integrator));
+  }
+  const auto vector = [](const std::vector<double>& values) {
+    return Eigen::Map<const Eigen::VectorXd>(values.data(),
+                                             static_cast<Eigen::Index>(values.size()));
+  };
+  if (massIsSingular(*setup.dynamics, vector(spec.q), vector(spec.v),
+                     {0.0, 0.0, spec.speed.value_or(0.0), 0.0})) {
+    throw std::invalid_argument("its mass matrix is singular at the start");
+  }
+}
+
+}  // namespace
+
+Ensemble::Ensemble(const Scene& scene, const SystemSpec& spec, const ModelInfo& model,
+                   const std::string& integrator, const Drive& drive)
+    : count_(spec.ensemble.count),
+      quantities_(quantitiesOf(
+          *model.setUp(spec.parameters, spec.settings, surroundingsOf(scene, spec)).dynamics)),
+      every_(std::max<std::int64_t>(1, std::llround(kRecordPeriod / scene.stepSeconds()))),
+      latest_(recordSize()) {
+  const std::shared_ptr<const Dynamics> given =
+      model.setUp(spec.parameters, spec.settings, surroundingsOf(scene, spec)).dynamics;
+  std::vector<EnsembleMember> members;
+  for (std::size_t i = 0; i < count_; ++i) {
+    try {
+      DrawnMember member = drawnMember(spec, model, i);
+      ModelSetup setup = model.setUp(member.spec.parameters, member.spec.settings,
+                                     surroundingsOf(scene, member.spec));
+      requireSameKind(*given, setup, member.spec, integrator);
+      drawn_.push_back(std::move(member.values));
+      members.push_back({std::move(member.spec), std::move(setup)});
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(fmt::format("member {}: {}", i, error.what()));
+    }
+  }
+  steps_ = ensembleSteps(members, integrator, drive, scene.stepSeconds());
+}
+
+void Ensemble::reset() noexcept {
+  steps_->reset();
+}
+
+void Ensemble::write(std::int64_t step, double* record) const noexcept {
+  record[0] = packed(step);
+  const std::size_t values = count_ * quantities_.size();
+  steps_->write(record + 1, record + 1 + values);
+}
+
+void Ensemble::publish(std::int64_t step) noexcept {
+  if (step % every_ == 0) {
+    write(step, latest_.room());
+    latest_.publish();
+  }
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,202 @@
+#include "twin/ensemble_members.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "integration/exponential.h"
+#include "integration/finite.h"
+#include "integration/isotropic_rotors.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr int kMostParts = 64;
+constexpr double kStopped = std::numeric_limits<double>::quiet_NaN();
+
+/// The member as one complex number, if it is isotropic, linear and free of what turns with the
+/// shaft; a matrix isotropic but for rounding is not.
+std::optional<IsotropicRotor> isotropicRotor(const EnsembleMember& member) {
+  const Dynamics& dynamics = *member.setup.dynamics;
+  if (!dynamics.isRotor() || !dynamics.linear() || dynamics.dof() != 2) {
+    return std::nullopt;
+  }
+  const Station seen = dynamics.stations().front();
+  if (seen.along_x != Eigen::Vector2d::UnitX() || seen.along_y != Eigen::Vector2d::UnitY()) {
+    return std::nullopt;
+  }
+  const LinearRotor rotor = dynamics.linearRotor();
+  const Linearization l = rotor.matrices(0.0);
+  const auto isotropic = [](const Eigen::MatrixXd& m) {
+    return m(0, 0) == m(1, 1) && m(0, 1) == 0.0 && m(1, 0) == 0.0;
+  };
+  if (rotor.speed_dependent || !(l.stiffness(0, 0) > 0.0) || !isotropic(l.mass) ||
+      !isotropic(l.damping) || !isotropic(l.stiffness) || !l.gyroscopic.isZero(0.0) ||
+      !l.circulatory.isZero(0.0)) {
+    return std::nullopt;
+  }
+  const double mass = l.mass(0, 0);
+  IsotropicRotor found;
+  found.damping = l.damping(0, 0) / mass;
+  found.stiffness = l.stiffness(0, 0) / mass;
+  found.load = std::complex<double>(rotor.load[0], rotor.load[1]) / mass;
+  for (const ShaftForce& force : rotor.forces) {
+    // Re[F e^(i theta)] along x and Re[-i F e^(i theta)] along y: a force that turns as it is.
+    const std::complex<double> amplitude = force.amplitude[0];
+    const std::complex<double> aside = std::complex<double>(0.0, -1.0) * amplitude;
+    if (force.harmonic != 1 ||
+        std::abs(force.amplitude[1] - aside) > 1.0e-12 * std::abs(amplitude)) {
+      return std::nullopt;
+    }
+    (force.inertial ? found.eccentricity : found.bow_force) += amplitude / mass;
+  }
+  const SystemSpec& spec = member.spec;
+  found.start = {spec.q[0], spec.q[1]};
+  found.start_rate = {spec.v[0], spec.v[1]};
+  return found;
+}
+
+class SideBySide final : public EnsembleSteps {
+ public:
+  SideBySide(const std::vector<IsotropicRotor>& rotors, const Drive& drive, double step)
+      : drive_(drive), rotors_(rotors, step, highestSpeed(drive)) {}
+  int parts() const { return rotors_.parts(); }
+
+  const char* description() const override { return "side by side in vectors"; }
+  std::pair<double, double> speeds() const override {
+    return {-rotors_.limitSpeed(), rotors_.limitSpeed()};
+  }
+  void reset() noexcept override { rotors_.reset(); }
+  void step(double) noexcept override { rotors_.step(drive_); }
+  void write(double* values, double* peaks) const noexcept override {
+    for (std::size_t i = 0; i < rotors_.count(); ++i) {
+      const double radius = std::sqrt(std::norm(rotors_.position(i)));
+      values[i] = isFinite(radius) ? radius : kStopped;
+      peaks[i] = isFinite(radius) ? rotors_.peak(i) : kStopped;
+    }
+  }
+
+ private:
+  static double highestSpeed(const Drive& drive) {
+    const auto [low, high] = drive.speedRange();
+    return std::fmax(std::fabs(low), std::fabs(high));
+  }
+
+  const Drive& drive_;
+  IsotropicRotors rotors_;
+};
+
+class OneByOne final : public EnsembleSteps {
+ public:
+  OneByOne(const std::vector<EnsembleMember>& members, const std::string& integrator,
+           const Drive& drive, double step) {
+    for (const EnsembleMember& m : members) {
+      Member member;
+      member.spec = m.spec;
+      member.system = m.setup.system(integrator, drive, step, m.spec.substeps);
+      if (m.setup.dynamics->isRotor()) {
+        member.station = m.setup.dynamics->stations().front();
+      }
+      state_.resize(std::max(state_.size(), 2 * member.system->dof() + 1));
+      members_.push_back(std::move(member));
+    }
+    const Dynamics& dynamics = *members.front().setup.dynamics;
+    if (dynamics.linear() && dynamics.hasShaft() && dynamics.speedDependent()) {
+      speeds_ = drive.speedRange();
+    }
+    quantities_ = members_.front().station ? 1 : members_.front().system->dof();
+    values_.resize(members_.size() * quantities_);
+    peaks_.resize(values_.size());
+  }
+
+  const char* description() const override { return "one by one"; }
+  std::pair<double, double> speeds() const override { return speeds_; }
+  void reset() noexcept override {
+    for (Member& member : members_) {
+      member.system->set(member.spec.q.data(), member.spec.v.data());
+      member.status = StepStatus::kOk;
+    }
+    std::fill(peaks_.begin(), peaks_.end(), 0.0);
+    look();
+  }
+  void step(double time) noexcept override {
+    for (Member& member : members_) {
+      if (member.status == StepStatus::kOk) {
+        member.status = member.system->step(time);
+      }
+    }
+    look();
+  }
+  void write(double* values, double* peaks) const noexcept override {
+    std::copy(values_.begin(), values_.end(), values);
+    std::copy(peaks_.begin(), peaks_.end(), peaks);
+  }
+
+ private:
+  struct Member {
+    SystemSpec spec;
+    std::unique_ptr<Stepper> system;
+    std::optional<Station> station;  // of a rotor
+    StepStatus status = StepStatus::kOk;
+  };
+
+  void look() noexcept {
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+      const Member& member = members_[i];
+      double* const values = values_.data() + i * quantities_;
+      double* const peaks = peaks_.data() + i * quantities_;
+      if (member.status != StepStatus::kOk) {
+        std::fill_n(values, quantities_, kStopped);
+        std::fill_n(peaks, quantities_, kStopped);
+        continue;
+      }
+      member.system->write(state_.data());
+      if (member.station) {
+        const Eigen::Map<const Eigen::VectorXd> q(state_.data(), member.station->along_x.size());
+        values[0] = std::hypot(member.station->along_x.dot(q), member.station->along_y.dot(q));
+      } else {
+        std::copy_n(state_.data(), quantities_, values);
+      }
+      for (std::size_t k = 0; k < quantities_; ++k) {
+        peaks[k] = std::fmax(peaks[k], std::fabs(values[k]));
+      }
+    }
+  }
+
+  std::vector<Member> members_;
+  std::pair<double, double> speeds_{-std::numeric_limits<double>::infinity(),
+                                    std::numeric_limits<double>::infinity()};
+  std::size_t quantities_ = 0;
+  std::vector<double> values_;
+  std::vector<double> peaks_;
+  std::vector<double> state_;
+};
+
+}  // namespace
+
+std::unique_ptr<EnsembleSteps> ensembleSteps(const std::vector<EnsembleMember>& members,
+                                             const std::string& integrator, const Drive& drive,
+                                             double step) {
+  // As good as the exact step to some 1e-12; with a step of very many parts one by one is faster.
+  if (integrator == Exponential<1>::kName) {
+    std::vector<IsotropicRotor> rotors;
+    for (const EnsembleMember& member : members) {
+      if (const auto rotor = isotropicRotor(member)) {
+        rotors.push_back(*rotor);
+      }
+    }
+    if (rotors.size() == members.size()) {
+      auto together = std::make_unique<SideBySide>(rotors, drive, step);
+      if (together->parts() <= kMostParts) {
+        return together;
+      }
+    }
+  }
+  return std::make_unique<OneByOne>(members, integrator, drive, step);
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,273 @@
+#include "twin/live_parameters.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "messages/names.h"
+#include "scene/parameter_paths.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr const char* kEnded = "the simulation is ending";
+constexpr double kLongestRamp = 1.0e6;  // s
+/// Beyond the speeds of a move, in parts of the highest: its systems are ready for a little more.
+constexpr double kSpeedMargin = 0.02;
+/// A move of the profile may go on while systems are made ready; then they are made ready again.
+constexpr int kMostPreparations = 3;
+
+std::vector<std::pair<double, double>> profileRanges(const Twin& twin) {
+  std::vector<std::pair<double, double>> ranges;
+  for (std::size_t i = 0; i < twin.driveCount(); ++i) {
+    ranges.push_back(twin.drive(i).speedRange());
+  }
+  return ranges;
+}
+
+}  // namespace
+
+LiveParameters::LiveParameters(LiveTwin& twin, std::function<bool()> wait)
+    : twin_(twin),
+      wait_(std::move(wait)),
+      members_(twin.twin().members()),
+      scene_speed_ranges_(profileRanges(twin.twin())),
+      speed_ranges_(scene_speed_ranges_),
+      targets_(scene_speed_ranges_.size()) {}
+
+double LiveParameters::time() const {
+  return twin_.twin().seconds(twin_.stepCount());
+}
+
+void LiveParameters::restored() {
+  members_ = twin_.twin().members();
+  speed_ranges_ = scene_speed_ranges_;
+  std::fill(targets_.begin(), targets_.end(), std::nullopt);
+  ramps_.clear();
+}
+
+std::vector<double> LiveParameters::assign(const std::vector<std::string>& names,
+                                           const std::vector<double>& values, std::size_t system,
+                                           Twin::Member& member) const {
+  Complaints complaints("set_parameter");
+  std::vector<double> previous;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto before = setParameter(names[i], values[i], *member.model, member.spec, complaints);
+    previous.push_back(before.value_or(0.0));
+  }
+  const std::string key = "systems." + member.spec.name + ".parameters";
+  if (complaints.all().empty()) {
+    try {
+      member = twin_.twin().changed(system, SystemSpec(member.spec));
+    } catch (const SetupError& error) {
+      complaints.add(key + "." + error.parameter(), error.what());
+    } catch (const std::exception& error) {
+      complaints.add(key, error.what());
+    }
+  }
+  if (!complaints.all().empty()) {
+    throw std::invalid_argument(fmt::format("{}", fmt::join(complaints.all(), "\n")));
+  }
+  return previous;
+}
+
+bool LiveParameters::takeOver(std::size_t system, std::unique_ptr<Stepper> next,
+                              SystemGeneration generation) {
+  const std::int64_t number = twin_.generations()->add(system, std::move(generation));
+  return wait_() && twin_.replace(system, next, number) && wait_();
+}
+
+bool LiveParameters::change(std::size_t system, const std::vector<std::string>& names,
+                            const std::vector<double>& values) {
+  Twin::Member member = members_[system];
+  const std::vector<double> previous = assign(names, values, system, member);
+  std::unique_ptr<Stepper> next = twin_.twin().stepperOf(member);
+  if (targets_[member.drive]) {  // a new system knows the speeds of the scene only
+    const auto [lowest, highest] = speed_ranges_[member.drive];
+    const double target = *targets_[member.drive];
+    for (const auto& [from, to] : {std::pair{lowest, highest}, std::pair{target, target}}) {
+      if (std::unique_ptr<Stepper> ready = next->readyFor(from, to)) {
+        next = std::move(ready);
+      }
+    }
+  }
+  SystemGeneration generation{member.dynamics, parametersOf(*member.model, member.spec)};
+  generation.parameters.changed = names;
+  generation.parameters.previous = previous;
+  members_[system] = std::move(member);
+  return takeOver(system, std::move(next), std::move(generation));
+}
+
+std::string LiveParameters::objectionTo(const ParameterRequest& request) const {
+  const auto is_named = [&](const Twin::Member& member) {
+    return member.spec.name == request.system;
+  };
+  if (std::none_of(members_.begin(), members_.end(), is_named)) {
+    std::vector<std::string> names;
+    for (const Twin::Member& member : members_) {
+      names.push_back(member.spec.name);
+    }
+    const std::string near = nearestName(request.system, names);
+    return fmt::format("system: must be a system of the scene, found '{}'{}", request.system,
+                       near.empty() ? "" : fmt::format("; did you mean '{}'?", near));
+  }
+  if (!(request.ramp >= 0.0 && request.ramp <= kLongestRamp)) {
+    return fmt::format("ramp: must be from 0 to {:g} s, found {}", kLongestRamp, request.ramp);
+  }
+  if (request.names.size() != request.values.size()) {
+    return fmt::format("must be one value a parameter, found {} parameters and {} values",
+                       request.names.size(), request.values.size());
+  }
+  for (const std::string& name : request.names) {
+    if (std::count(request.names.begin(), request.names.end(), name) > 1) {
+      return fmt::format("parameter: '{}' stands twice", name);
+    }
+  }
+  return "";
+}
+
+ParameterAnswer LiveParameters::set(const ParameterRequest& request) {
+  ParameterAnswer answer;
+  answer.message = objectionTo(request);
+  if (!answer.message.empty()) {
+    return answer;
+  }
+  const auto found =
+      std::find_if(members_.begin(), members_.end(),
+                   [&](const Twin::Member& member) { return member.spec.name == request.system; });
+  const auto system = static_cast<std::size_t>(found - members_.begin());
+  try {
+    // Where a ramp ends has to be possible; on the way there it is seen.
+    Twin::Member member = *found;
+    answer.previous = assign(request.names, request.values, system, member);
+    answer.done = request.ramp > 0.0 || change(system, request.names, request.values);
+  } catch (const std::exception& error) {
+    answer.message = error.what();
+    return answer;
+  }
+  answer.step = request.ramp > 0.0 ? twin_.stepCount() : twin_.answer().step;
+  const auto replaced = [&](const Ramp& ramp) {
+    return ramp.system == system &&
+           std::count(request.names.begin(), request.names.end(), ramp.name) > 0;
+  };
+  ramps_.erase(std::remove_if(ramps_.begin(), ramps_.end(), replaced), ramps_.end());
+  answer.message = answer.done ? "" : kEnded;
+  for (std::size_t i = 0; answer.done && i < request.names.size(); ++i) {
+    const double from = answer.previous[i];
+    const double to = request.values[i];
+    answer.message += fmt::format("{}{}.{} from {} to {}", i == 0 ? "" : ", ", request.system,
+                                  request.names[i], from, to);
+    if (request.ramp > 0.0) {
+      ramps_.push_back({system, request.names[i], from, to, time(), request.ramp});
+      answer.message += fmt::format(" in {:g} s", request.ramp);
+    }
+  }
+  return answer;
+}
+
+void LiveParameters::continueRamps(std::size_t system, double now) {
+  std::vector<std::string> names;
+  std::vector<double> values;
+  for (const Ramp& ramp : ramps_) {
+    if (ramp.system == system) {
+      const double part = std::clamp((now - ramp.start) / ramp.duration, 0.0, 1.0);
+      names.push_back(ramp.name);
+      values.push_back(part < 1.0 ? ramp.from + part * (ramp.to - ramp.from) : ramp.to);
+    }
+  }
+  if (!names.empty()) {
+    static_cast<void>(change(system, names, values));
+  }
+}
+
+std::vector<std::string> LiveParameters::continueRamps() {
+  std::vector<std::string> given_up;
+  const double now = time();
+  if (ramps_.empty() || std::fabs(now - ramped_at_) < kRampUpdate) {
+    return given_up;
+  }
+  ramped_at_ = now;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const auto over = [&](const Ramp& ramp) {
+      return ramp.system == i && now >= ramp.start + ramp.duration;
+    };
+    const auto of_this = [&](const Ramp& ramp) { return ramp.system == i; };
+    try {
+      continueRamps(i, now);
+      ramps_.erase(std::remove_if(ramps_.begin(), ramps_.end(), over), ramps_.end());
+    } catch (const std::exception& error) {
+      ramps_.erase(std::remove_if(ramps_.begin(), ramps_.end(), of_this), ramps_.end());
+      given_up.push_back(fmt::format("a ramp is given up: {}", error.what()));
+    }
+  }
+  return given_up;
+}
+
+std::string LiveParameters::objectionToSpeed(std::size_t drive, double speed) const {
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const Ensemble* const ensemble = twin_.twin().ensemble(i);
+    if (members_[i].drive == drive && ensemble != nullptr) {
+      const auto [low, high] = ensemble->steps().speeds();
+      if (speed < low || speed > high) {
+        return fmt::format(
+            "speed: must be from {:g} to {:g} rad/s, which the ensemble of {} is prepared for, "
+            "found {:g}",
+            low, high, members_[i].spec.name, speed);
+      }
+    }
+  }
+  return "";
+}
+
+bool LiveParameters::prepareFor(std::size_t drive, double speed, double max_jerk) {
+  TwinCommand look;
+  look.kind = TwinCommand::Kind::kLook;
+  look.drive = drive;
+  SpeedRange& range = speed_ranges_[drive];
+  for (int i = 0; i < kMostPreparations; ++i) {
+    if (!twin_.send(look) || !wait_()) {
+      return false;
+    }
+    const TwinAnswer now = twin_.answer();
+    // An acceleration that is to be brought to nothing with limited jerk runs on by a^2 / 2 j.
+    const double run_on =
+        max_jerk > 0.0 ? now.acceleration * std::fabs(now.acceleration) / (2.0 * max_jerk) : 0.0;
+    const auto [low, high] = std::minmax({now.speed, now.speed + run_on, speed});
+    const bool covered = low >= range.first && high <= range.second;
+    if (covered && i > 0) {
+      return true;
+    }
+    if (!covered) {
+      const double margin = kSpeedMargin * std::max(std::fabs(low), std::fabs(high));
+      range = {std::min(range.first, low - margin), std::max(range.second, high + margin)};
+    }
+    targets_[drive] = speed;
+    for (std::size_t s = 0; s < members_.size(); ++s) {
+      if (members_[s].drive == drive && !prepare(s, covered)) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+bool LiveParameters::prepare(std::size_t system, bool range_covered) {
+  const std::size_t drive = members_[system].drive;
+  const Stepper& running = twin_.twin().running(system);
+  std::unique_ptr<Stepper> next;
+  if (!range_covered) {
+    next = running.readyFor(speed_ranges_[drive].first, speed_ranges_[drive].second);
+  }
+  // Where the drive stays, and a system may step exactly.
+  if (auto ready = (next ? *next : running).readyFor(*targets_[drive], *targets_[drive])) {
+    next = std::move(ready);
+  }
+  return !next || takeOver(system, std::move(next),
+                           {members_[system].dynamics,
+                            parametersOf(*members_[system].model, members_[system].spec)});
+}
+
+}  // namespace whirl_twin

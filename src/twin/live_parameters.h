@@ -1,0 +1,95 @@
+// Changes of parameters while the twin runs: checked in the words of a scene file, built beside the
+// loop, swapped in between two steps with coordinates and rates as they are. A change may go in a
+// ramp: linear in simulated time, in updates kRampUpdate apart. Belongs to the thread that sends
+// the commands.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "twin/live_twin.h"
+
+namespace whirl_twin {
+
+/// Which numbers of a system to change, all at the same instant.
+struct ParameterRequest {
+  std::string system;
+  std::vector<std::string> names;  ///< paths: `damping`, `discs[1].mass`
+  std::vector<double> values;      ///< in the units of the model
+  double ramp = 0.0;               ///< [s], simulated; 0: at once
+};
+
+struct ParameterAnswer {
+  bool done = false;
+  std::string message;           ///< what happens, or why nothing does
+  std::vector<double> previous;  ///< of the names
+  std::int64_t step = 0;         ///< the step reached
+};
+
+class LiveParameters {
+ public:
+  /// [s], simulated: a ramp is a staircase of so long steps.
+  static constexpr double kRampUpdate = 0.02;
+
+  /// To be made before the loop starts. wait() returns when every command sent is carried out;
+  /// false: the loop ended first.
+  LiveParameters(LiveTwin& twin, std::function<bool()> wait);
+
+  ParameterAnswer set(const ParameterRequest& request);
+
+  /// Carries the ramps on that are under way, as far as simulated time has come. Returns what was
+  /// wrong with those that had to be given up.
+  std::vector<std::string> continueRamps();
+  bool ramping() const { return !ramps_.empty(); }
+
+  /// Why a drive cannot be sent to `speed` [rad/s]: an ensemble on it is not prepared for that; ""
+  /// if it can.
+  std::string objectionToSpeed(std::size_t drive, double speed) const;
+
+  /// Makes every system on a drive ready for its move to `speed` [rad/s] within max_jerk
+  /// [rad/s^3]; to be called before the command that sends it there. False: the loop ended.
+  bool prepareFor(std::size_t drive, double speed, double max_jerk);
+
+  /// The loop has carried out a kReset: the scene's parameters hold again.
+  void restored();
+
+ private:
+  struct Ramp {
+    std::size_t system;
+    std::string name;
+    double from;
+    double to;
+    double start;     // [s], simulated
+    double duration;  // [s]
+  };
+  using SpeedRange = std::pair<double, double>;  // [rad/s]
+
+  double time() const;
+  std::string objectionTo(const ParameterRequest& request) const;
+  /// Sets numbers of a member, and returns what they were. Throws std::invalid_argument with what
+  /// a scene would say.
+  std::vector<double> assign(const std::vector<std::string>& names,
+                             const std::vector<double>& values, std::size_t system,
+                             Twin::Member& member) const;
+  bool change(std::size_t system, const std::vector<std::string>& names,
+              const std::vector<double>& values);
+  bool takeOver(std::size_t system, std::unique_ptr<Stepper> next, SystemGeneration generation);
+  void continueRamps(std::size_t system, double now);
+  bool prepare(std::size_t system, bool range_covered);
+
+  LiveTwin& twin_;
+  std::function<bool()> wait_;
+  std::vector<Twin::Member> members_;  // as they are now
+  std::vector<SpeedRange> scene_speed_ranges_;
+  std::vector<SpeedRange> speed_ranges_;        // of the drives since the start
+  std::vector<std::optional<double>> targets_;  // [rad/s], of their last moves beyond the scene
+  std::vector<Ramp> ramps_;
+  double ramped_at_ = 0.0;  // [s], simulated
+};
+
+}  // namespace whirl_twin

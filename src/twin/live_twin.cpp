@@ -1,0 +1,135 @@
+#include "twin/live_twin.h"
+
+namespace whirl_twin {
+
+LiveTwin::LiveTwin(const Scene& scene, std::size_t ring_capacity)
+    : twin_(scene),
+      generations_(std::make_shared<SystemGenerations>(twin_)),
+      ring_(twin_.layout().size, ring_capacity),
+      record_(twin_.layout().size) {
+  twin_.buildEnsembles();
+}
+
+LiveTwin::~LiveTwin() {
+  TwinCommand command;
+  while (commands_.pop(command)) {  // of a loop that ended first
+    delete command.replacement;
+  }
+}
+
+bool LiveTwin::cycle(std::int64_t scheduled) noexcept {
+  TwinCommand command;
+  while (steps_to_do_ == 0 && commands_.pop(command)) {
+    carryOut(command);
+  }
+  if (at_start_) {
+    at_start_ = false;
+    publish(scheduled);
+    return true;
+  }
+  if (paused_.load(std::memory_order_relaxed) && steps_to_do_ == 0) {
+    return true;
+  }
+  twin_.step();
+  step_.store(twin_.stepCount(), std::memory_order_relaxed);
+  publish(scheduled);
+  if (steps_to_do_ > 0 && --steps_to_do_ == 0) {
+    finish(true, 0.0);
+  }
+  return true;
+}
+
+void LiveTwin::carryOut(const TwinCommand& command) noexcept {
+  switch (command.kind) {
+    case TwinCommand::Kind::kPause:
+      paused_.store(true, std::memory_order_relaxed);
+      return finish(true, 0.0);
+    case TwinCommand::Kind::kResume:
+      paused_.store(false, std::memory_order_relaxed);
+      return finish(true, 0.0);
+    case TwinCommand::Kind::kReset:
+      twin_.reset();
+      at_start_ = true;
+      return finish(true, 0.0);
+    case TwinCommand::Kind::kStep:
+      if (!paused_.load(std::memory_order_relaxed)) {
+        return finish(false, 0.0);
+      }
+      steps_to_do_ = command.steps;
+      if (steps_to_do_ == 0) {
+        finish(true, 0.0);
+      }
+      return;
+    case TwinCommand::Kind::kLook:
+      return look(command.drive);
+    case TwinCommand::Kind::kReplace:
+      return replaceNow(command);
+    case TwinCommand::Kind::kSetSpeed:
+      const bool accepted =
+          twin_.setSpeed(command.drive, command.speed, command.max_acceleration, command.max_jerk);
+      return finish(accepted, accepted ? twin_.drive(command.drive).moveDuration() : 0.0);
+  }
+}
+
+void LiveTwin::look(std::size_t drive) noexcept {
+  if (drive >= twin_.driveCount()) {
+    return finish(false, 0.0);
+  }
+  const ShaftMotion motion = twin_.drive(drive).at(0.0);
+  answer_.speed = motion.speed;
+  answer_.acceleration = motion.acceleration;
+  answer_.target_speed = twin_.drive(drive).targetSpeed();
+  finish(true, 0.0);
+}
+
+void LiveTwin::replaceNow(const TwinCommand& command) noexcept {
+  retired_ = twin_.replace(command.system, std::unique_ptr<Stepper>(command.replacement),
+                           command.generation);
+  if (!at_start_) {
+    // So that the change is seen at its step, and in a pause too.
+    publish(unpacked(record_[RecordLayout::kScheduled]));
+  }
+  finish(true, 0.0);
+}
+
+void LiveTwin::finish(bool done, double duration) noexcept {
+  answer_.done = done;
+  answer_.step = twin_.stepCount();
+  answer_.duration = duration;
+  step_.store(answer_.step, std::memory_order_relaxed);
+  carried_out_.fetch_add(1, std::memory_order_release);
+}
+
+void LiveTwin::publish(std::int64_t scheduled) noexcept {
+  twin_.write(record_.data());
+  record_[RecordLayout::kScheduled] = packed(scheduled);
+  ring_.push(record_.data());
+}
+
+bool LiveTwin::send(const TwinCommand& command) {
+  if (!commands_.push(command)) {
+    return false;
+  }
+  ++sent_;
+  return true;
+}
+
+bool LiveTwin::replace(std::size_t system, std::unique_ptr<Stepper>& next,
+                       std::int64_t generation) {
+  if (carriedOut() < sent()) {
+    return false;
+  }
+  retired_.reset();
+  TwinCommand command;
+  command.kind = TwinCommand::Kind::kReplace;
+  command.system = system;
+  command.replacement = next.get();
+  command.generation = generation;
+  if (!send(command)) {
+    return false;
+  }
+  static_cast<void>(next.release());  // the loop's now
+  return true;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,107 @@
+// The twin as a fixed-rate loop runs it: one cycle a period, commands in, records out. No thread of
+// its own, no lock, no allocation in a cycle.
+#pragma once
+
+#include <atomic>
+#include <boost/lockfree/spsc_queue.hpp>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "realtime/record_ring.h"
+#include "twin/ensemble_observer.h"
+#include "twin/system_generations.h"
+#include "twin/twin.h"
+
+namespace whirl_twin {
+
+/// A command from outside the loop.
+struct TwinCommand {
+  enum class Kind : std::uint8_t { kPause, kResume, kReset, kStep, kSetSpeed, kLook, kReplace };
+  Kind kind = Kind::kPause;
+  std::uint64_t steps = 0;        ///< kStep: how many
+  std::size_t drive = 0;          ///< kSetSpeed, kLook: of twin().drive()
+  double speed = 0.0;             ///< [rad/s]
+  double max_acceleration = 0.0;  ///< [rad/s^2]
+  double max_jerk = 0.0;          ///< [rad/s^3]; 0: unlimited
+  std::size_t system = 0;         ///< kReplace, which replace() makes
+  Stepper* replacement = nullptr;
+  std::int64_t generation = 0;
+};
+
+/// What became of a command.
+struct TwinAnswer {
+  bool done = false;
+  std::int64_t step = 0;      ///< the step reached
+  double duration = 0.0;      ///< [s], kSetSpeed: of the move
+  double speed = 0.0;         ///< [rad/s], kLook: of the drive now,
+  double acceleration = 0.0;  ///< [rad/s^2],
+  double target_speed = 0.0;  ///< [rad/s], and where its move ends
+};
+
+class LiveTwin {
+ public:
+  /// Up to ring_capacity records wait for their reader; more are dropped and counted.
+  LiveTwin(const Scene& scene, std::size_t ring_capacity);
+  ~LiveTwin();
+  LiveTwin(const LiveTwin&) = delete;
+  LiveTwin& operator=(const LiveTwin&) = delete;
+
+  /// Of the twin only what does not change while it runs may be used while the loop runs.
+  const Twin& twin() const { return twin_; }
+
+  /// The loop's thread, once a period; scheduled [ns] goes into the record. Real-time safe.
+  bool cycle(std::int64_t scheduled) noexcept;
+
+  // One other thread: commands.
+
+  /// Hands a command over; false if the loop is far behind with earlier ones. Commands are carried
+  /// out in order, between two steps.
+  bool send(const TwinCommand& command);
+  /// Has a system replaced between two steps, with its coordinates and rates as they are; records
+  /// carry the generation from then on, and one of the step reached is made at once. False, with
+  /// `next` left alone, while another command is under way.
+  bool replace(std::size_t system, std::unique_ptr<Stepper>& next, std::int64_t generation);
+  /// Commands sent and carried out. A kStep counts when its last step is done.
+  std::uint64_t sent() const { return sent_; }
+  std::uint64_t carriedOut() const { return carried_out_.load(std::memory_order_acquire); }
+  /// Of the last command carried out; read it while no other is under way.
+  TwinAnswer answer() const { return answer_; }
+  bool paused() const { return paused_.load(std::memory_order_relaxed); }
+
+  // Any thread.
+
+  /// The step reached.
+  std::int64_t stepCount() const { return step_.load(std::memory_order_relaxed); }
+  /// What the records' generations stand for.
+  const std::shared_ptr<SystemGenerations>& generations() const { return generations_; }
+
+  // One other thread: records, in order.
+  bool pop(double* record) noexcept { return ring_.pop(record); }
+  std::uint64_t dropped() const noexcept { return ring_.dropped(); }
+  /// The statistics of its ensembles, for the thread of the records; the twin outlives it.
+  EnsembleObserver ensembles() { return EnsembleObserver(twin_); }
+
+ private:
+  void carryOut(const TwinCommand& command) noexcept;
+  void look(std::size_t drive) noexcept;
+  void replaceNow(const TwinCommand& command) noexcept;
+  void finish(bool done, double duration) noexcept;
+  void publish(std::int64_t scheduled) noexcept;
+
+  Twin twin_;
+  std::shared_ptr<SystemGenerations> generations_;
+  RecordRing ring_;
+  std::vector<double> record_;
+  boost::lockfree::spsc_queue<TwinCommand, boost::lockfree::capacity<64>> commands_;
+  std::uint64_t sent_ = 0;
+  std::atomic<std::uint64_t> carried_out_{0};
+  std::atomic<bool> paused_{false};
+  std::atomic<std::int64_t> step_{0};
+  TwinAnswer answer_;
+  std::unique_ptr<Stepper> retired_;  ///< by the last kReplace; deleted outside of the loop
+  std::uint64_t steps_to_do_ = 0;     ///< of a kStep under way
+  bool at_start_ = true;              ///< the state at step 0 has not been published
+};
+
+}  // namespace whirl_twin

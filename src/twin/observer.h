@@ -1,0 +1,115 @@
+// Turns the twin's records into what users see: whirl radius and phase, angles, energies. It
+// follows the records in order (the phase is unwrapped, the energy residual needs the start), on
+// the side of the publisher, not in the real-time thread.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "messages/states.h"
+#include "twin/motor_track.h"
+#include "twin/system_generations.h"
+#include "twin/twin.h"
+
+namespace whirl_twin {
+
+class Observer {
+ public:
+  /// The twin outlives the observer; only what does not change while it runs is read from it.
+  /// generations: of a twin whose parameters change while it runs.
+  explicit Observer(const Twin& twin, std::shared_ptr<SystemGenerations> generations = nullptr);
+
+  /// Takes the next record. A step count that goes back means the twin was reset.
+  void observe(const double* record);
+
+  /// [ns], what states carry as their stamp from now on.
+  void setStamp(std::int64_t stamp) { stamp_ = stamp; }
+
+  std::int64_t step() const;
+  std::size_t systemCount() const { return tracks_.size(); }
+  StepStatus status(std::size_t system) const;
+  /// "rotor: stopped after step 41 (t = 0.041 s), state not finite; last good state x = ..., ...";
+  /// "" while the system runs.
+  const std::string& stopReason(std::size_t system) const { return tracks_[system].stop_reason; }
+  bool isRotor(std::size_t system) const;
+
+  state::WhirlState whirl(std::size_t system) const;        ///< of a rotor
+  state::PendulumState pendulum(std::size_t system) const;  ///< of any other model
+  state::DriveState drive(std::size_t drive) const;         ///< of a drive of the scene
+  state::MotorState motor(std::size_t drive) const;         ///< of a drive that is a motor
+  /// Whirl radius [m] and unwrapped phase lag [rad] of a rotor (NaN while undefined).
+  double whirlRadius(std::size_t system) const;
+  /// Where a rotor's whirl is seen: position [m] and velocity [m/s] there.
+  struct Whirl {
+    double x, y, x_rate, y_rate;
+  };
+  Whirl whirlOf(std::size_t system) const;
+  double whirlPhase(std::size_t system) const;
+  const double* coordinates(std::size_t system) const;  ///< q
+  const double* rates(std::size_t system) const;        ///< q'
+  /// Energy gained beyond the work done, relative to the largest energy in play so far, since the
+  /// start or the last change of parameters: the change itself does work.
+  double energyResidual(std::size_t system) const;
+  Energies energies(std::size_t system) const;
+  /// What its method has got wrong over its horizon [-]: the errors of its steps, of which the last
+  /// one in so many is measured, added up and forgotten with the horizon as time constant. As
+  /// `tolerance`, in parts of the largest coordinates; where the motion magnifies errors the true
+  /// one is larger. NaN: not estimated.
+  double errorEstimate(std::size_t system) const { return tracks_[system].error; }
+  /// The parameters the system has now and what of them changed last, without the instant.
+  const state::ParameterChange& parameters(std::size_t system) const {
+    return tracks_[system].parameters;
+  }
+  /// Of the newest record; another number, perhaps other parameters.
+  std::int64_t generation(std::size_t system) const { return tracks_[system].generation; }
+  /// The newest record has the step of the one before: it tells of a change of parameters, at the
+  /// state that is known.
+  bool tellsOnlyChange() const { return tells_only_change_; }
+  /// Of the newest record, with the stamp last set.
+  state::Instant instant() const;
+  /// Time, and the motion of the system's shaft, at the newest record.
+  Moment<double> moment(std::size_t system) const;
+
+ private:
+  struct Track {
+    Station station;  // of a rotor: where its whirl is seen
+    std::int64_t generation = -1;
+    std::shared_ptr<const Dynamics> dynamics;
+    state::ParameterChange parameters;
+    bool started = false;
+    double jacobi = 0.0;          // [J], h at the start
+    double scale = 0.0;           // [J], largest T + |V| so far
+    double residual = 0.0;        // [-]
+    double error = 0.0;           // [-]
+    double error_sum = 0.0;       // [-], of the newest record
+    std::int64_t error_step = 0;  // of the newest record
+    double slowest_orbit = 0.0;   // [rad/s], below which there is no 1X orbit to speak of
+    double largest_radius = 0;    // [m]
+    double phase = 0.0;           // [rad], last valid, unwrapped
+    bool phase_known = false;
+    bool phase_valid = false;
+    std::string stop_reason;
+    std::int64_t motor_generation = -1;  // that the motor's work is counted from
+  };
+
+  const double* driveRecord(std::size_t drive) const;
+  void restart(std::size_t system);
+  bool takeGeneration(std::size_t system);
+  void trackPhase(std::size_t system);
+  void trackEnergy(std::size_t system);
+  void trackError(std::size_t system);
+  void trackMotors();
+  std::string describeStop(std::size_t system) const;
+
+  const Twin& twin_;
+  std::shared_ptr<SystemGenerations> generations_;
+  std::vector<double> record_;
+  std::vector<Track> tracks_;
+  std::vector<MotorTrack> motors_;  // of each drive
+  std::int64_t stamp_ = 0;
+  bool tells_only_change_ = false;
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,36 @@
+#include "twin/system_generations.h"
+
+#include <utility>
+
+#include "scene/parameter_paths.h"
+
+namespace whirl_twin {
+
+SystemGenerations::SystemGenerations(const Twin& twin) {
+  for (const Twin::Member& member : twin.members()) {
+    SystemGeneration start{member.dynamics, parametersOf(*member.model, member.spec)};
+    systems_.push_back({{0, std::make_shared<const SystemGeneration>(std::move(start))}});
+  }
+}
+
+std::int64_t SystemGenerations::add(std::size_t system, SystemGeneration generation) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  systems_[system][++newest_] = std::make_shared<const SystemGeneration>(std::move(generation));
+  return newest_;
+}
+
+std::shared_ptr<const SystemGeneration> SystemGenerations::at(std::size_t system,
+                                                              std::int64_t generation) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return systems_[system].at(generation);
+}
+
+void SystemGenerations::forgetBefore(std::size_t system, std::int64_t generation) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  auto& known = systems_[system];
+  if (generation > 0) {
+    known.erase(known.upper_bound(0), known.lower_bound(generation));
+  }
+}
+
+}  // namespace whirl_twin

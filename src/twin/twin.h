@@ -1,0 +1,106 @@
+// The running twin: the systems and drives of a scene, stepped together.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "control/drive.h"
+#include "integration/stepper.h"
+#include "mechanics/dynamics.h"
+#include "models/model_info.h"
+#include "scene/scene.h"
+#include "twin/ensemble.h"
+#include "twin/record.h"
+
+namespace whirl_twin {
+
+class Twin {
+ public:
+  /// One system of the twin, as built.
+  struct Member {
+    SystemSpec spec;
+    const ModelInfo* model;
+    ModelSetup setup;
+    std::shared_ptr<const Dynamics> dynamics;  ///< of the setup
+    std::string integrator;                    ///< the method it steps with
+    std::string integrator_reason;             ///< why, where `auto` chose
+    std::size_t drive;  ///< of drive(); a system at constant speed has its own
+  };
+
+  /// Builds what the scene names, at its start. Throws std::invalid_argument for a scene that
+  /// readScene() would have refused, SceneError for one whose steps cannot be prepared.
+  explicit Twin(const Scene& scene);
+  Twin(const Twin&) = delete;
+  Twin& operator=(const Twin&) = delete;
+
+  const Scene& scene() const { return scene_; }
+  const std::vector<Member>& members() const { return members_; }
+  const RecordLayout& layout() const { return layout_; }
+  /// Drives of the scene first, in its order; then those of systems at constant speed.
+  std::size_t driveCount() const { return drives_.size(); }
+  static constexpr std::size_t kNoSystem = static_cast<std::size_t>(-1);
+  /// The system whose spin a drive's motion is, if the drive is a motor; else kNoSystem.
+  std::size_t turnedBy(std::size_t drive) const noexcept { return turned_by_[drive]; }
+  bool isMotor(std::size_t drive) const noexcept { return turned_by_[drive] != kNoSystem; }
+  /// A member as it would be with the parameters of `spec`. Throws std::invalid_argument where
+  /// readScene() would complain of them, and where they change its coordinates.
+  Member changed(std::size_t system, const SystemSpec& spec) const;
+  /// Also steps the ensembles of the scene from now on, which a twin that is only analysed, or
+  /// followed, does without. Before the first step. Throws SceneError for members whose parameters
+  /// do not fit together or whose steps cannot be prepared.
+  void buildEnsembles();
+  /// The ensemble of a system; nullptr: it has none, or they were not built.
+  Ensemble* ensemble(std::size_t system) noexcept { return ensembles_[system].get(); }
+  const Ensemble* ensemble(std::size_t system) const noexcept { return ensembles_[system].get(); }
+  /// What steps as a member says, on its drive; its state is yet to be set.
+  std::unique_ptr<Stepper> stepperOf(const Member& member) const;
+
+  // Real-time safe.
+
+  /// One step of everything that has not stopped.
+  void step() noexcept;
+  /// Back to the scene's start, with the scene's own systems.
+  void reset() noexcept;
+  /// Puts another in the place of a system, with its coordinates and rates as they are, known from
+  /// now on by a generation > 0. Returns the one it has no more use for.
+  std::unique_ptr<Stepper> replace(std::size_t system, std::unique_ptr<Stepper> next,
+                                   std::int64_t generation) noexcept;
+  std::int64_t stepCount() const noexcept { return steps_; }
+  /// [s], simulated: start + steps x step, from a whole number of nanoseconds.
+  double time() const noexcept { return seconds(steps_); }
+  double seconds(std::int64_t steps) const noexcept;
+  /// The present state, as laid out by layout(); kScheduled is left alone.
+  void write(double* record) const noexcept;
+  const Drive& drive(std::size_t index) const noexcept { return drives_[index]; }
+  /// Sends a drive to a new speed from where it is now. False for values out of range, and for a
+  /// motor: its speed is an outcome.
+  bool setSpeed(std::size_t drive, double speed, double max_acceleration, double max_jerk) noexcept;
+  StepStatus status(std::size_t system) const noexcept { return status_[system]; }
+  /// What steps in the place of a system.
+  const Stepper& running(std::size_t system) const noexcept { return *running_[system]; }
+
+ private:
+  Member memberOf(const SystemSpec& spec) const;
+
+  Scene scene_;
+  std::vector<Drive> drives_;
+  std::vector<std::size_t> turned_by_;  // of each drive
+  std::vector<Member> members_;
+  std::vector<std::unique_ptr<Stepper>> systems_;       // the scene's
+  std::vector<std::unique_ptr<Stepper>> replacements_;  // latest of each system; null: none yet
+  std::vector<Stepper*> running_;                       // of systems_ or replacements_
+  std::vector<std::int64_t> generation_;                // of running_; 0: the scene's
+  std::vector<std::unique_ptr<Ensemble>> ensembles_;    // of each system; null: none
+  std::vector<double> state_;                           // room for q, v and work of the largest
+  std::vector<StepStatus> status_;
+  RecordLayout layout_;
+  std::int64_t steps_ = 0;
+};
+
+/// "state not finite", "implicit step did not converge" or that it was not prepared for the speed;
+/// "" while running.
+const char* describe(StepStatus status);
+
+}  // namespace whirl_twin

@@ -1,0 +1,169 @@
+// What `auto` chooses keeps the tolerance it was chosen for, on every shipped scene; it is the same
+// choice every time; and what cannot be kept is said.
+#include "accuracy/step_choice.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "../scene/scenes.h"
+#include "accuracy/reference_trajectory.h"
+#include "models/model_registry.h"
+#include "scene/scene_reader.h"
+#include "twin/twin.h"
+
+namespace whirl_twin {
+namespace {
+
+struct Promise {
+  std::string scene;
+  std::size_t system;
+  double tolerance;
+};
+
+void PrintTo(const Promise& p, std::ostream* out) {
+  *out << p.scene << ", system " << p.system << ", " << p.tolerance;
+}
+
+std::vector<Promise> everyPromise() {
+  std::vector<Promise> promises;
+  for (const auto& file :
+       std::filesystem::directory_iterator(std::string(WHIRL_TWIN_SOURCE) + "/config/scenes")) {
+    const Scene scene = readSceneFile(file.path());
+    for (std::size_t i = 0; i < scene.systems.size(); ++i) {
+      for (const double tolerance : {1.0e-3, 1.0e-6, 1.0e-9}) {
+        promises.push_back({file.path().stem(), i, tolerance});
+      }
+    }
+  }
+  return promises;
+}
+
+class StepChoicePromise : public testing::TestWithParam<Promise> {};
+
+TEST_P(StepChoicePromise, IsKept) {
+  const Promise& promise = GetParam();
+  const Scene scene =
+      readSceneFile(std::string(WHIRL_TWIN_SOURCE) + "/config/scenes/" + promise.scene + ".yaml");
+  Scene one = sceneOfOne(scene, promise.system);
+  SystemSpec& spec = one.systems.front();
+  spec.tolerance = promise.tolerance;
+  spec.horizon = 2.0;  // s, for the test's own sake
+  const StepChoice choice = chooseStep(one);
+  // A rotor that rubs or creeps by hysteresis is not smooth, and one that bounces off its stator
+  // chaotic: there the choice says how far it goes, and is held to that.
+  const double kept = std::max(promise.tolerance, choice.error);
+  const std::int64_t interval = std::max<std::int64_t>(1, 20'000'000 / one.step) * one.step;
+  const auto until = static_cast<std::int64_t>(1.0e9 * std::min(choice.until, choice.calibrated));
+  if (until < interval) {
+    GTEST_LOG_(INFO) << choice.reason;
+    return;
+  }
+  const Trajectory chosen =
+      trajectory(withSetting(one, {choice.integrator, one.step, choice.substeps}), until, interval);
+  // Judged by another method where there is one: order eight, or six against the exact step.
+  const ModelInfo& model = *findModel(spec.model);
+  const bool smooth_only = choice.integrator == "exponential";
+  const auto& methods = model.variants.front().integrators;
+  const bool other = std::find(methods.begin(), methods.end(), "gauss_legendre_6") != methods.end();
+  const ReferenceTrajectory reference = referenceTrajectory(
+      one, other ? (smooth_only ? "gauss_legendre_6" : "dormand_prince_8") : "exponential", until,
+      interval, 0.01 * kept, 64);
+  ASSERT_EQ(chosen.status, StepStatus::kOk);
+  EXPECT_LE(trajectoryError(chosen, reference.trajectory, reference.trajectory.samples()).position,
+            kept + reference.error)
+      << choice.integrator << ", " << choice.substeps << ": " << choice.reason;
+}
+
+INSTANTIATE_TEST_SUITE_P(ShippedScenes, StepChoicePromise, testing::ValuesIn(everyPromise()),
+                         [](const auto& test) {
+                           const Promise& p = test.param;
+                           return p.scene + "_" + std::to_string(p.system) + "_1e" +
+                                  std::to_string(static_cast<int>(-std::log10(p.tolerance)));
+                         });
+
+constexpr const char* kSwing = R"(
+step: 0.001
+systems:
+  swing: {model: double_pendulum, tolerance: TOLERANCE, horizon: HORIZON,
+    parameters: {mass1: 1, mass2: 1, length1: 1, length2: 1}, initial: {theta1: ANGLE, theta2: ANGLE}}
+)";
+
+Scene swing(const std::string& tolerance, const std::string& angle, const std::string& horizon) {
+  std::string text = kSwing;
+  for (const auto& [word, value] :
+       {std::pair<std::string, std::string>{"TOLERANCE", tolerance}, {"HORIZON", horizon}}) {
+    text.replace(text.find(word), word.size(), value);
+  }
+  while (text.find("ANGLE") != std::string::npos) {
+    text.replace(text.find("ANGLE"), 5, angle);
+  }
+  return sceneOf(text);
+}
+
+TEST(StepChoice, CostsMoreWhereMoreIsAsked) {
+  const StepChoice rough = chooseStep(swing("1.0e-2", "1.0", "5.0"));
+  const StepChoice fine = chooseStep(swing("1.0e-10", "1.0", "5.0"));
+  EXPECT_NE(rough.integrator, fine.integrator);
+  EXPECT_LT(fine.error, 1.0e-10);
+  EXPECT_GT(rough.error, fine.error);
+}
+
+TEST(StepChoice, IsTheSameEveryTime) {
+  const StepChoice first = chooseStep(swing("1.0e-6", "1.0", "5.0"));
+  for (int i = 0; i < 3; ++i) {
+    const StepChoice again = chooseStep(swing("1.0e-6", "1.0", "5.0"));
+    EXPECT_EQ(again.integrator, first.integrator);
+    EXPECT_EQ(again.substeps, first.substeps);
+    EXPECT_EQ(again.reason, first.reason);
+  }
+}
+
+TEST(StepChoice, SaysHowFarAChaoticMotionCanBePromised) {
+  // Thrown from above the pivot, two rods tumble; their errors grow e-fold some ten times a second.
+  const StepChoice choice = chooseStep(swing("1.0e-9", "3.0", "15.0"));
+  EXPECT_LT(choice.until, 15.0);
+  EXPECT_GT(choice.until, 1.0);
+  EXPECT_NE(choice.reason.find("until t = "), std::string::npos) << choice.reason;
+}
+
+TEST(StepChoice, TakesNoMethodThatPredictsRatesWhereRatesEnterTheForces) {
+  const Scene scene = sceneOf(R"(
+step: 0.001
+systems:
+  rotor: {model: jeffcott_rotor, tolerance: 0.1, parameters: {mass: 1, stiffness: 1.0e4,
+    damping: 10, internal_damping: 5, loss_factor: 0.01, speed: 50, eccentricity: 1.0e-4}}
+)");
+  const StepChoice choice = chooseStep(scene);
+  EXPECT_NE(choice.integrator, "velocity_verlet");
+  EXPECT_NE(choice.integrator, "semi_implicit_euler");
+}
+
+TEST(StepChoice, IsWhatTheTwinStepsWith) {
+  const Scene scene = withStepsChosen(sceneOf(R"(
+step: 0.001
+systems:
+  exact: {model: jeffcott_rotor, parameters: {mass: 1, stiffness: 1.0e4, speed: 50}}
+  swing: {model: spinning_pendulum, tolerance: 1.0e-4,
+    parameters: {mass: 1, length: 1, speed: 1}, initial: {theta: 1}}
+  named: {model: spinning_pendulum, integrator: gauss_legendre_4, substeps: 3,
+    parameters: {mass: 1, length: 1, speed: 1}, initial: {theta: 1}}
+)"));
+  const Twin twin(scene);
+  EXPECT_EQ(twin.members()[0].integrator, "exponential");
+  EXPECT_EQ(twin.members()[1].integrator, scene.systems[1].chosen_integrator);
+  EXPECT_NE(twin.members()[1].integrator_reason.find("over 10 s where 0.0001 is allowed"),
+            std::string::npos)
+      << twin.members()[1].integrator_reason;
+  EXPECT_EQ(twin.members()[2].integrator, "gauss_legendre_4");
+  EXPECT_EQ(twin.members()[2].spec.substeps, 3);
+  EXPECT_EQ(twin.members()[2].integrator_reason, "");
+}
+
+}  // namespace
+}  // namespace whirl_twin

@@ -1,0 +1,290 @@
+// Flexible rotors from scene files: what is refused and in what words, and what is built.
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <ostream>
+
+#include "../scene/scenes.h"
+#include "models/model_registry.h"
+#include "twin/observer.h"
+#include "twin/twin.h"
+
+namespace whirl_twin {
+namespace {
+
+constexpr const char* kShaft =
+    "youngs_modulus: 211.0e+9, density: 7810, elements: [{length: 0.25, outer_diameter: 0.05, "
+    "count: 6}]";
+constexpr const char* kRotor =
+    "youngs_modulus: 211.0e+9, shear_modulus: 81.2e+9, density: 7810, elements: [{length: 0.25, "
+    "outer_diameter: 0.05, count: 6}], discs: [{node: 2, mass: 32.59, polar_inertia: 0.3296, "
+    "transverse_inertia: 0.1781}, {node: 4, mass: 51.53, polar_inertia: 0.8051, "
+    "transverse_inertia: 0.4236}], bearings: [{node: 0, kxx: 1.0e+6, kyy: 0.8e+6, cxx: 100, cyy: "
+    "100}, {node: 6, kxx: 1.0e+6, kyy: 0.8e+6, cxx: 100, cyy: 100}]";
+
+std::string sceneText(const std::string& parameters) {
+  return "{step: 0.001, systems: {r: {model: flexible_rotor, parameters: {speed: 100, " +
+         parameters + "}}}}";
+}
+
+/// The setup of the scene's rotor.
+ModelSetup setupOf(const std::string& parameters) {
+  const Scene scene = sceneOf(sceneText(parameters));
+  const SystemSpec& system = scene.systems[0];
+  return findModel(system.model)->setUp(system.parameters, system.settings, scene.gravity);
+}
+
+struct Refusal {
+  std::string parameters;
+  const char* message;  ///< behind "test.yaml: systems.r.parameters."
+};
+
+void PrintTo(const Refusal& refusal, std::ostream* out) {
+  *out << refusal.message;
+}
+
+class RefusedFlexibleRotor : public testing::TestWithParam<Refusal> {};
+
+TEST_P(RefusedFlexibleRotor, IsToldWhatWasExpectedAndWhatFound) {
+  try {
+    sceneOf(sceneText(GetParam().parameters));
+    FAIL() << "was accepted";
+  } catch (const SceneError& error) {
+    ASSERT_EQ(error.errors().size(), 1u) << error.what();
+    EXPECT_EQ(error.errors()[0],
+              std::string("test.yaml: systems.r.parameters.") + GetParam().message);
+  }
+}
+
+std::string withShaft(const std::string& more) {
+  return std::string(kShaft) + ", " + more;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Parts, RefusedFlexibleRotor,
+    testing::Values(
+        Refusal{"youngs_modulus: 2.0e+11, density: 7800, elements: [{length: 0.1, outer_diameter: "
+                "0.05, inner_diameter: 0.06}]",
+                "elements[0].inner_diameter: must be < outer_diameter = 0.05 m, found 0.06"},
+        Refusal{"youngs_modulus: 2.0e+11, density: 7800, elements: [{length: 0.1, outer_diameter: "
+                "0.05, count: 60}, {length: 0.1, outer_diameter: 0.04, count: 41}]",
+                "elements[1].count: must leave up to 100 elements in all, found 101"},
+        Refusal{"youngs_modulus: 2.0e+11, density: 7800, elements: [{length: 0, outer_diameter: "
+                "0.05}]",
+                "elements[0].length: must be > 0 m, found 0"},
+        Refusal{withShaft("discs: [{node: 7, mass: 1}]"),
+                "discs[0].node: must be a whole number from 0 to 6, found 7"},
+        Refusal{withShaft("bearings: [{node: 0, kxx: 1}, {node: 2.5, kxx: 1}]"),
+                "bearings[1].node: must be a whole number from 0 to 6, found 2.5"},
+        Refusal{withShaft("unbalances: [{node: 9, magnitude: 1}]"),
+                "unbalances[0].node: must be a whole number from 0 to 6, found 9"},
+        Refusal{withShaft("journal_bearings: [{node: 8, length: 0.03, diameter: 0.1, clearance: "
+                          "1.0e-4, viscosity: 0.1, load: 500}]"),
+                "journal_bearings[0].node: must be a whole number from 0 to 6, found 8"},
+        Refusal{withShaft("probe_node: 12"),
+                "probe_node: must be auto or a whole number from 0 to 6, found 12"},
+        Refusal{withShaft("unbalances: [{node: 1, magnitud: 1, magnitude: 1}]"),
+                "unbalances[0].magnitud: unknown key of unbalances; did you mean 'magnitude'?"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    ModesAndTables, RefusedFlexibleRotor,
+    testing::Values(
+        Refusal{withShaft("modes: many"),
+                "modes: must be a whole number >= 0 or auto, found 'many'"},
+        Refusal{withShaft("modes: 2.5"), "modes: must be a whole number >= 0 or auto, found 2.5"},
+        Refusal{withShaft("modes: 29"),
+                "modes: must be auto or a whole number from 0 to 28, four a node, found 29"},
+        Refusal{withShaft("bearing_tables: [{bearing: 0, speed: 1}]"),
+                "bearing_tables[0].bearing: there is no row in bearings that it could be of"},
+        Refusal{withShaft("bearings: [{node: 0}], bearing_tables: [{bearing: 1, speed: 1}]"),
+                "bearing_tables[0].bearing: must be a whole number from 0 to 0, found 1"},
+        Refusal{withShaft("bearings: [{node: 0}], bearing_tables: [{bearing: 0, speed: 5}, "
+                          "{bearing: 0, speed: 5}]"),
+                "bearing_tables[1].speed: must be > 5 rad/s, the row before of this bearing, found "
+                "5"},
+        Refusal{withShaft("bearings: [{node: 0, kxx: 3}], bearing_tables: [{bearing: 0, speed: 5, "
+                          "kxx: 1}]"),
+                "bearings[0]: must give its node only: bearing_tables gives its coefficients"}));
+
+TEST(FlexibleRotorScene, NeedsElements) {
+  try {
+    sceneOf(sceneText("youngs_modulus: 2.0e+11, density: 7800"));
+    FAIL() << "was accepted";
+  } catch (const SceneError& error) {
+    ASSERT_EQ(error.errors().size(), 1u) << error.what();
+    EXPECT_NE(error.errors()[0].find("systems.r.parameters.elements: missing"), std::string::npos);
+  }
+}
+
+TEST(FlexibleRotorScene, KeepsEveryNodeCoordinateWithModesZero) {
+  const ModelSetup setup = setupOf(std::string(kRotor) + ", modes: 0");
+  const auto names = setup.dynamics->coordinates();
+  ASSERT_EQ(names.size(), 28u);
+  EXPECT_EQ(names[0].name, "x_0");
+  EXPECT_EQ(names[5].name, "y_1");
+  EXPECT_EQ(names[26].name, "alpha_6");
+  EXPECT_EQ(names[27].unit, "rad");
+  EXPECT_EQ(setup.note, "");
+  EXPECT_TRUE(setup.dynamics->isRotor());
+  EXPECT_TRUE(setup.dynamics->speedDependent()) << "gyroscopic moments";
+}
+
+TEST(FlexibleRotorScene, IsReducedAndSaysSo) {
+  const ModelSetup eight = setupOf(std::string(kRotor) + ", modes: 8");
+  ASSERT_EQ(eight.dynamics->coordinates().size(), 8u);
+  EXPECT_EQ(eight.dynamics->coordinates()[7].name, "q8");
+  EXPECT_EQ(eight.note.rfind("8 of 28 modes", 0), 0u) << eight.note;
+  const ModelSetup automatic = setupOf(std::string(kRotor) + ", highest_speed: 200");
+  EXPECT_GE(automatic.dynamics->dof(), 6);
+  EXPECT_LE(automatic.dynamics->dof(), 20);
+  EXPECT_NE(automatic.note.find("<= 1e-06 up to 200 rad/s"), std::string::npos) << automatic.note;
+}
+
+TEST(FlexibleRotorScene, PublishesTheFirstUnbalanceElseTheFirstDiscElseTheMiddle) {
+  const auto published = [](const std::string& parameters) {
+    return setupOf(parameters).dynamics->stations().front().name;
+  };
+  const std::string rotor = std::string(kRotor) + ", modes: 4";
+  EXPECT_EQ(published(rotor + ", unbalances: [{node: 5, magnitude: 1.0e-3, angle: 0.7}]"),
+            "node_5");
+  EXPECT_EQ(published(rotor), "node_2");
+  EXPECT_EQ(published(withShaft("modes: 4")), "node_3");
+  EXPECT_EQ(published(rotor + ", probe_node: 0"), "node_0");
+  const auto stations = setupOf(rotor).dynamics->stations();
+  ASSERT_EQ(stations.size(), 7u);
+  EXPECT_EQ(stations[0].position, 0.5);
+  EXPECT_EQ(setupOf(rotor + ", unbalances: [{node: 5, magnitude: 1.0e-3, angle: 0.7}]")
+                .dynamics->unbalanceAngle(),
+            0.7);
+}
+
+TEST(FlexibleRotorScene, BearingsFollowTheSpeed) {
+  const ModelSetup setup = setupOf(
+      withShaft("modes: 0, bearings: [{node: 0}, {node: 6, kxx: 1.0e+6, kyy: 1.0e+6}], "
+                "bearing_tables: [{bearing: 0, speed: 0, kxx: 2.0e+6}, {bearing: 0, speed: 100, "
+                "kxx: 5.0e+6}], journal_bearings: [{node: 3, length: 0.03, diameter: 0.1, "
+                "clearance: 1.0e-4, viscosity: 0.1, load: 525}]"));
+  const LinearRotor rotor = setup.dynamics->linearRotor();
+  const double change = rotor.matrices(300.0).stiffness(0, 0) - rotor.matrices(0.0).stiffness(0, 0);
+  EXPECT_NEAR(change, 3.0e6, 1.0);
+  // Reference case E05 at 2000 rpm; kxy = 22025300.7, kyx = -28956901.0: half their difference.
+  const double speed = 2000.0 * 3.14159265358979323846 / 30.0;
+  EXPECT_NEAR(rotor.matrices(speed).circulatory(12, 13), 0.5 * (22025300.7 + 28956901.0), 1.0);
+  ASSERT_EQ(rotor.knots.size(), 4u);
+  EXPECT_EQ(rotor.knots[3], 100.0);
+}
+
+// The run at constant speed, from rest, ends in the whirl that its matrices predict.
+TEST(FlexibleRotorScene, WhirlsAsItsMatricesSay) {
+  Twin twin(sceneOf(
+      sceneText(std::string(kRotor) +
+                ", modes: 6, highest_speed: 150, unbalances: [{node: 2, magnitude: 1.0e-3}]")));
+  const Dynamics& dynamics = *twin.members()[0].dynamics;
+  const LinearRotor rotor = dynamics.linearRotor();
+  const double w = 100.0;
+  const Linearization l = rotor.matrices(w);
+  const Eigen::MatrixXcd dynamic =
+      (l.stiffness + l.circulatory - w * w * l.mass).cast<std::complex<double>>() +
+      std::complex<double>(0.0, w) * (l.damping + l.gyroscopic);
+  const Eigen::VectorXcd whirl = dynamic.partialPivLu().solve(rotor.synchronousForce(w));
+  // The slowest mode decays at 0.15 / s: after 200 s nothing of it is left.
+  constexpr int kSteps = 200000;
+  for (int i = 0; i < kSteps; ++i) {
+    twin.step();
+  }
+  std::vector<double> record(twin.layout().size);
+  twin.write(record.data());
+  const std::complex<double> turn = std::polar(1.0, w * 1.0e-3 * kSteps);
+  for (Eigen::Index i = 0; i < whirl.size(); ++i) {
+    EXPECT_NEAR(record[twin.layout().system[0] + 1 + static_cast<std::size_t>(i)],
+                (whirl[i] * turn).real(), 1e-8 * whirl.norm());
+  }
+}
+
+TEST(FlexibleRotorScene, IsDrawnWithItsDiscsAndBearings) {
+  const ModelSetup setup = setupOf(std::string(kRotor) + ", modes: 6");
+  const Sketch sketch = setup.dynamics->sketch(Eigen::VectorXd::Zero(6), {});
+  EXPECT_EQ(sketch.rods.size(), 6u);
+  EXPECT_EQ(sketch.discs.size(), 2u);
+  EXPECT_EQ(sketch.springs.size(), 2u);
+  EXPECT_EQ(sketch.rods[2].radius, 0.025);
+  // A steel disc 0.28 m across and 0.07 m wide, on this shaft (32.6 kg; its bore is filled here).
+  EXPECT_NEAR(sketch.discs[0].radius, 0.14, 0.005);
+}
+
+TEST(FlexibleRotor, WhirlsAtItsPublishedNodeAsTheHarmonicResponseSays) {
+  // Heavily damped, so that the start is forgotten in 4 s; with all coordinates and with few.
+  std::string rotor = kRotor;
+  for (std::size_t at; (at = rotor.find("cxx: 100, cyy: 100")) != std::string::npos;) {
+    rotor.replace(at, 18, "cxx: 3000, cyy: 3000");
+  }
+  rotor += ", unbalances: [{node: 2, magnitude: 0.001, angle: 0.4}], highest_speed: 300, modes: ";
+  for (const char* modes : {"0", "auto"}) {
+    Twin twin(sceneOf(sceneText(rotor + modes)));
+    const LinearRotor matrices = twin.members()[0].dynamics->linearRotor();
+    const Station node = twin.members()[0].dynamics->stations().front();
+    EXPECT_EQ(node.name, "node_2");
+    const double w = 100.0;
+    const Linearization l = matrices.matrices(w);
+    const std::complex<double> i(0.0, 1.0);
+    const Eigen::MatrixXcd dynamic =
+        (l.stiffness + l.circulatory - w * w * l.mass).cast<std::complex<double>>() +
+        i * w * (l.damping + l.gyroscopic).cast<std::complex<double>>();
+    const Eigen::VectorXcd q = dynamic.partialPivLu().solve(matrices.synchronousForce(w));
+    const std::complex<double> x = node.along_x.cast<std::complex<double>>().cwiseProduct(q).sum();
+    const std::complex<double> y = node.along_y.cast<std::complex<double>>().cwiseProduct(q).sum();
+    for (int step = 0; step < 4000; ++step) {
+      twin.step();
+    }
+    Observer observer(twin);
+    const state::WhirlState whirl = observer.whirl(0);
+    const std::complex<double> turn = std::polar(1.0, whirl.shaft_angle);
+    EXPECT_NEAR(whirl.x, (x * turn).real(), 1.0e-6 * std::abs(x)) << modes;
+    EXPECT_NEAR(whirl.y, (y * turn).real(), 1.0e-6 * std::abs(y)) << modes;
+    // The axes take the rates in, where a little of the start is left.
+    EXPECT_NEAR(whirl.orbit_major, 0.5 * (std::abs(x + i * y) + std::abs(x - i * y)),
+                1.0e-4 * std::abs(x))
+        << modes;
+  }
+}
+
+TEST(FlexibleRotor, KeepsThePromiseOfModesAutoInARunUp) {
+  // Through the first four critical speeds, 83 to 282 rad/s, against every coordinate.
+  const auto runUp = [](const char* modes) {
+    return sceneOf(
+        "{step: 0.0005, drives: {shaft: {speed: 0, profile: [{speed: 350, "
+        "max_acceleration: 50, max_jerk: 200}]}}, systems: {r: {model: flexible_rotor, "
+        "drive: shaft, parameters: {" +
+        std::string(kRotor) +
+        ", unbalances: [{node: 2, magnitude: 0.001}], highest_speed: 350, tolerance: "
+        "1.0e-6, modes: " +
+        modes + "}}}}");
+  };
+  Twin reduced(runUp("auto"));
+  Twin full(runUp("0"));
+  EXPECT_LT(reduced.members()[0].dynamics->dof(), full.members()[0].dynamics->dof());
+  Observer of_reduced(reduced);
+  Observer of_full(full);
+  std::vector<double> record(full.layout().size);
+  double largest = 0.0;
+  double difference = 0.0;
+  while (full.time() < 8.0) {
+    for (auto [twin, observer] : {std::pair{&reduced, &of_reduced}, std::pair{&full, &of_full}}) {
+      twin->step();
+      twin->write(record.data());
+      observer->observe(record.data());
+    }
+    const state::WhirlState a = of_reduced.whirl(0);
+    const state::WhirlState b = of_full.whirl(0);
+    largest = std::max(largest, b.radius);
+    difference = std::max(difference, std::hypot(a.x - b.x, a.y - b.y));
+  }
+  EXPECT_GT(largest, 1.0e-4);
+  EXPECT_LT(difference, 1.0e-6 * largest);
+}
+
+}  // namespace
+}  // namespace whirl_twin

@@ -1,0 +1,145 @@
+// The twin as the fixed-rate loop runs it: records out of a cycle, commands into it.
+#include "twin/live_twin.h"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "../scene/scenes.h"
+
+namespace whirl_twin {
+namespace {
+
+class Live : public testing::Test {
+ protected:
+  explicit Live(std::size_t capacity = 100)
+      : live_(sceneOf("{step: 0.001, drives: {shaft: {speed: 10}}, systems: {rotor: {model: "
+                      "jeffcott_rotor, drive: shaft, parameters: {mass: 2, stiffness: 800}}}}"),
+              capacity),
+        record_(live_.twin().layout().size) {}
+
+  /// Cycles so often, and returns the steps of the records that came out.
+  std::vector<std::int64_t> stepsAfter(int cycles) {
+    for (int i = 0; i < cycles; ++i) {
+      live_.cycle(scheduled_ += 1000000);
+    }
+    std::vector<std::int64_t> steps;
+    while (live_.pop(record_.data())) {
+      steps.push_back(unpacked(record_[RecordLayout::kStep]));
+    }
+    return steps;
+  }
+  void send(TwinCommand::Kind kind, std::uint64_t steps = 0) {
+    TwinCommand command;
+    command.kind = kind;
+    command.steps = steps;
+    ASSERT_TRUE(live_.send(command));
+  }
+
+  using Kind = TwinCommand::Kind;
+  using Steps = std::vector<std::int64_t>;
+  LiveTwin live_;
+  std::vector<double> record_;
+  std::int64_t scheduled_ = 0;
+};
+
+TEST_F(Live, TheStartIsPublishedThenEveryStep) {
+  EXPECT_EQ(stepsAfter(4), (Steps{0, 1, 2, 3}));
+  EXPECT_EQ(unpacked(record_[RecordLayout::kScheduled]), 4000000);
+}
+
+TEST_F(Live, PausedItStandsStill) {
+  stepsAfter(3);
+  send(Kind::kPause);
+  EXPECT_EQ(stepsAfter(5), Steps{});
+  EXPECT_TRUE(live_.paused());
+  send(Kind::kResume);
+  EXPECT_EQ(stepsAfter(2), (Steps{3, 4}));
+}
+
+TEST_F(Live, StepsAreDoneOneACycleAndAnsweredWhenTheLastIsDone) {
+  stepsAfter(3);
+  send(Kind::kPause);
+  send(Kind::kStep, 3);
+  EXPECT_EQ(stepsAfter(2), (Steps{3, 4}));
+  EXPECT_EQ(live_.carriedOut() + 1, live_.sent());
+  EXPECT_EQ(stepsAfter(3), (Steps{5}));
+  EXPECT_EQ(live_.carriedOut(), live_.sent());
+  EXPECT_TRUE(live_.answer().done);
+  EXPECT_EQ(live_.answer().step, 5);
+}
+
+TEST_F(Live, NoStepsAreDoneAtOnce) {
+  send(Kind::kPause);
+  send(Kind::kStep, 0);
+  stepsAfter(1);
+  EXPECT_EQ(live_.carriedOut(), live_.sent());
+  EXPECT_TRUE(live_.answer().done);
+}
+
+TEST_F(Live, SteppingWithoutAPauseIsNotDone) {
+  send(Kind::kStep, 3);
+  stepsAfter(1);
+  EXPECT_EQ(live_.carriedOut(), live_.sent());
+  EXPECT_FALSE(live_.answer().done);
+}
+
+TEST_F(Live, CommandsAreCarriedOutInOrderAndWaitForStepsUnderWay) {
+  stepsAfter(10);
+  send(Kind::kPause);
+  send(Kind::kStep, 2);
+  send(Kind::kReset);
+  EXPECT_EQ(stepsAfter(4), (Steps{10, 11, 0}));
+  EXPECT_EQ(live_.answer().step, 0);
+}
+
+TEST_F(Live, ASpeedIsSetWhilePausedAndTakesEffectWithTheNextStep) {
+  stepsAfter(2);
+  send(Kind::kPause);
+  TwinCommand command;
+  command.kind = Kind::kSetSpeed;
+  command.speed = 20.0;
+  command.max_acceleration = 1000.0;
+  ASSERT_TRUE(live_.send(command));
+  stepsAfter(1);
+  EXPECT_TRUE(live_.answer().done);
+  EXPECT_NEAR(live_.answer().duration, 0.01, 1e-12);
+  send(Kind::kStep, 5);
+  stepsAfter(5);
+  EXPECT_NEAR(record_[RecordLayout::kDrives + 2], 15.0, 1e-9);
+}
+
+TEST_F(Live, ADriveThatIsNotThereIsRefused) {
+  TwinCommand command;
+  command.kind = Kind::kSetSpeed;
+  command.drive = 7;
+  command.max_acceleration = 1.0;
+  ASSERT_TRUE(live_.send(command));
+  stepsAfter(1);
+  EXPECT_FALSE(live_.answer().done);
+}
+
+TEST_F(Live, TooManyCommandsAreRefusedAtTheDoor) {
+  TwinCommand command;
+  int accepted = 0;
+  while (live_.send(command)) {
+    ++accepted;
+    ASSERT_LT(accepted, 1000);
+  }
+  EXPECT_GE(accepted, 60);
+  stepsAfter(1);
+  EXPECT_EQ(live_.carriedOut(), live_.sent());
+}
+
+struct SmallRing : Live {
+  SmallRing() : Live(3) {}
+};
+
+TEST_F(SmallRing, KeepsTheOldestRecordsAndCountsTheDropped) {
+  EXPECT_EQ(stepsAfter(8), (Steps{0, 1, 2}));
+  EXPECT_EQ(live_.dropped(), 5u);
+  EXPECT_EQ(stepsAfter(1), (Steps{8}));
+}
+
+}  // namespace
+}  // namespace whirl_twin
