@@ -1,4 +1,45 @@
 // The methods a system can be stepped with, by what is known of them before a run.
+//
+// Which engine steps which system, and why (docs/architecture.md has the same table):
+//
+//     what the model is                               integrator       engine
+//     ----------------------------------------------------------------------------------------
+//     energies, nonlinear: pendulums, free_rotor,     any but          SteppedSystem<Model, Method>
+//     a rotor with film, hysteresis, rub or motor     exponential
+//         Method and energies are one function after compiling. `auto` calibrates.
+//
+//     energies, linear, matrices the same at every    exponential      SteppedSystem<Model,
+//     speed: jeffcott_rotor, friction_oscillator                                    Exponential>
+//         e^(A h) of state and shaft phasor in one matrix of fixed size; while the speed changes
+//         the force by four Gauss nodes at the drive's exact angle.
+//
+//     energies, linear, matrices that change with     exponential      LinearRotorStepper
+//     speed: jeffcott_rotor with internal damping                      (RotorStep)
+//     or fluid, rigid_disc_rotor
+//         e^(A(w) h) from a table over the drive's speeds, so that run-ups are exact too but for
+//         (a h^2)^2. withExactRunUps() puts it in Exponential's place.
+//
+//     rigid_disc_rotor, frame: rotating               exponential at   SteppedSystem<Model, Method>
+//                                                     constant speed
+//         The table is one of the fixed frame. On a drive any other method; `auto` calibrates.
+//
+//     energies, linear, any of the above              any other        SteppedSystem<Model, Method>
+//         As asked for: comparison, `twin tradeoff`.
+//
+//     matrices as functions of speed, of any size:    exponential,     LinearRotorStepper
+//     flexible_rotor                                  no other         (RotorStep)
+//         Fixed sizes at compile time end at a few coordinates. linearRotorSetup().
+//
+//     matrices and harmonic forces: linear_system,    any              LinearStepper
+//     cantilever_beam, hinged_beam (geometry: small)                   (LinearStep)
+//         Every method is linear here: one matrix, made once (linear_methods.h). linearSetup().
+//
+//     an ensemble of isotropic rotors, constant       exponential      IsotropicRotors
+//     matrices, on a drive or at constant speed
+//         One complex number a rotor, side by side in vectors; the shaft's forces are evaluated
+//         once for all. Not where a step has very many parts (ensemble_members.cpp).
+//
+//     any other ensemble                              its system's     its system's, one by one
 #pragma once
 
 #include <string>
