@@ -25,6 +25,7 @@ std::size_t subscribersOf(const std::string& topic) {
     return 0;
   }
   auto& subscribed = payload[1];
+  // NOLINTNEXTLINE(modernize-loop-convert): XmlRpcValue iterates structs only.
   for (int i = 0; i < subscribed.size(); ++i) {
     if (static_cast<std::string&>(subscribed[i][0]) == topic) {
       return static_cast<std::size_t>(subscribed[i][1].size());

@@ -53,7 +53,8 @@ std::string figureImage(const Figure& figure, ImageFormat format) {
   const double width = static_cast<double>(figure.width) / figure.columns;
   for (int i = 0; i < count; ++i) {
     const int column = i % figure.columns;
-    const Rectangle place{column * width, top + i / figure.columns * figure.chart_height, width,
+    const int row = i / figure.columns;
+    const Rectangle place{column * width, top + row * figure.chart_height, width,
                           static_cast<double>(figure.chart_height)};
     drawings.emplace_back(figure.charts[static_cast<std::size_t>(i)], place,
                           most_spots / std::max<std::size_t>(all_series, 1), canvas);

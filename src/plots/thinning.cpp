@@ -131,7 +131,7 @@ std::vector<std::vector<Spot>> withoutRepeats(const std::vector<Spot>& line, std
   double tolerance = kUnseen;
   double cell = kCell;
   for (;;) {
-    const std::vector<std::vector<Spot>> pieces = withoutRepeats(simplified(line, tolerance), cell);
+    std::vector<std::vector<Spot>> pieces = withoutRepeats(simplified(line, tolerance), cell);
     std::size_t spots = 0;
     for (const std::vector<Spot>& piece : pieces) {
       spots += piece.size();

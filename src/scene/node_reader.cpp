@@ -163,7 +163,7 @@ std::string MapReader::text(const std::string& name, const std::string& fallback
 
 std::string MapReader::choice(const std::string& name, const std::vector<std::string>& choices,
                               const std::string& what, const std::string& fallback) const {
-  const std::string value = text(name, fallback);
+  std::string value = text(name, fallback);
   if (!has(name) || !at(name).IsScalar() || at(name).Scalar().empty()) {
     return fallback;
   }

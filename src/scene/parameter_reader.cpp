@@ -145,7 +145,7 @@ std::string readWordOrCount(const MapReader& map, const SettingInfo& info, Compl
     return info.choices.front();
   }
   const YAML::Node node = map.at(info.name);
-  const std::string text = node.IsScalar() ? node.Scalar() : "";
+  std::string text = node.IsScalar() ? node.Scalar() : "";
   if (std::find(info.choices.begin(), info.choices.end(), text) != info.choices.end()) {
     return text;
   }

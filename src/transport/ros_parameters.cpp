@@ -17,6 +17,7 @@ YAML::Node toYaml(XmlRpc::XmlRpcValue& value) {
     }
     case XmlRpc::XmlRpcValue::TypeArray: {
       YAML::Node list(YAML::NodeType::Sequence);
+      // NOLINTNEXTLINE(modernize-loop-convert): XmlRpcValue iterates structs only.
       for (int i = 0; i < value.size(); ++i) {
         list.push_back(toYaml(value[i]));
       }
