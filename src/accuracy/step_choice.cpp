@@ -13,7 +13,6 @@
 #include "models/model_registry.h"
 #include "realtime/denormals.h"
 #include "scene/drive_profile.h"
-#include "scene/surroundings.h"
 #include "twin/observer.h"
 #include "twin/twin.h"
 
@@ -254,10 +253,11 @@ StepChoice calibrated(const Scene& one, const ModelSetup& setup, const Calibrati
 
 }  // namespace
 
-StepChoice chooseStep(const Scene& one, double budget) {
+StepChoice chooseStep(const Scene& given, double budget) {
+  const BuiltScene built = build(given);
+  const Scene& one = built.scene;  // with its setup, which the runs take from there
   const SystemSpec& spec = one.systems.front();
-  const ModelSetup setup =
-      findModel(spec.model)->setUp(spec.parameters, spec.settings, surroundingsOf(one, spec));
+  const ModelSetup& setup = built.systems.front()->setup();
   const IntegratorChoice structural = chooseIntegrator(setup, spec.drive.has_value());
   const bool exponential = structural.integrator == kExact;
   const bool table = exponential && spec.drive && setup.dynamics->speedDependent();
@@ -278,7 +278,7 @@ StepChoice chooseStep(const Scene& one, double budget) {
 }
 
 Scene withStepsChosen(const Scene& scene) {
-  Scene chosen = scene;
+  Scene chosen = build(scene).scene;
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < scene.systems.size(); ++i) {
     if (scene.systems[i].integrator == "auto") {
@@ -289,7 +289,7 @@ Scene withStepsChosen(const Scene& scene) {
                             ? kCalibrationBudget / static_cast<double>(open.size())
                             : 0.0;
   for (const std::size_t i : open) {
-    const StepChoice choice = chooseStep(sceneOfOne(scene, i), budget);
+    const StepChoice choice = chooseStep(sceneOfOne(chosen, i), budget);
     chosen.systems[i].chosen_integrator = choice.integrator;
     chosen.systems[i].substeps = choice.substeps;
     chosen.systems[i].choice_reason = choice.reason;

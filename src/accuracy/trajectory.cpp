@@ -87,14 +87,14 @@ Trajectory trajectory(const Scene& one, std::int64_t duration, std::int64_t inte
   Twin twin(scene);
   Observer observer(twin);
   std::vector<double> record(twin.layout().size);
-  const Dynamics& dynamics = *twin.members().front().dynamics;
+  const Dynamics& dynamics = *twin.systems().front()->dynamics;
   Trajectory result;
   result.interval = static_cast<double>(interval) * 1.0e-9;
   result.dof = static_cast<std::size_t>(dynamics.dof());
   for (const CoordinateInfo& c : dynamics.coordinates()) {
     result.angular.push_back(c.isAngle());
   }
-  MomentumWatch momentum(dynamics, twin.drive(twin.members().front().drive).at(0.0).speed);
+  MomentumWatch momentum(dynamics, twin.drive(twin.systems().front()->drive).at(0.0).speed);
   const auto sample = [&] {
     twin.write(record.data());
     observer.observe(record.data());

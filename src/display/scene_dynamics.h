@@ -7,7 +7,7 @@
 #include <string>
 
 #include "mechanics/dynamics.h"
-#include "twin/twin.h"
+#include "scene/built_scene.h"
 #include "whirl_twin/DriveState.h"
 #include "whirl_twin/ParameterChange.h"
 
@@ -32,14 +32,8 @@ class SceneDynamics {
   Moment<double> shaft(const std::string& system, double time, const DriveState* drive) const;
 
  private:
-  struct Entry {
-    SystemSpec spec;
-    std::shared_ptr<const Dynamics> dynamics;
-  };
-
-  std::string tree_;  // of parameters, as they were read last
-  std::unique_ptr<Twin> twin_;
-  std::map<std::string, Entry> systems_;
+  std::string tree_;                             // of parameters, as they were read last
+  std::map<std::string, SharedSystem> systems_;  // with their parameters as they are now
 };
 
 }  // namespace whirl_twin

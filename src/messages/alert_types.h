@@ -10,6 +10,7 @@ inline constexpr char kLowDamping[] = "LOW_DAMPING";
 inline constexpr char kEnergyResidual[] = "ENERGY_RESIDUAL";
 inline constexpr char kAccuracyLost[] = "ACCURACY_LOST";
 inline constexpr char kNotFinite[] = "NOT_FINITE";
+inline constexpr char kStopped[] = "STOPPED";  // for any other cause
 inline constexpr char kModelInvalid[] = "MODEL_INVALID";
 inline constexpr char kDataLost[] = "DATA_LOST";
 

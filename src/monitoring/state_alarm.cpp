@@ -14,7 +14,7 @@ StateAlarm::StateAlarm(std::string system, const AlarmSettings& settings)
       settings_(settings),
       energy_alarm_(settings.clear_delay),
       accuracy_alarm_(settings.clear_delay),
-      not_finite_alarm_(settings.clear_delay) {}
+      stopped_alarm_(settings.clear_delay) {}
 
 void StateAlarm::updateEnergy(double time, double residual, AlertList& alerts) {
   const double limit = settings_.energy_residual;
@@ -65,19 +65,27 @@ void StateAlarm::updateAccuracy(double time, double estimate, double tolerance, 
   }
 }
 
-void StateAlarm::updateFinite(double time, bool stopped, const std::string& cause,
-                              AlertList& alerts) {
+void StateAlarm::updateStopped(double time, StepStatus status, const std::string& text,
+                               AlertList& alerts) {
+  const bool stopped = status != StepStatus::kOk;
   const AlarmCondition condition = stopped ? AlarmCondition::kDanger : AlarmCondition::kClear;
-  if (not_finite_alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
-    alerts.clear(system_, alert_type::kNotFinite, time, fmt::format("{}: runs again", system_));
-  } else if (not_finite_alarm_.active() && stopped) {
+  const bool cleared = stopped_alarm_.update(time, condition) == ConditionAlarm::Change::kCleared;
+  const char* const type =
+      status == StepStatus::kNotFinite ? alert_type::kNotFinite : alert_type::kStopped;
+  if (stopped_type_ != nullptr && (cleared || (stopped && type != stopped_type_))) {
+    alerts.clear(system_, stopped_type_, time,
+                 cleared ? fmt::format("{}: runs again", system_) : text);
+    stopped_type_ = nullptr;
+  }
+  if (stopped_alarm_.active() && stopped) {
+    stopped_type_ = type;
     state::Alert alert;
     alert.system = system_;
-    alert.type = alert_type::kNotFinite;
-    alert.severity = not_finite_alarm_.severity();
+    alert.type = type;
+    alert.severity = stopped_alarm_.severity();
     alert.time = time;
-    alert.text = fmt::format("{}: stopped, a state is not finite: {}", system_, cause);
-    alerts.raise(std::move(alert), cause);
+    alert.text = text;
+    alerts.raise(std::move(alert), text);
   }
 }
 

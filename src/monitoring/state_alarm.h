@@ -6,11 +6,15 @@
 // far, and after one step from rest there is next to none to compare with.
 // ACCURACY_LOST: a warning when the error that the twin estimates of its own steps is above what
 // the scene allows. NOT_FINITE: danger when the system was stopped because a state was no longer a
-// finite number.
+// finite number. STOPPED: danger when it was stopped for another cause, an implicit step that did
+// not converge or a shaft at a speed that the step was not prepared for. They are two types, for
+// they ask for different things: the first for another model or a look at its stability, the
+// second for a shorter step or a smaller speed.
 #pragma once
 
 #include <string>
 
+#include "integration/motion_state.h"
 #include "monitoring/alarm_settings.h"
 #include "monitoring/alert_list.h"
 #include "monitoring/condition_alarm.h"
@@ -29,9 +33,9 @@ class StateAlarm {
   /// neither raises nor clears.
   void updateAccuracy(double time, double estimate, double tolerance, AlertList& alerts);
 
-  /// stopped: the system reports that it stopped at time [s, simulated]; cause: the step and the
-  /// values it names, for the text. Clears clear_delay after the system runs again.
-  void updateFinite(double time, bool stopped, const std::string& cause, AlertList& alerts);
+  /// status: what the system reports at time [s, simulated]; text: its own sentence of why it
+  /// stopped, which names the system. Clears clear_delay after the system runs again.
+  void updateStopped(double time, StepStatus status, const std::string& text, AlertList& alerts);
 
  private:
   std::string system_;
@@ -39,7 +43,8 @@ class StateAlarm {
   bool energy_above_ = false;
   ConditionAlarm energy_alarm_;
   ConditionAlarm accuracy_alarm_;
-  ConditionAlarm not_finite_alarm_;
+  ConditionAlarm stopped_alarm_;
+  const char* stopped_type_ = nullptr;  // of the alert that is raised
 };
 
 }  // namespace whirl_twin

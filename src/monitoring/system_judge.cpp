@@ -17,11 +17,11 @@ constexpr double kSearchPeriod = 1.0;
 
 }  // namespace
 
-SystemJudge::SystemJudge(const Twin::Member& member)
-    : system_(member.spec.name),
-      model_(member.model->name),
-      dynamics_(member.dynamics),
-      critical_speeds_(criticalSpeeds(*member.dynamics)) {}
+SystemJudge::SystemJudge(const BuiltSystem& system)
+    : system_(system.spec.name),
+      model_(system.model->name),
+      dynamics_(system.dynamics),
+      critical_speeds_(criticalSpeeds(*system.dynamics)) {}
 
 std::vector<state::CriticalSpeedMargin> SystemJudge::criticalSpeedMargins(double speed) const {
   std::vector<state::CriticalSpeedMargin> margins;

@@ -13,13 +13,13 @@
 #include "analysis/critical_speeds.h"
 #include "analysis/equilibria.h"
 #include "messages/stability_margin.h"
-#include "twin/twin.h"
+#include "scene/built_system.h"
 
 namespace whirl_twin {
 
 class SystemJudge {
  public:
-  explicit SystemJudge(const Twin::Member& member);
+  explicit SystemJudge(const BuiltSystem& system);
 
   const std::string& system() const { return system_; }
   /// Critical speeds seen from a running speed [rad/s]; empty for anything but a linear rotor.

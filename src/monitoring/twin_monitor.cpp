@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
-
-#include "scene/parameter_paths.h"
+#include <utility>
 
 namespace whirl_twin {
 
@@ -21,32 +19,30 @@ AlarmSettings settingsFor(const Dynamics& dynamics, AlarmSettings settings) {
   return settings;
 }
 
-std::vector<std::string> systemNames(const Scene& scene) {
+std::vector<std::string> systemNames(const std::vector<SharedSystem>& systems) {
   std::vector<std::string> names;
-  for (const SystemSpec& system : scene.systems) {
-    names.push_back(system.name);
+  for (const SharedSystem& system : systems) {
+    names.push_back(system->spec.name);
   }
   return names;
 }
 
 }  // namespace
 
-TwinMonitor::Watch::Watch(const Twin::Member& member, std::string drive_name,
-                          const AlarmSettings& settings)
-    : judge(member),
-      dynamics(member.dynamics),
-      rotor(member.dynamics->isRotor()),
-      dof(member.spec.q.size()),
-      drive(std::move(drive_name)),
-      speed(member.spec.speed.value_or(0.0)),
-      critical_speed_alarm(member.spec.name, settings),
-      stability_alarm(member.spec.name, settingsFor(*member.dynamics, settings)),
-      state_alarm(member.spec.name, settings),
-      validity_alarm(member.spec.name, member.dynamics, settings),
-      spec(member.spec) {
+TwinMonitor::Watch::Watch(SharedSystem built, const AlarmSettings& settings)
+    : judge(*built),
+      rotor(built->dynamics->isRotor()),
+      dof(built->spec.q.size()),
+      drive(built->spec.drive.value_or("")),
+      speed(built->spec.speed.value_or(0.0)),
+      critical_speed_alarm(built->spec.name, settings),
+      stability_alarm(built->spec.name, settingsFor(*built->dynamics, settings)),
+      state_alarm(built->spec.name, settings),
+      validity_alarm(built->spec.name, built->dynamics, settings),
+      system(std::move(built)) {
   if (rotor) {
-    station = member.dynamics->stations().front();
-    const std::vector<CoordinateInfo> all = member.dynamics->coordinates();
+    station = system->dynamics->stations().front();
+    const std::vector<CoordinateInfo> all = system->dynamics->coordinates();
     for (std::size_t k = 0; k < all.size(); ++k) {
       spin = all[k].name == "spin" ? static_cast<Eigen::Index>(k) : spin;
     }
@@ -64,10 +60,10 @@ std::vector<double> TwinMonitor::Watch::coordinates(double x, double y, double t
   return all;
 }
 
-TwinMonitor::TwinMonitor(const Scene& scene, const AlarmSettings& settings)
-    : twin_(scene), settings_(settings), data_lost_alarm_(systemNames(scene), settings) {
-  for (const Twin::Member& member : twin_.members()) {
-    watches_.emplace_back(member, member.spec.drive.value_or(""), settings_);
+TwinMonitor::TwinMonitor(const BuiltScene& scene, const AlarmSettings& settings)
+    : settings_(settings), data_lost_alarm_(systemNames(scene.systems), settings) {
+  for (const SharedSystem& system : scene.systems) {
+    watches_.emplace_back(system, settings_);
   }
 }
 
@@ -75,41 +71,32 @@ void TwinMonitor::restart() {
   for (const state::Alert& alert : alerts_.active()) {
     alerts_.clear(alert.system, alert.type, time_, "the simulation was reset");
   }
-  data_lost_alarm_ = DataLostAlarm(systemNames(twin_.scene()), settings_);
-  for (std::size_t i = 0; i < watches_.size(); ++i) {
-    Watch& watch = watches_[i];
-    watch.critical_speed_alarm = CriticalSpeedAlarm(watch.judge.system(), settings_);
-    watch.stability_alarm =
-        StabilityAlarm(watch.judge.system(), settingsFor(*twin_.members()[i].dynamics, settings_));
-    watch.state_alarm = StateAlarm(watch.judge.system(), settings_);
-    watch.validity_alarm = ValidityAlarm(watch.judge.system(), watch.dynamics, settings_);
+  std::vector<std::string> names;
+  for (Watch& watch : watches_) {
+    names.push_back(watch.judge.system());
+    const std::string& name = names.back();
+    const std::shared_ptr<const Dynamics>& dynamics = watch.system->dynamics;
+    watch.critical_speed_alarm = CriticalSpeedAlarm(name, settings_);
+    watch.stability_alarm = StabilityAlarm(name, settingsFor(*dynamics, settings_));
+    watch.state_alarm = StateAlarm(name, settings_);
+    watch.validity_alarm = ValidityAlarm(name, dynamics, settings_);
     watch.judged = false;
   }
+  data_lost_alarm_ = DataLostAlarm(names, settings_);
   newest_.clear();
 }
 
 bool TwinMonitor::take(const state::ParameterChange& change) {
   Watch* watch = find(change.system);
-  if (watch == nullptr) {
+  SharedSystem changed = watch == nullptr ? nullptr : watch->system->with(change);
+  if (changed == nullptr) {
     return false;
   }
-  const auto system = static_cast<std::size_t>(watch - watches_.data());
-  const ModelInfo& model = *twin_.members()[system].model;
-  SystemSpec spec = watch->spec;
-  if (!takeParameters(change, model, spec)) {
-    return false;
+  if (changed->dynamics != watch->system->dynamics) {  // else they are what they were
+    watch->system = std::move(changed);
+    watch->parameters_new = true;
+    watch->validity_alarm.setDynamics(watch->system->dynamics);
   }
-  if (change.values == parametersOf(model, watch->spec).values) {
-    return true;
-  }
-  try {
-    watch->next = twin_.changed(system, spec);
-  } catch (const std::exception&) {
-    return false;  // values that the model refuses
-  }
-  watch->spec = spec;
-  watch->dynamics = watch->next->dynamics;
-  watch->validity_alarm.setDynamics(watch->dynamics);
   return true;
 }
 
@@ -149,9 +136,9 @@ void TwinMonitor::judge(Watch& watch, const state::Instant& at, const std::vecto
   if (watch.judged && !passed && at.time < watch.judged_at + kJudgingPeriod * (1.0 - 1.0e-9)) {
     return;
   }
-  if (watch.next) {  // not before: a ramp changes parameters more often than they are judged
-    watch.judge = SystemJudge(*watch.next);
-    watch.next.reset();
+  if (watch.parameters_new) {  // not before: a ramp changes them more often than they are judged
+    watch.judge = SystemJudge(*watch.system);
+    watch.parameters_new = false;
   }
   const state::StabilityMargin margin = watch.judge.judge(at, q, v, watch.speed);
   watch.judged = true;
@@ -208,10 +195,10 @@ void TwinMonitor::take(const state::DriveState& drive, double wall_time) {
   }
 }
 
-void TwinMonitor::takeStopped(const std::string& system, double time, bool stopped,
+void TwinMonitor::takeStopped(const std::string& system, double time, StepStatus status,
                               const std::string& why) {
   if (Watch* watch = find(system)) {
-    watch->state_alarm.updateFinite(time, stopped, why, alerts_);
+    watch->state_alarm.updateStopped(time, status, why, alerts_);
   }
 }
 

@@ -15,13 +15,13 @@
 #include "monitoring/state_alarm.h"
 #include "monitoring/system_judge.h"
 #include "monitoring/validity_alarm.h"
-#include "twin/twin.h"
+#include "scene/built_scene.h"
 
 namespace whirl_twin {
 
 class TwinMonitor {
  public:
-  TwinMonitor(const Scene& scene, const AlarmSettings& settings);
+  TwinMonitor(const BuiltScene& scene, const AlarmSettings& settings);
 
   // States as they arrive, wall_time [s] from a clock that only goes forward. Those of systems and
   // drives the scene does not have, or has as another kind, are ignored. Time that goes back for
@@ -35,8 +35,10 @@ class TwinMonitor {
   /// Wall time passes though nothing may arrive, to be called a few times a second; paused: the
   /// simulation says that it is held.
   void tick(double wall_time, bool paused);
-  /// The simulation says whether a system has stopped, and why.
-  void takeStopped(const std::string& system, double time, bool stopped, const std::string& why);
+  /// The simulation says whether a system has stopped, and why: its code of the cause and its
+  /// sentence.
+  void takeStopped(const std::string& system, double time, StepStatus status,
+                   const std::string& why);
 
   /// The simulation says how accurate a system is (NaN: it does not know), and is to be.
   void takeAccuracy(const std::string& system, double time, double estimate, double tolerance);
@@ -49,10 +51,9 @@ class TwinMonitor {
 
  private:
   struct Watch {
-    Watch(const Twin::Member& member, std::string drive, const AlarmSettings& settings);
+    Watch(SharedSystem system, const AlarmSettings& settings);
 
     SystemJudge judge;
-    std::shared_ptr<const Dynamics> dynamics;
     bool rotor;
     std::size_t dof;
     Station station = {};    ///< of a rotor: where its whirl is seen
@@ -66,8 +67,8 @@ class TwinMonitor {
     StabilityAlarm stability_alarm;
     StateAlarm state_alarm;
     ValidityAlarm validity_alarm;
-    SystemSpec spec;                   ///< with its parameters as they are now
-    std::optional<Twin::Member> next;  ///< with changed parameters, to be judged from now on
+    SharedSystem system;          ///< with its parameters as they are now
+    bool parameters_new = false;  ///< to be judged with from now on
     bool judged = false;
     double judged_at = 0.0;     ///< [s], simulated
     double judged_speed = 0.0;  ///< [rad/s]
@@ -80,7 +81,6 @@ class TwinMonitor {
              const std::vector<double>& v);
   void watchShaft(Watch& watch, const state::DriveState& shaft);
 
-  Twin twin_;
   AlarmSettings settings_;
   std::vector<Watch> watches_;
   DataLostAlarm data_lost_alarm_;

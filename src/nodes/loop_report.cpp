@@ -36,11 +36,11 @@ LoopStatistics loopStatistics(const Twin& twin, const Observer& observer,
   m.execution_max = seconds(timing.execution_time.max());
   m.period_min = seconds(timing.period.min());
   m.period_max = seconds(timing.period.max());
-  for (std::size_t i = 0; i < twin.members().size(); ++i) {
-    m.system.push_back(twin.members()[i].spec.name);
-    m.integrator.push_back(twin.members()[i].integrator);
+  for (std::size_t i = 0; i < twin.systems().size(); ++i) {
+    m.system.push_back(twin.systems()[i]->spec.name);
+    m.integrator.push_back(twin.systems()[i]->integrator);
     m.error_estimate.push_back(observer.errorEstimate(i));
-    const SystemSpec& spec = twin.members()[i].spec;
+    const SystemSpec& spec = twin.systems()[i]->spec;
     m.tolerance.push_back(spec.integrator == "auto" ? spec.tolerance
                                                     : std::numeric_limits<double>::quiet_NaN());
     m.stopped.push_back(static_cast<std::uint8_t>(observer.status(i)));

@@ -55,8 +55,8 @@ AlarmSettings alarmSettings() {
   return s;
 }
 
-Scene sceneOf(const ParameterTree& given) {
-  return readScene(given.tree, given.source);
+BuiltScene sceneOf(const ParameterTree& given) {
+  return build(readScene(given.tree, given.source));
 }
 
 class MonitorNode {
@@ -72,8 +72,9 @@ class MonitorNode {
     if (!lcm_.warning().empty()) {
       ROS_WARN("%s", lcm_.warning().c_str());
     }
-    for (const SystemSpec& system : scene_.systems) {
-      margins_[system.name] = node.advertise<StabilityMargin>(system.name + "/stability", 100);
+    for (const SharedSystem& system : scene_.systems) {
+      const std::string& name = system->spec.name;
+      margins_[name] = node.advertise<StabilityMargin>(name + "/stability", 100);
     }
     publishAlerts();
 
@@ -130,18 +131,17 @@ class MonitorNode {
   }
 
   void subscribe() {
-    const Twin twin(scene_);
-    for (const Twin::Member& member : twin.members()) {
-      if (member.dynamics->isRotor()) {
-        subscribeTo<WhirlState>(member.spec.name + "/whirl");
+    for (const SharedSystem& system : scene_.systems) {
+      if (system->dynamics->isRotor()) {
+        subscribeTo<WhirlState>(system->spec.name + "/whirl");
       } else {
-        subscribeTo<PendulumState>(member.spec.name + "/pendulum");
+        subscribeTo<PendulumState>(system->spec.name + "/pendulum");
       }
     }
-    for (const Twin::Member& member : twin.members()) {
-      subscribeTo<ParameterChange>(member.spec.name + "/parameters");
+    for (const SharedSystem& system : scene_.systems) {
+      subscribeTo<ParameterChange>(system->spec.name + "/parameters");
     }
-    for (const DriveSpec& drive : scene_.drives) {
+    for (const DriveSpec& drive : scene_.scene.drives) {
       subscribeTo<DriveState>("drives/" + drive.name);
     }
   }
@@ -176,7 +176,8 @@ class MonitorNode {
     paused_ = loop.paused;
     for (std::size_t i = 0;
          i < loop.system.size() && i < loop.stopped.size() && i < loop.stopped_why.size(); ++i) {
-      monitor_.takeStopped(loop.system[i], loop.time, loop.stopped[i] != 0, loop.stopped_why[i]);
+      monitor_.takeStopped(loop.system[i], loop.time, static_cast<StepStatus>(loop.stopped[i]),
+                           loop.stopped_why[i]);
     }
     for (std::size_t i = 0;
          i < loop.system.size() && i < loop.error_estimate.size() && i < loop.tolerance.size();
@@ -227,7 +228,7 @@ class MonitorNode {
   }
 
   ros::NodeHandle node_;
-  Scene scene_;
+  BuiltScene scene_;
   AlarmSettings settings_;
   TwinMonitor monitor_;
   std::string url_;

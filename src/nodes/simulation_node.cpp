@@ -94,7 +94,7 @@ class Publisher {
         clock_(settings.clock),
         every_(settings.every),
         epoch_(clockNow(CLOCK_REALTIME) - clockNow(CLOCK_MONOTONIC)),
-        stopped_(live.twin().members().size()) {
+        stopped_(live.twin().systems().size()) {
     if (!states_.lcm().warning().empty()) {
       ROS_WARN("%s", states_.lcm().warning().c_str());
     }
@@ -153,7 +153,7 @@ class Publisher {
     observer_.observe(record);
     const Scene& scene = live_.twin().scene();
     observer_.setStamp(clock_ ? scene.time + observer_.step() * scene.step
-                              : epoch_ + unpacked(record[RecordLayout::kScheduled]));
+                              : epoch_ + RecordLayout::scheduled(record.data()));
     states_.publishParameters(observer_);
     if (observer_.step() % every_ == 0 && !observer_.tellsOnlyChange()) {
       states_.publish(observer_);
@@ -217,10 +217,10 @@ void run() {
     summarize(publisher.report(), status);
   });
 
-  for (const Twin::Member& m : live.twin().members()) {
-    ROS_INFO("%s: %s with %s%s%s%s", m.spec.name.c_str(), m.model->name.c_str(),
-             m.integrator.c_str(), m.integrator_reason.empty() ? "" : " (",
-             m.integrator_reason.c_str(), m.integrator_reason.empty() ? "" : ")");
+  for (const SharedSystem& system : live.twin().systems()) {
+    ROS_INFO("%s: %s with %s%s%s%s", system->spec.name.c_str(), system->model->name.c_str(),
+             system->integrator.c_str(), system->integrator_reason.empty() ? "" : " (",
+             system->integrator_reason.c_str(), system->integrator_reason.empty() ? "" : ")");
   }
   loop.start([&live](std::int64_t scheduled) { return live.cycle(scheduled); });
   const RealtimeStatus status = loop.status();

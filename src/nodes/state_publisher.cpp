@@ -22,10 +22,10 @@ constexpr double kParameterPeriod = 10.0;         // s, simulated, on LCM
 StatePublisher::StatePublisher(const Twin& twin, EnsembleObserver ensembles, ros::NodeHandle node,
                                const std::string& lcm_url, bool clock)
     : twin_(twin), ensembles_(std::move(ensembles)), lcm_(lcm_url) {
-  for (const Twin::Member& member : twin.members()) {
-    const std::string& name = member.spec.name;
+  for (const SharedSystem& system : twin.systems()) {
+    const std::string& name = system->spec.name;
     Topics topics;
-    topics.state = member.dynamics->isRotor()
+    topics.state = system->dynamics->isRotor()
                        ? node.advertise<WhirlState>(name + "/whirl", kQueue)
                        : node.advertise<PendulumState>(name + "/pendulum", kQueue);
     topics.joint_states = node.advertise<sensor_msgs::JointState>(name + "/joint_states", kQueue);
@@ -39,7 +39,7 @@ StatePublisher::StatePublisher(const Twin& twin, EnsembleObserver ensembles, ros
                           : ros::Publisher());
   }
   for (const std::size_t system : ensembles_.systems()) {
-    const std::string& name = twin.members()[system].spec.name;
+    const std::string& name = twin.systems()[system]->spec.name;
     ensemble_topics_.push_back({system, node.advertise<EnsembleState>(name + "/ensemble", kQueue)});
   }
   if (clock) {

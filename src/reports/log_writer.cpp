@@ -15,7 +15,7 @@ class LogWriter final : public SampleWriter {
   LogWriter(const Twin& twin, std::vector<std::size_t> systems, const std::string& path)
       : twin_(twin), systems_(std::move(systems)), pending_(path), log_(pending_.path()) {
     for (const std::size_t i : systems_) {
-      const std::size_t drive = twin.members()[i].drive;
+      const std::size_t drive = twin.systems()[i]->drive;
       if (drive < twin.scene().drives.size()) {  // the others are constant speeds, not drives
         drives_.insert(drive);
       }
@@ -60,7 +60,7 @@ class LogWriter final : public SampleWriter {
     ensemble.write(observer.step(), record_.data());
     state::EnsembleState state = ensembleStatistics(ensemble, record_.data());
     state.at = observer.instant();
-    state.system = twin_.members()[system].spec.name;
+    state.system = twin_.systems()[system]->spec.name;
     log_.write(state);
   }
 

@@ -18,7 +18,7 @@ void writeMembers(const Twin& twin, const std::vector<std::size_t>& systems,
                                    [&](std::size_t i) { return twin.ensemble(i) != nullptr; });
   const Ensemble& ensemble = *twin.ensemble(*system);
   std::string text = "member";
-  for (const Spread& spread : twin.members()[*system].spec.ensemble.spread) {
+  for (const Spread& spread : twin.systems()[*system]->spec.ensemble.spread) {
     text += "," + spread.path;
   }
   for (const EnsembleQuantity& q : ensemble.quantities()) {

@@ -133,13 +133,13 @@ Eigen::MatrixXcd loadPhasors(const Dynamics& dynamics, const SystemAnalysis& a,
   return phasors;
 }
 
-std::vector<SteadyResponse> steadyResponses(const Twin::Member& member, const SystemAnalysis& a) {
-  const std::vector<double> frequencies = loadFrequencies(member.spec);
+std::vector<SteadyResponse> steadyResponses(const BuiltSystem& system, const SystemAnalysis& a) {
+  const std::vector<double> frequencies = loadFrequencies(system.spec);
   std::vector<SteadyResponse> all;
   if (frequencies.empty() || !a.at_equilibrium || a.speed) {
     return all;
   }
-  const Eigen::MatrixXcd phasors = loadPhasors(*member.dynamics, a, frequencies);
+  const Eigen::MatrixXcd phasors = loadPhasors(*system.dynamics, a, frequencies);
   for (std::size_t k = 0; k < frequencies.size(); ++k) {
     SteadyResponse response;
     response.frequency = frequencies[k];
@@ -161,8 +161,8 @@ std::vector<SteadyResponse> steadyResponses(const Twin::Member& member, const Sy
 
 }  // namespace
 
-MethodAnalysis analyzeMethods(const Twin::Member& member, const SystemAnalysis& a) {
-  const Dynamics& dynamics = *member.dynamics;
+MethodAnalysis analyzeMethods(const BuiltSystem& system, const SystemAnalysis& a) {
+  const Dynamics& dynamics = *system.dynamics;
   MethodAnalysis m;
   const Linearization& l = a.linearization;
   const auto degree = static_cast<int>(a.reduced_stability.polynomial.size()) - 1;
@@ -171,7 +171,7 @@ MethodAnalysis analyzeMethods(const Twin::Member& member, const SystemAnalysis& 
   }
   m.reactions = dynamics.reactions(a.q, a.v, a.acceleration, a.moment);
   m.conditions = validity(dynamics, a.q, a.v, a.moment);
-  m.responses = steadyResponses(member, a);
+  m.responses = steadyResponses(system, a);
   m.virtual_work.resize(a.q.size());
   for (Eigen::Index i = 0; i < a.q.size(); ++i) {
     m.virtual_work[i] = virtualWork(dynamics, a.q, Eigen::VectorXd::Unit(a.q.size(), i), a.moment);

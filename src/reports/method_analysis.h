@@ -47,7 +47,7 @@ struct MethodAnalysis {
 };
 
 /// `analysis` as made by analyze().
-MethodAnalysis analyzeMethods(const Twin::Member& member, const SystemAnalysis& analysis);
+MethodAnalysis analyzeMethods(const BuiltSystem& system, const SystemAnalysis& analysis);
 
 Json json(const MethodAnalysis& methods, const SystemAnalysis& analysis);
 std::string text(const MethodAnalysis& methods, const SystemAnalysis& analysis);

@@ -14,7 +14,7 @@ PlotHistoryWriter::PlotHistoryWriter(const Twin& twin, std::vector<std::size_t> 
       histories_(systems_.size()),
       ensemble_stride_(ensemble_stride) {
   for (std::size_t i = 0; i < systems_.size(); ++i) {
-    const std::size_t n = twin_.members()[systems_[i]].spec.q.size();
+    const std::size_t n = twin_.systems()[systems_[i]]->spec.q.size();
     histories_[i].coordinates.resize(n);
     histories_[i].rates.resize(n);
   }

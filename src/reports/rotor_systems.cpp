@@ -31,25 +31,26 @@ double speedOption(const char* option, double speed) {
 
 }  // namespace
 
-std::vector<RotorSystem> rotorSystems(const Twin& twin, const std::optional<std::string>& name) {
+std::vector<RotorSystem> rotorSystems(const BuiltScene& scene,
+                                      const std::optional<std::string>& name) {
   std::vector<RotorSystem> rotors;
   std::vector<std::string> others;
-  for (const std::size_t i : selectedSystems(twin.scene(), name)) {
-    const Twin::Member& member = twin.members()[i];
-    const Dynamics& dynamics = *member.dynamics;
+  for (const std::size_t i : selectedSystems(scene.scene, name)) {
+    const BuiltSystem& system = *scene.systems[i];
+    const Dynamics& dynamics = *system.dynamics;
     if (!isLinearRotor(dynamics)) {
-      others.push_back(fmt::format("{} ({})", member.spec.name, member.spec.model));
+      others.push_back(fmt::format("{} ({})", system.spec.name, system.spec.model));
       continue;
     }
-    const auto [low, high] = twin.drive(member.drive).speedRange();
-    rotors.push_back({member.spec.name, member.spec.model, &dynamics, dynamics.linearRotor(),
+    const auto [low, high] = scene.driveOf(system).speedRange();
+    rotors.push_back({system.spec.name, system.spec.model, &dynamics, dynamics.linearRotor(),
                       dynamics.stations(), std::max(0.0, low),
                       std::max(std::fabs(low), std::fabs(high))});
   }
   if (rotors.empty()) {
     throw Refusal(
         fmt::format("{}: expected a linear rotor on a shaft of prescribed speed, found {}",
-                    name ? "--system" : twin.scene().source, fmt::join(others, ", ")));
+                    name ? "--system" : scene.scene.source, fmt::join(others, ", ")));
   }
   return rotors;
 }

@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "mechanics/linear_rotor.h"
-#include "twin/twin.h"
+#include "scene/built_scene.h"
 
 namespace whirl_twin {
 
 struct RotorSystem {
   std::string name, model;
-  const Dynamics* dynamics = nullptr;  ///< the twin's
+  const Dynamics* dynamics = nullptr;  ///< the scene's
   LinearRotor rotor;
   std::vector<Station> stations;
   double lowest_speed = 0.0, highest_speed = 0.0;  ///< [rad/s], that its drive runs through
@@ -22,7 +22,8 @@ struct RotorSystem {
 };
 
 /// The linear rotors of a scene, or the one of that name. Throws Refusal where there is none.
-std::vector<RotorSystem> rotorSystems(const Twin& twin, const std::optional<std::string>& name);
+std::vector<RotorSystem> rotorSystems(const BuiltScene& scene,
+                                      const std::optional<std::string>& name);
 
 struct SpeedRange {
   double from = 0.0, to = 0.0;  ///< [rad/s]

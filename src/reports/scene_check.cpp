@@ -16,19 +16,19 @@ constexpr double kWholeBudget = 0.02;   // s, to measure the scene
 constexpr double kSystemBudget = 0.01;  // s, to measure one system,
 constexpr double kSystemsBudget = 0.5;  // and all of them one by one
 
-SystemCheck checkSystem(const Twin::Member& member) {
+SystemCheck checkSystem(const BuiltSystem& system) {
   SystemCheck check;
-  const std::string& name = member.spec.name;
+  const std::string& name = system.spec.name;
   check.name = name;
-  check.model = member.model;
-  check.coordinates = member.dynamics->coordinates();
-  check.note = member.setup.note;
-  check.integrator = member.integrator;
-  check.reason = member.integrator_reason.empty() ? "named in the scene" : member.integrator_reason;
-  check.substeps = member.spec.substeps;
-  check.drive = member.spec.drive;
-  check.speed = member.spec.speed;
-  const bool rotor = member.dynamics->isRotor();
+  check.model = system.model;
+  check.coordinates = system.dynamics->coordinates();
+  check.note = system.setup().note;
+  check.integrator = system.integrator;
+  check.reason = system.integrator_reason.empty() ? "named in the scene" : system.integrator_reason;
+  check.substeps = system.spec.substeps;
+  check.drive = system.spec.drive;
+  check.speed = system.spec.speed;
+  const bool rotor = system.dynamics->isRotor();
   check.topics = {rotor ? PublishedTopic{"/twin/" + name + "/whirl", "whirl_twin/WhirlState"}
                         : PublishedTopic{"/twin/" + name + "/pendulum", "whirl_twin/PendulumState"},
                   {"/twin/" + name + "/joint_states", "sensor_msgs/JointState"},
@@ -37,7 +37,7 @@ SystemCheck checkSystem(const Twin::Member& member) {
   check.channels = {channelName(rotor ? ChannelKind::kWhirl : ChannelKind::kPendulum, name),
                     channelName(ChannelKind::kStability, name),
                     channelName(ChannelKind::kParameter, name)};
-  if (member.spec.ensemble.count > 0) {
+  if (system.spec.ensemble.count > 0) {
     check.topics.push_back({"/twin/" + name + "/ensemble", "whirl_twin/EnsembleState"});
     check.channels.push_back(channelName(ChannelKind::kEnsemble, name));
   }
@@ -70,11 +70,11 @@ SceneCheck checkScene(const Scene& scene, const std::vector<std::size_t>& system
     check.scene.systems.push_back(scene.systems[i]);
   }
   check.scene = withStepsChosen(check.scene);
-  const Twin twin(check.scene);
+  const BuiltScene built = build(check.scene);
   const double budget =
-      std::min(kSystemBudget, kSystemsBudget / static_cast<double>(twin.members().size()));
-  for (std::size_t i = 0; i < twin.members().size(); ++i) {
-    check.systems.push_back(checkSystem(twin.members()[i]));
+      std::min(kSystemBudget, kSystemsBudget / static_cast<double>(built.systems.size()));
+  for (std::size_t i = 0; i < built.systems.size(); ++i) {
+    check.systems.push_back(checkSystem(*built.systems[i]));
     SystemCheck& system = check.systems.back();
     const RunningCost cost = runningCost(sceneOfOne(check.scene, i), budget);
     system.step_cost = cost.step;
@@ -89,7 +89,7 @@ SceneCheck checkScene(const Scene& scene, const std::vector<std::size_t>& system
     check.step_cost = cost.step;
     check.memory = cost.memory;
   }
-  check.record = twin.layout().size * sizeof(double);
+  check.record = layoutOf(built).size * sizeof(double);
   return check;
 }
 

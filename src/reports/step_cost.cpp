@@ -27,7 +27,7 @@ double timed(Twin& twin, std::int64_t steps) {
     twin.step();
   }
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-  for (std::size_t i = 0; i < twin.members().size(); ++i) {
+  for (std::size_t i = 0; i < twin.systems().size(); ++i) {
     if (twin.status(i) != StepStatus::kOk) {
       return std::numeric_limits<double>::quiet_NaN();
     }
@@ -50,7 +50,7 @@ RunningCost runningCost(const Scene& scene, double budget) {
   Twin twin(scene);
   twin.buildEnsembles();
   cost.memory = heap() - before;
-  for (std::size_t i = 0; i < twin.members().size(); ++i) {
+  for (std::size_t i = 0; i < twin.systems().size(); ++i) {
     const Ensemble* const ensemble = twin.ensemble(i);
     cost.ensembles.push_back(ensemble == nullptr ? ""
                                                  : fmt::format("{} members, {}", ensemble->count(),

@@ -32,21 +32,20 @@ void linearize(const Dynamics& dynamics, double speed, SystemAnalysis& a) {
   }
 }
 
-SystemAnalysis analyzeMember(const Twin& twin, const Twin::Member& member) {
-  const Dynamics& dynamics = *member.dynamics;
-  const Drive& drive = twin.drive(member.drive);
-  const ShaftMotion shaft = drive.at(0.0);
+SystemAnalysis analyzeSystem(const BuiltScene& scene, const BuiltSystem& system) {
+  const Dynamics& dynamics = *system.dynamics;
+  const ShaftMotion shaft = scene.driveOf(system).at(0.0);
   SystemAnalysis a;
-  a.name = member.spec.name;
-  a.model = member.model;
+  a.name = system.spec.name;
+  a.model = system.model;
   a.dynamics = &dynamics;
   a.coordinates = dynamics.coordinates();
-  a.moment = {twin.time(), shaft.angle, shaft.speed, shaft.acceleration};
-  if (member.model->has_shaft) {
+  a.moment = {scene.startSeconds(), shaft.angle, shaft.speed, shaft.acceleration};
+  if (system.model->has_shaft) {
     a.speed = shaft.speed;
   }
-  a.q = vector(member.spec.q);
-  a.v = vector(member.spec.v);
+  a.q = vector(system.spec.q);
+  a.v = vector(system.spec.v);
   a.acceleration = dynamics.acceleration(a.q, a.v, a.moment);
   a.energies = dynamics.energies(a.q, a.v, a.moment);
   a.momenta = dynamics.momenta(a.q, a.v, a.moment);
@@ -71,14 +70,14 @@ SystemAnalysis analyzeMember(const Twin& twin, const Twin::Member& member) {
 
 }  // namespace
 
-SystemAnalysis analyze(const Twin& twin, std::size_t system) {
-  const Twin::Member& member = twin.members()[system];
+SystemAnalysis analyze(const BuiltScene& scene, std::size_t place) {
+  const BuiltSystem& system = *scene.systems[place];
   try {
-    return analyzeMember(twin, member);
+    return analyzeSystem(scene, system);
   } catch (const std::exception& error) {  // an overflow: exact numbers refuse infinities
     throw RunFailure(
         fmt::format("{}: cannot be analysed, a number is beyond the range of a double: {}",
-                    member.spec.name, error.what()));
+                    system.spec.name, error.what()));
   }
 }
 

@@ -12,14 +12,14 @@
 #include "mechanics/dynamics.h"
 #include "messages/stability_margin.h"
 #include "reports/output.h"
-#include "twin/twin.h"
+#include "scene/built_scene.h"
 
 namespace whirl_twin {
 
 struct SystemAnalysis {
   std::string name;
   const ModelInfo* model = nullptr;
-  const Dynamics* dynamics = nullptr;  ///< the twin's
+  const Dynamics* dynamics = nullptr;  ///< the scene's
   std::vector<CoordinateInfo> coordinates;
   Moment<double> moment;                ///< the scene's start
   std::optional<double> speed;          ///< [rad/s], of the shaft at the start
@@ -41,7 +41,7 @@ struct SystemAnalysis {
 };
 
 /// Throws RunFailure where the numbers of the scene are too large to be analysed.
-SystemAnalysis analyze(const Twin& twin, std::size_t system);
+SystemAnalysis analyze(const BuiltScene& scene, std::size_t system);
 
 Json json(const SystemAnalysis& analysis);
 std::string text(const SystemAnalysis& analysis);

@@ -44,14 +44,14 @@ Chart historyChart(const PlotHistory& history, const std::string& name, const st
 }
 
 /// A chart for each coordinate; those of one unit share one if its axis can show them all.
-std::vector<Chart> coordinateCharts(const Twin::Member& member, const PlotHistory& history) {
+std::vector<Chart> coordinateCharts(const BuiltSystem& system, const PlotHistory& history) {
   struct Panel {
     std::string unit;
     double spread;
     Chart chart;
   };
   std::vector<Panel> panels;
-  const std::vector<CoordinateInfo> coordinates = member.dynamics->coordinates();
+  const std::vector<CoordinateInfo> coordinates = system.dynamics->coordinates();
   for (std::size_t k = 0; k < coordinates.size(); ++k) {
     const auto& [name, unit] = coordinates[k];
     const double range = spread(history.coordinates[k]);
@@ -93,16 +93,16 @@ std::vector<double> phaseLag(const PlotHistory& history) {
   return lag;
 }
 
-Figure timeFigure(const Twin::Member& member, const PlotHistory& history) {
+Figure timeFigure(const BuiltSystem& system, const PlotHistory& history) {
   Figure figure;
-  if (member.dynamics->isRotor()) {
+  if (system.dynamics->isRotor()) {
     figure.charts = {historyChart(history, "whirl radius", "m", history.whirl_radius),
                      historyChart(history, "whirl phase lag", "rad", phaseLag(history))};
     figure.charts[1].horizontal = {{0.5 * kPi, "90\u00b0"}, {kPi, "180\u00b0"}};
   } else {
-    figure.charts = coordinateCharts(member, history);
+    figure.charts = coordinateCharts(system, history);
   }
-  if (member.dynamics->hasShaft() && (member.dynamics->isRotor() || spread(history.speed) > 0.0)) {
+  if (system.dynamics->hasShaft() && (system.dynamics->isRotor() || spread(history.speed) > 0.0)) {
     figure.charts.push_back(historyChart(history, "shaft speed", "rad/s", history.speed));
   }
   for (std::size_t i = 0; i + 1 < figure.charts.size(); ++i) {
@@ -163,12 +163,12 @@ Figure orbitFigure(const PlotHistory& history) {
   return figure;
 }
 
-Figure phaseFigure(const Twin::Member& member, const PlotHistory& history) {
-  if (member.dynamics->isRotor()) {
+Figure phaseFigure(const BuiltSystem& system, const PlotHistory& history) {
+  if (system.dynamics->isRotor()) {
     return orbitFigure(history);
   }
   Figure figure;
-  const std::vector<CoordinateInfo> coordinates = member.dynamics->coordinates();
+  const std::vector<CoordinateInfo> coordinates = system.dynamics->coordinates();
   for (std::size_t k = 0; k < coordinates.size(); ++k) {
     const auto& [name, unit] = coordinates[k];
     Chart chart;
@@ -197,20 +197,20 @@ Figure energyFigure(const PlotHistory& history) {
 
 }  // namespace
 
-std::vector<SystemPlot> systemPlots(const Twin::Member& member, const Ensemble* ensemble,
+std::vector<SystemPlot> systemPlots(const BuiltSystem& system, const Ensemble* ensemble,
                                     const PlotHistory& history, ImageFormat format) {
-  const std::string system = fmt::format("{} ({})", member.spec.name, member.spec.model);
+  const std::string title = fmt::format("{} ({})", system.spec.name, system.spec.model);
   std::vector<SystemPlot> plots;
-  if (const auto picture = motionPicture(system, *member.dynamics, history)) {
+  if (const auto picture = motionPicture(title, *system.dynamics, history)) {
     plots.push_back({"picture", sketchImage(*picture, format)});
   }
   const auto add = [&](const std::string& kind, const std::string& what, Figure figure) {
-    figure.title = fmt::format("{}: {}", system, what);
+    figure.title = fmt::format("{}: {}", title, what);
     plots.push_back({kind, figureImage(figure, format)});
   };
-  add("time", "time history", timeFigure(member, history));
-  add("phase", member.dynamics->isRotor() ? "orbit" : "phase portrait",
-      phaseFigure(member, history));
+  add("time", "time history", timeFigure(system, history));
+  add("phase", system.dynamics->isRotor() ? "orbit" : "phase portrait",
+      phaseFigure(system, history));
   add("energy", "energies", energyFigure(history));
   if (ensemble != nullptr) {
     add("ensemble", fmt::format("{} members", ensemble->count()),

@@ -17,7 +17,7 @@ struct SystemPlot {
 
 /// Its picture (where it has one), time history, phase portrait (of a rotor: orbit) and energies,
 /// and its ensemble, at the end of the run, unless that is null. Throws std::runtime_error.
-std::vector<SystemPlot> systemPlots(const Twin::Member& member, const Ensemble* ensemble,
+std::vector<SystemPlot> systemPlots(const BuiltSystem& system, const Ensemble* ensemble,
                                     const PlotHistory& history, ImageFormat format);
 
 }  // namespace whirl_twin

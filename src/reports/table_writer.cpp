@@ -45,7 +45,7 @@ class TableWriter final : public SampleWriter {
     append(twin_.seconds(observer.step()));
     for (const std::size_t i : systems_) {
       const bool running = observer.status(i) == StepStatus::kOk;
-      const std::size_t n = twin_.members()[i].spec.q.size();
+      const std::size_t n = twin_.systems()[i]->spec.q.size();
       for (std::size_t k = 0; k < n; ++k) {
         append(running ? observer.coordinates(i)[k] : kNaN);
       }
@@ -77,14 +77,14 @@ class TableWriter final : public SampleWriter {
   std::string header() const {
     std::string text = "time";
     for (const std::size_t i : systems_) {
-      const Twin::Member& member = twin_.members()[i];
+      const BuiltSystem& system = *twin_.systems()[i];
       for (const char* suffix : {"", "_rate"}) {
-        for (const CoordinateInfo& c : member.dynamics->coordinates()) {
-          text += fmt::format(",{}.{}{}", member.spec.name, c.name, suffix);
+        for (const CoordinateInfo& c : system.dynamics->coordinates()) {
+          text += fmt::format(",{}.{}{}", system.spec.name, c.name, suffix);
         }
       }
-      if (member.dynamics->isRotor()) {
-        text += fmt::format(",{0}.whirl_radius,{0}.whirl_phase", member.spec.name);
+      if (system.dynamics->isRotor()) {
+        text += fmt::format(",{0}.whirl_radius,{0}.whirl_phase", system.spec.name);
       }
     }
     return text + "\n";

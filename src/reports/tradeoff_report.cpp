@@ -13,6 +13,7 @@
 #include "models/model_registry.h"
 #include "reports/step_timing.h"
 #include "scene/surroundings.h"
+#include "scene/system_setup.h"
 
 namespace whirl_twin {
 
@@ -28,9 +29,8 @@ constexpr double kPatience = 1.5;     // s, for one run
 
 /// The methods that suit the system, from the lowest order to the exact one.
 std::vector<StepMethod> methodsOf(const Scene& one) {
-  const SystemSpec& spec = one.systems.front();
-  const ModelSetup setup =
-      findModel(spec.model)->setUp(spec.parameters, spec.settings, surroundingsOf(one, spec));
+  SystemSpec spec = one.systems.front();
+  const ModelSetup& setup = setupOf(spec, surroundingsOf(one, spec)).made;
   std::vector<StepMethod> suited;
   for (const StepMethod& method : stepMethods()) {
     if (canStepWith(setup, spec.drive.has_value(), method.name)) {

@@ -7,7 +7,6 @@
 #include <boost/random/uniform_real_distribution.hpp>
 #include <cmath>
 #include <random>
-#include <stdexcept>
 
 #include "scene/node_reader.h"
 #include "scene/parameter_paths.h"
@@ -40,11 +39,9 @@ bool draw(const Spread& spread, const ModelInfo& model, std::mt19937_64& random,
     value = start[spread.coordinate] += away;
     return std::isfinite(value);
   }
-  const state::ParameterChange all = parametersOf(model, member);
-  const auto found = std::find(all.names.begin(), all.names.end(), spread.path);
-  value = all.values.at(static_cast<std::size_t>(found - all.names.begin())) + away;
+  value = parameterAt(spread.path, model, member).value() + away;
   Complaints complaints("");
-  return setParameter(spread.path, value, model, member, complaints).has_value();
+  return setParameter(spread.path, value, model, member, complaints);
 }
 
 }  // namespace
@@ -59,8 +56,8 @@ DrawnMember drawnMember(const SystemSpec& spec, const ModelInfo& model, std::siz
     int draws = 1;
     while (!draw(spread, model, random, member.spec, value)) {
       if (++draws > kMostDraws) {
-        throw std::invalid_argument(fmt::format("{}: not one of {} draws is in the number's range",
-                                                spread.path, kMostDraws));
+        throw Refusal(fmt::format("{}: not one of {} draws is in the number's range", spread.path,
+                                  kMostDraws));
       }
     }
     member.values.push_back(value);
@@ -78,7 +75,7 @@ DrawnMember drawnMember(const SystemSpec& spec, const ModelInfo& model, std::siz
 std::string spreadObjection(const SystemSpec& spec, const ModelInfo& model) {
   try {
     static_cast<void>(drawnMember(spec, model, 0));
-  } catch (const std::invalid_argument& error) {
+  } catch (const Refusal& error) {
     return error.what();
   }
   return "";

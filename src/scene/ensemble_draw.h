@@ -18,7 +18,7 @@ struct DrawnMember {
 
 /// Member `index` of the ensemble of `spec`. A value outside its parameter's range is drawn again;
 /// a parameter that by default is another's (stiffness_y), and has that one's value in the scene,
-/// goes with it. Throws std::invalid_argument where hardly a draw is in range.
+/// goes with it. Throws Refusal where hardly a draw is in range.
 DrawnMember drawnMember(const SystemSpec& spec, const ModelInfo& model, std::size_t index);
 
 /// Why an ensemble cannot be drawn; "" if it can.

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "messages/names.h"
-#include "models/model_info.h"
+#include "scene/number_range.h"
 
 namespace whirl_twin {
 
@@ -59,11 +59,9 @@ MapReader::MapReader(const YAML::Node& node, std::string key, const std::vector<
       complaints_.add(this->key(name), "stands twice");
       continue;
     }
-    if (!known.empty() && std::find(known.begin(), known.end(), name) == known.end()) {
-      const std::string near = nearestName(name, known);
-      complaints_.add(this->key(name),
-                      fmt::format("unknown {}{}", kind,
-                                  near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+    const std::string unknown = known.empty() ? "" : objectionToName(name, known, kind);
+    if (!unknown.empty()) {
+      complaints_.add(this->key(name), unknown);
       continue;
     }
     place_.emplace(name, entries_.size());
@@ -114,26 +112,8 @@ double MapReader::checkedNumber(const std::string& name, const std::string& expe
 
 double MapReader::number(const std::string& name, Range range, const std::string& unit,
                          std::optional<double> fallback) const {
-  const std::string with_unit = unit == "-" ? "" : " " + unit;
-  const std::string expected =
-      range == Range::kAny ? fmt::format("a finite number{}", unit == "-" ? "" : " in " + unit)
-                           : describe(range) + with_unit;
   return checkedNumber(
-      name, expected,
-      [range](double x) {
-        switch (range) {
-          case Range::kPositive:
-            return x > 0.0;
-          case Range::kNotNegative:
-            return x >= 0.0;
-          case Range::kCount:
-            return x >= 1.0 && x <= 1.0e6 && x == std::floor(x);
-          case Range::kAny:
-            break;
-        }
-        return true;
-      },
-      fallback);
+      name, expected(range, unit), [range](double x) { return inRange(range, x); }, fallback);
 }
 
 double MapReader::numberBetween(const std::string& name, double low, double high,

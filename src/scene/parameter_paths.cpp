@@ -4,16 +4,16 @@
 
 #include <algorithm>
 #include <charconv>
-#include <optional>
-#include <utility>
+#include <type_traits>
+
+#include "scene/number_range.h"
 
 namespace whirl_twin {
 
 namespace {
 
-/// Spec is SystemSpec, const or not.
-template <class Spec, class Visit>
-void eachNumber(const ModelInfo& model, Spec& spec, const Visit& visit) {
+template <class Visit>
+void eachNumber(const ModelInfo& model, const SystemSpec& spec, const Visit& visit) {
   for (const ParameterInfo& p : model.parameters) {
     visit(p.name, spec.parameters.at(p.name));
   }
@@ -66,35 +66,29 @@ std::optional<Path> parsed(const std::string& text) {
   return at == text.size() ? std::optional<Path>(path) : std::nullopt;
 }
 
-/// Asks a scene's questions of one number: is there such a name, and is it in range?
-bool fits(const std::string& key, const std::string& name, double value,
-          const std::vector<std::string>& known, const std::string& kind, Range range,
-          const std::string& unit, Complaints& complaints) {
-  const std::size_t before = complaints.all().size();
-  YAML::Node map(YAML::NodeType::Map);
-  map[name] = fmt::format("{}", value);
-  const MapReader reader(map, key, known, kind, complaints);
-  if (reader.has(name)) {
-    static_cast<void>(reader.number(name, range, unit, std::nullopt));
-  }
-  return complaints.all().size() == before;
-}
+/// Where the number of a path stands, or why there is none.
+template <class Number>
+struct Place {
+  Number* number = nullptr;
+  Range range = Range::kAny;
+  std::string unit = "-";
+  std::string path;  ///< as complaints have it
+  std::string objection;
+};
 
-class Assignment {
+/// Spec is SystemSpec, const or not.
+template <class Spec>
+class Search {
  public:
-  Assignment(const std::string& text, double value, const ModelInfo& model, SystemSpec& spec,
-             Complaints& complaints)
-      : text_(text),
-        value_(value),
-        model_(model),
-        spec_(spec),
-        complaints_(complaints),
-        key_("systems." + spec.name + ".parameters") {}
+  using Number = std::conditional_t<std::is_const_v<Spec>, const double, double>;
 
-  std::optional<double> done() {
+  Search(const std::string& text, const ModelInfo& model, Spec& spec)
+      : text_(text), model_(model), spec_(spec) {}
+
+  Place<Number> found() const {
     const std::optional<Path> path = parsed(text_);
     if (!path) {
-      return refused(text_, "must be a name such as damping, bearings[0].kxx or stiffness[0][1]");
+      return none(text_, "must be a name such as damping, bearings[0].kxx or stiffness[0][1]");
     }
     const auto setting =
         std::find_if(model_.settings.begin(), model_.settings.end(),
@@ -103,110 +97,96 @@ class Assignment {
   }
 
  private:
-  std::optional<double> refused(const std::string& path, const std::string& why) {
-    complaints_.add(key_ + "." + path, why);
-    return std::nullopt;
+  static Place<Number> none(const std::string& path, const std::string& why) {
+    return {nullptr, Range::kAny, "-", path, why};
   }
-  std::optional<double> set(double& number) { return std::exchange(number, value_); }
 
-  std::optional<double> ofParameter(const Path& path) {
+  Place<Number> ofParameter(const Path& path) const {
     if (path.name == "speed" && model_.has_shaft) {
-      return refused("speed",
-                     "belongs to the shaft: turn it by a drive of the scene, whose speed "
-                     "set_speed changes");
-    }
-    std::vector<std::string> known;
-    for (const ParameterInfo& p : model_.parameters) {
-      known.push_back(p.name);
-    }
-    for (const SettingInfo& s : model_.settings) {
-      known.push_back(s.name);
+      return none("speed",
+                  "belongs to the shaft: turn it by a drive of the scene, whose speed set_speed "
+                  "changes");
     }
     const auto parameter =
         std::find_if(model_.parameters.begin(), model_.parameters.end(),
                      [&](const ParameterInfo& p) { return p.name == path.name; });
-    const bool found = parameter != model_.parameters.end();
-    if (!fits(key_, path.name, value_, known, "parameter of " + model_.name,
-              found ? parameter->range : Range::kAny, found ? parameter->unit : "-", complaints_) ||
-        !found) {
-      return std::nullopt;
+    if (parameter == model_.parameters.end()) {
+      std::vector<std::string> known;
+      for (const ParameterInfo& p : model_.parameters) {
+        known.push_back(p.name);
+      }
+      for (const SettingInfo& s : model_.settings) {
+        known.push_back(s.name);
+      }
+      return none(path.name, objectionToName(path.name, known, "parameter of " + model_.name));
     }
     if (!path.indices.empty() || !path.column.empty()) {
-      return refused(text_, "is one number: leave out what follows the name");
+      return none(text_, "is one number: leave out what follows the name");
     }
-    return set(spec_.parameters.at(path.name));
+    return {&spec_.parameters.at(path.name), parameter->range, parameter->unit, text_, ""};
   }
 
-  std::optional<double> ofSetting(const Path& path, const SettingInfo& setting) {
+  Place<Number> ofSetting(const Path& path, const SettingInfo& setting) const {
     if (setting.kind == SettingKind::kTable) {
       return ofTable(path, setting);
     }
     if (setting.kind == SettingKind::kMatrix) {
       return ofMatrix(path);
     }
-    return refused(text_, "is not a number: only numbers can be changed while the twin runs");
+    return none(text_, "is not a number: only numbers can be changed while the twin runs");
   }
 
-  std::optional<double> ofTable(const Path& path, const SettingInfo& setting) {
+  Place<Number> ofTable(const Path& path, const SettingInfo& setting) const {
     const auto table = spec_.settings.tables.find(path.name);
     if (table == spec_.settings.tables.end()) {
-      return refused(text_, "the scene gives no " + path.name);
+      return none(text_, "the scene gives no " + path.name);
     }
     if (path.indices.size() != 1 || path.column.empty()) {
-      return refused(text_, fmt::format("must be {}[row].{}", path.name,
-                                        setting.columns.empty() ? "key" : setting.columns[0].name));
+      return none(text_, fmt::format("must be {}[row].{}", path.name,
+                                     setting.columns.empty() ? "key" : setting.columns[0].name));
     }
     if (path.indices[0] >= table->second.size()) {
-      return refused(text_, fmt::format("there are {} rows, counted from 0", table->second.size()));
-    }
-    std::vector<std::string> known;
-    for (const ColumnInfo& c : setting.columns) {
-      known.push_back(c.name);
+      return none(text_, fmt::format("there are {} rows, counted from 0", table->second.size()));
     }
     const auto column = std::find_if(setting.columns.begin(), setting.columns.end(),
                                      [&](const ColumnInfo& c) { return c.name == path.column; });
-    const bool found = column != setting.columns.end();
-    if (!fits(fmt::format("{}.{}[{}]", key_, path.name, path.indices[0]), path.column, value_,
-              known, "number of " + path.name, found ? column->range : Range::kAny,
-              found ? column->unit : "-", complaints_) ||
-        !found) {
-      return std::nullopt;
+    if (column == setting.columns.end()) {
+      std::vector<std::string> known;
+      for (const ColumnInfo& c : setting.columns) {
+        known.push_back(c.name);
+      }
+      return none(text_, objectionToName(path.column, known, "number of " + path.name));
     }
-    return set(table->second[path.indices[0]].numbers.at(path.column));
+    return {&table->second[path.indices[0]].numbers.at(path.column), column->range, column->unit,
+            text_, ""};
   }
 
-  std::optional<double> ofMatrix(const Path& path) {
+  Place<Number> ofMatrix(const Path& path) const {
     const auto matrix = spec_.settings.matrices.find(path.name);
     if (matrix == spec_.settings.matrices.end()) {
-      return refused(text_, "the scene gives no " + path.name);
+      return none(text_, "the scene gives no " + path.name);
     }
-    Eigen::MatrixXd& m = matrix->second;
+    auto& m = matrix->second;
     if (path.indices.size() != 2 || !path.column.empty()) {
-      return refused(text_, fmt::format("must be {}[row][column]", path.name));
+      return none(text_, fmt::format("must be {}[row][column]", path.name));
     }
     if (m.size() > kMostMatrixEntries) {
-      return refused(text_, fmt::format("a matrix of up to {} entries can be changed while the "
-                                        "twin runs, this one has {}",
-                                        kMostMatrixEntries, m.size()));
+      return none(text_, fmt::format("a matrix of up to {} entries can be changed while the twin "
+                                     "runs, this one has {}",
+                                     kMostMatrixEntries, m.size()));
     }
     const auto row = static_cast<Eigen::Index>(path.indices[0]);
     const auto column = static_cast<Eigen::Index>(path.indices[1]);
     if (row >= m.rows() || column >= m.cols()) {
-      return refused(text_, fmt::format("there are {} rows and {} columns, counted from 0",
-                                        m.rows(), m.cols()));
+      return none(text_, fmt::format("there are {} rows and {} columns, counted from 0", m.rows(),
+                                     m.cols()));
     }
-    if (!fits(key_, text_, value_, {text_}, "", Range::kAny, "-", complaints_)) {
-      return std::nullopt;
-    }
-    return set(m(row, column));
+    return {&m(row, column), Range::kAny, "-", text_, ""};
   }
 
   const std::string& text_;
-  double value_;
   const ModelInfo& model_;
-  SystemSpec& spec_;
-  Complaints& complaints_;
-  std::string key_;
+  Spec& spec_;
 };
 
 }  // namespace
@@ -221,18 +201,22 @@ state::ParameterChange parametersOf(const ModelInfo& model, const SystemSpec& sp
   return set;
 }
 
-std::optional<double> setParameter(const std::string& path, double value, const ModelInfo& model,
-                                   SystemSpec& spec, Complaints& complaints) {
-  return Assignment(path, value, model, spec, complaints).done();
+std::optional<double> parameterAt(const std::string& path, const ModelInfo& model,
+                                  const SystemSpec& spec) {
+  const double* const number = Search(path, model, spec).found().number;
+  return number == nullptr ? std::nullopt : std::optional(*number);
 }
 
-bool takeParameters(const state::ParameterChange& from, const ModelInfo& model, SystemSpec& spec) {
-  if (from.system != spec.name || from.names != parametersOf(model, spec).names ||
-      from.values.size() != from.names.size()) {
+bool setParameter(const std::string& path, double value, const ModelInfo& model, SystemSpec& spec,
+                  Complaints& complaints) {
+  const Place<double> place = Search(path, model, spec).found();
+  const std::string why =
+      place.number == nullptr ? place.objection : objection(place.range, place.unit, value);
+  if (!why.empty()) {
+    complaints.add(fmt::format("systems.{}.parameters.{}", spec.name, place.path), why);
     return false;
   }
-  std::size_t i = 0;
-  eachNumber(model, spec, [&](const std::string&, double& value) { value = from.values[i++]; });
+  *place.number = value;
   return true;
 }
 

@@ -20,14 +20,13 @@ inline constexpr int kMostMatrixEntries = 400;
 /// All of them with their values, in the order of the model; nothing `changed`.
 state::ParameterChange parametersOf(const ModelInfo& model, const SystemSpec& spec);
 
-/// Sets a number, and returns what it was. Complains in the words of a scene file under the key
-/// systems.NAME.parameters, and changes nothing, if there is none of that path or it is out of
-/// range.
-std::optional<double> setParameter(const std::string& path, double value, const ModelInfo& model,
-                                   SystemSpec& spec, Complaints& complaints);
+/// The number at a path; nothing if there is none.
+std::optional<double> parameterAt(const std::string& path, const ModelInfo& model,
+                                  const SystemSpec& spec);
 
-/// Takes over a complete set as parametersOf() gives it; false, with nothing changed, if it is of
-/// another system.
-bool takeParameters(const state::ParameterChange& from, const ModelInfo& model, SystemSpec& spec);
+/// Sets a number. Complains in the words of a scene file under the key systems.NAME.parameters, and
+/// changes nothing, if there is none of that path or it is out of range: false.
+bool setParameter(const std::string& path, double value, const ModelInfo& model, SystemSpec& spec,
+                  Complaints& complaints);
 
 }  // namespace whirl_twin

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,8 @@
 #include "models/settings.h"
 
 namespace whirl_twin {
+
+struct SystemSetup;
 
 /// A shaft that turns, shared by the systems that name it.
 struct DriveSpec {
@@ -60,6 +63,8 @@ struct SystemSpec {
   std::vector<double> q;                     ///< initial coordinates, [rad] or [m]
   std::vector<double> v;                     ///< initial rates, [rad/s] or [m/s]
   EnsembleSpec ensemble;
+  /// What reading set up of the above, for build() to take over (system_setup.h).
+  std::shared_ptr<const SystemSetup> setup = nullptr;
 };
 
 struct Scene {

@@ -19,6 +19,7 @@
 #include "scene/parameter_reader.h"
 #include "scene/shaft_reader.h"
 #include "scene/surroundings.h"
+#include "scene/system_setup.h"
 
 namespace whirl_twin {
 
@@ -136,8 +137,8 @@ SystemSpec readSystem(const YAML::Node& node, const std::string& key, const std:
   const bool fit = complaints.all().size() == before;
   readShaft(map, *model, scene, places, spec, complaints);
   try {
-    const ModelSetup setup =
-        model->setUp(spec.parameters, spec.settings, surroundingsOf(scene, spec));
+    spec.setup = setUp(*model, spec, surroundingsOf(scene, spec));
+    const ModelSetup& setup = spec.setup->made;
     readInitial(map, scene, *setup.dynamics, spec, complaints);
     readIntegrator(map, setup, spec, complaints);
     readEnsemble(map, *model, setup.dynamics->coordinates(), spec, complaints);

@@ -36,13 +36,13 @@ struct Request {
 int analyzeScene(const Request& request) {
   const Scene scene = readSceneFile(scenePath(request.scene));
   const auto systems = selectedSystems(scene, request.system);
-  const Twin twin(scene);
+  const BuiltScene built = build(scene);
   Json all;
   all["scene"] = scene.name;
   std::string report;
   for (const std::size_t i : systems) {
-    const SystemAnalysis analysis = analyze(twin, i);
-    const MethodAnalysis methods = analyzeMethods(twin.members()[i], analysis);
+    const SystemAnalysis analysis = analyze(built, i);
+    const MethodAnalysis methods = analyzeMethods(*built.systems[i], analysis);
     all["systems"][analysis.name] = json(analysis);
     all["systems"][analysis.name]["methods"] = json(methods, analysis);
     report += (report.empty() ? "" : "\n") + text(analysis) + text(methods, analysis);

@@ -52,10 +52,10 @@ void requireNumbers(const Request& request) {
 int campbellOf(const Request& request) {
   requirePictureName(request.plot);
   requireNumbers(request);
-  const Twin twin(readSceneFile(scenePath(request.scene)));
-  const auto systems = rotorSystems(twin, request.system);
+  const BuiltScene scene = build(readSceneFile(scenePath(request.scene)));
+  const auto systems = rotorSystems(scene, request.system);
   Json all;
-  all["scene"] = twin.scene().name;
+  all["scene"] = scene.scene.name;
   std::string report;
   for (const RotorSystem& system : systems) {
     const CampbellReport one = campbellReport(system, request.range.of(system), request.harmonics,

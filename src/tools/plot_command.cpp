@@ -88,10 +88,10 @@ int plot(const PlotRequest& request) {
 
   std::vector<std::unique_ptr<WaitingFile>> files;
   for (std::size_t i = 0; i < plan.systems.size(); ++i) {
-    const Twin::Member& member = simulation.twin().members()[plan.systems[i]];
+    const BuiltSystem& system = *simulation.twin().systems()[plan.systems[i]];
     const Ensemble* const ensemble = simulation.twin().ensemble(plan.systems[i]);
-    for (const SystemPlot& plot : systemPlots(member, ensemble, writer.histories()[i], format)) {
-      const std::string name = fmt::format("{}_{}.{}", member.spec.name, plot.kind, request.format);
+    for (const SystemPlot& plot : systemPlots(system, ensemble, writer.histories()[i], format)) {
+      const std::string name = fmt::format("{}_{}.{}", system.spec.name, plot.kind, request.format);
       files.push_back(std::make_unique<WaitingFile>((folder / name).string(), plot.image));
     }
   }

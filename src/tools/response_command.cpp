@@ -40,10 +40,10 @@ struct Request {
 template <class Report>
 int show(const Request& request, const Report& report) {
   requirePictureName(request.plot);
-  const Twin twin(readSceneFile(scenePath(request.scene)));
-  const auto systems = rotorSystems(twin, request.system);
+  const BuiltScene scene = build(readSceneFile(scenePath(request.scene)));
+  const auto systems = rotorSystems(scene, request.system);
   Json all;
-  all["scene"] = twin.scene().name;
+  all["scene"] = scene.scene.name;
   std::string words;
   for (const RotorSystem& system : systems) {
     const auto one = report(system);

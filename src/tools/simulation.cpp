@@ -9,6 +9,7 @@
 #include "realtime/denormals.h"
 #include "tools/commands.h"
 #include "twin/ensemble_statistics.h"
+#include "twin/stop_text.h"
 
 namespace whirl_twin {
 
@@ -90,21 +91,21 @@ void Simulation::warn(ProgressBar& bar) {
 }
 
 Json Simulation::systemJson(std::size_t system) const {
-  const Twin::Member& member = twin_.members()[system];
+  const BuiltSystem& built = *twin_.systems()[system];
   Json json;
-  json["model"] = member.spec.model;
-  json["integrator"] = member.integrator;
-  json["substeps"] = member.spec.substeps;
+  json["model"] = built.spec.model;
+  json["integrator"] = built.integrator;
+  json["substeps"] = built.spec.substeps;
   json["status"] = stopped_[system] ? describe(twin_.status(system)) : "ok";
   json["steps"] = stopped_[system] ? *stopped_[system] - 1 : observer_.step();
   Json& state = json["state"];
-  const std::vector<CoordinateInfo> coordinates = member.dynamics->coordinates();
-  for (std::size_t k = 0; k < member.spec.q.size(); ++k) {
+  const std::vector<CoordinateInfo> coordinates = built.dynamics->coordinates();
+  for (std::size_t k = 0; k < built.spec.q.size(); ++k) {
     const std::string name = coordinates[k].name;
     state[name] = observer_.coordinates(system)[k];
     state[name + "_rate"] = observer_.rates(system)[k];
   }
-  if (member.dynamics->isRotor()) {
+  if (built.dynamics->isRotor()) {
     json["whirl_radius"] = observer_.whirlRadius(system);
     json["whirl_phase"] = observer_.whirlPhase(system);
   }

@@ -11,6 +11,7 @@
 #include "scene/drive_profile.h"
 #include "scene/scene_reader.h"
 #include "scene/surroundings.h"
+#include "scene/system_setup.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/shipped_scenes.h"
@@ -66,9 +67,7 @@ void overrideIntegrator(const std::string& name, SimulationPlan& plan) {
   std::vector<std::string> objections;
   for (const std::size_t i : plan.systems) {
     SystemSpec& spec = plan.scene.systems[i];
-    const ModelSetup setup =
-        findModel(spec.model)
-            ->setUp(spec.parameters, spec.settings, surroundingsOf(plan.scene, spec));
+    const ModelSetup& setup = setupOf(spec, surroundingsOf(plan.scene, spec)).made;
     const std::string objection = integratorObjection(setup, spec.drive.has_value(), name);
     if (!objection.empty()) {
       objections.push_back(fmt::format("--integrator: {}: {}", spec.name, objection));

@@ -7,7 +7,7 @@ namespace whirl_twin {
 ValidityWatch::ValidityWatch(const Twin& twin, const std::vector<std::size_t>& systems)
     : twin_(twin) {
   for (const std::size_t i : systems) {
-    if (hasConditions(*twin.members()[i].dynamics)) {
+    if (hasConditions(*twin.systems()[i]->dynamics)) {
       watched_.push_back(i);
     }
   }
@@ -19,11 +19,11 @@ std::vector<std::string> ValidityWatch::look(const Observer& observer) {
     if (twin_.status(i) != StepStatus::kOk) {
       continue;
     }
-    const Twin::Member& member = twin_.members()[i];
-    const auto n = static_cast<Eigen::Index>(member.spec.q.size());
+    const BuiltSystem& system = *twin_.systems()[i];
+    const auto n = static_cast<Eigen::Index>(system.spec.q.size());
     const Moment<double> at = observer.moment(i);
     for (const Condition& c :
-         validity(*member.dynamics, Eigen::Map<const Eigen::VectorXd>(observer.coordinates(i), n),
+         validity(*system.dynamics, Eigen::Map<const Eigen::VectorXd>(observer.coordinates(i), n),
                   Eigen::Map<const Eigen::VectorXd>(observer.rates(i), n), at)) {
       if (c.margin > 0.0) {
         continue;
@@ -32,7 +32,7 @@ std::vector<std::string> ValidityWatch::look(const Observer& observer) {
       if (first) {
         warnings.push_back(
             fmt::format("{}: warning: from t = {:.9g} s its equations do not hold: {}",
-                        member.spec.name, at.time, brokenText({c}, Margins::kShown)));
+                        system.spec.name, at.time, brokenText({c}, Margins::kShown)));
       } else if (c.margin < breach->second.condition.margin) {
         breach->second.condition = c;
       }

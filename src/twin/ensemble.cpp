@@ -10,9 +10,7 @@
 #include "analysis/mass_matrix.h"
 #include "models/model_registry.h"
 #include "scene/ensemble_draw.h"
-#include "scene/surroundings.h"
 #include "twin/ensemble_members.h"
-#include "twin/record.h"
 
 namespace whirl_twin {
 
@@ -31,6 +29,10 @@ std::vector<EnsembleQuantity> quantitiesOf(const Dynamics& dynamics) {
   return quantities;
 }
 
+Refusal refused(std::size_t member, const std::exception& error) {
+  return Refusal(fmt::format("member {}: {}", member, error.what()));
+}
+
 /// A parameter that is 0 in the scene and spread about it may switch a member to another form of
 /// its model.
 void requireSameKind(const Dynamics& given, const ModelSetup& setup, const SystemSpec& spec,
@@ -43,10 +45,10 @@ void requireSameKind(const Dynamics& given, const ModelSetup& setup, const Syste
     return all;
   };
   if (names(given) != names(*setup.dynamics) || given.isRotor() != setup.dynamics->isRotor()) {
-    throw std::invalid_argument("has other coordinates than the system as given");
+    throw Refusal("has other coordinates than the system as given");
   }
   if (!canStepWith(setup, spec.drive.has_value(), integrator)) {
-    throw std::invalid_argument(fmt::format("cannot be stepped with {}", integrator));
+    throw Refusal(fmt::format("cannot be stepped with {}", integrator));
   }
   const auto vector = [](const std::vector<double>& values) {
     return Eigen::Map<const Eigen::VectorXd>(values.data(),
@@ -54,35 +56,33 @@ void requireSameKind(const Dynamics& given, const ModelSetup& setup, const Syste
   };
   if (massIsSingular(*setup.dynamics, vector(spec.q), vector(spec.v),
                      {0.0, 0.0, spec.speed.value_or(0.0), 0.0})) {
-    throw std::invalid_argument("its mass matrix is singular at the start");
+    throw Refusal("its mass matrix is singular at the start");
   }
 }
 
 }  // namespace
 
-Ensemble::Ensemble(const Scene& scene, const SystemSpec& spec, const ModelInfo& model,
-                   const std::string& integrator, const Drive& drive)
-    : count_(spec.ensemble.count),
-      quantities_(quantitiesOf(
-          *model.setUp(spec.parameters, spec.settings, surroundingsOf(scene, spec)).dynamics)),
+Ensemble::Ensemble(const Scene& scene, const BuiltSystem& system, const Drive& drive)
+    : count_(system.spec.ensemble.count),
+      quantities_(quantitiesOf(*system.dynamics)),
       every_(std::max<std::int64_t>(1, std::llround(kRecordPeriod / scene.stepSeconds()))),
       latest_(recordSize()) {
-  const std::shared_ptr<const Dynamics> given =
-      model.setUp(spec.parameters, spec.settings, surroundingsOf(scene, spec)).dynamics;
   std::vector<EnsembleMember> members;
   for (std::size_t i = 0; i < count_; ++i) {
     try {
-      DrawnMember member = drawnMember(spec, model, i);
-      ModelSetup setup = model.setUp(member.spec.parameters, member.spec.settings,
-                                     surroundingsOf(scene, member.spec));
-      requireSameKind(*given, setup, member.spec, integrator);
+      DrawnMember member = drawnMember(system.spec, *system.model, i);
+      ModelSetup setup = system.model->setUp(member.spec.parameters, member.spec.settings,
+                                             system.spec.setup->around);
+      requireSameKind(*system.dynamics, setup, member.spec, system.integrator);
       drawn_.push_back(std::move(member.values));
       members.push_back({std::move(member.spec), std::move(setup)});
-    } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument(fmt::format("member {}: {}", i, error.what()));
+    } catch (const Refusal& error) {
+      throw refused(i, error);
+    } catch (const std::invalid_argument& error) {  // of numbers that no arithmetic can do with
+      throw refused(i, error);
     }
   }
-  steps_ = ensembleSteps(members, integrator, drive, scene.stepSeconds());
+  steps_ = ensembleSteps(members, system.integrator, drive, scene.stepSeconds());
 }
 
 void Ensemble::reset() noexcept {
@@ -90,9 +90,9 @@ void Ensemble::reset() noexcept {
 }
 
 void Ensemble::write(std::int64_t step, double* record) const noexcept {
-  record[0] = packed(step);
-  const std::size_t values = count_ * quantities_.size();
-  steps_->write(record + 1, record + 1 + values);
+  record[kStep] = packed(step);
+  double* const values = record + kValues;
+  steps_->write(values, values + numbers());
 }
 
 void Ensemble::publish(std::int64_t step) noexcept {

@@ -14,9 +14,10 @@
 #include <vector>
 
 #include "control/drive.h"
-#include "models/model_info.h"
 #include "realtime/latest_record.h"
+#include "scene/built_system.h"
 #include "scene/scene.h"
+#include "twin/record.h"
 
 namespace whirl_twin {
 
@@ -46,11 +47,10 @@ struct EnsembleQuantity {
 
 class Ensemble {
  public:
-  /// Of a system of a scene, which steps with `integrator` on `drive`; the drive outlives it.
-  /// Throws std::invalid_argument that names the member whose parameters do not fit together, or
-  /// would make it a system of another kind.
-  Ensemble(const Scene& scene, const SystemSpec& spec, const ModelInfo& model,
-           const std::string& integrator, const Drive& drive);
+  /// Of a system of a scene, on its drive, which outlives it. Throws Refusal that names the member
+  /// whose parameters do not fit together, or would make it a system of another kind;
+  /// std::domain_error where steps cannot be prepared.
+  Ensemble(const Scene& scene, const BuiltSystem& system, const Drive& drive);
 
   std::size_t count() const { return count_; }
   const std::vector<EnsembleQuantity>& quantities() const { return quantities_; }
@@ -59,11 +59,10 @@ class Ensemble {
   const EnsembleSteps& steps() const { return *steps_; }
 
   /// A record: the step, then values and peaks, each members times quantities.
-  std::size_t recordSize() const { return 1 + 2 * count_ * quantities_.size(); }
-  const double* values(const double* record) const { return record + 1; }
-  const double* peaks(const double* record) const {
-    return record + 1 + count_ * quantities_.size();
-  }
+  std::size_t recordSize() const { return kValues + numbers() + numbers(); }
+  std::int64_t stepOf(const double* record) const { return unpacked(record[kStep]); }
+  const double* values(const double* record) const { return record + kValues; }
+  const double* peaks(const double* record) const { return values(record) + numbers(); }
 
   // Real-time safe.
 
@@ -80,6 +79,9 @@ class Ensemble {
   bool take(double* record) noexcept { return latest_.take(record); }
 
  private:
+  enum { kStep, kValues };
+  std::size_t numbers() const { return count_ * quantities_.size(); }
+
   std::size_t count_;
   std::vector<EnsembleQuantity> quantities_;
   std::vector<std::vector<double>> drawn_;

@@ -10,6 +10,7 @@
 #include "integration/exponential.h"
 #include "integration/finite.h"
 #include "integration/isotropic_rotors.h"
+#include "twin/record.h"
 
 namespace whirl_twin {
 
@@ -101,7 +102,7 @@ class OneByOne final : public EnsembleSteps {
       if (m.setup.dynamics->isRotor()) {
         member.station = m.setup.dynamics->stations().front();
       }
-      state_.resize(std::max(state_.size(), 2 * member.system->dof() + 1));
+      state_.resize(std::max(state_.size(), SystemView::motionSize(member.system->dof())));
       members_.push_back(std::move(member));
     }
     const Dynamics& dynamics = *members.front().setup.dynamics;

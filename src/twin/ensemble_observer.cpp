@@ -7,8 +7,8 @@
 
 namespace whirl_twin {
 
-EnsembleObserver::EnsembleObserver(Twin& twin) : twin_(twin), last_steps_(twin.members().size()) {
-  for (std::size_t i = 0; i < twin.members().size(); ++i) {
+EnsembleObserver::EnsembleObserver(Twin& twin) : twin_(twin), last_steps_(twin.systems().size()) {
+  for (std::size_t i = 0; i < twin.systems().size(); ++i) {
     if (twin.ensemble(i) != nullptr) {
       systems_.push_back(i);
       record_.resize(std::max(record_.size(), twin.ensemble(i)->recordSize()));
@@ -23,7 +23,7 @@ bool EnsembleObserver::take(std::size_t system, const state::Instant& now,
     return false;
   }
   out = ensembleStatistics(ensemble, record_.data());
-  out.system = twin_.members()[system].spec.name;
+  out.system = twin_.systems()[system]->spec.name;
   out.at.time = twin_.seconds(out.at.step);
   // A reset that `now` is still before: its step tells nothing of the stamp.
   const bool went_back = out.at.step < last_steps_[system];

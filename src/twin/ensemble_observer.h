@@ -15,7 +15,7 @@ class EnsembleObserver {
   /// The twin outlives it. One reader of a twin's ensembles at a time.
   explicit EnsembleObserver(Twin& twin);
 
-  /// Indices of the twin's members that are ensembles.
+  /// The twin's systems that have ensembles.
   const std::vector<std::size_t>& systems() const { return systems_; }
 
   /// The newest statistics of one of systems(), if there are newer ones than those last taken; some
@@ -27,7 +27,7 @@ class EnsembleObserver {
   Twin& twin_;
   std::vector<std::size_t> systems_;
   std::vector<double> record_;
-  std::vector<std::int64_t> last_steps_;  // of each member of the twin
+  std::vector<std::int64_t> last_steps_;  // of each system
 };
 
 }  // namespace whirl_twin

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "twin/record.h"
-
 namespace whirl_twin {
 
 namespace {
@@ -60,7 +58,7 @@ double percentile(const std::vector<double>& ascending, double p) {
 
 state::EnsembleState ensembleStatistics(const Ensemble& ensemble, const double* record) {
   state::EnsembleState s;
-  s.at.step = unpacked(record[0]);
+  s.at.step = ensemble.stepOf(record);
   s.count = static_cast<std::int64_t>(ensemble.count());
   const std::size_t quantities = ensemble.quantities().size();
   const double* const values = ensemble.values(record);

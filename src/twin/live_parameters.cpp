@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "messages/names.h"
-#include "scene/parameter_paths.h"
 
 namespace whirl_twin {
 
@@ -19,6 +17,16 @@ constexpr double kLongestRamp = 1.0e6;  // s
 constexpr double kSpeedMargin = 0.02;
 /// A move of the profile may go on while systems are made ready; then they are made ready again.
 constexpr int kMostPreparations = 3;
+
+constexpr const char* kService = "set_parameter";  // whose complaints they are
+
+std::vector<double> valuesOf(const BuiltSystem& system, const std::vector<std::string>& names) {
+  std::vector<double> values;
+  for (const std::string& name : names) {
+    values.push_back(system.parameter(name).value_or(0.0));
+  }
+  return values;
+}
 
 std::vector<std::pair<double, double>> profileRanges(const Twin& twin) {
   std::vector<std::pair<double, double>> ranges;
@@ -33,7 +41,7 @@ std::vector<std::pair<double, double>> profileRanges(const Twin& twin) {
 LiveParameters::LiveParameters(LiveTwin& twin, std::function<bool()> wait)
     : twin_(twin),
       wait_(std::move(wait)),
-      members_(twin.twin().members()),
+      systems_(twin.twin().systems()),
       scene_speed_ranges_(profileRanges(twin.twin())),
       speed_ranges_(scene_speed_ranges_),
       targets_(scene_speed_ranges_.size()) {}
@@ -43,35 +51,10 @@ double LiveParameters::time() const {
 }
 
 void LiveParameters::restored() {
-  members_ = twin_.twin().members();
+  systems_ = twin_.twin().systems();
   speed_ranges_ = scene_speed_ranges_;
   std::fill(targets_.begin(), targets_.end(), std::nullopt);
   ramps_.clear();
-}
-
-std::vector<double> LiveParameters::assign(const std::vector<std::string>& names,
-                                           const std::vector<double>& values, std::size_t system,
-                                           Twin::Member& member) const {
-  Complaints complaints("set_parameter");
-  std::vector<double> previous;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto before = setParameter(names[i], values[i], *member.model, member.spec, complaints);
-    previous.push_back(before.value_or(0.0));
-  }
-  const std::string key = "systems." + member.spec.name + ".parameters";
-  if (complaints.all().empty()) {
-    try {
-      member = twin_.twin().changed(system, SystemSpec(member.spec));
-    } catch (const SetupError& error) {
-      complaints.add(key + "." + error.parameter(), error.what());
-    } catch (const std::exception& error) {
-      complaints.add(key, error.what());
-    }
-  }
-  if (!complaints.all().empty()) {
-    throw std::invalid_argument(fmt::format("{}", fmt::join(complaints.all(), "\n")));
-  }
-  return previous;
 }
 
 bool LiveParameters::takeOver(std::size_t system, std::unique_ptr<Stepper> next,
@@ -80,35 +63,33 @@ bool LiveParameters::takeOver(std::size_t system, std::unique_ptr<Stepper> next,
   return wait_() && twin_.replace(system, next, number) && wait_();
 }
 
-bool LiveParameters::change(std::size_t system, const std::vector<std::string>& names,
-                            const std::vector<double>& values) {
-  Twin::Member member = members_[system];
-  const std::vector<double> previous = assign(names, values, system, member);
-  std::unique_ptr<Stepper> next = twin_.twin().stepperOf(member);
-  if (targets_[member.drive]) {  // a new system knows the speeds of the scene only
-    const auto [lowest, highest] = speed_ranges_[member.drive];
-    const double target = *targets_[member.drive];
+bool LiveParameters::change(std::size_t system, SharedSystem changed,
+                            const std::vector<std::string>& names) {
+  std::unique_ptr<Stepper> next = twin_.twin().stepperOf(*changed);
+  if (targets_[changed->drive]) {  // a new system knows the speeds of the scene only
+    const auto [lowest, highest] = speed_ranges_[changed->drive];
+    const double target = *targets_[changed->drive];
     for (const auto& [from, to] : {std::pair{lowest, highest}, std::pair{target, target}}) {
       if (std::unique_ptr<Stepper> ready = next->readyFor(from, to)) {
         next = std::move(ready);
       }
     }
   }
-  SystemGeneration generation{member.dynamics, parametersOf(*member.model, member.spec)};
+  SystemGeneration generation{changed->dynamics, changed->parameters()};
   generation.parameters.changed = names;
-  generation.parameters.previous = previous;
-  members_[system] = std::move(member);
+  generation.parameters.previous = valuesOf(*systems_[system], names);
+  systems_[system] = std::move(changed);
   return takeOver(system, std::move(next), std::move(generation));
 }
 
 std::string LiveParameters::objectionTo(const ParameterRequest& request) const {
-  const auto is_named = [&](const Twin::Member& member) {
-    return member.spec.name == request.system;
+  const auto is_named = [&](const SharedSystem& system) {
+    return system->spec.name == request.system;
   };
-  if (std::none_of(members_.begin(), members_.end(), is_named)) {
+  if (std::none_of(systems_.begin(), systems_.end(), is_named)) {
     std::vector<std::string> names;
-    for (const Twin::Member& member : members_) {
-      names.push_back(member.spec.name);
+    for (const SharedSystem& system : systems_) {
+      names.push_back(system->spec.name);
     }
     const std::string near = nearestName(request.system, names);
     return fmt::format("system: must be a system of the scene, found '{}'{}", request.system,
@@ -136,14 +117,14 @@ ParameterAnswer LiveParameters::set(const ParameterRequest& request) {
     return answer;
   }
   const auto found =
-      std::find_if(members_.begin(), members_.end(),
-                   [&](const Twin::Member& member) { return member.spec.name == request.system; });
-  const auto system = static_cast<std::size_t>(found - members_.begin());
+      std::find_if(systems_.begin(), systems_.end(),
+                   [&](const SharedSystem& system) { return system->spec.name == request.system; });
+  const auto system = static_cast<std::size_t>(found - systems_.begin());
   try {
     // Where a ramp ends has to be possible; on the way there it is seen.
-    Twin::Member member = *found;
-    answer.previous = assign(request.names, request.values, system, member);
-    answer.done = request.ramp > 0.0 || change(system, request.names, request.values);
+    SharedSystem changed = (*found)->with(request.names, request.values, kService);
+    answer.previous = valuesOf(**found, request.names);
+    answer.done = request.ramp > 0.0 || change(system, std::move(changed), request.names);
   } catch (const std::exception& error) {
     answer.message = error.what();
     return answer;
@@ -179,7 +160,7 @@ void LiveParameters::continueRamps(std::size_t system, double now) {
     }
   }
   if (!names.empty()) {
-    static_cast<void>(change(system, names, values));
+    static_cast<void>(change(system, systems_[system]->with(names, values, kService), names));
   }
 }
 
@@ -190,7 +171,7 @@ std::vector<std::string> LiveParameters::continueRamps() {
     return given_up;
   }
   ramped_at_ = now;
-  for (std::size_t i = 0; i < members_.size(); ++i) {
+  for (std::size_t i = 0; i < systems_.size(); ++i) {
     const auto over = [&](const Ramp& ramp) {
       return ramp.system == i && now >= ramp.start + ramp.duration;
     };
@@ -207,15 +188,15 @@ std::vector<std::string> LiveParameters::continueRamps() {
 }
 
 std::string LiveParameters::objectionToSpeed(std::size_t drive, double speed) const {
-  for (std::size_t i = 0; i < members_.size(); ++i) {
+  for (std::size_t i = 0; i < systems_.size(); ++i) {
     const Ensemble* const ensemble = twin_.twin().ensemble(i);
-    if (members_[i].drive == drive && ensemble != nullptr) {
+    if (systems_[i]->drive == drive && ensemble != nullptr) {
       const auto [low, high] = ensemble->steps().speeds();
       if (speed < low || speed > high) {
         return fmt::format(
             "speed: must be from {:g} to {:g} rad/s, which the ensemble of {} is prepared for, "
             "found {:g}",
-            low, high, members_[i].spec.name, speed);
+            low, high, systems_[i]->spec.name, speed);
       }
     }
   }
@@ -245,8 +226,8 @@ bool LiveParameters::prepareFor(std::size_t drive, double speed, double max_jerk
       range = {std::min(range.first, low - margin), std::max(range.second, high + margin)};
     }
     targets_[drive] = speed;
-    for (std::size_t s = 0; s < members_.size(); ++s) {
-      if (members_[s].drive == drive && !prepare(s, covered)) {
+    for (std::size_t s = 0; s < systems_.size(); ++s) {
+      if (systems_[s]->drive == drive && !prepare(s, covered)) {
         return false;
       }
     }
@@ -255,7 +236,7 @@ bool LiveParameters::prepareFor(std::size_t drive, double speed, double max_jerk
 }
 
 bool LiveParameters::prepare(std::size_t system, bool range_covered) {
-  const std::size_t drive = members_[system].drive;
+  const std::size_t drive = systems_[system]->drive;
   const Stepper& running = twin_.twin().running(system);
   std::unique_ptr<Stepper> next;
   if (!range_covered) {
@@ -266,8 +247,7 @@ bool LiveParameters::prepare(std::size_t system, bool range_covered) {
     next = std::move(ready);
   }
   return !next || takeOver(system, std::move(next),
-                           {members_[system].dynamics,
-                            parametersOf(*members_[system].model, members_[system].spec)});
+                           {systems_[system]->dynamics, systems_[system]->parameters()});
 }
 
 }  // namespace whirl_twin

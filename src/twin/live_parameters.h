@@ -71,20 +71,15 @@ class LiveParameters {
 
   double time() const;
   std::string objectionTo(const ParameterRequest& request) const;
-  /// Sets numbers of a member, and returns what they were. Throws std::invalid_argument with what
-  /// a scene would say.
-  std::vector<double> assign(const std::vector<std::string>& names,
-                             const std::vector<double>& values, std::size_t system,
-                             Twin::Member& member) const;
-  bool change(std::size_t system, const std::vector<std::string>& names,
-              const std::vector<double>& values);
+  /// Puts the system as changed in its place. Throws where its steps cannot be prepared.
+  bool change(std::size_t system, SharedSystem next, const std::vector<std::string>& names);
   bool takeOver(std::size_t system, std::unique_ptr<Stepper> next, SystemGeneration generation);
   void continueRamps(std::size_t system, double now);
   bool prepare(std::size_t system, bool range_covered);
 
   LiveTwin& twin_;
   std::function<bool()> wait_;
-  std::vector<Twin::Member> members_;  // as they are now
+  std::vector<SharedSystem> systems_;  // as they are now
   std::vector<SpeedRange> scene_speed_ranges_;
   std::vector<SpeedRange> speed_ranges_;        // of the drives since the start
   std::vector<std::optional<double>> targets_;  // [rad/s], of their last moves beyond the scene

@@ -87,7 +87,7 @@ void LiveTwin::replaceNow(const TwinCommand& command) noexcept {
                            command.generation);
   if (!at_start_) {
     // So that the change is seen at its step, and in a pause too.
-    publish(unpacked(record_[RecordLayout::kScheduled]));
+    publish(RecordLayout::scheduled(record_.data()));
   }
   finish(true, 0.0);
 }
@@ -102,7 +102,7 @@ void LiveTwin::finish(bool done, double duration) noexcept {
 
 void LiveTwin::publish(std::int64_t scheduled) noexcept {
   twin_.write(record_.data());
-  record_[RecordLayout::kScheduled] = packed(scheduled);
+  RecordLayout::setScheduled(record_.data(), scheduled);
   ring_.push(record_.data());
 }
 

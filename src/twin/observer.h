@@ -1,6 +1,7 @@
 // Turns the twin's records into what users see: whirl radius and phase, angles, energies. It
 // follows the records in order (the phase is unwrapped, the energy residual needs the start), on
-// the side of the publisher, not in the real-time thread.
+// the side of the publisher, not in the real-time thread. What it follows has a class each:
+// WhirlPhase, EnergyAudit, ErrorTrack, MotorTrack; observed_states.h fills the messages.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +10,13 @@
 #include <vector>
 
 #include "messages/states.h"
+#include "twin/energy_audit.h"
+#include "twin/error_track.h"
 #include "twin/motor_track.h"
+#include "twin/stop_text.h"
 #include "twin/system_generations.h"
 #include "twin/twin.h"
+#include "twin/whirl_phase.h"
 
 namespace whirl_twin {
 
@@ -30,8 +35,7 @@ class Observer {
   std::int64_t step() const;
   std::size_t systemCount() const { return tracks_.size(); }
   StepStatus status(std::size_t system) const;
-  /// "rotor: stopped after step 41 (t = 0.041 s), state not finite; last good state x = ..., ...";
-  /// "" while the system runs.
+  /// The stopText() of a system that has stopped; "" while it runs.
   const std::string& stopReason(std::size_t system) const { return tracks_[system].stop_reason; }
   bool isRotor(std::size_t system) const;
 
@@ -41,10 +45,6 @@ class Observer {
   state::MotorState motor(std::size_t drive) const;         ///< of a drive that is a motor
   /// Whirl radius [m] and unwrapped phase lag [rad] of a rotor (NaN while undefined).
   double whirlRadius(std::size_t system) const;
-  /// Where a rotor's whirl is seen: position [m] and velocity [m/s] there.
-  struct Whirl {
-    double x, y, x_rate, y_rate;
-  };
   Whirl whirlOf(std::size_t system) const;
   double whirlPhase(std::size_t system) const;
   const double* coordinates(std::size_t system) const;  ///< q
@@ -53,11 +53,10 @@ class Observer {
   /// start or the last change of parameters: the change itself does work.
   double energyResidual(std::size_t system) const;
   Energies energies(std::size_t system) const;
-  /// What its method has got wrong over its horizon [-]: the errors of its steps, of which the last
-  /// one in so many is measured, added up and forgotten with the horizon as time constant. As
-  /// `tolerance`, in parts of the largest coordinates; where the motion magnifies errors the true
-  /// one is larger. NaN: not estimated.
-  double errorEstimate(std::size_t system) const { return tracks_[system].error; }
+  /// What its method has got wrong over its horizon [-] (error_track.h). As `tolerance`, in parts
+  /// of the largest coordinates; where the motion magnifies errors the true one is larger. NaN: not
+  /// estimated.
+  double errorEstimate(std::size_t system) const { return tracks_[system].error.estimate(); }
   /// The parameters the system has now and what of them changed last, without the instant.
   const state::ParameterChange& parameters(std::size_t system) const {
     return tracks_[system].parameters;
@@ -78,30 +77,20 @@ class Observer {
     std::int64_t generation = -1;
     std::shared_ptr<const Dynamics> dynamics;
     state::ParameterChange parameters;
-    bool started = false;
-    double jacobi = 0.0;          // [J], h at the start
-    double scale = 0.0;           // [J], largest T + |V| so far
-    double residual = 0.0;        // [-]
-    double error = 0.0;           // [-]
-    double error_sum = 0.0;       // [-], of the newest record
-    std::int64_t error_step = 0;  // of the newest record
-    double slowest_orbit = 0.0;   // [rad/s], below which there is no 1X orbit to speak of
-    double largest_radius = 0;    // [m]
-    double phase = 0.0;           // [rad], last valid, unwrapped
-    bool phase_known = false;
-    bool phase_valid = false;
+    double slowest_orbit = 0.0;  // [rad/s], below which there is no 1X orbit to speak of
+    WhirlPhase phase;
+    EnergyAudit energy;
+    ErrorTrack error;
     std::string stop_reason;
     std::int64_t motor_generation = -1;  // that the motor's work is counted from
   };
 
-  const double* driveRecord(std::size_t drive) const;
-  void restart(std::size_t system);
+  SystemView view(std::size_t system) const;
+  ShaftView shaft(std::size_t drive) const;
+  ShaftView shaftOf(std::size_t system) const;
   bool takeGeneration(std::size_t system);
-  void trackPhase(std::size_t system);
-  void trackEnergy(std::size_t system);
-  void trackError(std::size_t system);
-  void trackMotors();
-  std::string describeStop(std::size_t system) const;
+  void follow(std::size_t system);
+  void followMotors();
 
   const Twin& twin_;
   std::shared_ptr<SystemGenerations> generations_;

@@ -1,11 +1,15 @@
 // The fixed-size snapshot of one step that travels from the real-time thread to the publisher: a
-// flat row of doubles, whole numbers carried by their bits. The layout is set by the scene, once.
+// flat row of doubles, whole numbers carried by their bits. The layout is set by the scene, once;
+// the places in it have names here and nowhere else.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <vector>
+
+#include "control/shaft_angle.h"
+#include "integration/motion_state.h"
 
 namespace whirl_twin {
 
@@ -21,19 +25,121 @@ inline std::int64_t unpacked(double bits) noexcept {
   return value;
 }
 
-/// Where things stand in a record.
-struct RecordLayout {
-  static constexpr std::size_t kStep = 0;       ///< steps since the start
-  static constexpr std::size_t kScheduled = 1;  ///< [ns], when the step was due; set by the loop
-  static constexpr std::size_t kDrives = 2;
-  /// A drive: turns, remainder [rad], speed [rad/s], acceleration [rad/s^2], jerk [rad/s^3], target
-  /// speed [rad/s]. Of a motor the jerk is 0 and the target the present speed: it has none.
-  static constexpr std::size_t kDriveSize = 6;
+/// A drive in a record. Of a motor the jerk is 0 and the target the present speed: it has none.
+/// Number is double where it is written, const double where it is read.
+template <class Number>
+class ShaftPlace {
+ public:
+  static constexpr std::size_t kSize = 6;
 
-  /// Of each system: status, q, v, work [J] since it was set, generation (0: as the scene says; see
-  /// system_generations.h), sum of its steps' errors [-] since it was set.
-  std::vector<std::size_t> system;
-  std::size_t size = 0;
+  explicit ShaftPlace(Number* place) noexcept : place_(place) {}
+
+  std::int64_t turns() const noexcept { return unpacked(place_[kTurns]); }
+  double remainder() const noexcept { return place_[kRemainder]; }  ///< [rad]
+  ShaftAngle angle() const noexcept { return {turns(), remainder()}; }
+  double speed() const noexcept { return place_[kSpeed]; }                ///< [rad/s]
+  double acceleration() const noexcept { return place_[kAcceleration]; }  ///< [rad/s^2]
+  double jerk() const noexcept { return place_[kJerk]; }                  ///< [rad/s^3]
+  double targetSpeed() const noexcept { return place_[kTargetSpeed]; }    ///< [rad/s]
+
+  void setAngle(const ShaftAngle& angle) const noexcept {
+    place_[kTurns] = packed(angle.turns);
+    place_[kRemainder] = angle.remainder;
+  }
+  void setMotion(double speed, double acceleration, double jerk,
+                 double target_speed) const noexcept {
+    place_[kSpeed] = speed;
+    place_[kAcceleration] = acceleration;
+    place_[kJerk] = jerk;
+    place_[kTargetSpeed] = target_speed;
+  }
+
+ private:
+  enum { kTurns, kRemainder, kSpeed, kAcceleration, kJerk, kTargetSpeed };
+  Number* place_;
+};
+using ShaftView = ShaftPlace<const double>;
+
+/// A system in a record.
+template <class Number>
+class SystemPlace {
+ public:
+  /// What Stepper::write() gives: q, v and the work.
+  static constexpr std::size_t motionSize(std::size_t dof) noexcept { return dof + dof + 1; }
+  static constexpr std::size_t size(std::size_t dof) noexcept {
+    return kMotion + motionSize(dof) + kAfterMotion;
+  }
+
+  SystemPlace(Number* place, std::size_t dof) noexcept
+      : place_(place), after_(place + kMotion + motionSize(dof)), dof_(dof) {}
+
+  StepStatus status() const noexcept { return static_cast<StepStatus>(unpacked(place_[kStatus])); }
+  std::size_t dof() const noexcept { return dof_; }
+  Number* motion() const noexcept { return place_ + kMotion; }  ///< of motionSize()
+  Number* q() const noexcept { return motion(); }               ///< [rad] or [m]
+  Number* v() const noexcept { return q() + dof_; }             ///< [rad/s] or [m/s]
+  double work() const noexcept { return *(v() + dof_); }        ///< [J], since it was set
+  /// 0: as the scene says (system_generations.h).
+  std::int64_t generation() const noexcept { return unpacked(after_[kGeneration]); }
+  /// [-], of its steps' errors since it was set.
+  double errorSum() const noexcept { return after_[kErrorSum]; }
+
+  void setStatus(StepStatus status) const noexcept {
+    place_[kStatus] = packed(static_cast<std::int64_t>(status));
+  }
+  void setGeneration(std::int64_t generation) const noexcept {
+    after_[kGeneration] = packed(generation);
+  }
+  void setErrorSum(double sum) const noexcept { after_[kErrorSum] = sum; }
+
+ private:
+  enum { kStatus, kMotion };
+  enum { kGeneration, kErrorSum, kAfterMotion };
+  Number* place_;
+  Number* after_;
+  std::size_t dof_;
+};
+using SystemView = SystemPlace<const double>;
+
+/// Where things stand in a record of a scene's twin.
+class RecordLayout {
+ public:
+  std::size_t size = kDrives;  ///< [doubles]
+
+  RecordLayout() = default;
+  RecordLayout(std::size_t drives, const std::vector<std::size_t>& dofs) {
+    size += drives * ShaftView::kSize;
+    for (const std::size_t dof : dofs) {
+      systems_.push_back({size, dof});
+      size += SystemView::size(dof);
+    }
+  }
+
+  /// Steps since the start.
+  static std::int64_t step(const double* record) noexcept { return unpacked(record[kStep]); }
+  static void setStep(double* record, std::int64_t step) noexcept { record[kStep] = packed(step); }
+  /// [ns], when the step was due; set by the loop.
+  static std::int64_t scheduled(const double* record) noexcept {
+    return unpacked(record[kScheduled]);
+  }
+  static void setScheduled(double* record, std::int64_t time) noexcept {
+    record[kScheduled] = packed(time);
+  }
+  template <class Number>
+  static ShaftPlace<Number> shaft(Number* record, std::size_t drive) noexcept {
+    return ShaftPlace<Number>(record + kDrives + drive * ShaftView::kSize);
+  }
+  template <class Number>
+  SystemPlace<Number> system(Number* record, std::size_t system) const noexcept {
+    return {record + systems_[system].start, systems_[system].dof};
+  }
+
+ private:
+  enum { kStep, kScheduled, kDrives };
+  struct Place {
+    std::size_t start, dof;
+  };
+  std::vector<Place> systems_;
 };
 
 }  // namespace whirl_twin

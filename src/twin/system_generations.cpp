@@ -2,13 +2,11 @@
 
 #include <utility>
 
-#include "scene/parameter_paths.h"
-
 namespace whirl_twin {
 
 SystemGenerations::SystemGenerations(const Twin& twin) {
-  for (const Twin::Member& member : twin.members()) {
-    SystemGeneration start{member.dynamics, parametersOf(*member.model, member.spec)};
+  for (const SharedSystem& system : twin.systems()) {
+    SystemGeneration start{system->dynamics, system->parameters()};
     systems_.push_back({{0, std::make_shared<const SystemGeneration>(std::move(start))}});
   }
 }

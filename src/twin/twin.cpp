@@ -5,149 +5,79 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "models/model_registry.h"
-#include "scene/scene_reader.h"
-#include "scene/surroundings.h"
+#include "scene/scene_error.h"
 
 namespace whirl_twin {
 
-namespace {
+Twin::Twin(const Scene& scene) : Twin(build(scene)) {}
 
-/// "x [m], theta [rad]"
-std::string coordinateNames(const Dynamics& dynamics) {
-  std::string names;
-  for (const CoordinateInfo& c : dynamics.coordinates()) {
-    names += fmt::format("{}{} [{}]", names.empty() ? "" : ", ", c.name, c.unit);
-  }
-  return names;
-}
-
-}  // namespace
-
-Twin::Twin(const Scene& scene) : scene_(scene) {
-  drives_.reserve(scene.drives.size() + scene.systems.size());  // systems keep references to them
-  for (const DriveSpec& d : scene.drives) {
-    drives_.emplace_back(d.speed, d.angle, d.profile, scene.time);
-  }
-  for (const SystemSpec& spec : scene.systems) {
-    Member member = memberOf(spec);
-    if (spec.drive) {
-      member.drive = scene.driveOf(spec);
-      if (member.drive == scene.drives.size()) {
-        throw std::invalid_argument("no drive named " + *spec.drive);
-      }
-    } else {
-      member.drive = drives_.size();
-      drives_.emplace_back(spec.speed.value_or(0.0), 0.0);
+Twin::Twin(BuiltScene built)
+    : built_(std::move(built)),
+      drives_(built_.drives()),
+      turned_by_(drives_.size(), kNoSystem),
+      replacements_(systems().size()),
+      running_(systems().size()),
+      generation_(systems().size()),
+      ensembles_(systems().size()),
+      status_(systems().size()),
+      layout_(layoutOf(built_)) {
+  for (std::size_t i = 0; i < systems().size(); ++i) {
+    const BuiltSystem& system = *systems()[i];
+    if (system.drive < scene().drives.size() && scene().drives[system.drive].motor) {
+      turned_by_[system.drive] = i;
     }
     try {
-      systems_.push_back(stepperOf(member));
+      steppers_.push_back(stepperOf(system));
     } catch (const std::domain_error& error) {
-      throw SceneError({fmt::format("{}: systems.{}: {}", scene.source, spec.name, error.what())});
+      throw SceneError(
+          {fmt::format("{}: systems.{}: {}", scene().source, system.spec.name, error.what())});
     }
-    members_.push_back(std::move(member));
-  }
-  turned_by_.assign(drives_.size(), kNoSystem);
-  for (std::size_t i = 0; i < members_.size(); ++i) {
-    const std::size_t drive = members_[i].drive;
-    if (drive < scene.drives.size() && scene.drives[drive].motor) {
-      turned_by_[drive] = i;
-    }
-  }
-  status_.resize(systems_.size());
-  replacements_.resize(systems_.size());
-  running_.resize(systems_.size());
-  generation_.resize(systems_.size());
-  ensembles_.resize(systems_.size());
-  layout_.size = RecordLayout::kDrives + RecordLayout::kDriveSize * drives_.size();
-  for (const auto& system : systems_) {
-    layout_.system.push_back(layout_.size);
-    layout_.size += 4 + 2 * system->dof();
-    state_.resize(std::max(state_.size(), 2 * system->dof() + 1));
+    state_.resize(std::max(state_.size(), SystemView::motionSize(steppers_.back()->dof())));
   }
   reset();
+}
+
+RecordLayout layoutOf(const BuiltScene& scene) {
+  std::vector<std::size_t> dofs;
+  for (const SharedSystem& system : scene.systems) {
+    dofs.push_back(system->spec.q.size());
+  }
+  return {scene.drives().size(), dofs};
 }
 
 void Twin::buildEnsembles() {
-  for (std::size_t i = 0; i < members_.size(); ++i) {
-    const Member& member = members_[i];
-    if (member.spec.ensemble.count == 0) {
+  for (std::size_t i = 0; i < systems().size(); ++i) {
+    const BuiltSystem& system = *systems()[i];
+    if (system.spec.ensemble.count == 0) {
       continue;
     }
+    const auto refused = [&](const std::exception& error) {
+      return SceneError({fmt::format("{}: systems.{}.spread: {}", scene().source, system.spec.name,
+                                     error.what())});
+    };
     try {
-      ensembles_[i] = std::make_unique<Ensemble>(scene_, member.spec, *member.model,
-                                                 member.integrator, drives_[member.drive]);
-    } catch (const std::logic_error& error) {  // invalid arguments and domains
-      throw SceneError({fmt::format("{}: systems.{}.spread: {}", scene_.source, member.spec.name,
-                                    error.what())});
+      ensembles_[i] = std::make_unique<Ensemble>(scene(), system, drives_[system.drive]);
+    } catch (const Refusal& error) {
+      throw refused(error);
+    } catch (const std::domain_error& error) {
+      throw refused(error);
     }
   }
   reset();
 }
 
-Twin::Member Twin::memberOf(const SystemSpec& spec) const {
-  const ModelInfo* model = findModel(spec.model);
-  if (model == nullptr) {
-    throw std::invalid_argument("no model named " + spec.model);
-  }
-  Member member{spec,
-                model,
-                model->setUp(spec.parameters, spec.settings, surroundingsOf(scene_, spec)),
-                {},
-                spec.integrator,
-                "",
-                0};
-  member.dynamics = member.setup.dynamics;
-  if (spec.integrator == "auto") {
-    const bool on_drive = spec.drive.has_value();
-    // A choice made for other parameters may not suit these.
-    if (canStepWith(member.setup, on_drive, spec.chosen_integrator)) {
-      member.integrator = spec.chosen_integrator;
-      member.integrator_reason = spec.choice_reason;
-    } else {
-      const IntegratorChoice choice = chooseIntegrator(member.setup, on_drive);
-      member.integrator = choice.integrator;
-      member.integrator_reason = choice.reason;
-    }
-  }
-  return member;
-}
-
-std::unique_ptr<Stepper> Twin::stepperOf(const Member& member) const {
-  return member.setup.system(member.integrator, drives_[member.drive], scene_.stepSeconds(),
-                             member.spec.substeps);
-}
-
-Twin::Member Twin::changed(std::size_t system, const SystemSpec& spec) const {
-  if (spec.ensemble.count > 0) {
-    throw std::invalid_argument(
-        "are those of an ensemble, drawn at the start: they cannot be changed while it runs");
-  }
-  Member member = memberOf(spec);
-  member.drive = members_[system].drive;
-  const std::string names = coordinateNames(*member.dynamics);
-  const std::string before = coordinateNames(*members_[system].dynamics);
-  if (names != before || member.dynamics->isRotor() != members_[system].dynamics->isRotor()) {
-    throw std::invalid_argument(
-        fmt::format("would change the coordinates from {} to {}: that needs a new start with "
-                    "another scene",
-                    before, names));
-  }
-  const std::string objection =
-      integratorObjection(member.setup, spec.drive.has_value(), spec.integrator);
-  if (!objection.empty()) {
-    throw std::invalid_argument("integrator: " + objection);
-  }
-  return member;
+std::unique_ptr<Stepper> Twin::stepperOf(const BuiltSystem& system) const {
+  return system.setup().system(system.integrator, drives_[system.drive], scene().stepSeconds(),
+                               system.spec.substeps);
 }
 
 double Twin::seconds(std::int64_t steps) const noexcept {
-  return static_cast<double>(scene_.time + steps * scene_.step) / 1.0e9;
+  return static_cast<double>(scene().time + steps * scene().step) / 1.0e9;
 }
 
 void Twin::step() noexcept {
   const double time = this->time();
-  for (std::size_t i = 0; i < systems_.size(); ++i) {
+  for (std::size_t i = 0; i < steppers_.size(); ++i) {
     if (status_[i] == StepStatus::kOk) {
       status_[i] = running_[i]->step(time);
     }
@@ -159,7 +89,7 @@ void Twin::step() noexcept {
   }
   ++steps_;
   for (Drive& drive : drives_) {
-    drive.begin(scene_.time + steps_ * scene_.step);
+    drive.begin(scene().time + steps_ * scene().step);
   }
   for (const std::unique_ptr<Ensemble>& ensemble : ensembles_) {
     if (ensemble) {
@@ -172,12 +102,12 @@ void Twin::reset() noexcept {
   steps_ = 0;
   for (Drive& drive : drives_) {
     drive.reset();
-    drive.begin(scene_.time);
+    drive.begin(scene().time);
   }
-  for (std::size_t i = 0; i < systems_.size(); ++i) {
-    running_[i] = systems_[i].get();
+  for (std::size_t i = 0; i < steppers_.size(); ++i) {
+    running_[i] = steppers_[i].get();
     generation_[i] = 0;
-    running_[i]->set(members_[i].spec.q.data(), members_[i].spec.v.data());
+    running_[i]->set(systems()[i]->spec.q.data(), systems()[i]->spec.v.data());
     status_[i] = StepStatus::kOk;
     if (ensembles_[i]) {
       ensembles_[i]->reset();
@@ -197,51 +127,32 @@ std::unique_ptr<Stepper> Twin::replace(std::size_t system, std::unique_ptr<Stepp
 }
 
 void Twin::write(double* record) const noexcept {
-  record[RecordLayout::kStep] = packed(steps_);
-  double* out = record + RecordLayout::kDrives;
+  RecordLayout::setStep(record, steps_);
   for (std::size_t i = 0; i < drives_.size(); ++i) {
-    ShaftState shaft;
-    if (isMotor(i) && running_[turned_by_[i]]->shaft(shaft)) {
-      out[4] = 0.0;
-      out[5] = shaft.speed;
+    const ShaftPlace<double> place = RecordLayout::shaft(record, i);
+    ShaftState turned;
+    if (isMotor(i) && running_[turned_by_[i]]->shaft(turned)) {
+      place.setAngle(turned.angle);
+      place.setMotion(turned.speed, turned.acceleration, 0.0, turned.speed);
     } else {
       const ShaftMotion motion = drives_[i].at(0.0);
-      shaft = {drives_[i].angle(), motion.speed, motion.acceleration};
-      out[4] = motion.jerk;
-      out[5] = drives_[i].targetSpeed();
+      place.setAngle(drives_[i].angle());
+      place.setMotion(motion.speed, motion.acceleration, motion.jerk, drives_[i].targetSpeed());
     }
-    out[0] = packed(shaft.angle.turns);
-    out[1] = shaft.angle.remainder;
-    out[2] = shaft.speed;
-    out[3] = shaft.acceleration;
-    out += RecordLayout::kDriveSize;
   }
-  for (std::size_t i = 0; i < systems_.size(); ++i) {
-    record[layout_.system[i]] = packed(static_cast<std::int64_t>(status_[i]));
-    running_[i]->write(record + layout_.system[i] + 1);
-    record[layout_.system[i] + 2 + 2 * running_[i]->dof()] = packed(generation_[i]);
-    record[layout_.system[i] + 3 + 2 * running_[i]->dof()] = running_[i]->errorSum();
+  for (std::size_t i = 0; i < steppers_.size(); ++i) {
+    const SystemPlace<double> place = layout_.system(record, i);
+    place.setStatus(status_[i]);
+    running_[i]->write(place.motion());
+    place.setGeneration(generation_[i]);
+    place.setErrorSum(running_[i]->errorSum());
   }
 }
 
 bool Twin::setSpeed(std::size_t drive, double speed, double max_acceleration,
                     double max_jerk) noexcept {
-  return drive < scene_.drives.size() && !isMotor(drive) &&
+  return drive < scene().drives.size() && !isMotor(drive) &&
          drives_[drive].setSpeed(speed, max_acceleration, max_jerk);
-}
-
-const char* describe(StepStatus status) {
-  switch (status) {
-    case StepStatus::kNotFinite:
-      return "state not finite";
-    case StepStatus::kNotConverged:
-      return "implicit step did not converge";
-    case StepStatus::kOutOfRange:
-      return "its shaft runs at a speed that it was not prepared for";
-    case StepStatus::kOk:
-      break;
-  }
-  return "";
 }
 
 }  // namespace whirl_twin

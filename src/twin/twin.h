@@ -1,16 +1,13 @@
-// The running twin: the systems and drives of a scene, stepped together.
+// The running twin: the systems and drives of a built scene, stepped together.
 #pragma once
 
 #include <cstdint>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "control/drive.h"
 #include "integration/stepper.h"
-#include "mechanics/dynamics.h"
-#include "models/model_info.h"
-#include "scene/scene.h"
+#include "scene/built_scene.h"
 #include "twin/ensemble.h"
 #include "twin/record.h"
 
@@ -18,25 +15,17 @@ namespace whirl_twin {
 
 class Twin {
  public:
-  /// One system of the twin, as built.
-  struct Member {
-    SystemSpec spec;
-    const ModelInfo* model;
-    ModelSetup setup;
-    std::shared_ptr<const Dynamics> dynamics;  ///< of the setup
-    std::string integrator;                    ///< the method it steps with
-    std::string integrator_reason;             ///< why, where `auto` chose
-    std::size_t drive;  ///< of drive(); a system at constant speed has its own
-  };
-
-  /// Builds what the scene names, at its start. Throws std::invalid_argument for a scene that
-  /// readScene() would have refused, SceneError for one whose steps cannot be prepared.
+  /// Prepares the steps of what is built, at the scene's start. Throws SceneError for a scene whose
+  /// steps cannot be prepared.
+  explicit Twin(BuiltScene built);
+  /// Of a scene that is built for it: build().
   explicit Twin(const Scene& scene);
   Twin(const Twin&) = delete;
   Twin& operator=(const Twin&) = delete;
 
-  const Scene& scene() const { return scene_; }
-  const std::vector<Member>& members() const { return members_; }
+  const Scene& scene() const { return built_.scene; }
+  /// As the scene says, whatever has been put in their places since.
+  const std::vector<SharedSystem>& systems() const { return built_.systems; }
   const RecordLayout& layout() const { return layout_; }
   /// Drives of the scene first, in its order; then those of systems at constant speed.
   std::size_t driveCount() const { return drives_.size(); }
@@ -44,9 +33,6 @@ class Twin {
   /// The system whose spin a drive's motion is, if the drive is a motor; else kNoSystem.
   std::size_t turnedBy(std::size_t drive) const noexcept { return turned_by_[drive]; }
   bool isMotor(std::size_t drive) const noexcept { return turned_by_[drive] != kNoSystem; }
-  /// A member as it would be with the parameters of `spec`. Throws std::invalid_argument where
-  /// readScene() would complain of them, and where they change its coordinates.
-  Member changed(std::size_t system, const SystemSpec& spec) const;
   /// Also steps the ensembles of the scene from now on, which a twin that is only analysed, or
   /// followed, does without. Before the first step. Throws SceneError for members whose parameters
   /// do not fit together or whose steps cannot be prepared.
@@ -54,8 +40,9 @@ class Twin {
   /// The ensemble of a system; nullptr: it has none, or they were not built.
   Ensemble* ensemble(std::size_t system) noexcept { return ensembles_[system].get(); }
   const Ensemble* ensemble(std::size_t system) const noexcept { return ensembles_[system].get(); }
-  /// What steps as a member says, on its drive; its state is yet to be set.
-  std::unique_ptr<Stepper> stepperOf(const Member& member) const;
+  /// What steps a system, on its drive; its state is yet to be set. Throws std::domain_error where
+  /// its steps cannot be prepared.
+  std::unique_ptr<Stepper> stepperOf(const BuiltSystem& system) const;
 
   // Real-time safe.
 
@@ -82,15 +69,12 @@ class Twin {
   const Stepper& running(std::size_t system) const noexcept { return *running_[system]; }
 
  private:
-  Member memberOf(const SystemSpec& spec) const;
-
-  Scene scene_;
-  std::vector<Drive> drives_;
-  std::vector<std::size_t> turned_by_;  // of each drive
-  std::vector<Member> members_;
-  std::vector<std::unique_ptr<Stepper>> systems_;       // the scene's
+  BuiltScene built_;
+  std::vector<Drive> drives_;                           // steppers keep references to them
+  std::vector<std::size_t> turned_by_;                  // of each drive
+  std::vector<std::unique_ptr<Stepper>> steppers_;      // the scene's
   std::vector<std::unique_ptr<Stepper>> replacements_;  // latest of each system; null: none yet
-  std::vector<Stepper*> running_;                       // of systems_ or replacements_
+  std::vector<Stepper*> running_;                       // of steppers_ or replacements_
   std::vector<std::int64_t> generation_;                // of running_; 0: the scene's
   std::vector<std::unique_ptr<Ensemble>> ensembles_;    // of each system; null: none
   std::vector<double> state_;                           // room for q, v and work of the largest
@@ -99,8 +83,7 @@ class Twin {
   std::int64_t steps_ = 0;
 };
 
-/// "state not finite", "implicit step did not converge" or that it was not prepared for the speed;
-/// "" while running.
-const char* describe(StepStatus status);
+/// Of the records of a scene's twin.
+RecordLayout layoutOf(const BuiltScene& scene);
 
 }  // namespace whirl_twin

@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(ErrorEstimateOf, TheExactStepIsRounding) {
   Twin twin(sceneOf(std::string("{step: 0.001, systems: {one: {") + kWhirl + "}}}"));
-  ASSERT_EQ(twin.members()[0].integrator, "exponential");
+  ASSERT_EQ(twin.systems()[0]->integrator, "exponential");
   Observer observer(twin);
   std::vector<double> record(twin.layout().size);
   for (int i = 0; i < 10000; ++i) {

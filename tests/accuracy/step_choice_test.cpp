@@ -155,14 +155,14 @@ systems:
     parameters: {mass: 1, length: 1, speed: 1}, initial: {theta: 1}}
 )"));
   const Twin twin(scene);
-  EXPECT_EQ(twin.members()[0].integrator, "exponential");
-  EXPECT_EQ(twin.members()[1].integrator, scene.systems[1].chosen_integrator);
-  EXPECT_NE(twin.members()[1].integrator_reason.find("over 10 s where 0.0001 is allowed"),
+  EXPECT_EQ(twin.systems()[0]->integrator, "exponential");
+  EXPECT_EQ(twin.systems()[1]->integrator, scene.systems[1].chosen_integrator);
+  EXPECT_NE(twin.systems()[1]->integrator_reason.find("over 10 s where 0.0001 is allowed"),
             std::string::npos)
-      << twin.members()[1].integrator_reason;
-  EXPECT_EQ(twin.members()[2].integrator, "gauss_legendre_4");
-  EXPECT_EQ(twin.members()[2].spec.substeps, 3);
-  EXPECT_EQ(twin.members()[2].integrator_reason, "");
+      << twin.systems()[1]->integrator_reason;
+  EXPECT_EQ(twin.systems()[2]->integrator, "gauss_legendre_4");
+  EXPECT_EQ(twin.systems()[2]->spec.substeps, 3);
+  EXPECT_EQ(twin.systems()[2]->integrator_reason, "");
 }
 
 }  // namespace

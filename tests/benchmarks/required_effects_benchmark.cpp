@@ -123,7 +123,7 @@ double disagreement() {
   advance(*twin, kSteps);
   std::vector<double> record(twin->layout().size);
   twin->write(record.data());
-  const double* q = record.data() + twin->layout().system[0] + 1;
+  const double* q = twin->layout().system(record.data(), 0).q();
   const double error =
       std::abs(Complex(q[0], q[1]) - by_hand.position()) / std::abs(by_hand.position());
   if (!(error < 1.0e-9)) {

@@ -7,6 +7,7 @@
 
 #include "realtime/denormals.h"
 #include "scene/scene_reader.h"
+#include "twin/stop_text.h"
 #include "twin/twin.h"
 
 namespace whirl_twin {

@@ -8,6 +8,7 @@
 #include "accuracy/step_choice.h"
 #include "realtime/denormals.h"
 #include "scene/scene_reader.h"
+#include "twin/stop_text.h"
 #include "twin/twin.h"
 
 namespace whirl_twin {

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <stdexcept>
 
+#include "twin/stop_text.h"
+
 namespace whirl_twin {
 namespace {
 
@@ -67,9 +69,9 @@ void advance(Twin& twin, int steps) {
       twin.reset();
     }
   }
-  for (std::size_t i = 0; i < twin.members().size(); ++i) {
+  for (std::size_t i = 0; i < twin.systems().size(); ++i) {
     if (twin.status(i) != StepStatus::kOk) {
-      throw std::runtime_error(twin.members()[i].spec.name + ": " + describe(twin.status(i)));
+      throw std::runtime_error(twin.systems()[i]->spec.name + ": " + describe(twin.status(i)));
     }
   }
 }

@@ -31,9 +31,11 @@ bool sameNeighbours(const Twin& a, const Twin& b) {
   const std::vector<double> y = record(b);
   bool same = true;
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t size = 2 * a.members()[i].spec.q.size() + 3;
-    same = same && std::memcmp(x.data() + a.layout().system[i], y.data() + b.layout().system[i],
-                               size * sizeof(double)) == 0;
+    const SystemView one = a.layout().system(x.data(), i);
+    const SystemView other = b.layout().system(y.data(), i);
+    same = same && one.status() == other.status() &&
+           std::memcmp(one.motion(), other.motion(),
+                       SystemView::motionSize(one.dof()) * sizeof(double)) == 0;
   }
   return same;
 }
@@ -117,7 +119,7 @@ TEST(StateBrokenInTheMiddleOfARun, StopsItsSystemAtThatStepAndTheObserverSaysSo)
     Twin without(sceneOf(kThreeSystems));
     Observer observer(twin);
     // The generation is the scene's own: the parameters are.
-    twin.replace(3, std::make_unique<Struck>(twin.stepperOf(twin.members()[3]), 100, value), 0);
+    twin.replace(3, std::make_unique<Struck>(twin.stepperOf(*twin.systems()[3]), 100, value), 0);
     for (int i = 0; i < 1000; ++i) {
       twin.step();
       without.step();

@@ -110,7 +110,7 @@ std::vector<double> afterTenMinutes(const std::string& step, int steps) {
   twin.write(record.data());
   const ShaftAngle angle = twin.drive(0).angle();
   EXPECT_NEAR(angle.total(), 90.0 * 600.0 - 0.5 * 90.0 * 180.0, 1e-10);
-  const double* q = record.data() + twin.layout().system[0] + 1;
+  const double* q = twin.layout().system(record.data(), 0).q();
   return {q[0], q[1], q[2], q[3]};
 }
 

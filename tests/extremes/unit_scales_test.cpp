@@ -102,7 +102,7 @@ void rescaleStart(Scene& scene, const std::vector<CoordinateInfo>& coordinates,
 
 /// q, v and the audited work after some steps, in the units of the start.
 std::vector<double> motion(Scene scene, const Scales& scales) {
-  const std::vector<CoordinateInfo> coordinates = Twin(scene).members()[0].dynamics->coordinates();
+  const std::vector<CoordinateInfo> coordinates = Twin(scene).systems()[0]->dynamics->coordinates();
   scene = rescaled(scene, scales);
   rescaleStart(scene, coordinates, scales);
   Twin twin(scene);
@@ -113,11 +113,12 @@ std::vector<double> motion(Scene scene, const Scales& scales) {
   std::vector<double> record(twin.layout().size);
   twin.write(record.data());
   const std::size_t n = coordinates.size();
+  const SystemView system = twin.layout().system(std::as_const(record).data(), 0);
   std::vector<double> state;
   for (std::size_t i = 0; i < 2 * n; ++i) {
-    state.push_back(record[twin.layout().system[0] + 1 + i] / scales.of(coordinates[i % n].unit));
+    state.push_back(system.motion()[i] / scales.of(coordinates[i % n].unit));
   }
-  state.push_back(record[twin.layout().system[0] + 1 + 2 * n] / scales.of("N m"));
+  state.push_back(system.work() / scales.of("N m"));
   return state;
 }
 
@@ -144,7 +145,7 @@ class InOtherUnits : public testing::TestWithParam<MovingVariant> {
   bool minglesUnits() const {
     const Scene alone = scene();
     std::set<std::string> units;
-    for (const CoordinateInfo& c : Twin(alone).members()[0].dynamics->coordinates()) {
+    for (const CoordinateInfo& c : Twin(alone).systems()[0]->dynamics->coordinates()) {
       units.insert(c.unit);
     }
     return units.size() > 1 &&

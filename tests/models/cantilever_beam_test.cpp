@@ -33,7 +33,7 @@ Scene sceneOfBeam(int modes, const std::string& more = "", const Beam& beam = {}
 class BeamUnderTest {
  public:
   explicit BeamUnderTest(const Scene& scene)
-      : twin_(scene), dynamics_(*twin_.members()[0].dynamics) {
+      : twin_(scene), dynamics_(*twin_.systems()[0]->dynamics) {
     const VectorXd zero = VectorXd::Zero(dynamics_.dof());
     matrices_ = dynamics_.linearization(zero, zero, zero, {});
   }
@@ -116,7 +116,7 @@ TEST(CantileverBeam, BendsByFL3Over3EIUnderAConstantTipForce) {
     twin.step();
   }
   twin.write(record.data());
-  const double* q = record.data() + twin.layout().system[0] + 1;
+  const double* q = twin.layout().system(record.data(), 0).q();
   EXPECT_NEAR(q[0] + q[1] + q[2], 0.0675, 1e-13);
 }
 

@@ -182,7 +182,7 @@ TEST(FlexibleRotorScene, WhirlsAsItsMatricesSay) {
   Twin twin(sceneOf(
       sceneText(std::string(kRotor) +
                 ", modes: 6, highest_speed: 150, unbalances: [{node: 2, magnitude: 1.0e-3}]")));
-  const Dynamics& dynamics = *twin.members()[0].dynamics;
+  const Dynamics& dynamics = *twin.systems()[0]->dynamics;
   const LinearRotor rotor = dynamics.linearRotor();
   const double w = 100.0;
   const Linearization l = rotor.matrices(w);
@@ -199,7 +199,7 @@ TEST(FlexibleRotorScene, WhirlsAsItsMatricesSay) {
   twin.write(record.data());
   const std::complex<double> turn = std::polar(1.0, w * 1.0e-3 * kSteps);
   for (Eigen::Index i = 0; i < whirl.size(); ++i) {
-    EXPECT_NEAR(record[twin.layout().system[0] + 1 + static_cast<std::size_t>(i)],
+    EXPECT_NEAR(twin.layout().system(record.data(), 0).q()[static_cast<std::size_t>(i)],
                 (whirl[i] * turn).real(), 1e-8 * whirl.norm());
   }
 }
@@ -224,8 +224,8 @@ TEST(FlexibleRotor, WhirlsAtItsPublishedNodeAsTheHarmonicResponseSays) {
   rotor += ", unbalances: [{node: 2, magnitude: 0.001, angle: 0.4}], highest_speed: 300, modes: ";
   for (const char* modes : {"0", "auto"}) {
     Twin twin(sceneOf(sceneText(rotor + modes)));
-    const LinearRotor matrices = twin.members()[0].dynamics->linearRotor();
-    const Station node = twin.members()[0].dynamics->stations().front();
+    const LinearRotor matrices = twin.systems()[0]->dynamics->linearRotor();
+    const Station node = twin.systems()[0]->dynamics->stations().front();
     EXPECT_EQ(node.name, "node_2");
     const double w = 100.0;
     const Linearization l = matrices.matrices(w);
@@ -265,7 +265,7 @@ TEST(FlexibleRotor, KeepsThePromiseOfModesAutoInARunUp) {
   };
   Twin reduced(runUp("auto"));
   Twin full(runUp("0"));
-  EXPECT_LT(reduced.members()[0].dynamics->dof(), full.members()[0].dynamics->dof());
+  EXPECT_LT(reduced.systems()[0]->dynamics->dof(), full.systems()[0]->dynamics->dof());
   Observer of_reduced(reduced);
   Observer of_full(full);
   std::vector<double> record(full.layout().size);

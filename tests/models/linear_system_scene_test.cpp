@@ -128,13 +128,13 @@ TEST(LinearSystemScene, HasTheMatricesAndNamesOfTheScene) {
                                             "0]], damping: [[1, 0], [0, 2]]",
                         "initial: {upper: 0.2, lower_rate: -1}"));
   const Twin twin(scene);
-  const Dynamics& dynamics = *twin.members()[0].dynamics;
+  const Dynamics& dynamics = *twin.systems()[0]->dynamics;
   const auto names = dynamics.coordinates();
   ASSERT_EQ(names.size(), 2u);
   EXPECT_EQ(names[0].name, "lower");
   EXPECT_EQ(names[1].name, "upper");
   EXPECT_EQ(names[1].unit, "m");
-  EXPECT_EQ(twin.members()[0].integrator, "exponential") << "auto is the exact step";
+  EXPECT_EQ(twin.systems()[0]->integrator, "exponential") << "auto is the exact step";
   EXPECT_EQ(scene.systems[0].q, (std::vector<double>{0.0, 0.2}));
   EXPECT_EQ(scene.systems[0].v, (std::vector<double>{-1.0, 0.0}));
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(2);
@@ -170,7 +170,8 @@ TEST(LinearSystemScene, MovesByItsForceInEveryMethod) {
     const double tolerance = method == "semi_implicit_euler"                                ? 3e-3
                              : method == "velocity_verlet" || method == "implicit_midpoint" ? 1e-5
                                                                                             : 1e-11;
-    EXPECT_NEAR(record[twin.layout().system[0] + 1], closed_form(10.0), tolerance) << method;
+    EXPECT_NEAR(twin.layout().system(record.data(), 0).q()[0], closed_form(10.0), tolerance)
+        << method;
   }
 }
 
@@ -181,7 +182,7 @@ TEST(LinearSystemScene, IsReducedToItsAssumedModes) {
       "[0.33333333333333333, 1.2222222222222222, -1], [0, -1, 1]], force: [{coordinate: q3, "
       "amplitude: 2}], assumed_modes: [[1, 1], [-1, -2], [-1.5, -3]]"));
   const Twin twin(scene);
-  const Dynamics& dynamics = *twin.members()[0].dynamics;
+  const Dynamics& dynamics = *twin.systems()[0]->dynamics;
   ASSERT_EQ(dynamics.dof(), 2);
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(2);
   const Linearization l = dynamics.linearization(zero, zero, zero, {});
@@ -207,8 +208,8 @@ TEST(LinearSystemScene, DriftsWhereNothingHoldsIt) {
   twin.write(record.data());
   for (std::size_t i = 0; i < 3; ++i) {
     // 100 s at p = 24.5 rad/s: stiffness rounded to 1e-16 times (p t)^2 / 2.
-    EXPECT_NEAR(record[twin.layout().system[0] + 1 + i], 100.0 * (1.0 + static_cast<double>(i)),
-                1e-7);
+    EXPECT_NEAR(twin.layout().system(record.data(), 0).q()[i],
+                100.0 * (1.0 + static_cast<double>(i)), 1e-7);
   }
 }
 
@@ -221,7 +222,7 @@ TEST(LinearSystemScene, KeepsItsLastGoodStateWhenItBreaksDown) {
   }
   EXPECT_EQ(twin.status(0), StepStatus::kNotFinite);
   twin.write(record.data());
-  EXPECT_TRUE(std::isfinite(record[twin.layout().system[0] + 1]));
+  EXPECT_TRUE(std::isfinite(twin.layout().system(record.data(), 0).q()[0]));
 }
 
 }  // namespace

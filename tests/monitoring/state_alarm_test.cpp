@@ -4,8 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "../scene/scenes.h"
 #include "messages/alert_types.h"
+#include "scene/built_scene.h"
+#include "twin/stop_text.h"
+#include "twin/twin.h"
 
 namespace whirl_twin {
 namespace {
@@ -58,23 +65,66 @@ TEST(StateAlarm, AnErrorBeyondWhatIsPromisedWarns) {
   EXPECT_TRUE(list.active().empty());
 }
 
-TEST(StateAlarm, AStoppedSystemIsDangerAndNamesItsCause) {
+/// What the simulation says of a rotor that stopped for a cause, in the words of its observer.
+std::string stopTextFor(StepStatus status) {
+  const BuiltScene scene = build(sceneOf(
+      "{step: 0.001, systems: {rotor: {model: jeffcott_rotor, parameters: {mass: 1, stiffness: "
+      "1e4, speed: 1}}}}"));
+  std::vector<double> record(layoutOf(scene).size);
+  const SystemPlace place = layoutOf(scene).system(record.data(), 0);
+  place.setStatus(status);
+  return stopText(*scene.systems[0], layoutOf(scene).system(std::as_const(record).data(), 0), 41,
+                  0.041);
+}
+
+struct Cause {
+  StepStatus status;
+  const char* type;
+  const char* words;
+};
+
+class Stopped : public testing::TestWithParam<Cause> {};
+
+TEST_P(Stopped, IsDangerAndTellsItsCauseInOneSentence) {
+  const auto& [status, type, words] = GetParam();
+  const std::string why = stopTextFor(status);
   AlertList list;
   StateAlarm alarm("rotor", AlarmSettings());
-  alarm.updateFinite(0.0, false, "", list);
+  alarm.updateStopped(0.0, StepStatus::kOk, "", list);
   EXPECT_TRUE(list.active().empty());
-  alarm.updateFinite(1.0, true, "step 4711, x = nan", list);
-  const state::Alert* alert = list.find("rotor", alert_type::kNotFinite);
+  alarm.updateStopped(1.0, status, why, list);
+  ASSERT_EQ(list.active().size(), 1u);
+  const state::Alert* alert = list.find("rotor", type);
   ASSERT_NE(alert, nullptr);
   EXPECT_EQ(alert->severity, state::Severity::kDanger);
-  EXPECT_EQ(alert->text, "rotor: stopped, a state is not finite: step 4711, x = nan");
+  EXPECT_EQ(alert->text, std::string("rotor: stopped in step 41 (t = 0.041 s), ") + words +
+                             "; last good state: x = 0 m, x_rate = 0 m/s, y = 0 m, y_rate = 0 m/s");
   list.takeChanged();
-  alarm.updateFinite(2.0, true, "step 4711, x = nan", list);
+  alarm.updateStopped(2.0, status, why, list);
   EXPECT_FALSE(list.takeChanged());
-  alarm.updateFinite(3.0, false, "", list);
+  alarm.updateStopped(3.0, StepStatus::kOk, "", list);
   EXPECT_EQ(list.active().size(), 1u);
-  alarm.updateFinite(4.0, false, "", list);
+  alarm.updateStopped(4.0, StepStatus::kOk, "", list);
   EXPECT_TRUE(list.active().empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Causes, Stopped,
+    testing::Values(Cause{StepStatus::kNotFinite, "NOT_FINITE", "state not finite"},
+                    Cause{StepStatus::kNotConverged, "STOPPED", "implicit step did not converge"},
+                    Cause{StepStatus::kOutOfRange, "STOPPED",
+                          "its shaft runs at a speed that it was not prepared for"}),
+    [](const auto& test) { return std::to_string(static_cast<int>(test.param.status)); });
+
+TEST(StateAlarm, AStopForAnotherCauseTakesThePlaceOfTheOneBefore) {
+  AlertList list;
+  StateAlarm alarm("rotor", AlarmSettings());
+  alarm.updateStopped(1.0, StepStatus::kNotFinite, "rotor: the first", list);
+  alarm.updateStopped(1.1, StepStatus::kOk, "", list);  // reset, and stopped again at once
+  alarm.updateStopped(1.2, StepStatus::kNotConverged, "rotor: the second", list);
+  ASSERT_EQ(list.active().size(), 1u);
+  EXPECT_EQ(list.active()[0].type, alert_type::kStopped);
+  EXPECT_EQ(list.active()[0].text, "rotor: the second");
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ Scene sceneOf(const std::string& yaml) {
 /// Runs the scene for `duration` [s] and feeds every step to the monitor.
 struct WatchedTwin {
   explicit WatchedTwin(const Scene& scene, const AlarmSettings& settings = {})
-      : twin(scene), observer(twin), monitor(scene, settings), record(twin.layout().size) {}
+      : twin(scene), observer(twin), monitor(build(scene), settings), record(twin.layout().size) {}
 
   void run(double duration) {
     const auto steps =
@@ -234,6 +234,19 @@ systems:
 )"));
   watched.run(10.0);
   EXPECT_GE(watched.count("ENERGY_RESIDUAL", true), 1u);
+}
+
+TEST(TwinMonitor, WatchesASceneWhoseStepsCannotBePrepared) {
+  TwinMonitor monitor(build(sceneOf(kUnsteppable)), {});
+  state::WhirlState whirl;
+  whirl.system = "rotor";
+  whirl.speed = 10.0;
+  monitor.take(whirl, 0.0);
+  const std::vector<state::StabilityMargin> margins = monitor.takeMargins();
+  ASSERT_EQ(margins.size(), 1u);
+  EXPECT_EQ(margins[0].verdict_name, "asymptotically_stable");
+  // Internal damping: unstable above w (1 + c / ci), w = 100 rad/s.
+  EXPECT_NEAR(margins[0].instability_speed, 225.0, 1.0e-9);
 }
 
 TEST(TwinMonitor, JudgesRotorsWhoseWhirlTellsOnlyTwoOfTheirCoordinates) {

@@ -14,8 +14,8 @@
 #include "display/sketch_drawing.h"
 #include "drawn_markers.h"
 #include "models/model_registry.h"
+#include "scene/built_scene.h"
 #include "scene/scene_reader.h"
-#include "twin/twin.h"
 
 namespace whirl_twin {
 namespace {
@@ -185,13 +185,14 @@ class EveryScene : public testing::TestWithParam<std::string> {};
 TEST_P(EveryScene, IsDrawnWithinItsPlaceByMarkersThatStay) {
   std::mt19937_64 random(11);
   std::uniform_real_distribution<double> between(-1.0, 1.0);
-  const Twin twin(readSceneFile(WHIRL_TWIN_SOURCE "/config/scenes/" + GetParam() + ".yaml"));
-  for (const Twin::Member& member : twin.members()) {
-    const Dynamics& dynamics = *member.dynamics;
+  const BuiltScene scene =
+      build(readSceneFile(WHIRL_TWIN_SOURCE "/config/scenes/" + GetParam() + ".yaml"));
+  for (const SharedSystem& system : scene.systems) {
+    const Dynamics& dynamics = *system->dynamics;
     if (dynamics.isRotor()) {
       continue;  // RotorDisplay shows it
     }
-    MechanismDisplay display(member.spec.name, member.dynamics);
+    MechanismDisplay display(system->spec.name, system->dynamics);
     std::set<std::pair<std::string, int>> first;
     for (int k = 0; k < 50; ++k) {
       Eigen::VectorXd q(dynamics.dof());

@@ -39,4 +39,16 @@ systems:
     initial: {theta1: 1.0, theta2: -0.5, theta2_rate: 2.0}
 )";
 
+/// Can be analysed and watched, but no step of a second can be prepared.
+inline const char* const kUnsteppable = R"(
+name: unsteppable
+step: 1.0
+drives: {shaft: {speed: 0.0, profile: [{speed: 3000.0, max_acceleration: 100.0}]}}
+systems:
+  rotor:
+    model: jeffcott_rotor
+    drive: shaft
+    parameters: {mass: 1.0, stiffness: 1.0e4, damping: 5.0, internal_damping: 4.0, eccentricity: 1.0e-4}
+)";
+
 }  // namespace whirl_twin

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "../scene/scenes.h"
 #include "twin_program.h"
 
 namespace whirl_twin {
@@ -43,6 +44,22 @@ TEST(Orbit, OfTheDemoAtItsNaturalFrequencyLagsByAQuarter) {
   EXPECT_NEAR(disc["major"].get<double>(), 1e-3, 1e-12);
   EXPECT_NEAR(disc["phase_lag"].get<double>(), std::acos(0.0), 1e-9);
   EXPECT_EQ(disc["direction"], "forward");
+}
+
+// A step that cannot be prepared is a matter of stepping: only what steps refuses the scene.
+TEST(RotorCommands, NeedNoStep) {
+  const TemporaryDirectory folder;
+  const std::string scene = folder.write("scene.yaml", kUnsteppable);
+  for (const char* command : {"analyze", "campbell", "response"}) {
+    const Ending end = twin({command, scene, "--json"});
+    EXPECT_EQ(end.status, 0) << command << ": " << end.err;
+    EXPECT_EQ(end.json()["systems"].size(), 1u) << command;
+  }
+  for (const char* command : {"check", "simulate"}) {
+    const Ending end = twin({command, scene});
+    EXPECT_EQ(end.status, 2) << command;
+    EXPECT_NE(end.err.find("systems.rotor: "), std::string::npos) << end.err;
+  }
 }
 
 TEST(RotorCommands, DrawPictures) {

@@ -203,7 +203,7 @@ TEST(Ensemble, MembersAreTheSystemsTheyWouldBeAlone) {
     const std::vector<double> record = recordOf(twin);
     for (std::size_t k = 0; k < count; ++k) {
       Scene single = scene;
-      single.systems[0] = drawnMember(scene.systems[0], *twin.members()[0].model, k).spec;
+      single.systems[0] = drawnMember(scene.systems[0], *twin.systems()[0]->model, k).spec;
       Twin alone(single);
       Observer observer(alone);
       std::vector<double> state(alone.layout().size);

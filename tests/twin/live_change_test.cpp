@@ -169,11 +169,10 @@ TEST(LiveChange, TheSwapAllocatesNothingInTheLoop) {
   LiveTwin live(sceneOf(kTwoSystems), 10000);
   std::vector<std::unique_ptr<Stepper>> next;
   for (int i = 0; i < 20; ++i) {
-    SystemSpec spec = live.twin().members()[0].spec;
-    spec.parameters["damping"] = 10.0 + i;
-    const Twin::Member member = live.twin().changed(0, spec);
-    live.generations()->add(0, {member.dynamics, {}});
-    next.push_back(live.twin().stepperOf(member));
+    const SharedSystem changed =
+        live.twin().systems()[0]->with({"damping"}, {10.0 + i}, "set_parameter");
+    live.generations()->add(0, {changed->dynamics, {}});
+    next.push_back(live.twin().stepperOf(*changed));
   }
   for (std::size_t i = 0; i < next.size(); ++i) {
     ASSERT_TRUE(live.replace(0, next[i], static_cast<std::int64_t>(i) + 1));
@@ -196,9 +195,9 @@ TEST(LiveChange, TheSwapAllocatesNothingInTheLoop) {
 
 TEST(LiveChange, WhatTheLoopNeverTookIsDeleted) {
   auto live = std::make_unique<LiveTwin>(sceneOf(kTwoSystems), 100);
-  std::unique_ptr<Stepper> next = live->twin().stepperOf(live->twin().members()[0]);
+  std::unique_ptr<Stepper> next = live->twin().stepperOf(*live->twin().systems()[0]);
   ASSERT_TRUE(live->replace(0, next, 1));
-  std::unique_ptr<Stepper> second = live->twin().stepperOf(live->twin().members()[0]);
+  std::unique_ptr<Stepper> second = live->twin().stepperOf(*live->twin().systems()[0]);
   EXPECT_FALSE(live->replace(0, second, 2)) << "another is under way";
   EXPECT_NE(second, nullptr);
   live.reset();  // leaks are seen by the sanitizer's build

@@ -25,7 +25,7 @@ class Live : public testing::Test {
     }
     std::vector<std::int64_t> steps;
     while (live_.pop(record_.data())) {
-      steps.push_back(unpacked(record_[RecordLayout::kStep]));
+      steps.push_back(RecordLayout::step(record_.data()));
     }
     return steps;
   }
@@ -45,7 +45,7 @@ class Live : public testing::Test {
 
 TEST_F(Live, TheStartIsPublishedThenEveryStep) {
   EXPECT_EQ(stepsAfter(4), (Steps{0, 1, 2, 3}));
-  EXPECT_EQ(unpacked(record_[RecordLayout::kScheduled]), 4000000);
+  EXPECT_EQ(RecordLayout::scheduled(record_.data()), 4000000);
 }
 
 TEST_F(Live, PausedItStandsStill) {
@@ -106,7 +106,7 @@ TEST_F(Live, ASpeedIsSetWhilePausedAndTakesEffectWithTheNextStep) {
   EXPECT_NEAR(live_.answer().duration, 0.01, 1e-12);
   send(Kind::kStep, 5);
   stepsAfter(5);
-  EXPECT_NEAR(record_[RecordLayout::kDrives + 2], 15.0, 1e-9);
+  EXPECT_NEAR(RecordLayout::shaft(record_.data(), 0).speed(), 15.0, 1e-9);
 }
 
 TEST_F(Live, ADriveThatIsNotThereIsRefused) {

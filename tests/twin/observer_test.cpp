@@ -29,15 +29,13 @@ class RotorRecords : public testing::Test {
   }
 
   void observe(std::int64_t step, double x, double y, double x_rate = 0.0, double y_rate = 0.0) {
-    record_[RecordLayout::kStep] = packed(step);
-    const ShaftAngle angle = advance({}, kSpeed, step * 1000000);
-    record_[RecordLayout::kDrives] = packed(angle.turns);
-    record_[RecordLayout::kDrives + 1] = angle.remainder;
-    double* system = record_.data() + twin_.layout().system[0];
-    system[1] = x;
-    system[2] = y;
-    system[3] = x_rate;
-    system[4] = y_rate;
+    RecordLayout::setStep(record_.data(), step);
+    RecordLayout::shaft(record_.data(), 0).setAngle(advance({}, kSpeed, step * 1000000));
+    const SystemPlace system = twin_.layout().system(record_.data(), 0);
+    system.q()[0] = x;
+    system.q()[1] = y;
+    system.v()[0] = x_rate;
+    system.v()[1] = y_rate;
     observer_.observe(record_.data());
   }
 
@@ -62,7 +60,8 @@ TEST_F(RotorRecords, PhaseIsUnwrappedThroughSeveralTurns) {
 
 // The 1X orbit divides by the speed: near standstill a leftover vibration would pass for a whirl.
 TEST_F(RotorRecords, TheOrbitIsNotToldNearStandstill) {
-  record_[RecordLayout::kDrives + 2] = 0.1;  // rad/s; the natural frequency is 20
+  // rad/s; the natural frequency is 20
+  RecordLayout::shaft(record_.data(), 0).setMotion(0.1, 0.0, 0.0, 0.1);
   observe(1, 1e-9, 0.0, 0.0, 1e-6);
   EXPECT_TRUE(std::isnan(observer_.whirl(0).orbit_major));
   EXPECT_TRUE(std::isnan(observer_.whirl(0).orbit_minor));

@@ -150,9 +150,10 @@ TEST_F(Prepared, AChangedSystemIsReadyForTheSpeedsOfItsDriveAndGoesOnAtTheSameSt
   EXPECT_EQ(made_ready, 1);
   EXPECT_GE(ready_to, 40.0);
   live_.twin().write(after.data());
-  const std::size_t place = live_.twin().layout().system[0];
-  EXPECT_TRUE(
-      std::equal(before.begin() + place, before.begin() + place + 5, after.begin() + place));
+  const SystemPlace was = live_.twin().layout().system(before.data(), 0);
+  const SystemPlace is = live_.twin().layout().system(after.data(), 0);
+  EXPECT_EQ(is.status(), was.status());
+  EXPECT_TRUE(std::equal(was.q(), was.q() + 4, is.q())) << "x, y and their rates";
 }
 
 }  // namespace

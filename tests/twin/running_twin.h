@@ -65,7 +65,7 @@ class Running {
     return parameters.set({system, {name}, {value}, ramp});
   }
   std::vector<double> state(std::size_t system) const {
-    const std::size_t n = live.twin().members()[system].spec.q.size();
+    const std::size_t n = live.twin().systems()[system]->spec.q.size();
     const double* q = observer.coordinates(system);
     return std::vector<double>(q, q + 2 * n);
   }

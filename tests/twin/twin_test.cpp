@@ -8,6 +8,7 @@
 #include <ostream>
 
 #include "../scene/scenes.h"
+#include "twin/stop_text.h"
 
 namespace whirl_twin {
 namespace {
@@ -29,7 +30,7 @@ void run(Twin& twin, int steps) {
 }
 
 double q(const Twin& twin, std::size_t system, std::size_t coordinate) {
-  return record(twin)[twin.layout().system[system] + 1 + coordinate];
+  return twin.layout().system(record(twin).data(), system).q()[coordinate];
 }
 
 TEST(Twin, TimeIsStepsTimesStep) {
@@ -107,15 +108,15 @@ TEST(Twin, SubstepsAreSmallerSteps) {
 
 TEST(Twin, AutoChoosesTheExactStepWhereThereIsOne) {
   const Twin twin(sceneOf(kThreeSystems));
-  EXPECT_EQ(twin.members()[0].integrator, "exponential");
-  EXPECT_EQ(twin.members()[1].integrator, "gauss_legendre_6");
-  EXPECT_EQ(twin.members()[2].integrator, "gauss_legendre_6");
-  for (const Twin::Member& member : twin.members()) {
-    EXPECT_NE(member.integrator_reason, "");
+  EXPECT_EQ(twin.systems()[0]->integrator, "exponential");
+  EXPECT_EQ(twin.systems()[1]->integrator, "gauss_legendre_6");
+  EXPECT_EQ(twin.systems()[2]->integrator, "gauss_legendre_6");
+  for (const SharedSystem& system : twin.systems()) {
+    EXPECT_NE(system->integrator_reason, "");
   }
   Scene damped = sceneOf(kThreeSystems);
   damped.systems[0].parameters["internal_damping"] = 1.0;
-  EXPECT_EQ(Twin(damped).members()[0].integrator, "exponential")
+  EXPECT_EQ(Twin(damped).systems()[0]->integrator, "exponential")
       << "its matrices change with the speed, but there is a table of them";
 }
 
@@ -155,11 +156,12 @@ TEST_P(FailingSystem, StopsAloneAndKeepsItsLastGoodState) {
   run(twin, 500);
   run(healthy, 500);
   const std::vector<double> now = record(twin);
-  const std::size_t place = twin.layout().system[0];
-  EXPECT_EQ(unpacked(now[place]), static_cast<std::int64_t>(twin.status(0)));
-  for (std::size_t i = 1; i < 6; ++i) {
-    EXPECT_EQ(now[place + i], last[place + i]) << "kept";
-    EXPECT_TRUE(std::isfinite(now[place + i]));
+  const SystemView stopped = twin.layout().system(now.data(), 0);
+  const SystemView good = twin.layout().system(last.data(), 0);
+  EXPECT_EQ(stopped.status(), twin.status(0));
+  for (std::size_t i = 0; i < SystemView::motionSize(2); ++i) {
+    EXPECT_EQ(stopped.motion()[i], good.motion()[i]) << "kept";
+    EXPECT_TRUE(std::isfinite(stopped.motion()[i]));
   }
   EXPECT_EQ(twin.stepCount(), steps + 500);
   for (std::size_t system = 0; system < 3; ++system) {

@@ -103,7 +103,7 @@ ComparedScene shaftScene() {
   YAML::Node tree = YAML::Load(shaftText());
   tree["step"] = 0.001;
   const Twin twin(readScene(tree, "benchmark"));
-  const Dynamics& dynamics = *twin.members()[0].dynamics;
+  const Dynamics& dynamics = *twin.systems()[0]->dynamics;
   const std::vector<CoordinateInfo> coordinates = dynamics.coordinates();
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
     if (!coordinates[i].isAngle()) {

@@ -74,7 +74,7 @@ void addTwin(const std::string& text, const Output& output, std::vector<Contende
   if (twin.running(0).dof() != output.coordinates) {
     throw std::logic_error("the scene and its equations differ in their coordinates");
   }
-  for (const std::string& integrator : twin.members()[0].setup.integrators) {
+  for (const std::string& integrator : twin.systems()[0]->setup().integrators) {
     contenders.push_back({"whirl_twin " + integrator, true, Ladder::kSteps, dividingCounts(output),
                           [scene, output, integrator](double steps) {
                             return std::make_unique<TwinRun>(scene(steps, integrator), output,

@@ -1,0 +1,62 @@
+#include "scene/built_scene.h"
+
+#include <stdexcept>
+
+#include "scene/surroundings.h"
+
+namespace whirl_twin {
+
+namespace {
+
+Drive constantDrive(const BuiltSystem& system) {
+  return {system.spec.speed.value_or(0.0), 0.0};
+}
+
+Drive prescribedDrive(const DriveSpec& spec, std::int64_t start) {
+  return {spec.speed, spec.angle, spec.profile, start};
+}
+
+}  // namespace
+
+std::vector<Drive> BuiltScene::drives() const {
+  std::vector<Drive> all;
+  for (const DriveSpec& spec : scene.drives) {
+    all.push_back(prescribedDrive(spec, scene.time));
+  }
+  for (const SharedSystem& system : systems) {
+    if (!system->spec.drive) {
+      all.push_back(constantDrive(*system));
+    }
+  }
+  for (Drive& drive : all) {
+    drive.begin(scene.time);
+  }
+  return all;
+}
+
+Drive BuiltScene::driveOf(const BuiltSystem& system) const {
+  Drive drive = system.drive < scene.drives.size()
+                    ? prescribedDrive(scene.drives[system.drive], scene.time)
+                    : constantDrive(system);
+  drive.begin(scene.time);
+  return drive;
+}
+
+BuiltScene build(const Scene& scene) {
+  BuiltScene built;
+  built.scene = scene;
+  std::size_t constant = scene.drives.size();
+  for (SystemSpec& spec : built.scene.systems) {
+    std::size_t drive = scene.driveOf(spec);
+    if (!spec.drive) {
+      drive = constant++;
+    } else if (drive == scene.drives.size()) {
+      throw std::invalid_argument("no drive named " + *spec.drive);
+    }
+    built.systems.push_back(build(spec, surroundingsOf(scene, spec), drive));
+    spec.setup = built.systems.back()->spec.setup;
+  }
+  return built;
+}
+
+}  // namespace whirl_twin

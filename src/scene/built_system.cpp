@@ -1,0 +1,120 @@
+#include "scene/built_system.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "models/model_registry.h"
+#include "scene/node_reader.h"
+#include "scene/parameter_paths.h"
+
+namespace whirl_twin {
+
+namespace {
+
+/// "x [m], theta [rad]"
+std::string coordinateNames(const Dynamics& dynamics) {
+  std::string names;
+  for (const CoordinateInfo& c : dynamics.coordinates()) {
+    names += fmt::format("{}{} [{}]", names.empty() ? "" : ", ", c.name, c.unit);
+  }
+  return names;
+}
+
+/// Why one cannot run on in the place of the other; "" if it can.
+std::string objectionToReplace(const BuiltSystem& before, const BuiltSystem& next) {
+  const std::string had = coordinateNames(*before.dynamics);
+  const std::string has = coordinateNames(*next.dynamics);
+  if (has != had || next.dynamics->isRotor() != before.dynamics->isRotor()) {
+    return fmt::format(
+        "would change the coordinates from {} to {}: that needs a new start with another scene",
+        had, has);
+  }
+  const std::string objection =
+      integratorObjection(next.setup(), next.spec.drive.has_value(), next.spec.integrator);
+  return objection.empty() ? "" : "integrator: " + objection;
+}
+
+}  // namespace
+
+SharedSystem build(SystemSpec spec, const Surroundings& around, std::size_t drive) {
+  BuiltSystem built;
+  const SystemSetup& setup = setupOf(spec, around);
+  built.model = setup.model;
+  built.dynamics = setup.made.dynamics;
+  built.integrator = spec.integrator;
+  built.drive = drive;
+  if (spec.integrator == "auto") {
+    const bool on_drive = spec.drive.has_value();
+    // A choice made for other parameters may not suit these.
+    if (canStepWith(setup.made, on_drive, spec.chosen_integrator)) {
+      built.integrator = spec.chosen_integrator;
+      built.integrator_reason = spec.choice_reason;
+    } else {
+      const IntegratorChoice choice = chooseIntegrator(setup.made, on_drive);
+      built.integrator = choice.integrator;
+      built.integrator_reason = choice.reason;
+    }
+  }
+  built.spec = std::move(spec);
+  return std::make_shared<const BuiltSystem>(std::move(built));
+}
+
+SharedSystem BuiltSystem::with(const std::vector<std::string>& paths,
+                               const std::vector<double>& values, const std::string& source) const {
+  Complaints complaints(source);
+  const std::string key = "systems." + spec.name + ".parameters";
+  if (spec.ensemble.count > 0) {
+    complaints.add(key,
+                   "are those of an ensemble, drawn at the start: they cannot be changed while it "
+                   "runs");
+  }
+  SystemSpec changed = spec;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    setParameter(paths[i], values[i], *model, changed, complaints);
+  }
+  SharedSystem next;
+  if (complaints.all().empty()) {
+    try {
+      next = build(std::move(changed), spec.setup->around, drive);
+      const std::string objection = objectionToReplace(*this, *next);
+      if (!objection.empty()) {
+        complaints.add(key, objection);
+      }
+    } catch (const SetupError& error) {
+      complaints.add(key + "." + error.parameter(), error.what());
+    } catch (const std::exception& error) {  // of numbers that no arithmetic can do with
+      complaints.add(key, error.what());
+    }
+  }
+  if (!complaints.all().empty()) {
+    throw Refusal(fmt::format("{}", fmt::join(complaints.all(), "\n")));
+  }
+  return next;
+}
+
+SharedSystem BuiltSystem::with(const state::ParameterChange& set) const {
+  const state::ParameterChange known = parameters();
+  if (set.system != spec.name || set.names != known.names ||
+      set.values.size() != set.names.size()) {
+    return nullptr;
+  }
+  if (set.values == known.values) {  // told again
+    return std::make_shared<const BuiltSystem>(*this);
+  }
+  try {
+    return with(set.names, set.values, "parameters");
+  } catch (const Refusal&) {
+    return nullptr;
+  }
+}
+
+state::ParameterChange BuiltSystem::parameters() const {
+  return parametersOf(*model, spec);
+}
+
+std::optional<double> BuiltSystem::parameter(const std::string& path) const {
+  return parameterAt(path, *model, spec);
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,21 @@
+// Why a system stopped, in words.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "integration/motion_state.h"
+#include "scene/built_system.h"
+#include "twin/record.h"
+
+namespace whirl_twin {
+
+/// "state not finite", "implicit step did not converge" or that it was not prepared for the speed;
+/// "" while running.
+const char* describe(StepStatus status);
+
+/// "rotor: stopped in step 41 (t = 0.041 s), state not finite; last good state: x = ..., ..."
+std::string stopText(const BuiltSystem& system, const SystemView& view, std::int64_t step,
+                     double time);
+
+}  // namespace whirl_twin

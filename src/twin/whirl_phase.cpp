@@ -1,0 +1,38 @@
+#include "twin/whirl_phase.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+/// A radius below this part of the largest so far has no angle worth the name.
+constexpr double kSmallestRadius = 1.0e-9;
+
+}  // namespace
+
+double Whirl::radius() const {
+  return std::hypot(x, y);
+}
+
+void WhirlPhase::observe(const Whirl& whirl, double unbalance) {
+  const double radius = whirl.radius();
+  largest_radius_ = std::max(largest_radius_, radius);
+  valid_ = radius > kSmallestRadius * largest_radius_;
+  if (!valid_) {
+    return;
+  }
+  const double lag = unbalance - std::atan2(whirl.y, whirl.x);
+  const double reference = known_ ? lag_ : 0.0;
+  lag_ = reference + std::remainder(lag - reference, 2.0 * kPi);
+  known_ = true;
+}
+
+double WhirlPhase::lag() const {
+  return valid_ ? lag_ : std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,29 @@
+// The phase lag of a whirl behind the unbalance that drives it, unwrapped from record to record.
+#pragma once
+
+namespace whirl_twin {
+
+/// Where a rotor's whirl is seen: position [m] and velocity [m/s] there.
+struct Whirl {
+  double x = 0.0, y = 0.0, x_rate = 0.0, y_rate = 0.0;
+
+  double radius() const;  ///< [m]
+};
+
+class WhirlPhase {
+ public:
+  /// The next record: the whirl, and the direction [rad] of the unbalance.
+  void observe(const Whirl& whirl, double unbalance);
+
+  /// The radius is large enough to have an angle.
+  bool valid() const { return valid_; }
+  double lag() const;  ///< [rad]; NaN unless valid
+
+ private:
+  double largest_radius_ = 0.0;  // [m], so far
+  double lag_ = 0.0;             // [rad], last valid
+  bool known_ = false;
+  bool valid_ = false;
+};
+
+}  // namespace whirl_twin
