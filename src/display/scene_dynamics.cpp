@@ -4,16 +4,16 @@
 
 #include <utility>
 
-#include "display/twin_listener.h"
 #include "messages/message_check.h"
 #include "scene/scene_reader.h"
 #include "transport/ros_converters.h"
 #include "transport/ros_parameters.h"
+#include "transport/twin_namespace.h"
 
 namespace whirl_twin {
 
 bool SceneDynamics::refresh() {
-  const ros::NodeHandle node(kTwinNamespace);
+  const ros::NodeHandle node(twinNamespace());
   XmlRpc::XmlRpcValue tree;
   const std::string found = node.getParam("scene", tree) ? tree.toXml() : "";
   if (found == tree_) {

@@ -1,5 +1,5 @@
-// The models of the scene under /twin/scene, for displays. Without a scene, or with one that is not
-// right, nothing is known of any system.
+// The models of the twin's scene, /twin/scene, for displays. Without a scene, or with one that is
+// not right, nothing is known of any system.
 #pragma once
 
 #include <map>

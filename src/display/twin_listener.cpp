@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <iterator>
 
+#include "transport/twin_namespace.h"
+
 namespace whirl_twin {
 namespace {
 
@@ -21,8 +23,9 @@ bool isState(const TwinTopic& topic) {
 
 }  // namespace
 
-std::vector<TwinTopic> twinTopics(const ros::master::V_TopicInfo& all) {
-  const std::string prefix = std::string(kTwinNamespace) + "/";
+std::vector<TwinTopic> twinTopics(const ros::master::V_TopicInfo& all,
+                                  const std::string& twin_namespace) {
+  const std::string prefix = twin_namespace + "/";
   std::vector<TwinTopic> topics;
   for (const auto& info : all) {
     if (info.name.rfind(prefix, 0) != 0) {
@@ -49,7 +52,7 @@ void TwinListener::discover() {
   if (!ros::master::getTopics(all)) {
     return;
   }
-  const auto topics = twinTopics(all);
+  const auto topics = twinTopics(all, twinNamespace());
   if (std::any_of(topics.begin(), topics.end(), isState)) {
     for (auto it = subscriptions_.begin(); it != subscriptions_.end();) {
       const bool published = std::any_of(topics.begin(), topics.end(), [&](const TwinTopic& topic) {

@@ -19,9 +19,6 @@
 
 namespace whirl_twin {
 
-/// Where everything of the twin is named.
-constexpr const char* kTwinNamespace = "/twin";
-
 /// The latest that is known of one system; null before the first message.
 struct SystemReadout {
   WhirlState::ConstPtr whirl;
@@ -36,8 +33,9 @@ struct TwinTopic {
   std::string subject;  ///< empty for the alerts
 };
 
-/// The topics of a twin among all that the master knows.
-std::vector<TwinTopic> twinTopics(const ros::master::V_TopicInfo& all);
+/// The topics of the twin in a namespace, such as /twin, among all that the master knows.
+std::vector<TwinTopic> twinTopics(const ros::master::V_TopicInfo& all,
+                                  const std::string& twin_namespace);
 
 class TwinListener {
  public:

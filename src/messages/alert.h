@@ -5,11 +5,16 @@
 #include <limits>
 #include <string>
 
+#include "messages/fields.h"
+
 namespace whirl_twin::state {
 
 enum class Severity : std::uint8_t { kInfo = 0, kWarning = 1, kDanger = 2 };
 
 struct Alert {
+  static constexpr MessageKind kKind{"alerts", "AlertArray", "alerts",
+                                     MessageKind::kJudged | MessageKind::kLatched};
+
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
   std::uint32_t id = 0;  ///< counts up; kept from raised to cleared
@@ -29,6 +34,26 @@ struct Alert {
   double amplification_factor = kNone;        ///< [-]
   double decay_rate = kNone;                  ///< [1/s]
   std::string text;                           ///< one sentence for a person
+
+  template <class Visit>
+  static void fields(Visit& visit) {
+    visit.stamped();
+    visit(TWIN_FIELD(id), "");  // LCM has no unsigned numbers: the same 32 bits
+    visit(TWIN_FIELD(type), "", requireName);
+    visit(TWIN_FIELD(system), "", requireName);
+    visit(TWIN_FIELD(severity), "", between(0, 2));
+    visit.negated(TWIN_RENAMED_FIELD(state, raised));  // 0: raised
+    visit(TWIN_FIELD(raised_time), "s", requireTime);
+    visit(TWIN_FIELD(time), "s", requireTime);
+    visit(TWIN_FIELD(speed), "rad/s");
+    visit(TWIN_FIELD(acceleration), "rad/s^2");
+    visit(TWIN_FIELD(critical_speed), "rad/s");
+    visit(TWIN_FIELD(time_to_entry), "s");
+    visit.numbers("percent", TWIN_FIELD(separation_margin), TWIN_FIELD(required_separation_margin));
+    visit(TWIN_FIELD(amplification_factor), "-");
+    visit(TWIN_FIELD(decay_rate), "1/s");
+    visit(TWIN_FIELD(text), "", requireText);
+  }
 };
 
 }  // namespace whirl_twin::state

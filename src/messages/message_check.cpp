@@ -51,23 +51,14 @@ void requireName(const char* field, const std::string& name) {
   }
 }
 
-void requireNames(const char* field, const std::vector<std::string>& names) {
-  for (const auto& name : names) {
-    requireName(field, name);
-  }
-}
-
-void requirePaths(const char* field, const std::vector<std::string>& paths) {
-  for (const auto& path : paths) {
-    const std::size_t end = std::min(path.find_first_of("[."), path.size());
-    if (!isLegalName(path.substr(0, end)) || path.size() > 2 * kMaxNameLength ||
-        !std::all_of(path.begin(), path.end(), [](char c) {
-          return isNameCharacter(c) || c == '[' || c == ']' || c == '.';
-        })) {
-      throw RejectedMessage(
-          fmt::format("{}: expected the path of a parameter such as discs[1].mass, found {}", field,
-                      quoted(path)));
-    }
+void requirePath(const char* field, const std::string& path) {
+  const std::size_t end = std::min(path.find_first_of("[."), path.size());
+  if (!isLegalName(path.substr(0, end)) || path.size() > 2 * kMaxNameLength ||
+      !std::all_of(path.begin(), path.end(),
+                   [](char c) { return isNameCharacter(c) || c == '[' || c == ']' || c == '.'; })) {
+    throw RejectedMessage(
+        fmt::format("{}: expected the path of a parameter such as discs[1].mass, found {}", field,
+                    quoted(path)));
   }
 }
 
@@ -87,16 +78,16 @@ void requireText(const char* field, const std::string& text) {
   }
 }
 
-void requireDirection(const std::string& direction) {
+void requireDirection(const char* field, const std::string& direction) {
   if (direction != "forward" && direction != "backward") {
     throw RejectedMessage(
-        fmt::format("direction: expected forward or backward, found {}", quoted(direction)));
+        fmt::format("{}: expected forward or backward, found {}", field, quoted(direction)));
   }
 }
 
-void requireCoordinateUnit(const std::string& unit) {
+void requireCoordinateUnit(const char* field, const std::string& unit) {
   if (unit != "m" && unit != "rad") {
-    throw RejectedMessage(fmt::format("unit: expected m or rad, found {}", quoted(unit)));
+    throw RejectedMessage(fmt::format("{}: expected m or rad, found {}", field, quoted(unit)));
   }
 }
 

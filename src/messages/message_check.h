@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "messages/names.h"
 #include "messages/refusal.h"
@@ -27,16 +26,15 @@ std::int64_t utimeOf(double time);
 
 // Each throws RejectedMessage unless its condition holds; `field` is the message's own name for it.
 void requireName(const char* field, const std::string& name);
-void requireNames(const char* field, const std::vector<std::string>& names);
-/// Paths of numbers among parameters: names, each with `[row]`, `[column]` or `.name` behind it, as
+/// The path of a number among parameters: a name with `[row]`, `[column]` or `.name` behind it, as
 /// in discs[1].mass.
-void requirePaths(const char* field, const std::vector<std::string>& paths);
+void requirePath(const char* field, const std::string& path);
 /// UTF-8 without control characters, at most 1000 bytes.
 void requireText(const char* field, const std::string& text);
 /// "forward" or "backward".
-void requireDirection(const std::string& direction);
+void requireDirection(const char* field, const std::string& direction);
 /// "m" or "rad".
-void requireCoordinateUnit(const std::string& unit);
+void requireCoordinateUnit(const char* field, const std::string& unit);
 void requireFlag(const char* field, int flag);
 void requireRange(const char* field, std::int64_t value, std::int64_t low, std::int64_t high);
 void requireLength(const char* field, std::size_t length, std::int64_t expected);

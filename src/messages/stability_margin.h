@@ -2,6 +2,7 @@
 // and the critical speeds around the present speed.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -19,10 +20,22 @@ struct CriticalSpeedMargin {
   double required_separation_margin = 0.0;  ///< [percent]
   double band_low = 0.0;                    ///< [rad/s], lower end of the speeds to avoid
   double band_high = 0.0;                   ///< [rad/s], upper end
+
+  template <class Visit>
+  static void fields(Visit& visit) {
+    visit(TWIN_RENAMED_FIELD(critical_speed, speed), "rad/s");
+    visit(TWIN_FIELD(direction), "", requireDirection);
+    visit(TWIN_FIELD(amplification_factor), "-");
+    visit.numbers("percent", TWIN_FIELD(separation_margin), TWIN_FIELD(required_separation_margin));
+    visit.numbers("rad/s", TWIN_FIELD(band_low), TWIN_FIELD(band_high));
+  }
 };
 
 /// The whole statement; fields as in whirl_twin/StabilityMargin.
 struct StabilityMargin {
+  static constexpr MessageKind kKind{"stability", "StabilityMargin", "*/stability",
+                                     MessageKind::kJudged};
+
   Instant at;
   std::string system;
   std::string model;
@@ -41,6 +54,34 @@ struct StabilityMargin {
   double log_decrement = 0.0;      ///< [-]; NaN when overdamped
   double instability_speed = 0.0;  ///< [rad/s]; NaN: none found
   std::vector<CriticalSpeedMargin> critical_speeds;
+
+  template <class Visit>
+  static void fields(Visit& visit) {
+    // A polynomial has one coefficient more than it has roots.
+    const auto roots = [](const char* name, std::int64_t value, const auto& message) {
+      requireRange(name, value, 0, static_cast<std::int64_t>(message.polynomial.size()));
+    };
+    visit.head(TWIN_FIELD(system));
+    visit(TWIN_FIELD(model), "", requireName, Stays::kSame);
+    visit(TWIN_FIELD(verdict), "", between(0, 4));
+    visit(TWIN_FIELD(verdict_name), "", requireName);
+    visit.array(TWIN_FIELD(coordinates), TWIN_FIELD(coordinate), "", each(requireName),
+                Stays::kSame);
+    visit.along(TWIN_FIELD(coordinate), TWIN_FIELD(operating_point), "rad or m");
+    visit(TWIN_FIELD(speed), "rad/s");
+    visit.array(TWIN_FIELD(coefficients), TWIN_FIELD(polynomial), "");
+    visit.array(TWIN_FIELD(rows), TWIN_FIELD(first_column), "");
+    visit(TWIN_FIELD(right), "", roots);
+    visit(TWIN_FIELD(imaginary), "", roots);
+    visit(TWIN_FIELD(left), "", roots);
+    visit(TWIN_FIELD(decay_rate), "1/s");
+    visit.numbers("-", TWIN_FIELD(damping_ratio), TWIN_FIELD(log_decrement));
+    visit(TWIN_FIELD(instability_speed), "rad/s");
+    // NaN and false say the same thing twice: none was found.
+    visit.derived(TWIN_FIELD(instability_speed_valid),
+                  [](const auto& message) { return !std::isnan(message.instability_speed); });
+    visit.rows(TWIN_FIELD(critical_speeds), TWIN_FIELD(critical_speeds));
+  }
 };
 
 }  // namespace whirl_twin::state

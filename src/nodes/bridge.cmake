@@ -10,7 +10,7 @@ set_target_properties(lcm_bridge_node PROPERTIES
 add_executable(lcm_recorder_node
   ${CMAKE_CURRENT_LIST_DIR}/lcm_recorder_node.cpp
   ${CMAKE_CURRENT_LIST_DIR}/run_node.cpp)
-target_link_libraries(lcm_recorder_node PRIVATE whirl_twin_transport_lcm whirl_twin_core
+target_link_libraries(lcm_recorder_node PRIVATE whirl_twin_transport_ros whirl_twin_transport_lcm whirl_twin_core
   whirl_twin_ros whirl_twin_warnings)
 set_target_properties(lcm_recorder_node PROPERTIES
   RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})

@@ -4,8 +4,6 @@
 #include <variant>
 #include <vector>
 
-#include "transport/ros_converters.h"
-
 namespace whirl_twin {
 namespace {
 
@@ -57,45 +55,15 @@ bool isMoreUrgent(const state::Alert& a, const state::Alert& b) {
 
 }  // namespace
 
-LcmBridge::LcmBridge(const ros::NodeHandle& twin, bool derived) : twin_(twin) {
+LcmBridge::LcmBridge(const ros::NodeHandle& twin, bool derived)
+    : topics_(twin, kQueueSize, awaitSubscribers) {
   if (derived) {
-    alert_publisher_ = twin_.advertise<AlertArray>("alerts", kQueueSize, true);
-    alert_publisher_.publish(AlertArray());
+    topics_.publishAlerts({}, 0);
   }
 }
 
-void LcmBridge::publish(const TwinState& state) {
-  std::visit([this](const auto& s) { publishState(s); }, state);
-}
-
-void LcmBridge::publishState(const state::WhirlState& whirl) {
-  publishOn(whirl.system + "/whirl", toRos(whirl));
-  publishOn(whirl.system + "/joint_states", toJointState(whirl));
-}
-
-void LcmBridge::publishState(const state::PendulumState& pendulum) {
-  publishOn(pendulum.system + "/pendulum", toRos(pendulum));
-  publishOn(pendulum.system + "/joint_states", toJointState(pendulum));
-}
-
-void LcmBridge::publishState(const state::DriveState& drive) {
-  publishOn("drives/" + drive.drive, toRos(drive));
-}
-
-void LcmBridge::publishState(const state::MotorState& motor) {
-  publishOn("drives/" + motor.drive + "/motor", toRos(motor));
-}
-
-void LcmBridge::publishState(const state::EnsembleState& ensemble) {
-  publishOn(ensemble.system + "/ensemble", toRos(ensemble));
-}
-
-void LcmBridge::publishState(const state::StabilityMargin& margin) {
-  publishOn(margin.system + "/stability", toRos(margin));
-}
-
-void LcmBridge::publishState(const state::ParameterChange& change) {
-  publishOn(change.system + "/parameters", toRos(change), true);
+void LcmBridge::publish(const Message& message) {
+  std::visit([this](const auto& state) { publishState(state); }, message);
 }
 
 void LcmBridge::publishState(const state::Alert& alert) {
@@ -113,21 +81,7 @@ void LcmBridge::publishState(const state::Alert& alert) {
     list.push_back(active);
   }
   std::sort(list.begin(), list.end(), isMoreUrgent);
-  alert_publisher_.publish(toRos(list, alert.stamp));
-}
-
-template <class Message>
-void LcmBridge::publishOn(const std::string& topic, const Message& message, bool latched) {
-  auto [place, is_new] = publishers_.try_emplace(topic);
-  if (is_new) {
-    place->second = twin_.advertise<Message>(topic, kQueueSize, latched);
-    if (place->second) {
-      awaitSubscribers(place->second);
-    }
-  }
-  if (place->second) {  // null: advertised while ROS was shutting down
-    place->second.publish(message);
-  }
+  topics_.publishAlerts(list, alert.stamp);
 }
 
 }  // namespace whirl_twin

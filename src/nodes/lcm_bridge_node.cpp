@@ -1,6 +1,7 @@
-// lcm_bridge_node: LCM channels TWIN_* to the ROS topics of a live twin under /twin, for logs being
-// played back and twins elsewhere. Needs no scene. Private parameters:
-//   ~lcm_url   where to listen (default: channels.h)
+// lcm_bridge_node: LCM channels TWIN_* to the ROS topics of a live twin, for logs being played back
+// and twins elsewhere. Needs no scene. Private parameters:
+//   ~lcm_url     where to listen (default: channels.h)
+//   ~lcm_prefix  what the channels begin with (default: TWIN_, or the node's namespace in capitals)
 //   ~derived   also publish recorded stability margins and alerts (default false: a monitor listens
 //              to the states and publishes its own)
 // Says what it received, lost and rejected on /diagnostics once a second, and when it ends. The
@@ -28,12 +29,12 @@ namespace {
 constexpr std::chrono::milliseconds kPoll{50};
 const ros::WallDuration kReportPeriod(1.0);
 
-std::vector<ChannelKind> kindsOf(bool derived) {
-  std::vector<ChannelKind> kinds{ChannelKind::kWhirl,     ChannelKind::kPendulum,
-                                 ChannelKind::kDrive,     ChannelKind::kMotor,
-                                 ChannelKind::kParameter, ChannelKind::kEnsemble};
-  if (derived) {
-    kinds.insert(kinds.end(), {ChannelKind::kStability, ChannelKind::kAlerts});
+Kinds kindsToTell(bool derived) {
+  Kinds kinds;
+  for (const MessageKind* kind : allKinds()) {
+    if (derived || !kind->has(MessageKind::kJudged)) {
+      kinds.push_back(kind);
+    }
   }
   return kinds;
 }
@@ -59,9 +60,11 @@ void report(const LcmReceiver& receiver, diagnostic_updater::DiagnosticStatusWra
 void run() {
   const auto url = privateParameter<std::string>("lcm_url", "an LCM url", kDefaultLcmUrl);
   const auto derived = privateParameter<bool>("derived", "true or false", false);
-  LcmBridge bridge(ros::NodeHandle("/twin"), derived);
-  LcmReceiver receiver(openLcm(url), kindsOf(derived),
-                       [&bridge](const TwinState& state) { bridge.publish(state); });
+  const std::string prefix = lcmPrefixParameter();
+  LcmBridge bridge(ros::NodeHandle(twinNamespace()), derived);
+  LcmReceiver receiver(
+      openLcm(url), kindsToTell(derived),
+      [&bridge](const Message& message) { bridge.publish(message); }, prefix);
 
   diagnostic_updater::Updater diagnostics;
   diagnostics.setHardwareID("LCM " + url);

@@ -1,8 +1,9 @@
 // lcm_recorder_node: records the LCM channels TWIN_* of a twin as an LCM log, until interrupted.
 // Private parameters:
-//   ~log      the file to write
-//   ~lcm_url  where to listen (default: channels.h)
-//   ~force    true: overwrite an existing file (default false)
+//   ~log         the file to write
+//   ~lcm_url     where to listen (default: channels.h)
+//   ~lcm_prefix  what the channels begin with (default: TWIN_, or the node's namespace in capitals)
+//   ~force       true: overwrite an existing file (default false)
 #include <fmt/format.h>
 #include <ros/ros.h>
 
@@ -28,6 +29,7 @@ void run() {
   const auto log = privateParameter<std::string>("log", "the name of a file", "");
   const auto url = privateParameter<std::string>("lcm_url", "an LCM url", kDefaultLcmUrl);
   const auto force = privateParameter<bool>("force", "true or false", false);
+  const std::string prefix = lcmPrefixParameter();
   if (log.empty()) {
     throw std::invalid_argument("log: missing; expected the name of a file to write");
   }
@@ -36,8 +38,8 @@ void run() {
         fmt::format("log: '{}' exists; say force:=true to overwrite it", log));
   }
   const auto lcm = openLcm(url);
-  LcmRecorder recorder(lcm, "TWIN_.*", log);
-  fmt::print("recording TWIN_* from {} to {}\n", url, log);
+  LcmRecorder recorder(lcm, prefix + ".*", log);
+  fmt::print("recording {}* from {} to {}\n", prefix, url, log);
   std::fflush(stdout);
   while (ros::ok() && !stopRequested()) {
     recorder.record(milliseconds(50));

@@ -12,12 +12,11 @@ double seconds(std::int64_t nanoseconds) {
 
 }  // namespace
 
-LoopStatistics loopStatistics(const Twin& twin, const Observer& observer,
-                              const RealtimeStatus& status, const LoopTiming& timing, bool paused,
-                              std::uint64_t dropped) {
-  LoopStatistics m;
-  m.step = observer.step();
-  m.time = twin.seconds(observer.step());
+state::LoopStatistics loopStatistics(const Twin& twin, const Observer& observer,
+                                     const RealtimeStatus& status, const LoopTiming& timing,
+                                     bool paused, std::uint64_t dropped) {
+  state::LoopStatistics m;
+  m.at = observer.instant();
   m.step_size = twin.scene().stepSeconds();
   m.policy = status.policy;
   m.priority = status.priority;
@@ -49,7 +48,8 @@ LoopStatistics loopStatistics(const Twin& twin, const Observer& observer,
   return m;
 }
 
-void summarize(const LoopStatistics& loop, diagnostic_updater::DiagnosticStatusWrapper& status) {
+void summarize(const state::LoopStatistics& loop,
+               diagnostic_updater::DiagnosticStatusWrapper& status) {
   using diagnostic_msgs::DiagnosticStatus;
   status.summary(DiagnosticStatus::OK, loop.paused ? "paused" : "running");
   if (loop.dropped_snapshots > 0) {
@@ -67,11 +67,11 @@ void summarize(const LoopStatistics& loop, diagnostic_updater::DiagnosticStatusW
                            loop.system[i].c_str(), loop.error_estimate[i], loop.tolerance[i]);
     }
   }
-  status.add("step", loop.step);
-  status.add("simulated time [s]", loop.time);
+  status.add("step", loop.at.step);
+  status.add("simulated time [s]", loop.at.time);
   status.add("scheduling policy", loop.policy);
   status.add("priority", loop.priority);
-  status.add("memory locked", static_cast<bool>(loop.memory_locked));
+  status.add("memory locked", loop.memory_locked);
   status.add("overruns", loop.overruns);
   status.add("skipped steps", loop.skipped_steps);
   status.add("dropped states", loop.dropped_snapshots);

@@ -4,32 +4,31 @@
 #include <fmt/format.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
-#include <whirl_twin/AlertArray.h>
-#include <whirl_twin/LoopStatistics.h>
 
 #include <chrono>
-#include <map>
 #include <memory>
+#include <type_traits>
+#include <utility>
 
-#include "messages/message_check.h"
 #include "monitoring/twin_monitor.h"
 #include "nodes/private_parameter.h"
 #include "nodes/run_node.h"
 #include "plugins/plugin_models.h"
 #include "scene/scene_reader.h"
-#include "transport/channels.h"
 #include "transport/lcm_connection.h"
 #include "transport/lcm_publisher.h"
 #include "transport/lcm_receiver.h"
-#include "transport/ros_converters.h"
 #include "transport/ros_parameters.h"
+#include "transport/ros_topics.h"
+#include "twin/step_messages.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr std::uint32_t kQueue = 5000;  // some seconds at 1 kHz
-constexpr double kReportPeriod = 1.0;   // s, wall time
+constexpr std::uint32_t kQueue = 5000;        // some seconds at 1 kHz
+constexpr std::uint32_t kPublishQueue = 100;  // ten seconds of margins
+constexpr double kReportPeriod = 1.0;         // s, wall time
 
 double wallTime() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -55,6 +54,13 @@ AlarmSettings alarmSettings() {
   return s;
 }
 
+/// Whether the monitor takes messages of a kind as states, with the time they arrived at.
+template <class State, class = void>
+struct IsState : std::false_type {};
+template <class State>
+struct IsState<State, std::void_t<decltype(std::declval<TwinMonitor&>().take(
+                          std::declval<const State&>(), double{}))>> : std::true_type {};
+
 BuiltScene sceneOf(const ParameterTree& given) {
   return build(readScene(given.tree, given.source));
 }
@@ -67,14 +73,13 @@ class MonitorNode {
         settings_(alarmSettings()),
         monitor_(scene_, settings_),
         url_(privateParameter<std::string>("lcm_url", "an LCM url, or nothing", kDefaultLcmUrl)),
-        lcm_(url_),
-        alerts_(node.advertise<AlertArray>("alerts", 10, true)) {
+        lcm_(url_, lcmPrefixParameter()),
+        topics_(node, kPublishQueue) {
     if (!lcm_.warning().empty()) {
       ROS_WARN("%s", lcm_.warning().c_str());
     }
     for (const SharedSystem& system : scene_.systems) {
-      const std::string& name = system->spec.name;
-      margins_[name] = node.advertise<StabilityMargin>(name + "/stability", 100);
+      topics_.advertise<state::StabilityMargin>(system->spec.name);
     }
     publishAlerts();
 
@@ -89,7 +94,6 @@ class MonitorNode {
     } else {
       throw std::invalid_argument("source: must be ros or lcm, found '" + source + "'");
     }
-    subscribers_.push_back(node_.subscribe("loop", 10, &MonitorNode::onLoop, this));
     diagnostics_.setHardwareID("none");
     diagnostics_.add("monitor", this, &MonitorNode::summarize);
   }
@@ -122,43 +126,53 @@ class MonitorNode {
     }
   }
 
-  template <class Message>
-  void subscribeTo(const std::string& topic) {
-    const boost::function<void(const boost::shared_ptr<const Message>&)> callback =
-        [this](const boost::shared_ptr<const Message>& message) { feed(*message); };
-    subscribers_.push_back(node_.subscribe<Message>(topic, kQueue, callback, ros::VoidConstPtr(),
-                                                    ros::TransportHints().tcpNoDelay()));
+  template <class State>
+  void subscribeTo(const std::string& subject = "") {
+    using Type = RosType<State>;
+    const boost::function<void(const boost::shared_ptr<const Type>&)> callback =
+        [this](const boost::shared_ptr<const Type>& message) { feed(*message); };
+    subscribers_.push_back(node_.subscribe<Type>(topicName(State::kKind, subject), kQueue, callback,
+                                                 ros::VoidConstPtr(),
+                                                 ros::TransportHints().tcpNoDelay()));
   }
 
   void subscribe() {
-    for (const SharedSystem& system : scene_.systems) {
-      if (system->dynamics->isRotor()) {
-        subscribeTo<WhirlState>(system->spec.name + "/whirl");
-      } else {
-        subscribeTo<PendulumState>(system->spec.name + "/pendulum");
+    StepMessages(scene_).announce([this](auto kind, const std::string& subject) {
+      using State = typename decltype(kind)::State;
+      if constexpr (isWatched<State>()) {
+        subscribeTo<State>(subject);
       }
-    }
-    for (const SharedSystem& system : scene_.systems) {
-      subscribeTo<ParameterChange>(system->spec.name + "/parameters");
-    }
-    for (const DriveSpec& drive : scene_.scene.drives) {
-      subscribeTo<DriveState>("drives/" + drive.name);
-    }
+    });
+    subscribeTo<state::LoopStatistics>();
   }
 
   void receive(const std::string& url) {
-    receiver_ = std::make_unique<LcmReceiver>(
-        openLcm(url),
-        std::vector<ChannelKind>{ChannelKind::kWhirl, ChannelKind::kPendulum, ChannelKind::kDrive,
-                                 ChannelKind::kParameter},
-        [this](const TwinState& state) {
-          std::visit([this](const auto& s) { takeState(s); }, state);
-        });
+    Kinds kinds;
+    eachKind([&kinds](auto kind) {
+      using State = typename decltype(kind)::State;
+      if (isWatched<State>()) {
+        kinds.push_back(&State::kKind);
+      }
+    });
+    const auto take = [this](const Message& message) {
+      std::visit([this](const auto& state) { takeState(state); }, message);
+    };
+    receiver_ = std::make_unique<LcmReceiver>(openLcm(url), kinds, take, lcm_.prefix());
   }
+
+  /// What the monitor listens to; the rest is of no concern to it.
   template <class State>
-  void takeState(const State& s) {
-    newest_arrival_ = wallTime();
-    monitor_.take(s, newest_arrival_);
+  static constexpr bool isWatched() {
+    return IsState<State>::value || std::is_same_v<State, state::ParameterChange> ||
+           std::is_same_v<State, state::LoopStatistics>;
+  }
+
+  template <class State>
+  void takeState(const State& state) {
+    if constexpr (IsState<State>::value) {
+      newest_arrival_ = wallTime();
+      monitor_.take(state, newest_arrival_);
+    }
   }
   void takeState(const state::ParameterChange& change) {
     if (!monitor_.take(change)) {
@@ -167,29 +181,20 @@ class MonitorNode {
                change.system.c_str());
     }
   }
-  void takeState(const state::MotorState&) {}
-  void takeState(const state::EnsembleState&) {}
-  void takeState(const state::StabilityMargin&) {}
-  void takeState(const state::Alert&) {}
-
-  void onLoop(const LoopStatistics& loop) {
+  void takeState(const state::LoopStatistics& loop) {
     paused_ = loop.paused;
-    for (std::size_t i = 0;
-         i < loop.system.size() && i < loop.stopped.size() && i < loop.stopped_why.size(); ++i) {
-      monitor_.takeStopped(loop.system[i], loop.time, static_cast<StepStatus>(loop.stopped[i]),
+    for (std::size_t i = 0; i < loop.system.size(); ++i) {
+      monitor_.takeStopped(loop.system[i], loop.at.time, static_cast<StepStatus>(loop.stopped[i]),
                            loop.stopped_why[i]);
-    }
-    for (std::size_t i = 0;
-         i < loop.system.size() && i < loop.error_estimate.size() && i < loop.tolerance.size();
-         ++i) {
-      monitor_.takeAccuracy(loop.system[i], loop.time, loop.error_estimate[i], loop.tolerance[i]);
+      monitor_.takeAccuracy(loop.system[i], loop.at.time, loop.error_estimate[i],
+                            loop.tolerance[i]);
     }
   }
 
   void publish() {
     for (const state::StabilityMargin& margin : monitor_.takeMargins()) {
       lcm_.publish(margin);
-      margins_.at(margin.system).publish(toRos(margin));
+      topics_.publish(margin);
     }
     for (const state::Alert& event : monitor_.alerts().takeEvents()) {
       lcm_.publish(event);
@@ -206,8 +211,8 @@ class MonitorNode {
   }
 
   void publishAlerts() {
-    alerts_.publish(
-        toRos(monitor_.alerts().active(), static_cast<std::int64_t>(ros::Time::now().toNSec())));
+    topics_.publishAlerts(monitor_.alerts().active(),
+                          static_cast<std::int64_t>(ros::Time::now().toNSec()));
   }
 
   void summarize(diagnostic_updater::DiagnosticStatusWrapper& status) {
@@ -233,8 +238,7 @@ class MonitorNode {
   TwinMonitor monitor_;
   std::string url_;
   LcmPublisher lcm_;
-  ros::Publisher alerts_;
-  std::map<std::string, ros::Publisher> margins_;
+  RosTopics topics_;
   std::vector<ros::Subscriber> subscribers_;
   std::unique_ptr<LcmReceiver> receiver_;
   diagnostic_updater::Updater diagnostics_;
@@ -246,7 +250,7 @@ class MonitorNode {
 
 void run() {
   usePluginModels();
-  MonitorNode monitor(ros::NodeHandle("/twin"));
+  MonitorNode monitor{ros::NodeHandle(twinNamespace())};
   while (!stopRequested() && ros::ok()) {
     monitor.spinOnce();
   }

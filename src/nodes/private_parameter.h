@@ -5,6 +5,10 @@
 #include <ros/ros.h>
 
 #include <stdexcept>
+#include <string>
+
+#include "transport/channels.h"
+#include "transport/twin_namespace.h"
 
 namespace whirl_twin {
 
@@ -19,6 +23,15 @@ Value privateParameter(const char* name, const char* expected, const Value& fall
         fmt::format("{}: expected {}, found another type", node.resolveName(name), expected));
   }
   return value;
+}
+
+/// ~lcm_prefix: what the names of the twin's LCM channels begin with; TWIN_, or the namespace of
+/// the twin in capitals. Throws Refusal for one that no channel can have.
+inline std::string lcmPrefixParameter() {
+  const auto prefix = privateParameter<std::string>("lcm_prefix", "letters, digits and _",
+                                                    lcmPrefixOf(twinNamespace()));
+  requireLcmPrefix(prefix);
+  return prefix;
 }
 
 }  // namespace whirl_twin

@@ -26,6 +26,7 @@
 #include "scene/scene_reader.h"
 #include "transport/channels.h"
 #include "transport/ros_parameters.h"
+#include "transport/twin_namespace.h"
 #include "twin/live_twin.h"
 
 namespace whirl_twin {
@@ -49,6 +50,7 @@ std::int64_t clockNow(clockid_t clock) {
 struct Settings {
   std::int64_t every;  ///< steps from one publication to the next
   std::string lcm_url;
+  std::string lcm_prefix;
   bool clock;
   FixedRateLoop::Options loop;
 };
@@ -63,6 +65,7 @@ Settings readSettings(const Scene& scene) {
   s.every =
       rate == 0.0 ? 1 : std::max<std::int64_t>(1, std::llround(1.0 / (rate * scene.stepSeconds())));
   s.lcm_url = privateParameter<std::string>("lcm_url", "an LCM url, or nothing", kDefaultLcmUrl);
+  s.lcm_prefix = lcmPrefixParameter();
   s.clock = privateParameter("clock", "true or false", false);
   if (s.clock && scene.time < 0) {
     throw std::invalid_argument("clock: needs a scene whose time is >= 0 s");
@@ -89,8 +92,8 @@ class Publisher {
       : live_(live),
         loop_(loop),
         observer_(live.twin(), live.generations()),
-        states_(live.twin(), live.ensembles(), node, settings.lcm_url, settings.clock),
-        statistics_(node.advertise<LoopStatistics>("loop", 10, true)),
+        states_(live.twin(), live.ensembles(), node,
+                LcmPublisher(settings.lcm_url, settings.lcm_prefix), settings.clock),
         clock_(settings.clock),
         every_(settings.every),
         epoch_(clockNow(CLOCK_REALTIME) - clockNow(CLOCK_MONOTONIC)),
@@ -111,7 +114,7 @@ class Publisher {
     }
   }
   /// The newest report, for the diagnostics.
-  LoopStatistics report() const {
+  state::LoopStatistics report() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return report_;
   }
@@ -154,10 +157,7 @@ class Publisher {
     const Scene& scene = live_.twin().scene();
     observer_.setStamp(clock_ ? scene.time + observer_.step() * scene.step
                               : epoch_ + RecordLayout::scheduled(record.data()));
-    states_.publishParameters(observer_);
-    if (observer_.step() % every_ == 0 && !observer_.tellsOnlyChange()) {
-      states_.publish(observer_);
-    }
+    states_.publish(observer_, observer_.step() % every_ == 0 && !observer_.tellsOnlyChange());
     bool stopped_now = false;
     for (std::size_t i = 0; i < stopped_.size(); ++i) {
       const bool stopped = observer_.status(i) != StepStatus::kOk;
@@ -171,10 +171,10 @@ class Publisher {
   }
 
   void publishReport() {
-    LoopStatistics report = loopStatistics(live_.twin(), observer_, loop_.status(), loop_.timing(),
-                                           live_.paused(), live_.dropped());
-    report.header.stamp = ros::Time::now();
-    statistics_.publish(report);
+    state::LoopStatistics report = loopStatistics(live_.twin(), observer_, loop_.status(),
+                                                  loop_.timing(), live_.paused(), live_.dropped());
+    report.at.stamp = static_cast<std::int64_t>(ros::Time::now().toNSec());
+    states_.publish(report);
     const std::lock_guard<std::mutex> lock(mutex_);
     report_ = report;
   }
@@ -183,19 +183,18 @@ class Publisher {
   const FixedRateLoop& loop_;
   Observer observer_;
   StatePublisher states_;
-  ros::Publisher statistics_;
   bool clock_;
   std::int64_t every_;  // steps from one publication to the next
   std::int64_t epoch_;  // [ns], wall clock at zero of CLOCK_MONOTONIC
   std::vector<bool> stopped_;
   mutable std::mutex mutex_;  // report_, between this thread and the diagnostics
-  LoopStatistics report_;
+  state::LoopStatistics report_;
   std::atomic<bool> ending_{false};
   std::thread thread_;
 };
 
 void run() {
-  ros::NodeHandle node("/twin");
+  ros::NodeHandle node(twinNamespace());
   ros::NodeHandle private_node("~");
   usePluginModels();
   const ParameterTree given = parameterTree(node, "scene");

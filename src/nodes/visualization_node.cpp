@@ -1,8 +1,8 @@
 // visualization_node: states of the twin to rviz markers and tf.
 //
-// Publishes /twin/markers (visualization_msgs/MarkerArray, frame `world`) and the tf frames
-// world -> <system> -> <system>_disc or <system>_body, as drawn. The models are those of the scene
-// under /twin/scene, if there is one. Private parameters:
+// Publishes markers (visualization_msgs/MarkerArray, frame `world`) and the tf frames
+// world -> <system> -> <system>_disc or <system>_body, as drawn, of the twin whose namespace it is
+// in. The models are those of its scene, if there is one. Private parameters:
 //   ~rate         [Hz]     frames a second, > 0 (default 30)
 //   ~whirl_scale  [-]      exaggeration of the whirl; 0 (default): a round number chosen to fit
 //   ~trail_turns  [turns]  length of the orbit's trail, > 0 (default 3)
@@ -21,6 +21,7 @@
 #include "display/scene_dynamics.h"
 #include "display/twin_listener.h"
 #include "plugins/plugin_models.h"
+#include "transport/twin_namespace.h"
 
 namespace whirl_twin {
 namespace {
@@ -68,8 +69,7 @@ class VisualizationNode {
         trail_turns_(positiveParameter("trail_turns", "turns", 3.0, false)),
         rate_(positiveParameter("rate", "Hz", 30.0, false)) {
     ros::NodeHandle node;
-    publisher_ = node.advertise<visualization_msgs::MarkerArray>(
-        std::string(kTwinNamespace) + "/markers", 2);
+    publisher_ = node.advertise<visualization_msgs::MarkerArray>(twinNamespace() + "/markers", 2);
     listener_.onWhirl([this](const std::string& system, const WhirlState& state) {
       rotors_.try_emplace(system, system, whirl_scale_, trail_turns_).first->second.update(state);
     });

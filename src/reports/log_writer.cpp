@@ -1,10 +1,11 @@
 #include <map>
-#include <set>
+#include <utility>
 
 #include "reports/output.h"
 #include "reports/sample_writer.h"
 #include "transport/lcm_event_log.h"
 #include "twin/ensemble_statistics.h"
+#include "twin/step_messages.h"
 
 namespace whirl_twin {
 
@@ -13,39 +14,18 @@ namespace {
 class LogWriter final : public SampleWriter {
  public:
   LogWriter(const Twin& twin, std::vector<std::size_t> systems, const std::string& path)
-      : twin_(twin), systems_(std::move(systems)), pending_(path), log_(pending_.path()) {
-    for (const std::size_t i : systems_) {
-      const std::size_t drive = twin.systems()[i]->drive;
-      if (drive < twin.scene().drives.size()) {  // the others are constant speeds, not drives
-        drives_.insert(drive);
-      }
-    }
-  }
+      : twin_(twin),
+        messages_(twin.built(), std::move(systems)),
+        pending_(path),
+        log_(pending_.path()) {}
 
   void write(const Observer& observer) override {
-    for (const std::size_t i : systems_) {
-      if (observer.status(i) != StepStatus::kOk) {
-        continue;
-      }
-      if (observer.isRotor(i)) {
-        log_.write(observer.whirl(i));
-      } else {
-        log_.write(observer.pendulum(i));
-      }
-    }
-    for (const std::size_t drive : drives_) {
-      log_.write(observer.drive(drive));
-      if (twin_.isMotor(drive) && observer.status(twin_.turnedBy(drive)) == StepStatus::kOk) {
-        log_.write(observer.motor(drive));
-      }
-    }
-    for (const std::size_t i : systems_) {
-      const Ensemble* const ensemble = twin_.ensemble(i);
-      if (ensemble != nullptr && observer.step() >= next_ensemble_[i]) {
-        writeEnsemble(observer, i);
-        next_ensemble_[i] = (observer.step() / ensemble->period() + 1) * ensemble->period();
-      }
-    }
+    messages_.tell(observer, true, Sink{log_});
+    const auto take = [this](std::size_t system, const state::Instant& now,
+                             state::EnsembleState& ensemble) {
+      return takeEnsemble(system, now, ensemble);
+    };
+    messages_.tellEnsembles(observer, take, Sink{log_});
   }
 
   void finish() override {
@@ -54,19 +34,34 @@ class LogWriter final : public SampleWriter {
   }
 
  private:
-  void writeEnsemble(const Observer& observer, std::size_t system) {
+  struct Sink {
+    EventLogWriter& log;
+
+    template <class Make>
+    void operator()(const std::string&, Make make) {
+      log.write(make());
+    }
+    void change(const state::ParameterChange& change) { log.write(change); }
+    void again(const state::ParameterChange& change) { log.write(change); }
+  };
+
+  /// As often as a live twin has one, at the samples.
+  bool takeEnsemble(std::size_t system, const state::Instant& now, state::EnsembleState& out) {
     const Ensemble& ensemble = *twin_.ensemble(system);
+    if (now.step < next_ensemble_[system]) {
+      return false;
+    }
+    next_ensemble_[system] = (now.step / ensemble.period() + 1) * ensemble.period();
     record_.resize(ensemble.recordSize());
-    ensemble.write(observer.step(), record_.data());
-    state::EnsembleState state = ensembleStatistics(ensemble, record_.data());
-    state.at = observer.instant();
-    state.system = twin_.systems()[system]->spec.name;
-    log_.write(state);
+    ensemble.write(now.step, record_.data());
+    out = ensembleStatistics(ensemble, record_.data());
+    out.at = now;
+    out.system = twin_.systems()[system]->spec.name;
+    return true;
   }
 
   const Twin& twin_;
-  std::vector<std::size_t> systems_;
-  std::set<std::size_t> drives_;
+  StepMessages messages_;
   PendingFile pending_;
   EventLogWriter log_;
   std::map<std::size_t, std::int64_t> next_ensemble_;  // step, of each system

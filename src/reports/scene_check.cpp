@@ -1,12 +1,14 @@
 #include "reports/scene_check.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "accuracy/step_choice.h"
 #include "accuracy/trajectory.h"
 #include "reports/step_cost.h"
 #include "transport/channels.h"
+#include "twin/step_messages.h"
 
 namespace whirl_twin {
 
@@ -28,39 +30,33 @@ SystemCheck checkSystem(const BuiltSystem& system) {
   check.substeps = system.spec.substeps;
   check.drive = system.spec.drive;
   check.speed = system.spec.speed;
-  const bool rotor = system.dynamics->isRotor();
-  check.topics = {rotor ? PublishedTopic{"/twin/" + name + "/whirl", "whirl_twin/WhirlState"}
-                        : PublishedTopic{"/twin/" + name + "/pendulum", "whirl_twin/PendulumState"},
-                  {"/twin/" + name + "/joint_states", "sensor_msgs/JointState"},
-                  {"/twin/" + name + "/stability", "whirl_twin/StabilityMargin"},
-                  {"/twin/" + name + "/parameters", "whirl_twin/ParameterChange"}};
-  check.channels = {channelName(rotor ? ChannelKind::kWhirl : ChannelKind::kPendulum, name),
-                    channelName(ChannelKind::kStability, name),
-                    channelName(ChannelKind::kParameter, name)};
-  if (system.spec.ensemble.count > 0) {
-    check.topics.push_back({"/twin/" + name + "/ensemble", "whirl_twin/EnsembleState"});
-    check.channels.push_back(channelName(ChannelKind::kEnsemble, name));
-  }
   return check;
 }
 
+/// Lists what a live twin of the scene, and its monitor, publish of each system and drive.
+void listMessages(const BuiltScene& scene, SceneCheck& check) {
+  const auto add = [](const MessageKind& kind, const std::string& subject, Published& published) {
+    published.topics.push_back(
+        {"/twin/" + topicName(kind, subject), std::string("whirl_twin/") + kind.type});
+    published.channels.push_back(channelName(kind, subject));
+  };
+  std::map<std::string, Published> systems;
+  StepMessages(scene).announce([&](auto kind, const std::string& subject) {
+    const MessageKind& row = decltype(kind)::State::kKind;
+    const bool of_drive = topicName(row, "").rfind("drives/", 0) == 0;
+    Published& published = of_drive ? check.drives[subject] : systems[subject];
+    add(row, subject, published);
+    if (row.has(MessageKind::kJointStates)) {  // the state of a system, which is also judged
+      published.topics.push_back({"/twin/" + subject + "/joint_states", "sensor_msgs/JointState"});
+      add(state::StabilityMargin::kKind, subject, published);
+    }
+  });
+  for (SystemCheck& system : check.systems) {
+    system.published = systems[system.name];
+  }
+}
+
 }  // namespace
-
-std::vector<PublishedTopic> driveTopics(const DriveSpec& drive) {
-  std::vector<PublishedTopic> topics{{"/twin/drives/" + drive.name, "whirl_twin/DriveState"}};
-  if (drive.motor) {
-    topics.push_back({"/twin/drives/" + drive.name + "/motor", "whirl_twin/MotorState"});
-  }
-  return topics;
-}
-
-std::vector<std::string> driveChannels(const DriveSpec& drive) {
-  std::vector<std::string> channels{channelName(ChannelKind::kDrive, drive.name)};
-  if (drive.motor) {
-    channels.push_back(channelName(ChannelKind::kMotor, drive.name));
-  }
-  return channels;
-}
 
 SceneCheck checkScene(const Scene& scene, const std::vector<std::size_t>& systems) {
   SceneCheck check;
@@ -89,6 +85,7 @@ SceneCheck checkScene(const Scene& scene, const std::vector<std::size_t>& system
     check.step_cost = cost.step;
     check.memory = cost.memory;
   }
+  listMessages(built, check);
   check.record = layoutOf(built).size * sizeof(double);
   return check;
 }

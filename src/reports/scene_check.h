@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,12 @@ struct PublishedTopic {
   std::string type;
 };
 
+/// Where a system or drive is heard.
+struct Published {
+  std::vector<PublishedTopic> topics;
+  std::vector<std::string> channels;  ///< LCM
+};
+
 struct SystemCheck {
   std::string name;
   const ModelInfo* model = nullptr;
@@ -27,19 +34,19 @@ struct SystemCheck {
   int substeps = 1;
   std::optional<std::string> drive;
   std::optional<double> speed;  ///< [rad/s], constant
-  std::vector<PublishedTopic> topics;
-  std::vector<std::string> channels;  ///< LCM
-  double step_cost = 0.0;             ///< [ns]; NaN: it stops at once
-  std::size_t memory = 0;             ///< [bytes], heap of a twin of it alone
-  std::string ensemble;               ///< "1000 members, side by side in vectors", or ""
+  Published published;
+  double step_cost = 0.0;  ///< [ns]; NaN: it stops at once
+  std::size_t memory = 0;  ///< [bytes], heap of a twin of it alone
+  std::string ensemble;    ///< "1000 members, side by side in vectors", or ""
 };
 
 struct SceneCheck {
   Scene scene;
   std::vector<SystemCheck> systems;
-  double step_cost = 0.0;  ///< [ns], of all systems together
-  std::size_t memory = 0;  ///< [bytes], heap of the running twin
-  std::size_t record = 0;  ///< [bytes], of one step's snapshot
+  std::map<std::string, Published> drives;  ///< by name
+  double step_cost = 0.0;                   ///< [ns], of all systems together
+  std::size_t memory = 0;                   ///< [bytes], heap of the running twin
+  std::size_t record = 0;                   ///< [bytes], of one step's snapshot
 };
 
 /// Checks the systems chosen (indices into scene.systems), all the others aside. Takes a few
@@ -48,9 +55,5 @@ SceneCheck checkScene(const Scene& scene, const std::vector<std::size_t>& system
 
 std::string text(const SceneCheck& check);
 Json json(const SceneCheck& check);
-
-/// The topics and the LCM channels of a drive.
-std::vector<PublishedTopic> driveTopics(const DriveSpec& drive);
-std::vector<std::string> driveChannels(const DriveSpec& drive);
 
 }  // namespace whirl_twin

@@ -5,7 +5,15 @@ namespace whirl_twin {
 
 namespace {
 
-Json driveJson(const DriveSpec& drive) {
+void addPublished(const Published& published, Json& json) {
+  json["topics"] = Json::array();
+  for (const PublishedTopic& topic : published.topics) {
+    json["topics"].push_back({{"topic", topic.topic}, {"type", topic.type}});
+  }
+  json["channels"] = published.channels;
+}
+
+Json driveJson(const DriveSpec& drive, const Published& published) {
   Json json;
   json["speed"] = drive.speed;
   json["angle"] = drive.angle;
@@ -20,11 +28,7 @@ Json driveJson(const DriveSpec& drive) {
                                {"dwell", move.dwell}});
   }
   json["duration"] = profileDuration(drive);
-  json["topics"] = Json::array();
-  for (const PublishedTopic& topic : driveTopics(drive)) {
-    json["topics"].push_back({{"topic", topic.topic}, {"type", topic.type}});
-  }
-  json["channels"] = driveChannels(drive);
+  addPublished(published, json);
   return json;
 }
 
@@ -44,11 +48,7 @@ Json systemJson(const SystemCheck& system) {
   json["integrator"] = system.integrator;
   json["reason"] = system.reason;
   json["substeps"] = system.substeps;
-  json["topics"] = Json::array();
-  for (const PublishedTopic& topic : system.topics) {
-    json["topics"].push_back({{"topic", topic.topic}, {"type", topic.type}});
-  }
-  json["channels"] = system.channels;
+  addPublished(system.published, json);
   if (!system.ensemble.empty()) {
     json["ensemble"] = system.ensemble;
   }
@@ -68,7 +68,7 @@ Json json(const SceneCheck& check) {
   json["gravity"] = check.scene.gravity;
   json["drives"] = Json::object();
   for (const DriveSpec& drive : check.scene.drives) {
-    json["drives"][drive.name] = driveJson(drive);
+    json["drives"][drive.name] = driveJson(drive, check.drives.at(drive.name));
   }
   for (const SystemCheck& system : check.systems) {
     json["systems"][system.name] = systemJson(system);

@@ -9,7 +9,7 @@ namespace whirl_twin {
 
 namespace {
 
-std::string driveText(const DriveSpec& drive) {
+std::string driveText(const DriveSpec& drive, const Published& published) {
   std::string out = fmt::format("  {}: {:g} rad/s", drive.name, drive.speed);
   out += drive.profile.empty()
              ? ", constant until it is given another speed\n"
@@ -23,11 +23,11 @@ std::string driveText(const DriveSpec& drive) {
                        move.dwell);
   }
   std::vector<std::string> topics;
-  for (const PublishedTopic& topic : driveTopics(drive)) {
+  for (const PublishedTopic& topic : published.topics) {
     topics.push_back(fmt::format("{} ({})", topic.topic, topic.type));
   }
   return out + fmt::format("    published on {}, LCM {}\n", fmt::join(topics, ", "),
-                           fmt::join(driveChannels(drive), ", "));
+                           fmt::join(published.channels, ", "));
 }
 
 std::string costText(double cost) {
@@ -54,10 +54,10 @@ std::string systemText(const SystemCheck& system) {
   }
   out += fmt::format("    integrator    {} ({}), {} a step\n", system.integrator, system.reason,
                      system.substeps);
-  for (const PublishedTopic& topic : system.topics) {
+  for (const PublishedTopic& topic : system.published.topics) {
     out += fmt::format("    ROS           {} ({})\n", topic.topic, topic.type);
   }
-  out += fmt::format("    LCM           {}\n", fmt::join(system.channels, ", "));
+  out += fmt::format("    LCM           {}\n", fmt::join(system.published.channels, ", "));
   if (!system.ensemble.empty()) {
     out += fmt::format("    ensemble      {}\n", system.ensemble);
   }
@@ -77,7 +77,7 @@ std::string text(const SceneCheck& check) {
     out += "drives\n";
   }
   for (const DriveSpec& drive : scene.drives) {
-    out += driveText(drive);
+    out += driveText(drive, check.drives.at(drive.name));
   }
   out += "systems\n";
   for (const SystemCheck& system : check.systems) {

@@ -116,13 +116,15 @@ std::string text(const LogSummary& log) {
 
 struct Request {
   std::string file;
+  std::string lcm_prefix = kDefaultLcmPrefix;
   bool json = false;
 };
 
 int summarize(const Request& request) {
+  requireLcmPrefix(request.lcm_prefix);
   LogSummary log;
   try {
-    log = readEventLog(request.file);
+    log = readEventLog(request.file, request.lcm_prefix);
   } catch (const std::runtime_error& error) {
     throw Refusal(error.what());
   }
@@ -146,6 +148,10 @@ void addLogCommand(CLI::App& twin, int& status) {
   command->add_option("FILE", request->file, "LCM log, such as demo.lcmlog")
       ->required()
       ->type_name("");
+  command
+      ->add_option("--lcm-prefix", request->lcm_prefix,
+                   "what the channels of the recorded twin begin with; default: TWIN_")
+      ->type_name("PREFIX");
   command->add_flag("--json", request->json, "print one JSON object");
   command->footer(kFooter);
   command->callback([request, &status] { status = summarize(*request); });

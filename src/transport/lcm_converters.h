@@ -1,39 +1,104 @@
-// State <-> LCM type, one converter a direction. toLcm() never fails; fromLcm() throws
-// RejectedMessage for a message that cannot be meant: an illegal name, arrays of different lengths,
-// a number outside its range, a utime that is not the time.
+// State <-> LCM type. toLcm() never fails; fromLcm() throws RejectedMessage for a message that
+// cannot be meant: an illegal name, arrays of different lengths, a number outside its range, a
+// utime that is not the time.
 #pragma once
 
-#include "messages/alert.h"
-#include "messages/message_check.h"
-#include "messages/stability_margin.h"
-#include "messages/states.h"
-#include "whirl_twin/alert_t.hpp"
-#include "whirl_twin/drive_state_t.hpp"
-#include "whirl_twin/ensemble_state_t.hpp"
-#include "whirl_twin/motor_state_t.hpp"
-#include "whirl_twin/parameter_change_t.hpp"
-#include "whirl_twin/pendulum_state_t.hpp"
-#include "whirl_twin/stability_margin_t.hpp"
-#include "whirl_twin/whirl_state_t.hpp"
+#include <fmt/format.h>
+
+#include "transport/lcm_types.h"
+#include "transport/message_fields.h"
 
 namespace whirl_twin {
 
-whirl_state_t toLcm(const state::WhirlState& whirl);
-pendulum_state_t toLcm(const state::PendulumState& pendulum);
-drive_state_t toLcm(const state::DriveState& drive);
-motor_state_t toLcm(const state::MotorState& motor);
-ensemble_state_t toLcm(const state::EnsembleState& ensemble);
-stability_margin_t toLcm(const state::StabilityMargin& margin);
-parameter_change_t toLcm(const state::ParameterChange& change);
-alert_t toLcm(const state::Alert& alert);
+template <class State>
+class LcmPut : public PutFields<LcmPut<State>, State, LcmType<State>> {
+ public:
+  LcmPut(const State& state, LcmType<State>& message)
+      : PutFields<LcmPut, State, LcmType<State>>(state, message) {}
 
-state::WhirlState fromLcm(const whirl_state_t& message);
-state::PendulumState fromLcm(const pendulum_state_t& message);
-state::DriveState fromLcm(const drive_state_t& message);
-state::MotorState fromLcm(const motor_state_t& message);
-state::EnsembleState fromLcm(const ensemble_state_t& message);
-state::StabilityMargin fromLcm(const stability_margin_t& message);
-state::ParameterChange fromLcm(const parameter_change_t& message);
-state::Alert fromLcm(const alert_t& message);
+  void head() {
+    this->message_.utime = utimeOf(this->state_.at.time);
+    this->message_.stamp = this->state_.at.stamp;
+    this->message_.step = this->state_.at.step;
+    this->message_.time = this->state_.at.time;
+  }
+  template <class F>
+  void head(F name) {
+    head();
+    name.in(this->message_) = name.of(this->state_);
+  }
+  void stamped() {
+    this->message_.utime = utimeOf(this->state_.time);
+    this->message_.stamp = this->state_.stamp;
+  }
+  template <class L, class F>
+  void length(L length, F array) {
+    length.in(this->message_) = static_cast<std::int32_t>(array.of(this->state_).size());
+  }
+  /// An array of another length is cut or filled up: LCM knows one length for all.
+  template <class First, class F>
+  void alike(First first, F array) {
+    array.in(this->message_).resize(first.of(this->state_).size());
+  }
+};
+
+template <class State>
+class LcmTake : public TakeFields<LcmTake<State>, State, LcmType<State>> {
+ public:
+  LcmTake(const LcmType<State>& message, State& state)
+      : TakeFields<LcmTake, State, LcmType<State>>(message, state) {}
+
+  void head() {
+    const auto& message = this->message_;
+    requireStep(message.step);
+    requireTime("time", message.time);
+    requireUtimeAndStamp();
+    this->state_.at = {message.step, message.time, message.stamp};
+  }
+  template <class F>
+  void head(F name) {
+    this->value(name, "", requireName, Stays::kSubject);
+    head();
+  }
+  void stamped() {
+    requireUtimeAndStamp();
+    this->state_.stamp = this->message_.stamp;
+  }
+  template <class L, class F>
+  void length(L length, F array) {
+    requireLength(array.name, array.in(this->message_).size(), length.in(this->message_));
+  }
+  template <class L, class F>
+  void rows(L length, F rows) {
+    TakeFields<LcmTake, State, LcmType<State>>::rows(length, rows);
+    requireLength(rows.name, rows.of(this->state_).size(), length.in(this->message_));
+  }
+
+ private:
+  void requireUtimeAndStamp() {
+    const auto& message = this->message_;
+    if (message.utime != utimeOf(message.time)) {
+      throw RejectedMessage(fmt::format("utime: expected {} us, the time of {} s, found {}",
+                                        utimeOf(message.time), message.time, message.utime));
+    }
+    requireStamp(message.stamp);
+  }
+};
+
+template <class State>
+LcmType<State> toLcm(const State& state) {
+  LcmType<State> message;
+  LcmPut<State> put(state, message);
+  State::fields(put);
+  return message;
+}
+
+template <class State>
+State fromLcm(const LcmType<State>& message) {
+  State state;
+  LcmTake<State> take(message, state);
+  State::fields(take);
+  return state;
+}
 
 }  // namespace whirl_twin

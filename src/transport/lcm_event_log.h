@@ -12,9 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "messages/alert.h"
-#include "messages/stability_margin.h"
-#include "messages/states.h"
+#include "transport/channels.h"
+#include "transport/lcm_encode.h"
 
 namespace whirl_twin {
 
@@ -27,7 +26,7 @@ struct ChannelSummary {
   std::uint64_t rejected = 0;  ///< payload of the wrong type, undecodable, or not believable
   double first_time = 0.0;     ///< [s], simulated, of the first sound event; NaN for "other"
   double last_time = 0.0;      ///< [s], of the last
-  // Of whirl, pendulum, drive and motor states, 0 for the others: see StepContinuity.
+  // Of kinds that are a series, 0 for the others: see StepContinuity.
   std::int64_t stride = 0;
   std::uint64_t gaps = 0;
   std::uint64_t lost = 0;
@@ -67,10 +66,11 @@ struct LogSummary {
 /// read; whatever is wrong inside the file is in the summary. LCM events carry no checksum: a
 /// changed bit inside a measured value, or in a timestamp that stays in order to within a second,
 /// cannot be seen.
-LogSummary readEventLog(const std::string& path);
+/// prefix: of the channels of the twin that was recorded.
+LogSummary readEventLog(const std::string& path, const std::string& prefix = kDefaultLcmPrefix);
 
-/// Writes states as a log whose timestamps are the simulated time [us]; the same states give the
-/// same bytes.
+/// Writes messages as a log whose timestamps are the simulated time [us]; the same messages give
+/// the same bytes.
 class EventLogWriter {
  public:
   /// Creates the file, or empties it. Throws std::runtime_error if it cannot be written.
@@ -78,23 +78,19 @@ class EventLogWriter {
   EventLogWriter(const EventLogWriter&) = delete;
   EventLogWriter& operator=(const EventLogWriter&) = delete;
 
-  // Each throws std::runtime_error if the event cannot be written.
-  void write(const state::WhirlState& whirl);
-  void write(const state::PendulumState& pendulum);
-  void write(const state::DriveState& drive);
-  void write(const state::MotorState& motor);
-  void write(const state::EnsembleState& ensemble);
-  void write(const state::StabilityMargin& margin);
-  void write(const state::ParameterChange& change);
-  void write(const state::Alert& alert);
+  /// Throws std::runtime_error if the event cannot be written.
+  template <class State>
+  void write(const State& state) {
+    const std::int64_t utime = encode(state, payload_);
+    writeEvent(channelOf(state), utime);
+  }
 
   /// Hands everything to the file system: only then is a full disk noticed. Throws
   /// std::runtime_error.
   void finish();
 
  private:
-  template <class State>
-  void writeEvent(const State& state);
+  void writeEvent(const std::string& channel, std::int64_t utime);
 
   std::string path_;
   lcm::LogFile file_;

@@ -4,10 +4,10 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "messages/message_check.h"
-#include "transport/channels.h"
 #include "transport/event_scan.h"
 #include "transport/lcm_decode.h"
 #include "transport/lcm_event_log.h"
@@ -19,54 +19,29 @@ namespace {
 /// Timestamps are those of reception, and the machine's clock may be set back a little [us].
 constexpr std::int64_t kClockSlack = 1000000;
 
-/// What one channel has to keep from one event to the next: the system or drive it is about, with
-/// its coordinates.
-std::string subject(const state::WhirlState& whirl) {
-  return whirl.system;
-}
-
-std::string subject(const state::PendulumState& pendulum) {
-  return fmt::format("{} ({})", pendulum.system, fmt::join(pendulum.name, ", "));
-}
-
-std::string subject(const state::DriveState& drive) {
-  return drive.drive;
-}
-
-std::string subject(const state::MotorState& motor) {
-  return fmt::format("{}, the motor of {}", motor.drive, motor.system);
-}
-
-std::string subject(const state::EnsembleState& ensemble) {
-  return fmt::format("{} times {} ({})", ensemble.count, ensemble.system,
-                     fmt::join(ensemble.quantity, ", "));
-}
-
-std::string subject(const state::StabilityMargin& margin) {
-  return fmt::format("{}, a {} ({})", margin.system, margin.model,
-                     fmt::join(margin.coordinate, ", "));
-}
-
-std::string subject(const state::ParameterChange& change) {
-  return fmt::format("{} ({})", change.system, fmt::join(change.names, ", "));
-}
-
-std::string subject(const state::Alert&) {
-  return "";
-}
-
-double timeOf(const state::Alert& alert) {
-  return alert.time;
-}
-
+/// What the messages of one channel have in common, in words.
 template <class State>
-double timeOf(const State& state) {
-  return state.at.time;
+std::string subject(const State& state) {
+  std::string subject;
+  const auto add = [&subject](const char* name, const auto& value, Stays stays) {
+    using Value = std::decay_t<decltype(value)>;
+    if constexpr (std::is_same_v<Value, std::vector<std::string>>) {
+      if (stays == Stays::kSame) {
+        subject += fmt::format(", {} {}", name, fmt::join(value, " "));
+      }
+    } else if constexpr (std::is_same_v<Value, std::string> || std::is_integral_v<Value>) {
+      if (stays != Stays::kNot) {
+        subject += fmt::format("{}{} {}", subject.empty() ? "" : ", ", name, value);
+      }
+    }
+  };
+  eachMember(state, add);
+  return subject;
 }
 
 class LogJudge {
  public:
-  explicit LogJudge(LogSummary& summary) : summary_(summary) {}
+  LogJudge(LogSummary& summary, const std::string& prefix) : summary_(summary), prefix_(prefix) {}
 
   void take(const RawEvent& event);
   void takeDamage(const EventScan& scan, bool truncated);
@@ -85,6 +60,7 @@ class LogJudge {
   void takeState(const RawEvent& event, ChannelTrace& trace);
 
   LogSummary& summary_;
+  std::string prefix_;
   std::map<std::string, ChannelTrace> traces_;
   std::optional<std::int64_t> expected_number_ = 0;
   std::optional<std::int64_t> last_timestamp_;
@@ -128,27 +104,28 @@ void LogJudge::checkOrder(const RawEvent& event) {
 LogJudge::ChannelTrace& LogJudge::traceOf(const std::string& channel) {
   const auto [place, is_new] = traces_.try_emplace(channel);
   if (is_new) {
-    const auto parsed = parseChannel(channel);
+    const auto parsed = parseChannel(channel, prefix_);
     auto& summary = place->second.summary;
     summary.channel = channel;
-    summary.kind = parsed ? toString(parsed->kind) : "other";
+    summary.kind = parsed ? parsed->kind->name : "other";
     summary.first_time = summary.last_time = std::numeric_limits<double>::quiet_NaN();
   }
   return place->second;
 }
 
 void LogJudge::takeState(const RawEvent& event, ChannelTrace& trace) {
-  const TwinState state = decodeEvent(event.channel, event.data, event.size);
-  const auto about = std::visit([](const auto& s) { return subject(s); }, state);
+  const Message message = decodeEvent(event.channel, event.data, event.size, prefix_);
+  const auto about = std::visit([](const auto& state) { return subject(state); }, message);
+  const double time = std::visit([](const auto& state) { return timeOf(state); }, message);
   if (trace.summary.events == 0) {
     trace.subject = about;
-    trace.summary.first_time = std::visit([](const auto& s) { return timeOf(s); }, state);
+    trace.summary.first_time = time;
   } else if (about != trace.subject) {
     throw RejectedMessage(
-        fmt::format("expected a state of {}, found one of {}", trace.subject, about));
+        fmt::format("expected a message of {}, found one of {}", trace.subject, about));
   }
-  trace.summary.last_time = std::visit([](const auto& s) { return timeOf(s); }, state);
-  if (const auto step = seriesStep(state)) {
+  trace.summary.last_time = time;
+  if (const auto step = seriesStep(message)) {
     trace.steps.add(*step);
   }
 }
@@ -169,7 +146,7 @@ void LogJudge::take(const RawEvent& event) {
       }
       takeState(event, trace);
     } else if (event.data != nullptr && hasTwinFingerprint(event.data, event.size)) {
-      throw RejectedMessage("a state of the twin on a channel that is not the twin's");
+      throw RejectedMessage("a message of a twin on a channel that is not its own");
     }
   } catch (const RejectedMessage& why) {
     ++trace.summary.rejected;
@@ -205,12 +182,12 @@ bool LogSummary::continuous() const {
   });
 }
 
-LogSummary readEventLog(const std::string& path) {
+LogSummary readEventLog(const std::string& path, const std::string& prefix) {
   EventScan scan(path);
   LogSummary summary;
   summary.path = path;
   summary.size = scan.size();
-  LogJudge judge(summary);
+  LogJudge judge(summary, prefix);
   RawEvent event;
   for (auto found = scan.next(event); found != EventScan::Found::kEnd; found = scan.next(event)) {
     if (found == EventScan::Found::kEvent) {

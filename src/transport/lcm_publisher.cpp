@@ -1,12 +1,13 @@
 #include "transport/lcm_publisher.h"
 
+#include <utility>
+
 #include "transport/lcm_connection.h"
-#include "transport/lcm_converters.h"
-#include "transport/lcm_decode.h"
 
 namespace whirl_twin {
 
-LcmPublisher::LcmPublisher(const std::string& url) {
+LcmPublisher::LcmPublisher(const std::string& url, std::string prefix)
+    : prefix_(std::move(prefix)) {
   if (url.empty()) {
     return;
   }
@@ -17,45 +18,13 @@ LcmPublisher::LcmPublisher(const std::string& url) {
   }
 }
 
-template <class State>
-void LcmPublisher::send(const State& state) {
-  if (!lcm_) {
-    return;
-  }
-  const auto message = toLcm(state);
-  ++(lcm_->publish(channelOf(state), &message) == 0 ? sent_ : failed_);
-}
+LcmPublisher::LcmPublisher(std::shared_ptr<lcm::LCM> lcm, std::string prefix)
+    : lcm_(std::move(lcm)), prefix_(std::move(prefix)) {}
 
-void LcmPublisher::publish(const state::WhirlState& whirl) {
-  send(whirl);
-}
-
-void LcmPublisher::publish(const state::PendulumState& pendulum) {
-  send(pendulum);
-}
-
-void LcmPublisher::publish(const state::DriveState& drive) {
-  send(drive);
-}
-
-void LcmPublisher::publish(const state::MotorState& motor) {
-  send(motor);
-}
-
-void LcmPublisher::publish(const state::EnsembleState& ensemble) {
-  send(ensemble);
-}
-
-void LcmPublisher::publish(const state::StabilityMargin& margin) {
-  send(margin);
-}
-
-void LcmPublisher::publish(const state::ParameterChange& change) {
-  send(change);
-}
-
-void LcmPublisher::publish(const state::Alert& alert) {
-  send(alert);
+void LcmPublisher::send(const std::string& channel) {
+  const int failed =
+      lcm_->publish(channel, payload_.data(), static_cast<unsigned int>(payload_.size()));
+  ++(failed == 0 ? sent_ : failed_);
 }
 
 }  // namespace whirl_twin

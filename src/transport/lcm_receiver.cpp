@@ -9,14 +9,10 @@
 
 namespace whirl_twin {
 
-LcmReceiver::LcmReceiver(std::shared_ptr<lcm::LCM> lcm, const std::vector<ChannelKind>& kinds,
-                         Handler handler)
-    : lcm_(std::move(lcm)), handler_(std::move(handler)) {
-  std::string pattern;  // LCM takes a regular expression
-  for (const ChannelKind kind : kinds) {
-    pattern += (pattern.empty() ? "(" : "|") + channelName(kind, ".*");
-  }
-  pattern += ")";
+LcmReceiver::LcmReceiver(std::shared_ptr<lcm::LCM> lcm, const Kinds& kinds, Handler handler,
+                         std::string prefix)
+    : lcm_(std::move(lcm)), handler_(std::move(handler)), prefix_(std::move(prefix)) {
+  const std::string pattern = channelPattern(kinds, prefix_);
   // LCM's C function says when it fails; the C++ one does not.
   subscription_ =
       lcm_subscribe(lcm_->getUnderlyingLCM(), pattern.c_str(), &LcmReceiver::take, this);
@@ -57,13 +53,13 @@ void LcmReceiver::take(const lcm_recv_buf_t* buffer, const char* channel, void* 
 void LcmReceiver::take(const std::string& channel, const void* data, std::size_t size) {
   // Called from C: nothing may be thrown through it.
   try {
-    const TwinState state = decodeEvent(channel, data, size);
+    const Message message = decodeEvent(channel, data, size, prefix_);
     auto& count = channels_[channel];
     ++count.received;
-    if (const auto step = seriesStep(state)) {
+    if (const auto step = seriesStep(message)) {
       count.steps.add(*step);
     }
-    handler_(state);
+    handler_(message);
   } catch (const RejectedMessage& why) {
     ++rejected_;
     last_rejection_ = fmt::format("{}: {}", channel, why.what());

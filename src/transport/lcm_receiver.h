@@ -1,5 +1,5 @@
-// States in from LCM: every event of the wanted kinds, in the order of arrival, none dropped here;
-// what does not decode is rejected and counted.
+// Messages in from LCM: every event of the wanted kinds, in the order of arrival, none dropped
+// here; what does not decode is rejected and counted.
 #pragma once
 
 #include <chrono>
@@ -9,9 +9,7 @@
 #include <map>
 #include <memory>
 #include <string>
-#include <vector>
 
-#include "transport/channels.h"
 #include "transport/lcm_decode.h"
 #include "transport/step_continuity.h"
 
@@ -25,12 +23,12 @@ struct ChannelCount {
 
 class LcmReceiver {
  public:
-  using Handler = std::function<void(const TwinState&)>;
+  using Handler = std::function<void(const Message&)>;
 
   /// Subscribes to the channels of these kinds. `handler` is called from receive(), and must not
   /// throw. Throws LcmNotAvailable if LCM cannot receive.
-  LcmReceiver(std::shared_ptr<lcm::LCM> lcm, const std::vector<ChannelKind>& kinds,
-              Handler handler);
+  LcmReceiver(std::shared_ptr<lcm::LCM> lcm, const Kinds& kinds, Handler handler,
+              std::string prefix = kDefaultLcmPrefix);
   ~LcmReceiver();
   LcmReceiver(const LcmReceiver&) = delete;
   LcmReceiver& operator=(const LcmReceiver&) = delete;
@@ -53,6 +51,7 @@ class LcmReceiver {
 
   std::shared_ptr<lcm::LCM> lcm_;
   Handler handler_;
+  std::string prefix_;
   lcm_subscription_t* subscription_ = nullptr;
   std::map<std::string, ChannelCount> channels_;
   std::uint64_t rejected_ = 0;

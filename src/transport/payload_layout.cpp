@@ -67,12 +67,12 @@ class PayloadWalk {
 
 }  // namespace
 
-void requireLayout(const char* layout, const void* data, std::size_t size) {
+void requireLayout(const std::string& layout, const void* data, std::size_t size) {
   PayloadWalk walk(data, size);
   walk.skip(8);
   std::size_t length = 0;
-  for (const char* field = layout; *field != '\0'; ++field) {
-    switch (*field) {
+  for (const char field : layout) {
+    switch (field) {
       case 'l':
       case 'd':
         walk.skip(8);
@@ -93,6 +93,9 @@ void requireLayout(const char* layout, const void* data, std::size_t size) {
         for (std::size_t i = 0; i < length; ++i) {
           walk.skipString();
         }
+        break;
+      case 'B':
+        walk.skip(length);
         break;
       default:
         walk.skip(8 * length);

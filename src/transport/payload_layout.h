@@ -4,43 +4,76 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
 
-#include "whirl_twin/alert_t.hpp"
-#include "whirl_twin/drive_state_t.hpp"
-#include "whirl_twin/ensemble_state_t.hpp"
-#include "whirl_twin/motor_state_t.hpp"
-#include "whirl_twin/parameter_change_t.hpp"
-#include "whirl_twin/pendulum_state_t.hpp"
-#include "whirl_twin/stability_margin_t.hpp"
-#include "whirl_twin/whirl_state_t.hpp"
+#include "transport/lcm_types.h"
 
 namespace whirl_twin {
 
-/// One character a field, in the order of the .lcm file:
+/// Writes down one character a field, in the order of the .lcm file:
 ///   l int64, d double, i int32, b int8 or boolean, s string,
-///   n int32 that is the length of the arrays that follow, S array of strings, D array of doubles.
-template <class Message>
-inline constexpr const char* kPayloadLayout = nullptr;
-template <>
-inline constexpr const char* kPayloadLayout<whirl_state_t> = "lllsdddbddddddddddbd";
-template <>
-inline constexpr const char* kPayloadLayout<pendulum_state_t> = "lllsdnSDDddd";
-template <>
-inline constexpr const char* kPayloadLayout<drive_state_t> = "lllsdddddldd";
-template <>
-inline constexpr const char* kPayloadLayout<motor_state_t> = "lllsdsddddddddd";
-template <>
-inline constexpr const char* kPayloadLayout<ensemble_state_t> = "lllsdllnSSDDDDDDDDDDDDDDD";
-template <>
-inline constexpr const char* kPayloadLayout<stability_margin_t> =
-    "lllsdsbsnSDdnDnDiiiddddbnDSDDDDD";
-template <>
-inline constexpr const char* kPayloadLayout<parameter_change_t> = "lllsdnSDnSD";
-template <>
-inline constexpr const char* kPayloadLayout<alert_t> = "llissbbdddddddddds";
+///   n int32 that is the length of the arrays that follow, S array of strings, D of doubles or
+///   int64, B of int8.
+template <class State>
+class LayoutVisit : public FieldVisit<LayoutVisit<State>> {
+ public:
+  const std::string& layout() const { return layout_; }
+
+  void head() { layout_ += "llld"; }
+  template <class F>
+  void head(F) {
+    layout_ += "lllsd";
+  }
+  void stamped() { layout_ += "ll"; }
+  template <class F, class Check>
+  void value(F field, const char*, Check, Stays) {
+    add(field.in(message_));
+  }
+  template <class L, class F>
+  void length(L, F) {
+    layout_ += 'n';
+  }
+  template <class L, class F>
+  void rows(L, F field) {
+    using Rows = std::decay_t<decltype(field.of(std::declval<State&>()))>;
+    layout_ += 'n';
+    Rows::value_type::fields(*this);
+  }
+  template <class F, class Of>
+  void derived(F field, Of) {
+    add(field.in(message_));
+  }
+
+ private:
+  void add(std::int64_t) { layout_ += 'l'; }
+  void add(double) { layout_ += 'd'; }
+  void add(std::int32_t) { layout_ += 'i'; }
+  void add(std::int8_t) { layout_ += 'b'; }
+  void add(const std::string&) { layout_ += 's'; }
+  void add(const std::vector<std::string>&) { layout_ += 'S'; }
+  void add(const std::vector<double>&) { layout_ += 'D'; }
+  void add(const std::vector<std::int64_t>&) { layout_ += 'D'; }
+  void add(const std::vector<std::int8_t>&) { layout_ += 'B'; }
+
+  LcmType<State> message_{};
+  std::string layout_;
+};
+
+template <class State>
+const std::string& layoutOf() {
+  static const std::string layout = [] {
+    LayoutVisit<State> visit;
+    State::fields(visit);
+    return visit.layout();
+  }();
+  return layout;
+}
 
 /// Throws RejectedMessage unless the fields of `layout` fill data[0..size) exactly, after the
 /// fingerprint [8 bytes] it begins with.
-void requireLayout(const char* layout, const void* data, std::size_t size);
+void requireLayout(const std::string& layout, const void* data, std::size_t size);
 
 }  // namespace whirl_twin

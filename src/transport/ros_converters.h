@@ -1,7 +1,6 @@
-// State <-> ROS message, one converter a direction. A header carries the stamp of the state's
-// instant, and the system's or drive's name as frame_id. toRos() never fails; fromRos() throws
-// RejectedMessage for a message that cannot be meant: an illegal name, arrays of different lengths,
-// a number outside its range.
+// State <-> ROS message. A header carries the stamp of the state's instant, and whom it is about as
+// frame_id. toRos() never fails; fromRos() throws RejectedMessage for a message that cannot be
+// meant: an illegal name, arrays of different lengths, a number outside its range.
 #pragma once
 
 #include <ros/time.h>
@@ -10,47 +9,76 @@
 #include <cstdint>
 #include <vector>
 
-#include "messages/alert.h"
-#include "messages/message_check.h"
-#include "messages/stability_margin.h"
-#include "messages/states.h"
-#include "whirl_twin/AlertArray.h"
-#include "whirl_twin/DriveState.h"
-#include "whirl_twin/EnsembleState.h"
-#include "whirl_twin/MotorState.h"
-#include "whirl_twin/ParameterChange.h"
-#include "whirl_twin/PendulumState.h"
-#include "whirl_twin/StabilityMargin.h"
-#include "whirl_twin/WhirlState.h"
+#include "transport/message_fields.h"
+#include "transport/ros_types.h"
 
 namespace whirl_twin {
 
 /// A stamp [ns] as ROS time; what ROS time cannot carry (negative, beyond 2106) becomes its end.
 ros::Time toRosTime(std::int64_t stamp);
 
-WhirlState toRos(const state::WhirlState& whirl);
-PendulumState toRos(const state::PendulumState& pendulum);
-DriveState toRos(const state::DriveState& drive);
-MotorState toRos(const state::MotorState& motor);
-EnsembleState toRos(const state::EnsembleState& ensemble);
-StabilityMargin toRos(const state::StabilityMargin& margin);
-ParameterChange toRos(const state::ParameterChange& change);
+template <class State>
+class RosPut : public PutFields<RosPut<State>, State, RosType<State>> {
+ public:
+  RosPut(const State& state, RosType<State>& message)
+      : PutFields<RosPut, State, RosType<State>>(state, message) {}
+
+  void head() {
+    this->message_.header.stamp = toRosTime(this->state_.at.stamp);
+    this->message_.step = this->state_.at.step;
+    this->message_.time = this->state_.at.time;
+  }
+  template <class F>
+  void head(F name) {
+    head();
+    this->message_.header.frame_id = name.of(this->state_);
+  }
+};
+
+template <class State>
+class RosTake : public TakeFields<RosTake<State>, State, RosType<State>> {
+ public:
+  RosTake(const RosType<State>& message, State& state)
+      : TakeFields<RosTake, State, RosType<State>>(message, state) {}
+
+  void head() {
+    requireStep(this->message_.step);
+    requireTime("time", this->message_.time);
+    this->state_.at = {this->message_.step, this->message_.time,
+                       static_cast<std::int64_t>(this->message_.header.stamp.toNSec())};
+  }
+  template <class F>
+  void head(F name) {
+    head();
+    requireName("header.frame_id", this->message_.header.frame_id);
+    name.of(this->state_) = this->message_.header.frame_id;
+  }
+};
+
+template <class State>
+RosType<State> toRos(const State& state) {
+  RosType<State> message;
+  RosPut<State> put(state, message);
+  State::fields(put);
+  return message;
+}
+
+template <class Type>
+StateOf<Type> fromRos(const Type& message) {
+  StateOf<Type> state;
+  RosTake<StateOf<Type>> take(message, state);
+  StateOf<Type>::fields(take);
+  return state;
+}
+
 /// The complete list of active alerts, stamped with the instant [ns] it holds at.
 AlertArray toRos(const std::vector<state::Alert>& alerts, std::int64_t stamp);
+/// The alerts take the stamp of the list: an Alert has none of its own.
+std::vector<state::Alert> fromRos(const AlertArray& message);
 
 /// The same state as sensor_msgs/JointState: every coordinate's position and rate, effort empty.
 /// For a rotor the coordinates are x and y of the disc centre.
 sensor_msgs::JointState toJointState(const state::WhirlState& whirl);
 sensor_msgs::JointState toJointState(const state::PendulumState& pendulum);
-
-state::WhirlState fromRos(const WhirlState& message);
-state::PendulumState fromRos(const PendulumState& message);
-state::DriveState fromRos(const DriveState& message);
-state::MotorState fromRos(const MotorState& message);
-state::EnsembleState fromRos(const EnsembleState& message);
-state::StabilityMargin fromRos(const StabilityMargin& message);
-state::ParameterChange fromRos(const ParameterChange& message);
-/// The alerts take the stamp of the list: an Alert has none of its own.
-std::vector<state::Alert> fromRos(const AlertArray& message);
 
 }  // namespace whirl_twin

@@ -23,6 +23,7 @@ class Twin {
   Twin(const Twin&) = delete;
   Twin& operator=(const Twin&) = delete;
 
+  const BuiltScene& built() const { return built_; }
   const Scene& scene() const { return built_.scene; }
   /// As the scene says, whatever has been put in their places since.
   const std::vector<SharedSystem>& systems() const { return built_.systems; }

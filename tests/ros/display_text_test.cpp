@@ -146,7 +146,8 @@ TEST(TwinTopics, AreKnownByTheirTypeAndName) {
                                   {"/twin/alerts", "whirl_twin/AlertArray"},
                                   {"/twin/rotor/joint_states", "sensor_msgs/JointState"},
                                   {"/other/rotor/whirl", "whirl_twin/WhirlState"},
-                                  {"/rosout", "rosgraph_msgs/Log"}});
+                                  {"/rosout", "rosgraph_msgs/Log"}},
+                                 "/twin");
   std::vector<std::string> subjects;
   for (const auto& topic : topics) {
     subjects.push_back(topic.subject);

@@ -15,22 +15,10 @@ namespace {
 TEST(LcmConverters, BringEveryBitBack) {
   StateSamples samples(1);
   for (int i = 0; i < 300; ++i) {
-    const auto whirl = samples.whirl();
-    EXPECT_EQ(bitsOf(fromLcm(toLcm(whirl))), bitsOf(whirl));
-    const auto pendulum = samples.pendulum();
-    EXPECT_EQ(bitsOf(fromLcm(toLcm(pendulum))), bitsOf(pendulum));
-    const auto drive = samples.drive();
-    EXPECT_EQ(bitsOf(fromLcm(toLcm(drive))), bitsOf(drive));
-    const auto margin = samples.margin();
-    EXPECT_EQ(bitsOf(fromLcm(toLcm(margin))), bitsOf(margin));
-    const auto motor = samples.motor();
-    EXPECT_EQ(bitsOf(fromLcm(toLcm(motor))), bitsOf(motor));
-    const auto ensemble = samples.ensemble();
-    EXPECT_EQ(bitsOf(fromLcm(toLcm(ensemble))), bitsOf(ensemble));
-    const auto change = samples.change();
-    EXPECT_EQ(bitsOf(fromLcm(toLcm(change))), bitsOf(change));
-    const auto alert = samples.alert();
-    EXPECT_EQ(bitsOf(fromLcm(toLcm(alert))), bitsOf(alert));
+    samples.each([](const auto& state) {
+      using State = std::decay_t<decltype(state)>;
+      EXPECT_EQ(bitsOf(fromLcm<State>(toLcm(state))), bitsOf(state)) << State::kKind.name;
+    });
   }
 }
 
@@ -55,17 +43,29 @@ TEST(LcmConverters, AnInstabilitySpeedThatWasNotFoundIsNotValid) {
 }
 
 /// Ways to spoil a message that its receiver must notice.
-template <class Message>
-using Spoilers = std::vector<std::function<void(Message&)>>;
+template <class Type>
+using Spoilers = std::vector<std::function<void(Type&)>>;
 
-template <class Message>
-void expectRejected(const Message& good, const Spoilers<Message>& spoilers) {
-  ASSERT_NO_THROW(fromLcm(good));
+template <class State, class Type>
+void expectRejectedAs(const Type& good, const Spoilers<Type>& spoilers) {
+  ASSERT_NO_THROW(fromLcm<State>(good));
   for (std::size_t i = 0; i < spoilers.size(); ++i) {
-    Message message = good;
+    Type message = good;
     spoilers[i](message);
-    EXPECT_THROW(fromLcm(message), RejectedMessage) << Message::getTypeName() << " spoiler " << i;
+    EXPECT_THROW(fromLcm<State>(message), RejectedMessage)
+        << Type::getTypeName() << " spoiler " << i;
   }
+}
+
+/// The kind is found by its LCM type.
+template <class Type>
+void expectRejected(const Type& good, const Spoilers<Type>& spoilers) {
+  eachKind([&](auto kind) {
+    using State = typename decltype(kind)::State;
+    if constexpr (std::is_same_v<LcmType<State>, Type>) {
+      expectRejectedAs<State>(good, spoilers);
+    }
+  });
 }
 
 template <class Message>
@@ -143,7 +143,7 @@ TEST(LcmConverters, RejectPendulumsWhoseArraysDiffer) {
 
 TEST(LcmConverters, RejectEnsemblesThatCannotBeMeant) {
   state::EnsembleState ensemble;
-  eachField(ensemble, [](auto& field) {
+  eachMember(ensemble, [](const char*, auto& field, Stays) {
     if constexpr (std::is_same_v<std::decay_t<decltype(field)>, std::vector<double>>) {
       field = {1.0, 2.0};
     }
@@ -186,7 +186,7 @@ TEST(LcmConverters, EnsemblesWithArraysOfTheWrongLengthAreFilledUp) {
   const auto message = toLcm(ensemble);
   EXPECT_EQ(message.mean, std::vector<double>{1.0});
   EXPECT_EQ(message.peak_largest, std::vector<double>{0.0});
-  EXPECT_NO_THROW(fromLcm(message));
+  EXPECT_NO_THROW(fromLcm<state::EnsembleState>(message));
 }
 
 TEST(LcmConverters, RejectChangesOfParametersThatCannotBeMeant) {
@@ -231,6 +231,23 @@ TEST(LcmConverters, RejectImpossibleMargins) {
        [](auto& m) { m.instability_speed_valid = 0; },
        [](auto& m) { m.instability_speed = std::nan(""); }, [](auto& m) { m.critical_speeds = 2; },
        [](auto& m) { m.band_low.clear(); }, [](auto& m) { m.direction[0] = "sideways"; }});
+}
+
+TEST(LcmConverters, RejectLoopStatisticsThatCannotBeMeant) {
+  auto loop = StateSamples(6).loop();
+  loop.system = {"rotor", "arm"};
+  loop.integrator = {"exponential", "runge_kutta_4"};
+  loop.error_estimate = loop.tolerance = {1e-9, std::nan("")};
+  loop.stopped = {0, 3};
+  loop.stopped_why = {"", "speed not prepared for"};
+  const auto message = toLcm(loop);
+  expectRejected(message, instantSpoilers<loop_statistics_t>());
+  expectRejected<loop_statistics_t>(
+      message, {[](auto& m) { m.systems = 1; }, [](auto& m) { m.system[0] = "a b"; },
+                [](auto& m) { m.stopped[1] = 4; }, [](auto& m) { m.stopped[1] = -1; },
+                [](auto& m) { m.stopped_why.pop_back(); }, [](auto& m) { m.tolerance.clear(); },
+                [](auto& m) { m.error_estimate.push_back(0.0); }, [](auto& m) { m.paused = 2; },
+                [](auto& m) { m.overruns = -1; }, [](auto& m) { m.kernel = "\x1b[2J"; }});
 }
 
 TEST(LcmConverters, RejectImpossibleAlerts) {

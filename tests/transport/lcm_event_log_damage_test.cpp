@@ -39,7 +39,7 @@ std::vector<Extent> extentsOf(const Bytes& log) {
 }
 
 /// Marks the bytes of a series' state that no one can check: measured numbers, flags and stamps.
-void markMeasured(const char* layout, const Bytes& log, std::size_t at,
+void markMeasured(const std::string& layout, const Bytes& log, std::size_t at,
                   std::vector<bool>& watched) {
   at += 8;
   std::size_t length = 0;
@@ -47,10 +47,10 @@ void markMeasured(const char* layout, const Bytes& log, std::size_t at,
     std::fill_n(watched.begin() + static_cast<std::ptrdiff_t>(at), bytes, is_watched);
     at += bytes;
   };
-  for (const char* field = layout; *field != '\0'; ++field) {
+  for (const char& field : layout) {
     // utime, stamp, step; utime has to be the time, and a step to follow the step before.
-    const bool is_instant = field == layout || field == layout + 2;
-    switch (*field) {
+    const bool is_instant = &field == &layout[0] || &field == &layout[2];
+    switch (field) {
       case 'l':
         pass(8, is_instant);
         break;
@@ -70,7 +70,7 @@ void markMeasured(const char* layout, const Bytes& log, std::size_t at,
         pass(8 * length, false);
         break;
       default:
-        pass(*field == 'b' ? 1 : 8, false);
+        pass(field == 'b' ? 1 : 8, false);
     }
   }
 }
@@ -84,11 +84,11 @@ std::vector<bool> watchedBytes(const Bytes& log) {
     const std::string channel(log.begin() + static_cast<std::ptrdiff_t>(extent.channel),
                               log.begin() + static_cast<std::ptrdiff_t>(extent.payload));
     if (channel == "TWIN_ROTOR_WHIRL") {
-      markMeasured(kPayloadLayout<whirl_state_t>, log, extent.payload, watched);
+      markMeasured(layoutOf<state::WhirlState>(), log, extent.payload, watched);
     } else if (channel == "TWIN_ARM_PENDULUM") {
-      markMeasured(kPayloadLayout<pendulum_state_t>, log, extent.payload, watched);
+      markMeasured(layoutOf<state::PendulumState>(), log, extent.payload, watched);
     } else if (channel == "TWIN_SHAFT_DRIVE") {
-      markMeasured(kPayloadLayout<drive_state_t>, log, extent.payload, watched);
+      markMeasured(layoutOf<state::DriveState>(), log, extent.payload, watched);
     } else {
       // What a monitor says is not a state: only its type is watched here.
       std::fill(watched.begin() + static_cast<std::ptrdiff_t>(extent.payload) + 8,

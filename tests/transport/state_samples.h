@@ -10,89 +10,9 @@
 #include <type_traits>
 #include <vector>
 
-#include "messages/alert.h"
-#include "messages/message_check.h"
-#include "messages/stability_margin.h"
-#include "messages/states.h"
+#include "messages/message.h"
 
 namespace whirl_twin {
-
-// Calls visit(field) for every field of a state, so that none can be forgotten in a comparison.
-
-template <class Visit>
-void eachField(state::Instant& at, Visit&& visit) {
-  visit(at.step), visit(at.time), visit(at.stamp);
-}
-
-template <class Visit>
-void eachField(state::WhirlState& s, Visit&& visit) {
-  eachField(s.at, visit);
-  visit(s.system), visit(s.radius), visit(s.phase), visit(s.phase_valid), visit(s.whirl_angle);
-  visit(s.whirl_rate), visit(s.speed), visit(s.shaft_angle), visit(s.x), visit(s.y);
-  visit(s.x_rate), visit(s.y_rate), visit(s.orbit_major), visit(s.orbit_minor);
-  visit(s.forward), visit(s.energy_residual);
-}
-
-template <class Visit>
-void eachField(state::PendulumState& s, Visit&& visit) {
-  eachField(s.at, visit);
-  visit(s.system), visit(s.name), visit(s.angle), visit(s.rate), visit(s.kinetic);
-  visit(s.potential), visit(s.energy_residual);
-}
-
-template <class Visit>
-void eachField(state::DriveState& s, Visit&& visit) {
-  eachField(s.at, visit);
-  visit(s.drive), visit(s.speed), visit(s.acceleration), visit(s.jerk), visit(s.target_speed);
-  visit(s.turns), visit(s.remainder), visit(s.shaft_angle);
-}
-
-template <class Visit>
-void eachField(state::MotorState& s, Visit&& visit) {
-  eachField(s.at, visit);
-  visit(s.drive), visit(s.system), visit(s.speed), visit(s.acceleration), visit(s.torque);
-  visit(s.motor_power), visit(s.drag_power), visit(s.dissipated_power), visit(s.energy);
-  visit(s.motor_work), visit(s.dissipated_work);
-}
-
-template <class Visit>
-void eachField(state::EnsembleState& s, Visit&& visit) {
-  eachField(s.at, visit);
-  visit(s.system), visit(s.count), visit(s.running), visit(s.quantity), visit(s.unit);
-  visit(s.mean), visit(s.standard_deviation), visit(s.smallest), visit(s.percentile_5);
-  visit(s.percentile_25), visit(s.median), visit(s.percentile_75), visit(s.percentile_95);
-  visit(s.largest), visit(s.peak_mean), visit(s.peak_standard_deviation);
-  visit(s.peak_percentile_5), visit(s.peak_median), visit(s.peak_percentile_95);
-  visit(s.peak_largest);
-}
-
-template <class Visit>
-void eachField(state::ParameterChange& s, Visit&& visit) {
-  eachField(s.at, visit);
-  visit(s.system), visit(s.names), visit(s.values), visit(s.changed), visit(s.previous);
-}
-
-template <class Visit>
-void eachField(state::StabilityMargin& s, Visit&& visit) {
-  eachField(s.at, visit);
-  visit(s.system), visit(s.model), visit(s.verdict), visit(s.verdict_name), visit(s.coordinate);
-  visit(s.operating_point), visit(s.speed), visit(s.polynomial), visit(s.first_column);
-  visit(s.right), visit(s.imaginary), visit(s.left), visit(s.decay_rate), visit(s.damping_ratio);
-  visit(s.log_decrement), visit(s.instability_speed);
-  for (auto& c : s.critical_speeds) {
-    visit(c.speed), visit(c.direction), visit(c.amplification_factor), visit(c.separation_margin);
-    visit(c.required_separation_margin), visit(c.band_low), visit(c.band_high);
-  }
-}
-
-template <class Visit>
-void eachField(state::Alert& s, Visit&& visit) {
-  visit(s.id), visit(s.type), visit(s.system), visit(s.severity), visit(s.raised);
-  visit(s.raised_time), visit(s.time), visit(s.stamp), visit(s.speed), visit(s.acceleration);
-  visit(s.critical_speed), visit(s.time_to_entry), visit(s.separation_margin);
-  visit(s.required_separation_margin), visit(s.amplification_factor), visit(s.decay_rate);
-  visit(s.text);
-}
 
 /// All that a state holds, as bytes: equal bytes, equal states, NaN and the sign of zero included.
 template <class State>
@@ -101,7 +21,7 @@ std::string bitsOf(State state) {
   const auto put = [&bits](const void* from, std::size_t size) {
     bits.append(static_cast<const char*>(from), size);
   };
-  eachField(state, [&](auto& field) {
+  eachMember(state, [&](const char*, auto& field, Stays) {
     using Field = std::decay_t<decltype(field)>;
     if constexpr (std::is_same_v<Field, std::string>) {
       bits += field + '\n';
@@ -109,10 +29,10 @@ std::string bitsOf(State state) {
       for (const auto& text : field) {
         bits += text + '\n';
       }
-    } else if constexpr (std::is_same_v<Field, std::vector<double>>) {
-      put(field.data(), field.size() * sizeof(double));
-    } else {
+    } else if constexpr (std::is_arithmetic_v<Field> || std::is_enum_v<Field>) {
       put(&field, sizeof(field));
+    } else {
+      put(field.data(), field.size() * sizeof(field.front()));
     }
   });
   return bits;
@@ -143,7 +63,7 @@ class StateSamples {
     for (std::size_t i = 0; i < s.quantity.size(); ++i) {
       s.unit.emplace_back(below(2) == 0 ? "m" : "rad");
     }
-    eachField(s, [&](auto& field) {
+    eachMember(s, [&](const char*, auto& field, Stays) {
       if constexpr (std::is_same_v<std::decay_t<decltype(field)>, std::vector<double>>) {
         field = numbers(s.quantity.size());
       }
@@ -157,6 +77,17 @@ class StateSamples {
     s.changed.emplace_back("stiffness[0][1]");
     s.values = numbers(s.names.size());
     s.previous = numbers(s.changed.size());
+    return s;
+  }
+
+  state::LoopStatistics loop() {
+    auto s = sample<state::LoopStatistics>();
+    const std::size_t systems = s.system.size();
+    s.integrator.assign(systems, "exponential");
+    s.error_estimate = numbers(systems);
+    s.tolerance = numbers(systems);
+    s.stopped.assign(systems, static_cast<std::uint8_t>(below(4)));
+    s.stopped_why.assign(systems, "why");
     return s;
   }
 
@@ -185,6 +116,12 @@ class StateSamples {
     return s;
   }
 
+  /// visit(sample) with one of every kind, so that none can be forgotten.
+  template <class Visit>
+  void each(Visit&& visit) {
+    eachKind([&](auto kind) { visit(of(kind)); });
+  }
+
   /// Any 64 bits, and often those that get lost most easily.
   double number() {
     static const double kDelicate[] = {-0.0,
@@ -208,6 +145,16 @@ class StateSamples {
   std::uint64_t below(std::uint64_t limit) { return random_() % limit; }
 
  private:
+  auto of(KindOf<state::WhirlState>) { return whirl(); }
+  auto of(KindOf<state::PendulumState>) { return pendulum(); }
+  auto of(KindOf<state::DriveState>) { return drive(); }
+  auto of(KindOf<state::MotorState>) { return motor(); }
+  auto of(KindOf<state::EnsembleState>) { return ensemble(); }
+  auto of(KindOf<state::StabilityMargin>) { return margin(); }
+  auto of(KindOf<state::ParameterChange>) { return change(); }
+  auto of(KindOf<state::LoopStatistics>) { return loop(); }
+  auto of(KindOf<state::Alert>) { return alert(); }
+
   double time() { return static_cast<double>(below(1000000000)) * 1e-3; }
 
   std::vector<double> numbers(std::size_t count) {
@@ -228,6 +175,8 @@ class StateSamples {
   void put(bool& field) { field = below(2) == 0; }
   void put(double& field) { field = number(); }
   void put(std::int64_t& field) { field = static_cast<std::int64_t>(random_()); }
+  void put(std::uint64_t& field) { field = random_() >> 1; }  // as much as LCM can say
+  void put(std::int32_t& field) { field = static_cast<std::int32_t>(random_()); }
   void put(std::uint32_t& field) { field = static_cast<std::uint32_t>(random_()); }
   void put(std::string& field) { field = "name_" + std::to_string(below(1000)); }
   void put(std::vector<double>& field) { field = numbers(below(6)); }
@@ -248,7 +197,7 @@ class StateSamples {
 
   template <class State>
   void fill(State& s) {
-    eachField(s, [this](auto& field) { put(field); });
+    eachMember(s, [this](const char*, auto& field, Stays) { put(field); });
     if constexpr (std::is_same_v<State, state::Alert>) {
       s.stamp = static_cast<std::int64_t>(below(kMaxStamp));
     } else {

@@ -1,0 +1,72 @@
+// How the fixed-rate loop of a simulation has kept its time, and how its systems fare. Latencies
+// since the last reset, warm-up left out.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "messages/states.h"
+
+namespace whirl_twin::state {
+
+struct LoopStatistics {
+  static constexpr MessageKind kKind{"loop", "LoopStatistics", "loop", MessageKind::kLatched};
+
+  Instant at;              ///< stamp: wall clock, or simulated time
+  double step_size = 0.0;  ///< [s]
+  std::string policy;      ///< SCHED_FIFO or SCHED_OTHER, as obtained
+  std::int32_t priority = 0;
+  bool memory_locked = false;
+  std::string kernel;
+  bool paused = false;
+  std::uint64_t overruns = 0;           ///< cycles that ended after the next one was due
+  std::uint64_t skipped_steps = 0;      ///< periods left out to keep the phase
+  std::uint64_t dropped_snapshots = 0;  ///< states not published: the publisher was behind
+  std::uint64_t page_faults = 0;        ///< of the loop's thread
+  double wakeup_latency_p50 = 0.0;      ///< [s]
+  double wakeup_latency_p99 = 0.0;      ///< [s]
+  double wakeup_latency_max = 0.0;      ///< [s]
+  double execution_p50 = 0.0;           ///< [s], of one step of everything
+  double execution_p99 = 0.0;           ///< [s]
+  double execution_max = 0.0;           ///< [s]
+  double period_min = 0.0;              ///< [s]
+  double period_max = 0.0;              ///< [s]
+  // One entry a system.
+  std::vector<std::string> system;
+  std::vector<std::string> integrator;
+  std::vector<double> error_estimate;    ///< [-], NaN: not estimated
+  std::vector<double> tolerance;         ///< [-], what integrator: auto promises; else NaN
+  std::vector<std::uint8_t> stopped;     ///< 0: running, 1 to 3: as in the message
+  std::vector<std::string> stopped_why;  ///< empty while running
+
+  template <class Visit>
+  static void fields(Visit& visit) {
+    const auto count = between(0, std::numeric_limits<std::int64_t>::max());
+    const auto system = TWIN_FIELD(system);
+    visit.head();
+    visit(TWIN_FIELD(step_size), "s");
+    visit(TWIN_FIELD(policy), "", requireText);
+    visit(TWIN_FIELD(priority), "");
+    visit(TWIN_FIELD(memory_locked), "", requireFlag);
+    visit(TWIN_FIELD(kernel), "", requireText);
+    visit(TWIN_FIELD(paused), "", requireFlag);
+    visit(TWIN_FIELD(overruns), "", count);
+    visit(TWIN_FIELD(skipped_steps), "", count);
+    visit(TWIN_FIELD(dropped_snapshots), "", count);
+    visit(TWIN_FIELD(page_faults), "", count);
+    visit.numbers("s", TWIN_FIELD(wakeup_latency_p50), TWIN_FIELD(wakeup_latency_p99),
+                  TWIN_FIELD(wakeup_latency_max), TWIN_FIELD(execution_p50),
+                  TWIN_FIELD(execution_p99), TWIN_FIELD(execution_max), TWIN_FIELD(period_min),
+                  TWIN_FIELD(period_max));
+    visit.array(TWIN_FIELD(systems), system, "", each(requireName), Stays::kSame);
+    visit.along(system, TWIN_FIELD(integrator), "", each(requireText));
+    visit.along(system, TWIN_FIELD(error_estimate), "-");
+    visit.along(system, TWIN_FIELD(tolerance), "-");
+    visit.along(system, TWIN_FIELD(stopped), "", each(between(0, 3)));
+    visit.along(system, TWIN_FIELD(stopped_why), "", each(requireText));
+  }
+};
+
+}  // namespace whirl_twin::state

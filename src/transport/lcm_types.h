@@ -1,0 +1,31 @@
+// The LCM type of every kind of message.
+#pragma once
+
+#include "messages/message.h"
+#include "whirl_twin/alert_t.hpp"
+#include "whirl_twin/drive_state_t.hpp"
+#include "whirl_twin/ensemble_state_t.hpp"
+#include "whirl_twin/loop_statistics_t.hpp"
+#include "whirl_twin/motor_state_t.hpp"
+#include "whirl_twin/parameter_change_t.hpp"
+#include "whirl_twin/pendulum_state_t.hpp"
+#include "whirl_twin/stability_margin_t.hpp"
+#include "whirl_twin/whirl_state_t.hpp"
+
+namespace whirl_twin {
+
+// Never called: the type that each returns is the one that its kind has.
+whirl_state_t lcmTypeOf(const state::WhirlState&);
+pendulum_state_t lcmTypeOf(const state::PendulumState&);
+drive_state_t lcmTypeOf(const state::DriveState&);
+motor_state_t lcmTypeOf(const state::MotorState&);
+ensemble_state_t lcmTypeOf(const state::EnsembleState&);
+stability_margin_t lcmTypeOf(const state::StabilityMargin&);
+parameter_change_t lcmTypeOf(const state::ParameterChange&);
+loop_statistics_t lcmTypeOf(const state::LoopStatistics&);
+alert_t lcmTypeOf(const state::Alert&);
+
+template <class State>
+using LcmType = decltype(lcmTypeOf(std::declval<State>()));
+
+}  // namespace whirl_twin

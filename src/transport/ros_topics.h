@@ -1,0 +1,97 @@
+// Messages out to ROS, each on its topic below the namespace of the twin.
+#pragma once
+
+#include <ros/ros.h>
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "transport/channels.h"
+#include "transport/ros_converters.h"
+
+namespace whirl_twin {
+
+class RosTopics {
+ public:
+  /// advertised: called with every new topic that publish() had to advertise.
+  RosTopics(
+      ros::NodeHandle twin, std::uint32_t queue,
+      std::function<void(const ros::Publisher&)> advertised = [](const ros::Publisher&) {})
+      : twin_(std::move(twin)), queue_(queue), advertised_(std::move(advertised)) {}
+
+  /// Advertises the topics of a kind about a system, drive or source.
+  template <class State>
+  void advertise(const std::string& subject = "") {
+    topicsOf<State>(subject);
+  }
+
+  /// Whether anybody listens, or may later.
+  template <class State>
+  bool wanted(const std::string& subject = "") {
+    const Topics& topics = topicsOf<State>(subject);
+    return State::kKind.has(MessageKind::kLatched) || topics.state.getNumSubscribers() > 0 ||
+           (topics.joint_states && topics.joint_states.getNumSubscribers() > 0);
+  }
+
+  /// Publishes to those who listen; advertises where that has not been done.
+  template <class State>
+  void publish(const State& state) {
+    static_assert(!std::is_same_v<State, state::Alert>, "alerts go in lists");
+    const std::string subject = subjectOf(state);
+    const bool is_new = topics_[&State::kKind].count(subject) == 0;
+    const Topics& topics = topicsOf<State>(subject);
+    if (!topics.state) {
+      return;
+    }
+    if (is_new) {
+      advertised_(topics.state);
+    }
+    if (State::kKind.has(MessageKind::kLatched) || topics.state.getNumSubscribers() > 0) {
+      topics.state.publish(toRos(state));
+    }
+    if constexpr (State::kKind.has(MessageKind::kJointStates)) {
+      if (is_new && topics.joint_states) {
+        advertised_(topics.joint_states);
+      }
+      if (topics.joint_states.getNumSubscribers() > 0) {
+        topics.joint_states.publish(toJointState(state));
+      }
+    }
+  }
+
+  /// The complete list of active alerts, stamped with the instant [ns] it holds at.
+  void publishAlerts(const std::vector<state::Alert>& alerts, std::int64_t stamp);
+
+ private:
+  struct Topics {
+    ros::Publisher state;  // null while ROS is shutting down
+    ros::Publisher joint_states;
+  };
+
+  template <class State>
+  const Topics& topicsOf(const std::string& subject) {
+    const auto [place, is_new] = topics_[&State::kKind].try_emplace(subject);
+    if (is_new) {
+      using Type =
+          std::conditional_t<std::is_same_v<State, state::Alert>, AlertArray, RosType<State>>;
+      place->second.state = twin_.advertise<Type>(topicName(State::kKind, subject), queue_,
+                                                  State::kKind.has(MessageKind::kLatched));
+      if constexpr (State::kKind.has(MessageKind::kJointStates)) {
+        place->second.joint_states =
+            twin_.advertise<sensor_msgs::JointState>(subject + "/joint_states", queue_);
+      }
+    }
+    return place->second;
+  }
+
+  ros::NodeHandle twin_;
+  std::uint32_t queue_;  // messages a slow subscriber may fall behind
+  std::function<void(const ros::Publisher&)> advertised_;
+  std::map<const MessageKind*, std::map<std::string, Topics>> topics_;
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,43 @@
+#include "twin/step_messages.h"
+
+#include <numeric>
+
+namespace whirl_twin {
+
+namespace {
+
+std::vector<std::size_t> allOf(std::size_t count) {
+  std::vector<std::size_t> indices(count);
+  std::iota(indices.begin(), indices.end(), 0);
+  return indices;
+}
+
+}  // namespace
+
+StepMessages::StepMessages(const BuiltScene& scene)
+    : StepMessages(scene, allOf(scene.systems.size())) {
+  for (const std::size_t drive : allOf(scene_drives_.size())) {
+    drives_.insert(drive);
+  }
+}
+
+StepMessages::StepMessages(const BuiltScene& scene, std::vector<std::size_t> systems)
+    : built_(scene.systems),
+      scene_drives_(scene.scene.drives),
+      turned_by_(scene_drives_.size(), Twin::kNoSystem),
+      systems_(std::move(systems)),
+      told_(systems_.size()) {
+  for (std::size_t i = 0; i < built_.size(); ++i) {
+    if (built_[i]->drive < turned_by_.size()) {
+      turned_by_[built_[i]->drive] = i;
+    }
+  }
+  for (const std::size_t system : systems_) {
+    if (built_[system]->drive <
+        scene_drives_.size()) {  // the others are constant speeds, no drives
+      drives_.insert(built_[system]->drive);
+    }
+  }
+}
+
+}  // namespace whirl_twin

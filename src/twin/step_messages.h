@@ -1,0 +1,129 @@
+// What leaves a step, said once for all who send, write or announce it: for each system its whirl
+// or its coordinates, for each drive its motion and that of its motor, the parameters, the spread
+// of an ensemble.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "messages/message.h"
+#include "twin/observer.h"
+
+namespace whirl_twin {
+
+class StepMessages {
+ public:
+  /// Of these systems of a scene and the drives that turn them, or of all systems and drives.
+  explicit StepMessages(const BuiltScene& scene);
+  StepMessages(const BuiltScene& scene, std::vector<std::size_t> systems);
+
+  /// announce(KindOf<State>, subject) for all that will be told.
+  template <class Announce>
+  void announce(Announce&& announce) const {
+    eachState([&](const std::string& subject, std::size_t, auto state) {
+      announce(KindOf<decltype(state(std::declval<const Observer&>()))>{}, subject);
+    });
+    for (const std::size_t system : systems_) {
+      announce(KindOf<state::ParameterChange>{}, nameOf(system));
+      if (built_[system]->spec.ensemble.count > 0) {
+        announce(KindOf<state::EnsembleState>{}, nameOf(system));
+      }
+    }
+  }
+
+  /// Tells `sink` of the step that the observer stands at. A system that has stopped is silent.
+  ///   sink(subject, make)   make() is the message, and need not be called if nobody wants it
+  ///   sink.change(change)   parameters, at the start and where they have changed
+  ///   sink.again(change)    the same every 10 s of simulated time, for those who came later
+  /// all: false leaves all but the parameters out.
+  template <class Sink>
+  void tell(const Observer& observer, bool all, Sink&& sink) {
+    for (std::size_t i = 0; i < systems_.size(); ++i) {
+      tellParameters(observer, systems_[i], told_[i], sink);
+    }
+    if (!all) {
+      return;
+    }
+    eachState([&](const std::string& subject, std::size_t runs, auto state) {
+      if (runs == Twin::kNoSystem || observer.status(runs) == StepStatus::kOk) {
+        sink(subject, [&observer, state] { return state(observer); });
+      }
+    });
+  }
+
+  /// Tells `sink` as sink(subject, make) the spread of those ensembles of which take(system, now,
+  /// out) has one.
+  template <class Take, class Sink>
+  void tellEnsembles(const Observer& observer, Take&& take, Sink&& sink) const {
+    state::EnsembleState ensemble;
+    for (const std::size_t system : systems_) {
+      if (built_[system]->spec.ensemble.count > 0 && take(system, observer.instant(), ensemble)) {
+        sink(nameOf(system), [&ensemble] { return ensemble; });
+      }
+    }
+  }
+
+ private:
+  struct Told {
+    std::int64_t generation = -1;
+    state::ParameterChange parameters;
+    double time = 0.0;  // [s], simulated, when they were told last
+  };
+  static constexpr double kAgain = 10.0;  // s, simulated
+
+  const std::string& nameOf(std::size_t system) const { return built_[system]->spec.name; }
+
+  /// visit(subject, system that has to run, state(observer)): every state.
+  template <class Visit>
+  void eachState(Visit&& visit) const {
+    for (const std::size_t i : systems_) {
+      if (built_[i]->dynamics->isRotor()) {
+        visit(nameOf(i), i, [i](const Observer& observer) { return observer.whirl(i); });
+      } else {
+        visit(nameOf(i), i, [i](const Observer& observer) { return observer.pendulum(i); });
+      }
+    }
+    for (const std::size_t i : drives_) {
+      visit(scene_drives_[i].name, Twin::kNoSystem,
+            [i](const Observer& observer) { return observer.drive(i); });
+      if (scene_drives_[i].motor) {
+        visit(scene_drives_[i].name, turned_by_[i],
+              [i](const Observer& observer) { return observer.motor(i); });
+      }
+    }
+  }
+
+  template <class Sink>
+  void tellParameters(const Observer& observer, std::size_t system, Told& told, Sink& sink) const {
+    const double time = observer.moment(system).time;
+    if (observer.generation(system) != told.generation) {
+      told.generation = observer.generation(system);
+      const state::ParameterChange& now = observer.parameters(system);
+      // A system made ready for other speeds is a new generation with the same parameters.
+      if (told.parameters.system.empty() || now.values != told.parameters.values) {
+        told.parameters = now;
+        told.parameters.at = observer.instant();
+        told.time = time;
+        sink.change(told.parameters);
+      }
+    }
+    if (std::fabs(time - told.time) >= kAgain) {
+      told.time = time;
+      sink.again(told.parameters);
+    }
+  }
+
+  std::vector<SharedSystem> built_;      // all of the scene
+  std::vector<DriveSpec> scene_drives_;  // likewise
+  std::vector<std::size_t> turned_by_;   // by each of them, the last of the systems
+  std::vector<std::size_t> systems_;
+  std::set<std::size_t> drives_;
+  std::vector<Told> told_;  // of systems_
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,104 @@
+// What is on the wire stays what it was: reference/wire.txt holds samples of every kind as they
+// were encoded before the fields of a message were listed once, and logs recorded then are still
+// about.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+#include <string>
+
+#include "transport/lcm_decode.h"
+#include "transport/lcm_encode.h"
+
+#ifdef WHIRL_TWIN_WITH_ROS
+#include <ros/serialization.h>
+
+#include "transport/ros_converters.h"
+#endif
+
+namespace whirl_twin {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+struct Sample {
+  std::string channel;
+  Bytes lcm, ros;
+};
+
+Bytes bytesOf(const std::string& hex) {
+  Bytes bytes;
+  for (std::size_t i = 0; i + 1 < hex.size(); i += 2) {
+    bytes.push_back(static_cast<std::uint8_t>(std::stoi(hex.substr(i, 2), nullptr, 16)));
+  }
+  return bytes;
+}
+
+std::vector<Sample> samples() {
+  std::ifstream file(WHIRL_TWIN_REFERENCE "/wire.txt");
+  std::vector<Sample> samples;
+  std::string channel, wire, hex;
+  while (file >> channel >> wire >> hex) {
+    if (wire == "lcm") {
+      samples.push_back({channel, bytesOf(hex), {}});
+    } else {
+      samples.back().ros = bytesOf(hex);
+    }
+  }
+  return samples;
+}
+
+Message decoded(const Sample& sample) {
+  return decodeEvent(sample.channel, sample.lcm.data(), sample.lcm.size());
+}
+
+TEST(Wire, OfLcmIsWhatItWas) {
+  std::set<std::size_t> kinds;
+  std::size_t critical_speeds = 0;
+  for (const Sample& sample : samples()) {
+    const Message message = decoded(sample);
+    kinds.insert(message.index());
+    const Bytes again = std::visit(
+        [](const auto& state) {
+          Bytes payload;
+          encode(state, payload);
+          return payload;
+        },
+        message);
+    EXPECT_EQ(again, sample.lcm) << sample.channel;
+    if (const auto* margin = std::get_if<state::StabilityMargin>(&message)) {
+      critical_speeds += margin->critical_speeds.size();
+    }
+  }
+  EXPECT_EQ(kinds.size(), 8u);
+  EXPECT_GT(critical_speeds, 0u);
+}
+
+#ifdef WHIRL_TWIN_WITH_ROS
+template <class Type>
+Bytes serialized(const Type& message) {
+  Bytes bytes(ros::serialization::serializationLength(message));
+  ros::serialization::OStream stream(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+  ros::serialization::serialize(stream, message);
+  return bytes;
+}
+
+Bytes onRos(const state::Alert& alert) {
+  return serialized(toRos(std::vector<state::Alert>{alert}, alert.stamp));
+}
+
+template <class State>
+Bytes onRos(const State& state) {
+  return serialized(toRos(state));
+}
+
+TEST(Wire, OfRosIsWhatItWas) {
+  for (const Sample& sample : samples()) {
+    const Bytes bytes = std::visit([](const auto& state) { return onRos(state); }, decoded(sample));
+    EXPECT_EQ(bytes, sample.ros) << sample.channel;
+  }
+}
+#endif
+
+}  // namespace
+}  // namespace whirl_twin
