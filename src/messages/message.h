@@ -5,15 +5,17 @@
 
 #include "messages/alert.h"
 #include "messages/loop_statistics.h"
+#include "messages/measurement.h"
 #include "messages/stability_margin.h"
 #include "messages/states.h"
 
 namespace whirl_twin {
 
 /// Whatever the twin can say.
-using Message = std::variant<state::WhirlState, state::PendulumState, state::DriveState,
-                             state::MotorState, state::EnsembleState, state::StabilityMargin,
-                             state::ParameterChange, state::LoopStatistics, state::Alert>;
+using Message =
+    std::variant<state::WhirlState, state::PendulumState, state::DriveState, state::MotorState,
+                 state::EnsembleState, state::StabilityMargin, state::ParameterChange,
+                 state::LoopStatistics, state::Measurement, state::Alert>;
 
 /// A kind as a value: typename decltype(kind)::State.
 template <class T>

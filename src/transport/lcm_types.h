@@ -6,6 +6,7 @@
 #include "whirl_twin/drive_state_t.hpp"
 #include "whirl_twin/ensemble_state_t.hpp"
 #include "whirl_twin/loop_statistics_t.hpp"
+#include "whirl_twin/measurement_t.hpp"
 #include "whirl_twin/motor_state_t.hpp"
 #include "whirl_twin/parameter_change_t.hpp"
 #include "whirl_twin/pendulum_state_t.hpp"
@@ -23,6 +24,7 @@ ensemble_state_t lcmTypeOf(const state::EnsembleState&);
 stability_margin_t lcmTypeOf(const state::StabilityMargin&);
 parameter_change_t lcmTypeOf(const state::ParameterChange&);
 loop_statistics_t lcmTypeOf(const state::LoopStatistics&);
+measurement_t lcmTypeOf(const state::Measurement&);
 alert_t lcmTypeOf(const state::Alert&);
 
 template <class State>

@@ -10,6 +10,7 @@
 #include "whirl_twin/DriveState.h"
 #include "whirl_twin/EnsembleState.h"
 #include "whirl_twin/LoopStatistics.h"
+#include "whirl_twin/Measurement.h"
 #include "whirl_twin/MotorState.h"
 #include "whirl_twin/ParameterChange.h"
 #include "whirl_twin/PendulumState.h"
@@ -27,6 +28,7 @@ EnsembleState rosTypeOf(const state::EnsembleState&);
 StabilityMargin rosTypeOf(const state::StabilityMargin&);
 ParameterChange rosTypeOf(const state::ParameterChange&);
 LoopStatistics rosTypeOf(const state::LoopStatistics&);
+Measurement rosTypeOf(const state::Measurement&);
 Alert rosTypeOf(const state::Alert&);  // one of an AlertArray
 
 template <class State>

@@ -250,6 +250,48 @@ TEST(LcmConverters, RejectLoopStatisticsThatCannotBeMeant) {
                 [](auto& m) { m.overruns = -1; }, [](auto& m) { m.kernel = "\x1b[2J"; }});
 }
 
+TEST(LcmConverters, RejectMeasurementsThatCannotBeMeant) {
+  state::Measurement measured;
+  measured.source = "sensors";
+  measured.channel = {"probe_x", "probe_y"};
+  measured.unit = {"m", "m"};
+  measured.deviation = {1e-6, std::nan("")};
+  measured.samples = 2;
+  measured.first_instant = 1000;
+  measured.period = 500;
+  measured.value = {1e-4, 0.0, 2e-4, std::nan("")};
+  measured.valid = {1, 1, 1, 0};
+  const auto message = toLcm(measured);
+  expectRejected(message, instantSpoilers<measurement_t>());
+  expectRejected<measurement_t>(
+      message, {[](auto& m) { m.source = "a/b"; }, [](auto& m) { m.channel[1] = "probe x"; },
+                [](auto& m) { m.channel[1] = m.channel[0]; }, [](auto& m) { m.unit.pop_back(); },
+                [](auto& m) { m.deviation[0] = -1e-9; }, [](auto& m) { m.samples = 3; },
+                [](auto& m) { m.samples = 0; }, [](auto& m) { m.samples = INT64_MAX; },
+                [](auto& m) { m.period = 0; }, [](auto& m) { m.period = -500; },
+                [](auto& m) { m.first_instant = INT64_MIN; }, [](auto& m) { m.valid[3] = 2; },
+                [](auto& m) { m.valid.pop_back(); }, [](auto& m) { m.value.pop_back(); },
+                [](auto& m) { m.values = 5; }, [](auto& m) { m.channels = 1; }});
+}
+
+TEST(LcmConverters, RejectPulsesThatAreNotInOrder) {
+  state::Measurement pulses;
+  pulses.source = "sensors";
+  pulses.channel = {"keyphasor"};
+  pulses.unit = {""};
+  pulses.deviation = {0.0};
+  pulses.samples = 3;
+  pulses.first_instant = 1000;
+  pulses.instant = {1000, 53600, 106100};
+  pulses.value = {1.0, 1.0, 1.0};
+  pulses.valid = {1, 1, 1};
+  expectRejected<measurement_t>(
+      toLcm(pulses),
+      {[](auto& m) { m.instant[1] = 1000; }, [](auto& m) { m.instant[2] = 2000; },
+       [](auto& m) { m.first_instant = 999; }, [](auto& m) { m.period = 1; },
+       [](auto& m) { m.instant.pop_back(); }, [](auto& m) { m.instant[2] = INT64_MAX; }});
+}
+
 TEST(LcmConverters, RejectImpossibleAlerts) {
   const auto alert = toLcm(StateSamples(5).alert());
   expectRejected<alert_t>(

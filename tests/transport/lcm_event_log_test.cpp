@@ -149,6 +149,24 @@ TEST(EventLog, HoldsStatisticsOfAnEnsembleOfWhichSomeMayBeLeftOut) {
   EXPECT_EQ(channel.last_time, 0.08);
 }
 
+TEST(EventLog, CountsBlocksOfMeasurementsThatAreMissing) {
+  const TemporaryLog log;
+  EventLogWriter writer(log.path());
+  auto block = StateSamples(2).measurement();
+  block.source = "sensors";
+  for (const std::int64_t number : {0, 1, 2, 5}) {
+    block.at = {number, static_cast<double>(number) * 0.1, 0};
+    writer.write(block);
+  }
+  writer.finish();
+  const auto summary = readEventLog(log.path());
+  EXPECT_TRUE(summary.intact());
+  const auto& channel = channelIn(summary, "TWIN_SENSORS_MEASUREMENT");
+  EXPECT_EQ(channel.kind, "measurement");
+  EXPECT_EQ(channel.events, 4u);
+  EXPECT_EQ(channel.lost, 2u);
+}
+
 TEST(EventLog, MayHoldOtherChannels) {
   const TemporaryLog log;
   {

@@ -2,6 +2,7 @@
 // bit.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -91,6 +92,29 @@ class StateSamples {
     return s;
   }
 
+  /// Every other one with an instant for each sample.
+  state::Measurement measurement() {
+    auto s = sample<state::Measurement>();
+    s.channel = {"probe_x", "probe_y", "keyphasor"};
+    s.channel.resize(1 + below(3));
+    s.unit.assign(s.channel.size(), "m");
+    s.deviation.assign(s.channel.size(), below(2) == 0 ? 1e-6 : std::nan(""));
+    s.samples = 1 + static_cast<std::int64_t>(below(5));
+    s.first_instant = static_cast<std::int64_t>(below(kMaxStamp / 2));
+    s.period = below(2) == 0 ? 0 : 1 + static_cast<std::int64_t>(below(1000000));
+    s.instant.clear();
+    for (std::int64_t i = 0; s.period == 0 && i < s.samples; ++i) {
+      s.instant.push_back(s.first_instant + i * 1000 +
+                          static_cast<std::int64_t>(below(1000)) * (i == 0 ? 0 : 1));
+    }
+    s.value = numbers(static_cast<std::size_t>(s.samples) * s.channel.size());
+    s.valid.clear();
+    for (std::size_t i = 0; i < s.value.size(); ++i) {
+      s.valid.push_back(static_cast<std::uint8_t>(below(2)));
+    }
+    return s;
+  }
+
   state::StabilityMargin margin() {
     state::StabilityMargin s;
     s.critical_speeds.resize(below(4));
@@ -153,6 +177,7 @@ class StateSamples {
   auto of(KindOf<state::StabilityMargin>) { return margin(); }
   auto of(KindOf<state::ParameterChange>) { return change(); }
   auto of(KindOf<state::LoopStatistics>) { return loop(); }
+  auto of(KindOf<state::Measurement>) { return measurement(); }
   auto of(KindOf<state::Alert>) { return alert(); }
 
   double time() { return static_cast<double>(below(1000000000)) * 1e-3; }
