@@ -53,6 +53,7 @@ class FullRotor {
     }
     middle_ = rotor_.matrices(0.5 * highest_);
     modes_ = restModes(middle_);
+    points_.reserve(kResponseSpeeds);
     for (int i = 1; i <= kResponseSpeeds; ++i) {
       points_.push_back(pointAt(highest_ * i / kResponseSpeeds));
     }

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "analysis/characteristic_polynomial.h"
 #include "analysis/stability_margins.h"
@@ -53,20 +55,47 @@ void modes(const std::vector<std::complex<double>>& roots, Stability& s) {
   }
 }
 
-void judgeExactly(const Linearization& l, std::size_t zeros, Stability& s) {
+/// What the exact polynomial says.
+struct ExactVerdict {
+  std::vector<double> polynomial;
+  RouthResult routh;
+};
+
+ExactVerdict exactVerdict(const Linearization& l, std::size_t zeros) {
+  ExactVerdict exact;
   std::vector<Rational> polynomial = characteristicPolynomial(l);
   polynomial.resize(polynomial.size() - zeros);  // these last coefficients are exactly zero
   for (const Rational& c : polynomial) {
-    s.polynomial.push_back(toDouble(c));
+    exact.polynomial.push_back(toDouble(c));
   }
-  s.routh = routh(polynomial);
-  if (s.routh.verdict == Verdict::kRepeatedImaginary) {
+  exact.routh = routh(polynomial);
+  if (exact.routh.verdict == Verdict::kRepeatedImaginary) {
     std::vector<Rational> minimal = minimalPolynomial(l);
     minimal.resize(minimal.size() - (zeros > 0 ? 1 : 0));  // they are one simple root there
     if (routh(minimal).verdict == Verdict::kMarginal) {
-      s.routh.verdict = Verdict::kMarginal;
+      exact.routh.verdict = Verdict::kMarginal;
     }
   }
+  return exact;
+}
+
+/// The last one is kept: a system's equilibria, its operating point, its threshold and its critical
+/// speeds are asked for in turn, and each begins with the same matrices at rest.
+void judgeExactly(const Linearization& l, std::size_t zeros, Stability& s) {
+  struct Judged {
+    Eigen::MatrixXd matrices;  // M, C, G, K, N side by side
+    std::size_t zeros;
+    ExactVerdict exact;
+  };
+  thread_local std::optional<Judged> last;
+  const Eigen::Index n = l.mass.rows();
+  Eigen::MatrixXd matrices(n, 5 * n);
+  matrices << l.mass, l.damping, l.gyroscopic, l.stiffness, l.circulatory;
+  if (!last || last->zeros != zeros || last->matrices.rows() != n || last->matrices != matrices) {
+    last = Judged{std::move(matrices), zeros, exactVerdict(l, zeros)};
+  }
+  s.polynomial = last->exact.polynomial;
+  s.routh = last->exact.routh;
 }
 
 bool positiveDefinite(const Eigen::MatrixXd& m) {
