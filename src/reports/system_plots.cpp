@@ -53,16 +53,16 @@ std::vector<Chart> coordinateCharts(const BuiltSystem& system, const PlotHistory
   std::vector<Panel> panels;
   const std::vector<CoordinateInfo> coordinates = system.dynamics->coordinates();
   for (std::size_t k = 0; k < coordinates.size(); ++k) {
-    const auto& [name, unit] = coordinates[k];
+    const CoordinateInfo& c = coordinates[k];
     const double range = spread(history.coordinates[k]);
     const auto panel = std::find_if(panels.begin(), panels.end(), [&](const Panel& p) {
-      return p.unit == unit && range <= kComparable * p.spread && p.spread <= kComparable * range;
+      return p.unit == c.unit && range <= kComparable * p.spread && p.spread <= kComparable * range;
     });
-    const Chart chart = historyChart(history, name, unit, history.coordinates[k]);
+    const Chart chart = historyChart(history, c.name, c.unit, history.coordinates[k]);
     if (panel == panels.end()) {
-      panels.push_back({unit, range, chart});
+      panels.push_back({c.unit, range, chart});
     } else {
-      panel->chart.y.label = unit == "rad" ? "angle (rad)" : fmt::format("position ({})", unit);
+      panel->chart.y.label = c.isAngle() ? "angle (rad)" : fmt::format("position ({})", c.unit);
       panel->chart.series.push_back(chart.series.front());
     }
   }
