@@ -13,30 +13,6 @@ constexpr std::size_t kMaxTextLength = 1000;
 /// Simulated times beyond this [s] have no microseconds in 64 bits.
 constexpr double kMaxTime = 9.0e12;
 
-/// Length of the UTF-8 character at `at`, 0 if there is none (RFC 3629: no overlong forms, no
-/// surrogates, nothing beyond U+10FFFF).
-std::size_t utf8Length(const std::string& text, std::size_t at) {
-  const auto byte = [&](std::size_t i) {
-    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
-  };
-  const unsigned lead = byte(at);
-  const std::size_t length = lead < 0x80   ? 1
-                             : lead < 0xc2 ? 0
-                             : lead < 0xe0 ? 2
-                             : lead < 0xf0 ? 3
-                             : lead < 0xf5 ? 4
-                                           : 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(at + i) & 0xc0u) != 0x80u) {
-      return 0;
-    }
-  }
-  const unsigned second = byte(at + 1);
-  const bool impossible = (lead == 0xe0 && second < 0xa0) || (lead == 0xed && second > 0x9f) ||
-                          (lead == 0xf0 && second < 0x90) || (lead == 0xf4 && second > 0x8f);
-  return impossible ? 0 : length;
-}
-
 }  // namespace
 
 std::int64_t utimeOf(double time) {
@@ -68,11 +44,10 @@ void requireText(const char* field, const std::string& text) {
                                       kMaxTextLength, text.size()));
   }
   for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = utf8Length(text, at);
-    const auto character = static_cast<unsigned char>(text[at]);
-    if (length == 0 || character < 0x20 || character == 0x7f) {
-      throw RejectedMessage(
-          fmt::format("{}: expected UTF-8 text, found the byte {:#04x}", field, character));
+    const std::size_t length = printableLength(text, at);
+    if (length == 0) {
+      throw RejectedMessage(fmt::format("{}: expected UTF-8 text, found the byte {:#04x}", field,
+                                        static_cast<unsigned char>(text[at])));
     }
     at += length;
   }

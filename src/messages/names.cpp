@@ -8,8 +8,6 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::size_t kLongestShown = 60;
-
 bool isLetter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
@@ -29,6 +27,20 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
     }
   }
   return row[b.size()];
+}
+
+/// A character that a terminal or a reader's eye is led by instead of seeing it.
+bool isObeyed(unsigned code) {
+  const auto within = [code](unsigned first, unsigned last) {
+    return code >= first && code <= last;
+  };
+  return code < 0x20 || within(0x7f, 0x9f) || code == 0x61c || within(0x200e, 0x200f) ||
+         within(0x2028, 0x202e) || within(0x2066, 0x2069);
+}
+
+void takeCharacter(std::string_view text, std::size_t& at, std::size_t length, std::string& clean) {
+  clean += length > 0 ? text.substr(at, length) : "?";
+  at += std::max<std::size_t>(length, 1);
 }
 
 }  // namespace
@@ -64,12 +76,50 @@ std::string hint(const std::string& name, const std::vector<std::string>& candid
                       : fmt::format("; did you mean '{}'?", near);
 }
 
-std::string printable(const std::string& text) {
-  std::string clean;
-  for (const char c : text.substr(0, kLongestShown)) {
-    clean += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
+std::size_t printableLength(std::string_view text, std::size_t at) {
+  const auto byte = [&](std::size_t i) {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
+  };
+  const unsigned lead = byte(at);
+  const std::size_t length = lead < 0x80   ? 1
+                             : lead < 0xc2 ? 0
+                             : lead < 0xe0 ? 2
+                             : lead < 0xf0 ? 3
+                             : lead < 0xf5 ? 4
+                                           : 0;
+  unsigned code = length < 2 ? lead : lead & (0x7fu >> length);
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(at + i) & 0xc0u) != 0x80u) {
+      return 0;
+    }
+    code = code << 6u | (byte(at + i) & 0x3fu);
   }
-  return text.size() > kLongestShown ? clean + "..." : clean;
+  const bool impossible = (length == 3 && code < 0x800) || (code >= 0xd800 && code < 0xe000) ||
+                          (length == 4 && (code < 0x10000 || code > 0x10ffff));
+  return impossible || isObeyed(code) ? 0 : length;
+}
+
+std::string printable(const std::string& text, std::size_t longest) {
+  std::string clean;
+  std::size_t at = 0;
+  while (at < text.size()) {
+    const std::size_t length = printableLength(text, at);
+    if (at + std::max<std::size_t>(length, 1) > longest) {
+      return clean + "...";
+    }
+    takeCharacter(text, at, length, clean);
+  }
+  return clean;
+}
+
+std::string printableLines(std::string_view text) {
+  std::string clean;
+  clean.reserve(text.size());
+  for (std::size_t at = 0; at < text.size();) {
+    const bool layout = text[at] == '\n' || text[at] == '\t';
+    takeCharacter(text, at, layout ? 1 : printableLength(text, at), clean);
+  }
+  return clean;
 }
 
 std::string quoted(const std::string& text) {

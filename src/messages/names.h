@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace whirl_twin {
@@ -24,9 +25,20 @@ std::string nearestName(const std::string& name, const std::vector<std::string>&
 /// "; did you mean 'NEAREST'?", or, without a near one, "; there are: ALL".
 std::string hint(const std::string& name, const std::vector<std::string>& candidates);
 
-/// The beginning of a text in quotes, without what a terminal might obey.
+/// Bytes of the character that begins at `at`, in UTF-8; 0 where there is none (RFC 3629: no
+/// overlong forms, no surrogates, nothing beyond U+10FFFF), or one that is not shown but obeyed:
+/// control characters (C0, DEL, C1), breaks of lines, and marks that turn the direction of text.
+std::size_t printableLength(std::string_view text, std::size_t at);
+
+/// Bytes of a text from elsewhere that a message shows.
+inline constexpr std::size_t kLongestShown = 60;
+
+/// The first bytes of a text on one line, with ? for every byte that printableLength() refuses.
+std::string printable(const std::string& text, std::size_t longest = kLongestShown);
+/// The same in quotes.
 std::string quoted(const std::string& text);
-/// The same without quotes.
-std::string printable(const std::string& text);
+
+/// All of a text of several lines, likewise; line ends and tabs stay.
+std::string printableLines(std::string_view text);
 
 }  // namespace whirl_twin

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "messages/names.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {
@@ -21,18 +22,21 @@ namespace {
 }  // namespace
 
 void printText(std::string_view text) {
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) {
+  const std::string shown = printableLines(text);
+  if (std::fwrite(shown.data(), 1, shown.size(), stdout) != shown.size()) {
     throwNoOutput();
   }
 }
 
 void printJson(const Json& json) {
-  // Names in a scene may hold any bytes; what is not UTF-8 is replaced, not refused.
-  printText(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  // Names in a scene may hold any bytes: what is not UTF-8 is replaced, not refused, and what a
+  // terminal might obey goes as \uXXXX like all that is not ASCII.
+  printText(json.dump(2, ' ', true, Json::error_handler_t::replace) + "\n");
 }
 
 void complain(const std::string& message) {
-  std::fwrite(message.data(), 1, message.size(), stderr);
+  const std::string shown = printableLines(message);
+  std::fwrite(shown.data(), 1, shown.size(), stderr);
   std::fflush(stderr);
 }
 

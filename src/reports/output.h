@@ -10,11 +10,12 @@ namespace whirl_twin {
 /// Keys in the order they were put in; NaN and infinities are printed as null.
 using Json = nlohmann::ordered_json;
 
-/// Prints results on standard output. Throws RunFailure if they cannot be written.
+/// Prints results on standard output, without what a terminal might obey (printableLines()). Throws
+/// RunFailure if they cannot be written.
 void printText(std::string_view text);
 void printJson(const Json& json);
 
-/// Prints a message on standard error, whether it can be written or not.
+/// Prints a message on standard error likewise, whether it can be written or not.
 void complain(const std::string& message);
 
 /// Hands everything printed to the system: only then is a full device noticed. Throws RunFailure.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "messages/names.h"
 #include "reports/scene_check.h"
 #include "scene/drive_profile.h"
 
@@ -71,7 +72,7 @@ std::string text(const SceneCheck& check) {
   const Scene& scene = check.scene;
   std::string out = fmt::format(
       "{}: scene '{}' is sound\n  step {:g} s ({:g} Hz), from t = {:g} s, gravity {:g} m/s^2\n",
-      scene.source, scene.name, scene.stepSeconds(), 1.0 / scene.stepSeconds(),
+      scene.source, printable(scene.name), scene.stepSeconds(), 1.0 / scene.stepSeconds(),
       static_cast<double>(scene.time) / 1.0e9, scene.gravity);
   if (!scene.drives.empty()) {
     out += "drives\n";

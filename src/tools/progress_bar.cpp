@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <string>
-
-#include "reports/output.h"
 
 namespace whirl_twin {
 
@@ -13,6 +12,12 @@ namespace {
 
 constexpr std::size_t kWidth = 40;
 constexpr std::chrono::milliseconds kInterval{100};
+
+/// Onto the terminal, with its control characters.
+void draw(const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
 
 }  // namespace
 
@@ -32,14 +37,14 @@ void ProgressBar::show(std::int64_t step) {
   next_ = now + kInterval;
   const double part = static_cast<double>(step) / static_cast<double>(steps_);
   const auto filled = static_cast<std::size_t>(part * kWidth);
-  complain(fmt::format("\r[{}{}] {:3.0f} %", std::string(filled, '#'),
-                       std::string(kWidth - filled, ' '), 100.0 * part));
+  draw(fmt::format("\r[{}{}] {:3.0f} %", std::string(filled, '#'),
+                   std::string(kWidth - filled, ' '), 100.0 * part));
   drawn_ = true;
 }
 
 void ProgressBar::clear() {
   if (drawn_) {
-    complain("\r\033[K");
+    draw("\r\033[K");
     drawn_ = false;
   }
 }

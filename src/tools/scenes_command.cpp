@@ -41,11 +41,12 @@ std::vector<std::string> openingComment(const std::filesystem::path& file) {
   std::ifstream in(file);
   std::vector<std::string> paragraphs{""};
   for (std::string line; std::getline(in, line) && !line.empty() && line[0] == '#';) {
-    const std::size_t start = line.find_first_not_of("# ");
+    const std::size_t start = line.find_first_not_of("# \r");
     if (start == std::string::npos) {
       paragraphs.emplace_back();
     } else {
-      paragraphs.back() += (paragraphs.back().empty() ? "" : " ") + line.substr(start);
+      const std::size_t end = line.find_last_not_of(" \r") + 1;
+      paragraphs.back() += (paragraphs.back().empty() ? "" : " ") + line.substr(start, end - start);
     }
   }
   return paragraphs;

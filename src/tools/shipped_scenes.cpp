@@ -22,7 +22,7 @@ std::vector<fs::path> sceneFiles(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().extension() == ".yaml") {
+    if (entry.path().extension() == ".yaml" && entry.is_regular_file(error)) {
       files.push_back(entry.path());
     }
   }
