@@ -1,15 +1,11 @@
 #include <fmt/format.h>
-#include <yaml-cpp/yaml.h>
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 
-#include "analysis/balancing.h"
-#include "messages/refusal.h"
+#include "messages/names.h"
 #include "reports/output.h"
-#include "scene/node_reader.h"
-#include "tools/arguments.h"
+#include "tools/balancing_runs.h"
 #include "tools/commands.h"
 
 namespace whirl_twin {
@@ -39,120 +35,11 @@ struct Request {
   bool json = false;
 };
 
-struct Runs {
-  std::vector<std::string> probes, planes;
-  Eigen::VectorXcd initial;
-  Eigen::VectorXd weights;
-  std::vector<TrialRun> trials;
-};
-
-/// Values of a file, with the place in the message where they are not what was expected.
-class RunsReader {
- public:
-  explicit RunsReader(const std::string& file) : file_(file) {}
-
-  Runs read() const {
-    YAML::Node root;
-    try {
-      root = YAML::LoadFile(file_);
-    } catch (const YAML::Exception& error) {
-      throw Refusal(fmt::format("{}: cannot be read: {}", file_, error.what()));
-    }
-    if (!root.IsMap()) {
-      refuse("the file", "a map with probes, planes, initial and trials", root);
-    }
-    Runs runs;
-    runs.probes = names(root["probes"], "probes");
-    runs.planes = names(root["planes"], "planes");
-    runs.initial = readings(root["initial"], "initial", runs.probes.size());
-    runs.weights = Eigen::VectorXd::Ones(runs.initial.size());
-    if (const YAML::Node weights = root["weights"]) {
-      requireList(weights, "weights", runs.probes.size());
-      for (std::size_t i = 0; i < weights.size(); ++i) {
-        runs.weights[static_cast<Eigen::Index>(i)] =
-            number(weights[i], fmt::format("weights[{}]", i));
-      }
-    }
-    const YAML::Node trials = root["trials"];
-    if (!trials || !trials.IsSequence() || trials.size() == 0) {
-      refuse("trials", "a list of runs", trials);
-    }
-    for (std::size_t i = 0; i < trials.size(); ++i) {
-      runs.trials.push_back(trial(trials[i], fmt::format("trials[{}]", i), runs));
-    }
-    return runs;
-  }
-
- private:
-  [[noreturn]] void refuse(const std::string& key, const std::string& expected,
-                           const YAML::Node& found) const {
-    throw Refusal(fmt::format("{}: {}: expected {}, found {}", file_, key, expected,
-                              found ? shown(found) : "nothing"));
-  }
-  void requireList(const YAML::Node& node, const std::string& key, std::size_t size) const {
-    if (!node || !node.IsSequence() || node.size() != size) {
-      refuse(key, fmt::format("a list of {}", size), node);
-    }
-  }
-  double number(const YAML::Node& node, const std::string& key) const {
-    const auto value =
-        node && node.IsScalar() ? parseNumber(node.Scalar()) : std::optional<double>();
-    if (!value) {
-      refuse(key, "a number", node);
-    }
-    return *value;
-  }
-  std::vector<std::string> names(const YAML::Node& node, const std::string& key) const {
-    if (!node || !node.IsSequence() || node.size() == 0) {
-      refuse(key, "a list of names", node);
-    }
-    std::vector<std::string> all;
-    for (const YAML::Node& one : node) {
-      if (!one.IsScalar()) {
-        refuse(key, "a list of names", one);
-      }
-      all.push_back(one.Scalar());
-    }
-    return all;
-  }
-  Eigen::VectorXcd readings(const YAML::Node& node, const std::string& key,
-                            std::size_t probes) const {
-    requireList(node, key, probes);
-    Eigen::VectorXcd all(static_cast<Eigen::Index>(probes));
-    for (std::size_t i = 0; i < probes; ++i) {
-      const std::string place = fmt::format("{}[{}]", key, i);
-      if (!node[i].IsSequence() || node[i].size() != 2) {
-        refuse(place, "[amplitude, phase lag in degrees]", node[i]);
-      }
-      all[static_cast<Eigen::Index>(i)] =
-          std::polar(1.0, -kRadian * number(node[i][1], place)) * number(node[i][0], place);
-    }
-    return all;
-  }
-  TrialRun trial(const YAML::Node& node, const std::string& key, const Runs& runs) const {
-    if (!node.IsMap()) {
-      refuse(key, "a map with plane, mass_radius, angle and readings", node);
-    }
-    const YAML::Node plane = node["plane"];
-    const auto place = std::find(runs.planes.begin(), runs.planes.end(),
-                                 plane && plane.IsScalar() ? plane.Scalar() : std::string());
-    if (place == runs.planes.end()) {
-      refuse(key + ".plane", fmt::format("one of {}", fmt::join(runs.planes, ", ")), plane);
-    }
-    const double mass_radius = number(node["mass_radius"], key + ".mass_radius");
-    const double angle = number(node["angle"], key + ".angle");
-    return {place - runs.planes.begin(), mass_radius * std::polar(1.0, kRadian * angle),
-            readings(node["readings"], key + ".readings", runs.probes.size())};
-  }
-
-  std::string file_;
-};
-
 double degrees(const std::complex<double>& z) {
   return std::arg(z) / kRadian + 0.0;
 }
 
-Json json(const Runs& runs, const BalanceCorrection& c) {
+Json json(const BalancingRuns& runs, const BalanceCorrection& c) {
   Json json;
   for (std::size_t i = 0; i < runs.planes.size(); ++i) {
     const auto mass = c.mass_radius[static_cast<Eigen::Index>(i)];
@@ -169,32 +56,29 @@ Json json(const Runs& runs, const BalanceCorrection& c) {
   return json;
 }
 
-std::string text(const Runs& runs, const BalanceCorrection& c) {
+std::string text(const BalancingRuns& runs, const BalanceCorrection& c) {
   std::string out = "add                mass x radius, kg m   angle, deg\n";
   for (std::size_t i = 0; i < runs.planes.size(); ++i) {
     const auto mass = c.mass_radius[static_cast<Eigen::Index>(i)];
-    out += fmt::format("  {:<18} {:>18.6g} {:>12.4f}\n", runs.planes[i], std::abs(mass),
+    out += fmt::format("  {:<18} {:>18.6g} {:>12.4f}\n", printable(runs.planes[i]), std::abs(mass),
                        degrees(mass));
   }
   out += "vibration                      before        after\n";
   for (std::size_t i = 0; i < runs.probes.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    out += fmt::format("  {:<18} {:>16.6g} {:>12.6g}\n", runs.probes[i], std::abs(runs.initial[k]),
-                       std::abs(c.residual[k]));
+    out += fmt::format("  {:<18} {:>16.6g} {:>12.6g}\n", printable(runs.probes[i]),
+                       std::abs(runs.initial[k]), std::abs(c.residual[k]));
   }
-  return out + fmt::format("planes: condition number {:.4g}\n", c.condition);
+  return out + (std::isfinite(c.condition)
+                    ? fmt::format("planes: condition number {:.4g}\n", c.condition)
+                    : "planes: some do the same, or nothing: the least masses that do it\n");
 }
 
 int balanceRuns(const Request& request) {
-  const Runs runs = RunsReader(request.file).read();
-  BalanceCorrection correction;
-  try {
-    correction = balance(
-        influenceOfPlanes(runs.initial, runs.trials, static_cast<Eigen::Index>(runs.planes.size())),
-        runs.initial, runs.weights);
-  } catch (const std::invalid_argument& error) {
-    throw Refusal(fmt::format("{}: {}", request.file, error.what()));
-  }
+  const BalancingRuns runs = readBalancingRuns(request.file);
+  const BalanceCorrection correction = balance(
+      influenceOfPlanes(runs.initial, runs.trials, static_cast<Eigen::Index>(runs.planes.size())),
+      runs.initial, runs.weights);
   if (request.json) {
     printJson(json(runs, correction));
   } else {

@@ -100,10 +100,37 @@ TEST(Balance, SaysWhereTheFileIsWrong) {
   const TemporaryDirectory folder;
   const std::string runs = folder.write("runs.yaml",
                                         "probes: [left]\nplanes: [disc]\ninitial: [[6, 0]]\n"
-                                        "trials: [{plane: disk}]\n");
+                                        "trials: [{plane: disk, mass_radius: 1, angle: north,\n"
+                                        "          readings: [[1]], mas: 1}]\n"
+                                        "weights: [-1]\n");
   const Ending end = twin({"balance", runs});
   EXPECT_EQ(end.status, 2);
-  EXPECT_EQ(end.err, "twin: " + runs + ": trials[0].plane: expected one of disc, found 'disk'\n");
+  EXPECT_EQ(end.out, "");
+  Lines expected;
+  for (const char* error :
+       {"weights[0]: must be a weight from 0 to 1e+12, found -1",
+        "trials[0].mas: unknown key of a trial run",
+        "trials[0].plane: must be the name of a plane, found 'disk'; did you mean 'disc'?",
+        "trials[0].angle: must be an angle in deg from -360000 to 360000, found 'north'",
+        "trials[0].readings[0]: must be [amplitude, phase lag in deg], found a list"}) {
+    expected.push_back("twin: " + runs + ": " + error);
+  }
+  EXPECT_EQ(linesOf(end.err), expected);
+}
+
+TEST(Balance, NeedsARunForEveryPlane) {
+  const TemporaryDirectory folder;
+  const std::string runs =
+      folder.write("runs.yaml",
+                   "probes: [left]\nplanes: [disc, fan]\ninitial: [[6, 0]]\nweights: [0]\n"
+                   "trials: [{plane: disc, mass_radius: 1, angle: 0, readings: [[1, 0]]}]\n");
+  const Ending end = twin({"balance", runs});
+  EXPECT_EQ(end.status, 2);
+  EXPECT_EQ(linesOf(end.err),
+            (Lines{"twin: " + runs + ": weights: must have one above 0",
+                   "twin: " + runs +
+                       ": trials: must have a run with a mass in every plane, found none in "
+                       "'fan'"}));
 }
 
 struct RefusedCommand {

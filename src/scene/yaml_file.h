@@ -1,0 +1,16 @@
+// A YAML file as a tree, before any of its keys is looked at.
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <string>
+
+namespace whirl_twin {
+
+/// The tree in a file that should be `what`, as "a scene" that has `contents`. Throws Refusal,
+/// "PATH: why", for what is not there, no regular file, larger than 4 MiB, binary, not YAML, or
+/// empty.
+YAML::Node readYamlFile(const std::string& path, const std::string& what,
+                        const std::string& contents);
+
+}  // namespace whirl_twin

@@ -1,0 +1,23 @@
+// The runs that `twin balance` reads: what was measured, with which trial masses.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "analysis/balancing.h"
+
+namespace whirl_twin {
+
+struct BalancingRuns {
+  std::vector<std::string> probes, planes;  ///< each name once
+  Eigen::VectorXcd initial;                 ///< of each probe: amplitude e^(-i lag), any unit
+  Eigen::VectorXd weights;                  ///< of each probe, >= 0 and not all 0
+  std::vector<TrialRun> trials;             ///< at least one for each plane
+};
+
+/// Reads them from a YAML file. Throws Refusal with everything that is wrong with it. The sizes
+/// allowed leave room for what is computed of them: nothing overflows.
+BalancingRuns readBalancingRuns(const std::string& path);
+
+}  // namespace whirl_twin
