@@ -6,7 +6,8 @@
 
 #include <cmath>
 #include <filesystem>
-#include <stdexcept>
+
+#include "messages/refusal.h"
 
 namespace whirl_twin {
 namespace {
@@ -41,8 +42,7 @@ Ink mixed(const Ink& ink, double share, double other) {
 ImageFormat imageFormat(const std::string& path) {
   const std::string extension = std::filesystem::path(path).extension();
   if (extension != ".svg" && extension != ".png") {
-    throw std::invalid_argument(
-        fmt::format("a picture: must end in .svg or .png, found '{}'", path));
+    throw Refusal(fmt::format("a picture: must end in .svg or .png, found '{}'", path));
   }
   return extension == ".svg" ? ImageFormat::kSvg : ImageFormat::kPng;
 }
@@ -180,7 +180,7 @@ std::string Canvas::finish() {
     status = cairo_surface_status(sheet_->surface);
   }
   if (status != CAIRO_STATUS_SUCCESS) {
-    throw std::runtime_error(
+    throw RunFailure(
         fmt::format("a picture could not be drawn: {}", cairo_status_to_string(status)));
   }
   if (sheet_->format == ImageFormat::kSvg) {

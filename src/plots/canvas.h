@@ -12,7 +12,7 @@ namespace whirl_twin {
 
 enum class ImageFormat { kSvg, kPng };
 
-/// By its extension, .svg or .png. Throws std::invalid_argument.
+/// By its extension, .svg or .png. Throws Refusal.
 ImageFormat imageFormat(const std::string& path);
 
 /// A colour, each part from 0 to 1.
@@ -73,7 +73,7 @@ class Canvas {
   void clip(const Spot& corner, double width, double height);
   void unclip();
 
-  /// The whole file. Throws std::runtime_error. Nothing can be drawn after it.
+  /// The whole file. Throws RunFailure. Nothing can be drawn after it.
   std::string finish();
 
  private:

@@ -12,8 +12,8 @@ namespace whirl_twin {
 
 enum class Marks { kNone, kDots, kRings };
 
-/// A curve; x and y of equal length. A point that is not finite (on a logarithmic axis: not
-/// positive) breaks the line.
+/// A curve; x and y of equal length. A point that no axis can show, because it is not finite or
+/// beyond 1e300 (on a logarithmic axis: not positive, or below 1e-300), breaks the line.
 struct Series {
   std::string name;  ///< in the legend, which is there for several names; "": not in it
   std::vector<double> x, y;
@@ -62,7 +62,7 @@ struct Figure {
 };
 
 /// The file. Long series are thinned to what can be seen: an SVG stays below about 200 kB.
-/// Throws std::runtime_error.
+/// Throws RunFailure.
 std::string figureImage(const Figure& figure, ImageFormat format);
 
 }  // namespace whirl_twin

@@ -273,7 +273,8 @@ void ChartDrawing::drawLegend() {
 void ChartDrawing::drawBands() {
   for (const Band& band : chart_.bands) {
     const auto across = [&](double value) {
-      return plot_.left + std::clamp(x_.place(value), 0.0, 1.0) * plot_.width;
+      const double seen = std::clamp(value, x_.range.low, x_.range.high);
+      return plot_.left + x_.place(seen) * plot_.width;
     };
     const double left = across(band.low);
     const double right = across(band.high);

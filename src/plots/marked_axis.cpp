@@ -6,7 +6,18 @@
 
 namespace whirl_twin {
 
+namespace {
+
+bool shown(double value, bool logarithmic) {
+  return std::fabs(value) <= kLargestOnAxis && (!logarithmic || value >= 1.0 / kLargestOnAxis);
+}
+
+}  // namespace
+
 double MarkedAxis::place(double value) const {
+  if (!shown(value, logarithmic)) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
   if (logarithmic) {
     return std::log(value / range.low) / std::log(range.high / range.low);
   }
@@ -26,7 +37,7 @@ AxisRange dataRange(const std::vector<const std::vector<double>*>& values, bool 
                   -std::numeric_limits<double>::infinity()};
   for (const std::vector<double>* series : values) {
     for (const double value : *series) {
-      if (std::isfinite(value) && (!logarithmic || value > 0.0)) {
+      if (shown(value, logarithmic)) {
         range = {std::min(range.low, value), std::max(range.high, value)};
       }
     }

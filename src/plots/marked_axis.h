@@ -19,7 +19,8 @@ struct MarkedAxis {
   void mark(bool tight, int most);
 };
 
-/// From the smallest to the largest finite (on a logarithmic axis: positive) value, with a length.
+/// From the smallest to the largest value that an axis can show (kLargestOnAxis; on a logarithmic
+/// one positive ones), with a length.
 AxisRange dataRange(const std::vector<const std::vector<double>*>& values, bool logarithmic);
 
 }  // namespace whirl_twin

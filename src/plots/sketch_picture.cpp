@@ -46,14 +46,28 @@ SketchBounds boundsOfAll(const SketchPicture& picture, const SketchView& view) {
   return all;
 }
 
-}  // namespace
-
-std::string sketchImage(const SketchPicture& picture, ImageFormat format) {
+SketchView viewOf(const SketchPicture& picture) {
   SketchView view;
   if (picture.sketch.spatial) {
     view.raised = 0.35;
     view.turned = 0.30;
   }
+  return view;
+}
+
+}  // namespace
+
+bool fitsASheet(const SketchPicture& picture) {
+  constexpr double kFarthest = 1.0e100;  // m
+  const SketchBounds all = boundsOfAll(picture, viewOf(picture));
+  const auto within = [](double low, double high) {
+    return low >= -kFarthest && high <= kFarthest && low <= high;
+  };
+  return within(all.left, all.right) && within(all.top, all.bottom);
+}
+
+std::string sketchImage(const SketchPicture& picture, ImageFormat format) {
+  SketchView view = viewOf(picture);
   const SketchBounds bounds = boundsOfAll(picture, view);  // at 1 px/m
   const double size = 1e-9 + bounds.right - bounds.left;
   const double height = 1e-9 + bounds.bottom - bounds.top;

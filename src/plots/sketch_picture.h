@@ -17,8 +17,11 @@ struct SketchPicture {
   std::vector<SketchPoint> trace;  ///< where the tracer has been; may be empty
 };
 
+/// Whether a sheet can show it: all its parts are at places within 1e100 m, and it has an extent.
+bool fitsASheet(const SketchPicture& picture);
+
 /// The file. The picture is 800 px wide or, where it is upright, 620 px high. Throws
-/// std::runtime_error.
+/// RunFailure.
 std::string sketchImage(const SketchPicture& picture, ImageFormat format);
 
 }  // namespace whirl_twin

@@ -87,14 +87,18 @@ std::vector<Spot> simplified(const std::vector<Spot>& line, double tolerance) {
 
 /// The cells of a fine raster that a stretch passes.
 std::vector<std::uint64_t> cellsOf(const Spot& from, const Spot& to, double size) {
+  constexpr double kMostSteps = 1.0e5;  // of a stretch that leads far beyond any sheet
   const double length = std::hypot(to.x - from.x, to.y - from.y);
-  const int steps = 1 + static_cast<int>(2.0 * length / size);
+  const int steps = 1 + static_cast<int>(std::min(2.0 * length / size, kMostSteps));
+  const auto cellAt = [size](double place) {
+    constexpr double kFarthest = 2.0e9;
+    return static_cast<std::int32_t>(std::clamp(std::floor(place / size), -kFarthest, kFarthest));
+  };
   std::vector<std::uint64_t> cells;
   for (int i = 0; i <= steps; ++i) {
     const double s = static_cast<double>(i) / steps;
-    const auto column =
-        static_cast<std::int32_t>(std::floor((from.x + s * (to.x - from.x)) / size));
-    const auto row = static_cast<std::int32_t>(std::floor((from.y + s * (to.y - from.y)) / size));
+    const std::int32_t column = cellAt(from.x + s * (to.x - from.x));
+    const std::int32_t row = cellAt(from.y + s * (to.y - from.y));
     cells.push_back(static_cast<std::uint64_t>(static_cast<std::uint32_t>(column)) << 32U |
                     static_cast<std::uint32_t>(row));
   }

@@ -29,10 +29,10 @@ AxisRange widened(AxisRange range) {
   if (largest == 0.0) {
     return {-1.0, 1.0};
   }
-  if (range.high - range.low >= kSmallestSpread * largest) {
+  const double room = std::max(kSmallestSpread * largest, 1.0 / kLargestOnAxis);
+  if (range.high - range.low >= room) {
     return range;
   }
-  const double room = std::max(kSmallestSpread * largest, 1.0e-300);
   return {range.low - room, range.high + room};
 }
 

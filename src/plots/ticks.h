@@ -12,7 +12,11 @@ struct AxisRange {
   double low = 0.0, high = 1.0;
 };
 
-/// Room around a single value, so that an axis has a length.
+/// Beyond it an axis shows nothing, and neither a positive number below its reciprocal: there
+/// lengths of axes and powers of ten leave the range of double.
+inline constexpr double kLargestOnAxis = 1.0e300;
+
+/// Room around a single value, so that an axis has a length. The ends are within kLargestOnAxis.
 AxisRange widened(AxisRange range);
 
 /// Ticks that cover the range: the first is not above its low end, the last not below its high end,

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "plots/ticks.h"
+
 namespace whirl_twin {
 
 namespace {
@@ -68,7 +70,7 @@ Chart peakChart(const Ensemble& ensemble, std::size_t quantity) {
   std::vector<double> peaks;
   for (std::size_t i = 0; i < ensemble.count(); ++i) {
     const double peak = ensemble.peaks(record.data())[i * quantities + quantity];
-    if (std::isfinite(peak)) {
+    if (std::fabs(peak) <= kLargestOnAxis) {
       peaks.push_back(peak);
     }
   }

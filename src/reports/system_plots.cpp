@@ -201,7 +201,8 @@ std::vector<SystemPlot> systemPlots(const BuiltSystem& system, const Ensemble* e
                                     const PlotHistory& history, ImageFormat format) {
   const std::string title = fmt::format("{} ({})", system.spec.name, system.spec.model);
   std::vector<SystemPlot> plots;
-  if (const auto picture = motionPicture(title, *system.dynamics, history)) {
+  const auto picture = motionPicture(title, *system.dynamics, history);
+  if (picture && fitsASheet(*picture)) {
     plots.push_back({"picture", sketchImage(*picture, format)});
   }
   const auto add = [&](const std::string& kind, const std::string& what, Figure figure) {

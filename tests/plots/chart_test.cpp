@@ -5,8 +5,8 @@
 
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
+#include "messages/refusal.h"
 #include "svg_text.h"
 
 namespace whirl_twin {
@@ -48,6 +48,14 @@ TEST(Chart, IsWellFormedAndNamesWhatItShows) {
        {"decay &amp; growth", "time (s)", "radius (m)", "falls", "rises &lt; 5"}) {
     EXPECT_NE(text.find(label), std::string::npos) << label;
   }
+}
+
+TEST(Chart, LeavesOutWhatNoAxisReaches) {
+  const std::string with = svg(figureOf({line("a", {3.0, 2.0, 1.5, -1.7e308, 1.7e308})}));
+  const std::string without = svg(figureOf({line("a", {3.0, 2.0, 1.5, kNaN, kNaN})}));
+  EXPECT_EQ(with, without);
+  EXPECT_TRUE(wellFormed(svg(figureOf({line("a", {-1.7e308, 1.7e308})}))));
+  EXPECT_TRUE(wellFormed(svg(figureOf({line("a", {0.0, 4e-324, 8e-324})}))));
 }
 
 TEST(Chart, DrawsEverySeriesInItsColour) {
@@ -138,8 +146,8 @@ TEST(Chart, AsPngHasTheSizeAsked) {
 TEST(ImageFormat, IsByExtension) {
   EXPECT_EQ(imageFormat("a/b.svg"), ImageFormat::kSvg);
   EXPECT_EQ(imageFormat("b.png"), ImageFormat::kPng);
-  EXPECT_THROW(imageFormat("b.pdf"), std::invalid_argument);
-  EXPECT_THROW(imageFormat("png"), std::invalid_argument);
+  EXPECT_THROW(imageFormat("b.pdf"), Refusal);
+  EXPECT_THROW(imageFormat("png"), Refusal);
 }
 
 }  // namespace

@@ -65,6 +65,20 @@ TEST(Ticks, OfOneValueHaveRoomAroundIt) {
   }
 }
 
+// Powers of ten beyond 1e308 are infinite: marks there would all be 0, or one place.
+TEST(Ticks, AreApartHoweverSmallOrLargeTheValues) {
+  for (const AxisRange range : {AxisRange{0.0, 1e-308}, AxisRange{-4e-324, 4e-324},
+                                AxisRange{1e-302, 3e-302}, AxisRange{-1e300, 1e300}}) {
+    const std::vector<double> ticks = linearTicks(widened(range), 5);
+    ASSERT_GE(ticks.size(), 2u);
+    for (std::size_t i = 1; i < ticks.size(); ++i) {
+      EXPECT_LT(ticks[i - 1], ticks[i]) << range.high;
+    }
+    EXPECT_TRUE(std::isfinite(ticks.back() - ticks.front()));
+    EXPECT_EQ(linearLabels(ticks).text.size(), ticks.size());
+  }
+}
+
 TEST(Labels, HaveTheDigitsOfTheStep) {
   EXPECT_EQ(linearLabels({-0.5, 0.0, 0.5}).text,
             (std::vector<std::string>{"\u22120.5", "0.0", "0.5"}));
