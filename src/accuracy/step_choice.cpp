@@ -37,6 +37,10 @@ const char* const kReference = "gauss_legendre_6";
 const char* const kExact = "exponential";
 /// What a run-up by the table over speed leaves out at steps that a scene may well have.
 constexpr double kTableError = 1.0e-7;
+/// From a calibration's end to the horizon's; far beyond what any method keeps, and no infinity: at
+/// rest the error is 0 over any horizon.
+constexpr double kMostGrowth = 1.0e100;
+constexpr double kMostDoublings = 16.0;  // of the substeps at once
 
 struct Calibration {
   const Scene& one;
@@ -64,7 +68,7 @@ Calibration calibration(const Scene& one, double budget) {
       std::max<std::int64_t>(1, (whole * one.step + c.interval - 1) / c.interval) * c.interval;
   // The phase of a motion whose energy drifts goes with the square of the time.
   const double covered = static_cast<double>(c.duration) / static_cast<double>(one.step);
-  c.growth = std::max(1.0, std::pow(steps / covered, 2));
+  c.growth = std::clamp(std::pow(steps / covered, 2), 1.0, kMostGrowth);
   return c;
 }
 
@@ -122,6 +126,13 @@ bool soundAtTwiceTheStep(const Judge& judge, const StepSetting& setting, const S
   return judge.errorOf(twice) <= std::pow(2.0, method.order + 3) * error + 1.0e-12;
 }
 
+/// How often the substeps have to be doubled for an error so many times the one allowed, believed
+/// up to `most`: beyond it, or where it is no number, it only says that the motion was lost.
+int doublings(double times, double most, int order) {
+  const double missing = std::ceil(std::log2(times < most ? times : most) / order);
+  return static_cast<int>(std::clamp(missing, 1.0, kMostDoublings));
+}
+
 double cost(const StepChoice& choice) {
   return choice.substeps * stepMethod(choice.integrator).evaluations;
 }
@@ -133,6 +144,10 @@ std::string reasonFor(const StepChoice& choice, const SystemSpec& spec, const Ca
   if (choice.until < spec.horizon) {
     return fmt::format("the best here: keeps {:g} until t = {:.3g} s{}; beyond, no step does",
                        spec.tolerance, choice.until, where);
+  }
+  if (!std::isfinite(choice.error)) {
+    return fmt::format("the best here: no step resolves its motion over {:g} s{}", spec.horizon,
+                       where);
   }
   if (!(choice.error <= spec.tolerance)) {
     return fmt::format("the best here: error {:.1g} over {:g} s{}, above the tolerance {:g}",
@@ -200,12 +215,11 @@ StepChoice lasting(const Scene& one, StepChoice choice, double budget) {
     if (!(estimate > spec.tolerance)) {
       break;
     }
-    const double missing = std::log2(std::min(estimate / spec.tolerance, 1.0e6)) / method.order;
-    const int more = choice.substeps << std::max(1, static_cast<int>(std::ceil(missing)));
-    if (more > kMostSubsteps) {
+    const int more = doublings(estimate / spec.tolerance, 1.0e6, method.order);
+    if (choice.substeps > kMostSubsteps >> more) {
       break;
     }
-    choice.substeps = more;
+    choice.substeps <<= more;
     choice.raised = true;
   }
   return choice;
@@ -239,8 +253,7 @@ StepChoice calibrated(const Scene& one, const ModelSetup& setup, const Calibrati
         }
         break;
       }
-      const double missing = std::log2(std::min(choice.error / j.allowed, 1.0e12)) / method.order;
-      choice.substeps <<= std::clamp(static_cast<int>(std::ceil(missing)), 1, 16);
+      choice.substeps <<= doublings(choice.error / j.allowed, 1.0e12, method.order);
     }
   }
   best = lasting(one, best, 0.5 * budget);

@@ -24,8 +24,10 @@ constexpr const char* kFooter =
     "  twin simulate demo.yaml --output demo.lcmlog && twin log demo.lcmlog\n"
     "  twin log recorded.lcmlog --json";
 
+/// [s]; in double, for a damaged log may hold any 64 bits.
 double span(const LogSummary& log) {
-  return static_cast<double>(log.last_timestamp - log.first_timestamp) * 1.0e-6;
+  return (static_cast<double>(log.last_timestamp) - static_cast<double>(log.first_timestamp)) *
+         1.0e-6;
 }
 
 Json channelJson(const ChannelSummary& channel) {

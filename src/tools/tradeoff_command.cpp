@@ -1,4 +1,6 @@
 // `twin tradeoff`.
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -59,6 +61,22 @@ void writeTable(const std::string& path, const std::vector<TradeoffReport>& repo
   file.complete();
 }
 
+/// As asked for, or the horizon of the system, which has to be a duration that can be run.
+std::int64_t durationOf(const Request& request, const Scene& one) {
+  constexpr std::int64_t kLongest = 1'000'000 * kSecond;
+  if (request.duration) {
+    return parseNanoseconds("--duration", *request.duration, one.step, kLongest);
+  }
+  const SystemSpec& spec = one.systems.front();
+  const double horizon = 1.0e9 * spec.horizon;
+  if (!(horizon >= static_cast<double>(one.step) && horizon <= static_cast<double>(kLongest))) {
+    throw Refusal(fmt::format(
+        "{}: its horizon, {:g} s, is no duration for this; --duration: must be from {} to {}",
+        spec.name, spec.horizon, inSeconds(one.step), inSeconds(kLongest)));
+  }
+  return static_cast<std::int64_t>(horizon);
+}
+
 int tradeoffOf(const Request& request) {
   requirePictureName(request.plot);
   requireTableName(request.output);
@@ -67,10 +85,7 @@ int tradeoffOf(const Request& request) {
   std::vector<TradeoffReport> reports;
   for (std::size_t i = 0; i < systems.size(); ++i) {
     const Scene one = sceneOfOne(scene, systems[i]);
-    const std::int64_t duration =
-        request.duration
-            ? parseNanoseconds("--duration", *request.duration, scene.step, 1'000'000 * kSecond)
-            : static_cast<std::int64_t>(1.0e9 * one.systems.front().horizon);
+    const std::int64_t duration = durationOf(request, one);
     constexpr std::int64_t kParts = 1000;
     const auto all = static_cast<std::int64_t>(systems.size()) * kParts;
     ProgressBar bar(all, false);

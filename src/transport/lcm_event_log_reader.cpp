@@ -18,6 +18,8 @@ namespace {
 
 /// Timestamps are those of reception, and the machine's clock may be set back a little [us].
 constexpr std::int64_t kClockSlack = 1000000;
+/// No clock stands there, 30,000 years from now [us].
+constexpr std::int64_t kLatest = 1'000'000'000'000'000'000;
 
 /// What the messages of one channel have in common, in words.
 template <class State>
@@ -90,8 +92,9 @@ void LogJudge::checkOrder(const RawEvent& event) {
   if (event.number >= 0 && event.number < std::numeric_limits<std::int64_t>::max()) {
     expected_number_ = event.number + 1;
   }
-  if (event.timestamp < std::numeric_limits<std::int64_t>::min() + kClockSlack) {
-    addDefect(event.offset, fmt::format("timestamp: found {} us", event.timestamp));
+  if (event.timestamp < -kLatest || event.timestamp > kLatest) {
+    addDefect(event.offset, fmt::format("timestamp: expected from {} to {} us, found {}", -kLatest,
+                                        kLatest, event.timestamp));
     return;
   }
   if (last_timestamp_ && event.timestamp < *last_timestamp_ - kClockSlack) {
