@@ -107,6 +107,14 @@ ComplexRational parseComplex(const std::string& text) {
   }
 }
 
+void ExactBudget::spendOn(const Integer& number) {
+  const auto words = static_cast<double>(number.backend().size());
+  left_ -= words * words;
+  if (left_ < 0.0) {
+    throw ExactBudgetSpent();
+  }
+}
+
 ScaledFloat scaledFloat(const Integer& value) {
   if (value == 0) {
     return {};

@@ -15,6 +15,8 @@
 #include <cstdint>
 #include <string>
 
+#include "messages/refusal.h"
+
 namespace whirl_twin {
 
 using Integer = boost::multiprecision::cpp_int;
@@ -33,6 +35,24 @@ Rational parseRational(const std::string& text);
 /// The exact value of "3", "3+2i", "-1e-3-2.5i", "2i", "-i" or the same with j.
 /// Throws std::invalid_argument as parseRational() does.
 ComplexRational parseComplex(const std::string& text);
+
+/// What an exact computation may cost, in products of 64-bit words. It is counted, not timed: the
+/// same numbers stay within it or leave it on every machine. Some 2e8 of them take a second.
+class ExactBudget {
+ public:
+  explicit ExactBudget(double products) : left_(products) {}
+  /// For a step whose cost goes as the square of the length of this number, which its growth in
+  /// long computations drives up. Throws ExactBudgetSpent when nothing is left.
+  void spendOn(const Integer& number);
+
+ private:
+  double left_;
+};
+
+class ExactBudgetSpent : public RunFailure {
+ public:
+  ExactBudgetSpent() : RunFailure("the exact numbers become too long") {}
+};
 
 /// mantissa * 2^exponent: a rounded number of any size, for the way from exact numbers to double.
 struct ScaledFloat {

@@ -17,27 +17,46 @@ namespace {
 constexpr double kReach = 1000.0;  // times the lowest natural frequency
 constexpr int kStrides = 240;
 constexpr int kFewerStrides = 120;  // where each costs milliseconds
-constexpr double kGrowth = 1.0e-9;  // of the largest eigenvalue: surely unstable
+constexpr double kGrowth = 1.0e-9;  // or decay, of the largest eigenvalue: no rounding
 
 constexpr double kRounding = 1.0e-15;  // of the largest eigenvalue: no growth
 
-/// Some deviation grows faster than by this part of the largest eigenvalue.
-bool grows(const Linearization& l, double part) {
+constexpr double kSearchBudget = 1.0e9;  // products, of all exact tests of a search
+
+/// The fastest growth of a deviation, in parts of the largest eigenvalue.
+double growth(const Linearization& l) {
   const auto roots = eigenvalues(l);
-  const double largest = std::abs(roots.back());
-  return std::any_of(roots.begin(), roots.end(),
-                     [&](const auto& root) { return root.real() > part * largest; });
+  const auto fastest = std::max_element(
+      roots.begin(), roots.end(), [](const auto& a, const auto& b) { return a.real() < b.real(); });
+  return fastest->real() / std::abs(roots.back());
 }
 
 bool surelyUnstable(const Linearization& l) {
-  return grows(l, kGrowth);
+  return growth(l) > kGrowth;
 }
 
-bool unstable(const Linearization& l) {
-  return l.mass.rows() <= kMostExactCoordinates
-             ? routh(characteristicPolynomial(l)).verdict == Verdict::kUnstable
-             : grows(l, kRounding);
-}
+/// Tells stable from unstable at the speeds of one search.
+class StabilityTest {
+ public:
+  bool unstable(const Linearization& l) {
+    const double fastest = growth(l);
+    if (std::fabs(fastest) > kGrowth) {
+      return fastest > 0.0;
+    }
+    if (l.mass.rows() <= kMostExactCoordinates && !budget_spent_) {
+      try {
+        return routh(characteristicPolynomial(l), budget_).verdict == Verdict::kUnstable;
+      } catch (const ExactBudgetSpent&) {
+        budget_spent_ = true;
+      }
+    }
+    return fastest > kRounding;
+  }
+
+ private:
+  ExactBudget budget_{kSearchBudget};
+  bool budget_spent_ = false;
+};
 
 }  // namespace
 
@@ -55,6 +74,7 @@ std::optional<double> instabilitySpeed(const Dynamics& dynamics, const Eigen::Ve
   const double first = std::max(from, 1.0e-2 * lowest);
   const double last = kReach * lowest;
   std::vector<std::pair<double, Eigen::VectorXd>> passed{{from, q}};
+  StabilityTest test;
   const int strides = dynamics.dof() <= kMostExactCoordinates ? kStrides : kFewerStrides;
   for (int i = 0; i <= strides; ++i) {
     const double high = first * std::pow(last / first, static_cast<double>(i) / strides);
@@ -68,8 +88,8 @@ std::optional<double> instabilitySpeed(const Dynamics& dynamics, const Eigen::Ve
     }
     // What grows too slowly to be sure of has been passed too: Routh's test finds the way back.
     double top = high;
-    while (passed.size() > 1 &&
-           unstable(linearizationAtRest(dynamics, passed.back().second, passed.back().first))) {
+    while (passed.size() > 1 && test.unstable(linearizationAtRest(dynamics, passed.back().second,
+                                                                  passed.back().first))) {
       top = passed.back().first;
       passed.pop_back();
     }
@@ -81,7 +101,7 @@ std::optional<double> instabilitySpeed(const Dynamics& dynamics, const Eigen::Ve
         break;
       }
       const auto there = equilibriumNear(dynamics, before, middle);
-      const bool lost = !there || unstable(linearizationAtRest(dynamics, *there, middle));
+      const bool lost = !there || test.unstable(linearizationAtRest(dynamics, *there, middle));
       (lost ? top : low) = middle;
     }
     return 0.5 * (low + top);

@@ -7,7 +7,22 @@ namespace whirl_twin {
 
 namespace {
 
-ExactPolynomial negatedRemainder(ExactPolynomial dividend, const ExactPolynomial& divisor) {
+/// Moves the greatest common divisor of the entries into the scale.
+void divideByCommonFactor(ScaledIntegers& values) {
+  Integer factor = 0;
+  for (const Integer& entry : values.entry) {
+    factor = gcd(factor, entry);
+  }
+  if (factor > 1) {
+    for (Integer& entry : values.entry) {
+      entry /= factor;
+    }
+    values.scale = values.scale * scaledFloat(factor);
+  }
+}
+
+ExactPolynomial negatedRemainder(ExactPolynomial dividend, const ExactPolynomial& divisor,
+                                 ExactBudget& budget) {
   const Integer pivot = abs(divisor.entry.front());
   while (dividend.entry.size() >= divisor.entry.size()) {
     // |pivot| times the dividend, less the multiple of the divisor that cancels its first entry.
@@ -22,7 +37,7 @@ ExactPolynomial negatedRemainder(ExactPolynomial dividend, const ExactPolynomial
     dividend.scale = dividend.scale / scaledFloat(pivot);
     dividend.entry.front() = 0;
     dividend = trimmed(std::move(dividend));
-    removeCommonFactor(dividend);
+    removeCommonFactor(dividend, budget);
   }
   for (Integer& coefficient : dividend.entry) {
     coefficient = -coefficient;
@@ -55,21 +70,15 @@ ScaledIntegers scaledIntegers(const std::vector<Rational>& values) {
     result.entry.push_back(numerator(value) * (common_denominator / denominator(value)));
   }
   result.scale = scaledFloat(1) / scaledFloat(common_denominator);
-  removeCommonFactor(result);
+  divideByCommonFactor(result);
   return result;
 }
 
-void removeCommonFactor(ScaledIntegers& values) {
-  Integer factor = 0;
+void removeCommonFactor(ScaledIntegers& values, ExactBudget& budget) {
   for (const Integer& entry : values.entry) {
-    factor = gcd(factor, entry);
+    budget.spendOn(entry);
   }
-  if (factor > 1) {
-    for (Integer& entry : values.entry) {
-      entry /= factor;
-    }
-    values.scale = values.scale * scaledFloat(factor);
-  }
+  divideByCommonFactor(values);
 }
 
 ExactPolynomial derivative(const ExactPolynomial& polynomial) {
@@ -88,10 +97,11 @@ ExactPolynomial trimmed(ExactPolynomial polynomial) {
   return polynomial;
 }
 
-std::vector<ExactPolynomial> sturmSequence(ExactPolynomial a, ExactPolynomial b) {
+std::vector<ExactPolynomial> sturmSequence(ExactPolynomial a, ExactPolynomial b,
+                                           ExactBudget& budget) {
   std::vector<ExactPolynomial> sequence;
   while (!b.entry.empty()) {
-    ExactPolynomial next = negatedRemainder(a, b);
+    ExactPolynomial next = negatedRemainder(a, b, budget);
     sequence.push_back(std::move(a));
     a = std::move(b);
     b = std::move(next);
@@ -104,11 +114,12 @@ int cauchyIndex(const std::vector<ExactPolynomial>& sturm_sequence) {
   return signChanges(sturm_sequence, -1) - signChanges(sturm_sequence, 1);
 }
 
-RealRootCount countRealRoots(ExactPolynomial polynomial) {
+RealRootCount countRealRoots(ExactPolynomial polynomial, ExactBudget& budget) {
   // The index of p'/p is the number of distinct real roots; gcd(p, p') has each of them once less.
   RealRootCount count;
   while (polynomial.entry.size() > 1) {
-    std::vector<ExactPolynomial> sequence = sturmSequence(polynomial, derivative(polynomial));
+    std::vector<ExactPolynomial> sequence =
+        sturmSequence(polynomial, derivative(polynomial), budget);
     const int distinct = cauchyIndex(sequence);
     if (distinct == 0) {
       break;

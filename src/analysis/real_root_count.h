@@ -16,10 +16,12 @@ struct ScaledIntegers {
   ScaledFloat scale;
 };
 
+/// Without a common factor.
 ScaledIntegers scaledIntegers(const std::vector<Rational>& values);
 
-/// Moves the greatest common divisor of the entries into the scale.
-void removeCommonFactor(ScaledIntegers& values);
+/// Moves the greatest common divisor of the entries into the scale. This and what follows throw
+/// ExactBudgetSpent.
+void removeCommonFactor(ScaledIntegers& values, ExactBudget& budget);
 
 /// A real polynomial, highest power first, first entry not zero; empty: the zero polynomial.
 using ExactPolynomial = ScaledIntegers;
@@ -31,7 +33,8 @@ ExactPolynomial trimmed(ExactPolynomial polynomial);
 
 /// a, b, -rem(a, b), ... down to the last member that is not zero, which is gcd(a, b). deg b < deg
 /// a.
-std::vector<ExactPolynomial> sturmSequence(ExactPolynomial a, ExactPolynomial b);
+std::vector<ExactPolynomial> sturmSequence(ExactPolynomial a, ExactPolynomial b,
+                                           ExactBudget& budget);
 
 /// Jumps of b/a from minus to plus infinity, less those from plus to minus, along the real line.
 int cauchyIndex(const std::vector<ExactPolynomial>& sturm_sequence);
@@ -41,6 +44,6 @@ struct RealRootCount {
   int largest_multiplicity = 0;  ///< 0 without real roots
 };
 
-RealRootCount countRealRoots(ExactPolynomial polynomial);
+RealRootCount countRealRoots(ExactPolynomial polynomial, ExactBudget& budget);
 
 }  // namespace whirl_twin

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -18,7 +19,7 @@ namespace {
 using Row = ScaledIntegers;
 
 /// Every entry is a multiple of `divisor`.
-Row rowBelow(const Row& upper, const Row& lower, const Integer& divisor) {
+Row rowBelow(const Row& upper, const Row& lower, const Integer& divisor, ExactBudget& budget) {
   const Integer pivot = abs(lower.entry.front());
   const Integer across = lower.entry.front() > 0 ? upper.entry.front() : -upper.entry.front();
   Row row;
@@ -29,12 +30,13 @@ Row rowBelow(const Row& upper, const Row& lower, const Integer& divisor) {
     }
   }
   row.scale = upper.scale / scaledFloat(pivot);
-  if (divisor > 1) {
-    for (Integer& entry : row.entry) {
+  for (Integer& entry : row.entry) {
+    budget.spendOn(entry);
+    if (divisor > 1) {
       entry /= divisor;
     }
-    row.scale = row.scale * scaledFloat(divisor);
   }
+  row.scale = row.scale * scaledFloat(divisor);
   return row;
 }
 
@@ -71,29 +73,29 @@ void fillLeadingZeros(Row& row, std::size_t m) {
 }
 
 /// Special case B: the derivative of the auxiliary polynomial, a row of the given degree.
-Row derivativeRow(const Row& auxiliary, int degree) {
+Row derivativeRow(const Row& auxiliary, int degree, ExactBudget& budget) {
   Row row;
   row.scale = auxiliary.scale;
   for (int j = 0; 2 * j < degree; ++j) {
     row.entry.push_back(auxiliary.entry[j] * (degree - 2 * j));
   }
-  removeCommonFactor(row);
+  removeCommonFactor(row, budget);
   return row;
 }
 
 /// The roots that a row of the given degree has on the imaginary axis: real roots of
 /// A(jx)/j^degree.
-RealRootCount rootsOnAxis(const Row& auxiliary, int degree) {
+RealRootCount rootsOnAxis(const Row& auxiliary, int degree, ExactBudget& budget) {
   ExactPolynomial on_axis;
   on_axis.entry.resize(degree + 1);
   for (int j = 0; 2 * j <= degree; ++j) {
     on_axis.entry[2 * j] = j % 2 == 0 ? auxiliary.entry[j] : -auxiliary.entry[j];
   }
-  return countRealRoots(std::move(on_axis));
+  return countRealRoots(std::move(on_axis), budget);
 }
 
 /// The first two rows, with a positive leading coefficient.
-std::pair<Row, Row> firstRows(const std::vector<Rational>& coefficients) {
+std::pair<Row, Row> firstRows(const std::vector<Rational>& coefficients, ExactBudget& budget) {
   const ScaledIntegers all = scaledIntegers(coefficients);
   std::pair<Row, Row> rows;
   rows.first.scale = rows.second.scale = all.scale;
@@ -101,8 +103,8 @@ std::pair<Row, Row> firstRows(const std::vector<Rational>& coefficients) {
     Row& row = i % 2 == 0 ? rows.first : rows.second;
     row.entry.push_back(all.entry.front() > 0 ? all.entry[i] : -all.entry[i]);
   }
-  removeCommonFactor(rows.first);
-  removeCommonFactor(rows.second);
+  removeCommonFactor(rows.first, budget);
+  removeCommonFactor(rows.second, budget);
   return rows;
 }
 
@@ -135,11 +137,11 @@ Verdict verdictOf(const RouthResult& result) {
                                                    : Verdict::kMarginal;
 }
 
-RouthResult routh(const std::vector<Rational>& coefficients) {
+RouthResult routh(const std::vector<Rational>& coefficients, ExactBudget& budget) {
   const auto [reduced, zeros] =
       withoutZeroRoots(coefficients, [](const Rational& a) { return a == 0; });
   const int degree = static_cast<int>(reduced.size()) - 1;
-  auto [upper, lower] = firstRows(reduced);
+  auto [upper, lower] = firstRows(reduced, budget);
   KnownDivisors divisors;
   divisors.restart(upper);
   RouthResult result;
@@ -154,9 +156,9 @@ RouthResult routh(const std::vector<Rational>& coefficients) {
     if (leading_zeros == lower.entry.size()) {
       // The first auxiliary polynomial holds every root on the axis; later ones only repetitions.
       if (on_axis.total == 0) {
-        on_axis = rootsOnAxis(upper, power + 1);
+        on_axis = rootsOnAxis(upper, power + 1, budget);
       }
-      lower = derivativeRow(upper, power + 1);
+      lower = derivativeRow(upper, power + 1, budget);
       divisors.restart(upper);
     } else if (leading_zeros > 0) {
       fillLeadingZeros(lower, leading_zeros);
@@ -168,7 +170,7 @@ RouthResult routh(const std::vector<Rational>& coefficients) {
       ++result.right;
       sign = -sign;
     }
-    Row next = rowBelow(upper, lower, divisors.next(lower));
+    Row next = rowBelow(upper, lower, divisors.next(lower), budget);
     upper = std::move(lower);
     lower = std::move(next);
   }
@@ -177,6 +179,11 @@ RouthResult routh(const std::vector<Rational>& coefficients) {
   result.largest_imaginary_multiplicity = std::max(on_axis.largest_multiplicity, zeros);
   result.verdict = verdictOf(result);
   return result;
+}
+
+RouthResult routh(const std::vector<Rational>& coefficients) {
+  ExactBudget unlimited(std::numeric_limits<double>::infinity());
+  return routh(coefficients, unlimited);
 }
 
 RouthResult routh(const std::vector<double>& coefficients) {

@@ -52,10 +52,13 @@ struct RouthResult {
 /// Not real-time safe (allocates).
 RouthResult routh(const std::vector<Rational>& coefficients);
 RouthResult routh(const std::vector<double>& coefficients);
+/// The same as far as a budget goes: throws ExactBudgetSpent.
+RouthResult routh(const std::vector<Rational>& coefficients, ExactBudget& budget);
 
 /// The same for complex coefficients. The sequence is that of the polynomial times -1 if the
 /// leading coefficient is real and negative, times its conjugate if it is not real.
 RouthResult routh(const std::vector<ComplexRational>& coefficients);
+RouthResult routh(const std::vector<ComplexRational>& coefficients, ExactBudget& budget);
 
 /// Hurwitz determinants D_1 ... D_n of a_0 s^n + ... + a_n: leading principal minors of the matrix
 /// H[i][j] = a_{2j-i}, i, j = 1 ... n. With a_0 > 0 all roots lie left if and only if all are

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 
 #include "analysis/real_root_count.h"
 #include "analysis/root_location.h"
@@ -27,6 +28,11 @@ ComplexRational leadingFactor(const ComplexRational& leading) {
 }  // namespace
 
 RouthResult routh(const std::vector<ComplexRational>& coefficients) {
+  ExactBudget unlimited(std::numeric_limits<double>::infinity());
+  return routh(coefficients, unlimited);
+}
+
+RouthResult routh(const std::vector<ComplexRational>& coefficients, ExactBudget& budget) {
   const auto [reduced, zeros] = withoutZeroRoots(coefficients, isZero);
   const int degree = static_cast<int>(reduced.size()) - 1;
 
@@ -44,9 +50,9 @@ RouthResult routh(const std::vector<ComplexRational>& coefficients) {
   // As x runs along the axis, arg p(jx) turns by pi (left - right), which is -pi times the index of
   // V/U. The last member, gcd(U, V), has the roots on the axis and the pairs symmetric to it.
   const std::vector<ExactPolynomial> sequence =
-      sturmSequence(scaledIntegers(real_part), trimmed(scaledIntegers(imaginary_part)));
+      sturmSequence(scaledIntegers(real_part), trimmed(scaledIntegers(imaginary_part)), budget);
   const int right_less_left = cauchyIndex(sequence);
-  const RealRootCount on_axis = countRealRoots(sequence.back());
+  const RealRootCount on_axis = countRealRoots(sequence.back(), budget);
 
   RouthResult result;
   result.right = (degree - on_axis.total + right_less_left) / 2;

@@ -55,24 +55,28 @@ void modes(const std::vector<std::complex<double>>& roots, Stability& s) {
   }
 }
 
+constexpr double kExactBudget = 2.0e8;  // products: a second
+
 /// What the exact polynomial says.
 struct ExactVerdict {
   std::vector<double> polynomial;
   RouthResult routh;
 };
 
+/// Throws ExactBudgetSpent.
 ExactVerdict exactVerdict(const Linearization& l, std::size_t zeros) {
   ExactVerdict exact;
+  ExactBudget budget(kExactBudget);
   std::vector<Rational> polynomial = characteristicPolynomial(l);
   polynomial.resize(polynomial.size() - zeros);  // these last coefficients are exactly zero
   for (const Rational& c : polynomial) {
     exact.polynomial.push_back(toDouble(c));
   }
-  exact.routh = routh(polynomial);
+  exact.routh = routh(polynomial, budget);
   if (exact.routh.verdict == Verdict::kRepeatedImaginary) {
     std::vector<Rational> minimal = minimalPolynomial(l);
     minimal.resize(minimal.size() - (zeros > 0 ? 1 : 0));  // they are one simple root there
-    if (routh(minimal).verdict == Verdict::kMarginal) {
+    if (routh(minimal, budget).verdict == Verdict::kMarginal) {
       exact.routh.verdict = Verdict::kMarginal;
     }
   }
@@ -169,9 +173,16 @@ Stability stability(const Linearization& linearization, std::size_t zeros) {
   s.eigenvalues.erase(s.eigenvalues.begin(),
                       s.eigenvalues.begin() + static_cast<std::ptrdiff_t>(zeros));
   modes(s.eigenvalues, s);
+  bool judged = false;
   if (linearization.mass.rows() <= kMostExactCoordinates) {
-    judgeExactly(linearization, zeros, s);
-  } else {
+    try {
+      judgeExactly(linearization, zeros, s);
+      judged = true;
+    } catch (const ExactBudgetSpent&) {
+      s.routh = {};
+    }
+  }
+  if (!judged) {
     judgeByDefiniteness(linearization, s);
   }
 

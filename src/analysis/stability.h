@@ -29,9 +29,10 @@ struct Stability {
   }
 };
 
-/// The exact polynomial and Routh's test on it cost seconds beyond so many coordinates. There the
-/// verdict rests on the definiteness of the matrices where that decides (Kelvin, Tait and Chetaev:
-/// N = 0, K > 0, and C > 0 or C = 0), else on the eigenvalues.
+/// The exact polynomial and Routh's test on it cost seconds beyond so many coordinates. There, and
+/// where exact numbers become too long sooner, the verdict rests on the definiteness of the
+/// matrices where that decides (Kelvin, Tait and Chetaev: N = 0, K > 0, and C > 0 or C = 0), else
+/// on the eigenvalues.
 constexpr Eigen::Index kMostExactCoordinates = 8;
 
 /// Judges M q'' + (C + G) q' + (K + N) q = 0. The verdict is kUncertain where the largest real part

@@ -29,7 +29,9 @@ std::string verdictText(Verdict verdict) {
 std::string routhText(const RouthResult& routh) {
   return fmt::format("    roots           {} right, {} on the imaginary axis, {} left\n",
                      routh.right, routh.imaginary, routh.left) +
-         fmt::format("    first column    {:.6g}\n", fmt::join(routh.first_column, "  "));
+         (routh.first_column.empty()
+              ? std::string()
+              : fmt::format("    first column    {:.6g}\n", fmt::join(routh.first_column, "  ")));
 }
 
 std::string marginsText(double decay_rate, double damping_ratio, double log_decrement) {

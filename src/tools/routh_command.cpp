@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <complex>
 #include <limits>
 #include <memory>
@@ -24,15 +25,20 @@ constexpr const char* kDescription =
 constexpr const char* kFooter =
     "Coefficients go highest power first, real (2, -0.1, 1e-3) or complex (3+2i, -i). Put -- "
     "before\n"
-    "them if one could be taken for an option. Leading zeros are dropped.\n"
+    "them if one could be taken for an option. Leading zeros are dropped. Where exact numbers "
+    "become\n"
+    "too long, the verdict is `uncertain` and the counts are those of the roots as computed.\n"
     "\n"
     "Examples:\n"
     "  twin routh 1 2 3 4               s^3 + 2 s^2 + 3 s + 4\n"
     "  twin routh --json -- 1 -2 3      s^2 - 2 s + 3\n"
     "  twin routh 1 0.2+3i 5-0.1i";
 
+constexpr double kExactBudget = 1.0e9;  // products of words: seconds
+
 struct Judgement {
   RouthResult routh;
+  bool exact = true;  // else the counts are those of the roots
   std::vector<std::complex<double>> roots;
   double decay_rate = 0.0;
   double damping_ratio = 0.0;
@@ -77,23 +83,44 @@ std::vector<std::complex<double>> inRange(const std::vector<ComplexRational>& co
   return rounded;
 }
 
+/// Where the roots lie as computed; on the axis are those that rounding could put on either side.
+RouthResult countsOf(const std::vector<std::complex<double>>& roots) {
+  constexpr double kRounding = 1.0e-9;
+  RouthResult counts;
+  counts.verdict = Verdict::kUncertain;
+  for (const auto& root : roots) {
+    const double beside = kRounding * std::abs(root);
+    ++(root.real() > beside    ? counts.right
+       : root.real() < -beside ? counts.left
+                               : counts.imaginary);
+  }
+  return counts;
+}
+
 Judgement judge(const std::vector<ComplexRational>& coefficients) {
   const bool real = std::all_of(coefficients.begin(), coefficients.end(),
                                 [](const ComplexRational& c) { return c.im == 0; });
   const auto rounded = inRange(coefficients);
+  std::vector<Rational> exact;
+  std::vector<double> values;
+  for (std::size_t i = 0; i < coefficients.size(); ++i) {
+    exact.push_back(coefficients[i].re);
+    values.push_back(rounded[i].real());
+  }
   Judgement judgement;
-  if (real) {
-    std::vector<Rational> exact;
-    std::vector<double> values;
-    for (std::size_t i = 0; i < coefficients.size(); ++i) {
-      exact.push_back(coefficients[i].re);
-      values.push_back(rounded[i].real());
-    }
-    judgement.routh = routh(exact);
-    judgement.roots = roots(values);
-  } else {
-    judgement.routh = routh(coefficients);
-    judgement.roots = roots(rounded);
+  judgement.roots = real ? roots(values) : roots(rounded);
+  if (!std::all_of(judgement.roots.begin(), judgement.roots.end(), [](const auto& root) {
+        return std::isfinite(root.real()) && std::isfinite(root.imag());
+      })) {
+    throw Refusal(
+        "coefficients: a root lies beyond 1.8e308, the largest double; take a larger unit for s");
+  }
+  ExactBudget budget(kExactBudget);
+  try {
+    judgement.routh = real ? routh(exact, budget) : routh(coefficients, budget);
+  } catch (const ExactBudgetSpent&) {
+    judgement.routh = countsOf(judgement.roots);
+    judgement.exact = false;
   }
   return judgement;
 }
@@ -136,7 +163,11 @@ Json json(const Judgement& j) {
 }
 
 std::string text(const Judgement& j) {
-  std::string out = fmt::format("{} (degree {})\n", verdictText(j.routh.verdict), j.roots.size());
+  std::string out = fmt::format(
+      "{} (degree {})\n",
+      j.exact ? verdictText(j.routh.verdict)
+              : "uncertain: the exact test was given up, its numbers become too long; as computed:",
+      j.roots.size());
   out += routhText(j.routh) + marginsText(j.decay_rate, j.damping_ratio, j.log_decrement);
   for (const auto& root : j.roots) {
     out += fmt::format("    root            {:.6g} {:+.6g}i\n", root.real(), root.imag());

@@ -19,9 +19,10 @@ using Complex = std::complex<double>;
 
 /// The largest multiplicity of any root: how often gcd(p, p') can be taken.
 int largestMultiplicity(ExactPolynomial polynomial) {
+  ExactBudget plenty(1.0e12);
   int multiplicity = 0;
   while (polynomial.entry.size() > 1) {
-    polynomial = sturmSequence(polynomial, derivative(polynomial)).back();
+    polynomial = sturmSequence(polynomial, derivative(polynomial), plenty).back();
     ++multiplicity;
   }
   return multiplicity;
