@@ -58,6 +58,7 @@ void report(const LcmReceiver& receiver, diagnostic_updater::DiagnosticStatusWra
 }
 
 void run() {
+  requireKnownParameters({"lcm_url", "lcm_prefix", "derived"});
   const auto url = privateParameter<std::string>("lcm_url", "an LCM url", kDefaultLcmUrl);
   const auto derived = privateParameter<bool>("derived", "true or false", false);
   const std::string prefix = lcmPrefixParameter();

@@ -10,7 +10,6 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 
 #include "nodes/private_parameter.h"
@@ -26,16 +25,16 @@ using std::chrono::milliseconds;
 
 void run() {
   const ros::NodeHandle node;  // keeps ROS up while the parameters are read
+  requireKnownParameters({"log", "lcm_url", "lcm_prefix", "force"});
   const auto log = privateParameter<std::string>("log", "the name of a file", "");
   const auto url = privateParameter<std::string>("lcm_url", "an LCM url", kDefaultLcmUrl);
   const auto force = privateParameter<bool>("force", "true or false", false);
   const std::string prefix = lcmPrefixParameter();
   if (log.empty()) {
-    throw std::invalid_argument("log: missing; expected the name of a file to write");
+    throw Refusal("log: missing; expected the name of a file to write");
   }
   if (!force && std::filesystem::exists(log)) {
-    throw std::invalid_argument(
-        fmt::format("log: '{}' exists; say force:=true to overwrite it", log));
+    throw Refusal(fmt::format("log: '{}' exists; say force:=true to overwrite it", log));
   }
   const auto lcm = openLcm(url);
   LcmRecorder recorder(lcm, prefix + ".*", log);

@@ -34,9 +34,12 @@ double wallTime() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+/// Throws Refusal for a parameter of the node that is unknown, or out of range.
 AlarmSettings alarmSettings() {
   AlarmSettings s;
-  const auto read = [](const char* name, double& value) {
+  std::vector<std::string> known{"lcm_url", "lcm_prefix", "source"};
+  const auto read = [&known](const char* name, double& value) {
+    known.emplace_back(name);
     value = privateParameter(name, "a number", value);
   };
   read("approach_time", s.approach_time);
@@ -47,9 +50,10 @@ AlarmSettings alarmSettings() {
   read("log_decrement_warning", s.log_decrement_warning);
   read("energy_residual", s.energy_residual);
   read("data_timeout", s.data_timeout);
+  requireKnownParameters(known);
   const std::vector<std::string> errors = settingErrors(s);
   if (!errors.empty()) {
-    throw std::invalid_argument(fmt::format("{}", fmt::join(errors, "\n")));
+    throw Refusal(fmt::format("{}", fmt::join(errors, "\n")));
   }
   return s;
 }
@@ -88,11 +92,11 @@ class MonitorNode {
       subscribe();
     } else if (source == "lcm") {
       if (url_.empty()) {
-        throw std::invalid_argument("lcm_url: source is lcm, expected an LCM url, found nothing");
+        throw Refusal("lcm_url: source is lcm, expected an LCM url, found nothing");
       }
       receive(url_);
     } else {
-      throw std::invalid_argument("source: must be ros or lcm, found '" + source + "'");
+      throw Refusal("source: must be ros or lcm, found '" + source + "'");
     }
     diagnostics_.setHardwareID("none");
     diagnostics_.add("monitor", this, &MonitorNode::summarize);

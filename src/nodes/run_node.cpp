@@ -9,6 +9,8 @@
 #include <exception>
 #include <thread>
 
+#include "messages/refusal.h"
+
 namespace whirl_twin {
 
 namespace {
@@ -52,6 +54,9 @@ int runNode(int argc, char** argv, const char* name, const std::function<void()>
     if (waitForMaster(name)) {
       run();
     }
+  } catch (const RunFailure& failure) {
+    std::fprintf(stderr, "%s: failed:\n%s\n", name, failure.what());
+    return 1;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s: cannot run:\n%s\n", name, error.what());
     return 2;

@@ -56,11 +56,13 @@ struct Settings {
 };
 
 Settings readSettings(const Scene& scene) {
+  requireKnownParameters(
+      {"publish_rate", "lcm_url", "lcm_prefix", "clock", "realtime", "priority", "overrun"});
   Settings s;
   const auto rate = privateParameter("publish_rate", "a number in Hz", 0.0);
   if (!(rate == 0.0 || (rate >= kSlowestRate && std::isfinite(rate)))) {
-    throw std::invalid_argument(fmt::format(
-        "publish_rate: must be 0 (every step), or at least {} Hz, found {}", kSlowestRate, rate));
+    throw Refusal(fmt::format("publish_rate: must be 0 (every step), or at least {} Hz, found {}",
+                              kSlowestRate, rate));
   }
   s.every =
       rate == 0.0 ? 1 : std::max<std::int64_t>(1, std::llround(1.0 / (rate * scene.stepSeconds())));
@@ -68,12 +70,11 @@ Settings readSettings(const Scene& scene) {
   s.lcm_prefix = lcmPrefixParameter();
   s.clock = privateParameter("clock", "true or false", false);
   if (s.clock && scene.time < 0) {
-    throw std::invalid_argument("clock: needs a scene whose time is >= 0 s");
+    throw Refusal("clock: needs a scene whose time is >= 0 s");
   }
   if (scene.step < kShortestStep) {
-    throw std::invalid_argument(
-        fmt::format("{}: step: must be >= {:g} s to run live, found {:g} s", scene.source,
-                    static_cast<double>(kShortestStep) * 1.0e-9, scene.stepSeconds()));
+    throw Refusal(fmt::format("{}: step: must be >= {:g} s to run live, found {:g} s", scene.source,
+                              static_cast<double>(kShortestStep) * 1.0e-9, scene.stepSeconds()));
   }
   s.loop.period = scene.step;
   s.loop.mode = parseRealtimeMode(
@@ -247,7 +248,7 @@ void run() {
   ROS_INFO("stopped after %ld steps", static_cast<long>(live.twin().stepCount()));
   ros::shutdown();
   if (by_itself) {
-    throw std::runtime_error("a step ended too late, and the parameter overrun says stop");
+    throw RunFailure("a step ended too late, and the parameter overrun says stop");
   }
 }
 

@@ -110,7 +110,7 @@ bool TwinServices::setSpeed(SetSpeed::Request& request, SetSpeed::Response& resp
     }
     const std::string near = nearestName(request.drive, names);
     response.message =
-        fmt::format("drive: must be a drive of the scene, found '{}'{}", request.drive,
+        fmt::format("drive: must be a drive of the scene, found {}{}", quoted(request.drive),
                     near.empty() ? "" : fmt::format("; did you mean '{}'?", near));
     return true;
   }

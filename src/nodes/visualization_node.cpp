@@ -14,12 +14,13 @@
 #include <cstdio>
 #include <map>
 #include <memory>
-#include <stdexcept>
 
 #include "display/mechanism_display.h"
 #include "display/rotor_display.h"
 #include "display/scene_dynamics.h"
 #include "display/twin_listener.h"
+#include "messages/refusal.h"
+#include "nodes/private_parameter.h"
 #include "plugins/plugin_models.h"
 #include "transport/twin_namespace.h"
 
@@ -36,10 +37,10 @@ double positiveParameter(const char* name, const char* unit, double fallback, bo
                                            zero_allowed ? ">=" : ">", unit);
   double value = 0.0;
   if (!node.getParam(name, value)) {
-    throw std::invalid_argument(expected + ", found another type");
+    throw Refusal(expected + ", found another type");
   }
   if (!std::isfinite(value) || value < 0.0 || (value == 0.0 && !zero_allowed)) {
-    throw std::invalid_argument(fmt::format("{}, found {}", expected, value));
+    throw Refusal(fmt::format("{}, found {}", expected, value));
   }
   return value;
 }
@@ -183,9 +184,10 @@ int main(int argc, char** argv) {
   ros::NodeHandle node;  // keeps ROS up while the parameters are read
   try {
     whirl_twin::usePluginModels();
+    whirl_twin::requireKnownParameters({"whirl_scale", "trail_turns", "rate"});
     whirl_twin::VisualizationNode visualization;
     ros::spin();
-  } catch (const std::invalid_argument& error) {
+  } catch (const whirl_twin::Refusal& error) {
     std::fprintf(stderr, "visualization_node: %s\n", error.what());
     return 2;
   }

@@ -41,6 +41,19 @@ class BrokenScene(unittest.TestCase):
     def test_monitor_node_refuses_it(self):
         self.check('monitor_node')
 
+    def test_misspelt_parameters_of_a_node_are_refused(self):
+        scene = {'step': 0.001, 'systems': {'rotor': {'model': 'jeffcott_rotor', 'parameters': {
+            'mass': 1, 'stiffness': 1.0e4, 'speed': 10.0}}}}
+        for node, wrong, right in [('simulation_node', 'publsh_rate', 'publish_rate'),
+                                   ('monitor_node', 'dwel_limit', 'dwell_limit')]:
+            rospy.set_param('/twin/scene', scene)
+            rospy.set_param('/%s/%s' % (node, wrong), 1.0)
+            done = run(node)
+            rospy.delete_param('/%s/%s' % (node, wrong))
+            self.assertEqual(done.returncode, 2, done.stdout)
+            self.assertIn("/%s/%s: unknown parameter; did you mean '%s'?" % (node, wrong, right),
+                          done.stdout)
+
     def test_no_scene_at_all(self):
         if rospy.has_param('/twin/scene'):
             rospy.delete_param('/twin/scene')
