@@ -255,7 +255,7 @@ RotorReduction reduceRotorTo(const LinearRotor& rotor, const std::vector<Station
   for (Index count = 2;; count = std::min(count + 2, full.dof())) {
     const Choice choice = choose(full, count, tolerance);
     if (choice.response_error <= tolerance) {
-      const RotorReduction r = report(full, choice, fmt::format(" <= {:.3g}", tolerance));
+      RotorReduction r = report(full, choice, fmt::format(" <= {:.3g}", tolerance));
       if (r.error.eigenvalue <= std::max(tolerance / kTurnsOfFreeWhirl, kEigenvalueRounding)) {
         return r;
       }

@@ -153,7 +153,7 @@ std::vector<std::complex<double>> eigenvalues(const Linearization& l) {
   if (solver.info() != Eigen::Success) {
     throw std::domain_error("the eigenvalues of the linearized system cannot be computed");
   }
-  const Eigen::VectorXcd values = solver.eigenvalues();
+  const Eigen::VectorXcd& values = solver.eigenvalues();
   std::vector<std::complex<double>> roots(values.data(), values.data() + values.size());
   std::sort(roots.begin(), roots.end(), [](const auto& x, const auto& y) {
     const double ax = std::abs(x);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace whirl_twin {
 namespace {
@@ -58,6 +59,17 @@ TEST(MatrixExponential, OfADefectiveMatrixHasTheSecularTerm) {
     EXPECT_NEAR(e(0, 0), std::expm1(rate), 4e-15 * std::exp(rate));
     EXPECT_NEAR(e(0, 1), std::exp(rate), 4e-15 * std::exp(rate));
     EXPECT_EQ(e(1, 0), 0.0);
+  }
+}
+
+// No number of halvings brings an infinity below one half.
+TEST(MatrixExponential, OfWhatIsNotFiniteIsNotFinite) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const double entry : {kInfinity, -kInfinity, std::nan("")}) {
+    const Matrix2 x = Matrix2::Constant(entry);
+    EXPECT_EQ(halvings<2>(x), 0);
+    EXPECT_FALSE(exponentialLessIdentity<2>(x).allFinite());
+    EXPECT_FALSE((quadraticIntegral<2>(x, Matrix2::Identity(), 1.0).allFinite()));
   }
 }
 

@@ -79,10 +79,10 @@ RotorAssembly::RotorAssembly(const FlexibleShaft& shaft) {
   for (int i = 0; i + 1 < shaft.nodes(); ++i) {
     const ShaftElement element =
         shaftElement(shaft.material, shaft.elements[static_cast<std::size_t>(i)]);
-    constexpr Index size = 2 * kNodeCoordinates;
-    constant_.mass.block<size, size>(firstOf(i), firstOf(i)) += element.mass;
-    constant_.stiffness.block<size, size>(firstOf(i), firstOf(i)) += element.stiffness;
-    gyroscopic_per_speed_.block<size, size>(firstOf(i), firstOf(i)) += element.gyroscopic;
+    constexpr Index kSize = 2 * kNodeCoordinates;
+    constant_.mass.block<kSize, kSize>(firstOf(i), firstOf(i)) += element.mass;
+    constant_.stiffness.block<kSize, kSize>(firstOf(i), firstOf(i)) += element.stiffness;
+    gyroscopic_per_speed_.block<kSize, kSize>(firstOf(i), firstOf(i)) += element.gyroscopic;
   }
   constant_.damping = shaft.internal_damping * constant_.stiffness;
   const MatrixXd circulatory = -constant_.damping * quarterTurn(n);
