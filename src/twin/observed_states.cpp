@@ -5,7 +5,7 @@
 
 namespace whirl_twin {
 
-state::WhirlState whirlState(const Whirl& at, const WhirlPhase& phase, const ShaftView& shaft,
+state::WhirlState whirlState(const WhirlMotion& at, const WhirlPhase& phase, const ShaftView& shaft,
                              double slowest_orbit) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   state::WhirlState s;

@@ -14,7 +14,7 @@
 namespace whirl_twin {
 
 /// Below `slowest_orbit` [rad/s] there is no 1X orbit to speak of.
-state::WhirlState whirlState(const Whirl& at, const WhirlPhase& phase, const ShaftView& shaft,
+state::WhirlState whirlState(const WhirlMotion& at, const WhirlPhase& phase, const ShaftView& shaft,
                              double slowest_orbit);
 state::PendulumState pendulumState(const std::vector<CoordinateInfo>& coordinates,
                                    const SystemView& system, const Energies& energies);

@@ -161,7 +161,7 @@ double Observer::energyResidual(std::size_t system) const {
   return tracks_[system].energy.residual();
 }
 
-Whirl Observer::whirlOf(std::size_t system) const {
+WhirlMotion Observer::whirlOf(std::size_t system) const {
   const Station& at = tracks_[system].station;
   const auto n = at.along_x.size();
   const Eigen::Map<const Eigen::VectorXd> q(coordinates(system), n);

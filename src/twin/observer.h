@@ -45,7 +45,7 @@ class Observer {
   state::MotorState motor(std::size_t drive) const;         ///< of a drive that is a motor
   /// Whirl radius [m] and unwrapped phase lag [rad] of a rotor (NaN while undefined).
   double whirlRadius(std::size_t system) const;
-  Whirl whirlOf(std::size_t system) const;
+  WhirlMotion whirlOf(std::size_t system) const;
   double whirlPhase(std::size_t system) const;
   const double* coordinates(std::size_t system) const;  ///< q
   const double* rates(std::size_t system) const;        ///< q'

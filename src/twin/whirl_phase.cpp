@@ -14,11 +14,11 @@ constexpr double kSmallestRadius = 1.0e-9;
 
 }  // namespace
 
-double Whirl::radius() const {
+double WhirlMotion::radius() const {
   return std::hypot(x, y);
 }
 
-void WhirlPhase::observe(const Whirl& whirl, double unbalance) {
+void WhirlPhase::observe(const WhirlMotion& whirl, double unbalance) {
   const double radius = whirl.radius();
   largest_radius_ = std::max(largest_radius_, radius);
   valid_ = radius > kSmallestRadius * largest_radius_;

@@ -4,7 +4,7 @@
 namespace whirl_twin {
 
 /// Where a rotor's whirl is seen: position [m] and velocity [m/s] there.
-struct Whirl {
+struct WhirlMotion {
   double x = 0.0, y = 0.0, x_rate = 0.0, y_rate = 0.0;
 
   double radius() const;  ///< [m]
@@ -13,7 +13,7 @@ struct Whirl {
 class WhirlPhase {
  public:
   /// The next record: the whirl, and the direction [rad] of the unbalance.
-  void observe(const Whirl& whirl, double unbalance);
+  void observe(const WhirlMotion& whirl, double unbalance);
 
   /// The radius is large enough to have an angle.
   bool valid() const { return valid_; }
