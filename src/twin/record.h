@@ -73,6 +73,8 @@ class SystemPlace {
   SystemPlace(Number* place, std::size_t dof) noexcept
       : place_(place), after_(place + kMotion + motionSize(dof)), dof_(dof) {}
 
+  operator SystemPlace<const double>() const noexcept { return {place_, dof_}; }
+
   StepStatus status() const noexcept { return static_cast<StepStatus>(unpacked(place_[kStatus])); }
   std::size_t dof() const noexcept { return dof_; }
   Number* motion() const noexcept { return place_ + kMotion; }  ///< of motionSize()

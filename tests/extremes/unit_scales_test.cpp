@@ -113,7 +113,7 @@ std::vector<double> motion(Scene scene, const Scales& scales) {
   std::vector<double> record(twin.layout().size);
   twin.write(record.data());
   const std::size_t n = coordinates.size();
-  const SystemView system = twin.layout().system(std::as_const(record).data(), 0);
+  const SystemView system = twin.layout().system(record.data(), 0);
   std::vector<double> state;
   for (std::size_t i = 0; i < 2 * n; ++i) {
     state.push_back(system.motion()[i] / scales.of(coordinates[i % n].unit));

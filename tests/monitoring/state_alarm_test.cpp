@@ -5,7 +5,6 @@
 
 #include <limits>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "../scene/scenes.h"
@@ -73,8 +72,7 @@ std::string stopTextFor(StepStatus status) {
   std::vector<double> record(layoutOf(scene).size);
   const SystemPlace place = layoutOf(scene).system(record.data(), 0);
   place.setStatus(status);
-  return stopText(*scene.systems[0], layoutOf(scene).system(std::as_const(record).data(), 0), 41,
-                  0.041);
+  return stopText(*scene.systems[0], layoutOf(scene).system(record.data(), 0), 41, 0.041);
 }
 
 struct Cause {

@@ -8,17 +8,13 @@
 #include <map>
 #include <set>
 
+#include "../scene/scenes.h"
 #include "mechanics/rotors/short_journal_bearing.h"
-#include "scene/scene_reader.h"
 #include "twin/observer.h"
 
 namespace whirl_twin {
 
 namespace {
-
-Scene sceneOf(const std::string& yaml) {
-  return readScene(YAML::Load(yaml), "test");
-}
 
 /// Runs the scene for `duration` [s] and feeds every step to the monitor.
 struct WatchedTwin {

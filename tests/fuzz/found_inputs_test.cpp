@@ -1,0 +1,174 @@
+// Inputs that once made `twin` answer nonsense, or not at all: each is answered in finite numbers,
+// or refused in words that name what is wrong.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+
+#include "../tools/twin_program.h"
+
+namespace whirl_twin {
+namespace {
+
+const std::string kCorpus = WHIRL_TWIN_SOURCE "/tests/fuzz/corpus/";
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+bool hasControls(const std::string& text) {
+  return std::any_of(text.begin(), text.end(),
+                     [](unsigned char c) { return (c < 0x20 && c != '\n') || c == 0x7f; });
+}
+
+// 4e27 turns in a step leave no phase in a double, and do not fit the count of whole turns.
+TEST(FoundInputs, AMotorThatTurnsTooFarInAStepStopsAndSaysWhy) {
+  const Ending end =
+      twin({"simulate", kCorpus + "motor_spin_beyond_int64.yaml", "--duration", "0.05", "--json"});
+  EXPECT_EQ(end.status, 1);
+  const auto a = end.json()["systems"]["a"];
+  EXPECT_EQ(a["status"], "its shaft runs at a speed that it was not prepared for");
+}
+
+TEST(FoundInputs, AMassWhoseInverseOverflowsStopsTheSystem) {
+  const Ending end =
+      twin({"simulate", kCorpus + "mass_too_small.yaml", "--duration", "0.01", "--json"});
+  EXPECT_EQ(end.status, 1);
+  EXPECT_EQ(end.json()["systems"]["a"]["status"], "state not finite");
+}
+
+TEST(FoundInputs, AHorizonThatIsNoDurationIsNotRun) {
+  const Ending end = twin({"tradeoff", kCorpus + "tradeoff_horizon.yaml"});
+  EXPECT_EQ(end.status, 2);
+  EXPECT_EQ(end.out, "");
+  EXPECT_TRUE(contains(end.err, "a: its horizon, 1e+10 s, is no duration")) << end.err;
+}
+
+// At rest the error is 0, over any horizon.
+TEST(FoundInputs, ACalibrationAtRestHasNoError) {
+  const Ending end = twin({"check", kCorpus + "calibration_at_rest.yaml"});
+  EXPECT_EQ(end.status, 0) << end.err;
+  EXPECT_FALSE(contains(end.out, "nan")) << end.out;
+  EXPECT_TRUE(contains(end.out, "error 0 over 1e+300 s")) << end.out;
+}
+
+TEST(FoundInputs, AMotionOfTheSmallestDoublesIsDrawn) {
+  const TemporaryDirectory folder;
+  const Ending end = twin(
+      {"plot", kCorpus + "plot_flat_axis.yaml", "--duration", "0.05", "--output", folder.file("")});
+  EXPECT_EQ(end.status, 0) << end.err;
+  EXPECT_EQ(folder.files(), (Lines{"a_energy.svg", "a_phase.svg", "a_picture.svg", "a_time.svg"}));
+}
+
+/// An event of a log at this time [us], with one byte on the channel X.
+std::string logEvent(std::uint64_t timestamp, char number) {
+  std::string event("\xed\xa1\xda\x01\0\0\0\0\0\0\0", 11);
+  event += number;
+  for (int shift = 56; shift >= 0; shift -= 8) {
+    event += static_cast<char>(timestamp >> shift & 0xffu);
+  }
+  return event + std::string("\0\0\0\1\0\0\0\1Xx", 10);
+}
+
+TEST(FoundInputs, TimestampsAtTheEndsOf64BitsAreDamage) {
+  const TemporaryDirectory folder;
+  const std::string log = folder.write(
+      "span.lcmlog", logEvent(0x8000000000000000u, 0) + logEvent(0x7fffffffffffffffu, 1));
+  const Ending end = twin({"log", log, "--json"});
+  EXPECT_EQ(end.status, 1);
+  EXPECT_EQ(end.json()["events"], 2);
+  EXPECT_EQ(end.json()["corrupt"], 2);
+  EXPECT_NEAR(end.json()["span"].get<double>(), 0x1p64 * 1.0e-6, 1.0e-3);
+}
+
+TEST(FoundInputs, RunsThatOverflowAreRefusedByNumber) {
+  const std::string file = kCorpus + "balance_overflow.yaml";
+  const Ending end = twin({"balance", "--json", file});
+  EXPECT_EQ(end.status, 2);
+  EXPECT_EQ(end.out, "");
+  EXPECT_EQ(end.err, "twin: " + file +
+                         ": trials[0].mass_radius: must be mass times radius in kg m, from -1e+12 "
+                         "to 1e+12, found 1e200\n");
+}
+
+TEST(FoundInputs, ATrialMassTooSmallToBeOneNamesItsPlane) {
+  const std::string file = kCorpus + "balance_underflow.yaml";
+  const Ending end = twin({"balance", file});
+  EXPECT_EQ(end.status, 2);
+  EXPECT_EQ(end.err, "twin: " + file +
+                         ": trials[0].mass_radius: must be 1e-12 kg m at least, found 1e-200 in "
+                         "plane 'l'\n");
+}
+
+TEST(FoundInputs, TwinProbesAndMisspeltKeysOfRunsAreNamedTogether) {
+  const std::string file = kCorpus + "balance_twins.yaml";
+  const Ending end = twin({"balance", "--json", file});
+  EXPECT_EQ(end.status, 2);
+  EXPECT_EQ(end.err, "twin: " + file +
+                         ": weigths: unknown key of balancing runs; did you mean 'weights'?\n"
+                         "twin: " +
+                         file + ": probes[1]: must be a name of its own; 'p' stands twice\n");
+}
+
+TEST(FoundInputs, ANameIsShownAndNotObeyed) {
+  const Ending end = twin({"check", kCorpus + "name_escapes.yaml"});
+  EXPECT_EQ(end.status, 0) << end.err;
+  EXPECT_FALSE(hasControls(end.out));
+  EXPECT_TRUE(contains(linesOf(end.out).front(),
+                       "scene 'x?[2J?[31mred?sound.yaml: scene 'other' is sound' is sound"))
+      << end.out;
+}
+
+TEST(FoundInputs, ACommentIsShownAndNotObeyed) {
+  const Ending end = twin({"scenes", kCorpus + "comment_escapes"});
+  EXPECT_EQ(end.status, 0) << end.err;
+  EXPECT_FALSE(hasControls(end.out));
+  EXPECT_TRUE(contains(end.out, "What ?[2J?[31m to watch")) << end.out;
+}
+
+// The eigenvalues decide where they can; exact numbers only near the boundary.
+TEST(FoundInputs, AShaftOfUnequalElementsIsAnalysed) {
+  const Ending end = twin({"analyze", kCorpus + "analyze_exact_routh.yaml", "--json"});
+  EXPECT_EQ(end.status, 0) << end.err;
+}
+
+TEST(FoundInputs, ExactTestsThatWouldNotEndAreUncertain) {
+  const Ending strange = twin({"routh", "--json", "--", "2914", "i", "3", "1+1e5000i", "1e-5",
+                               "-1e-3", "0", "5e-5000", "2", "1e-3", "5", "-9e5000"});
+  EXPECT_TRUE(strange.status == 2 || strange.json()["verdict"] == "uncertain") << strange.out;
+  Lines many{"routh", "--json"};
+  for (int k = 0; k <= 400; ++k) {
+    many.push_back(k % 2 == 0 ? "1" : "0");
+  }
+  const Ending end = twin(many);
+  ASSERT_EQ(end.status, 0) << end.err;
+  EXPECT_EQ(end.json()["verdict"], "uncertain");
+  // s^400 + s^398 + ... + 1: the roots are those of s^402 = 1 but s = 1 and s = -1.
+  EXPECT_EQ(end.json()["right"], 200);
+  EXPECT_EQ(end.json()["left"], 200);
+}
+
+TEST(FoundInputs, ARootBeyondDoubleIsRefused) {
+  const Ending end = twin({"routh", "--json", "1", "1e309"});
+  EXPECT_EQ(end.status, 2);
+  EXPECT_EQ(end.out, "");
+  EXPECT_TRUE(contains(end.err, "a root lies beyond 1.8e308")) << end.err;
+}
+
+/// What is no file with text or events in it, given to everything that reads one.
+TEST(FoundInputs, FoldersDevicesAndPipesAreNoFiles) {
+  const TemporaryDirectory folder;
+  const std::string pipe = folder.file("pipe");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::string& path : {folder.file("."), std::string("/dev/zero"), pipe}) {
+    for (const char* command : {"check", "simulate", "analyze", "balance", "log"}) {
+      const Ending end = twin({command, path});
+      EXPECT_EQ(end.status, 2) << command << ' ' << path;
+      EXPECT_EQ(end.out, "");
+      EXPECT_TRUE(contains(end.err, path)) << end.err;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace whirl_twin
