@@ -10,13 +10,16 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "integration/finite.h"
+
 namespace whirl_twin {
 
-/// Number of halvings that bring the 1-norm of X below 1/2.
+/// Number of halvings that bring the 1-norm of X below 1/2; none where X is not finite: nothing
+/// does.
 template <int N>
 int halvings(const Eigen::Matrix<double, N, N>& X) {
   const double norm = X.cwiseAbs().colwise().sum().maxCoeff();
-  return norm > 0.5 ? static_cast<int>(std::ceil(std::log2(norm / 0.5))) : 0;
+  return isFinite(norm) && norm > 0.5 ? static_cast<int>(std::ceil(std::log2(norm / 0.5))) : 0;
 }
 
 /// The power of two nearest to x > 0, an exact scale; 1 where there is none.

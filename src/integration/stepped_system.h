@@ -97,6 +97,9 @@ class SteppedSystem final : public Stepper {
     if (!finite(next)) {
       return StepStatus::kNotFinite;
     }
+    if (!hasPhase(next)) {
+      return StepStatus::kOutOfRange;
+    }
     if (++steps_since_estimate_ == kEstimateEvery) {
       steps_since_estimate_ = 0;
       estimateError(equation, next);
@@ -131,8 +134,9 @@ class SteppedSystem final : public Stepper {
       state_.q[i] = q[i];
       state_.v[i] = v[i];
     }
+    turns_ = 0;
     if constexpr (HasSpin<Model>::value) {
-      if (isFinite(q[Model::kSpin])) {
+      if (isFinite(q[Model::kSpin]) && std::fabs(q[Model::kSpin]) < kLargestStart) {
         const ShaftAngle angle = shaftAngle(q[Model::kSpin]);
         turns_ = angle.turns;
         state_.q[Model::kSpin] = angle.remainder;
@@ -156,6 +160,14 @@ class SteppedSystem final : public Stepper {
       all = all && isFinite(state.q[i]) && isFinite(state.v[i]);
     }
     return all;
+  }
+
+  /// A spin that went further in one step has no phase left in a double.
+  static WHIRL_TWIN_INLINE bool hasPhase([[maybe_unused]] const MotionState<n>& state) noexcept {
+    if constexpr (HasSpin<Model>::value) {
+      return std::fabs(state.q[Model::kSpin]) < kMostTurned;
+    }
+    return true;
   }
 
   /// The spin is stepped as whole turns and a remainder, so that its phase is as exact after a
@@ -280,6 +292,8 @@ class SteppedSystem final : public Stepper {
   static constexpr double kSliver = 1.0e-12;
   static constexpr double kTwoPi = 6.283185307179586;
   static constexpr double kTwoPiLow = 2.4492935982947064e-16;
+  static constexpr double kMostTurned = 1.0e9 * kTwoPi;     ///< in a step, to 1e-6 rad
+  static constexpr double kLargestStart = 0x1p53 * kTwoPi;  ///< beyond it no angle has a phase
 
   Model model_;
   const Drive& drive_;
