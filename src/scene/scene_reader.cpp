@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <new>
 #include <set>
 
 #include "analysis/mass_matrix.h"
@@ -20,13 +18,13 @@
 #include "scene/shaft_reader.h"
 #include "scene/surroundings.h"
 #include "scene/system_setup.h"
+#include "scene/yaml_file.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr std::uintmax_t kLargestFile = 4u << 20;  // bytes; a scene of ten thousand systems is less
-constexpr double kLargestTime = 1.0e9;             // s
+constexpr double kLargestTime = 1.0e9;  // s
 
 std::string upper(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -149,6 +147,8 @@ SystemSpec readSystem(const YAML::Node& node, const std::string& key, const std:
     if (fit) {  // otherwise it only repeats what was wrong with the parameters
       complaints.add(map.key("parameters." + error.parameter()), error.what());
     }
+  } catch (const std::bad_alloc&) {
+    throw;  // no fault of the parameters
   } catch (const std::exception& error) {
     if (fit) {
       complaints.add(map.key("parameters"), error.what());
@@ -215,37 +215,11 @@ Scene readScene(const YAML::Node& tree, const std::string& source) {
 }
 
 Scene readSceneFile(const std::string& path) {
-  const auto refuse = [&](const std::string& why) -> SceneError {
-    return SceneError({fmt::format("{}: {}", path, why)});
-  };
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) {
-    throw refuse("no such file");
-  }
-  if (!std::filesystem::is_regular_file(path, error)) {
-    throw refuse("not a file");
-  }
-  if (std::filesystem::file_size(path, error) > kLargestFile) {
-    throw refuse("larger than 4 MiB: not a scene");
-  }
-  std::ifstream file(path, std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  if (!file.good() && !file.eof()) {
-    throw refuse("cannot be read");
-  }
-  if (text.find('\0') != std::string::npos) {
-    throw refuse("a binary file, not a scene in YAML");
-  }
   YAML::Node tree;
   try {
-    tree = YAML::Load(text);
-  } catch (const YAML::Exception& e) {
-    throw refuse(e.mark.is_null() ? fmt::format("not YAML: {}", e.msg)
-                                  : fmt::format("line {}, column {}: not YAML: {}", e.mark.line + 1,
-                                                e.mark.column + 1, e.msg));
-  }
-  if (!tree.IsDefined() || tree.IsNull()) {
-    throw refuse("empty: a scene has a step and at least one system");
+    tree = readYamlFile(path, "a scene", "a step and at least one system");
+  } catch (const Refusal& refusal) {
+    throw SceneError({refusal.what()});
   }
   return readScene(tree, path);
 }
