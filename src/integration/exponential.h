@@ -11,7 +11,8 @@
 // constants): order 8 in h while the highest frequency times h stays below about 1. A force that
 // turns with the shaft is known by a few amplitudes (turning_force.h), any other by evaluating the
 // equations. It needs matrices that do not change with speed: rotating damping excludes it on a
-// drive that changes speed.
+// drive that changes speed. Inputs are integrated likewise; systems that step exactly with inputs
+// go by their matrices (linear_rotor_stepper.h, linear_stepper.h).
 #pragma once
 
 #include <array>
@@ -37,7 +38,7 @@ class Exponential {
   }
 
   /// Advances by h [s] from offset [s] after the start of the twin's step. Equation also gives
-  /// moment(offset), evaluate(q, v, moment), jacobian(q, v, offset), and
+  /// moment(offset), evaluate(q, v, moment), jacobian(q, v, offset), hasInputs() and
   /// constantSpeed(offset). Real-time safe; a step that finds a new speed or step size prepares its
   /// propagator first, which costs many times a step.
   template <class Equation>
@@ -193,8 +194,7 @@ class Exponential {
     }
     States increment = free_increment_ * x;
     for (int k = 0; k < kNodes; ++k) {
-      const Array forced =
-          forcedAcceleration(equation, equation.moment(offset + kGaussNodes[k] * h));
+      const Array forced = forcedAcceleration(equation, offset + kGaussNodes[k] * h);
       for (int i = 0; i < n; ++i) {
         increment += forced[i] * forced_[k].col(i);
       }
@@ -203,8 +203,8 @@ class Exponential {
     known_q_ = state.q;
     known_v_ = state.v;
     known_at_ = equation.moment(offset + h);
-    known_derivative_ = equation.evaluate(state.q, state.v, known_at_);
-    known_ = true;
+    known_derivative_ = equation(state.q, state.v, offset + h);
+    known_ = !equation.hasInputs();  // which may jump at the end
     state.work.add(
         lobattoWork(equation, offset, h, from, start, state.q, state.v, known_derivative_));
   }
@@ -222,12 +222,13 @@ class Exponential {
         same(at.speed, known_at_.speed) && same(at.acceleration, known_at_.acceleration)) {
       return known_derivative_;
     }
-    return equation.evaluate(from.q, from.v, at);
+    return equation(from.q, from.v, offset);
   }
 
   template <class Equation>
-  Array forcedAcceleration(const Equation& equation, const Moment<double>& at) const {
-    return turns_ ? force_.at(at) : equation.evaluate(Array{}, Array{}, at).acceleration;
+  Array forcedAcceleration(const Equation& equation, double offset) const {
+    return turns_ && !equation.hasInputs() ? force_.at(equation.moment(offset))
+                                           : equation(Array{}, Array{}, offset).acceleration;
   }
 
   template <class Equation>

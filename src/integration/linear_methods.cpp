@@ -44,9 +44,22 @@ MatrixXd powerAt(const LinearEquation& equation, const MatrixXd& stage) {
   return stage.transpose() * equation.power() * stage;
 }
 
+/// Its node is the start, where an input is what it is held at: that works with the rate at the
+/// end.
 LinearStepMap semiImplicitEuler(const LinearEquation& equation, double h) {
   const MatrixXd dv = h * equation.acceleration();
-  return stepMap(h * (equation.velocity() + dv), dv, h * equation.power());
+  MatrixXd work = h * equation.power();
+  for (Index k = 0; k < equation.inputs().count(); ++k) {
+    if (equation.inputs().isHarmonic(k)) {
+      continue;
+    }
+    const Index input = equation.inputColumn(k);
+    const Eigen::RowVectorXd further =
+        0.5 * h * equation.inputs().directions().col(k).transpose() * dv;
+    work.row(input) += further;
+    work.col(input) += further.transpose();
+  }
+  return stepMap(h * (equation.velocity() + dv), dv, work);
 }
 
 LinearStepMap velocityVerlet(const LinearEquation& equation, double h) {
@@ -143,7 +156,18 @@ LinearStepMap gaussLegendre(const LinearEquation& equation, double h) {
 
 /// In x = L^T q, L L^T = M, rates over the highest frequency, phasors over the deflection they
 /// cause: then the norm of h A is that of frequency times step, whatever the units and the masses.
-LinearStepMap exponential(const LinearEquation& equation, double h) {
+struct ScaledEquation {
+  MatrixXd a, power;        // scaled y' = a y, dh/dt = y^T power y
+  MatrixXd scale, unscale;  // scaled y = scale y
+
+  explicit ScaledEquation(const LinearEquation& equation);
+  bool finite() const { return scale.allFinite() && unscale.allFinite(); }
+  LinearStepMap map(const MatrixXd& increment, const MatrixXd& work, Index dof) const {
+    return {(unscale * increment * scale).topRows(2 * dof), scale.transpose() * work * scale};
+  }
+};
+
+ScaledEquation::ScaledEquation(const LinearEquation& equation) {
   const LinearModel& model = equation.model();
   const Index n = equation.dof();
   const Index size = equation.size();
@@ -154,13 +178,13 @@ LinearStepMap exponential(const LinearEquation& equation, double h) {
   const MatrixXd forcing = to_q.transpose() * equation.forcing();
   const double rate = powerOfTwo(std::sqrt(stiffness.cwiseAbs().maxCoeff()));
 
-  MatrixXd scale = MatrixXd::Zero(size, size);  // scaled y = scale y
-  MatrixXd unscale = MatrixXd::Zero(size, size);
+  scale = MatrixXd::Zero(size, size);
+  unscale = MatrixXd::Zero(size, size);
   scale.topLeftCorner(n, n) = mass.matrixU();
   unscale.topLeftCorner(n, n) = to_q;
   scale.block(n, n, n, n) = scale.topLeftCorner(n, n) / rate;
   unscale.block(n, n, n, n) = rate * to_q;
-  MatrixXd a = MatrixXd::Zero(size, size);
+  a = MatrixXd::Zero(size, size);
   a.block(0, n, n, n).diagonal().setConstant(rate);
   a.block(n, 0, n, n) = -stiffness / rate;
   a.block(n, n, n, n) = -damping;
@@ -168,21 +192,26 @@ LinearStepMap exponential(const LinearEquation& equation, double h) {
     const Index phasor = 2 * n + 2 * k;
     const auto columns = forcing.middleCols(2 * k, 2);
     const double deflection = powerOfTwo(columns.cwiseAbs().maxCoeff() / (rate * rate));
-    scale.diagonal().segment(phasor, 2).setConstant(deflection);
-    unscale.diagonal().segment(phasor, 2).setConstant(1.0 / deflection);
-    a.block(n, phasor, n, 2) = columns / (rate * deflection);
-    const double frequency = equation.frequencies()[static_cast<std::size_t>(k)];
-    a(phasor, phasor + 1) = -frequency;
-    a(phasor + 1, phasor) = frequency;
+    const Eigen::Matrix2d generator = equation.generator(k);
+    // What drives the other without being driven is a slope, and counts in the highest frequency.
+    const bool slope = generator(0, 1) != 0.0 && generator(1, 0) == 0.0;
+    const Eigen::Vector2d sizes(deflection, slope ? deflection / rate : deflection);
+    scale.diagonal().segment(phasor, 2) = sizes;
+    unscale.diagonal().segment(phasor, 2) = sizes.cwiseInverse();
+    a.block(n, phasor, n, 2) = columns * sizes.cwiseInverse().asDiagonal() / rate;
+    a.block(phasor, phasor, 2, 2) =
+        sizes.asDiagonal() * generator * sizes.cwiseInverse().asDiagonal();
   }
-  if (!(h * a).allFinite() || !scale.allFinite() || !unscale.allFinite()) {
+  power = unscale.transpose() * equation.power() * unscale;
+}
+
+LinearStepMap exponential(const LinearEquation& equation, double h) {
+  const ScaledEquation scaled(equation);
+  if (!(h * scaled.a).allFinite() || !scaled.finite()) {
     return outOfRange(equation);
   }
-  const MatrixXd power = unscale.transpose() * equation.power() * unscale;
-  const MatrixXd increment =
-      unscale * exponentialLessIdentity<Eigen::Dynamic>(MatrixXd(h * a)) * scale;
-  return {increment.topRows(2 * n),
-          scale.transpose() * quadraticIntegral<Eigen::Dynamic>(a, power, h) * scale};
+  return scaled.map(exponentialLessIdentity<Eigen::Dynamic>(MatrixXd(h * scaled.a)),
+                    quadraticIntegral<Eigen::Dynamic>(scaled.a, scaled.power, h), equation.dof());
 }
 
 using Method = LinearStepMap (*)(const LinearEquation&, double);
@@ -202,14 +231,19 @@ const std::vector<std::pair<std::string, Method>>& methods() {
 
 }  // namespace
 
-LinearEquation::LinearEquation(const LinearModel& model) : model_(model) {
+LinearEquation::LinearEquation(const LinearModel& model, const ActingInputs& inputs)
+    : model_(model), inputs_(inputs) {
   for (const HarmonicForce& force : model.forces) {
     const double frequency = std::fabs(force.frequency);
     if (std::find(frequencies_.begin(), frequencies_.end(), frequency) == frequencies_.end()) {
       frequencies_.push_back(frequency);
     }
   }
-  forcing_.setZero(dof(), 2 * static_cast<Index>(frequencies_.size()));
+  const auto phasors = static_cast<Index>(frequencies_.size());
+  forcing_.setZero(dof(), 2 * (phasors + inputs.count()));
+  for (Index k = 0; k < inputs.count(); ++k) {
+    forcing_.col(2 * (phasors + k)) = inputs.directions().col(k);
+  }
   for (const HarmonicForce& force : model.forces) {
     const double frequency = std::fabs(force.frequency);
     const double phase = force.frequency < 0.0 ? -force.phase : force.phase;
@@ -218,6 +252,21 @@ LinearEquation::LinearEquation(const LinearModel& model) : model_(model) {
     forcing_.col(column) += std::cos(phase) * force.amplitude;
     forcing_.col(column + 1) -= std::sin(phase) * force.amplitude;
   }
+}
+
+Index LinearEquation::inputColumn(Index k) const {
+  return 2 * (dof() + static_cast<Index>(frequencies_.size()) + k);
+}
+
+Eigen::Matrix2d LinearEquation::generator(Index pair) const {
+  const auto phasors = static_cast<Index>(frequencies_.size());
+  if (pair >= phasors) {
+    return inputs_.generator(pair - phasors, 1.0);
+  }
+  const double frequency = frequencies_[static_cast<std::size_t>(pair)];
+  Eigen::Matrix2d g;
+  g << 0.0, -frequency, frequency, 0.0;
+  return g;
 }
 
 MatrixXd LinearEquation::velocity() const {
@@ -248,13 +297,32 @@ MatrixXd LinearEquation::stage(const MatrixXd& dq, const MatrixXd& dv, double of
   MatrixXd z = MatrixXd::Identity(size(), size());
   z.topRows(dof()) += dq;
   z.middleRows(dof(), dof()) += dv;
-  for (std::size_t k = 0; k < frequencies_.size(); ++k) {
-    const double c = std::cos(frequencies_[k] * offset);
-    const double s = std::sin(frequencies_[k] * offset);
-    const Index phasor = 2 * (dof() + static_cast<Index>(k));
-    z.block(phasor, phasor, 2, 2) << c, -s, s, c;
+  for (Index k = 0; k < forcing_.cols() / 2; ++k) {
+    const Eigen::Matrix2d g = generator(k);
+    const double c = std::cos(g(1, 0) * offset);
+    const double s = std::sin(g(1, 0) * offset);
+    auto pair = z.block<2, 2>(2 * (dof() + k), 2 * (dof() + k));
+    if (g(1, 0) == 0.0) {
+      pair(0, 1) = g(0, 1) * offset;
+    } else {
+      pair << c, -s, s, c;
+    }
   }
   return z;
+}
+
+std::vector<LinearStepMap> exactParts(const LinearEquation& equation, std::int64_t longest) {
+  const ScaledEquation scaled(equation);
+  const double nanosecond = 1e-9;
+  const bool finite = equation.acceleration().allFinite() && scaled.finite();
+  std::vector<LinearStepMap> parts;
+  MatrixXd e = exponentialLessIdentity<Eigen::Dynamic>(MatrixXd(nanosecond * scaled.a));
+  MatrixXd w = quadraticIntegral<Eigen::Dynamic>(scaled.a, scaled.power, nanosecond);
+  for (std::int64_t length = 1; length <= longest; length *= 2) {
+    parts.push_back(finite ? scaled.map(e, w, equation.dof()) : outOfRange(equation));
+    twiceAsLong<Eigen::Dynamic>(e, w);
+  }
+  return parts;
 }
 
 const std::vector<std::string>& linearMethodNames() {

@@ -1,6 +1,8 @@
 #include "integration/linear_rotor_stepper.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "integration/linear_stepper.h"
@@ -8,24 +10,26 @@
 namespace whirl_twin {
 
 LinearRotorStepper::LinearRotorStepper(std::shared_ptr<const Dynamics> dynamics,
-                                       JacobiIntegral jacobi, const Drive& drive, double step,
-                                       int substeps)
-    : LinearRotorStepper(std::move(dynamics), std::move(jacobi), drive, step, substeps,
-                         drive.speedRange(), drive.constantSpeeds()) {}
+                                       JacobiIntegral jacobi, const Excitation& excitation,
+                                       double step, int substeps)
+    : LinearRotorStepper(std::move(dynamics), std::move(jacobi), excitation, step, substeps,
+                         excitation.drive.speedRange(), excitation.drive.constantSpeeds()) {}
 
 LinearRotorStepper::LinearRotorStepper(std::shared_ptr<const Dynamics> dynamics,
-                                       JacobiIntegral jacobi, const Drive& drive, double step,
-                                       int substeps, const std::pair<double, double>& speeds,
+                                       JacobiIntegral jacobi, const Excitation& excitation,
+                                       double step, int substeps,
+                                       const std::pair<double, double>& speeds,
                                        std::vector<double> constant_speeds)
     : dynamics_(std::move(dynamics)),
       jacobi_(std::move(jacobi)),
-      drive_(drive),
+      excitation_(excitation),
       step_(step),
       substeps_(substeps),
       constant_speeds_(std::move(constant_speeds)),
-      at_rest_(dynamics_->linearRotor().matrices(0.0)),
+      audited_(dynamics_->linearRotor().matrices(speeds.first)),
       load_(dynamics_->linearRotor().load),
-      method_(dynamics_->linearRotor(), step / substeps, speeds, constant_speeds_),
+      inputs_(excitation.inputs, directionsOf(dynamics_->inputs(), dynamics_->dof())),
+      method_(dynamics_->linearRotor(), step / substeps, speeds, constant_speeds_, inputs_),
       state_(dynamics_->dof()),
       next_(dynamics_->dof()) {}
 
@@ -34,22 +38,26 @@ double LinearRotorStepper::furtherEnergy() const noexcept {
   if (!jacobi_) {
     return 0.0;
   }
-  const ShaftMotion shaft = drive_.at(0.0);
+  const ShaftMotion shaft = excitation_.drive.at(0.0);
   double energy = jacobi_(state_.q.data(), state_.v.data(),
                           {0.0, shaft.angle, shaft.speed, shaft.acceleration});
   for (Eigen::Index i = 0; i < state_.q.size(); ++i) {
-    energy -= 0.5 * state_.v[i] * at_rest_.mass.col(i).dot(state_.v) +
-              0.5 * state_.q[i] * at_rest_.stiffness.col(i).dot(state_.q) - load_[i] * state_.q[i];
+    energy -= 0.5 * state_.v[i] * audited_.mass.col(i).dot(state_.v) +
+              0.5 * state_.q[i] * audited_.stiffness.col(i).dot(state_.q) - load_[i] * state_.q[i];
   }
   return energy;
 }
 
 StepStatus LinearRotorStepper::step(double) noexcept {
   next_ = state_;
-  for (int i = 0; i < substeps_; ++i) {
-    const StepStatus status = method_.advance(drive_, i * (step_ / substeps_), next_);
-    if (status != StepStatus::kOk) {
-      return status;
+  const std::int64_t length = std::llround(step_ * 1e9);
+  const bool corner = inputs_.nextCorner(0) < length;
+  if (!corner || !method_.advanceInParts(excitation_.drive, 0, length, next_)) {
+    for (int i = 0; i < substeps_; ++i) {
+      const StepStatus status = method_.advance(excitation_.drive, i * (step_ / substeps_), next_);
+      if (status != StepStatus::kOk) {
+        return status;
+      }
     }
   }
   if (!isFinite(next_)) {
@@ -86,7 +94,7 @@ std::unique_ptr<Stepper> LinearRotorStepper::readyFor(double lowest_speed,
   const std::pair<double, double> speeds{std::min(lowest_speed, method_.lowestSpeed()),
                                          std::max(highest_speed, method_.highestSpeed())};
   return std::unique_ptr<Stepper>(new LinearRotorStepper(
-      dynamics_, jacobi_, drive_, step_, substeps_, speeds, std::move(constant_speeds)));
+      dynamics_, jacobi_, excitation_, step_, substeps_, speeds, std::move(constant_speeds)));
 }
 
 }  // namespace whirl_twin

@@ -6,24 +6,23 @@
 #include <utility>
 #include <vector>
 
+#include "integration/acting_inputs.h"
+#include "integration/excitation.h"
+#include "integration/jacobi_integral.h"
 #include "integration/rotor_step.h"
 #include "integration/stepper.h"
 #include "mechanics/dynamics.h"
 
 namespace whirl_twin {
 
-/// The Jacobi integral h [J] of a model at a state of dof() numbers each. Real-time safe.
-using JacobiIntegral =
-    std::function<double(const double* q, const double* v, const Moment<double>& at)>;
-
 class LinearRotorStepper final : public Stepper {
  public:
-  /// Steps with `exponential`, `substeps` in a step [s] of the twin, on a drive that outlives it,
-  /// at the speeds of the drive's profile. The step audits h = T + V of its matrices; where the
+  /// Steps with `exponential`, `substeps` in a step [s] of the twin, at the speeds of the drive's
+  /// profile. The step audits h = T + V of its matrices; where the
   /// dynamics have another Jacobi integral, with the motion of the unbalance in it, `jacobi` is
   /// that, and what it changes by besides is added to the work.
   LinearRotorStepper(std::shared_ptr<const Dynamics> dynamics, JacobiIntegral jacobi,
-                     const Drive& drive, double step, int substeps);
+                     const Excitation& excitation, double step, int substeps);
 
   StepStatus step(double time) noexcept override;
   std::size_t dof() const noexcept override { return static_cast<std::size_t>(state_.q.size()); }
@@ -33,19 +32,20 @@ class LinearRotorStepper final : public Stepper {
 
  private:
   LinearRotorStepper(std::shared_ptr<const Dynamics> dynamics, JacobiIntegral jacobi,
-                     const Drive& drive, double step, int substeps,
+                     const Excitation& excitation, double step, int substeps,
                      const std::pair<double, double>& speeds, std::vector<double> constant_speeds);
   double furtherEnergy() const noexcept;
 
   std::shared_ptr<const Dynamics> dynamics_;
   JacobiIntegral jacobi_;  ///< may be empty
-  const Drive& drive_;
+  Excitation excitation_;
   double step_;  ///< [s]
   int substeps_;
   std::vector<double> constant_speeds_;  ///< [rad/s]
-  Linearization at_rest_;
+  Linearization audited_;                ///< whose h = T + V the step audits
   Eigen::VectorXd load_;
   double further_energy_ = 0.0;  ///< [J], at the start
+  ActingInputs inputs_;
   RotorStep method_;
   LinearMotion state_;
   LinearMotion next_;

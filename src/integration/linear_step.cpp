@@ -1,5 +1,6 @@
 #include "integration/linear_step.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "integration/linear_methods.h"
@@ -41,18 +42,43 @@ void LinearMotion::advance(const double* position, const double* rate, double en
   work.add(energy);
 }
 
-LinearStep::LinearStep(const LinearModel& model, const std::string& method, double h)
-    : n_(model.mass.rows()) {
-  const LinearEquation equation(model);
+LinearStep::LinearStep(const LinearModel& model, const std::string& method, double h,
+                       const ActingInputs& inputs)
+    : n_(model.mass.rows()), inputs_(inputs) {
+  const LinearEquation equation(model, inputs_);
   frequencies_ = equation.frequencies();
   const Eigen::Index size = equation.size();
   y_.setZero(size);
   const LinearStepMap map = linearStepMap(equation, method, h);
   map_ = stepMatrix(map.increment, map.work);
   result_.setZero(map_.rows());
+  if (inputs_.haveTables()) {
+    for (const LinearStepMap& part : exactParts(equation, std::llround(h * 1e9) + 1)) {
+      parts_.push_back(stepMatrix(part.increment, part.work));
+    }
+  }
 }
 
-void LinearStep::advance(double time, LinearMotion& motion) noexcept {
+void LinearStep::advance(double time, LinearMotion& motion, double offset) noexcept {
+  apply(map_, time, offset, static_cast<std::int64_t>(std::floor(offset * 1e9 + 1e-3)), motion);
+}
+
+void LinearStep::advanceInParts(double time, std::int64_t from, std::int64_t to,
+                                LinearMotion& motion) noexcept {
+  while (from < to) {
+    const std::int64_t corner = std::min(inputs_.nextCorner(from), to);
+    const std::int64_t piece = from;
+    for (std::size_t k = parts_.size(); k-- > 0;) {
+      for (; corner - from >= std::int64_t{1} << k; from += std::int64_t{1} << k) {
+        const double offset = static_cast<double>(from) / 1e9;
+        apply(parts_[k], time + offset, offset, piece, motion);
+      }
+    }
+  }
+}
+
+void LinearStep::apply(PackedMatrix& map, double time, double offset, std::int64_t piece,
+                       LinearMotion& motion) noexcept {
   y_.head(n_) = motion.q;
   y_.segment(n_, n_) = motion.v;
   double* phasor = y_.data() + 2 * n_;
@@ -62,7 +88,8 @@ void LinearStep::advance(double time, LinearMotion& motion) noexcept {
     *phasor++ = cosine;
     *phasor++ = sine;
   }
-  map_.multiply(y_.data(), result_.data());
+  inputs_.writePairs(offset, piece, 1.0, phasor);
+  map.multiply(y_.data(), result_.data());
   motion.advance(result_.data(), result_.data() + n_, y_.dot(result_.segment(2 * n_, y_.size())));
 }
 

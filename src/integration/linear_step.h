@@ -11,12 +11,18 @@
 // B = e^(A h) - I and W = integral of e^(A't) S e^(At), y' = A y, dh/dt = y^T S y; so it is exact
 // for any step, at undamped resonance, with rigid-body modes and with unstable ones. The phasors
 // come from the time at every step anew, so that no phase is lost over any number of steps.
+//
+// Inputs are columns, too (acting_inputs.h). A step inside which one of them has a corner is gone
+// through in parts of 2^k nanoseconds, by their exact maps whatever the method: any instant is a
+// sum of such parts, and only tables have it prepared.
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "integration/acting_inputs.h"
 #include "integration/motion_state.h"
 #include "integration/packed_matrix.h"
 #include "mechanics/linear_dynamics.h"
@@ -40,17 +46,27 @@ class LinearStep {
  public:
   /// Prepares steps of h [s]; for n coordinates that takes a time of order n^3. Throws
   /// std::invalid_argument for a method that is not among linearMethodNames().
-  LinearStep(const LinearModel& model, const std::string& method, double h);
+  LinearStep(const LinearModel& model, const std::string& method, double h,
+             const ActingInputs& inputs = {});
 
-  /// Advances by h from time [s]. Real-time safe. A state beyond the range of doubles comes out
-  /// infinite or NaN.
-  void advance(double time, LinearMotion& motion) noexcept;
+  /// Advances by h from time [s], with inputs that stand `offset` [s] before it and have no corner
+  /// in the step. Real-time safe. A state beyond the range of doubles comes out infinite or NaN.
+  void advance(double time, LinearMotion& motion, double offset = 0.0) noexcept;
+  /// Advances from one instant to another, both in [ns] after the instant at which the inputs
+  /// stand, which is `time` [s], across any corners of theirs. Real-time safe; they must be tables.
+  void advanceInParts(double time, std::int64_t from, std::int64_t to,
+                      LinearMotion& motion) noexcept;
 
  private:
+  void apply(PackedMatrix& map, double time, double offset, std::int64_t piece,
+             LinearMotion& motion) noexcept;
+
   Eigen::Index n_;
+  ActingInputs inputs_;
   std::vector<double> frequencies_;  ///< [rad/s], of the phasors
   PackedMatrix map_;                 ///< B and W
-  Eigen::VectorXd y_;                ///< q, v and the phasors
+  std::vector<PackedMatrix> parts_;  ///< of 1, 2, 4 ... ns
+  Eigen::VectorXd y_;                ///< q, v, the phasors and the inputs
   Eigen::VectorXd result_;           ///< map_ y
 };
 

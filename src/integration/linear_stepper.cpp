@@ -1,6 +1,7 @@
 #include "integration/linear_stepper.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "integration/finite.h"
@@ -18,18 +19,32 @@ void write(const LinearMotion& motion, double* out) noexcept {
   *out = motion.work.high;
 }
 
+Eigen::MatrixXd directionsOf(const std::vector<InputInfo>& inputs, Eigen::Index n) {
+  Eigen::MatrixXd directions(n, static_cast<Eigen::Index>(inputs.size()));
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    directions.col(static_cast<Eigen::Index>(i)) = inputs[i].direction;
+  }
+  return directions;
+}
+
 LinearStepper::LinearStepper(const LinearModel& model, const std::string& method, double step,
-                             int substeps)
-    : method_(model, method, step / substeps),
+                             int substeps, const Inputs* inputs)
+    : inputs_(inputs, directionsOf(model.inputs, model.mass.rows())),
+      method_(model, method, step / substeps, inputs_),
       substep_(step / substeps),
       substeps_(substeps),
+      step_(std::llround(step * 1e9)),
       state_(model.mass.rows()),
       next_(model.mass.rows()) {}
 
 StepStatus LinearStepper::step(double time) noexcept {
   next_ = state_;
-  for (int i = 0; i < substeps_; ++i) {
-    method_.advance(time + i * substep_, next_);
+  if (inputs_.nextCorner(0) < step_) {
+    method_.advanceInParts(time, 0, step_, next_);
+  } else {
+    for (int i = 0; i < substeps_; ++i) {
+      method_.advance(time + i * substep_, next_, i * substep_);
+    }
   }
   if (!isFinite(next_)) {
     return StepStatus::kNotFinite;

@@ -1,9 +1,13 @@
 // A linear system given by its matrices, stepped by any of the methods for such.
 #pragma once
 
+#include <Eigen/Core>
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "integration/acting_inputs.h"
 #include "integration/linear_step.h"
 #include "integration/stepper.h"
 #include "mechanics/linear_dynamics.h"
@@ -15,10 +19,15 @@ bool isFinite(const LinearMotion& motion) noexcept;
 /// q, v and the work, one after the other. Real-time safe.
 void write(const LinearMotion& motion, double* out) noexcept;
 
+/// The directions of inputs side by side [n x m].
+Eigen::MatrixXd directionsOf(const std::vector<InputInfo>& inputs, Eigen::Index n);
+
 class LinearStepper final : public Stepper {
  public:
-  /// step [s] of the twin, made of `substeps` steps of one of linearMethodNames().
-  LinearStepper(const LinearModel& model, const std::string& method, double step, int substeps);
+  /// step [s] of the twin, made of `substeps` steps of one of linearMethodNames(). `inputs`, those
+  /// of the model, outlive it; nullptr: nothing acts.
+  LinearStepper(const LinearModel& model, const std::string& method, double step, int substeps,
+                const Inputs* inputs = nullptr);
 
   StepStatus step(double time) noexcept override;
   std::size_t dof() const noexcept override { return static_cast<std::size_t>(state_.q.size()); }
@@ -26,9 +35,11 @@ class LinearStepper final : public Stepper {
   void set(const double* q, const double* v) noexcept override;
 
  private:
+  ActingInputs inputs_;
   LinearStep method_;
   double substep_;  ///< [s]
   int substeps_;
+  std::int64_t step_;  ///< [ns], of the twin
   LinearMotion state_;
   LinearMotion next_;
 };

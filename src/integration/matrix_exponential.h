@@ -49,6 +49,14 @@ Eigen::Matrix<double, N, N> exponentialLessIdentity(const Eigen::Matrix<double, 
   return e;
 }
 
+/// From e = e^(A h) - I and w of quadraticIntegral() to those of 2 h.
+template <int N>
+void twiceAsLong(Eigen::Matrix<double, N, N>& e, Eigen::Matrix<double, N, N>& w) {
+  const Eigen::Matrix<double, N, N> we = w * e;
+  w = (2.0 * w + we + we.transpose() + e.transpose() * we).eval();
+  e = (e * e + 2.0 * e).eval();
+}
+
 /// W with  integral over 0..h of y' S y dt = y0' W y0  along y' = A y; S symmetric.
 template <int N>
 Eigen::Matrix<double, N, N> quadraticIntegral(const Eigen::Matrix<double, N, N>& A,
@@ -64,9 +72,7 @@ Eigen::Matrix<double, N, N> quadraticIntegral(const Eigen::Matrix<double, N, N>&
   }
   Matrix e = exponentialLessIdentity<N>(Matrix(part * A));
   for (int i = 0; i < s; ++i) {
-    const Matrix we = (w * e).eval();
-    w = (2.0 * w + we + we.transpose() + e.transpose() * we).eval();
-    e = (e * e + 2.0 * e).eval();
+    twiceAsLong<N>(e, w);
   }
   return w;
 }

@@ -37,12 +37,25 @@ std::vector<ForceChannel> forceChannels(const LinearRotor& rotor) {
   return channels;
 }
 
+Index RotorMap::inputs(Index dof, std::size_t channels, const ActingInputs& acting, int degree) {
+  Index size = 2 * dof + 2 * static_cast<Index>(channels) * (degree + 1) + 1;
+  for (Index k = 0; k < acting.count(); ++k) {
+    size += degree == 0 ? 2 : acting.courseSize(k);
+  }
+  return size;
+}
+
 // In x = L^T q, L L^T = M, rates over the highest frequency, forcing over the deflection it causes:
 // then the norm of h A is that of frequency times step, whatever the units and the masses.
 RotorMap::RotorMap(const LinearRotor& rotor, const std::vector<ForceChannel>& channels,
-                   double speed, double h, int degree)
-    : n_(rotor.dof()), h_(h), l_(rotor.matrices(speed)), channels_(channels), degree_(degree) {
-  const Index size = inputs(n_, channels.size(), degree);
+                   const ActingInputs& acting, double speed, double h, int degree)
+    : n_(rotor.dof()),
+      h_(h),
+      l_(rotor.matrices(speed)),
+      channels_(channels),
+      acting_(acting),
+      degree_(degree) {
+  const Index size = inputs(n_, channels.size(), acting, degree);
   const Eigen::LLT<MatrixXd> mass(l_.mass);
   const MatrixXd to_q = mass.matrixU().solve(MatrixXd::Identity(n_, n_));  // q = to_q x
   const MatrixXd stiffness = to_q.transpose() * (l_.stiffness + l_.circulatory) * to_q;
@@ -81,11 +94,31 @@ RotorMap::RotorMap(const LinearRotor& rotor, const std::vector<ForceChannel>& ch
   scale_(input, input) = deflection;
   unscale_(input, input) = 1.0 / deflection;
   a_.block(n_, input, n_, 1) = load / (rate * deflection);
+  ++input;
+  for (Index k = 0; k < acting.count(); ++k) {
+    const Eigen::VectorXd force = to_q.transpose() * acting.directions().col(k);
+    const double size_of_it = powerOfTwo(force.cwiseAbs().maxCoeff() / (rate * rate));
+    const Index columns = degree == 0 ? 2 : acting.courseSize(k);
+    scale_.diagonal().segment(input, columns).setConstant(size_of_it);
+    unscale_.diagonal().segment(input, columns).setConstant(1.0 / size_of_it);
+    a_.block(n_, input, n_, 1) = force / (rate * size_of_it);
+    if (acting.isHarmonic(k)) {
+      a_.block(input, input, 2, 2) = acting.generator(k, h);
+    } else {
+      for (Index power = 0; power + 1 < columns; ++power) {
+        a_(input + power, input + power + 1) = static_cast<double>(power + 1) / h;
+      }
+    }
+    input += columns;
+  }
+}
+
+MatrixXd RotorMap::unscaledIncrement(const MatrixXd& e) const {
+  return unscale_.topLeftCorner(2 * n_, 2 * n_) * e.topRows(2 * n_) * scale_;
 }
 
 MatrixXd RotorMap::increment() const {
-  const MatrixXd e = exponentialLessIdentity<Eigen::Dynamic>(MatrixXd(h_ * a_));
-  return unscale_.topLeftCorner(2 * n_, 2 * n_) * e.topRows(2 * n_) * scale_;
+  return unscaledIncrement(exponentialLessIdentity<Eigen::Dynamic>(MatrixXd(h_ * a_)));
 }
 
 MatrixXd RotorMap::power() const {
@@ -99,12 +132,32 @@ MatrixXd RotorMap::power() const {
     s.block(input, n_, 2, n_) = s.block(n_, input, n_, 2).transpose();
     input += 2 * (degree_ + 1);
   }
+  ++input;
+  for (Index k = 0; k < acting_.count(); ++k) {
+    s.block(n_, input, n_, 1) = 0.5 * acting_.directions().col(k);
+    s.block(input, n_, 1, n_) = s.block(n_, input, n_, 1).transpose();
+    input += degree_ == 0 ? 2 : acting_.courseSize(k);
+  }
   return s;
 }
 
 MatrixXd RotorMap::work() const {
   const MatrixXd scaled = unscale_.transpose() * power() * unscale_;
   return scale_.transpose() * quadraticIntegral<Eigen::Dynamic>(a_, scaled, h_) * scale_;
+}
+
+std::vector<RotorStepMatrices> RotorMap::parts() const {
+  const double nanosecond = 1e-9;
+  MatrixXd e = exponentialLessIdentity<Eigen::Dynamic>(MatrixXd(nanosecond * a_));
+  MatrixXd w = quadraticIntegral<Eigen::Dynamic>(
+      a_, MatrixXd(unscale_.transpose() * power() * unscale_), nanosecond);
+  std::vector<RotorStepMatrices> all;
+  const std::int64_t longest = std::llround(h_ * 1e9);
+  for (std::int64_t length = 1; length <= longest; length *= 2) {
+    all.push_back({unscaledIncrement(e), scale_.transpose() * w * scale_});
+    twiceAsLong<Eigen::Dynamic>(e, w);
+  }
+  return all;
 }
 
 }  // namespace whirl_twin

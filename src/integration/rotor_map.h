@@ -5,12 +5,15 @@
 // g a polynomial in s/h with complex coefficients g_0 ... g_p. With psi_k' = i m w psi_k +
 // (k+1)/h psi_(k+1), psi_k(0) = g_k, it is Re[F psi_0], so that states and forcing are one linear
 // system with constant coefficients and the step is e^(A h): exact for any h, stiff or not, damped
-// or not, in resonance or not.
+// or not, in resonance or not. Inputs (acting_inputs.h) come in likewise: a harmonic as a pair of
+// phasors of its own frequency, any other as a real polynomial.
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
+#include "integration/acting_inputs.h"
 #include "mechanics/linear_rotor.h"
 
 namespace whirl_twin {
@@ -25,29 +28,40 @@ struct ForceChannel {
 /// The rotor's forces gathered in channels.
 std::vector<ForceChannel> forceChannels(const LinearRotor& rotor);
 
+/// What a step is made of.
+struct RotorStepMatrices {
+  Eigen::MatrixXd increment;  ///< B: (dq, dv) = B y. [2 dof x inputs]
+  Eigen::MatrixXd work;       ///< W: what dh/dt gives over the step is y^T W y. [inputs x inputs]
+};
+
 class RotorMap {
  public:
-  /// Inputs of the step: q, v, then for every channel Re g_0, Im g_0, Re g_1 ..., then 1.
-  static Eigen::Index inputs(Eigen::Index dof, std::size_t channels, int degree) {
-    return 2 * dof + 2 * static_cast<Eigen::Index>(channels) * (degree + 1) + 1;
-  }
+  /// What a step starts from, y: q, v, then for every channel Re g_0, Im g_0, Re g_1 ..., then 1,
+  /// then the inputs that act: pairs where `degree` is 0 (straight lines in units of h), else their
+  /// courses over the step.
+  static Eigen::Index inputs(Eigen::Index dof, std::size_t channels, const ActingInputs& acting,
+                             int degree);
 
   /// At a speed [rad/s], for steps of h [s]; `degree` of the polynomials g.
-  RotorMap(const LinearRotor& rotor, const std::vector<ForceChannel>& channels, double speed,
-           double h, int degree);
+  RotorMap(const LinearRotor& rotor, const std::vector<ForceChannel>& channels,
+           const ActingInputs& acting, double speed, double h, int degree);
 
   /// B: (dq, dv) = B y. [2 dof x inputs]
   Eigen::MatrixXd increment() const;
   /// W: the work done on the system, dh/dt integrated over the step, is y^T W y. [inputs x inputs]
   Eigen::MatrixXd work() const;
+  /// Of steps of 1, 2, 4 ... nanoseconds up to h; the units of y stay those of h.
+  std::vector<RotorStepMatrices> parts() const;
 
  private:
   Eigen::MatrixXd power() const;
+  Eigen::MatrixXd unscaledIncrement(const Eigen::MatrixXd& e) const;
 
   Eigen::Index n_;
   double h_;
   Linearization l_;
   const std::vector<ForceChannel>& channels_;
+  const ActingInputs& acting_;
   int degree_;
   Eigen::MatrixXd a_;  ///< of the scaled system
   Eigen::MatrixXd scale_, unscale_;

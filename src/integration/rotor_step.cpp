@@ -34,6 +34,11 @@ MatrixXd forceSlope(const LinearRotor& rotor, double speed) {
   return change / (2.0 * step);
 }
 
+/// Whole nanoseconds of an offset [s]; a thousandth is rounding.
+std::int64_t wholeNanoseconds(double offset) noexcept {
+  return static_cast<std::int64_t>(std::floor(offset * 1e9 + 1e-3));
+}
+
 void requireFinite(const MatrixXd& matrix) {
   if (!matrix.allFinite()) {
     throw std::domain_error("the rotor's step is beyond the range of doubles: shorten the step");
@@ -43,17 +48,22 @@ void requireFinite(const MatrixXd& matrix) {
 }  // namespace
 
 RotorStep::RotorStep(const LinearRotor& rotor, double h, const std::pair<double, double>& speeds,
-                     const std::vector<double>& constant_speeds)
-    : n_(rotor.dof()), h_(h), channels_(forceChannels(rotor)) {
+                     const std::vector<double>& constant_speeds, const ActingInputs& acting)
+    : n_(rotor.dof()), h_(h), channels_(forceChannels(rotor)), acting_(acting) {
   for (const double speed : constant_speeds) {
-    const RotorMap map(rotor, channels_, speed, h, 0);
+    const RotorMap map(rotor, channels_, acting_, speed, h, 0);
     const MatrixXd increment = map.increment();
     const MatrixXd work = map.work();
     requireFinite(increment);
     requireFinite(work);
-    constant_.push_back({speed, stepMatrix(increment, work)});
+    constant_.push_back({speed, stepMatrix(increment, work), {}});
+    if (acting_.haveTables()) {
+      for (const RotorStepMatrices& part : map.parts()) {
+        constant_.back().parts.push_back(stepMatrix(part.increment, part.work));
+      }
+    }
   }
-  work_ = RotorWork(rotor, channels_, h, speeds);
+  work_ = RotorWork(rotor, channels_, acting_, h, speeds);
   boundaries_ = {speeds.first};
   if (speeds.second > speeds.first) {
     prepare(rotor, speeds);
@@ -61,9 +71,9 @@ RotorStep::RotorStep(const LinearRotor& rotor, double h, const std::pair<double,
     boundaries_.push_back(speeds.second);
   }
   const Index inputs = tableInputs();
-  y_.setZero(inputs);
+  y_.setZero(std::max(inputs, RotorMap::inputs(n_, channels_.size(), acting_, 0)));
   powers_.setZero(inputs * (kDegree + 1));
-  result_.setZero(PackedMatrix(MatrixXd::Zero(2 * n_ + inputs, 1)).rows());
+  result_.setZero(PackedMatrix(MatrixXd::Zero(2 * n_ + y_.size(), 1)).rows());
   shear_.setZero(PackedMatrix(MatrixXd::Zero(n_, 1)).rows());
   increment_.setZero(2 * n_);
   rates_.setZero(n_);
@@ -108,11 +118,11 @@ void RotorStep::prepare(const LinearRotor& rotor, const std::pair<double, double
 }
 
 Index RotorStep::tableInputs() const {
-  return RotorMap::inputs(n_, channels_.size(), kDegree);
+  return RotorMap::inputs(n_, channels_.size(), acting_, kDegree);
 }
 
 MatrixXd RotorStep::tableMap(const LinearRotor& rotor, double speed) const {
-  return RotorMap(rotor, channels_, speed, h_, kDegree).increment();
+  return RotorMap(rotor, channels_, acting_, speed, h_, kDegree).increment();
 }
 
 /// The map as a cubic in s: its coefficients side by side.
@@ -181,16 +191,12 @@ RotorStep::Cell RotorStep::cell(const LinearRotor& rotor, double low, double hig
 }
 
 StepStatus RotorStep::advance(const Drive& drive, double offset, LinearMotion& motion) noexcept {
-  const ShaftMotion shaft = drive.at(offset);
-  if (drive.constantFor(offset + h_)) {
-    for (ConstantSpeed& constant : constant_) {
-      if (constant.speed == shaft.speed) {
-        constantStep(constant, shaft, motion);
-        return StepStatus::kOk;
-      }
-    }
+  if (ConstantSpeed* const constant = constantAt(drive, offset, offset + h_)) {
+    constantStep(constant->map, drive.at(offset), offset, wholeNanoseconds(offset), motion);
+    return StepStatus::kOk;
   }
   nodes_.sample(drive, offset, h_);
+  acting_.follow(offset, h_);
   const double mean_speed = nodes_.meanSpeed();
   // A speed held at the edge may lie beyond it by rounding.
   const double sliver = 1.0e-9 * (1.0 + std::fabs(mean_speed));
@@ -204,8 +210,45 @@ StepStatus RotorStep::advance(const Drive& drive, double offset, LinearMotion& m
   return StepStatus::kOk;
 }
 
-void RotorStep::constantStep(ConstantSpeed& at, const ShaftMotion& shaft,
-                             LinearMotion& motion) noexcept {
+bool RotorStep::advanceInParts(const Drive& drive, std::int64_t from, std::int64_t to,
+                               LinearMotion& motion) noexcept {
+  const auto seconds = [](std::int64_t nanoseconds) {
+    return static_cast<double>(nanoseconds) / 1e9;
+  };
+  ConstantSpeed* const constant = constantAt(drive, seconds(from), seconds(to));
+  if (constant == nullptr || constant->parts.empty()) {
+    return false;
+  }
+  while (from < to) {
+    const std::int64_t corner = std::min(acting_.nextCorner(from), to);
+    const std::int64_t piece = from;
+    for (std::size_t k = constant->parts.size(); k-- > 0;) {
+      for (; corner - from >= std::int64_t{1} << k; from += std::int64_t{1} << k) {
+        const double offset = seconds(from);
+        constantStep(constant->parts[k], drive.at(offset), offset, piece, motion);
+      }
+    }
+  }
+  return true;
+}
+
+/// The step for the speed of the drive at an offset, if the drive keeps it from begin() for so long
+/// and the step is prepared.
+RotorStep::ConstantSpeed* RotorStep::constantAt(const Drive& drive, double offset,
+                                                double duration) noexcept {
+  if (drive.constantFor(duration)) {
+    const double speed = drive.at(offset).speed;
+    for (ConstantSpeed& constant : constant_) {
+      if (constant.speed == speed) {
+        return &constant;
+      }
+    }
+  }
+  return nullptr;
+}
+
+void RotorStep::constantStep(PackedMatrix& map, const ShaftMotion& shaft, double offset,
+                             std::int64_t piece, LinearMotion& motion) noexcept {
   work_.restart();
   y_.head(n_) = motion.q;
   y_.segment(n_, n_) = motion.v;
@@ -219,14 +262,16 @@ void RotorStep::constantStep(ConstantSpeed& at, const ShaftMotion& shaft,
     y_[input++] = size * sine;
   }
   y_[input++] = 1.0;
-  at.map.multiply(y_.data(), result_.data());
+  acting_.writePairs(offset, piece, h_, y_.data() + input);
+  input += 2 * acting_.count();
+  map.multiply(y_.data(), result_.data());
   motion.advance(result_.data(), result_.data() + n_,
                  y_.head(input).dot(result_.segment(2 * n_, input)));
 }
 
 /// Fills the inputs from 2 n on with the coefficients of g.
 void RotorStep::project() noexcept {
-  auto coefficients = y_.tail(y_.size() - 2 * n_);
+  auto coefficients = y_.segment(2 * n_, tableInputs() - 2 * n_);
   coefficients.setZero();
   for (const ShaftNode& node : nodes_) {
     const double x = 2.0 * node.tau - 1.0;
@@ -262,7 +307,8 @@ void RotorStep::project() noexcept {
       coefficients[input++] = g.imag();
     }
   }
-  coefficients[input] = 1.0;
+  coefficients[input++] = 1.0;
+  acting_.writeCourses(coefficients.data() + input);
 }
 
 /// e A'(q, v), for the state in y_ with other rates.
@@ -279,7 +325,7 @@ void RotorStep::changingStep(Cell& cell, const Drive& drive, double offset,
   y_.head(n_) = motion.q;
   y_.segment(n_, n_) = motion.v;
   increment_.setZero();
-  work_.start(cell.work, drive, offset, y_.head(2 * n_));
+  work_.start(cell.work, drive, offset, acting_, y_.head(2 * n_));
   project();
   const double e = nodes_.meanLead();
   const double s = (nodes_.meanSpeed() - cell.centre) / cell.half_width;
@@ -289,8 +335,8 @@ void RotorStep::changingStep(Cell& cell, const Drive& drive, double offset,
     y_.segment(n_, n_) += shear_.head(n_);
     increment_.tail(n_) = shear_.head(n_);
   }
-  const Index inputs = y_.size();
-  powers_.head(inputs) = y_;
+  const Index inputs = tableInputs();
+  powers_.head(inputs) = y_.head(inputs);
   for (int k = 1; k <= kDegree; ++k) {
     powers_.segment(k * inputs, inputs) = s * powers_.segment((k - 1) * inputs, inputs);
   }
@@ -306,7 +352,7 @@ void RotorStep::changingStep(Cell& cell, const Drive& drive, double offset,
     increment_.tail(n_) -= shear_.head(n_);
   }
   motion.advance(increment_.data(), increment_.data() + n_,
-                 work_.work(cell.work, drive, offset, nodes_, y_.head(2 * n_)));
+                 work_.work(cell.work, drive, offset, nodes_, acting_, y_.head(2 * n_)));
 }
 
 }  // namespace whirl_twin

@@ -18,13 +18,19 @@
 //
 // The audited work is y^T W y, exact, at constant speed, and a quadrature in a run-up
 // (rotor_work.h).
+//
+// Inputs are exact likewise (acting_inputs.h). A corner of one of them inside a step at constant
+// speed parts it in steps of 2^k nanoseconds, each exact; in a run-up the input is projected on a
+// cubic, and the work is that of the projection.
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "control/drive.h"
+#include "integration/acting_inputs.h"
 #include "integration/linear_step.h"
 #include "integration/packed_matrix.h"
 #include "integration/rotor_map.h"
@@ -40,7 +46,7 @@ class RotorStep {
   /// plain exact step for `constant_speeds`. Throws std::domain_error for matrices beyond the range
   /// of doubles.
   RotorStep(const LinearRotor& rotor, double h, const std::pair<double, double>& speeds,
-            const std::vector<double>& constant_speeds);
+            const std::vector<double>& constant_speeds, const ActingInputs& acting = {});
 
   double lowestSpeed() const { return boundaries_.front(); }  ///< [rad/s]
   double highestSpeed() const { return boundaries_.back(); }  ///< [rad/s]
@@ -52,13 +58,19 @@ class RotorStep {
   /// Advances by h from offset [s] after the drive's begin(). Real-time safe. kOutOfRange, with the
   /// motion left as it was, where the mean speed is not between those prepared for.
   StepStatus advance(const Drive& drive, double offset, LinearMotion& motion) noexcept;
+  /// At one of the constant speeds, held until `to`: advances from one instant to another, both in
+  /// [ns] after begin(), exactly, across corners of the inputs. False, with nothing done, at any
+  /// other speed and where no input is a table. Real-time safe.
+  bool advanceInParts(const Drive& drive, std::int64_t from, std::int64_t to,
+                      LinearMotion& motion) noexcept;
 
  private:
   static constexpr int kDegree = 3;  ///< of g over the step, and of the table over speed
 
   struct ConstantSpeed {
     double speed;
-    PackedMatrix map;  ///< B and W
+    PackedMatrix map;                 ///< B and W
+    std::vector<PackedMatrix> parts;  ///< of 1, 2, 4 ... ns; where an input is a table
   };
   struct Cell {
     double centre, half_width;  ///< [rad/s]
@@ -70,7 +82,9 @@ class RotorStep {
   void prepare(const LinearRotor& rotor, const std::pair<double, double>& speeds);
   Cell cell(const LinearRotor& rotor, double low, double high) const;
   double cubicError(const LinearRotor& rotor, double low, double high) const;
-  void constantStep(ConstantSpeed& at, const ShaftMotion& shaft, LinearMotion& motion) noexcept;
+  ConstantSpeed* constantAt(const Drive& drive, double offset, double duration) noexcept;
+  void constantStep(PackedMatrix& map, const ShaftMotion& shaft, double offset, std::int64_t piece,
+                    LinearMotion& motion) noexcept;
   void changingStep(Cell& cell, const Drive& drive, double offset, LinearMotion& motion) noexcept;
   Eigen::Index tableInputs() const;
   Eigen::MatrixXd tableMap(const LinearRotor& rotor, double speed) const;
@@ -81,6 +95,7 @@ class RotorStep {
   Eigen::Index n_;
   double h_;
   std::vector<ForceChannel> channels_;
+  ActingInputs acting_;
   std::vector<ConstantSpeed> constant_;
   std::vector<double> boundaries_;  ///< [rad/s], of the cells
   std::vector<Cell> cells_;

@@ -58,6 +58,14 @@ MatrixXd phasorColumns(const std::vector<ForceChannel>& channels, Index n) {
   return columns;
 }
 
+/// Phasors, load and inputs side by side.
+MatrixXd allForces(const MatrixXd& phasors, const Eigen::VectorXd& load,
+                   const MatrixXd& directions) {
+  MatrixXd forces(load.size(), phasors.cols() + 1 + directions.cols());
+  forces << phasors, load, directions;
+  return forces;
+}
+
 /// The parabola through values at s = -1, 0, 1.
 Polynomial parabola(const MatrixXd& below, const MatrixXd& middle, const MatrixXd& above) {
   return {middle, 0.5 * (above - below), 0.5 * (above + below) - middle};
@@ -74,22 +82,23 @@ std::size_t terms(const Polynomial& p) {
 
 }  // namespace
 
-RotorWork::RotorWork(const LinearRotor& rotor, const std::vector<ForceChannel>& channels, double h,
-                     const std::pair<double, double>& speeds)
-    : h_(h), channels_(channels) {
+RotorWork::RotorWork(const LinearRotor& rotor, const std::vector<ForceChannel>& channels,
+                     const ActingInputs& acting, double h, const std::pair<double, double>& speeds)
+    : h_(h), channels_(channels), directions_(acting.directions()) {
   const Index n = rotor.dof();
+  directions_.conservativeResize(n, Eigen::NoChange);
   const MatrixXd phasors = phasorColumns(channels, n);
-  std::vector<MatrixXd> ranges{phasors};
+  std::vector<MatrixXd> ranges{phasors, directions_};
   for (const double share : {0.0, 0.3, 0.7, 1.0}) {
     const double speed = speeds.first + share * (speeds.second - speeds.first);
     const Linearization l = rotor.matrices(speed);
     ranges.insert(ranges.end(), {l.damping, l.circulatory, stiffnessSlope(rotor, speed)});
   }
   basis_ = jointRange(ranges, n);
-  force_ = basis_.transpose() * phasors;
+  force_.resize(basis_.cols(), phasors.cols() + directions_.cols());
+  force_ << basis_.transpose() * phasors, basis_.transpose() * directions_;
   const Eigen::LLT<MatrixXd> mass(rotor.matrices(speeds.first).mass);
-  MatrixXd forces(n, phasors.cols() + 1);
-  forces << phasors, rotor.load;
+  const MatrixXd forces = allForces(phasors, rotor.load, directions_);
   acceleration_by_force_ = basis_.transpose() * mass.solve(forces);
 
   Eigen::Matrix<double, 8, 8> ends;  // of 1, x, x^2 ... : value and derivatives at 0, at 1
@@ -108,7 +117,7 @@ RotorWork::RotorWork(const LinearRotor& rotor, const std::vector<ForceChannel>& 
   }
 
   const Index size = basis_.cols();
-  const Index phasor_count = phasors.cols() + 1;
+  const Index phasor_count = forces.cols();
   const Index padded = PackedMatrix(MatrixXd::Zero(4 * size, 1)).rows();
   from_.setZero(padded);
   to_.setZero(padded);
@@ -127,8 +136,7 @@ RotorWorkCell RotorWork::cell(const LinearRotor& rotor, double low, double high)
   };
   const Index n = rotor.dof();
   const Index size = basis_.cols();
-  MatrixXd forces(n, force_.cols() + 1);
-  forces << phasorColumns(channels_, n), rotor.load;
+  const MatrixXd forces = allForces(phasorColumns(channels_, n), rotor.load, directions_);
   const auto sample = [&](double speed) {
     const Linearization l = rotor.matrices(speed);
     const Eigen::LLT<MatrixXd> mass(l.mass);
@@ -183,6 +191,10 @@ RotorWorkCell RotorWork::cell(const LinearRotor& rotor, double low, double high)
   return c;
 }
 
+Index RotorWork::phasorCount() const noexcept {
+  return 2 * static_cast<Index>(channels_.size()) + 1;
+}
+
 /// The phasors and 1, and their rates.
 void RotorWork::setPhasors(const ShaftMotion& shaft, double* phasors,
                            double* rates) const noexcept {
@@ -206,8 +218,8 @@ void RotorWork::setPhasors(const ShaftMotion& shaft, double* phasors,
   *rates = 0.0;
 }
 
-void RotorWork::evaluate(RotorWorkCell& cell, const ShaftMotion& shaft,
-                         const Eigen::Ref<const Eigen::VectorXd>& state,
+void RotorWork::evaluate(RotorWorkCell& cell, const ShaftMotion& shaft, const ActingInputs& acting,
+                         double tau, const Eigen::Ref<const Eigen::VectorXd>& state,
                          Eigen::VectorXd& end) noexcept {
   const Index n2 = state.size();
   const Index p = phasors_.size();
@@ -220,6 +232,10 @@ void RotorWork::evaluate(RotorWorkCell& cell, const ShaftMotion& shaft,
   inputs_.segment(4 * n2, n2) = 2.0 * s * a * state;
   double* const phasors = inputs_.data() + 5 * n2;
   setPhasors(shaft, phasors, phasors + 3 * p);
+  for (Index k = 0; k < acting.count(); ++k) {
+    phasors[phasorCount() + k] = acting.value(k, tau);
+    phasors[3 * p + phasorCount() + k] = acting.rate(k, tau);
+  }
   for (Index i = 0; i < p; ++i) {
     phasors[p + i] = s * phasors[i];
     phasors[2 * p + i] = s * s * phasors[i];
@@ -228,16 +244,19 @@ void RotorWork::evaluate(RotorWorkCell& cell, const ShaftMotion& shaft,
 }
 
 void RotorWork::start(RotorWorkCell& cell, const Drive& drive, double offset,
+                      const ActingInputs& acting,
                       const Eigen::Ref<const Eigen::VectorXd>& state) noexcept {
   const double hair = ShaftNodes::kSliver * h_;
   const bool corner = drive.nextCorner(offset) - offset < hair;
   const ShaftMotion shaft = drive.at(corner ? offset + 2.0 * hair : offset);
   const auto same = [](double a, double b) { return std::fabs(a - b) <= 1.0e-9 * std::fabs(b); };
-  if (continued_ && same(shaft.acceleration, last_acceleration_) && same(shaft.jerk, last_jerk_)) {
+  // An input may have jumped since.
+  if (continued_ && acting.count() == 0 && same(shaft.acceleration, last_acceleration_) &&
+      same(shaft.jerk, last_jerk_)) {
     from_.swap(to_);
     return;
   }
-  evaluate(cell, shaft, state, from_);
+  evaluate(cell, shaft, acting, 0.0, state, from_);
 }
 
 /// Where the profile has a corner the drive's acceleration jumps, and with it the second and third
@@ -249,7 +268,7 @@ void RotorWork::takeJump(const Drive& drive, double offset, double corner) noexc
   jump_.setZero();
   for (const double side : {-1.0, 1.0}) {
     setPhasors(drive.at(offset + (corner + side * hair) * h_), phasors_.data(), rates_.data());
-    for (Index k = 0; k < phasors_.size(); ++k) {
+    for (Index k = 0; k < phasorCount(); ++k) {
       jump_.head(size) += side * h_ * h_ * phasors_[k] * acceleration_by_force_.col(k);
       jump_.tail(size) += side * h_ * h_ * h_ * rates_[k] * acceleration_by_force_.col(k);
     }
@@ -290,7 +309,8 @@ void RotorWork::deflectionAt(double tau, const Weights& weights, double corner) 
   z_rate_ /= h_;
 }
 
-double RotorWork::power(RotorWorkCell& cell, const ShaftNode& node) noexcept {
+double RotorWork::power(RotorWorkCell& cell, const ShaftNode& node,
+                        const ActingInputs& acting) noexcept {
   const double s = (node.shaft.speed - cell.centre) / cell.half_width;
   pull_.setZero();
   Index column = 0;
@@ -305,6 +325,9 @@ double RotorWork::power(RotorWorkCell& cell, const ShaftNode& node) noexcept {
     }
     pull_ += value.real() * force_.col(column) + value.imag() * force_.col(column + 1);
     column += 2;
+  }
+  for (Index k = 0; k < acting.count(); ++k) {
+    pull_ += acting.value(k, node.tau) * force_.col(column + k);
   }
   double watts = 0.0;
   double share = 1.0;
@@ -324,7 +347,7 @@ double RotorWork::power(RotorWorkCell& cell, const ShaftNode& node) noexcept {
 }
 
 double RotorWork::work(RotorWorkCell& cell, const Drive& drive, double offset,
-                       const ShaftNodes& nodes,
+                       const ShaftNodes& nodes, const ActingInputs& acting,
                        const Eigen::Ref<const Eigen::VectorXd>& state) noexcept {
   if (basis_.cols() == 0) {
     return 0.0;
@@ -334,7 +357,7 @@ double RotorWork::work(RotorWorkCell& cell, const Drive& drive, double offset,
   const double hair = ShaftNodes::kSliver;
   const double next = (drive.nextCorner(offset + (1.0 - 2.0 * hair) * h_) - offset) / h_;
   const ShaftMotion end = drive.at(offset + (next < 1.0 + hair ? 1.0 - 4.0 * hair : 1.0) * h_);
-  evaluate(cell, end, state, to_);
+  evaluate(cell, end, acting, 1.0, state, to_);
   if (corner < 1.0) {
     takeJump(drive, offset, corner);
   }
@@ -345,7 +368,7 @@ double RotorWork::work(RotorWorkCell& cell, const Drive& drive, double offset,
   const Weights* plain = weights_.data();
   for (const ShaftNode& node : nodes) {
     deflectionAt(node.tau, nodes.plain() ? *plain++ : weightsAt(node.tau), corner);
-    sum += node.weight * power(cell, node);
+    sum += node.weight * power(cell, node, acting);
   }
   return h_ * sum;
 }

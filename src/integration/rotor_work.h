@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "control/drive.h"
+#include "integration/acting_inputs.h"
 #include "integration/packed_matrix.h"
 #include "integration/rotor_map.h"
 #include "integration/shaft_nodes.h"
@@ -28,7 +29,8 @@ struct RotorWorkCell {
   double centre = 0.0;      ///< [rad/s]
   double half_width = 1.0;  ///< [rad/s]
   /// From the inputs x, s x, s^2 x, a x, 2 s a x of the state x = (q, v), a = acceleration /
-  /// half_width, then p, s p, s^2 p of the phasors p and 1, then p' to z, h z', h^2 z'', h^3 z'''.
+  /// half_width, then p, s p, s^2 p of the phasors, 1 and the inputs p, then p' to z, h z', h^2
+  /// z'', h^3 z'''.
   PackedMatrix end;
   Polynomial damping, circulatory, stiffness_slope;  ///< L^T C L, L^T N L, L^T (dK/dw) L
   std::size_t damping_terms = 0, circulatory_terms = 0, stiffness_slope_terms = 0;
@@ -37,8 +39,8 @@ struct RotorWorkCell {
 class RotorWork {
  public:
   RotorWork() = default;
-  RotorWork(const LinearRotor& rotor, const std::vector<ForceChannel>& channels, double h,
-            const std::pair<double, double>& speeds);
+  RotorWork(const LinearRotor& rotor, const std::vector<ForceChannel>& channels,
+            const ActingInputs& acting, double h, const std::pair<double, double>& speeds);
 
   RotorWorkCell cell(const LinearRotor& rotor, double low, double high) const;
 
@@ -46,29 +48,33 @@ class RotorWork {
 
   /// The state no longer follows from the last step.
   void restart() noexcept { continued_ = false; }
-  /// The state (q, v) before the step that starts at offset [s].
-  void start(RotorWorkCell& cell, const Drive& drive, double offset,
+  /// The state (q, v) before the step that starts at offset [s], which the inputs have taken up.
+  void start(RotorWorkCell& cell, const Drive& drive, double offset, const ActingInputs& acting,
              const Eigen::Ref<const Eigen::VectorXd>& state) noexcept;
   /// [J], with the state after it; `nodes` of the same step.
   double work(RotorWorkCell& cell, const Drive& drive, double offset, const ShaftNodes& nodes,
-              const Eigen::Ref<const Eigen::VectorXd>& state) noexcept;
+              const ActingInputs& acting, const Eigen::Ref<const Eigen::VectorXd>& state) noexcept;
 
  private:
   using Weights = Eigen::Matrix<double, 8, 2>;
 
-  void evaluate(RotorWorkCell& cell, const ShaftMotion& shaft,
-                const Eigen::Ref<const Eigen::VectorXd>& state, Eigen::VectorXd& end) noexcept;
+  void evaluate(RotorWorkCell& cell, const ShaftMotion& shaft, const ActingInputs& acting,
+                double tau, const Eigen::Ref<const Eigen::VectorXd>& state,
+                Eigen::VectorXd& end) noexcept;
   void takeJump(const Drive& drive, double offset, double corner) noexcept;
   Weights weightsAt(double tau) const noexcept;
   void deflectionAt(double tau, const Weights& weights, double corner) noexcept;
-  double power(RotorWorkCell& cell, const ShaftNode& node) noexcept;
+  double power(RotorWorkCell& cell, const ShaftNode& node, const ActingInputs& acting) noexcept;
+  Eigen::Index phasorCount() const noexcept;
   void setPhasors(const ShaftMotion& shaft, double* phasors, double* rates) const noexcept;
 
   double h_ = 0.0;
   std::vector<ForceChannel> channels_;
-  Eigen::MatrixXd basis_;  ///< L [n x size], orthonormal columns
-  Eigen::MatrixXd force_;  ///< L^T F of every channel, real and minus imaginary, a column each
-  Eigen::MatrixXd acceleration_by_force_;  ///< L^T M^-1 F likewise, and that of the load
+  Eigen::MatrixXd basis_;       ///< L [n x size], orthonormal columns
+  Eigen::MatrixXd directions_;  ///< of the inputs [n x .]
+  Eigen::MatrixXd
+      force_;  ///< L^T F of every channel, real and minus imaginary, then of every input
+  Eigen::MatrixXd acceleration_by_force_;  ///< L^T M^-1 F of channels, load and inputs
   Eigen::Matrix<double, 8, 8> hermite_;    ///< powers of tau as weights of the data at the ends
   std::array<Weights, ShaftNodes::kNodes.size()> weights_;  ///< at the nodes of a plain step
   // Room for a step.

@@ -23,6 +23,11 @@
 //                                                     constant speed
 //         The table is one of the fixed frame. On a drive any other method; `auto` calibrates.
 //
+//     energies, linear, any of the above, with        exponential      LinearRotorStepper
+//     inputs                                                           (RotorStep)
+//         The inputs are columns of its matrices, as they are of LinearStepper's (acting_inputs.h).
+//         With any other method they are a generalized force (input_force.h).
+//
 //     energies, linear, any of the above              any other        SteppedSystem<Model, Method>
 //         As asked for: comparison, `twin tradeoff`.
 //

@@ -2,73 +2,26 @@
 // the flags that let the compiler delete a dual's dead terms; the finiteness check reads bits.
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/LU>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <type_traits>
 
 #include "control/drive.h"
 #include "control/shaft_angle.h"
+#include "integration/driven_equation.h"
 #include "integration/finite.h"
+#include "integration/input_force.h"
 #include "integration/stepper.h"
 #include "mechanics/dynamics.h"
-#include "mechanics/lagrangian.h"
 
 #if defined(__x86_64__) && !defined(__clang__) && !defined(WHIRL_TWIN_LONG_EQUATIONS)
 #define WHIRL_TWIN_FUSED_STEPS
 #endif
 
 namespace whirl_twin {
-
-/// q'' = a(q, v, t) of a model on its drive during one step; offset [s] counts from its start.
-template <class Model>
-struct DrivenEquation {
-  static constexpr std::size_t n = Model::kDof;
-  using Array = std::array<double, n>;
-  struct Jacobian {
-    Eigen::Matrix<double, static_cast<int>(n), static_cast<int>(n)> by_q, by_v;
-  };
-
-  const Model& model;
-  const Drive& drive;
-  double time;  ///< [s], simulated, at the start of the step
-
-  WHIRL_TWIN_INLINE Moment<double> moment(double offset) const {
-    if constexpr (Model::kHasShaft) {
-      const ShaftMotion shaft = drive.at(offset);
-      return {time + offset, shaft.angle, shaft.speed, shaft.acceleration};
-    } else {
-      return {time + offset, 0.0, 0.0, 0.0};
-    }
-  }
-  WHIRL_TWIN_INLINE Derivative<n> evaluate(const Array& q, const Array& v,
-                                           const Moment<double>& at) const {
-    return derivative(model, q, v, at);
-  }
-  WHIRL_TWIN_INLINE Derivative<n> operator()(const Array& q, const Array& v, double offset) const {
-    return evaluate(q, v, moment(offset));
-  }
-  /// da/dq and da/dv.
-  Jacobian jacobian(const Array& q, const Array& v, double offset) const {
-    const Moment<double> at = moment(offset);
-    const auto l = linearization(model, q, v, derivative(model, q, v, at).acceleration, at);
-    // Not mass.inverse(): Eigen's of size four needs signed zeros, which steps are compiled
-    // without.
-    const auto mass = l.mass.partialPivLu();
-    return {-mass.solve(l.stiffness + l.circulatory), -mass.solve(l.damping + l.gyroscopic)};
-  }
-  /// Is the forcing that of a shaft at one speed? Loads that alternate by themselves are not.
-  bool constantSpeed([[maybe_unused]] double duration) const {
-    if constexpr (HasAlternatingLoads<Model>::value) {
-      return false;
-    } else {
-      return !Model::kHasShaft || drive.constantFor(duration);
-    }
-  }
-};
 
 /// A shaft whose angle is the coordinate kSpin.
 template <class Model, class = void>
@@ -82,11 +35,16 @@ class SteppedSystem final : public Stepper {
   static constexpr std::size_t n = Model::kDof;
 
   /// step [s] of the twin, made of `substeps` steps of the method. The drive outlives the system.
-  SteppedSystem(const Model& model, const Drive& drive, double step, int substeps)
-      : model_(model), drive_(drive), substep_(step / substeps), substeps_(substeps) {}
+  SteppedSystem(const Model& model, const Drive& drive, const InputForce& inputs, double step,
+                int substeps)
+      : model_(model),
+        drive_(drive),
+        inputs_(inputs),
+        substep_(step / substeps),
+        substeps_(substeps) {}
 
   StepStatus step(double time) noexcept override {
-    const DrivenEquation<Model> equation{model_, drive_, time};
+    const DrivenEquation<Model> equation{model_, drive_, time, inputs_.acts() ? &inputs_ : nullptr};
     MotionState<n> next = state_;
     for (int i = 0; i < substeps_; ++i) {
       const StepStatus status = advance(method_, equation, i * substep_, substep_, next);
@@ -123,8 +81,16 @@ class SteppedSystem final : public Stepper {
   bool shaft([[maybe_unused]] ShaftState& out) const noexcept override {
     if constexpr (HasSpin<Model>::value) {
       // No load on a rotor depends on the time by itself.
-      const auto now = derivative(model_, state_.q, state_.v, Moment<double>{});
-      out = {spin(), state_.v[Model::kSpin], now.acceleration[Model::kSpin]};
+      auto eom = equationsOfMotion(model_, state_.q, state_.v, Moment<double>{});
+      if (inputs_.acts()) {
+        std::array<double, n> applied;
+        inputs_.now(applied.data());
+        for (std::size_t i = 0; i < n; ++i) {
+          eom.force[i] += applied[i];
+        }
+      }
+      out = {spin(), state_.v[Model::kSpin],
+             solveMass<double, n>(eom.mass, eom.force)[Model::kSpin]};
     }
     return HasSpin<Model>::value;
   }
@@ -224,10 +190,13 @@ class SteppedSystem final : public Stepper {
     return methodStep;
   }
 
-  /// One step of the method, in parts where the drive has a corner inside it: across a corner a
-  /// method would lose its order.
+  /// One step of the method, in parts where the drive or an input has a corner inside it: across a
+  /// corner a method would lose its order.
   WHIRL_TWIN_INLINE StepStatus advance(Method& method, const DrivenEquation<Model>& equation,
                                        double offset, double h, MotionState<n>& state) noexcept {
+    if (__builtin_expect(inputs_.acts(), 0)) {
+      return advanceWithInputs(method, equation, offset, h, state);
+    }
     if constexpr (Model::kHasShaft) {
       const double end = offset + h;
       if (drive_.nextCorner(offset) < end - kSliver * h) {
@@ -236,16 +205,48 @@ class SteppedSystem final : public Stepper {
     }
     return method_step_(method, equation, offset, h, state);
   }
+  [[gnu::noinline, gnu::cold]] StepStatus advanceWithInputs(Method& method,
+                                                            const DrivenEquation<Model>& equation,
+                                                            double offset, double h,
+                                                            MotionState<n>& state) noexcept {
+    return nextCorner(offset) < offset + h - kSliver * h
+               ? advanceInParts(method, equation, offset, offset + h, state)
+               : partWithInputs(method, equation, offset, h, state);
+  }
+  StepStatus partWithInputs(Method& method, const DrivenEquation<Model>& equation, double offset,
+                            double h, MotionState<n>& state) noexcept {
+    const MotionState<n> from = state;
+    inputs_.enter(offset + 0.5 * h);
+    const StepStatus status = method_step_(method, equation, offset, h, state);
+    double work = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      work += inputs_.held()[i] * ((state.q[i] - from.q[i]) + (state.q_low[i] - from.q_low[i]));
+    }
+    state.work.add(work);
+    return status;
+  }
+  double nextCorner(double offset) const noexcept {
+    double corner = std::numeric_limits<double>::max();
+    if constexpr (Model::kHasShaft) {
+      corner = drive_.nextCorner(offset);
+    }
+    if (inputs_.acts()) {
+      const double of_input = inputs_.nextCorner(offset);
+      corner = of_input < corner ? of_input : corner;
+    }
+    return corner;
+  }
   StepStatus advanceInParts(Method& method, const DrivenEquation<Model>& equation, double offset,
                             double end, MotionState<n>& state) noexcept {
     const double sliver = kSliver * (end - offset);
     StepStatus status = StepStatus::kOk;
     while (status == StepStatus::kOk && end - offset > sliver) {
-      double corner = drive_.nextCorner(offset);
+      double corner = nextCorner(offset);
       corner = corner < end - sliver ? corner : end;
       if (corner - offset > sliver) {
         method.restart();
-        status = method_step_(method, equation, offset, corner - offset, state);
+        status = inputs_.acts() ? partWithInputs(method, equation, offset, corner - offset, state)
+                                : method_step_(method, equation, offset, corner - offset, state);
       }
       // Just behind the corner, where the jerk (or acceleration) that follows holds.
       offset = std::nextafter(corner, 2.0 * end);
@@ -297,6 +298,7 @@ class SteppedSystem final : public Stepper {
 
   Model model_;
   const Drive& drive_;
+  InputForce inputs_;
   double substep_;  ///< [s]
   int substeps_;
   MethodStep method_step_ = methodStepHere();

@@ -24,6 +24,14 @@ struct CoordinateInfo {
   bool isAngle() const { return unit == "rad"; }
 };
 
+/// An input of a model as set up.
+struct InputInfo {
+  std::string name;           ///< as in scene files
+  std::string unit;           ///< of its value u
+  Eigen::VectorXd direction;  ///< the generalized force is u times it
+  std::string meaning;
+};
+
 /// A model with its parameters. Vectors are of size dof(), in the order of coordinates().
 class Dynamics {
  public:
@@ -32,6 +40,8 @@ class Dynamics {
   virtual std::string model() const = 0;
   virtual int dof() const = 0;
   virtual std::vector<CoordinateInfo> coordinates() const = 0;
+  /// What may act on it from outside besides.
+  virtual std::vector<InputInfo> inputs() const { return {}; }
   virtual bool linear() const = 0;            ///< equations linear in q and v
   virtual bool hasShaft() const = 0;          ///< the motion of a shaft enters
   virtual bool isRotor() const = 0;           ///< x, y of a whirling disc
@@ -74,8 +84,8 @@ class Dynamics {
   /// Where along its shaft a rotor's whirl is seen, the place that is published first; empty for
   /// anything else.
   virtual std::vector<Station> stations() const { return {}; }
-  /// The matrices and forces of a linear model with a shaft, as functions of its speed. Throws
-  /// std::logic_error for any other.
+  /// The matrices and forces of a linear model as functions of the speed of its shaft, if it has
+  /// one. Throws std::logic_error for any other and for one whose loads alternate by themselves.
   virtual LinearRotor linearRotor() const;
   /// Its picture; empty where there is none.
   virtual Sketch sketch(const Eigen::VectorXd& q, const Moment<double>& at) const = 0;
@@ -121,6 +131,23 @@ template <class Model, class = void>
 struct HasUnbalance : std::false_type {};
 template <class Model>
 struct HasUnbalance<Model, std::void_t<decltype(&Model::balanced)>> : std::true_type {};
+
+template <class Model, class = void>
+struct ModelInputs {
+  static std::vector<InputInfo> of(const Model&) { return {}; }
+};
+template <class Model>
+struct ModelInputs<Model, std::void_t<decltype(&Model::inputs)>> {
+  static std::vector<InputInfo> of(const Model& model) {
+    std::vector<InputInfo> all;
+    for (const Input<Model::kDof>& input : model.inputs()) {
+      all.push_back({input.name, input.unit,
+                     Eigen::Map<const Eigen::VectorXd>(input.direction.data(), Model::kDof),
+                     input.meaning});
+    }
+    return all;
+  }
+};
 
 template <class Model, class = void>
 struct HasReactions : std::false_type {};
@@ -176,6 +203,7 @@ class LagrangianDynamics final : public Dynamics {
     }
     return all;
   }
+  std::vector<InputInfo> inputs() const override { return ModelInputs<Model>::of(model_); }
   bool linear() const override { return Model::kLinear; }
   bool hasShaft() const override { return Model::kHasShaft; }
   bool isRotor() const override { return RotorTraits<Model>::kRotor; }

@@ -33,6 +33,7 @@ struct LinearModel {
   std::vector<CoordinateInfo> coordinates;
   Eigen::MatrixXd mass, damping, gyroscopic, stiffness, circulatory;
   std::vector<HarmonicForce> forces = {};
+  std::vector<InputInfo> inputs = {};
   /// Its picture at coordinates q and time [s]; may be empty.
   std::function<Sketch(const Eigen::VectorXd& q, double time)> sketch = {};
 };
@@ -50,6 +51,7 @@ class LinearDynamics final : public Dynamics {
   std::string model() const override { return model_.model; }
   int dof() const override { return static_cast<int>(model_.coordinates.size()); }
   std::vector<CoordinateInfo> coordinates() const override { return model_.coordinates; }
+  std::vector<InputInfo> inputs() const override { return model_.inputs; }
   bool linear() const override { return true; }
   bool hasShaft() const override { return false; }
   bool isRotor() const override { return false; }

@@ -55,7 +55,8 @@ Eigen::VectorXcd LinearRotor::synchronousForce(double speed) const {
 }
 
 LinearRotor Dynamics::linearRotor() const {
-  if (!linear() || !hasShaft()) {
+  const bool alternates = !hasShaft() && &atMeanLoad() != this;
+  if (!linear() || alternates) {
     throw std::logic_error(model() + " is not a linear rotor");
   }
   LinearRotor rotor;

@@ -20,8 +20,9 @@ struct RotorDescription {
   std::string model;
   std::vector<CoordinateInfo> coordinates;
   std::vector<Station> stations;  ///< the published one first
-  double unbalance_angle = 0.0;   ///< [rad], of the unbalance that the phase is measured from
-  double natural_length = 1.0;    ///< [m], scale of the whirl
+  std::vector<InputInfo> inputs = {};
+  double unbalance_angle = 0.0;  ///< [rad], of the unbalance that the phase is measured from
+  double natural_length = 1.0;   ///< [m], scale of the whirl
   /// Its picture at coordinates q and shaft angle [rad]; may be empty.
   std::function<Sketch(const Eigen::VectorXd& q, double angle)> sketch = {};
 };
@@ -35,6 +36,7 @@ class LinearRotorDynamics final : public Dynamics {
   std::string model() const override { return description_.model; }
   int dof() const override { return static_cast<int>(description_.coordinates.size()); }
   std::vector<CoordinateInfo> coordinates() const override { return description_.coordinates; }
+  std::vector<InputInfo> inputs() const override { return description_.inputs; }
   bool linear() const override { return true; }
   bool hasShaft() const override { return true; }
   bool isRotor() const override { return true; }

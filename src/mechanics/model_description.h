@@ -1,5 +1,5 @@
-// What a model says of itself: its coordinates and parameters, with units and ranges. Scene files
-// are checked against it and `twin models` prints it.
+// What a model says of itself: its coordinates, inputs and parameters, with units and ranges. Scene
+// files are checked against it and `twin models` prints it.
 #pragma once
 
 #include <array>
@@ -12,6 +12,16 @@ namespace whirl_twin {
 struct Coordinate {
   const char* name;  ///< as in scene files; its rate is NAME_rate
   const char* unit;  ///< "rad" or "m"
+};
+
+/// What may act on a model of n coordinates from outside, along a direction that does not change:
+/// the generalized force of a value u is u times `direction`.
+template <std::size_t n>
+struct Input {
+  const char* name;  ///< as in scene files
+  const char* unit;  ///< of u: "N", "N m", "m" of a support behind a spring
+  std::array<double, n> direction;
+  const char* meaning;
 };
 
 enum class Range { kPositive, kNotNegative, kCount, kAny };  // kCount: 1, 2, 3 ...

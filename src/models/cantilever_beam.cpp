@@ -72,6 +72,11 @@ struct BeamPicture {
   }
 };
 
+/// The tip's deflection is the sum of all coordinates.
+InputInfo forceAtTip(Eigen::Index modes) {
+  return {"force", "N", Eigen::VectorXd::Ones(modes), "across the beam at its free end"};
+}
+
 void requirePositive(const ParameterValues& values) {
   for (const char* name : {"mass_per_length", "length", "bending_stiffness"}) {
     if (!(values.at(name) > 0.0)) {
@@ -123,6 +128,8 @@ ModelSetup setUpCantilever(const ParameterValues& values) {
         {inertia * (shapes.transpose() * beam.integral), clamp.frequency, -0.5 * kPi});
   }
 
+  model.inputs = {forceAtTip(n)};
+
   BeamPicture picture{length, Eigen::MatrixXd(kSketchParts + 1, n), clamp, tip_force};
   const Eigen::VectorXd places = sketchPlaces(length);
   for (Eigen::Index i = 0; i <= kSketchParts; ++i) {
@@ -151,6 +158,7 @@ ModelInfo cantileverBeamInfo() {
        ""},
       {"base_motion_frequency", "rad/s", Range::kNotNegative, "of the clamp", 0.0, ""}};
   info.variants = {{"", {}, true, false, linearMethodNames()}};
+  info.variants[0].inputs = {forceAtTip(0)};
   info.setUp = [](const ParameterValues& values, const Settings&, const Surroundings&) {
     return setUpCantilever(values);
   };

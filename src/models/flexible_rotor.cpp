@@ -48,6 +48,18 @@ std::vector<Station> publishedFirst(std::vector<Station> stations, int node) {
   return stations;
 }
 
+/// Along x and y at every node.
+std::vector<InputInfo> forcesAt(const std::vector<Station>& stations) {
+  std::vector<InputInfo> all;
+  for (std::size_t node = 0; node < stations.size(); ++node) {
+    all.push_back({fmt::format("force_x_{}", node), "N", stations[node].along_x,
+                   fmt::format("on node {}, along x", node)});
+    all.push_back({fmt::format("force_y_{}", node), "N", stations[node].along_y,
+                   fmt::format("on node {}, along y", node)});
+  }
+  return all;
+}
+
 std::vector<CoordinateInfo> nodeCoordinates(int nodes) {
   std::vector<CoordinateInfo> all;
   for (int i = 0; i < nodes; ++i) {
@@ -150,6 +162,7 @@ ModelSetup setUpFlexibleRotor(const ParameterValues& values, const Settings& set
     note = kept.note;
   }
   description.stations = publishedFirst(assembly.stations(), probe);
+  description.inputs = forcesAt(assembly.stations());
   description.sketch = FlexibleRotorPicture(shaft, assembly.stations(), probe);
   ModelSetup setup = linearRotorSetup(dynamicsOf(std::move(description), assembly));
   setup.note = note;
@@ -187,6 +200,8 @@ ModelInfo flexibleRotorInfo() {
                            "disc, else in the middle",
                            {"auto"}});
   info.variants = {{"", {}, true, true, {Exponential<1>::kName}}};
+  info.variants[0].inputs = {{"force_x_NODE", "N", {}, "on a node, along x"},
+                             {"force_y_NODE", "N", {}, "on a node, along y"}};
   info.has_shaft = true;
   info.setUp = setUpFlexibleRotor;
   return info;

@@ -29,6 +29,7 @@ ModelSetup smallSetup(const ParameterValues& values, double gravity) {
     // At t = 0 the load is at its amplitude.
     model.forces.push_back({dynamics.unbalancedForce(rest, rest, {}), beam.load_frequency, 0.0});
   }
+  model.inputs = dynamics.inputs();
   model.sketch = [beam](const Eigen::VectorXd& q, double time) {
     return beam.sketch({q[0]}, {time, 0.0, 0.0, 0.0});
   };

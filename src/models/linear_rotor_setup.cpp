@@ -3,6 +3,8 @@
 #include <utility>
 
 #include "integration/exponential.h"
+#include "integration/linear_rotor_stepper.h"
+#include "models/exact_stepper.h"
 
 namespace whirl_twin {
 
@@ -12,15 +14,22 @@ ModelSetup exactSetup(std::shared_ptr<const Dynamics> dynamics, const JacobiInte
   ModelSetup setup;
   setup.dynamics = dynamics;
   setup.integrators = {Exponential<1>::kName};
-  setup.system = [dynamics, jacobi](const std::string&, const Drive& drive, double step,
+  setup.system = [dynamics, jacobi](const std::string&, const Excitation& excitation, double step,
                                     int substeps) {
-    return std::make_unique<LinearRotorStepper>(dynamics, jacobi, drive, step, substeps);
+    return exactStepper(dynamics, jacobi, excitation, step, substeps);
   };
   setup.exact_run_ups = true;
   return setup;
 }
 
 }  // namespace
+
+std::unique_ptr<Stepper> exactStepper(std::shared_ptr<const Dynamics> dynamics,
+                                      JacobiIntegral jacobi, const Excitation& excitation,
+                                      double step, int substeps) {
+  return std::make_unique<LinearRotorStepper>(std::move(dynamics), std::move(jacobi), excitation,
+                                              step, substeps);
+}
 
 ModelSetup linearRotorSetup(std::shared_ptr<const Dynamics> dynamics) {
   return exactSetup(std::move(dynamics), {});
@@ -31,9 +40,10 @@ ModelSetup withExactRunUps(ModelSetup setup, JacobiIntegral jacobi) {
     return setup;
   }
   setup.system = [plain = setup.system, exact = exactSetup(setup.dynamics, jacobi).system](
-                     const std::string& integrator, const Drive& drive, double step, int substeps) {
+                     const std::string& integrator, const Excitation& excitation, double step,
+                     int substeps) {
     const bool exponential = integrator == Exponential<1>::kName;
-    return (exponential ? exact : plain)(integrator, drive, step, substeps);
+    return (exponential ? exact : plain)(integrator, excitation, step, substeps);
   };
   setup.exact_run_ups = true;
   return setup;

@@ -12,9 +12,10 @@ namespace whirl_twin {
 ModelSetup linearSetup(LinearModel model) {
   const auto dynamics = std::make_shared<const LinearDynamics>(std::move(model));
   return {dynamics, linearMethodNames(),
-          [dynamics](const std::string& integrator, const Drive&, double step, int substeps) {
+          [dynamics](const std::string& integrator, const Excitation& excitation, double step,
+                     int substeps) {
             return std::make_unique<LinearStepper>(dynamics->linearModel(), integrator, step,
-                                                   substeps);
+                                                   substeps, excitation.inputs);
           }};
 }
 

@@ -124,6 +124,10 @@ LinearModel inAssumedModes(const LinearModel& full, const MatrixXd& shapes) {
     force.amplitude = (shapes.transpose() * force.amplitude).eval();
     model.forces.push_back(force);
   }
+  for (InputInfo input : full.inputs) {
+    input.direction = (shapes.transpose() * input.direction).eval();
+    model.inputs.push_back(input);
+  }
   return model;
 }
 
@@ -159,6 +163,10 @@ ModelSetup setUpLinearSystem(const Settings& settings) {
   model.gyroscopic = skewMatrix(settings, "gyroscopic", n);
   model.circulatory = skewMatrix(settings, "circulatory", n);
   model.forces = forcesOf(settings, names);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    model.inputs.push_back({"force_" + names[i], "N",
+                            Eigen::VectorXd::Unit(n, static_cast<Index>(i)), "along " + names[i]});
+  }
   const auto shapes = settings.matrices.find("assumed_modes");
   if (shapes != settings.matrices.end()) {
     model = inAssumedModes(model, shapes->second);
@@ -200,6 +208,7 @@ ModelInfo linearSystemInfo() {
                               {"frequency", "rad/s", Range::kNotNegative, 0.0},
                               {"phase", "rad", Range::kAny, 0.0}};
   info.variants = {{"", {}, true, false, linearMethodNames()}};
+  info.variants[0].inputs = {{"force_COORDINATE", "N", {}, "along a coordinate of the matrices"}};
   info.setUp = [](const ParameterValues&, const Settings& settings, const Surroundings&) {
     return setUpLinearSystem(settings);
   };

@@ -10,10 +10,12 @@
 #include "integration/dormand_prince_8.h"
 #include "integration/exponential.h"
 #include "integration/gauss_legendre.h"
+#include "integration/jacobi_integral.h"
 #include "integration/runge_kutta_4.h"
 #include "integration/semi_implicit_euler.h"
 #include "integration/stepped_system.h"
 #include "integration/velocity_verlet.h"
+#include "models/exact_stepper.h"
 #include "models/model_info.h"
 
 namespace whirl_twin {
@@ -57,11 +59,11 @@ Model makeModel(const ParameterValues& values, double gravity) {
 
 template <class Model, class... Methods>
 std::unique_ptr<Stepper> makeStepper(MethodList<Methods...>, const Model& model,
-                                     const std::string& integrator, const Drive& drive, double step,
-                                     int substeps) {
+                                     const std::string& integrator, const Drive& drive,
+                                     const InputForce& inputs, double step, int substeps) {
   std::unique_ptr<Stepper> system;
   ((integrator == Methods::kName ? void(system = std::make_unique<SteppedSystem<Model, Methods>>(
-                                            model, drive, step, substeps))
+                                            model, drive, inputs, step, substeps))
                                  : void()),
    ...);
   if (!system) {
@@ -75,12 +77,23 @@ std::vector<std::string> methodNames(MethodList<Methods...>) {
   return {Methods::kName...};
 }
 
+/// Do the matrices of a model tell all of it, so that with inputs its exact step can go by them?
+template <class Model>
+constexpr bool kGivenByMatrices = Model::kLinear && !HasAlternatingLoads<Model>::value;
+
 template <class Model>
 ModelSetup setUp(const Model& model) {
-  return {std::make_shared<const LagrangianDynamics<Model>>(model),
-          methodNames(MethodsFor<Model>{}),
-          [model](const std::string& integrator, const Drive& drive, double step, int substeps) {
-            return makeStepper(MethodsFor<Model>{}, model, integrator, drive, step, substeps);
+  const auto dynamics = std::make_shared<const LagrangianDynamics<Model>>(model);
+  return {dynamics, methodNames(MethodsFor<Model>{}),
+          [model, dynamics](const std::string& integrator, const Excitation& excitation,
+                            double step, int substeps) {
+            if constexpr (kGivenByMatrices<Model>) {
+              if (excitation.inputs != nullptr && integrator == Exponential<Model::kDof>::kName) {
+                return exactStepper(dynamics, jacobiIntegral(model), excitation, step, substeps);
+              }
+            }
+            return makeStepper(MethodsFor<Model>{}, model, integrator, excitation.drive,
+                               InputForce(excitation.inputs, dynamics->inputs()), step, substeps);
           }};
 }
 
@@ -99,6 +112,7 @@ ModelVariant variant(const std::string& when) {
   v.linear = Model::kLinear;
   v.rotor = RotorTraits<Model>::kRotor;
   v.integrators = methodNames(MethodsFor<Model>{});
+  v.inputs = ModelInputs<Model>::of(Model{});
   return v;
 }
 

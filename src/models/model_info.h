@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "control/drive.h"
 #include "control/motor.h"
+#include "integration/excitation.h"
 #include "integration/stepper.h"
 #include "mechanics/dynamics.h"
 #include "mechanics/model_description.h"
@@ -38,15 +38,17 @@ struct ModelVariant {
   bool rotor = false;  ///< x, y of a whirling disc: published as WhirlState
   std::vector<std::string> integrators;
   bool motor = false;  ///< of a rotor that a motor turns
+  /// One name for all where there is an input for each COORDINATE or NODE; without directions.
+  std::vector<InputInfo> inputs = {};
 };
 
 /// A model with its parameters, ready to be analysed and stepped.
 struct ModelSetup {
   std::shared_ptr<const Dynamics> dynamics;
   std::vector<std::string> integrators;  ///< that it can step with
-  /// Steps with one of `integrators`: step [s] in `substeps` parts, on a drive that outlives it.
-  std::function<std::unique_ptr<Stepper>(const std::string& integrator, const Drive&, double step,
-                                         int substeps)>
+  /// Steps with one of `integrators`: step [s] in `substeps` parts, under what outlives it.
+  std::function<std::unique_ptr<Stepper>(const std::string& integrator, const Excitation&,
+                                         double step, int substeps)>
       system;
   std::string note = "";  ///< what the user should know of how it was set up
   /// `exponential` follows a speed that changes although the matrices change with it.

@@ -17,6 +17,9 @@ namespace {
 /// [s], that one ~step may take: the other services wait for it.
 constexpr double kLongestWait = 60.0;
 
+/// [s], that a command to an input may hold.
+constexpr double kLongestCommand = 1.0e9;
+
 constexpr const char* kEnded = "the simulation is ending";
 
 }  // namespace
@@ -30,6 +33,7 @@ TwinServices::TwinServices(LiveTwin& twin, ros::NodeHandle node, std::function<b
               node.advertiseService("reset", &TwinServices::reset, this),
               node.advertiseService("step", &TwinServices::step, this),
               node.advertiseService("set_speed", &TwinServices::setSpeed, this),
+              node.advertiseService("set_input", &TwinServices::setInput, this),
               node.advertiseService("set_parameter", &TwinServices::setParameter, this)};
 }
 
@@ -146,6 +150,69 @@ bool TwinServices::setSpeed(SetSpeed::Request& request, SetSpeed::Response& resp
                          ? fmt::format("{} goes to {} rad/s in {:.6g} s", request.drive,
                                        request.speed, answer.duration)
                          : "the move cannot be made: it would last too long or run too fast";
+  return true;
+}
+
+std::string TwinServices::readInput(const SetInput::Request& request, TwinCommand& command) const {
+  std::vector<std::string> systems;
+  for (const SharedSystem& system : twin_.twin().systems()) {
+    systems.push_back(system->spec.name);
+  }
+  const auto system = std::find(systems.begin(), systems.end(), request.system);
+  if (system == systems.end()) {
+    return fmt::format("system: must be a system of the scene, found {}{}", quoted(request.system),
+                       hint(request.system, systems));
+  }
+  command.kind = TwinCommand::Kind::kSetInput;
+  command.system = static_cast<std::size_t>(system - systems.begin());
+  const BuiltSystem& built = *twin_.twin().systems()[command.system];
+  std::vector<std::string> commanded;
+  const std::vector<InputInfo> inputs = built.dynamics->inputs();
+  bool found = false;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    const auto given = built.spec.inputs.find(inputs[i].name);
+    if (given != built.spec.inputs.end() && given->second.kind == InputSignal::Kind::kHeld) {
+      commanded.push_back(inputs[i].name);
+      if (inputs[i].name == request.input) {
+        command.input = i;
+        found = true;
+      }
+    }
+  }
+  if (!found) {
+    return fmt::format("input: must be one that the scene gives as a number, found {}{}",
+                       quoted(request.input),
+                       commanded.empty() ? "; there are none" : hint(request.input, commanded));
+  }
+  if (!std::isfinite(request.value)) {
+    return fmt::format("value: must be a finite number, found {}", request.value);
+  }
+  if (!(request.duration > 0.0 && request.duration <= kLongestCommand)) {
+    return fmt::format("duration: must be > 0 s and at most {:g} s, found {}", kLongestCommand,
+                       request.duration);
+  }
+  command.value = request.value;
+  command.duration = std::max<std::int64_t>(1, std::llround(request.duration * 1e9));
+  return "";
+}
+
+bool TwinServices::setInput(SetInput::Request& request, SetInput::Response& response) {
+  TwinCommand command;
+  TwinAnswer answer;
+  response.success = false;
+  response.message = readInput(request, command);
+  if (!response.message.empty()) {
+    return true;
+  }
+  if (!carryOut(command, answer)) {
+    response.message = kEnded;
+    return true;
+  }
+  response.success = answer.done;
+  response.step = answer.step;
+  response.message = answer.done ? fmt::format("{}/{} is {} for {:g} s", request.system,
+                                               request.input, request.value, request.duration)
+                                 : "the input cannot be set";
   return true;
 }
 

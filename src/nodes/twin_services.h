@@ -4,6 +4,7 @@
 
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
+#include <whirl_twin/SetInput.h>
 #include <whirl_twin/SetParameter.h>
 #include <whirl_twin/SetSpeed.h>
 #include <whirl_twin/StepN.h>
@@ -32,6 +33,9 @@ class TwinServices {
   bool reset(Trigger::Request&, Trigger::Response& response);
   bool step(StepN::Request& request, StepN::Response& response);
   bool setSpeed(SetSpeed::Request& request, SetSpeed::Response& response);
+  bool setInput(SetInput::Request& request, SetInput::Response& response);
+  /// Fills the command that a request asks for; what is wrong with the request, or "".
+  std::string readInput(const SetInput::Request& request, TwinCommand& command) const;
   bool setParameter(SetParameter::Request& request, SetParameter::Response& response);
 
   bool trigger(TwinCommand::Kind kind, const char* done, Trigger::Response& response);

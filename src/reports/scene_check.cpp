@@ -30,6 +30,12 @@ SystemCheck checkSystem(const BuiltSystem& system) {
   check.substeps = system.spec.substeps;
   check.drive = system.spec.drive;
   check.speed = system.spec.speed;
+  for (const InputInfo& input : system.dynamics->inputs()) {
+    const auto given = system.spec.inputs.find(input.name);
+    if (given != system.spec.inputs.end()) {
+      check.inputs.push_back({input, given->second});
+    }
+  }
   return check;
 }
 

@@ -24,6 +24,12 @@ struct Published {
   std::vector<std::string> channels;  ///< LCM
 };
 
+/// An input that the scene sets.
+struct InputCheck {
+  InputInfo input;
+  InputSignal signal;
+};
+
 struct SystemCheck {
   std::string name;
   const ModelInfo* model = nullptr;
@@ -34,6 +40,7 @@ struct SystemCheck {
   int substeps = 1;
   std::optional<std::string> drive;
   std::optional<double> speed;  ///< [rad/s], constant
+  std::vector<InputCheck> inputs;
   Published published;
   double step_cost = 0.0;  ///< [ns]; NaN: it stops at once
   std::size_t memory = 0;  ///< [bytes], heap of a twin of it alone

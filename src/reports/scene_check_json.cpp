@@ -32,6 +32,25 @@ Json driveJson(const DriveSpec& drive, const Published& published) {
   return json;
 }
 
+Json inputJson(const InputCheck& check) {
+  const InputSignal& signal = check.signal;
+  Json json;
+  json["unit"] = check.input.unit;
+  if (signal.kind == InputSignal::Kind::kHarmonic) {
+    json["amplitude"] = signal.amplitude;
+    json["frequency"] = signal.frequency;
+    json["phase"] = signal.phase;
+  } else if (signal.kind == InputSignal::Kind::kTable) {
+    json["instants"] = signal.instants.size();
+    json["from"] = static_cast<double>(signal.instants.front()) / 1e9;
+    json["to"] = static_cast<double>(signal.instants.back()) / 1e9;
+    json["hold"] = signal.hold;
+  } else {
+    json["value"] = signal.value;
+  }
+  return json;
+}
+
 Json systemJson(const SystemCheck& system) {
   Json json;
   json["model"] = system.model->name;
@@ -42,6 +61,9 @@ Json systemJson(const SystemCheck& system) {
   json["states"] = 2 * system.coordinates.size();
   json["drive"] = system.drive ? Json(*system.drive) : Json();
   json["speed"] = system.speed ? Json(*system.speed) : Json();
+  for (const InputCheck& input : system.inputs) {
+    json["inputs"][input.input.name] = inputJson(input);
+  }
   if (!system.note.empty()) {
     json["note"] = system.note;
   }

@@ -36,6 +36,25 @@ std::string costText(double cost) {
                           : fmt::format("about {:.0f} ns", cost);
 }
 
+std::string inputText(const InputCheck& check) {
+  const InputSignal& signal = check.signal;
+  const std::string& unit = check.input.unit;
+  switch (signal.kind) {
+    case InputSignal::Kind::kHarmonic:
+      return fmt::format("{:g} {} cos({:g} rad/s t {} {:g} rad)", signal.amplitude, unit,
+                         signal.frequency, signal.phase < 0.0 ? "-" : "+", std::fabs(signal.phase));
+    case InputSignal::Kind::kTable:
+      return fmt::format("a table of {} values ({}), {}, from t = {:g} s to {:g} s",
+                         signal.values.size(), unit, signal.hold ? "held" : "linear between them",
+                         static_cast<double>(signal.instants.front()) / 1e9,
+                         static_cast<double>(signal.instants.back()) / 1e9);
+    case InputSignal::Kind::kHeld:
+    case InputSignal::Kind::kNone:
+      break;
+  }
+  return fmt::format("{:g} {}", signal.value, unit);
+}
+
 std::string systemText(const SystemCheck& system) {
   std::string coordinates;
   for (const CoordinateInfo& c : system.coordinates) {
@@ -49,6 +68,9 @@ std::string systemText(const SystemCheck& system) {
     out += fmt::format("    shaft         turned by the drive {}\n", *system.drive);
   } else if (system.speed) {
     out += fmt::format("    shaft         {:g} rad/s, constant\n", *system.speed);
+  }
+  for (const InputCheck& input : system.inputs) {
+    out += fmt::format("    input         {}: {}\n", input.input.name, inputText(input));
   }
   if (!system.note.empty()) {
     out += fmt::format("    set up        {}\n", system.note);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -32,6 +33,17 @@ void linearize(const Dynamics& dynamics, double speed, SystemAnalysis& a) {
   }
 }
 
+/// The generalized force of the inputs at the scene's start.
+Eigen::VectorXd inputForce(const BuiltScene& scene, const BuiltSystem& system) {
+  const Inputs signals = scene.inputsOf(system);
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(system.dynamics->dof());
+  const std::vector<InputInfo> inputs = system.dynamics->inputs();
+  for (std::size_t i = 0; i < signals.count(); ++i) {
+    force += signals.value(i, 0.0) * inputs[i].direction;
+  }
+  return force;
+}
+
 SystemAnalysis analyzeSystem(const BuiltScene& scene, const BuiltSystem& system) {
   const Dynamics& dynamics = *system.dynamics;
   const ShaftMotion shaft = scene.driveOf(system).at(0.0);
@@ -47,6 +59,10 @@ SystemAnalysis analyzeSystem(const BuiltScene& scene, const BuiltSystem& system)
   a.q = vector(system.spec.q);
   a.v = vector(system.spec.v);
   a.acceleration = dynamics.acceleration(a.q, a.v, a.moment);
+  if (!system.spec.inputs.empty()) {
+    a.acceleration +=
+        dynamics.massMatrix(a.q, a.v, a.moment).ldlt().solve(inputForce(scene, system));
+  }
   a.energies = dynamics.energies(a.q, a.v, a.moment);
   a.momenta = dynamics.momenta(a.q, a.v, a.moment);
   a.cyclic = cyclicCoordinates(dynamics, shaft.speed);

@@ -24,7 +24,7 @@ struct SystemAnalysis {
   Moment<double> moment;                ///< the scene's start
   std::optional<double> speed;          ///< [rad/s], of the shaft at the start
   Eigen::VectorXd q, v;                 ///< the scene's initial state
-  Eigen::VectorXd acceleration;         ///< [rad/s^2] or [m/s^2], there
+  Eigen::VectorXd acceleration;         ///< [rad/s^2] or [m/s^2], there, with what the inputs do
   Energies energies;                    ///< there
   std::vector<Equilibrium> equilibria;  ///< at the initial shaft speed
 

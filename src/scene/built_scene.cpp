@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "scene/input_reader.h"
 #include "scene/surroundings.h"
 
 namespace whirl_twin {
@@ -40,6 +41,15 @@ Drive BuiltScene::driveOf(const BuiltSystem& system) const {
                     : constantDrive(system);
   drive.begin(scene.time);
   return drive;
+}
+
+Inputs BuiltScene::inputsOf(const BuiltSystem& system) const {
+  Inputs inputs;
+  if (!system.spec.inputs.empty()) {
+    inputs = Inputs(signalsOf(system.dynamics->inputs(), system.spec.inputs));
+  }
+  inputs.begin(scene.time);
+  return inputs;
 }
 
 BuiltScene build(const Scene& scene) {

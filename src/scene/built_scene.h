@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "control/drive.h"
+#include "control/inputs.h"
 #include "scene/built_system.h"
 #include "scene/scene.h"
 
@@ -20,6 +21,8 @@ struct BuiltScene {
   std::vector<Drive> drives() const;
   /// The one that turns a system.
   Drive driveOf(const BuiltSystem& system) const;
+  /// What acts on a system, at the scene's start.
+  Inputs inputsOf(const BuiltSystem& system) const;
   double startSeconds() const { return static_cast<double>(scene.time) / 1.0e9; }  ///< [s]
 };
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "control/input_signal.h"
 #include "control/motor.h"
 #include "control/speed_profile.h"
 #include "models/settings.h"
@@ -58,10 +59,11 @@ struct SystemSpec {
   /// What `auto` stands for, as far as a calibration has found out (step_choice.h), and why.
   std::string chosen_integrator = "";
   std::string choice_reason = "";
-  std::map<std::string, double> parameters;  ///< complete: defaults filled in
-  Settings settings;                         ///< parameters that are not one number
-  std::vector<double> q;                     ///< initial coordinates, [rad] or [m]
-  std::vector<double> v;                     ///< initial rates, [rad/s] or [m/s]
+  std::map<std::string, double> parameters;   ///< complete: defaults filled in
+  Settings settings;                          ///< parameters that are not one number
+  std::vector<double> q;                      ///< initial coordinates, [rad] or [m]
+  std::vector<double> v;                      ///< initial rates, [rad/s] or [m/s]
+  std::map<std::string, InputSignal> inputs;  ///< what acts on it, by the names of its model
   EnsembleSpec ensemble;
   /// What reading set up of the above, for build() to take over (system_setup.h).
   std::shared_ptr<const SystemSetup> setup = nullptr;

@@ -13,6 +13,7 @@
 #include "models/model_registry.h"
 #include "scene/drive_reader.h"
 #include "scene/ensemble_reader.h"
+#include "scene/input_reader.h"
 #include "scene/node_reader.h"
 #include "scene/parameter_reader.h"
 #include "scene/shaft_reader.h"
@@ -93,6 +94,16 @@ void readIntegrator(const MapReader& system, const ModelSetup& setup, SystemSpec
   }
 }
 
+/// Of the scene's file; "" where it comes from elsewhere.
+std::string folderOf(const std::string& source) {
+  std::error_code error;
+  const std::filesystem::path file(source);
+  if (!std::filesystem::is_regular_file(file, error)) {
+    return "";
+  }
+  return file.has_parent_path() ? file.parent_path().string() : ".";
+}
+
 /// A mass matrix that is singular where the motion starts leaves the accelerations undefined.
 void checkMass(const MapReader& system, const Dynamics& dynamics, const SystemSpec& spec,
                const Scene& scene, Complaints& complaints) {
@@ -114,7 +125,7 @@ SystemSpec readSystem(const YAML::Node& node, const std::string& key, const std:
   spec.name = name;
   const MapReader map(node, key,
                       {"model", "drive", "integrator", "tolerance", "horizon", "substeps",
-                       "parameters", "initial", "count", "seed", "spread"},
+                       "parameters", "initial", "inputs", "count", "seed", "spread"},
                       "key of a system", complaints);
   if (!map.usable()) {
     return spec;
@@ -138,6 +149,7 @@ SystemSpec readSystem(const YAML::Node& node, const std::string& key, const std:
     spec.setup = setUp(*model, spec, surroundingsOf(scene, spec));
     const ModelSetup& setup = spec.setup->made;
     readInitial(map, scene, *setup.dynamics, spec, complaints);
+    spec.inputs = readInputs(map, setup.dynamics->inputs(), folderOf(scene.source), complaints);
     readIntegrator(map, setup, spec, complaints);
     readEnsemble(map, *model, setup.dynamics->coordinates(), spec, complaints);
     if (fit) {

@@ -15,8 +15,8 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kDescription =
-    "Lists the models a scene can name: their coordinates, parameters with units, ranges and\n"
-    "defaults, and the integrators they can step with.";
+    "Lists the models a scene can name: their coordinates, inputs, parameters with units, ranges\n"
+    "and defaults, and the integrators they can step with.";
 
 constexpr const char* kFooter =
     "Examples:\n"
@@ -83,6 +83,9 @@ std::string text(const ModelInfo& model) {
     if (v.coordinates.empty()) {
       out += "  coordinate  as many as the parameters give\n";
     }
+    for (const InputInfo& input : v.inputs) {
+      out += fmt::format("  input       {:<18} {:<9} {}\n", input.name, input.unit, input.meaning);
+    }
   }
   for (const ParameterInfo& p : allParameters(model)) {
     out += fmt::format("  parameter   {:<18} {:<9} {:<6} {:<18} {}\n", p.name, p.unit,
@@ -134,6 +137,10 @@ Json variantJson(const ModelVariant& v) {
   json["coordinates"] = Json::object();
   for (const CoordinateInfo& c : v.coordinates) {
     json["coordinates"][c.name] = {{"unit", c.unit}};
+  }
+  json["inputs"] = Json::object();
+  for (const InputInfo& input : v.inputs) {
+    json["inputs"][input.name] = {{"unit", input.unit}, {"meaning", input.meaning}};
   }
   json["integrators"] = integratorsOf(v);
   return json;

@@ -62,7 +62,7 @@ void requireSameKind(const Dynamics& given, const ModelSetup& setup, const Syste
 
 }  // namespace
 
-Ensemble::Ensemble(const Scene& scene, const BuiltSystem& system, const Drive& drive)
+Ensemble::Ensemble(const Scene& scene, const BuiltSystem& system, const Excitation& excitation)
     : count_(system.spec.ensemble.count),
       quantities_(quantitiesOf(*system.dynamics)),
       every_(std::max<std::int64_t>(1, std::llround(kRecordPeriod / scene.stepSeconds()))),
@@ -82,7 +82,7 @@ Ensemble::Ensemble(const Scene& scene, const BuiltSystem& system, const Drive& d
       throw refused(i, error);
     }
   }
-  steps_ = ensembleSteps(members, system.integrator, drive, scene.stepSeconds());
+  steps_ = ensembleSteps(members, system.integrator, excitation, scene.stepSeconds());
 }
 
 void Ensemble::reset() noexcept {

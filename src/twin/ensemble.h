@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "control/drive.h"
+#include "integration/excitation.h"
 #include "realtime/latest_record.h"
 #include "scene/built_system.h"
 #include "scene/scene.h"
@@ -47,10 +47,10 @@ struct EnsembleQuantity {
 
 class Ensemble {
  public:
-  /// Of a system of a scene, on its drive, which outlives it. Throws Refusal that names the member
-  /// whose parameters do not fit together, or would make it a system of another kind;
-  /// std::domain_error where steps cannot be prepared.
-  Ensemble(const Scene& scene, const BuiltSystem& system, const Drive& drive);
+  /// Of a system of a scene, on its drive and with its inputs, which act on all members alike.
+  /// Throws Refusal that names the member whose parameters do not fit together, or would make it a
+  /// system of another kind; std::domain_error where steps cannot be prepared.
+  Ensemble(const Scene& scene, const BuiltSystem& system, const Excitation& excitation);
 
   std::size_t count() const { return count_; }
   const std::vector<EnsembleQuantity>& quantities() const { return quantities_; }

@@ -94,11 +94,11 @@ class SideBySide final : public EnsembleSteps {
 class OneByOne final : public EnsembleSteps {
  public:
   OneByOne(const std::vector<EnsembleMember>& members, const std::string& integrator,
-           const Drive& drive, double step) {
+           const Excitation& excitation, double step) {
     for (const EnsembleMember& m : members) {
       Member member;
       member.spec = m.spec;
-      member.system = m.setup.system(integrator, drive, step, m.spec.substeps);
+      member.system = m.setup.system(integrator, excitation, step, m.spec.substeps);
       if (m.setup.dynamics->isRotor()) {
         member.station = m.setup.dynamics->stations().front();
       }
@@ -107,7 +107,7 @@ class OneByOne final : public EnsembleSteps {
     }
     const Dynamics& dynamics = *members.front().setup.dynamics;
     if (dynamics.linear() && dynamics.hasShaft() && dynamics.speedDependent()) {
-      speeds_ = drive.speedRange();
+      speeds_ = excitation.drive.speedRange();
     }
     quantities_ = members_.front().station ? 1 : members_.front().system->dof();
     values_.resize(members_.size() * quantities_);
@@ -180,10 +180,10 @@ class OneByOne final : public EnsembleSteps {
 }  // namespace
 
 std::unique_ptr<EnsembleSteps> ensembleSteps(const std::vector<EnsembleMember>& members,
-                                             const std::string& integrator, const Drive& drive,
-                                             double step) {
+                                             const std::string& integrator,
+                                             const Excitation& excitation, double step) {
   // As good as the exact step to some 1e-12; with a step of very many parts one by one is faster.
-  if (integrator == Exponential<1>::kName) {
+  if (integrator == Exponential<1>::kName && excitation.inputs == nullptr) {
     std::vector<IsotropicRotor> rotors;
     for (const EnsembleMember& member : members) {
       if (const auto rotor = isotropicRotor(member)) {
@@ -191,13 +191,13 @@ std::unique_ptr<EnsembleSteps> ensembleSteps(const std::vector<EnsembleMember>& 
       }
     }
     if (rotors.size() == members.size()) {
-      auto together = std::make_unique<SideBySide>(rotors, drive, step);
+      auto together = std::make_unique<SideBySide>(rotors, excitation.drive, step);
       if (together->parts() <= kMostParts) {
         return together;
       }
     }
   }
-  return std::make_unique<OneByOne>(members, integrator, drive, step);
+  return std::make_unique<OneByOne>(members, integrator, excitation, step);
 }
 
 }  // namespace whirl_twin

@@ -17,9 +17,9 @@ struct EnsembleMember {
   ModelSetup setup;
 };
 
-/// Of at least one member, with the scene's step [s]. The drive outlives it.
+/// Of at least one member, with the scene's step [s]. The excitation outlives it.
 std::unique_ptr<EnsembleSteps> ensembleSteps(const std::vector<EnsembleMember>& members,
-                                             const std::string& integrator, const Drive& drive,
-                                             double step);
+                                             const std::string& integrator,
+                                             const Excitation& excitation, double step);
 
 }  // namespace whirl_twin

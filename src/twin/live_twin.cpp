@@ -64,6 +64,9 @@ void LiveTwin::carryOut(const TwinCommand& command) noexcept {
       return look(command.drive);
     case TwinCommand::Kind::kReplace:
       return replaceNow(command);
+    case TwinCommand::Kind::kSetInput:
+      return finish(twin_.setInput(command.system, command.input, command.value, command.duration),
+                    0.0);
     case TwinCommand::Kind::kSetSpeed:
       const bool accepted =
           twin_.setSpeed(command.drive, command.speed, command.max_acceleration, command.max_jerk);

@@ -17,14 +17,26 @@ namespace whirl_twin {
 
 /// A command from outside the loop.
 struct TwinCommand {
-  enum class Kind : std::uint8_t { kPause, kResume, kReset, kStep, kSetSpeed, kLook, kReplace };
+  enum class Kind : std::uint8_t {
+    kPause,
+    kResume,
+    kReset,
+    kStep,
+    kSetSpeed,
+    kSetInput,
+    kLook,
+    kReplace
+  };
   Kind kind = Kind::kPause;
   std::uint64_t steps = 0;        ///< kStep: how many
   std::size_t drive = 0;          ///< kSetSpeed, kLook: of twin().drive()
   double speed = 0.0;             ///< [rad/s]
   double max_acceleration = 0.0;  ///< [rad/s^2]
   double max_jerk = 0.0;          ///< [rad/s^3]; 0: unlimited
-  std::size_t system = 0;         ///< kReplace, which replace() makes
+  std::size_t system = 0;         ///< kSetInput; kReplace, which replace() makes
+  std::size_t input = 0;          ///< kSetInput: of the system's dynamics
+  double value = 0.0;             ///< in the input's unit
+  std::int64_t duration = 0;      ///< [ns], simulated, until its own value returns
   Stepper* replacement = nullptr;
   std::int64_t generation = 0;
 };

@@ -21,6 +21,9 @@ Twin::Twin(BuiltScene built)
       ensembles_(systems().size()),
       status_(systems().size()),
       layout_(layoutOf(built_)) {
+  for (const SharedSystem& system : systems()) {
+    inputs_.push_back(built_.inputsOf(*system));
+  }
   for (std::size_t i = 0; i < systems().size(); ++i) {
     const BuiltSystem& system = *systems()[i];
     if (system.drive < scene().drives.size() && scene().drives[system.drive].motor) {
@@ -56,7 +59,8 @@ void Twin::buildEnsembles() {
                                      error.what())});
     };
     try {
-      ensembles_[i] = std::make_unique<Ensemble>(scene(), system, drives_[system.drive]);
+      ensembles_[i] = std::make_unique<Ensemble>(scene(), system,
+                                                 Excitation(drives_[system.drive], &inputs_[i]));
     } catch (const Refusal& error) {
       throw refused(error);
     } catch (const std::domain_error& error) {
@@ -67,8 +71,12 @@ void Twin::buildEnsembles() {
 }
 
 std::unique_ptr<Stepper> Twin::stepperOf(const BuiltSystem& system) const {
-  return system.setup().system(system.integrator, drives_[system.drive], scene().stepSeconds(),
-                               system.spec.substeps);
+  const auto place =
+      std::find_if(systems().begin(), systems().end(),
+                   [&](const SharedSystem& known) { return known->spec.name == system.spec.name; });
+  const Inputs& inputs = inputs_.at(static_cast<std::size_t>(place - systems().begin()));
+  return system.setup().system(system.integrator, {drives_[system.drive], &inputs},
+                               scene().stepSeconds(), system.spec.substeps);
 }
 
 double Twin::seconds(std::int64_t steps) const noexcept {
@@ -88,9 +96,7 @@ void Twin::step() noexcept {
     }
   }
   ++steps_;
-  for (Drive& drive : drives_) {
-    drive.begin(scene().time + steps_ * scene().step);
-  }
+  beginStep();
   for (const std::unique_ptr<Ensemble>& ensemble : ensembles_) {
     if (ensemble) {
       ensemble->publish(steps_);
@@ -98,12 +104,25 @@ void Twin::step() noexcept {
   }
 }
 
+void Twin::beginStep() noexcept {
+  const std::int64_t time = scene().time + steps_ * scene().step;
+  for (Drive& drive : drives_) {
+    drive.begin(time);
+  }
+  for (Inputs& inputs : inputs_) {
+    inputs.begin(time);
+  }
+}
+
 void Twin::reset() noexcept {
   steps_ = 0;
   for (Drive& drive : drives_) {
     drive.reset();
-    drive.begin(scene().time);
   }
+  for (Inputs& inputs : inputs_) {
+    inputs.reset();
+  }
+  beginStep();
   for (std::size_t i = 0; i < steppers_.size(); ++i) {
     running_[i] = steppers_[i].get();
     generation_[i] = 0;
@@ -153,6 +172,17 @@ bool Twin::setSpeed(std::size_t drive, double speed, double max_acceleration,
                     double max_jerk) noexcept {
   return drive < scene().drives.size() && !isMotor(drive) &&
          drives_[drive].setSpeed(speed, max_acceleration, max_jerk);
+}
+
+bool Twin::setInput(std::size_t system, std::size_t input, double value,
+                    std::int64_t duration) noexcept {
+  const std::int64_t time = scene().time + steps_ * scene().step;
+  if (system >= inputs_.size() || duration <= 0 || duration > Inputs::kNever - time ||
+      !inputs_[system].set(input, value, time + duration)) {
+    return false;
+  }
+  inputs_[system].begin(time);
+  return true;
 }
 
 }  // namespace whirl_twin

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "control/drive.h"
+#include "control/inputs.h"
 #include "integration/stepper.h"
 #include "scene/built_scene.h"
 #include "twin/ensemble.h"
@@ -41,8 +42,8 @@ class Twin {
   /// The ensemble of a system; nullptr: it has none, or they were not built.
   Ensemble* ensemble(std::size_t system) noexcept { return ensembles_[system].get(); }
   const Ensemble* ensemble(std::size_t system) const noexcept { return ensembles_[system].get(); }
-  /// What steps a system, on its drive; its state is yet to be set. Throws std::domain_error where
-  /// its steps cannot be prepared.
+  /// What steps a system, on its drive and with its inputs; its state is yet to be set. Throws
+  /// std::domain_error where its steps cannot be prepared.
   std::unique_ptr<Stepper> stepperOf(const BuiltSystem& system) const;
 
   // Real-time safe.
@@ -65,13 +66,22 @@ class Twin {
   /// Sends a drive to a new speed from where it is now. False for values out of range, and for a
   /// motor: its speed is an outcome.
   bool setSpeed(std::size_t drive, double speed, double max_acceleration, double max_jerk) noexcept;
+  /// Sets an input of a system, in the order of its dynamics, from the next step on and for
+  /// `duration` [ns] of simulated time; then its own value returns. False, with nothing changed, as
+  /// Inputs::set() and for a duration that is not positive.
+  bool setInput(std::size_t system, std::size_t input, double value,
+                std::int64_t duration) noexcept;
+  const Inputs& inputs(std::size_t system) const noexcept { return inputs_[system]; }
   StepStatus status(std::size_t system) const noexcept { return status_[system]; }
   /// What steps in the place of a system.
   const Stepper& running(std::size_t system) const noexcept { return *running_[system]; }
 
  private:
+  void beginStep() noexcept;
+
   BuiltScene built_;
   std::vector<Drive> drives_;                           // steppers keep references to them
+  std::vector<Inputs> inputs_;                          // of each system, likewise
   std::vector<std::size_t> turned_by_;                  // of each drive
   std::vector<std::unique_ptr<Stepper>> steppers_;      // the scene's
   std::vector<std::unique_ptr<Stepper>> replacements_;  // latest of each system; null: none yet

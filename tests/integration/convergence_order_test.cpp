@@ -44,6 +44,21 @@ RunningSystem::Setup rotor() {
   return s;
 }
 
+/// The same, pushed by inputs that jump and kink at instants inside the steps.
+RunningSystem::Setup pushedDoublePendulum() {
+  RunningSystem::Setup s = doublePendulum();
+  s.inputs = {{"torque1", InputSignal::table({314159265, 618033989}, {3.0, -4.0}, false)},
+              {"torque2", InputSignal::table({271828183, 777777777}, {-3.0, 4.0}, true)}};
+  return s;
+}
+
+RunningSystem::Setup pushedRotor() {
+  RunningSystem::Setup s = rotor();
+  s.inputs = {{"force_x", InputSignal::table({0, 314159265, 618033989}, {3.0, -4.0, 0.0}, true)},
+              {"force_y", InputSignal::harmonic(5.0, 11.0, 0.4)}};
+  return s;
+}
+
 struct Case {
   const char* name;
   const char* method;
@@ -128,7 +143,18 @@ INSTANTIATE_TEST_SUITE_P(
              64 * kMillisecond},
         Case{"GaussLegendreOnDoublePendulum", "gauss_legendre_6", 6, doublePendulum,
              32 * kMillisecond},
-        Case{"GaussLegendreOnRotor", "gauss_legendre_6", 6, rotor, 64 * kMillisecond}),
+        Case{"GaussLegendreOnRotor", "gauss_legendre_6", 6, rotor, 64 * kMillisecond},
+        Case{"EulerOnPushedDoublePendulum", "semi_implicit_euler", 1, pushedDoublePendulum,
+             kMillisecond},
+        Case{"VerletOnPushedDoublePendulum", "velocity_verlet", 2, pushedDoublePendulum,
+             4 * kMillisecond},
+        Case{"RungeKuttaOnPushedDoublePendulum", "runge_kutta_4", 4, pushedDoublePendulum,
+             4 * kMillisecond},
+        Case{"RungeKuttaOnPushedRotor", "runge_kutta_4", 4, pushedRotor, 16 * kMillisecond},
+        Case{"MidpointOnPushedRotor", "implicit_midpoint", 2, pushedRotor, 4 * kMillisecond},
+        Case{"GaussLegendre4OnPushedDoublePendulum", "gauss_legendre_4", 4, pushedDoublePendulum,
+             16 * kMillisecond},
+        Case{"GaussLegendreOnPushedRotor", "gauss_legendre_6", 6, pushedRotor, 64 * kMillisecond}),
     [](const auto& test) { return test.param.name; });
 
 }  // namespace

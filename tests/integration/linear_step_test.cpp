@@ -51,6 +51,7 @@ struct RotorEquation {
     return {-inverse * (l.stiffness + l.circulatory), -inverse * (l.damping + l.gyroscopic)};
   }
   bool constantSpeed(double) const { return true; }
+  bool hasInputs() const { return false; }
 };
 
 JeffcottRotor rotorOf(double eccentricity) {

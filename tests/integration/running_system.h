@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "control/drive.h"
+#include "control/inputs.h"
 #include "models/model_registry.h"
 
 namespace whirl_twin {
@@ -41,6 +43,8 @@ class RunningSystem {
     std::vector<double> q{};
     std::vector<double> v{};
     std::optional<Motor> motor{};  ///< that turns it; then q and v end with the spin
+    std::map<std::string, InputSignal> inputs{};
+    int substeps = 1;
   };
 
   /// step in nanoseconds.
@@ -48,15 +52,17 @@ class RunningSystem {
       : drive_(setup.speed, 0.0, setup.profile),
         step_(step),
         dynamics_(setUp(setup).dynamics),
+        inputs_(signals(*dynamics_, setup.inputs)),
         dof_(static_cast<std::size_t>(dynamics_->dof())),
         record_(2 * dof_ + 1) {
-    system_ = setUp(setup).system(method, drive_, seconds(step), 1);
+    system_ = setUp(setup).system(method, {drive_, &inputs_}, seconds(step), setup.substeps);
     std::vector<double> q = setup.q;
     std::vector<double> v = setup.v;
     q.resize(dof_);
     v.resize(dof_);
     system_->set(q.data(), v.data());
     drive_.begin(0);
+    inputs_.begin(0);
     system_->write(record_.data());
   }
   RunningSystem(const RunningSystem&) = delete;
@@ -69,6 +75,7 @@ class RunningSystem {
       status = system_->step(time());
       if (status == StepStatus::kOk) {
         drive_.begin(++count_ * step_);
+        inputs_.begin(count_ * step_);
       }
     }
     system_->write(record_.data());
@@ -80,6 +87,18 @@ class RunningSystem {
   double v(std::size_t i) const { return record_[dof_ + i]; }  ///< the rates
   double work() const { return record_[2 * dof_]; }            ///< [J], audited
   const Drive& drive() const { return drive_; }
+  /// Sets a constant input from the next step on, until the instant [ns].
+  bool command(const std::string& input, double value, std::int64_t until) {
+    const std::vector<InputInfo> all = dynamics_->inputs();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (all[i].name == input) {
+        const bool set = inputs_.set(i, value, until);
+        inputs_.begin(count_ * step_);
+        return set;
+      }
+    }
+    return false;
+  }
   const Dynamics& dynamics() const { return *dynamics_; }
   Energies energies() const {
     const ShaftMotion shaft = drive_.at(0.0);
@@ -97,6 +116,18 @@ class RunningSystem {
     around.motor = setup.motor;
     return model.setUp(completed(model, setup.parameters), setup.settings, around);
   }
+  static std::vector<InputSignal> signals(const Dynamics& dynamics,
+                                          std::map<std::string, InputSignal> given) {
+    std::vector<InputSignal> all;
+    for (const InputInfo& input : dynamics.inputs()) {
+      all.push_back(given[input.name]);
+      given.erase(input.name);
+    }
+    if (!given.empty()) {
+      throw std::invalid_argument(dynamics.model() + " has no input " + given.begin()->first);
+    }
+    return all;
+  }
   static double seconds(std::int64_t nanoseconds) {
     return static_cast<double>(nanoseconds) / 1.0e9;
   }
@@ -105,6 +136,7 @@ class RunningSystem {
   std::int64_t step_;  // [ns]
   std::int64_t count_ = 0;
   std::shared_ptr<const Dynamics> dynamics_;
+  Inputs inputs_;
   std::size_t dof_;
   std::vector<double> record_;
   std::unique_ptr<Stepper> system_;

@@ -65,6 +65,10 @@ struct FrictionOscillator {
 
   double naturalLength() const { return half_spacing; }
 
+  std::array<Input<kDof>, 1> inputs() const {
+    return {{{"force", "N", {1.0}, "on the plank, along x"}}};
+  }
+
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>&, const std::array<S, kDof>& v,
                               const Moment<S>&) const {

@@ -55,6 +55,10 @@ struct HingedBeam {
     return mean;
   }
 
+  std::array<Input<kDof>, 1> inputs() const {
+    return {{{"torque", "N m", {1.0}, "at the hinge, on the beam"}}};
+  }
+
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>&, const std::array<S, kDof>& v,
                               const Moment<S>&) const {

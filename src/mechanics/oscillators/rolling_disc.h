@@ -57,6 +57,10 @@ struct RollingDisc {
   /// The radius: its equilibria are radians of rolling apart.
   double naturalLength() const { return radius; }
 
+  std::array<Input<kDof>, 1> inputs() const {
+    return {{{"force", "N", {1.0}, "on the disc's centre, along x"}}};
+  }
+
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
                               const Moment<S>&) const {

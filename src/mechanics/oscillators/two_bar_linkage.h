@@ -39,6 +39,10 @@ struct TwoBarLinkage {
               "viscous, on theta", 0.0}}};
   }
 
+  std::array<Input<kDof>, 1> inputs() const {
+    return {{{"torque", "N m", {1.0}, "at the pin, on the first bar"}}};
+  }
+
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
                               const Moment<S>&) const {

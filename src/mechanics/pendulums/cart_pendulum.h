@@ -63,6 +63,11 @@ struct CartPendulum {
     return mean;
   }
 
+  std::array<Input<kDof>, 2> inputs() const {
+    return {{{"force", "N", {1.0, 0.0}, "on the cart, along x"},
+             {"support", "m", {stiffness, 0.0}, "of the spring's far end, along x"}}};
+  }
+
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
                               const Moment<S>&) const {

@@ -96,6 +96,14 @@ struct DoublePendulum {
     return "";
   }
 
+  std::array<Input<kDof>, 2> inputs() const {
+    return {{{"torque1", "N m", {1.0, 0.0}, "at the upper joint, on the upper arm"},
+             {"torque2",
+              "N m",
+              {-1.0, 1.0},
+              "at the lower joint, on the lower arm and back on the upper"}}};
+  }
+
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, 2>& q, const std::array<S, 2>& v,
                               const Moment<S>&) const {

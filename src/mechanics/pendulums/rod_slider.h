@@ -55,6 +55,11 @@ struct RodSlider {
                            : "";
   }
 
+  std::array<Input<kDof>, 2> inputs() const {
+    return {{{"force", "N", {1.0, 0.0}, "on the slider, outwards along the rod"},
+             {"torque", "N m", {0.0, 1.0}, "at the pivot, on the rod"}}};
+  }
+
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
                               const Moment<S>&) const {

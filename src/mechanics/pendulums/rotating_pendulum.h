@@ -49,6 +49,11 @@ struct RotatingPendulum {
                               : "";
   }
 
+  std::array<Input<kDof>, 2> inputs() const {
+    return {{{"torque_theta", "N m", {1.0, 0.0}, "at the pivot, on the pendulum"},
+             {"torque_phi", "N m", {0.0, 1.0}, "about the vertical, on the hub"}}};
+  }
+
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
                               const Moment<S>&) const {

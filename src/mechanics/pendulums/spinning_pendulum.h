@@ -38,6 +38,10 @@ struct SpinningPendulum {
               "viscous, at the pivot", 0.0}}};
   }
 
+  std::array<Input<kDof>, 1> inputs() const {
+    return {{{"torque", "N m", {1.0}, "at the pivot, on the pendulum"}}};
+  }
+
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, 1>& q, const std::array<S, 1>& v,
                               const Moment<S>& at) const {

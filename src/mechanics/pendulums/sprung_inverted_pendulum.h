@@ -41,6 +41,10 @@ struct SprungInvertedPendulum {
               "of a dashpot at the bob", 0.0}}};
   }
 
+  std::array<Input<kDof>, 1> inputs() const {
+    return {{{"torque", "N m", {1.0}, "at the pivot, on the pendulum"}}};
+  }
+
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>&, const std::array<S, kDof>& v,
                               const Moment<S>&) const {

@@ -58,6 +58,10 @@ struct FreeRotor {
   /// A whirl is some eccentricities wide.
   double naturalLength() const { return eccentricity > 0.0 ? eccentricity : 1.0; }
 
+  std::array<Input<kDof>, 1> inputs() const {
+    return {{{"torque", "N m", {0.0, 0.0, 1.0}, "on the shaft, besides the motor's"}}};
+  }
+
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
                               const Moment<S>&) const {

@@ -10,8 +10,10 @@
 // Vibrations, 1997.)
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <tuple>
 #include <vector>
 
 #include "control/motor.h"
@@ -48,6 +50,20 @@ struct FreeSpin : Rotor {
     FreeSpin same = *this;
     static_cast<Rotor&>(same) = Rotor::balanced();
     return same;
+  }
+
+  /// Those of the rotor, and a torque on its shaft.
+  auto inputs() const {
+    const auto whirling = Rotor::inputs();
+    std::array<Input<kDof>, std::tuple_size<decltype(whirling)>::value + 1> all{};
+    for (std::size_t i = 0; i < whirling.size(); ++i) {
+      all[i] = {whirling[i].name, whirling[i].unit, {}, whirling[i].meaning};
+      std::copy(whirling[i].direction.begin(), whirling[i].direction.end(),
+                all[i].direction.begin());
+    }
+    all.back() = {"torque", "N m", {}, "on the shaft, besides the motor's"};
+    all.back().direction[kSpin] = 1.0;
+    return all;
   }
 
   template <class S>

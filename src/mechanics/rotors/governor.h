@@ -49,6 +49,10 @@ struct Governor {
              {"load", "N m", Range::kAny, &Governor::load, "on the engine"}}};
   }
 
+  std::array<Input<kDof>, 1> inputs() const {
+    return {{{"torque", "N m", {0.0, 1.0}, "on the engine's shaft"}}};
+  }
+
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>&, const std::array<S, kDof>& v,
                               const Moment<S>&) const {

@@ -125,6 +125,11 @@ struct JeffcottRotor {
     return same;
   }
 
+  std::array<Input<kDof>, 2> inputs() const {
+    return {{{"force_x", "N", {1.0, 0.0}, "on the disc, along x"},
+             {"force_y", "N", {0.0, 1.0}, "on the disc, along y"}}};
+  }
+
   // What is absent costs a branch that is always foretold, not its arithmetic.
 
   template <class S>

@@ -38,6 +38,11 @@ struct JournalJeffcottRotor : JeffcottRotor {
   }
   double naturalLength() const { return 0.1 * bearing_clearance; }
 
+  std::array<Input<kDof>, 2> inputs() const {
+    return {{{"force_x", "N", {1.0, 0.0, 0.0, 0.0}, "on the disc, along x"},
+             {"force_y", "N", {0.0, 1.0, 0.0, 0.0}, "on the disc, along y"}}};
+  }
+
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
                               const Moment<S>& at) const {

@@ -28,6 +28,13 @@ struct RigidDiscRotor : RigidDisc {
     return same;
   }
 
+  std::array<Input<kDof>, 4> inputs() const {
+    return {{{"force_x", "N", {1.0, 0.0, 0.0, 0.0}, "on the disc, along x"},
+             {"force_y", "N", {0.0, 1.0, 0.0, 0.0}, "on the disc, along y"},
+             {"moment_alpha", "N m", {0.0, 0.0, 1.0, 0.0}, "on the disc, about x"},
+             {"moment_beta", "N m", {0.0, 0.0, 0.0, 1.0}, "on the disc, about y"}}};
+  }
+
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>&, const std::array<S, kDof>& v,
                               const Moment<S>& at) const {

@@ -61,6 +61,10 @@ struct SlidingMassFlywheel {
                           : "";
   }
 
+  std::array<Input<kDof>, 1> inputs() const {
+    return {{{"torque", "N m", {0.0, 0.0, 1.0}, "on the wheel's shaft"}}};
+  }
+
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, 3>& q, const std::array<S, 3>& v,
                               const Moment<S>&) const {

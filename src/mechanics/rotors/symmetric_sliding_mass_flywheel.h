@@ -15,6 +15,10 @@ struct SymmetricSlidingMassFlywheel : SlidingMassFlywheel {
     return inherited<SymmetricSlidingMassFlywheel>(SlidingMassFlywheel::parameters());
   }
 
+  std::array<Input<kDof>, 1> inputs() const {
+    return {{{"torque", "N m", {0.0, 1.0}, "on the wheel's shaft"}}};
+  }
+
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, 2>& q, const std::array<S, 2>& v,
                               const Moment<S>& at) const {

@@ -23,6 +23,11 @@ struct TurningRigidDiscRotor : RigidDisc {
     return inherited<TurningRigidDiscRotor>(RigidDisc::parameters());
   }
 
+  std::array<Input<kDof>, 2> inputs() const {
+    return {{{"force_xi", "N", {1.0, 0.0, 0.0, 0.0}, "on the disc, turning with it, along xi"},
+             {"force_eta", "N", {0.0, 1.0, 0.0, 0.0}, "on the disc, turning with it, along eta"}}};
+  }
+
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
                               const Moment<S>& at) const {

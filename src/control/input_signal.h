@@ -1,0 +1,58 @@
+// What an input of a system follows: a force, a torque, the motion of a support. It is
+//
+//   held      a constant, or what a command last set it to: the same over whole steps
+//   harmonic  amplitude cos(frequency t + phase), t the simulated time
+//   table     values at instants, held from one instant to the next or linear between them; before
+//             the first and after the last it keeps their values
+//
+// Instants are whole nanoseconds of simulated time and a harmonic's phase is counted in integers
+// (SteadyTurn), so that neither wears off over any number of steps.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace whirl_twin {
+
+/// What is wrong with a signal: the field as in scene files, and what it must be.
+struct SignalFault {
+  const char* field;
+  const char* expected;
+  std::size_t row;  ///< of a table, from 0
+};
+
+constexpr double kLargestFrequency = 1.0e6;  ///< [rad/s]: phases stay below 1e15 rad for 31 years
+constexpr double kLargestPhase = 1.0e15;     ///< [rad]
+
+struct InputSignal {
+  enum class Kind { kNone, kHeld, kHarmonic, kTable };
+
+  Kind kind = Kind::kNone;                  ///< kNone: the input does not act
+  double value = 0.0;                       ///< kHeld: unless a command says otherwise
+  double amplitude = 0.0;                   ///< kHarmonic
+  double frequency = 0.0;                   ///< [rad/s]
+  double phase = 0.0;                       ///< [rad]
+  std::vector<std::int64_t> instants = {};  ///< kTable [ns], ascending
+  std::vector<double> values = {};          ///< at the instants
+  bool hold = false;                        ///< from each instant to the next; else linear
+
+  static InputSignal constant(double value);
+  static InputSignal harmonic(double amplitude, double frequency, double phase);
+  static InputSignal table(std::vector<std::int64_t> instants, std::vector<double> values,
+                           bool hold);
+};
+
+/// The first fault of a signal; nullptr expected: none.
+SignalFault faultOf(const InputSignal& signal);
+
+/// A signal from one of its corners to the next: value + slope * (offset - from).
+struct SignalPiece {
+  double from = 0.0;  ///< [s] after the instant from which offsets count
+  double value = 0.0;
+  double slope = 0.0;  ///< [1/s]
+
+  double at(double offset) const noexcept { return value + slope * (offset - from); }
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,92 @@
+// The inputs of one system while it steps, in the order in which its model names them. The twin
+// owns them as it owns drives, and steps refer to them.
+//
+// A step reads them piece by piece. A piece ends at the next corner: where a held table jumps or a
+// linear one kinks. Within a piece an input is a straight line in time or a harmonic, and no step
+// has to guess on which side of a jump it stands. A command takes effect at a begin(), so that a
+// constant is the same over a whole step.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "control/input_signal.h"
+#include "control/shaft_angle.h"
+
+namespace whirl_twin {
+
+class Inputs {
+ public:
+  static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+
+  // Not real-time safe.
+
+  Inputs() = default;
+  /// One signal for each input of a model. Throws std::invalid_argument for one with a fault.
+  explicit Inputs(const std::vector<InputSignal>& signals);
+
+  std::size_t count() const noexcept { return channels_.size(); }
+  const InputSignal& signal(std::size_t input) const { return channels_[input].signal; }
+  bool acts(std::size_t input) const {
+    return channels_[input].signal.kind != InputSignal::Kind::kNone;
+  }
+  /// Does any input act?
+  bool any() const;
+  /// May it have corners?
+  bool isTable(std::size_t input) const {
+    return channels_[input].signal.kind == InputSignal::Kind::kTable;
+  }
+  bool isHarmonic(std::size_t input) const {
+    return channels_[input].signal.kind == InputSignal::Kind::kHarmonic;
+  }
+
+  // Real-time safe: no allocation, no lock, no exception.
+
+  /// Starts the step at this simulated time [ns]; times may go back, too.
+  void begin(std::int64_t time) noexcept;
+  /// Forgets all commands.
+  void reset() noexcept;
+
+  /// From the next begin() on, a constant has this value until the simulated time `until` [ns],
+  /// then its own again. False, with nothing changed, for a value that is not finite, for an input
+  /// that there is not, and for one that is a harmonic, a table or does not act.
+  bool set(std::size_t input, double value, std::int64_t until) noexcept;
+  /// Has a command that still holds.
+  bool commanded(std::size_t input) const noexcept {
+    return channels_[input].command_until > time_;
+  }
+
+  /// The first corner of any input later than an offset [ns] after begin(), as such an offset.
+  std::int64_t nextCorner(std::int64_t offset) const noexcept {
+    return tables_ == 0 ? kNever : cornerAfter(offset);
+  }
+  /// An input that is no harmonic from an offset [ns] after begin() to the next corner; a corner
+  /// there has been passed.
+  SignalPiece piece(std::size_t input, std::int64_t offset) const noexcept;
+  /// The argument [rad] of a harmonic's cosine at begin(), less whole turns.
+  double phase(std::size_t input) const noexcept { return channels_[input].phase; }
+  /// At an offset [s] after begin().
+  double value(std::size_t input, double offset) const noexcept;
+
+ private:
+  struct Channel {
+    InputSignal signal;
+    SteadyTurn turn;  // of a harmonic, from simulated time 0
+    double held = 0.0;
+    double command = 0.0;
+    std::int64_t command_until = std::numeric_limits<std::int64_t>::min();
+    // At begin().
+    double phase = 0.0;
+    std::size_t passed = 0;  // of a table: how many of its instants
+  };
+  std::int64_t cornerAfter(std::int64_t offset) const noexcept;
+  static std::size_t passedAt(const Channel& channel, std::int64_t time) noexcept;
+
+  std::vector<Channel> channels_;
+  std::size_t tables_ = 0;
+  std::int64_t time_ = 0;
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,106 @@
+#include "scene/csv_columns.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <stdexcept>
+
+#include "messages/names.h"
+#include "scene/node_reader.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr std::uintmax_t kLargestFile = 64u << 20;  // bytes; two million rows of two numbers
+
+/// Without the blanks around it, the quotes around that, and a byte order mark.
+std::string trimmed(std::string text) {
+  const std::string blanks = " \t\r";
+  if (text.rfind("\xef\xbb\xbf", 0) == 0) {
+    text.erase(0, 3);
+  }
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string::npos) {
+    return "";
+  }
+  text = text.substr(first, text.find_last_not_of(blanks) - first + 1);
+  const bool in_quotes = text.size() > 1 && text.front() == '"' && text.back() == '"';
+  return in_quotes ? text.substr(1, text.size() - 2) : text;
+}
+
+std::vector<std::string> fields(const std::string& line) {
+  std::vector<std::string> all;
+  std::size_t from = 0;
+  while (true) {
+    const std::size_t comma = line.find(',', from);
+    all.push_back(trimmed(line.substr(from, comma - from)));
+    if (comma == std::string::npos) {
+      return all;
+    }
+    from = comma + 1;
+  }
+}
+
+void requireFile(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) {
+    throw std::runtime_error("no such file");
+  }
+  if (!std::filesystem::is_regular_file(path, error)) {
+    throw std::runtime_error("not a file");
+  }
+  if (std::filesystem::file_size(path, error) > kLargestFile) {
+    throw std::runtime_error("larger than 64 MiB: not a table of an input");
+  }
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> csvColumns(const std::string& path,
+                                            const std::vector<std::string>& names) {
+  requireFile(path);
+  std::ifstream file(path, std::ios::binary);
+  std::string line;
+  if (!std::getline(file, line)) {
+    throw std::runtime_error("empty: the first line names the columns");
+  }
+  const std::vector<std::string> header = fields(line);
+  std::vector<std::size_t> places;
+  for (const std::string& name : names) {
+    const auto found = std::find(header.begin(), header.end(), name);
+    if (found == header.end()) {
+      throw std::runtime_error(
+          fmt::format("no column {}{}", quoted(name), printable(hint(name, header))));
+    }
+    places.push_back(static_cast<std::size_t>(found - header.begin()));
+  }
+  std::vector<std::vector<double>> columns(names.size());
+  for (std::size_t row = 2; std::getline(file, line); ++row) {
+    if (trimmed(line).empty()) {
+      continue;
+    }
+    const std::vector<std::string> values = fields(line);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const std::optional<double> value =
+          places[i] < values.size() ? parseNumber(values[places[i]]) : std::nullopt;
+      if (!value) {
+        throw std::runtime_error(fmt::format(
+            "line {}: {} must be a finite number, found {}", row, printable(names[i]),
+            places[i] < values.size() ? quoted(values[places[i]]) : std::string("nothing")));
+      }
+      columns[i].push_back(*value);
+    }
+  }
+  if (columns.front().empty()) {
+    throw std::runtime_error("no rows below the names of the columns");
+  }
+  return columns;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,15 @@
+// Columns of numbers out of a file of comma-separated values with a line of names at its top.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace whirl_twin {
+
+/// The columns of these names, each with a number for every row. Throws std::runtime_error with
+/// what is wrong, its row and column named: no file, a larger one than 64 MiB, no such column, a
+/// row without a finite number there.
+std::vector<std::vector<double>> csvColumns(const std::string& path,
+                                            const std::vector<std::string>& names);
+
+}  // namespace whirl_twin

@@ -1,0 +1,26 @@
+// Reads what the inputs of a system follow: a number, a harmonic, or a table in a file of
+// comma-separated values.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "control/input_signal.h"
+#include "mechanics/dynamics.h"
+#include "scene/node_reader.h"
+
+namespace whirl_twin {
+
+/// Those under `inputs` of a system, by name. `folder`: where tables with a relative path lie; "":
+/// the scene has none.
+std::map<std::string, InputSignal> readInputs(const MapReader& system,
+                                              const std::vector<InputInfo>& inputs,
+                                              const std::string& folder, Complaints& complaints);
+
+/// One signal for each input of a model, in its order; those not given do not act. Throws
+/// std::invalid_argument for a name that the model does not have.
+std::vector<InputSignal> signalsOf(const std::vector<InputInfo>& inputs,
+                                   const std::map<std::string, InputSignal>& given);
+
+}  // namespace whirl_twin

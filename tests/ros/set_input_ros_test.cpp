@@ -1,0 +1,62 @@
+// An input set live: the rotor leans into the force, and comes back when its time is out.
+
+#include <gtest/gtest.h>
+#include <whirl_twin/SetInput.h>
+#include <whirl_twin/WhirlState.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "waiting.h"
+
+namespace whirl_twin {
+
+namespace {
+
+SetInput::Response setInput(const std::string& system, const std::string& input, double value,
+                            double duration) {
+  SetInput call;
+  call.request.system = system;
+  call.request.input = input;
+  call.request.value = value;
+  call.request.duration = duration;
+  EXPECT_TRUE(ros::service::waitForService("/simulation_node/set_input", 40000));
+  EXPECT_TRUE(ros::service::call("/simulation_node/set_input", call));
+  return call.response;
+}
+
+TEST(SetInput, pushesTheRotorUntilItsTimeIsOut) {
+  ros::NodeHandle node("/twin");
+  double x = 1.0;
+  const boost::function<void(const WhirlState::ConstPtr&)> on_whirl =
+      [&](const WhirlState::ConstPtr& m) { x = m->x; };
+  const ros::Subscriber whirl = node.subscribe<WhirlState>("rotor/whirl", 100, on_whirl);
+  ASSERT_TRUE(waitUntil([&] { return x == 0.0; }));
+  const SetInput::Response response = setInput("rotor", "force_x", 4.0, 3.0);
+  EXPECT_TRUE(response.success) << response.message;
+  // Critically damped: F / k, within a thousandth after a second.
+  EXPECT_TRUE(waitUntil([&] { return std::abs(x - 0.02) < 2.0e-5; }));
+  EXPECT_TRUE(waitUntil([&] { return std::abs(x) < 2.0e-5; }));
+}
+
+TEST(SetInput, refusesWhatThereIsNot) {
+  EXPECT_EQ(setInput("rotr", "force_x", 1.0, 1.0).message,
+            "system: must be a system of the scene, found 'rotr'; did you mean 'rotor'?");
+  EXPECT_EQ(setInput("rotor", "force_y", 1.0, 1.0).message,
+            "input: must be one that the scene gives as a number, found 'force_y'; did you mean "
+            "'force_x'?");
+  EXPECT_FALSE(setInput("rotor", "force_x", std::numeric_limits<double>::quiet_NaN(), 1.0).success);
+  EXPECT_FALSE(setInput("rotor", "force_x", 1.0, 0.0).success);
+}
+
+}  // namespace
+
+}  // namespace whirl_twin
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "set_input_ros_test");
+  const ros::NodeHandle node;  // ROS shuts down with the last handle: it outlives the tests
+  return RUN_ALL_TESTS();
+}
