@@ -63,8 +63,8 @@ std::vector<SynchronousResponse> synchronousSweep(const LinearRotor& rotor,
   return sweep;
 }
 
-double phaseLag(const Orbit& orbit, double unbalance_angle) {
-  return std::arg(std::polar(1.0, unbalance_angle) * std::conj(orbit.forward));
+double phaseLag(const Orbit& orbit, double phase_mark) {
+  return std::arg(std::polar(1.0, phase_mark) * std::conj(orbit.forward));
 }
 
 }  // namespace whirl_twin

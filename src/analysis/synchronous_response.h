@@ -30,9 +30,9 @@ std::vector<SynchronousResponse> synchronousSweep(const LinearRotor& rotor,
                                                   const std::vector<Station>& stations, double from,
                                                   double to, int points);
 
-/// [rad] in (-pi, pi]: by how much the forward whirl lags the unbalance, which leads the shaft's
-/// mark by `unbalance_angle` [rad].
-double phaseLag(const Orbit& orbit, double unbalance_angle);
+/// [rad] in (-pi, pi]: by how much the forward whirl lags the phase mark, which stands at
+/// `phase_mark` [rad] on the shaft.
+double phaseLag(const Orbit& orbit, double phase_mark);
 
 /// Has the rotor anything that turns with its shaft?
 bool hasSynchronousForce(const LinearRotor& rotor);

@@ -42,12 +42,12 @@ class Dynamics {
   virtual std::vector<CoordinateInfo> coordinates() const = 0;
   /// What may act on it from outside besides.
   virtual std::vector<InputInfo> inputs() const { return {}; }
-  virtual bool linear() const = 0;            ///< equations linear in q and v
-  virtual bool hasShaft() const = 0;          ///< the motion of a shaft enters
-  virtual bool isRotor() const = 0;           ///< x, y of a whirling disc
-  virtual bool speedDependent() const = 0;    ///< the matrices of a linear model change with speed
-  virtual double unbalanceAngle() const = 0;  ///< [rad], of a rotor's unbalance from the mark
-  virtual double naturalLength() const = 0;   ///< [m], scale of the sliding coordinates
+  virtual bool linear() const = 0;          ///< equations linear in q and v
+  virtual bool hasShaft() const = 0;        ///< the motion of a shaft enters
+  virtual bool isRotor() const = 0;         ///< x, y of a whirling disc
+  virtual bool speedDependent() const = 0;  ///< the matrices of a linear model change with speed
+  virtual double phaseMark() const = 0;     ///< [rad], on a rotor's shaft: its phase counts from it
+  virtual double naturalLength() const = 0;  ///< [m], scale of the sliding coordinates
   /// The same system without the loads that alternate and, of a rotor, without what turns with the
   /// shaft: its equilibria are those at rest.
   virtual const Dynamics& atMeanLoad() const = 0;
@@ -95,13 +95,19 @@ class Dynamics {
 template <class Model, class = void>
 struct RotorTraits {
   static constexpr bool kRotor = false;
-  static double unbalanceAngle(const Model&) { return 0.0; }
+  static double phaseMark(const Model&) { return 0.0; }
 };
 template <class Model>
-struct RotorTraits<Model, std::void_t<decltype(&Model::unbalanceAngle)>> {
+struct RotorTraits<Model, std::void_t<decltype(&Model::phaseMark)>> {
   static constexpr bool kRotor = true;
-  static double unbalanceAngle(const Model& m) { return m.unbalanceAngle(); }
+  static double phaseMark(const Model& m) { return m.phaseMark(); }
 };
+
+/// The name that phaseMark() had; a model that still says it would pass for no rotor.
+template <class Model, class = void>
+struct HasUnbalanceAngle : std::false_type {};
+template <class Model>
+struct HasUnbalanceAngle<Model, std::void_t<decltype(&Model::unbalanceAngle)>> : std::true_type {};
 
 template <class Model, class = void>
 struct SpeedDependence {
@@ -178,6 +184,7 @@ class LagrangianDynamics final : public Dynamics {
  public:
   static constexpr std::size_t n = Model::kDof;
   using Array = std::array<double, n>;
+  static_assert(!HasUnbalanceAngle<Model>::value, "phaseMark() stands for unbalanceAngle() now");
 
   enum class Loads { kAll, kMean };
 
@@ -208,7 +215,7 @@ class LagrangianDynamics final : public Dynamics {
   bool hasShaft() const override { return Model::kHasShaft; }
   bool isRotor() const override { return RotorTraits<Model>::kRotor; }
   bool speedDependent() const override { return SpeedDependence<Model>::of(model_); }
-  double unbalanceAngle() const override { return RotorTraits<Model>::unbalanceAngle(model_); }
+  double phaseMark() const override { return RotorTraits<Model>::phaseMark(model_); }
   double naturalLength() const override { return NaturalLength<Model>::of(model_); }
   const Dynamics& atMeanLoad() const override { return at_mean_load_ ? *at_mean_load_ : *this; }
 

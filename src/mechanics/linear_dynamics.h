@@ -56,7 +56,7 @@ class LinearDynamics final : public Dynamics {
   bool hasShaft() const override { return false; }
   bool isRotor() const override { return false; }
   bool speedDependent() const override { return false; }
-  double unbalanceAngle() const override { return 0.0; }
+  double phaseMark() const override { return 0.0; }
   /// The largest deflection that a force's amplitude causes when it acts slowly; 1 without forces.
   double naturalLength() const override { return natural_length_; }
   const Dynamics& atMeanLoad() const override { return at_mean_load_ ? *at_mean_load_ : *this; }

@@ -23,6 +23,8 @@ struct Station {
   std::string name;
   double position = 0.0;  ///< [m], along the shaft
   Eigen::VectorXd along_x, along_y;
+  /// It has a whirl of its own beside that of the first station.
+  bool published = false;
 };
 
 /// A force that turns with the shaft, Re[amplitude (w^2 - i a) e^(i harmonic theta)]; without the

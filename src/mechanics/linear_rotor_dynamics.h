@@ -21,8 +21,8 @@ struct RotorDescription {
   std::vector<CoordinateInfo> coordinates;
   std::vector<Station> stations;  ///< the published one first
   std::vector<InputInfo> inputs = {};
-  double unbalance_angle = 0.0;  ///< [rad], of the unbalance that the phase is measured from
-  double natural_length = 1.0;   ///< [m], scale of the whirl
+  double phase_mark = 0.0;      ///< [rad], on the shaft: the phase counts from it
+  double natural_length = 1.0;  ///< [m], scale of the whirl
   /// Its picture at coordinates q and shaft angle [rad]; may be empty.
   std::function<Sketch(const Eigen::VectorXd& q, double angle)> sketch = {};
 };
@@ -41,7 +41,7 @@ class LinearRotorDynamics final : public Dynamics {
   bool hasShaft() const override { return true; }
   bool isRotor() const override { return true; }
   bool speedDependent() const override { return rotor_.speed_dependent; }
-  double unbalanceAngle() const override { return description_.unbalance_angle; }
+  double phaseMark() const override { return description_.phase_mark; }
   double naturalLength() const override { return description_.natural_length; }
   const Dynamics& atMeanLoad() const override { return balanced_ ? *balanced_ : *this; }
   std::vector<Station> stations() const override { return description_.stations; }

@@ -27,7 +27,7 @@ struct WhirlState {
   Instant at;
   std::string system;
   double radius = 0.0;           ///< [m]
-  double phase = 0.0;            ///< [rad], unwrapped lag of the whirl behind the unbalance
+  double phase = 0.0;            ///< [rad], unwrapped lag of the whirl behind the phase mark
   bool phase_valid = false;      ///< the radius is large enough for an angle
   double whirl_angle = 0.0;      ///< [rad], -pi..pi
   double whirl_rate = 0.0;       ///< [rad/s]

@@ -42,8 +42,12 @@ int probeNode(const Settings& settings, const FlexibleShaft& shaft) {
   return node;
 }
 
-/// The stations with the one of `node` first.
-std::vector<Station> publishedFirst(std::vector<Station> stations, int node) {
+/// The stations with the one of `node` first, and those of `further` marked.
+std::vector<Station> publishedFirst(std::vector<Station> stations, int node,
+                                    const std::vector<int>& further = {}) {
+  for (const int i : further) {
+    stations[static_cast<std::size_t>(i)].published = i != node;
+  }
   std::rotate(stations.begin(), stations.begin() + node, stations.begin() + node + 1);
   return stations;
 }
@@ -147,9 +151,7 @@ ModelSetup setUpFlexibleRotor(const ParameterValues& values, const Settings& set
   RotorDescription description;
   description.model = "flexible_rotor";
   description.natural_length = whirlLength(shaft, totalMass(shaft));
-  if (!shaft.unbalances.empty()) {
-    description.unbalance_angle = shaft.unbalances.front().angle;
-  }
+  description.phase_mark = values.at("phase_mark");
   std::string note;
   const std::string& modes = settings.choices.at("modes");
   if (modes == "0") {
@@ -161,7 +163,8 @@ ModelSetup setUpFlexibleRotor(const ParameterValues& values, const Settings& set
     description.coordinates = shapeCoordinates(kept.shapes.cols());
     note = kept.note;
   }
-  description.stations = publishedFirst(assembly.stations(), probe);
+  description.stations =
+      publishedFirst(assembly.stations(), probe, publishedNodes(settings, shaft));
   description.inputs = forcesAt(assembly.stations());
   description.sketch = FlexibleRotorPicture(shaft, assembly.stations(), probe);
   ModelSetup setup = linearRotorSetup(dynamicsOf(std::move(description), assembly));
@@ -185,7 +188,9 @@ ModelInfo flexibleRotorInfo() {
       {"highest_speed", "rad/s", Range::kNotNegative,
        "up to which reduced modes must hold; 0: twice the fourth natural frequency", 0.0, ""},
       {"tolerance", "-", Range::kPositive, "of the unbalance response, for modes: auto", 1.0e-6,
-       ""}};
+       ""},
+      {"phase_mark", "rad", Range::kAny,
+       "from the shaft's mark, that the phase of the whirl counts from", 0.0, ""}};
   info.settings = flexibleShaftSettings();
   info.settings.push_back({"modes",
                            SettingKind::kWordOrCount,

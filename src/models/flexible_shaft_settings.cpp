@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -157,10 +158,12 @@ std::vector<SettingInfo> flexibleShaftSettings() {
             {"clearance", "m", Range::kPositive, kRequired},
             {"viscosity", "Pa s", Range::kPositive, kRequired},
             {"load", "N", Range::kPositive, kRequired}}),
-      rows("unbalances", "at nodes; the first is what the phase is measured from",
+      rows("unbalances", "at nodes",
            {node,
             {"magnitude", "kg m", Range::kNotNegative, kRequired},
             {"angle", "rad", Range::kAny, 0.0}}),
+      rows("stations", "nodes whose whirl is published as SYSTEM_node_N, beside that of probe_node",
+           {node}),
       {"shear_deformation",
        SettingKind::kChoice,
        "",
@@ -204,6 +207,20 @@ FlexibleShaft flexibleShaft(const ParameterValues& values, const Settings& setti
          n.at("angle")});
   }
   return shaft;
+}
+
+std::vector<int> publishedNodes(const Settings& settings, const FlexibleShaft& shaft) {
+  std::vector<int> nodes;
+  const std::vector<TableRow>& rows = table(settings, "stations");
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::string key = fmt::format("stations[{}]", i);
+    const int node = indexIn(rows[i], key, "node", shaft.nodes() - 1);
+    if (std::find(nodes.begin(), nodes.end(), node) != nodes.end()) {
+      throw SetupError(key + ".node", fmt::format("stands twice, found {}", node));
+    }
+    nodes.push_back(node);
+  }
+  return nodes;
 }
 
 }  // namespace whirl_twin

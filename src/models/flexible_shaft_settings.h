@@ -15,4 +15,7 @@ std::vector<SettingInfo> flexibleShaftSettings();
 FlexibleShaft flexibleShaft(const ParameterValues& values, const Settings& settings,
                             double gravity);
 
+/// The nodes that have a whirl of their own. Throws SetupError for one that is not there, or twice.
+std::vector<int> publishedNodes(const Settings& settings, const FlexibleShaft& shaft);
+
 }  // namespace whirl_twin

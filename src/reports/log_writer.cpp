@@ -28,6 +28,8 @@ class LogWriter final : public SampleWriter {
     messages_.tellEnsembles(observer, take, Sink{log_});
   }
 
+  void write(const state::Measurement& measurement) override { log_.write(measurement); }
+
   void finish() override {
     log_.finish();
     pending_.complete();

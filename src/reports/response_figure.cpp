@@ -19,7 +19,7 @@ Series lagSeries(const ResponseReport& r, std::size_t station) {
   double before = std::numeric_limits<double>::quiet_NaN();
   for (const SynchronousResponse& response : r.sweep) {
     const double lag =
-        phaseLag(response.orbits[station], r.system->dynamics->unbalanceAngle()) * 180.0 / kPi;
+        phaseLag(response.orbits[station], r.system->dynamics->phaseMark()) * 180.0 / kPi;
     const double now = lag < -90.0 ? lag + 360.0 : lag;
     if (std::fabs(now - before) > 180.0) {
       series.x.push_back(response.speed);
@@ -53,7 +53,7 @@ Figure figure(const ResponseReport& r) {
       const Orbit& orbit = response.orbits[i];
       major.x.push_back(response.speed);
       major.y.push_back(orbit.major());
-      const double angle = -phaseLag(orbit, r.system->dynamics->unbalanceAngle());
+      const double angle = -phaseLag(orbit, r.system->dynamics->phaseMark());
       path.x.push_back(std::abs(orbit.forward) * std::cos(angle));
       path.y.push_back(std::abs(orbit.forward) * std::sin(angle));
     }

@@ -24,7 +24,7 @@ void requireForce(const RotorSystem& system) {
   }
 }
 
-Json orbitJson(const Orbit& orbit, double unbalance_angle) {
+Json orbitJson(const Orbit& orbit, double phase_mark) {
   const auto part = [](const std::complex<double>& z) { return Json{z.real(), z.imag()}; };
   return {{"x", part(orbit.x)},
           {"y", part(orbit.y)},
@@ -34,14 +34,14 @@ Json orbitJson(const Orbit& orbit, double unbalance_angle) {
           {"minor", orbit.minor()},
           {"inclination", orbit.inclination()},
           {"direction", name(orbit.direction())},
-          {"phase_lag", phaseLag(orbit, unbalance_angle)}};
+          {"phase_lag", phaseLag(orbit, phase_mark)}};
 }
 
-std::string orbitText(const std::string& start, const Orbit& orbit, double unbalance_angle) {
+std::string orbitText(const std::string& start, const Orbit& orbit, double phase_mark) {
   return fmt::format("    {:<14} {:>11.5g} {:>11.5g} {:>11.5g}  {:<9} {:>12.5g} {:>10.5g}\n", start,
                      orbit.major(), orbit.minor(), orbit.inclination() * kDegrees,
                      name(orbit.direction()), std::abs(orbit.forward),
-                     phaseLag(orbit, unbalance_angle) * kDegrees);
+                     phaseLag(orbit, phase_mark) * kDegrees);
 }
 
 constexpr const char* kOrbitHead =
@@ -78,7 +78,8 @@ ResponseReport responseReport(const RotorSystem& system, const SpeedRange& range
 Json json(const ResponseReport& r) {
   Json json;
   json["model"] = r.system->model;
-  json["unbalance_angle"] = r.system->dynamics->unbalanceAngle();
+  json["phase_mark"] = r.system->dynamics->phaseMark();
+  json["unbalance_angle"] = r.system->dynamics->phaseMark();  // as scripts know it
   json["speeds"] = Json::array();
   for (const SynchronousResponse& response : r.sweep) {
     json["speeds"].push_back(response.speed);
@@ -86,7 +87,7 @@ Json json(const ResponseReport& r) {
   for (const std::size_t i : r.stations) {
     Json list = Json::array();
     for (const SynchronousResponse& response : r.sweep) {
-      list.push_back(orbitJson(response.orbits[i], r.system->dynamics->unbalanceAngle()));
+      list.push_back(orbitJson(response.orbits[i], r.system->dynamics->phaseMark()));
     }
     json["stations"][r.system->stations[i].name] = list;
   }
@@ -108,7 +109,7 @@ std::string text(const ResponseReport& r) {
     const std::size_t stride = 1 + r.sweep.size() / kRows;
     for (std::size_t k = 0; k < r.sweep.size(); k += stride) {
       out += orbitText(fmt::format("{:.6g}", r.sweep[k].speed), r.sweep[k].orbits[i],
-                       r.system->dynamics->unbalanceAngle());
+                       r.system->dynamics->phaseMark());
     }
   }
   out += fmt::format("  peaks at {}\n", r.system->stations.front().name);
@@ -133,7 +134,7 @@ Json json(const OrbitReport& r) {
   for (std::size_t i = 0; i < r.response.orbits.size(); ++i) {
     const Station& station = r.system->stations[i];
     json["stations"][station.name] =
-        orbitJson(r.response.orbits[i], r.system->dynamics->unbalanceAngle());
+        orbitJson(r.response.orbits[i], r.system->dynamics->phaseMark());
     json["stations"][station.name]["position"] = station.position;
   }
   return json;
@@ -144,7 +145,7 @@ std::string text(const OrbitReport& r) {
                                 r.response.speed, kOrbitHead);
   for (std::size_t i = 0; i < r.response.orbits.size(); ++i) {
     out += orbitText(r.system->stations[i].name, r.response.orbits[i],
-                     r.system->dynamics->unbalanceAngle());
+                     r.system->dynamics->phaseMark());
   }
   return out;
 }

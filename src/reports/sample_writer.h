@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "messages/measurement.h"
 #include "twin/observer.h"
 
 namespace whirl_twin {
@@ -15,6 +16,8 @@ class SampleWriter {
   virtual ~SampleWriter() = default;
   /// The state the observer has seen last.
   virtual void write(const Observer& observer) = 0;
+  /// A block of what the scene's sensors have measured; a table has no place for it.
+  virtual void write(const state::Measurement& /*measurement*/) {}
   /// Completes the file. A writer destroyed without leaves no file behind.
   virtual void finish() = 0;
 };

@@ -7,6 +7,7 @@
 #include "accuracy/step_choice.h"
 #include "accuracy/trajectory.h"
 #include "reports/step_cost.h"
+#include "scene/station_names.h"
 #include "transport/channels.h"
 #include "twin/step_messages.h"
 
@@ -46,19 +47,25 @@ void listMessages(const BuiltScene& scene, SceneCheck& check) {
         {"/twin/" + topicName(kind, subject), std::string("whirl_twin/") + kind.type});
     published.channels.push_back(channelName(kind, subject));
   };
-  std::map<std::string, Published> systems;
+  std::map<std::string, Published> heard;
   StepMessages(scene).announce([&](auto kind, const std::string& subject) {
     const MessageKind& row = decltype(kind)::State::kKind;
     const bool of_drive = topicName(row, "").rfind("drives/", 0) == 0;
-    Published& published = of_drive ? check.drives[subject] : systems[subject];
+    Published& published = of_drive ? check.drives[subject] : heard[subject];
     add(row, subject, published);
-    if (row.has(MessageKind::kJointStates)) {  // the state of a system, which is also judged
+    if (row.has(MessageKind::kJointStates)) {
       published.topics.push_back({"/twin/" + subject + "/joint_states", "sensor_msgs/JointState"});
-      add(state::StabilityMargin::kKind, subject, published);
     }
   });
-  for (SystemCheck& system : check.systems) {
-    system.published = systems[system.name];
+  for (std::size_t i = 0; i < check.systems.size(); ++i) {
+    SystemCheck& system = check.systems[i];
+    add(state::StabilityMargin::kKind, system.name, heard[system.name]);
+    for (const std::string& station : publishedStations(system.name, *scene.systems[i]->dynamics)) {
+      const Published& there = heard[station];
+      Published& all = system.published;
+      all.topics.insert(all.topics.end(), there.topics.begin(), there.topics.end());
+      all.channels.insert(all.channels.end(), there.channels.begin(), there.channels.end());
+    }
   }
 }
 

@@ -7,6 +7,7 @@
 #include "models/model_registry.h"
 #include "scene/node_reader.h"
 #include "scene/parameter_paths.h"
+#include "scene/station_names.h"
 
 namespace whirl_twin {
 
@@ -29,6 +30,9 @@ std::string objectionToReplace(const BuiltSystem& before, const BuiltSystem& nex
     return fmt::format(
         "would change the coordinates from {} to {}: that needs a new start with another scene",
         had, has);
+  }
+  if (publishedStations("", *before.dynamics) != publishedStations("", *next.dynamics)) {
+    return "would change the stations that are published: that needs a new start";
   }
   const std::string objection =
       integratorObjection(next.setup(), next.spec.drive.has_value(), next.spec.integrator);

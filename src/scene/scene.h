@@ -14,6 +14,7 @@
 #include "control/motor.h"
 #include "control/speed_profile.h"
 #include "models/settings.h"
+#include "scene/sensor_spec.h"
 
 namespace whirl_twin {
 
@@ -77,6 +78,7 @@ struct Scene {
   double gravity = 9.80665;  ///< [m/s^2]
   std::vector<DriveSpec> drives;
   std::vector<SystemSpec> systems;
+  std::vector<SensorSpec> sensors;
 
   /// Place in `drives` of the one that turns the system; drives.size() if none does.
   std::size_t driveOf(const SystemSpec& system) const {

@@ -16,7 +16,9 @@
 #include "scene/input_reader.h"
 #include "scene/node_reader.h"
 #include "scene/parameter_reader.h"
+#include "scene/sensor_reader.h"
 #include "scene/shaft_reader.h"
+#include "scene/station_names.h"
 #include "scene/surroundings.h"
 #include "scene/system_setup.h"
 #include "scene/yaml_file.h"
@@ -119,6 +121,29 @@ void checkMass(const MapReader& system, const Dynamics& dynamics, const SystemSp
   }
 }
 
+/// A station publishes under a name of its own, which no system may have.
+void checkStations(const Scene& scene, const MapReader& systems, Complaints& complaints) {
+  std::set<std::string> taken;
+  for (const SystemSpec& system : scene.systems) {
+    taken.insert(upper(system.name));
+  }
+  for (const SystemSpec& system : scene.systems) {
+    if (!system.setup) {
+      continue;
+    }
+    std::vector<std::string> names = publishedStations(system.name, *system.setup->made.dynamics);
+    names.erase(names.begin());
+    for (const std::string& name : names) {
+      if (!isLegalName(name) || !taken.insert(upper(name)).second) {
+        complaints.add(systems.key(system.name) + ".parameters.stations",
+                       fmt::format("is published as {}, which must be up to {} characters that no "
+                                   "other system or station has",
+                                   name, kMaxNameLength));
+      }
+    }
+  }
+}
+
 SystemSpec readSystem(const YAML::Node& node, const std::string& key, const std::string& name,
                       const Scene& scene, const DrivePlaces& places, Complaints& complaints) {
   SystemSpec spec;
@@ -172,7 +197,7 @@ SystemSpec readSystem(const YAML::Node& node, const std::string& key, const std:
 Scene readTree(const YAML::Node& tree, const std::string& source, Complaints& complaints) {
   Scene scene;
   scene.source = source;
-  const MapReader map(tree, "", {"name", "step", "time", "gravity", "drives", "systems"},
+  const MapReader map(tree, "", {"name", "step", "time", "gravity", "drives", "systems", "sensors"},
                       "key of a scene", complaints);
   if (!map.usable()) {
     return scene;
@@ -207,6 +232,10 @@ Scene readTree(const YAML::Node& tree, const std::string& source, Complaints& co
         readSystem(systems.at(name), systems.key(name), name, scene, places, complaints));
   }
   checkMotors(scene, complaints);
+  checkStations(scene, systems, complaints);
+  if (map.has("sensors")) {
+    scene.sensors = readSensors(map.at("sensors"), "sensors", scene, complaints);
+  }
   return scene;
 }
 

@@ -65,6 +65,9 @@ int simulate(const SimulationRequest& request) {
   if (request.output) {
     extensionOf(*request.output);
   }
+  if (request.measure && (!request.output || extensionOf(*request.output) != ".lcmlog")) {
+    throw Refusal("--measure: needs --output FILE.lcmlog, where the measurements go");
+  }
   if (request.members && std::filesystem::path(*request.members).extension() != ".csv") {
     throw Refusal(fmt::format("--members: must end in .csv, found '{}'", *request.members));
   }
@@ -116,6 +119,11 @@ void addSimulateCommand(CLI::App& twin, int& status) {
       ->add_option("--members", request->members,
                    "FILE.csv: of a system with a count, what each member was and came to")
       ->type_name("FILE");
+  command
+      ->add_option("--measure", request->measure,
+                   "the name of sensors of the scene, or `sensors` for all of them: what they\n"
+                   "measure goes into the log too")
+      ->type_name("NAME");
   command->add_option("--system", request->system, "show this system only")->type_name("NAME");
   command->add_flag("--json", request->json, "print the final state as one JSON object");
   command->footer(kFooter);

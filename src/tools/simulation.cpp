@@ -30,6 +30,7 @@ Simulation::Simulation(const SimulationPlan& plan)
     : plan_(plan),
       twin_(plan.scene),
       observer_(twin_),
+      measurements_(plan.sensors, twin_.built(), observer_),
       validity_(twin_, plan_.systems),
       stopped_(plan.scene.systems.size()) {
   twin_.buildEnsembles();
@@ -55,12 +56,18 @@ void Simulation::run(SampleWriter* writer, bool results_on_standard_output) {
     if (writer != nullptr && i % plan_.stride == 0) {
       writer->write(observer_);
     }
+    for (const state::Measurement& block : measurements_.observe(observer_)) {
+      writer->write(block);
+    }
     if (stop_requested.load(std::memory_order_relaxed)) {
       throw RunFailure(fmt::format("interrupted after {} of {} steps", i, plan_.steps));
     }
     if (i % kStepsPerLook == 0) {
       bar.show(i);
     }
+  }
+  for (const state::Measurement& block : measurements_.finish()) {
+    writer->write(block);
   }
 }
 

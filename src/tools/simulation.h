@@ -10,6 +10,7 @@
 #include "reports/sample_writer.h"
 #include "tools/progress_bar.h"
 #include "tools/validity_watch.h"
+#include "twin/measurements.h"
 #include "twin/observer.h"
 
 namespace whirl_twin {
@@ -24,6 +25,7 @@ struct SimulationRequest {
   std::optional<std::string> integrator;
   std::optional<std::string> output;
   std::optional<std::string> members;  ///< path of their table
+  std::optional<std::string> measure;  ///< one of the scene's sensors, or `sensors`: all of them
   bool json = false;
 };
 
@@ -31,6 +33,7 @@ struct SimulationRequest {
 struct SimulationPlan {
   Scene scene;
   std::vector<std::size_t> systems;  ///< those that are shown
+  std::vector<SensorSpec> sensors;   ///< those that measure
   std::int64_t steps = 0;
   std::int64_t stride = 1;  ///< steps from one sample to the next
 };
@@ -62,6 +65,7 @@ class Simulation {
   SimulationPlan plan_;
   Twin twin_;
   Observer observer_;
+  Measurements measurements_;
   ValidityWatch validity_;
   std::vector<std::optional<std::int64_t>> stopped_;  ///< the step in which each system stopped
 };

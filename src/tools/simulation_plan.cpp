@@ -21,6 +21,8 @@ namespace whirl_twin {
 
 namespace {
 
+constexpr const char* kAllSensors = "sensors";
+
 constexpr std::int64_t kSecond = 1'000'000'000;                // ns
 constexpr std::int64_t kLongestRun = 1'000'000'000 * kSecond;  // as long as a drive can be timed
 constexpr double kDefaultDuration = 10.0;                      // s
@@ -79,12 +81,34 @@ void overrideIntegrator(const std::string& name, SimulationPlan& plan) {
   }
 }
 
+/// The sensors of that name, or all of them.
+std::vector<SensorSpec> selectedSensors(const Scene& scene, const std::string& name) {
+  std::vector<SensorSpec> selected;
+  std::vector<std::string> names{kAllSensors};
+  for (const SensorSpec& sensor : scene.sensors) {
+    names.push_back(sensor.name);
+    if (name == sensor.name || name == kAllSensors) {
+      selected.push_back(sensor);
+    }
+  }
+  if (selected.empty()) {
+    throw Refusal(scene.sensors.empty()
+                      ? fmt::format("--measure: {} has no sensors", scene.source)
+                      : fmt::format("--measure: no sensors '{}' in {}{}", printable(name),
+                                    scene.source, hint(name, names)));
+  }
+  return selected;
+}
+
 }  // namespace
 
 SimulationPlan planSimulation(const SimulationRequest& request) {
   SimulationPlan plan;
   plan.scene = readSceneFile(scenePath(request.scene));
   plan.systems = selectedSystems(plan.scene, request.system);
+  if (request.measure) {
+    plan.sensors = selectedSensors(plan.scene, *request.measure);
+  }
   if (request.step) {
     plan.scene.step = parseNanoseconds("--step", *request.step, 1, 10 * kSecond);
   }

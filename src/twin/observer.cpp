@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "analysis/equilibria.h"
+#include "scene/station_names.h"
 #include "twin/observed_states.h"
 
 namespace whirl_twin {
@@ -27,7 +28,11 @@ Observer::Observer(const Twin& twin, std::shared_ptr<SystemGenerations> generati
                                : std::make_shared<SystemGenerations>(twin)),
       record_(twin.layout().size),
       tracks_(twin.systems().size()),
+      stations_(twin.systems().size()),
       motors_(twin.scene().drives.size()) {
+  for (std::size_t i = 0; i < stations_.size(); ++i) {
+    stations_[i] = publishedStations(twin.systems()[i]->spec.name, *twin.systems()[i]->dynamics);
+  }
   twin.write(record_.data());
   observe(std::vector<double>(record_).data());
   tells_only_change_ = false;
@@ -70,7 +75,7 @@ bool Observer::takeGeneration(std::size_t system) {
   track.energy = {};
   if (isRotor(system)) {
     const Dynamics& dynamics = *track.dynamics;
-    track.station = dynamics.stations().front();
+    takeStations(system);
     const Linearization l =
         linearizationAtRest(dynamics, Eigen::VectorXd::Zero(dynamics.dof()), 0.0);
     track.slowest_orbit = kSlowestOrbit * std::sqrt(std::min(l.stiffness(0, 0) / l.mass(0, 0),
@@ -79,11 +84,28 @@ bool Observer::takeGeneration(std::size_t system) {
   return true;
 }
 
+/// The published stations, where the dynamics of now have them; their phases go on.
+void Observer::takeStations(std::size_t system) {
+  std::vector<StationTrack>& tracks = tracks_[system].stations;
+  const std::string& name = twin_.systems()[system]->spec.name;
+  tracks.resize(stations_[system].size());
+  const std::vector<Station> all = tracks_[system].dynamics->stations();
+  tracks.front().at = all.front();
+  for (std::size_t k = 1; k < tracks.size(); ++k) {
+    const auto is_it = [&](const Station& s) {
+      return stationName(name, s) == stations_[system][k];
+    };
+    tracks[k].at = *std::find_if(all.begin(), all.end(), is_it);
+  }
+}
+
 void Observer::follow(std::size_t system) {
   Track& track = tracks_[system];
   if (isRotor(system)) {
-    track.phase.observe(whirlOf(system),
-                        shaftOf(system).remainder() + track.dynamics->unbalanceAngle());
+    const double mark = shaftOf(system).remainder() + track.dynamics->phaseMark();
+    for (std::size_t k = 0; k < track.stations.size(); ++k) {
+      track.stations[k].phase.observe(whirlOf(system, k), mark);
+    }
   }
   const SystemView now = view(system);
   track.energy.observe(energies(system), now.work());
@@ -161,8 +183,8 @@ double Observer::energyResidual(std::size_t system) const {
   return tracks_[system].energy.residual();
 }
 
-WhirlMotion Observer::whirlOf(std::size_t system) const {
-  const Station& at = tracks_[system].station;
+WhirlMotion Observer::whirlOf(std::size_t system, std::size_t station) const {
+  const Station& at = tracks_[system].stations[station].at;
   const auto n = at.along_x.size();
   const Eigen::Map<const Eigen::VectorXd> q(coordinates(system), n);
   const Eigen::Map<const Eigen::VectorXd> v(rates(system), n);
@@ -174,15 +196,15 @@ double Observer::whirlRadius(std::size_t system) const {
 }
 
 double Observer::whirlPhase(std::size_t system) const {
-  return tracks_[system].phase.lag();
+  return tracks_[system].stations.front().phase.lag();
 }
 
-state::WhirlState Observer::whirl(std::size_t system) const {
+state::WhirlState Observer::whirl(std::size_t system, std::size_t station) const {
   const Track& track = tracks_[system];
-  state::WhirlState s =
-      whirlState(whirlOf(system), track.phase, shaftOf(system), track.slowest_orbit);
+  state::WhirlState s = whirlState(whirlOf(system, station), track.stations[station].phase,
+                                   shaftOf(system), track.slowest_orbit);
   s.at = instant();
-  s.system = twin_.systems()[system]->spec.name;
+  s.system = stations_[system][station];
   s.energy_residual = energyResidual(system);
   return s;
 }

@@ -39,13 +39,16 @@ class Observer {
   const std::string& stopReason(std::size_t system) const { return tracks_[system].stop_reason; }
   bool isRotor(std::size_t system) const;
 
-  state::WhirlState whirl(std::size_t system) const;        ///< of a rotor
+  /// Of a rotor, at the station published first, or at that one of its stations().
+  state::WhirlState whirl(std::size_t system, std::size_t station = 0) const;
+  /// Where a rotor's whirl is published: SYSTEM first, then SYSTEM_STATION for each further one.
+  const std::vector<std::string>& stations(std::size_t system) const { return stations_[system]; }
   state::PendulumState pendulum(std::size_t system) const;  ///< of any other model
   state::DriveState drive(std::size_t drive) const;         ///< of a drive of the scene
   state::MotorState motor(std::size_t drive) const;         ///< of a drive that is a motor
   /// Whirl radius [m] and unwrapped phase lag [rad] of a rotor (NaN while undefined).
   double whirlRadius(std::size_t system) const;
-  WhirlMotion whirlOf(std::size_t system) const;
+  WhirlMotion whirlOf(std::size_t system, std::size_t station = 0) const;
   double whirlPhase(std::size_t system) const;
   const double* coordinates(std::size_t system) const;  ///< q
   const double* rates(std::size_t system) const;        ///< q'
@@ -72,13 +75,16 @@ class Observer {
   Moment<double> moment(std::size_t system) const;
 
  private:
+  struct StationTrack {
+    Station at;
+    WhirlPhase phase;
+  };
   struct Track {
-    Station station;  // of a rotor: where its whirl is seen
+    std::vector<StationTrack> stations;  // of a rotor: where its whirl is seen
     std::int64_t generation = -1;
     std::shared_ptr<const Dynamics> dynamics;
     state::ParameterChange parameters;
     double slowest_orbit = 0.0;  // [rad/s], below which there is no 1X orbit to speak of
-    WhirlPhase phase;
     EnergyAudit energy;
     ErrorTrack error;
     std::string stop_reason;
@@ -89,6 +95,7 @@ class Observer {
   ShaftView shaft(std::size_t drive) const;
   ShaftView shaftOf(std::size_t system) const;
   bool takeGeneration(std::size_t system);
+  void takeStations(std::size_t system);
   void follow(std::size_t system);
   void followMotors();
 
@@ -96,7 +103,8 @@ class Observer {
   std::shared_ptr<SystemGenerations> generations_;
   std::vector<double> record_;
   std::vector<Track> tracks_;
-  std::vector<MotorTrack> motors_;  // of each drive
+  std::vector<std::vector<std::string>> stations_;  // names, as at the start
+  std::vector<MotorTrack> motors_;                  // of each drive
   std::int64_t stamp_ = 0;
   bool tells_only_change_ = false;
 };

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "messages/message.h"
+#include "scene/station_names.h"
 #include "twin/observer.h"
 
 namespace whirl_twin {
@@ -83,7 +84,11 @@ class StepMessages {
   void eachState(Visit&& visit) const {
     for (const std::size_t i : systems_) {
       if (built_[i]->dynamics->isRotor()) {
-        visit(nameOf(i), i, [i](const Observer& observer) { return observer.whirl(i); });
+        const std::vector<std::string> stations =
+            publishedStations(nameOf(i), *built_[i]->dynamics);
+        for (std::size_t k = 0; k < stations.size(); ++k) {
+          visit(stations[k], i, [i, k](const Observer& observer) { return observer.whirl(i, k); });
+        }
       } else {
         visit(nameOf(i), i, [i](const Observer& observer) { return observer.pendulum(i); });
       }

@@ -18,14 +18,14 @@ double WhirlMotion::radius() const {
   return std::hypot(x, y);
 }
 
-void WhirlPhase::observe(const WhirlMotion& whirl, double unbalance) {
+void WhirlPhase::observe(const WhirlMotion& whirl, double mark) {
   const double radius = whirl.radius();
   largest_radius_ = std::max(largest_radius_, radius);
   valid_ = radius > kSmallestRadius * largest_radius_;
   if (!valid_) {
     return;
   }
-  const double lag = unbalance - std::atan2(whirl.y, whirl.x);
+  const double lag = mark - std::atan2(whirl.y, whirl.x);
   const double reference = known_ ? lag_ : 0.0;
   lag_ = reference + std::remainder(lag - reference, 2.0 * kPi);
   known_ = true;

@@ -1,4 +1,4 @@
-// The phase lag of a whirl behind the unbalance that drives it, unwrapped from record to record.
+// The phase lag of a whirl behind the mark on its shaft, unwrapped from record to record.
 #pragma once
 
 namespace whirl_twin {
@@ -12,8 +12,8 @@ struct WhirlMotion {
 
 class WhirlPhase {
  public:
-  /// The next record: the whirl, and the direction [rad] of the unbalance.
-  void observe(const WhirlMotion& whirl, double unbalance);
+  /// The next record: the whirl, and the direction [rad] of the phase mark.
+  void observe(const WhirlMotion& whirl, double mark);
 
   /// The radius is large enough to have an angle.
   bool valid() const { return valid_; }

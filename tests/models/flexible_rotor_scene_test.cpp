@@ -156,9 +156,11 @@ TEST(FlexibleRotorScene, PublishesTheFirstUnbalanceElseTheFirstDiscElseTheMiddle
   const auto stations = setupOf(rotor).dynamics->stations();
   ASSERT_EQ(stations.size(), 7u);
   EXPECT_EQ(stations[0].position, 0.5);
+  // The mark that phases count from is a parameter of its own, whatever unbalance there is.
   EXPECT_EQ(setupOf(rotor + ", unbalances: [{node: 5, magnitude: 1.0e-3, angle: 0.7}]")
-                .dynamics->unbalanceAngle(),
-            0.7);
+                .dynamics->phaseMark(),
+            0.0);
+  EXPECT_EQ(setupOf(rotor + ", phase_mark: 0.7").dynamics->phaseMark(), 0.7);
 }
 
 TEST(FlexibleRotorScene, BearingsFollowTheSpeed) {

@@ -150,7 +150,8 @@ void run(Twin& twin, Observer& observer, int steps) {
 }
 
 TEST(Observer, SeesTheSteadyWhirlOfAnUnbalancedRotor) {
-  Twin twin(rotorScene(", damping: 40, eccentricity: 1.0e-3, eccentricity_angle: 0.7"));
+  Twin twin(
+      rotorScene(", damping: 40, eccentricity: 1.0e-3, eccentricity_angle: 0.7, phase_mark: 0.7"));
   Observer observer(twin);
   run(twin, observer, 4000);
   // p = 20 rad/s, zeta = 0.5, w/p = 1.5.
@@ -191,6 +192,36 @@ TEST(Observer, SeesPendulumsAndDrives) {
   EXPECT_EQ(shaft.shaft_angle, twin.drive(0).angle().total());
   EXPECT_NEAR(shaft.shaft_angle, 2.0 * M_PI * static_cast<double>(shaft.turns) + shaft.remainder,
               1e-14);
+}
+
+TEST(Observer, StationsOfAShaftHaveWhirlsOfTheirOwn) {
+  const char* const shaft =
+      "{step: 0.001, systems: {rotor: {model: flexible_rotor, parameters: {youngs_modulus: "
+      "2.1e+11, "
+      "density: 7800, speed: 50, modes: 0, elements: [{length: 0.1, outer_diameter: 0.05, count: "
+      "4}], "
+      "bearings: [{node: 0, kxx: 1.0e+7, kyy: 1.0e+7, cxx: 100, cyy: 100}, {node: 4, kxx: 1.0e+7, "
+      "kyy: 1.0e+7, cxx: 100, cyy: 100}], unbalances: [{node: 2, magnitude: 1.0e-3, angle: 0.7}], "
+      "stations: [{node: 1}, {node: 3}], phase_mark: 0.7}}}}";
+  Twin twin(sceneOf(shaft));
+  Observer observer(twin);
+  run(twin, observer, 3000);
+  EXPECT_EQ(observer.stations(0),
+            (std::vector<std::string>{"rotor", "rotor_node_1", "rotor_node_3"}));
+  const state::WhirlState middle = observer.whirl(0);
+  const state::WhirlState left = observer.whirl(0, 1);
+  const state::WhirlState right = observer.whirl(0, 2);
+  EXPECT_EQ(left.system, "rotor_node_1");
+  // All coordinates are kept: those of node i stand at 4 i, x first.
+  EXPECT_EQ(left.x, observer.coordinates(0)[4]);
+  EXPECT_EQ(left.y, observer.coordinates(0)[5]);
+  EXPECT_EQ(right.x, observer.coordinates(0)[12]);
+  EXPECT_EQ(middle.x, observer.coordinates(0)[8]);
+  // Symmetric, below its first critical speed: the shaft whirls in phase with the unbalance.
+  EXPECT_NEAR(left.radius, right.radius, 1e-9 * middle.radius);
+  EXPECT_NEAR(left.phase, middle.phase, 1e-2);
+  EXPECT_NEAR(middle.phase, 0.0, 1e-2);
+  EXPECT_GT(middle.radius, left.radius);
 }
 
 }  // namespace

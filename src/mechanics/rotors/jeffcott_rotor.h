@@ -51,6 +51,7 @@ struct JeffcottRotor {
   double cross_coupling = 0.0;      ///< [N/m], kxy = +q, kyx = -q
   double eccentricity = 0.0;        ///< [m]
   double eccentricity_angle = 0.0;  ///< [rad], from the shaft's reference mark
+  double phase_mark = 0.0;          ///< [rad], that the phase counts from
   double bow = 0.0;                 ///< [m], of the shaft at rest
   double bow_angle = 0.0;           ///< [rad], from the shaft's reference mark
   double polar_inertia = 0.0;       ///< [kg m^2], about the mass centre; with a motor
@@ -69,7 +70,7 @@ struct JeffcottRotor {
   double bearing_viscosity = 0.0;  ///< [Pa s]
   double journal_mass = 0.0;       ///< [kg], of both journals
 
-  static constexpr std::array<Parameter<JeffcottRotor>, 25> parameters() {
+  static constexpr std::array<Parameter<JeffcottRotor>, 26> parameters() {
     using Rotor = JeffcottRotor;
     constexpr Range kPlus = Range::kPositive;
     constexpr Range kNone = Range::kNotNegative;
@@ -109,15 +110,17 @@ struct JeffcottRotor {
              {"bearing_diameter", "m", kNone, &Rotor::bearing_diameter, "of the journals", 0.0},
              {"bearing_clearance", "m", kNone, &Rotor::bearing_clearance, "radial", 0.0},
              {"bearing_viscosity", "Pa s", kNone, &Rotor::bearing_viscosity, "of the oil", 0.0},
-             {"journal_mass", "kg", kNone, &Rotor::journal_mass, "of both journals", 0.0}}};
+             {"journal_mass", "kg", kNone, &Rotor::journal_mass, "of both journals", 0.0},
+             {"phase_mark", "rad", kAny, &Rotor::phase_mark,
+              "from the shaft's mark, that the phase of the whirl counts from", 0.0}}};
   }
 
   /// The matrices change with speed: no exact step while the speed changes.
   bool speedDependent() const {
     return internal_damping != 0.0 || fluid_damping * fluid_ratio != 0.0;
   }
-  /// [rad], angle of the unbalance from the shaft's mark.
-  double unbalanceAngle() const { return eccentricity_angle; }
+  /// [rad], that the phase counts from.
+  double phaseMark() const { return phase_mark; }
   /// Without what turns with the shaft: where it rests, and how it is stable.
   JeffcottRotor balanced() const {
     JeffcottRotor same = *this;

@@ -45,9 +45,10 @@ struct RigidDisc {
   double eccentricity_angle = 0.0;      ///< [rad], from the shaft's mark
   double skew = 0.0;                    ///< [rad], of the principal axis
   double skew_angle = 0.0;              ///< [rad], of its slope, from the shaft's mark
+  double phase_mark = 0.0;              ///< [rad], that the phase counts from
   double gravity = 0.0;                 ///< [m/s^2], along -y
 
-  static constexpr std::array<Parameter<RigidDisc>, 14> parameters() {
+  static constexpr std::array<Parameter<RigidDisc>, 15> parameters() {
     using Disc = RigidDisc;
     constexpr Range kPlus = Range::kPositive;
     constexpr Range kNone = Range::kNotNegative;
@@ -74,7 +75,9 @@ struct RigidDisc {
               "of the mass centre from the shaft's mark", 0.0},
              {"skew", "rad", kNone, &Disc::skew, "of the disc's axis to the shaft's", 0.0},
              {"skew_angle", "rad", kAny, &Disc::skew_angle,
-              "of the slope that is the skew, from the shaft's mark", 0.0}}};
+              "of the slope that is the skew, from the shaft's mark", 0.0},
+             {"phase_mark", "rad", kAny, &Disc::phase_mark,
+              "from the shaft's mark, that the phase of the whirl counts from", 0.0}}};
   }
 
   /// The gyroscopic moment changes with it.

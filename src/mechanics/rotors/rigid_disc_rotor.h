@@ -19,8 +19,8 @@ struct RigidDiscRotor : RigidDisc {
       {{"x", "m"}, {"y", "m"}, {"alpha", "rad"}, {"beta", "rad"}}};
 
   static constexpr auto parameters() { return inherited<RigidDiscRotor>(RigidDisc::parameters()); }
-  /// [rad], of the unbalance from the shaft's mark; without one of the skew.
-  double unbalanceAngle() const { return eccentricity > 0.0 ? eccentricity_angle : skew_angle; }
+  /// [rad], that the phase counts from.
+  double phaseMark() const { return phase_mark; }
   /// Without what turns with the shaft.
   RigidDiscRotor balanced() const {
     RigidDiscRotor same = *this;

@@ -1,0 +1,87 @@
+#include "control/sensor.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kTwoPi = 6.283185307179586;
+/// Below this, the closed form of the filtered cubic loses digits, and quadrature has them all.
+constexpr double kSlowFilter = 0.5;
+
+struct Node {
+  double at, weight;
+};
+constexpr std::array<Node, 5> kGauss{{{0.046910077030668004, 0.118463442528094544},
+                                      {0.230765344947158454, 0.239314335249683234},
+                                      {0.5, 0.284444444444444444},
+                                      {0.769234655052841546, 0.239314335249683234},
+                                      {0.953089922969331996, 0.118463442528094544}}};
+
+/// s = c[0] + c[1] t + c[2] t^2 + c[3] t^3
+std::array<double, 4> coefficients(const CubicPiece& p) noexcept {
+  const double h = p.length;
+  const double rise = p.to - p.from;
+  return {p.from, p.from_rate, (3.0 * rise / h - 2.0 * p.from_rate - p.to_rate) / h,
+          (p.from_rate + p.to_rate - 2.0 * rise / h) / (h * h)};
+}
+
+double cubic(const std::array<double, 4>& c, double t) noexcept {
+  return c[0] + t * (c[1] + t * (c[2] + t * c[3]));
+}
+
+/// s - s'/w + s''/w^2 - s'''/w^3 at t.
+double steadyResponse(const std::array<double, 4>& c, double w, double t) noexcept {
+  const double first = c[1] + t * (2.0 * c[2] + t * 3.0 * c[3]);
+  const double second = 2.0 * c[2] + 6.0 * c[3] * t;
+  return cubic(c, t) - (first - (second - 6.0 * c[3] / w) / w) / w;
+}
+
+}  // namespace
+
+double CubicPiece::at(double t) const noexcept {
+  return length > 0.0 ? cubic(coefficients(*this), t) : from;
+}
+
+Sensor::Sensor(const SensorSettings& settings, std::uint32_t seed, std::uint32_t channel)
+    : settings_(settings), noise_(seed, channel), pole_(kTwoPi * settings.bandwidth) {}
+
+double Sensor::filtered(const CubicPiece& piece, double t) const noexcept {
+  if (pole_ == 0.0) {
+    return piece.at(t);
+  }
+  if (!(t > 0.0)) {
+    return filtered_;
+  }
+  const std::array<double, 4> c = coefficients(piece);
+  const double left = std::exp(-pole_ * t);
+  if (pole_ * t > kSlowFilter) {
+    return steadyResponse(c, pole_, t) + left * (filtered_ - steadyResponse(c, pole_, 0.0));
+  }
+  double sum = left * filtered_;
+  for (const Node& node : kGauss) {
+    sum += node.weight * pole_ * t * std::exp(-pole_ * t * (1.0 - node.at)) * cubic(c, node.at * t);
+  }
+  return sum;
+}
+
+Sample Sensor::sample(double filtered, std::int64_t k) const noexcept {
+  double value = filtered;
+  if (settings_.noise > 0.0) {
+    value += settings_.noise * noise_.normal(k);
+  }
+  bool valid = std::isfinite(value);
+  if (settings_.range > 0.0 && !(std::fabs(value) <= settings_.range)) {
+    valid = false;
+    value = std::clamp(value, -settings_.range, settings_.range);
+  }
+  if (settings_.resolution > 0.0) {
+    value = settings_.resolution * std::nearbyint(value / settings_.resolution);
+  }
+  return {value, valid};
+}
+
+}  // namespace whirl_twin

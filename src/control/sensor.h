@@ -1,0 +1,66 @@
+// A sensor of one signal: what its samples show instead of the signal.
+//
+//   signal s(t) -> anti-alias filter, f' = w (s - f) -> delay -> noise -> range -> resolution
+//
+// The signal is known at the steps of the twin, with its rate; between two of them it is taken as
+// the cubic through values and rates, short of a motion at w rad/s by (w h)^4 / 384 of its
+// amplitude. Through the filter that cubic goes exactly: with p = s - s'/w + s''/w^2 - s'''/w^3,
+// f(t) = p(t) + (f(0) - p(0)) e^(-w t).
+#pragma once
+
+#include <cstdint>
+
+#include "control/counter_noise.h"
+
+namespace whirl_twin {
+
+/// How a sensor departs from what it measures, in the unit of the signal; 0: it does not.
+struct SensorSettings {
+  double noise = 0.0;       ///< standard deviation of a sample
+  double resolution = 0.0;  ///< of the converter: samples are whole multiples of it
+  double range = 0.0;       ///< what lies beyond +-range is clipped, and not valid; 0: no limit
+  double bandwidth = 0.0;   ///< [Hz], pole of the anti-alias filter; 0: none
+  double delay = 0.0;       ///< [s], a sample at t shows what was at t - delay
+};
+
+/// A sample, and whether it is of the signal at all.
+struct Sample {
+  double value = 0.0;
+  bool valid = false;
+};
+
+/// A signal between two instants: the cubic through its values and rates there.
+struct CubicPiece {
+  double length = 0.0;                    ///< [s]
+  double from = 0.0, to = 0.0;            ///< values
+  double from_rate = 0.0, to_rate = 0.0;  ///< [1/s]
+
+  double at(double t) const noexcept;  ///< 0 <= t <= length [s]
+};
+
+class Sensor {
+ public:
+  /// channel tells the sensors of a source apart, whose noise is independent.
+  Sensor(const SensorSettings& settings, std::uint32_t seed, std::uint32_t channel);
+
+  const SensorSettings& settings() const { return settings_; }
+
+  // Real-time safe.
+
+  /// The signal has been `value` for ever.
+  void start(double value) noexcept { filtered_ = value; }
+  /// What comes out of the filter t [s] into the piece at whose start it stands.
+  double filtered(const CubicPiece& piece, double t) const noexcept;
+  /// Goes on to the end of the piece.
+  void pass(const CubicPiece& piece) noexcept { filtered_ = filtered(piece, piece.length); }
+  /// Sample k, of what came out of the filter.
+  Sample sample(double filtered, std::int64_t k) const noexcept;
+
+ private:
+  SensorSettings settings_;
+  CounterNoise noise_;
+  double pole_;            ///< [rad/s]; 0: no filter
+  double filtered_ = 0.0;  ///< at the start of the next piece
+};
+
+}  // namespace whirl_twin
