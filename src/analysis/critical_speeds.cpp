@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "analysis/bracketed_root.h"
+#include "analysis/cyclic_coordinates.h"
 #include "analysis/orbit.h"
-#include "analysis/stability.h"
 #include "analysis/synchronous_poles.h"
 #include "analysis/synchronous_response.h"
 
@@ -181,7 +181,8 @@ std::vector<CriticalSpeed> criticalSpeeds(const Dynamics& dynamics) {
     return found;
   }
   const Probe probe(dynamics);
-  const Stability at_rest = stability(probe.rotor().matrices(0.0));
+  const Linearization matrices = probe.rotor().matrices(0.0);
+  const Stability at_rest = reducedStability(matrices, rigidBodyMotions(matrices));
   if (at_rest.natural_frequencies.empty()) {
     return found;
   }

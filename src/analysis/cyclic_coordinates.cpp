@@ -6,6 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "analysis/quadratic_form.h"
+#include "analysis/stability_margins.h"
 
 namespace whirl_twin {
 
@@ -13,6 +17,9 @@ namespace {
 
 /// Singular values of a stiffness below this part of the largest are rounding.
 constexpr double kRank = 1.0e-12;
+/// What damping and gyroscopic forces leave of a motion, of their largest: less is rounding.
+constexpr double kResisted = 1.0e-11;
+constexpr double kSurelyDefinite = 1.0e-9;  // a pivot of the unit-diagonal form
 
 /// States in general position, without symmetry: fast, slow and at rest, far and near, so that no
 /// law that levels off, such as dry friction, is met only where it is level.
@@ -55,10 +62,51 @@ CyclicCoordinates ofNonlinear(const Dynamics& dynamics, const Moment<double>& at
   return all;
 }
 
-CyclicCoordinates ofLinear(const Dynamics& dynamics, const Moment<double>& at) {
-  const Eigen::Index n = dynamics.dof();
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n);
-  const Linearization l = dynamics.linearization(zero, zero, zero, at);
+/// Is a symmetric matrix positive definite beyond doubt? Of its unit-diagonal form.
+bool surelyDefinite(const Eigen::MatrixXd& symmetric) {
+  if (!(symmetric.diagonal().array() > 0.0).all() || !symmetric.allFinite()) {
+    return false;
+  }
+  const Eigen::LLT<Eigen::MatrixXd> llt(unitDiagonal(symmetric).form);
+  return llt.info() == Eigen::Success &&
+         llt.matrixLLT().diagonal().cwiseAbs2().minCoeff() > kSurelyDefinite;
+}
+
+/// A turn of the columns of all images among themselves, those that some image keeps first and
+/// those that every image leaves at zero last; how many the former are.
+std::pair<Eigen::MatrixXd, Eigen::Index> resistedFirst(const std::vector<Eigen::MatrixXd>& images) {
+  const Eigen::Index count = images.front().cols();
+  Eigen::MatrixXd all(0, count);
+  for (const Eigen::MatrixXd& image : images) {
+    all.conservativeResize(all.rows() + image.rows(), Eigen::NoChange);
+    all.bottomRows(image.rows()) = image;
+  }
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(all, Eigen::ComputeFullV);
+  return {svd.matrixV(), (svd.singularValues().array() > kResisted).count()};
+}
+
+/// A matrix in units of its largest entry.
+Eigen::MatrixXd inItsSize(const Eigen::MatrixXd& m) {
+  const double largest = m.cwiseAbs().maxCoeff();
+  return largest > 0.0 ? Eigen::MatrixXd(m / largest) : m;
+}
+
+CyclicCoordinates allShape(Eigen::Index n) {
+  CyclicCoordinates all;
+  all.basis = Eigen::MatrixXd::Identity(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    all.shape.push_back(i);
+  }
+  return all;
+}
+
+}  // namespace
+
+CyclicCoordinates rigidBodyMotions(const Linearization& l) {
+  const Eigen::Index n = l.mass.rows();
+  if (surelyDefinite(l.stiffness)) {  // and K + N with it, as N takes no part in q^T (K + N) q
+    return allShape(n);
+  }
   // Scaled so that a soft coordinate beside a stiff one is not taken for a free one.
   const Eigen::MatrixXd stiffness = l.stiffness + l.circulatory;
   Eigen::VectorXd scale(n);
@@ -68,33 +116,35 @@ CyclicCoordinates ofLinear(const Dynamics& dynamics, const Moment<double>& at) {
     scale[i] = largest > 0.0 ? 1.0 / std::sqrt(largest) : 1.0;
   }
   const Eigen::MatrixXd by_q = scale.asDiagonal() * stiffness * scale.asDiagonal();
-  const Eigen::MatrixXd by_v = scale.asDiagonal() * (l.damping + l.gyroscopic) * scale.asDiagonal();
-  CyclicCoordinates all;
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(by_q, Eigen::ComputeFullV);
-  const double largest = svd.singularValues()[0];
-  Eigen::Index rank = 0;
-  while (rank < n && svd.singularValues()[rank] > kRank * largest) {
-    ++rank;
+  const Eigen::Index rank =
+      (svd.singularValues().array() > kRank * svd.singularValues()[0]).count();
+  if (rank == n) {
+    return allShape(n);
   }
+  const Eigen::MatrixXd by_v =
+      inItsSize(scale.asDiagonal() * (l.damping + l.gyroscopic) * scale.asDiagonal());
   const Eigen::MatrixXd modes = svd.matrixV().rightCols(n - rank);
-  all.basis = rank < n ? Eigen::MatrixXd(scale.asDiagonal() * svd.matrixV())
-                       : Eigen::MatrixXd::Identity(n, n);
-  const double small = kRank * std::max(by_v.cwiseAbs().maxCoeff(), 1.0e-300);
-  const bool free = rank < n && (by_v * modes).cwiseAbs().maxCoeff() <= small &&
-                    (modes.transpose() * by_v).cwiseAbs().maxCoeff() <= small &&
-                    (modes.transpose() * by_q).cwiseAbs().maxCoeff() <= kRank * largest;
+  const auto [turn, driven] =
+      resistedFirst({by_v * modes, by_v.transpose() * modes, inItsSize(by_q).transpose() * modes});
+  CyclicCoordinates all;
+  Eigen::MatrixXd directions = svd.matrixV();
+  directions.rightCols(n - rank) = modes * turn;
+  all.basis = scale.asDiagonal() * directions;
   for (Eigen::Index i = 0; i < n; ++i) {
-    (i < rank ? all.shape : free ? all.conserved : all.driven).push_back(i);
+    (i < rank ? all.shape : i < rank + driven ? all.driven : all.conserved).push_back(i);
   }
   return all;
 }
 
-}  // namespace
-
 CyclicCoordinates cyclicCoordinates(const Dynamics& dynamics, double speed) {
   const Moment<double> at{0.0, 0.0, speed, 0.0};
   const Dynamics& mean = dynamics.atMeanLoad();
-  return mean.linear() ? ofLinear(mean, at) : ofNonlinear(mean, at);
+  if (!mean.linear()) {
+    return ofNonlinear(mean, at);
+  }
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(mean.dof());
+  return rigidBodyMotions(mean.linearization(zero, zero, zero, at));
 }
 
 Linearization atFixedMomenta(const Linearization& full, const CyclicCoordinates& cyclic) {
@@ -104,11 +154,17 @@ Linearization atFixedMomenta(const Linearization& full, const CyclicCoordinates&
   const Eigen::MatrixXd mass = in_basis(full.mass);
   const Eigen::MatrixXd by_v = in_basis(full.damping + full.gyroscopic);
   Eigen::MatrixXd by_q = in_basis(full.stiffness + full.circulatory);
+  // What is nothing stays nothing: rounding must not make damping of a motion without.
+  const bool undamped = full.damping.isZero(0.0);
+  const bool potential = full.circulatory.isZero(0.0);
   const auto& c = cyclic.conserved;
   CyclicCoordinates::Places s = cyclic.shape;
   s.insert(s.end(), cyclic.driven.begin(), cyclic.driven.end());
   for (const Eigen::Index i : cyclic.driven) {
     by_q.col(i).setZero();  // of a rigid-body mode it is so but for rounding
+    if (potential) {
+      by_q.row(i).setZero();
+    }
   }
   Eigen::MatrixXd m = mass(s, s);
   Eigen::MatrixXd d = by_v(s, s);
@@ -122,8 +178,36 @@ Linearization atFixedMomenta(const Linearization& full, const CyclicCoordinates&
     d -= mass(s, c) * by_place + by_v(s, c) * by_rate;
     k -= by_v(s, c) * by_place;
   }
-  return {0.5 * (m + m.transpose()), 0.5 * (d + d.transpose()), 0.5 * (d - d.transpose()),
-          0.5 * (k + k.transpose()), 0.5 * (k - k.transpose())};
+  Linearization l{0.5 * (m + m.transpose()), 0.5 * (d + d.transpose()), 0.5 * (d - d.transpose()),
+                  0.5 * (k + k.transpose()), 0.5 * (k - k.transpose())};
+  if (undamped) {  // by_v is skew, and so is what is left of it
+    l.damping.setZero();
+    if (potential) {
+      l.circulatory.setZero();
+    }
+  }
+  return l;
+}
+
+std::size_t zeroEigenvalues(const Linearization& linearization, const CyclicCoordinates& cyclic) {
+  std::size_t zeros = 2 * cyclic.conserved.size() + cyclic.driven.size();
+  if (cyclic.driven.empty()) {
+    return zeros;
+  }
+  // A driven motion at a constant rate that nothing resists but the shape, which gives way.
+  const Linearization l = atFixedMomenta(linearization, cyclic);
+  const auto shapes = static_cast<Eigen::Index>(cyclic.shape.size());
+  const auto driven = static_cast<Eigen::Index>(cyclic.driven.size());
+  const Eigen::MatrixXd by_q = l.stiffness + l.circulatory;
+  const Eigen::MatrixXd by_rate = (l.damping + l.gyroscopic).rightCols(driven);
+  Eigen::MatrixXd resisted = by_rate.bottomRows(driven);
+  if (shapes > 0) {
+    resisted -= by_q.bottomLeftCorner(driven, shapes) *
+                by_q.topLeftCorner(shapes, shapes).partialPivLu().solve(by_rate.topRows(shapes));
+  }
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(resisted);
+  const double none = kResisted * by_rate.cwiseAbs().maxCoeff();
+  return zeros + static_cast<std::size_t>((svd.singularValues().array() <= none).count());
 }
 
 Stability reducedStability(const Linearization& linearization, const CyclicCoordinates& cyclic) {
@@ -137,6 +221,35 @@ Stability reducedStability(const Linearization& linearization, const CyclicCoord
     return free;
   }
   return stability(atFixedMomenta(linearization, cyclic), cyclic.driven.size());
+}
+
+Stability stabilityWithRigidBodyModes(const Linearization& linearization,
+                                      const CyclicCoordinates& cyclic) {
+  if (!cyclic.any()) {
+    return stability(linearization);
+  }
+  Stability s = reducedStability(linearization, cyclic);
+  const std::size_t set_aside = 2 * cyclic.conserved.size() + cyclic.driven.size();
+  if (s.eigenvalues.empty() && linearization.mass.rows() <= kMostExactCoordinates) {
+    s.polynomial = {1.0};
+  }
+  s.eigenvalues.insert(s.eigenvalues.begin(), set_aside, 0.0);
+  if (!s.polynomial.empty()) {
+    s.polynomial.insert(s.polynomial.end(), set_aside, 0.0);
+  }
+  s.routh.imaginary += static_cast<int>(set_aside);
+  s.routh.largest_imaginary_multiplicity =
+      std::max(s.routh.largest_imaginary_multiplicity, static_cast<int>(set_aside));
+  if (s.routh.verdict == Verdict::kAsymptoticallyStable || s.routh.verdict == Verdict::kMarginal) {
+    // A conserved momentum moves its coordinate along, as does a rate that nothing resists.
+    const bool drifts =
+        !cyclic.conserved.empty() || zeroEigenvalues(linearization, cyclic) > set_aside;
+    s.routh.verdict = drifts ? Verdict::kRepeatedImaginary : Verdict::kMarginal;
+    s.decay_rate = 0.0;
+    s.damping_ratio = std::isnan(s.damping_ratio) ? s.damping_ratio : 0.0;
+    s.log_decrement = logDecrement(s.damping_ratio);
+  }
+  return s;
 }
 
 }  // namespace whirl_twin

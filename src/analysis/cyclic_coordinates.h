@@ -32,11 +32,25 @@ struct CyclicCoordinates {
 /// loads that alternate are at their mean. speed [rad/s], of the shaft.
 CyclicCoordinates cyclicCoordinates(const Dynamics& dynamics, double speed);
 
+/// Those of a linear system, its rigid-body modes: along which K + N is zero (to 1e-12, scaled).
+/// Conserved are those that neither damping nor gyroscopic forces see.
+CyclicCoordinates rigidBodyMotions(const Linearization& linearization);
+
 /// The small motion of the shape, then the driven coordinates, at fixed momenta: the conserved
-/// coordinates are eliminated (Routh's procedure). [n - conserved]
+/// coordinates are eliminated (Routh's procedure). Without damping, and without circulatory forces
+/// besides, it has none either, exactly. [n - conserved]
 Linearization atFixedMomenta(const Linearization& linearization, const CyclicCoordinates& cyclic);
 
 /// Stability of that motion, the zero eigenvalue of each driven coordinate set aside.
 Stability reducedStability(const Linearization& linearization, const CyclicCoordinates& cyclic);
+
+/// Eigenvalues at zero of a linear system with these rigid-body motions, a drift's counted twice.
+std::size_t zeroEigenvalues(const Linearization& linearization, const CyclicCoordinates& cyclic);
+
+/// Stability of all coordinates of a linear system: reducedStability with the zero eigenvalues of
+/// its rigid-body motions, which rounding would scatter to both sides of the axis. A drift grows
+/// like t: kRepeatedImaginary.
+Stability stabilityWithRigidBodyModes(const Linearization& linearization,
+                                      const CyclicCoordinates& cyclic);
 
 }  // namespace whirl_twin

@@ -11,6 +11,8 @@
 #include <utility>
 
 #include "analysis/characteristic_polynomial.h"
+#include "analysis/quadratic_form.h"
+#include "analysis/rigid_body_modes.h"
 #include "analysis/stability_margins.h"
 
 namespace whirl_twin {
@@ -19,6 +21,7 @@ namespace {
 
 /// Real parts below this part of the largest eigenvalue cannot be told from zero.
 constexpr double kRounding = 1.0e-14;
+constexpr Eigen::Index kMostIterations = 400;  // a root
 
 void modes(const std::vector<std::complex<double>>& roots, Stability& s) {
   struct Mode {
@@ -109,6 +112,32 @@ bool positiveDefinite(const Eigen::MatrixXd& m) {
              kRounding * m.diagonal().cwiseAbs().maxCoeff();
 }
 
+/// Without damping, a motion at a constant rate that nothing resists: the zero eigenvalue of a
+/// rigid-body mode is defective unless gyroscopic forces hold it.
+bool drifts(const Linearization& l) {
+  const Eigen::MatrixXd free = rigidBodyModes(l.stiffness);
+  if (free.cols() == 0) {
+    return false;
+  }
+  const Eigen::MatrixXd held = free.transpose() * l.gyroscopic * free;
+  const Eigen::FullPivLU<Eigen::MatrixXd> lu(held);
+  return lu.rank() < held.rows();
+}
+
+/// Nothing grows, by the definiteness of the matrices: what rounding put right of the axis is on
+/// it.
+void judgeByEnergy(const Linearization& l, std::size_t zeros, Stability& s) {
+  s.routh.imaginary += s.routh.right;
+  s.routh.right = 0;
+  if (l.damping.isZero(0.0)) {
+    s.routh.imaginary += s.routh.left;
+    s.routh.left = 0;
+    s.routh.verdict = zeros == 0 && drifts(l) ? Verdict::kRepeatedImaginary : Verdict::kMarginal;
+  } else if (s.routh.verdict == Verdict::kUnstable) {
+    s.routh.verdict = Verdict::kUncertain;
+  }
+}
+
 void judgeByDefiniteness(const Linearization& l, Stability& s) {
   const double small =
       kRounding * static_cast<double>(l.mass.rows()) * std::abs(s.eigenvalues.back());
@@ -124,11 +153,7 @@ void judgeByDefiniteness(const Linearization& l, Stability& s) {
     return;
   }
   const auto all = static_cast<int>(s.eigenvalues.size());
-  if (l.damping.isZero(0.0)) {
-    s.routh.verdict = Verdict::kMarginal;
-    s.routh.right = s.routh.left = 0;
-    s.routh.imaginary = all;
-  } else if (positiveDefinite(l.damping)) {
+  if (positiveDefinite(l.damping)) {
     s.routh.verdict = Verdict::kAsymptoticallyStable;
     s.routh.right = s.routh.imaginary = 0;
     s.routh.left = all;
@@ -137,19 +162,32 @@ void judgeByDefiniteness(const Linearization& l, Stability& s) {
 
 }  // namespace
 
+bool cannotGrow(const Linearization& l) {
+  return l.circulatory.isZero(0.0) &&
+         definiteness(l.stiffness, "stiffness") != Definiteness::kIndefinite &&
+         definiteness(l.damping, "damping") != Definiteness::kIndefinite;
+}
+
 std::vector<std::complex<double>> eigenvalues(const Linearization& l) {
+  return eigenvalues(l, 0);
+}
+
+std::vector<std::complex<double>> eigenvalues(const Linearization& l, std::size_t zeros) {
   const Eigen::Index n = l.mass.rows();
+  const Eigen::Index places = n - static_cast<Eigen::Index>(zeros);  // that matter
   const Eigen::PartialPivLU<Eigen::MatrixXd> mass(l.mass);
   const Eigen::MatrixXd by_q = mass.solve(l.stiffness + l.circulatory);
   const Eigen::MatrixXd by_v = mass.solve(l.damping + l.gyroscopic);
   // Rates in units of the highest frequency, a power of two: balanced and free of rounding.
   const double stiffest = std::sqrt(by_q.cwiseAbs().maxCoeff());
   const double scale = stiffest > 0.0 ? std::exp2(std::round(std::log2(stiffest))) : 1.0;
-  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(2 * n, 2 * n);
-  a.topRightCorner(n, n).diagonal().setConstant(scale);
-  a.bottomLeftCorner(n, n) = -by_q / scale;
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(places + n, places + n);
+  a.block(0, places, places, places).diagonal().setConstant(scale);
+  a.bottomLeftCorner(n, places) = -by_q.leftCols(places) / scale;
   a.bottomRightCorner(n, n) = -by_v;
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(a, false);
+  // Overdamped motions beside slow ones keep the iteration busy for longer than Eigen waits.
+  Eigen::EigenSolver<Eigen::MatrixXd> solver(a.rows());
+  solver.setMaxIterations(kMostIterations * a.rows()).compute(a, false);
   if (solver.info() != Eigen::Success) {
     throw std::domain_error("the eigenvalues of the linearized system cannot be computed");
   }
@@ -169,9 +207,13 @@ Stability stability(const Linearization& linearization) {
 
 Stability stability(const Linearization& linearization, std::size_t zeros) {
   Stability s;
-  s.eigenvalues = eigenvalues(linearization);
-  s.eigenvalues.erase(s.eigenvalues.begin(),
-                      s.eigenvalues.begin() + static_cast<std::ptrdiff_t>(zeros));
+  s.eigenvalues = eigenvalues(linearization, zeros);
+  const bool bounded_energy = cannotGrow(linearization);
+  if (bounded_energy && linearization.damping.isZero(0.0)) {
+    for (std::complex<double>& root : s.eigenvalues) {
+      root = {0.0, root.imag()};  // the rest is rounding
+    }
+  }
   modes(s.eigenvalues, s);
   bool judged = false;
   if (linearization.mass.rows() <= kMostExactCoordinates) {
@@ -184,6 +226,9 @@ Stability stability(const Linearization& linearization, std::size_t zeros) {
   }
   if (!judged) {
     judgeByDefiniteness(linearization, s);
+  }
+  if (bounded_energy && (!judged || s.routh.right > 0)) {
+    judgeByEnergy(linearization, zeros, s);
   }
 
   double rightmost = -std::numeric_limits<double>::infinity();

@@ -31,9 +31,14 @@ struct Stability {
 
 /// The exact polynomial and Routh's test on it cost seconds beyond so many coordinates. There, and
 /// where exact numbers become too long sooner, the verdict rests on the definiteness of the
-/// matrices where that decides (Kelvin, Tait and Chetaev: N = 0, K > 0, and C > 0 or C = 0), else
-/// on the eigenvalues.
+/// matrices where that decides (Kelvin, Tait and Chetaev: N = 0, K > 0, and C > 0 or C = 0;
+/// cannotGrow), else on the eigenvalues.
 constexpr Eigen::Index kMostExactCoordinates = 8;
+
+/// Without circulatory forces and with C >= 0, K >= 0 (to 1e-12 of a unit diagonal) T + V never
+/// rises, whatever gyroscopic forces there are: no root lies right of the axis, and with C = 0 all
+/// lie on it, only zeros defective (q^H times the equation: s^2 m + s (c + i g) + k = 0).
+bool cannotGrow(const Linearization& linearization);
 
 /// Judges M q'' + (C + G) q' + (K + N) q = 0. The verdict is kUncertain where the largest real part
 /// is below the rounding of the eigenvalues and the polynomial does not make it exactly zero.
@@ -41,11 +46,14 @@ constexpr Eigen::Index kMostExactCoordinates = 8;
 /// singular mass.
 Stability stability(const Linearization& linearization);
 
-/// The same with `zeros` roots at 0 set aside: those of coordinates whose position does not matter
-/// (their columns of K + N are exactly zero).
+/// The same with `zeros` roots at 0 set aside: those of the last coordinates, whose position does
+/// not matter (their columns of K + N are exactly zero).
 Stability stability(const Linearization& linearization, std::size_t zeros);
 
 /// Eigenvalues only: fast, for searches. [2 dof]
 std::vector<std::complex<double>> eigenvalues(const Linearization& linearization);
+/// Without the zero of each of the last `zeros` coordinates, as above. [2 dof - zeros]
+std::vector<std::complex<double>> eigenvalues(const Linearization& linearization,
+                                              std::size_t zeros);
 
 }  // namespace whirl_twin

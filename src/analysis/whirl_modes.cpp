@@ -8,6 +8,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "analysis/cyclic_coordinates.h"
 #include "analysis/stability_margins.h"
 
 namespace whirl_twin {
@@ -23,6 +24,8 @@ using Eigen::VectorXcd;
 constexpr double kRepeated = 1.0e-7;     // of an eigenvalue: nearer ones are one
 constexpr double kStandsStill = 1.0e-6;  // of the widest orbit
 constexpr double kZero = 1.0e-13;        // of the largest eigenvalue: rounding
+constexpr double kRounding = 1.0e-12;    // of the largest: a real part that may be rounding
+constexpr double kNoDamping = 1.0e-18;   // damping ratio: a shape's rounding, squared, is damped
 
 /// Eigenvalues and the upper half, the displacement, of the eigenvectors of the state matrix.
 struct EigenPairs {
@@ -46,6 +49,29 @@ EigenPairs eigenPairs(const Linearization& l) {
     throw std::domain_error("the eigenvalues of the rotor cannot be computed");
   }
   return {solver.eigenvalues(), solver.eigenvectors().topRows(n)};
+}
+
+/// The `count` smallest are zero but for rounding, which of a drift is the root of it.
+void setToZero(std::size_t count, VectorXcd& values) {
+  std::vector<Index> order(static_cast<std::size_t>(values.size()));
+  std::iota(order.begin(), order.end(), Index{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Index a, Index b) { return std::abs(values[a]) < std::abs(values[b]); });
+  order.resize(std::min(count, order.size()));
+  for (const Index i : order) {
+    values[i] = 0.0;
+  }
+}
+
+/// -Re s [1/s] of a whirl without circulatory forces, from what its damping takes out of it:
+/// s^2 m + s (c + i g) + k = 0 times conj(s). Zero without damping, and where the rounding of the
+/// shape is all that damping meets.
+double decayOf(const Linearization& l, const Complex& s, const VectorXcd& shape) {
+  const auto form = [&](const MatrixXd& m) { return shape.dot(m.cast<Complex>() * shape).real(); };
+  const double squared = std::norm(s);
+  const double decay =
+      form(l.damping) * squared / (form(l.mass) * squared + std::max(0.0, form(l.stiffness)));
+  return decay > kNoDamping * std::abs(s) ? decay : 0.0;
 }
 
 void separateRepeated(std::vector<WhirlMode>& modes, const std::vector<Station>& stations) {
@@ -141,17 +167,27 @@ MatrixXcd separatedByDirection(const MatrixXcd& shapes, const std::vector<Statio
 }
 
 WhirlModes whirlModes(const Linearization& at_speed, const std::vector<Station>& stations) {
-  const EigenPairs pairs = eigenPairs(at_speed);
-  const double zero = kZero * pairs.values.cwiseAbs().maxCoeff();
+  EigenPairs pairs = eigenPairs(at_speed);
+  const CyclicCoordinates rigid = rigidBodyMotions(at_speed);
+  if (rigid.any()) {
+    setToZero(zeroEigenvalues(at_speed, rigid), pairs.values);
+  }
+  const double largest = pairs.values.cwiseAbs().maxCoeff();
+  const double doubtful = !cannotGrow(at_speed)          ? 0.0
+                          : at_speed.damping.isZero(0.0) ? largest
+                                                         : kRounding * largest;
   WhirlModes all;
   for (Index i = 0; i < pairs.values.size(); ++i) {
     const Complex s = pairs.values[i];
-    if (s.imag() > zero) {
+    if (s.imag() > kZero * largest) {
       WhirlMode mode;
       mode.eigenvalue = s;
       mode.shape = pairs.shapes.col(i);
+      if (std::fabs(s.real()) <= doubtful) {
+        mode.eigenvalue = {-decayOf(at_speed, s, mode.shape), s.imag()};
+      }
       all.modes.push_back(mode);
-    } else if (std::fabs(s.imag()) <= zero) {
+    } else if (std::fabs(s.imag()) <= kZero * largest) {
       all.real_roots.push_back(s.real());
     }
   }

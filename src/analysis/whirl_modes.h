@@ -35,7 +35,9 @@ struct WhirlModes {
 };
 
 /// Modes that have one eigenvalue (to 1e-7 of it) and so no shapes of their own are told apart by
-/// their direction: of a round rotor one is forward, one backward.
+/// their direction: of a round rotor one is forward, one backward. Zero eigenvalues of rigid-body
+/// modes are zero, and where no energy comes in (cannotGrow) a real part that is rounding is what
+/// the damping of the shape makes it: without damping, exactly 0.
 WhirlModes whirlModes(const Linearization& at_speed, const std::vector<Station>& stations);
 /// At a speed [rad/s].
 WhirlModes whirlModes(const LinearRotor& rotor, const std::vector<Station>& stations, double speed);

@@ -68,7 +68,8 @@ SystemAnalysis analyzeSystem(const BuiltScene& scene, const BuiltSystem& system)
   a.cyclic = cyclicCoordinates(dynamics, shaft.speed);
   a.equilibria = equilibria(dynamics, shaft.speed, a.q, a.v);
   linearize(dynamics, shaft.speed, a);
-  a.stability = stability(a.linearization);
+  a.stability = dynamics.linear() ? stabilityWithRigidBodyModes(a.linearization, a.cyclic)
+                                  : stability(a.linearization);
   a.reduced_stability = a.cyclic.any() ? reducedStability(a.linearization, a.cyclic) : a.stability;
   for (const double coefficient : a.stability.polynomial) {
     if (std::fabs(coefficient) == std::numeric_limits<double>::max()) {  // it has been capped

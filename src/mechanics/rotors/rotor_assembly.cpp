@@ -1,6 +1,7 @@
 #include "mechanics/rotors/rotor_assembly.h"
 
 #include <algorithm>
+#include <cmath>
 #include <complex>
 #include <stdexcept>
 #include <string>
@@ -11,6 +12,9 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
+
+constexpr double kNoEnergy = 1.0e-13;   // of what the parts of a sum of energies come to
+constexpr double kUnresisted = 1.0e-9;  // of what the parts of a force come to
 
 Index firstOf(int node) {
   return node * kNodeCoordinates;
@@ -58,6 +62,21 @@ void requireNodes(const FlexibleShaft& shaft) {
   for (const NodeUnbalance& unbalance : shaft.unbalances) {
     require(unbalance.node, "unbalance");
   }
+}
+
+/// Of a rotor without bearings the shapes that bend nothing: what rounding leaves of their
+/// stiffness is not one, and would make their zero eigenvalues real or imaginary by chance.
+std::vector<Index> rigidShapes(const MatrixXd& stiffness, const MatrixXd& shapes) {
+  std::vector<Index> rigid;
+  for (Index i = 0; i < shapes.cols(); ++i) {
+    const Eigen::VectorXd shape = shapes.col(i);
+    const Eigen::VectorXd size = shape.cwiseAbs();
+    if (std::fabs(shape.dot(stiffness * shape)) <=
+        kNoEnergy * size.dot(stiffness.cwiseAbs() * size)) {
+      rigid.push_back(i);
+    }
+  }
+  return rigid;
 }
 
 }  // namespace
@@ -140,12 +159,24 @@ Station RotorAssembly::station(int node) const {
 }
 
 RotorAssembly RotorAssembly::in(const MatrixXd& shapes) const {
+  const std::vector<Index> rigid = rigidShapes(constant_.stiffness, shapes);
+  const auto in_shapes = [&](const MatrixXd& m) {
+    MatrixXd r = shapes.transpose() * m * shapes;
+    for (const Index i : rigid) {
+      if ((m * shapes.col(i)).norm() <=
+          kUnresisted * (m.cwiseAbs() * shapes.col(i).cwiseAbs()).norm()) {
+        r.row(i).setZero();
+        r.col(i).setZero();
+      }
+    }
+    return r;
+  };
   const auto symmetric = [&](const MatrixXd& m) -> MatrixXd {
-    const MatrixXd r = shapes.transpose() * m * shapes;
+    const MatrixXd r = in_shapes(m);
     return 0.5 * (r + r.transpose());
   };
   const auto skew = [&](const MatrixXd& m) -> MatrixXd {
-    const MatrixXd r = shapes.transpose() * m * shapes;
+    const MatrixXd r = in_shapes(m);
     return 0.5 * (r - r.transpose());
   };
   RotorAssembly r = *this;
