@@ -26,7 +26,8 @@ struct Equilibrium {
 /// coordinates, fewer for more. Conserved momenta are those of the motion
 /// through q and v. Loads that alternate are at their mean. One where a coordinate has no inertia
 /// (a rotating pendulum without a hub, hanging) has no small motion in these coordinates and is
-/// left out. A linear rotor has one, the bearing line; its unbalance whirls it about it.
+/// left out. A linear system has one, where its constant loads hold it, K q = load: a rotor with
+/// weight sags, and its unbalance whirls it about that; none where a load meets no stiffness.
 std::vector<Equilibrium> equilibria(const Dynamics& dynamics, double speed,
                                     const Eigen::VectorXd& q, const Eigen::VectorXd& v);
 /// With all conserved momenta zero.

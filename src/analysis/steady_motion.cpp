@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -12,6 +13,7 @@ namespace whirl_twin {
 namespace {
 
 constexpr int kMaxIterations = 100;
+constexpr double kHeld = 1.0e-9;   // of the load: what no stiffness answers is a load along a drift
 
 /// The steady motions of a system at fixed momenta: unknowns are the shape, then the rates of the
 /// driven coordinates, each in its natural unit.
@@ -96,35 +98,36 @@ class ReducedSystem {
   CyclicCoordinates::Places rows_;
 };
 
-/// Where a linear system rests under its constant loads. A rotor's only load turns with it: the
-/// bearing line.
-std::optional<SteadyMotion> deflection(const Dynamics& dynamics, const CyclicCoordinates& cyclic,
-                                       double speed) {
+/// Where a linear system rests under its constant loads, K q = load; nothing where they act along a
+/// motion that no stiffness resists. (By least squares: K is singular there.)
+std::optional<SteadyMotion> deflection(const Dynamics& dynamics, double speed) {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(dynamics.dof());
-  SteadyMotion rest{zero, zero};
-  if (dynamics.hasShaft()) {
-    return rest;
-  }
   const Moment<double> at{0.0, 0.0, speed, 0.0};
-  const Eigen::VectorXd load =
-      cyclic.basis.transpose() * dynamics.atMeanLoad().unbalancedForce(zero, zero, at);
+  const Dynamics& mean = dynamics.atMeanLoad();
+  const Eigen::VectorXd load = mean.unbalancedForce(zero, zero, at);
   if (load.norm() == 0.0) {
-    return rest;
+    return SteadyMotion{zero, zero};
   }
-  for (const auto* free : {&cyclic.conserved, &cyclic.driven}) {
-    if (load(*free).norm() > 1.0e-12 * load.norm()) {
+  const Linearization l = mean.linearization(zero, zero, zero, at);
+  const CyclicCoordinates rigid = rigidBodyMotions(l);
+  const Eigen::MatrixXd along =
+      (l.stiffness + l.circulatory) * rigid.basis(Eigen::all, rigid.shape);
+  Eigen::VectorXd rows(along.rows());  // each in units of its largest entry
+  for (Eigen::Index i = 0; i < rows.size(); ++i) {
+    const double largest = along.cols() > 0 ? along.row(i).cwiseAbs().maxCoeff() : 0.0;
+    rows[i] = largest > 0.0 ? 1.0 / largest : 1.0;
+  }
+  const Eigen::MatrixXd slope = rows.asDiagonal() * along;
+  const Eigen::VectorXd pull = rows.cwiseProduct(load);
+  if (rigid.any()) {
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(slope);
+    const Eigen::VectorXd by_shape = qr.solve(pull);
+    if (!((slope * by_shape - pull).norm() <= kHeld * pull.norm())) {
       return std::nullopt;
     }
+    return SteadyMotion{rigid.basis(Eigen::all, rigid.shape) * by_shape, zero};
   }
-  const Linearization l = dynamics.atMeanLoad().linearization(zero, zero, zero, at);
-  const Eigen::MatrixXd k = cyclic.basis.transpose() * (l.stiffness + l.circulatory) * cyclic.basis;
-  Eigen::VectorXd by_shape = zero;
-  const Eigen::MatrixXd stiffness = k(cyclic.shape, cyclic.shape);
-  const Eigen::VectorXd pull = load(cyclic.shape);
-  const Eigen::VectorXd deflected = stiffness.partialPivLu().solve(pull);
-  by_shape(cyclic.shape) = deflected;
-  rest.q = cyclic.basis * by_shape;
-  return rest;
+  return SteadyMotion{slope.partialPivLu().solve(pull), zero};
 }
 
 }  // namespace
@@ -136,7 +139,7 @@ std::optional<SteadyMotion> steadyMotionNear(const Dynamics& dynamics,
   const Eigen::Index n = dynamics.dof();
   SteadyMotion x{start.q, Eigen::VectorXd::Zero(n)};
   if (dynamics.linear()) {
-    return deflection(dynamics, cyclic, speed);
+    return deflection(dynamics, speed);
   }
   for (const Eigen::Index i : cyclic.driven) {
     x.v[i] = start.v[i] != 0.0 ? start.v[i] : 1.0;  // where rest is no steady motion

@@ -84,7 +84,12 @@ std::string equilibriaText(const SystemAnalysis& a) {
     out += fmt::format("    {}{}: {}\n", values(a, e.q, 0), steadyRates(a, e.v),
                        verdictText(e.stability.routh.verdict));
   }
-  return a.equilibria.empty() ? out + "    none found\n" : out;
+  if (!a.equilibria.empty()) {
+    return out;
+  }
+  return out + (a.dynamics->linear()
+                    ? "    none: a constant load acts along a motion that no stiffness resists\n"
+                    : "    none found\n");
 }
 
 std::string modesText(const SystemAnalysis& a) {
