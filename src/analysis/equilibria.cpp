@@ -170,15 +170,25 @@ std::optional<Equilibrium> operatingPoint(const Dynamics& dynamics, const Eigen:
                                           const Eigen::VectorXd& v, double speed) {
   const CyclicCoordinates cyclic = cyclicCoordinates(dynamics, speed);
   const Eigen::VectorXd momenta = dynamics.momenta(q, v, {0.0, 0.0, speed, 0.0});
+  std::vector<Equilibrium> stable = allOf(dynamics, cyclic, speed, q, momenta, v);
+  stable.erase(std::remove_if(stable.begin(), stable.end(),
+                              [](const Equilibrium& e) { return !e.stability.bounded(); }),
+               stable.end());
+  Eigen::VectorXd from = q;
+  if (stable.size() > 1) {
+    if (const auto settled = creepsTo(dynamics, cyclic, {q, v}, momenta, speed)) {
+      from = settled->q;
+    }
+  }
   std::optional<Equilibrium> nearest;
   double nearest_distance = 0.0;
-  for (const Equilibrium& e : allOf(dynamics, cyclic, speed, q, momenta, v)) {
+  for (const Equilibrium& e : stable) {
     // Where rates are driven the nearest rate decides, then the shape.
     const Eigen::VectorXd now = v(cyclic.driven);
     const Eigen::VectorXd then = e.v(cyclic.driven);
     const double off = (then - now).norm() / (1.0e-300 + now.norm() + then.norm());
-    const double d = distance(dynamics, cyclic, e.q, q) + kRatesFirst * off;
-    if (e.stability.bounded() && (!nearest || d < nearest_distance)) {
+    const double d = distance(dynamics, cyclic, e.q, from) + kRatesFirst * off;
+    if (!nearest || d < nearest_distance) {
       nearest = e;
       nearest_distance = d;
     }

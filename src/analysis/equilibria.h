@@ -37,9 +37,11 @@ std::vector<Equilibrium> equilibria(const Dynamics& dynamics, double speed);
 std::optional<Eigen::VectorXd> equilibriumNear(const Dynamics& dynamics, const Eigen::VectorXd& q,
                                                double speed);
 
-/// The bounded equilibrium nearest to q (angles by the shorter way round, cyclic coordinates
-/// aside; of several rates of a driven one the nearest) with the momenta of the motion through q
-/// and v, or nothing.
+/// The bounded equilibrium that the shape creeps to from q (creepsTo): the motion, its swing lost,
+/// ends there, which need not be the nearest. From the top of a hill, and where rates are driven,
+/// the nearest (angles by the shorter way round, cyclic coordinates aside; of several rates of a
+/// driven one the nearest). With the momenta of the motion through q and v; nothing if there is
+/// none.
 std::optional<Equilibrium> operatingPoint(const Dynamics& dynamics, const Eigen::VectorXd& q,
                                           const Eigen::VectorXd& v, double speed);
 

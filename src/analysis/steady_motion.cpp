@@ -13,6 +13,9 @@ namespace whirl_twin {
 namespace {
 
 constexpr int kMaxIterations = 100;
+constexpr int kMostCreeps = 2000;
+constexpr double kCreep = 0.05;    // units: the longest step
+constexpr double kCrept = 1.0e-9;  // units: there
 constexpr double kHeld = 1.0e-9;   // of the load: what no stiffness answers is a load along a drift
 
 /// The steady motions of a system at fixed momenta: unknowns are the shape, then the rates of the
@@ -66,6 +69,13 @@ class ReducedSystem {
     all.rightCols(all.cols() - s) = (l.damping + l.gyroscopic).rightCols(all.cols() - s);
     const Eigen::VectorXd unit = unit_(rows_);
     return unit.asDiagonal() * all * unit.asDiagonal();
+  }
+
+  /// Of the shape, in units.
+  Eigen::MatrixXd inertia(const SteadyMotion& x) const {
+    const Eigen::MatrixXd mass = dynamics_.massMatrix(x.q, x.v, at_);
+    const Eigen::VectorXd unit = unit_(cyclic_.shape);
+    return unit.asDiagonal() * mass(cyclic_.shape, cyclic_.shape) * unit.asDiagonal();
   }
 
   void move(const Eigen::VectorXd& by, SteadyMotion& x) const {
@@ -165,6 +175,44 @@ std::optional<SteadyMotion> steadyMotionNear(const Dynamics& dynamics,
   return system.pull(x).norm() <= 1.0e-12 * system.largeForce(start, speed)
              ? std::optional<SteadyMotion>(x)
              : std::nullopt;
+}
+
+std::optional<SteadyMotion> creepsTo(const Dynamics& dynamics, const CyclicCoordinates& cyclic,
+                                     const SteadyMotion& start, const Eigen::VectorXd& momenta,
+                                     double speed) {
+  if (dynamics.linear() || !cyclic.driven.empty() || cyclic.shape.empty()) {
+    return std::nullopt;
+  }
+  SteadyMotion x{start.q, Eigen::VectorXd::Zero(dynamics.dof())};
+  const ReducedSystem system(dynamics, cyclic, x, momenta, speed);
+  system.matchMomenta(x);
+  double time = 0.0;  // of a step; from the second on
+  for (int i = 0; i < kMostCreeps; ++i) {
+    const Eigen::VectorXd pull = system.pull(x);
+    const Eigen::MatrixXd slope = system.slope(x);
+    const Eigen::MatrixXd inertia = system.inertia(x);
+    if (!pull.allFinite() || !slope.allFinite() || pull.norm() == 0.0) {
+      return x;
+    }
+    if (time == 0.0) {
+      time = kCreep * inertia.norm() / pull.norm();
+    }
+    // M x' = pull, implicit: a step that is not downhill on its whole way is halved.
+    const Eigen::MatrixXd step = inertia / time + slope;
+    const bool downhill =
+        Eigen::LLT<Eigen::MatrixXd>(0.5 * (step + step.transpose())).info() == Eigen::Success;
+    const Eigen::VectorXd by = downhill ? Eigen::VectorXd(step.partialPivLu().solve(pull)) : pull;
+    if (!downhill || !(by.norm() <= kCreep)) {
+      time *= 0.5;
+      continue;
+    }
+    system.move(by, x);
+    if (by.norm() <= kCrept && time * slope.norm() > inertia.norm()) {
+      return x;
+    }
+    time *= 1.5;
+  }
+  return x;
 }
 
 }  // namespace whirl_twin

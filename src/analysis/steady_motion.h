@@ -22,4 +22,11 @@ std::optional<SteadyMotion> steadyMotionNear(const Dynamics& dynamics,
                                              const SteadyMotion& start,
                                              const Eigen::VectorXd& momenta, double speed);
 
+/// Where the shape comes to, let go at the start and damped so strongly that it only creeps: down
+/// the slope of the reduced potential, by implicit steps of bounded length and number. Nothing for
+/// a linear system and where driven coordinates take part.
+std::optional<SteadyMotion> creepsTo(const Dynamics& dynamics, const CyclicCoordinates& cyclic,
+                                     const SteadyMotion& start, const Eigen::VectorXd& momenta,
+                                     double speed);
+
 }  // namespace whirl_twin
