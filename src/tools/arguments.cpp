@@ -7,6 +7,7 @@
 #include "analysis/exact_number.h"
 #include "messages/names.h"
 #include "messages/refusal.h"
+#include "reports/output.h"
 
 namespace whirl_twin {
 
@@ -21,7 +22,7 @@ std::string inSeconds(std::int64_t nanoseconds) {
 }
 
 std::int64_t parseNanoseconds(const std::string& option, const std::string& text, std::int64_t low,
-                              std::int64_t high) {
+                              std::int64_t high, std::int64_t unit) {
   const std::string expected =
       fmt::format("must be from {} to {}", inSeconds(low), inSeconds(high));
   Rational nanoseconds;
@@ -33,11 +34,14 @@ std::int64_t parseNanoseconds(const std::string& option, const std::string& text
   if (nanoseconds < low || nanoseconds > high) {
     throw Refusal(fmt::format("{}: {}, found {} s", option, expected, text));
   }
-  if (denominator(nanoseconds) != 1) {
-    throw Refusal(
-        fmt::format("{}: must be a whole number of nanoseconds, found {} s", option, text));
+  const Rational units = nanoseconds / unit + Rational(1, 2);  // nearest: the floor of this
+  const auto whole = static_cast<std::int64_t>(numerator(units) / denominator(units)) * unit;
+  if (nanoseconds != whole) {
+    complain(fmt::format("twin: {}: {} s is not a whole number of {}: {} is taken\n", option, text,
+                           unit == 1 ? "nanoseconds" : "steps of " + inSeconds(unit),
+                           inSeconds(whole)));
   }
-  return static_cast<std::int64_t>(numerator(nanoseconds));
+  return whole;
 }
 
 std::vector<std::string> orderedArguments(int argc, const char* const* argv) {

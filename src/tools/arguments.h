@@ -11,10 +11,11 @@ namespace whirl_twin {
 /// The scene that a command is about.
 void addSceneOption(CLI::App* command, std::string& scene);
 
-/// Seconds, as typed, as a whole number of nanoseconds from `low` to `high` [ns]. Exact: no binary
-/// fraction comes in between. `option` names it in the message. Throws Refusal.
+/// Seconds, as typed, as the nearest whole number of `unit`s [ns], in nanoseconds; from `low` to
+/// `high` [ns]. Exact: no binary fraction comes in between. What is not a whole number is said on
+/// standard error with what is taken instead. `option` names it there. Throws Refusal.
 std::int64_t parseNanoseconds(const std::string& option, const std::string& text, std::int64_t low,
-                              std::int64_t high);
+                              std::int64_t high, std::int64_t unit = 1);
 
 /// Nanoseconds as seconds, for a message: "0.0005 s".
 std::string inSeconds(std::int64_t nanoseconds);

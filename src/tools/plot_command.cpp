@@ -110,7 +110,7 @@ void addPlotCommand(CLI::App& twin, int& status) {
   command->add_option("--system", request->run.system, "plot this system only")->type_name("NAME");
   command
       ->add_option("--duration", request->run.duration,
-                   "s, simulated, whole steps; default: the longest drive profile, else 10 s")
+                   "s, simulated, to the nearest step; default: the longest drive profile, else 10 s")
       ->type_name("S");
   command->add_option("--output", request->folder, "folder of the files; default: this one")
       ->type_name("FOLDER");

@@ -27,20 +27,6 @@ constexpr std::int64_t kSecond = 1'000'000'000;                // ns
 constexpr std::int64_t kLongestRun = 1'000'000'000 * kSecond;  // as long as a drive can be timed
 constexpr double kDefaultDuration = 10.0;                      // s
 
-/// A time as typed that has to be a whole number of steps.
-std::int64_t wholeSteps(const std::string& option, const std::string& text, std::int64_t low,
-                        std::int64_t step) {
-  const std::int64_t time = parseNanoseconds(option, text, low, kLongestRun);
-  if (time % step != 0) {
-    const std::int64_t before = time - time % step;
-    throw Refusal(
-        fmt::format("{}: must be a whole number of steps of {}, found {} s; next to it "
-                    "are {} and {}",
-                    option, inSeconds(step), text, inSeconds(before), inSeconds(before + step)));
-  }
-  return time / step;
-}
-
 /// The longest drive profile, or 10 s, in whole samples.
 std::int64_t defaultSteps(const SimulationPlan& plan) {
   double duration = 0.0;
@@ -117,11 +103,12 @@ SimulationPlan planSimulation(const SimulationRequest& request) {
   }
   const std::int64_t step = plan.scene.step;
   if (request.sample) {
-    plan.stride = wholeSteps("--sample", *request.sample, step, step);
+    plan.stride = parseNanoseconds("--sample", *request.sample, step, kLongestRun, step) / step;
   }
   plan.scene = withStepsChosen(plan.scene);
-  plan.steps =
-      request.duration ? wholeSteps("--duration", *request.duration, 0, step) : defaultSteps(plan);
+  plan.steps = request.duration
+                   ? parseNanoseconds("--duration", *request.duration, 0, kLongestRun, step) / step
+                   : defaultSteps(plan);
   return plan;
 }
 

@@ -61,12 +61,10 @@ void writeTable(const std::string& path, const std::vector<TradeoffReport>& repo
   file.complete();
 }
 
-/// As asked for, or the horizon of the system, which has to be a duration that can be run.
-std::int64_t durationOf(const Request& request, const Scene& one) {
-  constexpr std::int64_t kLongest = 1'000'000 * kSecond;
-  if (request.duration) {
-    return parseNanoseconds("--duration", *request.duration, one.step, kLongest);
-  }
+constexpr std::int64_t kLongest = 1'000'000 * kSecond;  // ns
+
+/// The horizon of the system, which has to be a duration that can be run. [ns]
+std::int64_t horizonOf(const Scene& one) {
   const SystemSpec& spec = one.systems.front();
   const double horizon = 1.0e9 * spec.horizon;
   if (!(horizon >= static_cast<double>(one.step) && horizon <= static_cast<double>(kLongest))) {
@@ -82,10 +80,14 @@ int tradeoffOf(const Request& request) {
   requireTableName(request.output);
   const Scene scene = readSceneFile(scenePath(request.scene));
   const std::vector<std::size_t> systems = selectedSystems(scene, request.system);
+  std::optional<std::int64_t> asked;  // [ns]
+  if (request.duration) {
+    asked = parseNanoseconds("--duration", *request.duration, scene.step, kLongest);
+  }
   std::vector<TradeoffReport> reports;
   for (std::size_t i = 0; i < systems.size(); ++i) {
     const Scene one = sceneOfOne(scene, systems[i]);
-    const std::int64_t duration = durationOf(request, one);
+    const std::int64_t duration = asked ? *asked : horizonOf(one);
     constexpr std::int64_t kParts = 1000;
     const auto all = static_cast<std::int64_t>(systems.size()) * kParts;
     ProgressBar bar(all, false);
