@@ -31,6 +31,14 @@ constexpr double kReach = 50.0;  // times the highest resonance: heavy damping d
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+/// The response at the published station at one speed: in m, or per unit eccentricity of a rotor
+/// without unbalance.
+struct UnbalanceResponse {
+  double major = 0.0;   ///< semi-major axis of the orbit
+  bool forward = true;  ///< direction of the orbit
+  double slope = 0.0;   ///< d(major^2)/dw
+};
+
 /// The rotor as its published station sees it.
 class Probe {
  public:
@@ -104,7 +112,6 @@ UnbalanceResponse Probe::response(double speed) const {
   };
   UnbalanceResponse r;
   r.major = now.major();
-  r.minor = now.minor();
   r.forward = std::abs(now.forward) >= std::abs(now.backward);
   r.slope =
       2.0 * r.major * (rate(now.forward, change.forward) + rate(now.backward, change.backward));
@@ -170,10 +177,6 @@ double peakBetween(const Probe& probe, double low, double high) {
 }
 
 }  // namespace
-
-UnbalanceResponse unbalanceResponse(const Dynamics& dynamics, double speed) {
-  return Probe(dynamics).response(speed);
-}
 
 std::vector<CriticalSpeed> criticalSpeeds(const Dynamics& dynamics) {
   std::vector<CriticalSpeed> found;

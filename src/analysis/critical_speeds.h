@@ -30,15 +30,4 @@ struct CriticalSpeed {
 /// Ascending. Empty for models that are not linear rotors.
 std::vector<CriticalSpeed> criticalSpeeds(const Dynamics& dynamics);
 
-/// The response at the published station at one speed [rad/s]: in m, or per unit eccentricity of a
-/// rotor without unbalance.
-struct UnbalanceResponse {
-  double major = 0.0;   ///< semi-major axis of the orbit
-  double minor = 0.0;   ///< semi-minor axis
-  bool forward = true;  ///< direction of the orbit
-  double slope = 0.0;   ///< d(major^2)/dw
-};
-/// Throws std::logic_error unless the model is a linear rotor.
-UnbalanceResponse unbalanceResponse(const Dynamics& dynamics, double speed);
-
 }  // namespace whirl_twin

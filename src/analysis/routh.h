@@ -60,9 +60,4 @@ RouthResult routh(const std::vector<Rational>& coefficients, ExactBudget& budget
 RouthResult routh(const std::vector<ComplexRational>& coefficients);
 RouthResult routh(const std::vector<ComplexRational>& coefficients, ExactBudget& budget);
 
-/// Hurwitz determinants D_1 ... D_n of a_0 s^n + ... + a_n: leading principal minors of the matrix
-/// H[i][j] = a_{2j-i}, i, j = 1 ... n. With a_0 > 0 all roots lie left if and only if all are
-/// positive (Hurwitz 1895). Leading zeros are dropped; throws as routh() does.
-std::vector<Rational> hurwitzMinors(const std::vector<Rational>& coefficients);
-
 }  // namespace whirl_twin

@@ -152,14 +152,4 @@ std::vector<UndampedCriticalSpeed> undampedCriticalSpeeds(const LinearRotor& rot
   return found;
 }
 
-std::vector<CriticalSpeedMapRow> criticalSpeedMap(
-    const std::function<LinearRotor(double stiffness)>& rotor, const std::vector<Station>& stations,
-    const std::vector<double>& stiffnesses, double highest) {
-  std::vector<CriticalSpeedMapRow> rows;
-  for (const double stiffness : stiffnesses) {
-    rows.push_back({stiffness, undampedCriticalSpeeds(rotor(stiffness), stations, highest)});
-  }
-  return rows;
-}
-
 }  // namespace whirl_twin

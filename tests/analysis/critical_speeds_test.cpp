@@ -9,6 +9,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "analysis/synchronous_response.h"
 #include "models_under_test.h"
 
 namespace whirl_twin {
@@ -90,26 +91,16 @@ TEST(CriticalSpeeds, ofAnAnisotropicRotorComeInTwo) {
   ASSERT_EQ(found.size(), 2u);
   EXPECT_NEAR(found[0].speed, 300.0, 0.1);
   EXPECT_NEAR(found[1].speed, 360.0, 0.1);
-  EXPECT_FALSE(unbalanceResponse(*dynamics, 330.0).forward);
-  EXPECT_TRUE(unbalanceResponse(*dynamics, 250.0).forward);
-  EXPECT_TRUE(unbalanceResponse(*dynamics, 500.0).forward);
+  for (const double speed : {250.0, 330.0, 500.0}) {
+    const auto response = synchronousResponse(dynamics->linearRotor(), dynamics->stations(), speed);
+    EXPECT_EQ(response.orbits.front().direction(),
+              speed == 330.0 ? Whirl::kBackward : Whirl::kForward);
+  }
 }
 
 TEST(CriticalSpeeds, aPendulumHasNone) {
   EXPECT_TRUE(
       criticalSpeeds(*dynamicsOf("spinning_pendulum", {{"mass", 1.0}, {"length", 1.0}})).empty());
-}
-
-TEST(UnbalanceResponse, itsSlopeIsItsDerivative) {
-  const auto dynamics = rotor(0.1, 1.3);
-  for (const double speed : {50.0, 290.0, 310.0, 345.0, 900.0}) {
-    const double d = 1.0e-3;
-    const double above = unbalanceResponse(*dynamics, speed + d).major;
-    const double below = unbalanceResponse(*dynamics, speed - d).major;
-    const double slope = unbalanceResponse(*dynamics, speed).slope;
-    EXPECT_NEAR(slope, (above * above - below * below) / (2.0 * d),
-                1.0e-7 * (1.0 + std::fabs(slope)));
-  }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "analysis/routh.h"
+#include "hurwitz_minors.h"
 #include "reference_polynomials.h"
 
 namespace whirl_twin {

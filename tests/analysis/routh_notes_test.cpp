@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/routh.h"
+#include "hurwitz_minors.h"
 #include "reference_polynomials.h"
 
 namespace whirl_twin {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "hurwitz_minors.h"
 #include "reference_polynomials.h"
 
 namespace whirl_twin {
@@ -136,7 +137,6 @@ TEST(Routh, RefusesWhatIsNoPolynomial) {
   EXPECT_THROW(routh(std::vector<double>{}), std::invalid_argument);
   EXPECT_THROW(routh(std::vector<double>{0, 0}), std::invalid_argument);
   EXPECT_THROW(routh(std::vector<Rational>{}), std::invalid_argument);
-  EXPECT_THROW(hurwitzMinors({0, 0}), std::invalid_argument);
   try {
     routh(std::vector<double>{1, 2, std::numeric_limits<double>::quiet_NaN()});
     FAIL() << "accepted NaN";

@@ -1,16 +1,15 @@
-#include <algorithm>
-#include <stdexcept>
-#include <utility>
+// Hurwitz determinants, as a second opinion on Routh's table.
+#pragma once
 
-#include "analysis/routh.h"
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "analysis/exact_number.h"
 
 namespace whirl_twin {
 
-namespace {
-
-using Matrix = std::vector<std::vector<Rational>>;
-
-Rational determinant(Matrix matrix) {
+inline Rational determinant(std::vector<std::vector<Rational>> matrix) {
   Rational product = 1;
   for (std::size_t column = 0; column < matrix.size(); ++column) {
     const auto pivot_row = std::find_if(matrix.begin() + column, matrix.end(),
@@ -33,21 +32,18 @@ Rational determinant(Matrix matrix) {
   return product;
 }
 
-}  // namespace
-
-std::vector<Rational> hurwitzMinors(const std::vector<Rational>& coefficients) {
+/// Hurwitz determinants D_1 ... D_n of a_0 s^n + ... + a_n: leading principal minors of the matrix
+/// H[i][j] = a_{2j-i}, i, j = 1 ... n. With a_0 > 0 all roots lie left if and only if all are
+/// positive (Hurwitz 1895). Leading zeros are dropped.
+inline std::vector<Rational> hurwitzMinors(const std::vector<Rational>& coefficients) {
   const std::vector<Rational> polynomial(
       std::find_if(coefficients.begin(), coefficients.end(),
                    [](const Rational& coefficient) { return coefficient != 0; }),
       coefficients.end());
-  if (polynomial.empty()) {
-    throw std::invalid_argument(
-        "polynomial: expected at least one coefficient that is not zero, found none");
-  }
   const int degree = static_cast<int>(polynomial.size()) - 1;
   std::vector<Rational> minors;
   for (int size = 1; size <= degree; ++size) {
-    Matrix matrix(size, std::vector<Rational>(size));
+    std::vector<std::vector<Rational>> matrix(size, std::vector<Rational>(size));
     for (int i = 0; i < size; ++i) {
       for (int j = 0; j < size; ++j) {
         const int index = 2 * (j + 1) - (i + 1);
