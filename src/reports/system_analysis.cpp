@@ -82,6 +82,8 @@ SystemAnalysis analyzeSystem(const BuiltScene& scene, const BuiltSystem& system)
                                                     critical.forward ? "forward" : "backward",
                                                     critical.amplification_factor));
   }
+  a.cross_coupling = crossCouplingMarginOf(dynamics, shaft.speed);
+  a.steady_speeds = steadySpeedsOf(scene.scene, system.spec);
   return a;
 }
 

@@ -12,6 +12,7 @@
 #include "mechanics/dynamics.h"
 #include "messages/stability_margin.h"
 #include "reports/output.h"
+#include "reports/rotor_margins.h"
 #include "scene/built_scene.h"
 
 namespace whirl_twin {
@@ -38,6 +39,8 @@ struct SystemAnalysis {
   Stability reduced_stability;              ///< of the shape with its momenta as they are
   std::optional<double> instability_speed;  ///< [rad/s]
   std::vector<state::CriticalSpeedMargin> critical_speeds;  ///< seen from the initial speed
+  std::optional<CrossCouplingMargin> cross_coupling;        ///< at the initial speed
+  std::vector<SteadySpeed> steady_speeds;                   ///< on its motor
 };
 
 /// Throws RunFailure where the numbers of the scene are too large to be analysed.

@@ -81,6 +81,15 @@ Json criticalSpeedJson(const state::CriticalSpeedMargin& critical) {
   return json;
 }
 
+/// Null for what is not a rotor; null stiffness where no cross-coupling makes it grow.
+Json crossCouplingJson(const SystemAnalysis& a) {
+  if (!a.cross_coupling) {
+    return {};
+  }
+  return {{"station", a.cross_coupling->station},
+          {"stiffness", a.cross_coupling->stiffness ? Json(*a.cross_coupling->stiffness) : Json()}};
+}
+
 }  // namespace
 
 Json json(const SystemAnalysis& a) {
@@ -129,6 +138,12 @@ Json json(const SystemAnalysis& a) {
   json["critical_speeds"] = Json::array();
   for (const auto& critical : a.critical_speeds) {
     json["critical_speeds"].push_back(criticalSpeedJson(critical));
+  }
+  json["cross_coupling_margin"] = crossCouplingJson(a);
+  json["steady_speeds"] = Json::array();
+  for (const SteadySpeed& steady : a.steady_speeds) {
+    json["steady_speeds"].push_back(
+        {{"speed", steady.speed}, {"torque", steady.torque}, {"stable", steady.stable}});
   }
   return json;
 }

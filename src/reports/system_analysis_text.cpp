@@ -143,6 +143,26 @@ std::string criticalSpeedsText(const SystemAnalysis& a) {
   return out;
 }
 
+std::string crossCouplingText(const SystemAnalysis& a) {
+  if (!a.cross_coupling) {
+    return "";
+  }
+  return fmt::format("  cross-coupling margin at {}: {}\n", a.cross_coupling->station,
+                     a.cross_coupling->stiffness
+                         ? fmt::format("{:.6g} N/m", *a.cross_coupling->stiffness)
+                         : std::string("none found, no forward mode grows"));
+}
+
+std::string steadySpeedsText(const SystemAnalysis& a) {
+  std::string out = a.steady_speeds.empty() ? "" : "  steady speeds on its motor\n";
+  for (const SteadySpeed& steady : a.steady_speeds) {
+    out += fmt::format("    {:.6g} rad/s ({:.4g} rpm), torque {:.4g} N m: {}\n", steady.speed,
+                       steady.speed * 30.0 / kPi, steady.torque,
+                       steady.stable ? "stable" : "unstable");
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string text(const SystemAnalysis& a) {
@@ -156,7 +176,8 @@ std::string text(const SystemAnalysis& a) {
          matrixText("gyroscopic", a.linearization.gyroscopic) +
          matrixText("stiffness", a.linearization.stiffness) +
          matrixText("circulatory", a.linearization.circulatory);
-  return out + modesText(a) + stabilityText(a) + criticalSpeedsText(a);
+  return out + modesText(a) + stabilityText(a) + criticalSpeedsText(a) + crossCouplingText(a) +
+         steadySpeedsText(a);
 }
 
 }  // namespace whirl_twin

@@ -18,10 +18,14 @@ constexpr const char* kDescription =
     "damping, stability by Routh's test and its margins, critical speeds and separation margins.";
 
 constexpr const char* kFooter =
-    "Linearized about the operating point: the stable equilibrium nearest the initial state at "
-    "the\n"
-    "initial shaft speed, or the initial state if there is none. Critical speeds are the peaks of\n"
-    "the unbalance response; separation margins are those of API 617, in percent of the speed.\n"
+    "Linearized about the operating point at the initial shaft speed: the stable equilibrium that\n"
+    "the initial position creeps to, strongly damped (the nearest where it does not move), or the\n"
+    "initial state if there is none. Critical speeds are the peaks of the unbalance response;\n"
+    "separation margins are those of API 617, in percent of the speed. Of a reduced rotor none is\n"
+    "told beyond the speed that it holds to.\n"
+    "The cross-coupling margin (API 617, level I) is the stiffness kxy = -kyx at the published\n"
+    "station at which the first forward whirl stops to decay. Steady speeds: the motor's torque\n"
+    "carries drag and whirl there; stable where the load rises faster with the speed.\n"
     "\n"
     "Examples:\n"
     "  twin analyze demo.yaml\n"

@@ -34,12 +34,12 @@ TEST(Analyze, HasEveryKey) {
   ASSERT_EQ(end.status, 0) << end.err;
   EXPECT_EQ(keys(end.json()["systems"]), (std::set<std::string>{"rotor", "pendulum"}));
   for (const auto& [name, system] : end.json()["systems"].items()) {
-    EXPECT_EQ(
-        keys(system),
-        (std::set<std::string>{"model", "coordinates", "time", "speed", "state", "acceleration",
-                               "energy", "equilibria", "linearization", "eigenvalues",
-                               "natural_frequencies", "damping_ratios", "characteristic_polynomial",
-                               "routh", "margins", "critical_speeds", "methods"}));
+    EXPECT_EQ(keys(system),
+              (std::set<std::string>{
+                  "model", "coordinates", "time", "speed", "state", "acceleration", "energy",
+                  "equilibria", "linearization", "eigenvalues", "natural_frequencies",
+                  "damping_ratios", "characteristic_polynomial", "routh", "margins",
+                  "critical_speeds", "cross_coupling_margin", "steady_speeds", "methods"}));
     EXPECT_EQ(keys(system["energy"]), (std::set<std::string>{"kinetic", "potential", "jacobi",
                                                              "dissipated_power", "input_power"}));
     EXPECT_EQ(keys(system["equilibria"][0]), (std::set<std::string>{"state", "verdict"}));
