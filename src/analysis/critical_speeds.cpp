@@ -178,16 +178,18 @@ double peakBetween(const Probe& probe, double low, double high) {
 
 }  // namespace
 
-std::vector<CriticalSpeed> criticalSpeeds(const Dynamics& dynamics) {
-  std::vector<CriticalSpeed> found;
+CriticalSpeedSearch searchCriticalSpeeds(const Dynamics& dynamics) {
+  CriticalSpeedSearch search;
+  search.highest_speed = kInfinity;
   if (!dynamics.linear() || !dynamics.hasShaft() || dynamics.stations().empty()) {
-    return found;
+    return search;
   }
   const Probe probe(dynamics);
+  search.highest_speed = probe.rotor().highest_speed;
   const Linearization matrices = probe.rotor().matrices(0.0);
   const Stability at_rest = reducedStability(matrices, rigidBodyMotions(matrices));
   if (at_rest.natural_frequencies.empty()) {
-    return found;
+    return search;
   }
   const double low = 0.02 * at_rest.natural_frequencies.front();
   const double high = kReach * at_rest.natural_frequencies.back();
@@ -201,6 +203,12 @@ std::vector<CriticalSpeed> criticalSpeeds(const Dynamics& dynamics) {
     }
     if (before > 0.0 && after < 0.0) {
       const double peak = peakBetween(probe, last, speed);
+      before = after;
+      last = speed;
+      if (peak > search.highest_speed) {
+        ++search.beyond;
+        continue;
+      }
       double ratio = 1.0;
       double nearest = kInfinity;
       for (const Complex& pole : poles) {
@@ -209,12 +217,16 @@ std::vector<CriticalSpeed> criticalSpeeds(const Dynamics& dynamics) {
           ratio = std::fabs(pole.imag()) / std::abs(pole);
         }
       }
-      found.push_back(measured(probe, peak, ratio));
+      search.found.push_back(measured(probe, peak, ratio));
     }
     last = speed;
     before = after;
   }
-  return found;
+  return search;
+}
+
+std::vector<CriticalSpeed> criticalSpeeds(const Dynamics& dynamics) {
+  return searchCriticalSpeeds(dynamics).found;
 }
 
 }  // namespace whirl_twin

@@ -11,7 +11,6 @@
 // station, makes no peak: undamped_critical_speeds.h has them all.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "mechanics/dynamics.h"
@@ -27,7 +26,15 @@ struct CriticalSpeed {
   bool forward = true;                ///< the orbit at the peak runs with the rotation
 };
 
-/// Ascending. Empty for models that are not linear rotors.
+struct CriticalSpeedSearch {
+  std::vector<CriticalSpeed> found;  ///< ascending, up to the rotor's highest speed
+  std::size_t beyond = 0;            ///< of a reduced rotor: how many more its equations would have
+  double highest_speed = 0.0;        ///< [rad/s], that a reduced rotor holds to; else infinity
+};
+
+/// Empty for models that are not linear rotors.
+CriticalSpeedSearch searchCriticalSpeeds(const Dynamics& dynamics);
+/// Those found.
 std::vector<CriticalSpeed> criticalSpeeds(const Dynamics& dynamics);
 
 }  // namespace whirl_twin

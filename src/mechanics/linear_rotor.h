@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,8 @@ struct LinearRotor {
   std::vector<double> knots = {};  ///< [rad/s], ascending: speeds between which they are smooth
   std::vector<ShaftForce> forces = {};
   Eigen::VectorXd load;  ///< f_0 [N] or [N m]
+  /// [rad/s], up to which it is that of the machine: a reduced rotor has no more.
+  double highest_speed = std::numeric_limits<double>::infinity();
 
   Eigen::Index dof() const { return load.size(); }
   /// f(theta, w, a), without f_0.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -129,11 +130,9 @@ void requireFinite(const LinearRotor& rotor) {
   }
 }
 
-std::shared_ptr<const Dynamics> dynamicsOf(RotorDescription description,
-                                           const RotorAssembly& assembly) {
+std::shared_ptr<const Dynamics> dynamicsOf(RotorDescription description, LinearRotor rotor) {
   try {
-    return std::make_shared<const LinearRotorDynamics>(std::move(description),
-                                                       assembly.linearRotor());
+    return std::make_shared<const LinearRotorDynamics>(std::move(description), std::move(rotor));
   } catch (const std::invalid_argument&) {
     throw SetupError("elements",
                      "must give a mass in every motion that rounding does not hide "
@@ -153,6 +152,7 @@ ModelSetup setUpFlexibleRotor(const ParameterValues& values, const Settings& set
   description.natural_length = whirlLength(shaft, totalMass(shaft));
   description.phase_mark = values.at("phase_mark");
   std::string note;
+  double highest_speed = std::numeric_limits<double>::infinity();
   const std::string& modes = settings.choices.at("modes");
   if (modes == "0") {
     description.coordinates = nodeCoordinates(shaft.nodes());
@@ -162,12 +162,15 @@ ModelSetup setUpFlexibleRotor(const ParameterValues& values, const Settings& set
     assembly = assembly.in(kept.shapes);
     description.coordinates = shapeCoordinates(kept.shapes.cols());
     note = kept.note;
+    highest_speed = kept.highest_speed;
   }
   description.stations =
       publishedFirst(assembly.stations(), probe, publishedNodes(settings, shaft));
   description.inputs = forcesAt(assembly.stations());
   description.sketch = FlexibleRotorPicture(shaft, assembly.stations(), probe);
-  ModelSetup setup = linearRotorSetup(dynamicsOf(std::move(description), assembly));
+  LinearRotor rotor = assembly.linearRotor();
+  rotor.highest_speed = highest_speed;
+  ModelSetup setup = linearRotorSetup(dynamicsOf(std::move(description), std::move(rotor)));
   setup.note = note;
   return setup;
 }

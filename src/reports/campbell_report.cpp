@@ -61,7 +61,7 @@ std::string crossingsText(const CampbellReport& r) {
 
 CampbellReport campbellReport(const RotorSystem& system, const SpeedRange& range,
                               const std::vector<double>& harmonics, std::size_t branches) {
-  CampbellReport r{&system, range, {}, {}, {}};
+  CampbellReport r{&system, range, {}, {}, {}, 0};
   r.diagram = campbell(system.rotor, system.stations, {range.speeds(), harmonics, branches});
   try {
     r.undamped = undampedCriticalSpeeds(system.rotor, system.stations, range.to);
@@ -73,6 +73,15 @@ CampbellReport campbellReport(const RotorSystem& system, const SpeedRange& range
   const auto outside = [&](const auto& one) { return below(one) || one.speed > range.to; };
   r.undamped.erase(std::remove_if(r.undamped.begin(), r.undamped.end(), below), r.undamped.end());
   r.peaks.erase(std::remove_if(r.peaks.begin(), r.peaks.end(), outside), r.peaks.end());
+  const auto leave_out_beyond = [&](auto& all) {
+    const auto end = std::remove_if(all.begin(), all.end(), [&](const auto& one) {
+      return one.speed > system.rotor.highest_speed;
+    });
+    r.beyond += static_cast<std::size_t>(all.end() - end);
+    all.erase(end, all.end());
+  };
+  leave_out_beyond(r.diagram.crossings);
+  leave_out_beyond(r.undamped);
   return r;
 }
 
@@ -81,6 +90,8 @@ Json json(const CampbellReport& r) {
   json["model"] = r.system->model;
   json["running_speeds"] = {r.system->lowest_speed, r.system->highest_speed};
   json["speeds"] = arrayJson(r.diagram.speeds);
+  json["highest_speed"] = r.system->rotor.highest_speed;  // null: every speed
+  json["beyond_reduction"] = r.beyond;
   json["branches"] = Json::array();
   for (const auto& branch : r.diagram.branches) {
     json["branches"].push_back(branchJson(branch));
@@ -140,7 +151,17 @@ std::string text(const CampbellReport& r) {
         band.empty() ? std::string(": critically damped")
                      : fmt::format(": keep out of {:.5g} to {:.5g}", band.low, band.high));
   }
-  return r.peaks.empty() ? out + "    none\n" : out;
+  if (r.peaks.empty()) {
+    out += "    none\n";
+  }
+  return r.range.to <= r.system->rotor.highest_speed
+             ? out
+             : out +
+                   fmt::format(
+                       "  the reduced rotor holds up to {:g} rad/s: {} crossings and undamped "
+                       "critical speeds\n  beyond are left out, and its branches are not those of "
+                       "the machine there\n",
+                       r.system->rotor.highest_speed, r.beyond);
 }
 
 }  // namespace whirl_twin

@@ -18,6 +18,9 @@ struct CampbellReport {
   CampbellDiagram diagram;
   std::vector<UndampedCriticalSpeed> undamped;  ///< within the range
   std::vector<CriticalSpeed> peaks;             ///< of the unbalance response, within the range
+  /// Crossings and undamped critical speeds in the range that a reduced rotor's equations have
+  /// beyond the speed it holds to: left out.
+  std::size_t beyond = 0;
 };
 
 CampbellReport campbellReport(const RotorSystem& system, const SpeedRange& range,

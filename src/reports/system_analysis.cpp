@@ -77,7 +77,10 @@ SystemAnalysis analyzeSystem(const BuiltScene& scene, const BuiltSystem& system)
     }
   }
   a.instability_speed = instabilitySpeed(dynamics, a.about, shaft.speed);
-  for (const CriticalSpeed& critical : criticalSpeeds(dynamics)) {
+  const CriticalSpeedSearch search = searchCriticalSpeeds(dynamics);
+  a.critical_speeds_beyond = search.beyond;
+  a.highest_speed = search.highest_speed;
+  for (const CriticalSpeed& critical : search.found) {
     a.critical_speeds.push_back(criticalSpeedMargin(shaft.speed, critical.speed,
                                                     critical.forward ? "forward" : "backward",
                                                     critical.amplification_factor));

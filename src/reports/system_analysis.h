@@ -39,6 +39,8 @@ struct SystemAnalysis {
   Stability reduced_stability;              ///< of the shape with its momenta as they are
   std::optional<double> instability_speed;  ///< [rad/s]
   std::vector<state::CriticalSpeedMargin> critical_speeds;  ///< seen from the initial speed
+  std::size_t critical_speeds_beyond = 0;  ///< that its equations have, where they do not hold
+  double highest_speed = 0.0;              ///< [rad/s], that a reduced rotor holds to
   std::optional<CrossCouplingMargin> cross_coupling;        ///< at the initial speed
   std::vector<SteadySpeed> steady_speeds;                   ///< on its motor
 };

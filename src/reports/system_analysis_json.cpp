@@ -139,6 +139,7 @@ Json json(const SystemAnalysis& a) {
   for (const auto& critical : a.critical_speeds) {
     json["critical_speeds"].push_back(criticalSpeedJson(critical));
   }
+  json["critical_speeds_beyond_reduction"] = a.critical_speeds_beyond;
   json["cross_coupling_margin"] = crossCouplingJson(a);
   json["steady_speeds"] = Json::array();
   for (const SteadySpeed& steady : a.steady_speeds) {

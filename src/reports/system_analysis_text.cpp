@@ -126,8 +126,13 @@ std::string stabilityText(const SystemAnalysis& a) {
 }
 
 std::string criticalSpeedsText(const SystemAnalysis& a) {
+  const std::string beyond =
+      a.critical_speeds_beyond == 0
+          ? ""
+          : fmt::format("    {} more left out: the reduced rotor holds up to {:g} rad/s only\n",
+                        a.critical_speeds_beyond, a.highest_speed);
   if (a.critical_speeds.empty()) {
-    return a.dynamics->isRotor() ? "  critical speeds: none\n" : "";
+    return a.dynamics->isRotor() ? "  critical speeds: none\n" + beyond : "";
   }
   std::string out = fmt::format(
       "  critical speeds seen from {:g} rad/s\n"
@@ -140,7 +145,7 @@ std::string criticalSpeedsText(const SystemAnalysis& a) {
                        defined(c.separation_margin, "-"), c.required_separation_margin,
                        too_near ? "  too near" : "");
   }
-  return out;
+  return out + beyond;
 }
 
 std::string crossCouplingText(const SystemAnalysis& a) {

@@ -34,12 +34,26 @@ TEST(Analyze, HasEveryKey) {
   ASSERT_EQ(end.status, 0) << end.err;
   EXPECT_EQ(keys(end.json()["systems"]), (std::set<std::string>{"rotor", "pendulum"}));
   for (const auto& [name, system] : end.json()["systems"].items()) {
-    EXPECT_EQ(keys(system),
-              (std::set<std::string>{
-                  "model", "coordinates", "time", "speed", "state", "acceleration", "energy",
-                  "equilibria", "linearization", "eigenvalues", "natural_frequencies",
-                  "damping_ratios", "characteristic_polynomial", "routh", "margins",
-                  "critical_speeds", "cross_coupling_margin", "steady_speeds", "methods"}));
+    EXPECT_EQ(keys(system), (std::set<std::string>{"model",
+                                                   "coordinates",
+                                                   "time",
+                                                   "speed",
+                                                   "state",
+                                                   "acceleration",
+                                                   "energy",
+                                                   "equilibria",
+                                                   "linearization",
+                                                   "eigenvalues",
+                                                   "natural_frequencies",
+                                                   "damping_ratios",
+                                                   "characteristic_polynomial",
+                                                   "routh",
+                                                   "margins",
+                                                   "critical_speeds",
+                                                   "critical_speeds_beyond_reduction",
+                                                   "cross_coupling_margin",
+                                                   "steady_speeds",
+                                                   "methods"}));
     EXPECT_EQ(keys(system["energy"]), (std::set<std::string>{"kinetic", "potential", "jacobi",
                                                              "dissipated_power", "input_power"}));
     EXPECT_EQ(keys(system["equilibria"][0]), (std::set<std::string>{"state", "verdict"}));
@@ -195,6 +209,57 @@ TEST(Analyze, WithoutAStableEquilibriumTheInitialStateIsLinearizedAbout) {
 }
 
 // On a drive the moment is that of its start: speed and acceleration of the shaft.
+TEST(Analyze, ARotorWithWeightRestsWhereItSags) {
+  const Json rotor = analyzed(
+      "{model: jeffcott_rotor, parameters: {mass: 2, stiffness: 20000, damping: 20, "
+      "gravity_on_shaft: true, speed: 50}}");
+  ASSERT_EQ(rotor["equilibria"].size(), 1u);
+  EXPECT_NEAR(rotor["equilibria"][0]["state"]["y"], -9.80665e-4, 1e-15);
+  EXPECT_NEAR(rotor["linearization"]["about"]["y"], -9.80665e-4, 1e-15);
+}
+
+TEST(Analyze, AShaftWithoutBearingsNeitherRestsNorIsUnstable) {
+  const std::string shaft =
+      "{model: flexible_rotor, parameters: {youngs_modulus: 2.0e+11, density: 7800, speed: 1000, "
+      "elements: [{length: 0.25, outer_diameter: 0.05, count: 4}], "
+      "discs: [{node: 2, mass: 10, polar_inertia: 0.1, transverse_inertia: 0.06}], modes: 0";
+  const Json floating = analyzed(shaft + "}}");
+  EXPECT_EQ(floating["reduced"]["routh"]["verdict"], "marginal");
+  EXPECT_EQ(floating["reduced"]["rigid_body_modes"], 4);
+  EXPECT_EQ(floating["routh"]["verdict"], "repeated_imaginary");  // it drifts
+  EXPECT_EQ(floating["routh"]["right"], 0);
+  EXPECT_TRUE(floating["margins"]["instability_speed"].is_null());
+  EXPECT_TRUE(analyzed(shaft + ", gravity_on_shaft: true}}")["equilibria"].empty());
+}
+
+// c p: what takes all damping of the forward whirl of a round rotor.
+TEST(Analyze, TheCrossCouplingMarginOfAJeffcottRotorIsItsDampingTimesItsFrequency) {
+  const Json rotor = analyzed(
+      "{model: jeffcott_rotor, parameters: {mass: 2, stiffness: 20000, damping: 20, speed: 50}}");
+  EXPECT_EQ(rotor["cross_coupling_margin"]["station"], "disc");
+  EXPECT_NEAR(rotor["cross_coupling_margin"]["stiffness"], 20.0 * 100.0, 1e-6);
+  EXPECT_TRUE(rotor["steady_speeds"].empty());
+}
+
+TEST(Analyze, ARotorOnAWeakMotorHasThreeSteadySpeeds) {
+  const Ending end =
+      twin({"analyze", WHIRL_TWIN_SOURCE "/config/scenes/sommerfeld.yaml", "--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  const Json captured = end.json()["systems"]["captured"]["steady_speeds"];
+  ASSERT_EQ(captured.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    // Torque of the motor, and of the whirl of an isotropic rotor: c w r^2.
+    const double w = captured[i]["speed"];
+    const double x = w / 200.0;
+    const double r = 2e-4 * x * x / std::hypot(1.0 - x * x, 2.0 * 0.02 * x);
+    EXPECT_NEAR(0.3 * (1.0 - w / 400.0), 40.0 * w * r * r, 1e-9);
+    EXPECT_EQ(captured[i]["stable"], i != 1);
+  }
+  EXPECT_NEAR(captured[0]["speed"], 197.9, 0.05);
+  EXPECT_EQ(end.json()["systems"]["escaping"]["steady_speeds"].size(), 1u);
+  EXPECT_TRUE(end.json()["systems"]["captured"]["cross_coupling_margin"].is_null());
+}
+
 TEST(Analyze, StartsWithTheDrive) {
   const Json pendulum = analyzed(
       "{model: spinning_pendulum, drive: shaft, parameters: {mass: 1, length: 1}}",

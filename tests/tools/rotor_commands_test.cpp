@@ -27,6 +27,90 @@ TEST(Campbell, FindsTheCriticalSpeedOfTheDemo) {
   }
 }
 
+/// A disc of 4 kg overhung on a light shaft, as Stodola and Green had it: nothing damps it.
+const std::string kUndamped = R"(
+step: 0.0005
+drives:
+  shaft: {speed: 0.0, profile: [{speed: 300.0, max_acceleration: 30.0}]}
+systems:
+  overhung:
+    model: rigid_disc_rotor
+    drive: shaft
+    parameters:
+      mass: 4.0
+      polar_inertia: 0.08
+      transverse_inertia: 0.04
+      overhung: {length: 0.25, bending_stiffness: 1000.0}
+      eccentricity: 2.0e-5
+)";
+
+// Neither grows nor decays, at any speed: not by a rounding either.
+TEST(Campbell, OfAnUndampedRotorHasNoDampingAtAll) {
+  const TemporaryDirectory folder;
+  const Ending end =
+      twin({"campbell", folder.write("undamped.yaml", kUndamped), "--to", "600", "--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  const auto rotor = end.json()["systems"]["overhung"];
+  ASSERT_EQ(rotor["branches"].size(), 4u);
+  for (const auto& branch : rotor["branches"]) {
+    for (const char* margin : {"decay_rate", "damping_ratio", "log_decrement"}) {
+      for (const auto& value : branch[margin]) {
+        EXPECT_EQ(value.get<double>(), 0.0) << margin;
+      }
+    }
+  }
+  for (const auto& crossing : rotor["crossings"]) {
+    EXPECT_EQ(crossing["log_decrement"].get<double>(), 0.0);
+  }
+}
+
+/// A shaft with a disc, reduced to what holds up to 600 rad/s.
+const std::string kReduced = R"(
+step: 0.001
+systems:
+  rotor:
+    model: flexible_rotor
+    parameters:
+      youngs_modulus: 2.0e11
+      density: 7800.0
+      highest_speed: 600.0
+      elements: [{count: 8, length: 0.1, outer_diameter: 0.03}]
+      discs: [{node: 3, mass: 8.0, polar_inertia: 0.04, transverse_inertia: 0.02}]
+      bearings: [{node: 0, kxx: 1.0e7, kyy: 1.2e7, cxx: 300.0, cyy: 300.0}, {node: 8, kxx: 1.0e7, kyy: 1.2e7, cxx: 300.0, cyy: 300.0}]
+      unbalances: [{node: 3, magnitude: 1.0e-4}]
+      speed: 100.0
+)";
+
+TEST(Reduction, IsAskedForNoCriticalSpeedBeyondWhatItHoldsTo) {
+  const TemporaryDirectory folder;
+  const std::string scene = folder.write("reduced.yaml", kReduced);
+  const Ending analysis = twin({"analyze", scene, "--json"});
+  ASSERT_EQ(analysis.status, 0) << analysis.err;
+  const auto rotor = analysis.json()["systems"]["rotor"];
+  ASSERT_FALSE(rotor["critical_speeds"].empty());
+  for (const auto& critical : rotor["critical_speeds"]) {
+    EXPECT_LE(critical["speed"].get<double>(), 600.0);
+  }
+  const auto beyond = rotor["critical_speeds_beyond_reduction"].get<int>();
+  EXPECT_GT(beyond, 0);
+  EXPECT_NE(
+      twin({"analyze", scene})
+          .out.find(std::to_string(beyond) + " more left out: the reduced rotor holds up to 600"),
+      std::string::npos);
+
+  const Ending diagram = twin({"campbell", scene, "--to", "20000", "--points", "20", "--json"});
+  ASSERT_EQ(diagram.status, 0) << diagram.err;
+  const auto shown = diagram.json()["systems"]["rotor"];
+  EXPECT_EQ(shown["highest_speed"].get<double>(), 600.0);
+  EXPECT_GT(shown["beyond_reduction"].get<int>(), 0);
+  for (const char* list : {"crossings", "undamped_critical_speeds", "response_peaks"}) {
+    EXPECT_FALSE(shown[list].empty()) << list;
+    for (const auto& one : shown[list]) {
+      EXPECT_LE(one["speed"].get<double>(), 600.0) << list;
+    }
+  }
+}
+
 TEST(Response, FindsThePeakOfTheDemo) {
   const Ending end = twin({"response", kDemo, "--points", "5", "--json"});
   ASSERT_EQ(end.status, 0) << end.err;
