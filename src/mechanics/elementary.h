@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cmath>
+#include <type_traits>
 
 #include "mechanics/force_inline.h"
 #include "mechanics/sine_cosine.h"
@@ -16,10 +17,14 @@ using std::atan;
 using std::sqrt;
 using std::tanh;
 
-WHIRL_TWIN_INLINE double sin(double x) {
+// Of doubles only, as templates: a model in a namespace of its own that says `using namespace
+// whirl_twin` sees the C library's ::sin too, and plain functions would be ambiguous beside it.
+template <class S, std::enable_if_t<std::is_same_v<S, double>, int> = 0>
+WHIRL_TWIN_INLINE S sin(S x) {
   return sineCosine(x).sine;
 }
-WHIRL_TWIN_INLINE double cos(double x) {
+template <class S, std::enable_if_t<std::is_same_v<S, double>, int> = 0>
+WHIRL_TWIN_INLINE S cos(S x) {
   return sineCosine(x).cosine;
 }
 

@@ -2,7 +2,10 @@
 // vertical at the speed w. x and y turn with the saddle: x up the two slopes, y down the others.
 //
 //   T = m [(x' - w y)^2 + (y' + w x)^2 + z'^2] / 2,   z' = (x x' - y y') / R
-//   V = m g (x^2 - y^2) / (2 R),                      D = c (x'^2 + y'^2 + z'^2) / 2
+//   V = m g z cos b + m g (x cos a - y sin a) sin b,  D = c (x'^2 + y'^2 + z'^2) / 2
+//
+// z = (x^2 - y^2) / (2 R), a the shaft's angle, b by how much its axis leans: seen from the saddle
+// the weight then turns.
 //
 // At rest the ball runs down along y. Turned faster than w^2 = g/R it stays: near the middle it
 // moves with the frequencies sqrt(w^2 + g/R) and sqrt(w^2 - g/R). Only inertia holds it, so that
@@ -37,17 +40,27 @@ struct SaddleTrap {
   double radius = 0.0;   ///< [m], R, of curvature in the middle
   double rim = 0.0;      ///< [m], from the middle to the edge, seen from above
   double damping = 0.0;  ///< [N s/m], viscous, on the saddle
+  double lean = 0.0;     ///< [rad], of the axis from the vertical
   double gravity = 0.0;  ///< [m/s^2], of the scene
 
-  static constexpr std::array<Parameter<SaddleTrap>, 4> parameters() {
-    return {{{"mass", "kg", Range::kPositive, &SaddleTrap::mass, "of the ball"},
-             {"radius", "m", Range::kPositive, &SaddleTrap::radius, "of curvature in the middle"},
-             {"rim", "m", Range::kPositive, &SaddleTrap::rim, "from the middle to the edge"},
-             {"damping", "N s/m", Range::kNotNegative, &SaddleTrap::damping,
-              "viscous, on the saddle", 0.0}}};
+  static constexpr std::array<Parameter<SaddleTrap>, 5> parameters() {
+    return {
+        {{"mass", "kg", Range::kPositive, &SaddleTrap::mass, "of the ball"},
+         {"radius", "m", Range::kPositive, &SaddleTrap::radius, "of curvature in the middle"},
+         {"rim", "m", Range::kPositive, &SaddleTrap::rim, "from the middle to the edge"},
+         {"damping", "N s/m", Range::kNotNegative, &SaddleTrap::damping, "viscous, on the saddle",
+          0.0},
+         {"lean", "rad", Range::kAny, &SaddleTrap::lean, "of the axis from the vertical", 0.0}}};
   }
 
   double naturalLength() const { return rim; }
+  /// Without what turns of the weight.
+  SaddleTrap atMeanLoad() const {
+    SaddleTrap upright = *this;
+    upright.gravity = gravity * cos(lean);
+    upright.lean = 0.0;
+    return upright;
+  }
 
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
@@ -58,8 +71,10 @@ struct SaddleTrap {
     return (0.5 * mass) * (along_x * along_x + along_y * along_y + up * up);
   }
   template <class S>
-  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const Moment<S>&) const {
-    return (0.5 * mass * gravity / radius) * (q[0] * q[0] - q[1] * q[1]);
+  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const Moment<S>& at) const {
+    const S up = (0.5 * mass * gravity * cos(lean) / radius) * (q[0] * q[0] - q[1] * q[1]);
+    const S aside = q[0] * cos(at.angle) - q[1] * sin(at.angle);
+    return up + (mass * gravity * sin(lean)) * aside;
   }
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
@@ -79,13 +94,17 @@ struct SaddleTrap {
                                   const std::array<double, kDof>& a,
                                   const Moment<double>& at) const {
     const double w = at.speed;
-    const double a_x = a[0] - 2.0 * w * v[1] - w * w * q[0] - at.acceleration * q[1];
-    const double a_y = a[1] + 2.0 * w * v[0] - w * w * q[1] + at.acceleration * q[0];
+    const double g_up = gravity * cos(lean);
+    const double g_aside = gravity * sin(lean);
+    const double a_x =
+        a[0] - 2.0 * w * v[1] - w * w * q[0] - at.acceleration * q[1] + g_aside * cos(at.angle);
+    const double a_y =
+        a[1] + 2.0 * w * v[0] - w * w * q[1] + at.acceleration * q[0] - g_aside * sin(at.angle);
     const double a_z = (v[0] * v[0] + q[0] * a[0] - v[1] * v[1] - q[1] * a[1]) / radius;
     const double slope_x = q[0] / radius;
     const double slope_y = -q[1] / radius;
     return {{"normal_force", "N",
-             mass * (a_z + gravity - slope_x * a_x - slope_y * a_y) /
+             mass * (a_z + g_up - slope_x * a_x - slope_y * a_y) /
                  std::sqrt(1.0 + slope_x * slope_x + slope_y * slope_y)}};
   }
   std::vector<Condition> conditions(const std::array<double, kDof>& q,
