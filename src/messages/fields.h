@@ -36,6 +36,7 @@ struct MessageKind {
     kLatched = 2,      ///< on ROS, who comes later gets the newest
     kJudged = 4,       ///< comes from the monitor, not from what it watches
     kJointStates = 8,  ///< on ROS, also as sensor_msgs/JointState
+    kCommand = 16,     ///< to the twin; no bridge passes it on, for a log may hold old ones
   };
   const char* name;   ///< "whirl"; its channel is TWIN_<SYSTEM>_WHIRL
   const char* type;   ///< "WhirlState", of the ROS message

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "messages/alert.h"
+#include "messages/input_command.h"
 #include "messages/loop_statistics.h"
 #include "messages/measurement.h"
 #include "messages/stability_margin.h"
@@ -11,11 +12,11 @@
 
 namespace whirl_twin {
 
-/// Whatever the twin can say.
+/// Whatever the twin can say, or be told.
 using Message =
     std::variant<state::WhirlState, state::PendulumState, state::DriveState, state::MotorState,
                  state::EnsembleState, state::StabilityMargin, state::ParameterChange,
-                 state::LoopStatistics, state::Measurement, state::Alert>;
+                 state::LoopStatistics, state::Measurement, state::InputCommand, state::Alert>;
 
 /// A kind as a value: typename decltype(kind)::State.
 template <class T>

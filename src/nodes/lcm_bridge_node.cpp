@@ -32,7 +32,7 @@ const ros::WallDuration kReportPeriod(1.0);
 Kinds kindsToTell(bool derived) {
   Kinds kinds;
   for (const MessageKind* kind : allKinds()) {
-    if (derived || !kind->has(MessageKind::kJudged)) {
+    if ((derived || !kind->has(MessageKind::kJudged)) && !kind->has(MessageKind::kCommand)) {
       kinds.push_back(kind);
     }
   }

@@ -16,6 +16,7 @@
 #include <thread>
 
 #include "accuracy/step_choice.h"
+#include "nodes/input_commands.h"
 #include "nodes/loop_report.h"
 #include "nodes/private_parameter.h"
 #include "nodes/run_node.h"
@@ -37,8 +38,8 @@ constexpr double kSlowestRate = 1.0e-3;         // Hz, of publication
 constexpr std::int64_t kShortestStep = 10'000;  // ns, that the fixed-rate loop takes
 constexpr auto kClockPausePeriod = std::chrono::milliseconds(100);
 constexpr auto kReportPeriod = std::chrono::seconds(1);
-constexpr double kServicePoll = 0.05;  // s
-constexpr double kRampPoll = 0.002;    // s
+constexpr double kServicePoll = 0.05;   // s
+constexpr double kCommandPoll = 0.002;  // s, where there are ramps or commands by LCM
 
 std::int64_t clockNow(clockid_t clock) {
   timespec now{};
@@ -211,10 +212,16 @@ void run() {
   TwinServices services(live, private_node,
                         [&] { return !stopRequested() && ros::ok() && loop.running(); });
 
+  InputCommands commands(live, services, node, settings.lcm_url, settings.lcm_prefix);
+
   diagnostic_updater::Updater diagnostics;
   diagnostics.setHardwareID("none");
   diagnostics.add("real-time loop", [&](diagnostic_updater::DiagnosticStatusWrapper& status) {
     summarize(publisher.report(), status);
+    if (commands.any()) {
+      status.add("commands to inputs", commands.taken());
+      status.add("refused commands to inputs", commands.refused());
+    }
   });
 
   for (const SharedSystem& system : live.twin().systems()) {
@@ -235,8 +242,9 @@ void run() {
   auto next_report = std::chrono::steady_clock::now();
   while (!stopRequested() && ros::ok() && loop.running()) {
     ros::getGlobalCallbackQueue()->callAvailable(
-        ros::WallDuration(services.ramping() ? kRampPoll : kServicePoll));
+        ros::WallDuration(services.ramping() || commands.any() ? kCommandPoll : kServicePoll));
     services.continueRamps();
+    commands.receive();
     if (std::chrono::steady_clock::now() >= next_report) {
       next_report = std::chrono::steady_clock::now() + kReportPeriod;
       diagnostics.force_update();

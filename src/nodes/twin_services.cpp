@@ -18,7 +18,7 @@ namespace {
 constexpr double kLongestWait = 60.0;
 
 /// [s], that a command to an input may hold.
-constexpr double kLongestCommand = 1.0e9;
+constexpr double kLongestCommand = state::InputCommand::kLongest;
 
 constexpr const char* kEnded = "the simulation is ending";
 
@@ -153,15 +153,16 @@ bool TwinServices::setSpeed(SetSpeed::Request& request, SetSpeed::Response& resp
   return true;
 }
 
-std::string TwinServices::readInput(const SetInput::Request& request, TwinCommand& command) const {
+std::string TwinServices::readInput(const std::string& system_name, const std::string& input,
+                                    double value, double duration, TwinCommand& command) const {
   std::vector<std::string> systems;
   for (const SharedSystem& system : twin_.twin().systems()) {
     systems.push_back(system->spec.name);
   }
-  const auto system = std::find(systems.begin(), systems.end(), request.system);
+  const auto system = std::find(systems.begin(), systems.end(), system_name);
   if (system == systems.end()) {
-    return fmt::format("system: must be a system of the scene, found {}{}", quoted(request.system),
-                       hint(request.system, systems));
+    return fmt::format("system: must be a system of the scene, found {}{}", quoted(system_name),
+                       hint(system_name, systems));
   }
   command.kind = TwinCommand::Kind::kSetInput;
   command.system = static_cast<std::size_t>(system - systems.begin());
@@ -173,7 +174,7 @@ std::string TwinServices::readInput(const SetInput::Request& request, TwinComman
     const auto given = built.spec.inputs.find(inputs[i].name);
     if (given != built.spec.inputs.end() && given->second.kind == InputSignal::Kind::kHeld) {
       commanded.push_back(inputs[i].name);
-      if (inputs[i].name == request.input) {
+      if (inputs[i].name == input) {
         command.input = i;
         found = true;
       }
@@ -181,18 +182,35 @@ std::string TwinServices::readInput(const SetInput::Request& request, TwinComman
   }
   if (!found) {
     return fmt::format("input: must be one that the scene gives as a number, found {}{}",
-                       quoted(request.input),
-                       commanded.empty() ? "; there are none" : hint(request.input, commanded));
+                       quoted(input),
+                       commanded.empty() ? "; there are none" : hint(input, commanded));
   }
-  if (!std::isfinite(request.value)) {
-    return fmt::format("value: must be a finite number, found {}", request.value);
+  if (!std::isfinite(value)) {
+    return fmt::format("value: must be a finite number, found {}", value);
   }
-  if (!(request.duration > 0.0 && request.duration <= kLongestCommand)) {
+  if (!(duration > 0.0 && duration <= kLongestCommand)) {
     return fmt::format("duration: must be > 0 s and at most {:g} s, found {}", kLongestCommand,
-                       request.duration);
+                       duration);
   }
-  command.value = request.value;
-  command.duration = std::max<std::int64_t>(1, std::llround(request.duration * 1e9));
+  command.value = value;
+  command.duration = std::max<std::int64_t>(1, std::llround(duration * 1e9));
+  return "";
+}
+
+std::string TwinServices::take(const state::InputCommand& given) {
+  std::vector<TwinCommand> commands(given.input.size());
+  for (std::size_t i = 0; i < commands.size(); ++i) {
+    const std::string refused =
+        readInput(given.system, given.input[i], given.value[i], given.duration, commands[i]);
+    if (!refused.empty()) {
+      return refused;
+    }
+  }
+  for (const TwinCommand& command : commands) {
+    if (!twin_.send(command)) {
+      return "the loop is far behind with earlier commands";
+    }
+  }
   return "";
 }
 
@@ -200,7 +218,8 @@ bool TwinServices::setInput(SetInput::Request& request, SetInput::Response& resp
   TwinCommand command;
   TwinAnswer answer;
   response.success = false;
-  response.message = readInput(request, command);
+  response.message =
+      readInput(request.system, request.input, request.value, request.duration, command);
   if (!response.message.empty()) {
     return true;
   }

@@ -11,6 +11,7 @@
 
 #include <functional>
 
+#include "messages/input_command.h"
 #include "twin/live_parameters.h"
 #include "twin/live_twin.h"
 
@@ -26,6 +27,9 @@ class TwinServices {
   bool ramping() const { return parameters_.ramping(); }
   void continueRamps();
 
+  /// A command that came by topic or channel. Returns why it is refused; "" if it is on its way.
+  std::string take(const state::InputCommand& command);
+
  private:
   using Trigger = std_srvs::Trigger;
   bool pause(Trigger::Request&, Trigger::Response& response);
@@ -34,8 +38,9 @@ class TwinServices {
   bool step(StepN::Request& request, StepN::Response& response);
   bool setSpeed(SetSpeed::Request& request, SetSpeed::Response& response);
   bool setInput(SetInput::Request& request, SetInput::Response& response);
-  /// Fills the command that a request asks for; what is wrong with the request, or "".
-  std::string readInput(const SetInput::Request& request, TwinCommand& command) const;
+  /// Fills the command that sets an input to a value for a duration [s]; what is wrong, or "".
+  std::string readInput(const std::string& system, const std::string& input, double value,
+                        double duration, TwinCommand& command) const;
   bool setParameter(SetParameter::Request& request, SetParameter::Response& response);
 
   bool trigger(TwinCommand::Kind kind, const char* done, Trigger::Response& response);

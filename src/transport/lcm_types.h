@@ -5,6 +5,7 @@
 #include "whirl_twin/alert_t.hpp"
 #include "whirl_twin/drive_state_t.hpp"
 #include "whirl_twin/ensemble_state_t.hpp"
+#include "whirl_twin/input_command_t.hpp"
 #include "whirl_twin/loop_statistics_t.hpp"
 #include "whirl_twin/measurement_t.hpp"
 #include "whirl_twin/motor_state_t.hpp"
@@ -25,6 +26,7 @@ stability_margin_t lcmTypeOf(const state::StabilityMargin&);
 parameter_change_t lcmTypeOf(const state::ParameterChange&);
 loop_statistics_t lcmTypeOf(const state::LoopStatistics&);
 measurement_t lcmTypeOf(const state::Measurement&);
+input_command_t lcmTypeOf(const state::InputCommand&);
 alert_t lcmTypeOf(const state::Alert&);
 
 template <class State>

@@ -9,6 +9,7 @@
 #include "whirl_twin/AlertArray.h"
 #include "whirl_twin/DriveState.h"
 #include "whirl_twin/EnsembleState.h"
+#include "whirl_twin/InputCommand.h"
 #include "whirl_twin/LoopStatistics.h"
 #include "whirl_twin/Measurement.h"
 #include "whirl_twin/MotorState.h"
@@ -29,6 +30,7 @@ StabilityMargin rosTypeOf(const state::StabilityMargin&);
 ParameterChange rosTypeOf(const state::ParameterChange&);
 LoopStatistics rosTypeOf(const state::LoopStatistics&);
 Measurement rosTypeOf(const state::Measurement&);
+InputCommand rosTypeOf(const state::InputCommand&);
 Alert rosTypeOf(const state::Alert&);  // one of an AlertArray
 
 template <class State>

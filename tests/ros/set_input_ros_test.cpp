@@ -1,6 +1,7 @@
 // An input set live: the rotor leans into the force, and comes back when its time is out.
 
 #include <gtest/gtest.h>
+#include <whirl_twin/InputCommand.h>
 #include <whirl_twin/SetInput.h>
 #include <whirl_twin/WhirlState.h>
 
@@ -8,6 +9,9 @@
 #include <limits>
 #include <string>
 
+#include "messages/input_command.h"
+#include "transport/channels.h"
+#include "transport/lcm_publisher.h"
 #include "waiting.h"
 
 namespace whirl_twin {
@@ -37,6 +41,36 @@ TEST(SetInput, pushesTheRotorUntilItsTimeIsOut) {
   EXPECT_TRUE(response.success) << response.message;
   // Critically damped: F / k, within a thousandth after a second.
   EXPECT_TRUE(waitUntil([&] { return std::abs(x - 0.02) < 2.0e-5; }));
+  EXPECT_TRUE(waitUntil([&] { return std::abs(x) < 2.0e-5; }));
+}
+
+TEST(SetInput, takesCommandsByTopicAndByLcm) {
+  ros::NodeHandle node("/twin");
+  double x = 1.0;
+  const boost::function<void(const WhirlState::ConstPtr&)> on_whirl =
+      [&](const WhirlState::ConstPtr& m) { x = m->x; };
+  const ros::Subscriber whirl = node.subscribe<WhirlState>("rotor/whirl", 100, on_whirl);
+  ros::Publisher topic = node.advertise<InputCommand>("rotor/inputs", 10);
+  ASSERT_TRUE(waitUntil([&] { return topic.getNumSubscribers() > 0; }));
+  InputCommand command;
+  command.input = {"force_x"};
+  command.value = {std::numeric_limits<double>::infinity()};  // refused: nothing moves
+  command.duration = 2.0;
+  topic.publish(command);
+  command.value = {6.0};
+  topic.publish(command);
+  EXPECT_TRUE(waitUntil([&] { return std::abs(x - 0.03) < 3.0e-5; }));
+  EXPECT_TRUE(waitUntil([&] { return std::abs(x) < 2.0e-5; })) << "the time is out";
+
+  LcmPublisher lcm(kDefaultLcmUrl);
+  ASSERT_TRUE(lcm.on()) << lcm.warning();
+  state::InputCommand by_lcm;
+  by_lcm.system = "rotor";
+  by_lcm.input = {"force_x"};
+  by_lcm.value = {-6.0};
+  by_lcm.duration = 2.0;
+  lcm.publish(by_lcm);
+  EXPECT_TRUE(waitUntil([&] { return std::abs(x + 0.03) < 3.0e-5; }));
   EXPECT_TRUE(waitUntil([&] { return std::abs(x) < 2.0e-5; }));
 }
 

@@ -292,6 +292,22 @@ TEST(LcmConverters, RejectPulsesThatAreNotInOrder) {
        [](auto& m) { m.instant.pop_back(); }, [](auto& m) { m.instant[2] = INT64_MAX; }});
 }
 
+TEST(LcmConverters, RejectCommandsThatCannotBeMeant) {
+  state::InputCommand command;
+  command.system = "rotor";
+  command.input = {"force_x", "force_y"};
+  command.value = {1.0, -2.0};
+  command.duration = 0.5;
+  const auto message = toLcm(command);
+  expectRejected(message, instantSpoilers<input_command_t>());
+  expectRejected<input_command_t>(
+      message, {[](auto& m) { m.system = "a/b"; }, [](auto& m) { m.input[0] = "force x"; },
+                [](auto& m) { m.value[1] = std::nan(""); },
+                [](auto& m) { m.value[0] = std::numeric_limits<double>::infinity(); },
+                [](auto& m) { m.value.pop_back(); }, [](auto& m) { m.duration = 0.0; },
+                [](auto& m) { m.duration = std::nan(""); }, [](auto& m) { m.inputs = 3; }});
+}
+
 TEST(LcmConverters, RejectImpossibleAlerts) {
   const auto alert = toLcm(StateSamples(5).alert());
   expectRejected<alert_t>(

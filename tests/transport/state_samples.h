@@ -115,6 +115,13 @@ class StateSamples {
     return s;
   }
 
+  state::InputCommand command() {
+    auto s = sample<state::InputCommand>();
+    s.value.assign(s.input.size(), 1e-3 * static_cast<double>(below(1000)) - 0.5);
+    s.duration = 1e-3 * static_cast<double>(1 + below(1000000));
+    return s;
+  }
+
   state::StabilityMargin margin() {
     state::StabilityMargin s;
     s.critical_speeds.resize(below(4));
@@ -178,6 +185,7 @@ class StateSamples {
   auto of(KindOf<state::ParameterChange>) { return change(); }
   auto of(KindOf<state::LoopStatistics>) { return loop(); }
   auto of(KindOf<state::Measurement>) { return measurement(); }
+  auto of(KindOf<state::InputCommand>) { return command(); }
   auto of(KindOf<state::Alert>) { return alert(); }
 
   double time() { return static_cast<double>(below(1000000000)) * 1e-3; }
