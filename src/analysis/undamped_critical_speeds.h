@@ -3,8 +3,9 @@
 //
 //   (K(w) - w^2 M + i w G(w)) phi = 0
 //
-// (API RP 684, 2.3; Friswell et al., Dynamics of Rotating Machines, 2010, 5.9). With mu the eigenvalues of (M - i G(w)/w) phi = mu K(w) phi, all
-// real and continuous in w, they are the roots of w^2 mu(w) = 1: of constant bearings 1/sqrt(mu).
+// (API RP 684, 2.3; Friswell et al., Dynamics of Rotating Machines, 2010, 5.9). With mu the
+// eigenvalues of (M - i G(w)/w) phi = mu K(w) phi, all real and continuous in w, they are the roots
+// of w^2 mu(w) = 1: of constant bearings 1/sqrt(mu).
 #pragma once
 
 #include <vector>

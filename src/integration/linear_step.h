@@ -6,12 +6,12 @@
 //   (dq, dv) = B y,      work done by and lost from the system = y^T W y,
 // and B and W, made once, are all that tells one method from another. The methods are those of
 // semi_implicit_euler.h, velocity_verlet.h, runge_kutta_4.h, dormand_prince_8.h and
-// gauss_legendre.h (implicit_midpoint, gauss_legendre_4 and gauss_legendre_6), equal to them but for
-// rounding; the work is the method's own quadrature of dh/dt, which for the last three is exactly
-// what h = T + V gains. `exponential` has no truncation error:
-// B = e^(A h) - I and W = integral of e^(A't) S e^(At), y' = A y, dh/dt = y^T S y; so it is exact
-// for any step, at undamped resonance, with rigid-body modes and with unstable ones. The phasors
-// come from the time at every step anew, so that no phase is lost over any number of steps.
+// gauss_legendre.h (implicit_midpoint, gauss_legendre_4 and gauss_legendre_6), equal to them but
+// for rounding; the work is the method's own quadrature of dh/dt, which for the last three is
+// exactly what h = T + V gains. `exponential` has no truncation error: B = e^(A h) - I and W =
+// integral of e^(A't) S e^(At), y' = A y, dh/dt = y^T S y; so it is exact for any step, at undamped
+// resonance, with rigid-body modes and with unstable ones. The phasors come from the time at every
+// step anew, so that no phase is lost over any number of steps.
 //
 // Inputs are columns, too (acting_inputs.h). A step inside which one of them has a corner is gone
 // through in parts of 2^k nanoseconds, by their exact maps whatever the method: any instant is a

@@ -158,7 +158,7 @@ class Publisher {
     observer_.observe(record);
     const Scene& scene = live_.twin().scene();
     observer_.setStamp(clock_ ? scene.time + observer_.step() * scene.step
-                              : epoch_ + RecordLayout::scheduled(record.data()));
+                              : epoch_ + RecordLayout::scheduled(record));
     states_.publish(observer_, observer_.step() % every_ == 0 && !observer_.tellsOnlyChange());
     bool stopped_now = false;
     for (std::size_t i = 0; i < stopped_.size(); ++i) {

@@ -113,9 +113,9 @@ bool TwinServices::setSpeed(SetSpeed::Request& request, SetSpeed::Response& resp
       names.push_back(drive.name);
     }
     const std::string near = nearestName(request.drive, names);
-    response.message =
-        fmt::format("drive: must be a drive of the scene, found {}{}", quoted(request.drive),
-                    near.empty() ? "" : fmt::format("; did you mean '{}'?", near));
+    response.message = fmt::format("drive: must be a drive of the scene, found {}{}",
+                                   whirl_twin::quoted(request.drive),
+                                   near.empty() ? "" : fmt::format("; did you mean '{}'?", near));
     return true;
   }
   if (found->motor) {

@@ -41,8 +41,8 @@ struct SystemAnalysis {
   std::vector<state::CriticalSpeedMargin> critical_speeds;  ///< seen from the initial speed
   std::size_t critical_speeds_beyond = 0;  ///< that its equations have, where they do not hold
   double highest_speed = 0.0;              ///< [rad/s], that a reduced rotor holds to
-  std::optional<CrossCouplingMargin> cross_coupling;        ///< at the initial speed
-  std::vector<SteadySpeed> steady_speeds;                   ///< on its motor
+  std::optional<CrossCouplingMargin> cross_coupling;  ///< at the initial speed
+  std::vector<SteadySpeed> steady_speeds;             ///< on its motor
 };
 
 /// Throws RunFailure where the numbers of the scene are too large to be analysed.

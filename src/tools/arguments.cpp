@@ -38,8 +38,8 @@ std::int64_t parseNanoseconds(const std::string& option, const std::string& text
   const auto whole = static_cast<std::int64_t>(numerator(units) / denominator(units)) * unit;
   if (nanoseconds != whole) {
     complain(fmt::format("twin: {}: {} s is not a whole number of {}: {} is taken\n", option, text,
-                           unit == 1 ? "nanoseconds" : "steps of " + inSeconds(unit),
-                           inSeconds(whole)));
+                         unit == 1 ? "nanoseconds" : "steps of " + inSeconds(unit),
+                         inSeconds(whole)));
   }
   return whole;
 }

@@ -109,8 +109,9 @@ void addPlotCommand(CLI::App& twin, int& status) {
   addSceneOption(command, request->run.scene);
   command->add_option("--system", request->run.system, "plot this system only")->type_name("NAME");
   command
-      ->add_option("--duration", request->run.duration,
-                   "s, simulated, to the nearest step; default: the longest drive profile, else 10 s")
+      ->add_option(
+          "--duration", request->run.duration,
+          "s, simulated, to the nearest step; default: the longest drive profile, else 10 s")
       ->type_name("S");
   command->add_option("--output", request->folder, "folder of the files; default: this one")
       ->type_name("FOLDER");

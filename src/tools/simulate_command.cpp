@@ -100,8 +100,9 @@ void addSimulateCommand(CLI::App& twin, int& status) {
   const auto request = std::make_shared<SimulationRequest>();
   addSceneOption(command, request->scene);
   command
-      ->add_option("--duration", request->duration,
-                   "s, simulated, to the nearest step; default: the longest drive profile, else 10 s")
+      ->add_option(
+          "--duration", request->duration,
+          "s, simulated, to the nearest step; default: the longest drive profile, else 10 s")
       ->type_name("S");
   command->add_option("--step", request->step, "s, instead of the scene's: 1e-9 to 10")
       ->type_name("S");
@@ -109,7 +110,9 @@ void addSimulateCommand(CLI::App& twin, int& status) {
       ->add_option("--integrator", request->integrator,
                    "instead of the scene's, for all systems or that of --system")
       ->type_name("NAME");
-  command->add_option("--sample", request->sample, "s between rows, to the nearest step; default: a step")
+  command
+      ->add_option("--sample", request->sample,
+                   "s between rows, to the nearest step; default: a step")
       ->type_name("S");
   command
       ->add_option("--output", request->output,

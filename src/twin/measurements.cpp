@@ -19,7 +19,8 @@ std::int64_t periodOf(double rate) {
 
 }  // namespace
 
-MeasuredSource::MeasuredSource(const SensorSpec& spec, const Scene& scene, const Observer& observer)
+MeasuredSource::MeasuredSource(const SensorSpec& spec, const BuiltScene& scene,
+                               const Observer& observer)
     : spec_(spec),
       systems_(scene.systems),
       start_ns_(scene.scene.time),

@@ -57,7 +57,7 @@ double afterSteps(Sensor& sensor, double w, double h, int n) {
     const double a = k * h;
     const double b = (k + 1) * h;
     const CubicPiece piece{h, std::sin(w * a), std::sin(w * b), w * std::cos(w * a),
-                            w * std::cos(w * b)};
+                           w * std::cos(w * b)};
     out = sensor.filtered(piece, h);
     sensor.pass(piece);
   }

@@ -71,7 +71,8 @@ TEST(Times, AreRoundedToWholeStepsAndItIsSaid) {
         Case{{"--duration", "0.01", "--step", "0.00033333333333"},
              "twin: --step: 0.00033333333333 s is not a whole number of nanoseconds: 0.000333333 s "
              "is taken\n"
-             "twin: --duration: 0.01 s is not a whole number of steps of 0.000333333 s: 0.00999999 s "
+             "twin: --duration: 0.01 s is not a whole number of steps of 0.000333333 s: 0.00999999 "
+             "s "
              "is taken\n",
              30},
         Case{{"--duration", "0.667"}, "", 667}}) {

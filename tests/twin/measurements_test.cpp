@@ -25,16 +25,16 @@ std::string rotorWith(const std::string& sensors) {
          sensors + "}";
 }
 
-struct Run {
+struct Recorded {
   std::vector<state::Measurement> blocks;
   std::vector<state::WhirlState> whirl;  ///< step by step
 };
 
-Run run(const Scene& scene, int steps) {
+Recorded runFor(const Scene& scene, int steps) {
   Twin twin(scene);
   Observer observer(twin);
   Measurements measurements(scene.sensors, twin.built(), observer);
-  Run result;
+  Recorded result;
   result.whirl.push_back(observer.whirl(0));
   std::vector<double> record(twin.layout().size);
   for (int i = 0; i < steps; ++i) {
@@ -75,7 +75,7 @@ TEST(Measurements, PerfectSensorsAtTheStepsShowTheStates) {
   const Scene scene =
       sceneOf(rotorWith("{probes: {rate: 1000.0, channels: {x: {measures: rotor.x}, y: {measures: "
                         "rotor.y}, vx: {measures: rotor.x_rate}}}}"));
-  const Run result = run(scene, 250);
+  const Recorded result = runFor(scene, 250);
   const Series x = channel(result.blocks, 0);
   const Series y = channel(result.blocks, 1);
   const Series rate = channel(result.blocks, 2);
@@ -96,7 +96,7 @@ TEST(Measurements, BetweenStepsTheSignalIsInterpolatedAndADelayShowsThePast) {
   const Scene scene = sceneOf(
       rotorWith("{probes: {rate: 7300.0, channels: {now: {measures: rotor.x}, late: {measures: "
                 "rotor.x, delay: 2.0e-3}, oblique: {measures: rotor, direction: 0.5}}}}"));
-  const Run result = run(scene, 2000);
+  const Recorded result = runFor(scene, 2000);
   const Series now = channel(result.blocks, 0);
   const Series late = channel(result.blocks, 1);
   const Series oblique = channel(result.blocks, 2);
@@ -120,8 +120,8 @@ TEST(Measurements, RunOutTurnsWithTheShaftAndNoiseRepeats) {
       "{probes: {rate: 1000.0, seed: 3, channels: {x: {measures: rotor.x, noise: 3.0e-6}, y: "
       "{measures: rotor.y, run_out: 2.0e-5, run_out_angle: 0.4}}}}";
   const Scene scene = sceneOf(rotorWith(sensors));
-  const Run first = run(scene, 1000);
-  const Run second = run(scene, 1000);
+  const Recorded first = runFor(scene, 1000);
+  const Recorded second = runFor(scene, 1000);
   const Series noisy = channel(first.blocks, 0);
   EXPECT_EQ(noisy.values, channel(second.blocks, 0).values) << "the same bytes on every run";
   double squares = 0.0;
@@ -145,7 +145,7 @@ TEST(Measurements, RunOutTurnsWithTheShaftAndNoiseRepeats) {
 
 TEST(Measurements, KeyphasorTellsThePhaseOfTheShaft) {
   const Scene scene = sceneOf(rotorWith("{tacho: {keyphasor: shaft, mark: 0.3}}"));
-  const Run result = run(scene, 3000);
+  const Recorded result = runFor(scene, 3000);
   const Series pulses = channel(result.blocks, 0);
   ASSERT_EQ(pulses.instants.size(), 48u);  // 300 rad
   for (std::size_t k = 0; k < pulses.instants.size(); ++k) {
