@@ -22,7 +22,8 @@ std::shared_ptr<const Dynamics> rotor(double zeta, double stiffness_ratio = 1.0)
   return dynamicsOf("jeffcott_rotor", {{"mass", mass},
                                        {"stiffness", stiffness},
                                        {"stiffness_y", stiffness * stiffness_ratio},
-                                       {"damping", 2.0 * zeta * std::sqrt(mass * stiffness)}});
+                                       {"damping", 2.0 * zeta * std::sqrt(mass * stiffness)},
+                                       {"eccentricity", 1.0e-4}});
 }
 
 TEST(CriticalSpeeds, matchTheReferenceTable) {

@@ -36,7 +36,7 @@ class FreeSpinStep : public testing::Test {
     return all;
   }
   const Drive drive_{0.0, 0.0};
-  SteppedSystem<Rotor, RungeKutta4> system_{rotor(), drive_, kStep, 1};
+  SteppedSystem<Rotor, RungeKutta4> system_{rotor(), drive_, InputForce(), kStep, 1};
 };
 
 // 1e11 rad in a step: a double of that size keeps 1e-5 rad of its phase.

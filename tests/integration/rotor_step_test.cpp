@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "allocation_guard.h"
+#include "integration/linear_rotor_stepper.h"
 #include "models/linear_rotor_setup.h"
 #include "running_system.h"
 
