@@ -183,7 +183,7 @@ WhirlModes whirlModes(const Linearization& at_speed, const std::vector<Station>&
       WhirlMode mode;
       mode.eigenvalue = s;
       mode.shape = pairs.shapes.col(i);
-      if (std::fabs(s.real()) <= doubtful) {
+      if (doubtful > 0.0 && std::fabs(s.real()) <= doubtful) {
         mode.eigenvalue = {-decayOf(at_speed, s, mode.shape), s.imag()};
       }
       all.modes.push_back(mode);

@@ -84,7 +84,7 @@ TEST(MessageFiles, NameEveryTypeOfAlert) {
   }
   std::ifstream header(WHIRL_TWIN_SOURCE "/src/messages/alert_types.h");
   std::string types;
-  const std::regex constant(R"(.*\[\] = "([A-Z_]+)\";)");
+  const std::regex constant(R"(.*\[\] = "([A-Z_]+)\";.*)");
   for (std::string text; std::getline(header, text);) {
     std::smatch found;
     if (std::regex_match(text, found, constant)) {

@@ -97,7 +97,7 @@ TEST_F(SceneInputs, OneMayLackWhatItNeeds) {
               "systems.arms.inputs.torque2.amplitude: must be a finite number in N m, found "
               "'.inf'",
               "systems.arms.inputs.torque2.frequency: must be from -1e+06 to 1e+06 rad/s, "
-              "found '1e9'"}));
+              "found 1e9"}));
   EXPECT_EQ(errorsOf("{torqe1: 1}"),
             (Errors{"systems.arms.inputs.torqe1: unknown input of this model; did you mean "
                     "'torque1'?"}));

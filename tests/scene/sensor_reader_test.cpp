@@ -74,7 +74,8 @@ TEST(SensorReader, StationsHaveNamesThatNoSystemHas) {
   const std::string shaft =
       "{step: 0.001, systems: {rotor: {model: flexible_rotor, parameters: {youngs_modulus: "
       "2.1e+11, "
-      "density: 7800, modes: 4, elements: [{length: 0.1, outer_diameter: 0.05, count: 4}], "
+      "density: 7800, speed: 50, modes: 4, elements: [{length: 0.1, outer_diameter: 0.05, count: "
+      "4}], "
       "bearings: "
       "[{node: 0, kxx: 1.0e+7, kyy: 1.0e+7}, {node: 4, kxx: 1.0e+7, kyy: 1.0e+7}], stations: "
       "[{node: "

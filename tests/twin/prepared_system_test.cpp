@@ -51,10 +51,11 @@ ModelInfo preparedModel() {
   info.setUp = [plain = info.setUp](const ParameterValues& values, const Settings& settings,
                                     const Surroundings& around) {
     ModelSetup setup = plain(values, settings, around);
-    setup.system = [make = setup.system](const std::string& integrator, const Drive& drive,
-                                         double step, int substeps) -> std::unique_ptr<Stepper> {
+    setup.system = [make = setup.system](const std::string& integrator,
+                                         const Excitation& excitation, double step,
+                                         int substeps) -> std::unique_ptr<Stepper> {
       return std::make_unique<PreparedRotor>(
-          [=, &drive] { return make(integrator, drive, step, substeps); }, 0.0, 10.0);
+          [=] { return make(integrator, excitation, step, substeps); }, 0.0, 10.0);
     };
     return setup;
   };
