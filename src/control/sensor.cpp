@@ -43,7 +43,7 @@ double steadyResponse(const std::array<double, 4>& c, double w, double t) noexce
 }  // namespace
 
 double CubicPiece::at(double t) const noexcept {
-  return length > 0.0 ? cubic(coefficients(*this), t) : from;
+  return t >= length ? to : cubic(coefficients(*this), t);
 }
 
 Sensor::Sensor(const SensorSettings& settings, std::uint32_t seed, std::uint32_t channel)

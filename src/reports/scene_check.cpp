@@ -55,11 +55,14 @@ void listMessages(const BuiltScene& scene, SceneCheck& check) {
     add(row, subject, published);
     if (row.has(MessageKind::kJointStates)) {
       published.topics.push_back({"/twin/" + subject + "/joint_states", "sensor_msgs/JointState"});
+      const auto is_it = [&](const SystemCheck& system) { return system.name == subject; };
+      if (std::any_of(check.systems.begin(), check.systems.end(), is_it)) {  // else a station of it
+        add(state::StabilityMargin::kKind, subject, published);
+      }
     }
   });
   for (std::size_t i = 0; i < check.systems.size(); ++i) {
     SystemCheck& system = check.systems[i];
-    add(state::StabilityMargin::kKind, system.name, heard[system.name]);
     for (const std::string& station : publishedStations(system.name, *scene.systems[i]->dynamics)) {
       const Published& there = heard[station];
       Published& all = system.published;

@@ -52,6 +52,14 @@ Signals signalsOf(const Scene& scene) {
     const std::string& system = scene.systems[i].name;
     SignalSpec signal;
     signal.system = i;
+    const std::vector<Station> stations = dynamics.stations();
+    for (std::size_t k = 0; k < stations.size(); ++k) {
+      signal.station = k;
+      if (k == 0) {
+        addDisplacements(system, signal, all);
+      }
+      addDisplacements(system + "." + stations[k].name, signal, all);
+    }
     const std::vector<CoordinateInfo> coordinates = dynamics.coordinates();
     for (std::size_t k = 0; k < coordinates.size(); ++k) {
       signal.coordinate = k;
@@ -61,14 +69,6 @@ Signals signalsOf(const Scene& scene) {
       signal.kind = SignalSpec::Kind::kRate;
       signal.unit += "/s";
       all.add(system + "." + coordinates[k].name + "_rate", signal);
-    }
-    const std::vector<Station> stations = dynamics.stations();
-    for (std::size_t k = 0; k < stations.size(); ++k) {
-      signal.station = k;
-      if (k == 0) {
-        addDisplacements(system, signal, all);
-      }
-      addDisplacements(system + "." + stations[k].name, signal, all);
     }
   }
   return all;

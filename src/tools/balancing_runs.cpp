@@ -160,6 +160,7 @@ class RunsReader {
     const auto place = std::find(planes.begin(), planes.end(),
                                  run.choice("plane", planes, "the name of a plane", ""));
     TrialRun trial;
+    const std::size_t before = complaints_.all().size();
     const double size = number(run.at("mass_radius"), run.key("mass_radius"), -kLargest, kLargest,
                                "mass times radius in kg m,");
     const double angle =
@@ -171,7 +172,8 @@ class RunsReader {
     }
     trial.plane = place - planes.begin();
     tried[static_cast<std::size_t>(trial.plane)] = true;
-    if (std::fabs(size) < kLeastMass && run.has("mass_radius")) {
+    const bool read = complaints_.all().size() == before;
+    if (read && std::fabs(size) < kLeastMass && run.has("mass_radius")) {
       complaints_.add(run.key("mass_radius"),
                       fmt::format("must be {:g} kg m at least, found {} in plane {}", kLeastMass,
                                   shown(run.at("mass_radius")), quoted(*place)));

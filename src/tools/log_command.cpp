@@ -131,8 +131,12 @@ int summarize(const Request& request) {
     throw Refusal(error.what());
   }
   if (log.events == 0) {
-    throw Refusal(
-        fmt::format("{}: expected an LCM log, found no event in {} bytes", request.file, log.size));
+    throw Refusal(log.channels.empty()
+                      ? fmt::format("{}: expected an LCM log, found no event in {} bytes",
+                                    request.file, log.size)
+                      : fmt::format("{}: no event can be used; the twin's channels were expected "
+                                    "to begin with {} (--lcm-prefix)",
+                                    request.file, request.lcm_prefix));
   }
   if (request.json) {
     printJson(json(log));

@@ -110,7 +110,9 @@ void MeasuredSource::sampleChannel(Channel& channel, const Point& now, std::int6
                          now.value, channel.last.rate, now.rate};
   for (; instantOf(channel.next) - delay <= time; ++channel.next) {
     const std::int64_t shown = instantOf(channel.next) - delay;
-    const double t = static_cast<double>(std::max(shown, time_) - time_) * kNanosecond;
+    const double t = shown == time
+                         ? piece.length
+                         : static_cast<double>(std::max(shown, time_) - time_) * kNanosecond;
     channel.waiting.push_back(
         channel.sensor.sample(channel.sensor.filtered(piece, t), channel.next));
   }

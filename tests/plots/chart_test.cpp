@@ -53,7 +53,9 @@ TEST(Chart, IsWellFormedAndNamesWhatItShows) {
 TEST(Chart, LeavesOutWhatNoAxisReaches) {
   const std::string with = svg(figureOf({line("a", {3.0, 2.0, 1.5, -1.7e308, 1.7e308})}));
   const std::string without = svg(figureOf({line("a", {3.0, 2.0, 1.5, kNaN, kNaN})}));
-  EXPECT_EQ(with, without);
+  // Cairo numbers the surfaces of a process.
+  const std::regex surface("surface[0-9]+");
+  EXPECT_EQ(std::regex_replace(with, surface, ""), std::regex_replace(without, surface, ""));
   EXPECT_TRUE(wellFormed(svg(figureOf({line("a", {-1.7e308, 1.7e308})}))));
   EXPECT_TRUE(wellFormed(svg(figureOf({line("a", {0.0, 4e-324, 8e-324})}))));
 }

@@ -67,7 +67,7 @@ TEST_F(DemoLog, OfATwinWithAnotherPrefixIsToldByIt) {
     bytes.replace(at, 5, "UNIT_");
   }
   const std::string renamed = directory_.write("unit.lcmlog", bytes);
-  EXPECT_EQ(twin({"log", renamed}).status, 1) << "the messages of a twin on channels of another";
+  EXPECT_EQ(twin({"log", renamed}).status, 2) << "the messages of a twin on channels of another";
   const Ending end = twin({"log", renamed, "--lcm-prefix", "UNIT_", "--json"});
   EXPECT_EQ(end.status, 0) << end.err;
   EXPECT_EQ(end.json()["channels"]["UNIT_ROTOR_WHIRL"]["kind"], "whirl");

@@ -89,7 +89,7 @@ TEST(TwinInputs, LiveCommandIsCarriedOutBetweenSteps) {
 }
 
 TEST(TwinInputs, ActOnAllMembersOfAnEnsemble) {
-  Twin twin(oneMass("force_x: 4.3", ", count: 3, spread: {mass: {uniform: 1.0e-12}}"));
+  Twin twin(oneMass("force_x: 4.3", ", count: 3, spread: {mass: {relative_half_width: 1.0e-12}}"));
   twin.buildEnsembles();
   for (int i = 0; i < 200; ++i) {
     twin.step();
