@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <regex>
 
 #include "messages/refusal.h"
 #include "svg_text.h"
