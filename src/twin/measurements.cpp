@@ -91,8 +91,10 @@ MeasuredSource::Point MeasuredSource::signal(const Channel& channel,
             dynamics.acceleration(vector(q, n), vector(v, n),
                                   moment)[static_cast<Eigen::Index>(at.coordinate)]};
   }
-  const Eigen::VectorXd along = std::cos(at.direction) * channel.station->along_x +
-                                std::sin(at.direction) * channel.station->along_y;
+  const double cosine = std::cos(at.direction);  // along y: the rounding of a right angle
+  const Eigen::VectorXd along =
+      (std::fabs(cosine) < 1.0e-16 ? 0.0 : cosine) * channel.station->along_x +
+      std::sin(at.direction) * channel.station->along_y;
   const double high_spot = moment.angle + channel.spec.run_out.angle - at.direction;
   const double amplitude = channel.spec.run_out.amplitude;
   return {along.dot(vector(q, along.size())) + amplitude * std::cos(high_spot),
