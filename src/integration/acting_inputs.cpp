@@ -14,7 +14,7 @@ ActingInputs::ActingInputs(const Inputs* inputs, const Eigen::MatrixXd& directio
     return;
   }
   if (static_cast<Index>(inputs->count()) != directions.cols()) {
-    throw std::invalid_argument("a system has been given inputs that its model does not have");
+    throw std::logic_error("a system has been given inputs that its model does not have");
   }
   for (std::size_t i = 0; i < inputs->count(); ++i) {
     if (inputs->acts(i)) {

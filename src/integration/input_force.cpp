@@ -29,7 +29,7 @@ InputForce::InputForce(const Inputs* inputs, const std::vector<InputInfo>& direc
     return;
   }
   if (inputs->count() != directions.size()) {
-    throw std::invalid_argument("a system has been given inputs that its model does not have");
+    throw std::logic_error("a system has been given inputs that its model does not have");
   }
   for (std::size_t i = 0; i < directions.size(); ++i) {
     const Eigen::VectorXd& direction = directions[i].direction;

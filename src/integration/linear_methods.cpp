@@ -340,7 +340,7 @@ LinearStepMap linearStepMap(const LinearEquation& equation, const std::string& m
   const auto found = std::find_if(methods().begin(), methods().end(),
                                   [&](const auto& entry) { return entry.first == method; });
   if (found == methods().end()) {
-    throw std::invalid_argument("no integrator of linear systems is called " + method);
+    throw std::logic_error("no integrator of linear systems is called " + method);
   }
   return equation.acceleration().allFinite() ? found->second(equation, h) : outOfRange(equation);
 }

@@ -51,7 +51,7 @@ struct LinearStepMap {
 };
 
 /// The matrices of a step of h [s]: NaN throughout where the system's own are beyond the range of
-/// doubles. Throws std::invalid_argument for an unknown method.
+/// doubles. Throws std::logic_error for an unknown method.
 LinearStepMap linearStepMap(const LinearEquation& equation, const std::string& method, double h);
 
 /// Those of exact steps of 1, 2, 4 ... nanoseconds, up to the longest of at most `longest` [ns].

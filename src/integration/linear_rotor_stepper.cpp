@@ -50,9 +50,13 @@ double LinearRotorStepper::furtherEnergy() const noexcept {
 
 StepStatus LinearRotorStepper::step(double) noexcept {
   next_ = state_;
-  const std::int64_t length = std::llround(step_ * 1e9);
-  const bool corner = inputs_.nextCorner(0) < length;
-  if (!corner || !method_.advanceInParts(excitation_.drive, 0, length, next_)) {
+  bool done = false;
+  const std::int64_t corner = inputs_.nextCorner(0);
+  if (corner != Inputs::kNever) {
+    const std::int64_t length = std::llround(step_ * 1e9);
+    done = corner < length && method_.advanceInParts(excitation_.drive, 0, length, next_);
+  }
+  if (!done) {
     for (int i = 0; i < substeps_; ++i) {
       const StepStatus status = method_.advance(excitation_.drive, i * (step_ / substeps_), next_);
       if (status != StepStatus::kOk) {

@@ -9,6 +9,11 @@ namespace whirl_twin {
 
 namespace {
 
+/// Of an offset [s]; a thousandth is rounding.
+std::int64_t wholeNanoseconds(double offset) noexcept {
+  return static_cast<std::int64_t>(std::floor(offset * 1e9 + 1e-3));
+}
+
 /// Compensated sums, in a loop that the compiler takes several at a time.
 void addTo(double* __restrict high, double* __restrict low, const double* __restrict increment,
            Eigen::Index n) noexcept {
@@ -59,8 +64,27 @@ LinearStep::LinearStep(const LinearModel& model, const std::string& method, doub
   }
 }
 
+void LinearStep::apply(PackedMatrix& map, double time, double offset, std::int64_t piece,
+                       LinearMotion& motion) noexcept {
+  y_.head(n_) = motion.q;
+  y_.segment(n_, n_) = motion.v;
+  double* phasor = y_.data() + 2 * n_;
+  for (const double frequency : frequencies_) {
+    const double cosine = std::cos(frequency * time);  // both together cost little more than one
+    const double sine = std::sin(frequency * time);
+    *phasor++ = cosine;
+    *phasor++ = sine;
+  }
+  if (inputs_.count() > 0) {
+    inputs_.writePairs(offset, piece, 1.0, phasor);
+  }
+  map.multiply(y_.data(), result_.data());
+  motion.advance(result_.data(), result_.data() + n_, y_.dot(result_.segment(2 * n_, y_.size())));
+}
+
 void LinearStep::advance(double time, LinearMotion& motion, double offset) noexcept {
-  apply(map_, time, offset, static_cast<std::int64_t>(std::floor(offset * 1e9 + 1e-3)), motion);
+  const std::int64_t piece = inputs_.count() > 0 ? wholeNanoseconds(offset) : 0;
+  apply(map_, time, offset, piece, motion);
 }
 
 void LinearStep::advanceInParts(double time, std::int64_t from, std::int64_t to,
@@ -75,22 +99,6 @@ void LinearStep::advanceInParts(double time, std::int64_t from, std::int64_t to,
       }
     }
   }
-}
-
-void LinearStep::apply(PackedMatrix& map, double time, double offset, std::int64_t piece,
-                       LinearMotion& motion) noexcept {
-  y_.head(n_) = motion.q;
-  y_.segment(n_, n_) = motion.v;
-  double* phasor = y_.data() + 2 * n_;
-  for (const double frequency : frequencies_) {
-    const double cosine = std::cos(frequency * time);  // both together cost little more than one
-    const double sine = std::sin(frequency * time);
-    *phasor++ = cosine;
-    *phasor++ = sine;
-  }
-  inputs_.writePairs(offset, piece, 1.0, phasor);
-  map.multiply(y_.data(), result_.data());
-  motion.advance(result_.data(), result_.data() + n_, y_.dot(result_.segment(2 * n_, y_.size())));
 }
 
 }  // namespace whirl_twin

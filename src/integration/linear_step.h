@@ -26,6 +26,7 @@
 #include "integration/acting_inputs.h"
 #include "integration/motion_state.h"
 #include "integration/packed_matrix.h"
+#include "mechanics/force_inline.h"
 #include "mechanics/linear_dynamics.h"
 
 namespace whirl_twin {
@@ -46,7 +47,7 @@ struct LinearMotion {
 class LinearStep {
  public:
   /// Prepares steps of h [s]; for n coordinates that takes a time of order n^3. Throws
-  /// std::invalid_argument for a method that is not among linearMethodNames().
+  /// std::logic_error for a method that is not among linearMethodNames().
   LinearStep(const LinearModel& model, const std::string& method, double h,
              const ActingInputs& inputs = {});
 
@@ -59,8 +60,8 @@ class LinearStep {
                       LinearMotion& motion) noexcept;
 
  private:
-  void apply(PackedMatrix& map, double time, double offset, std::int64_t piece,
-             LinearMotion& motion) noexcept;
+  WHIRL_TWIN_INLINE void apply(PackedMatrix& map, double time, double offset, std::int64_t piece,
+                               LinearMotion& motion) noexcept;
 
   Eigen::Index n_;
   ActingInputs inputs_;

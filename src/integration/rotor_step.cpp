@@ -7,7 +7,8 @@
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <stdexcept>
+
+#include "messages/refusal.h"
 
 namespace whirl_twin {
 
@@ -41,7 +42,7 @@ std::int64_t wholeNanoseconds(double offset) noexcept {
 
 void requireFinite(const MatrixXd& matrix) {
   if (!matrix.allFinite()) {
-    throw std::domain_error("the rotor's step is beyond the range of doubles: shorten the step");
+    throw RunFailure("the rotor's step is beyond the range of doubles: shorten the step");
   }
 }
 
@@ -104,7 +105,7 @@ void RotorStep::prepare(const LinearRotor& rotor, const std::pair<double, double
       count *= std::clamp(std::pow(error / kTableError, 0.25), 1.5, 8.0);
       before = error;
       if (count + static_cast<double>(cells_.size()) > kMostCells) {
-        throw std::domain_error(
+        throw RunFailure(
             "the rotor's matrices change too fast with speed for its step: shorten the step");
       }
     }
@@ -191,9 +192,13 @@ RotorStep::Cell RotorStep::cell(const LinearRotor& rotor, double low, double hig
 }
 
 StepStatus RotorStep::advance(const Drive& drive, double offset, LinearMotion& motion) noexcept {
-  if (ConstantSpeed* const constant = constantAt(drive, offset, offset + h_)) {
-    constantStep(constant->map, drive.at(offset), offset, wholeNanoseconds(offset), motion);
-    return StepStatus::kOk;
+  if (drive.constantFor(offset + h_)) {
+    const ShaftMotion shaft = drive.at(offset);
+    if (ConstantSpeed* const constant = constantAt(shaft.speed)) {
+      const std::int64_t piece = acting_.count() > 0 ? wholeNanoseconds(offset) : 0;
+      constantStep(constant->map, shaft, offset, piece, motion);
+      return StepStatus::kOk;
+    }
   }
   nodes_.sample(drive, offset, h_);
   acting_.follow(offset, h_);
@@ -215,7 +220,10 @@ bool RotorStep::advanceInParts(const Drive& drive, std::int64_t from, std::int64
   const auto seconds = [](std::int64_t nanoseconds) {
     return static_cast<double>(nanoseconds) / 1e9;
   };
-  ConstantSpeed* const constant = constantAt(drive, seconds(from), seconds(to));
+  if (!drive.constantFor(seconds(to))) {
+    return false;
+  }
+  ConstantSpeed* const constant = constantAt(drive.at(seconds(from)).speed);
   if (constant == nullptr || constant->parts.empty()) {
     return false;
   }
@@ -232,16 +240,11 @@ bool RotorStep::advanceInParts(const Drive& drive, std::int64_t from, std::int64
   return true;
 }
 
-/// The step for the speed of the drive at an offset, if the drive keeps it from begin() for so long
-/// and the step is prepared.
-RotorStep::ConstantSpeed* RotorStep::constantAt(const Drive& drive, double offset,
-                                                double duration) noexcept {
-  if (drive.constantFor(duration)) {
-    const double speed = drive.at(offset).speed;
-    for (ConstantSpeed& constant : constant_) {
-      if (constant.speed == speed) {
-        return &constant;
-      }
+/// nullptr: none is prepared.
+RotorStep::ConstantSpeed* RotorStep::constantAt(double speed) noexcept {
+  for (ConstantSpeed& constant : constant_) {
+    if (constant.speed == speed) {
+      return &constant;
     }
   }
   return nullptr;
@@ -262,8 +265,10 @@ void RotorStep::constantStep(PackedMatrix& map, const ShaftMotion& shaft, double
     y_[input++] = size * sine;
   }
   y_[input++] = 1.0;
-  acting_.writePairs(offset, piece, h_, y_.data() + input);
-  input += 2 * acting_.count();
+  if (acting_.count() > 0) {
+    acting_.writePairs(offset, piece, h_, y_.data() + input);
+    input += 2 * acting_.count();
+  }
   map.multiply(y_.data(), result_.data());
   motion.advance(result_.data(), result_.data() + n_,
                  y_.head(input).dot(result_.segment(2 * n_, input)));

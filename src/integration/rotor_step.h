@@ -43,7 +43,7 @@ namespace whirl_twin {
 class RotorStep {
  public:
   /// Prepares steps of h [s] for speeds [rad/s] between `speeds.first` and `speeds.second`, and the
-  /// plain exact step for `constant_speeds`. Throws std::domain_error for matrices beyond the range
+  /// plain exact step for `constant_speeds`. Throws RunFailure for matrices beyond the range
   /// of doubles.
   RotorStep(const LinearRotor& rotor, double h, const std::pair<double, double>& speeds,
             const std::vector<double>& constant_speeds, const ActingInputs& acting = {});
@@ -82,7 +82,7 @@ class RotorStep {
   void prepare(const LinearRotor& rotor, const std::pair<double, double>& speeds);
   Cell cell(const LinearRotor& rotor, double low, double high) const;
   double cubicError(const LinearRotor& rotor, double low, double high) const;
-  ConstantSpeed* constantAt(const Drive& drive, double offset, double duration) noexcept;
+  ConstantSpeed* constantAt(double speed) noexcept;
   void constantStep(PackedMatrix& map, const ShaftMotion& shaft, double offset, std::int64_t piece,
                     LinearMotion& motion) noexcept;
   void changingStep(Cell& cell, const Drive& drive, double offset, LinearMotion& motion) noexcept;

@@ -29,7 +29,7 @@ const StepMethod& stepMethod(const std::string& name) {
   const auto found = std::find_if(stepMethods().begin(), stepMethods().end(),
                                   [&](const StepMethod& m) { return m.name == name; });
   if (found == stepMethods().end()) {
-    throw std::invalid_argument("no integrator is called " + name);
+    throw std::logic_error("no integrator is called " + name);
   }
   return *found;
 }

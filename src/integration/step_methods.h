@@ -69,7 +69,7 @@ struct StepMethod {
 /// All of them, from the lowest order to the exact step.
 const std::vector<StepMethod>& stepMethods();
 
-/// Throws std::invalid_argument for an unknown name.
+/// Throws std::logic_error for an unknown name.
 const StepMethod& stepMethod(const std::string& name);
 
 }  // namespace whirl_twin

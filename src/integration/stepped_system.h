@@ -13,6 +13,7 @@
 #include "control/shaft_angle.h"
 #include "integration/driven_equation.h"
 #include "integration/finite.h"
+#include "integration/forced_step.h"
 #include "integration/input_force.h"
 #include "integration/stepper.h"
 #include "mechanics/dynamics.h"
@@ -39,12 +40,12 @@ class SteppedSystem final : public Stepper {
                 int substeps)
       : model_(model),
         drive_(drive),
-        inputs_(inputs),
         substep_(step / substeps),
-        substeps_(substeps) {}
+        substeps_(substeps),
+        inputs_(inputs) {}
 
   StepStatus step(double time) noexcept override {
-    const DrivenEquation<Model> equation{model_, drive_, time, inputs_.acts() ? &inputs_ : nullptr};
+    const DrivenEquation<Model> equation{model_, drive_, time};
     MotionState<n> next = state_;
     for (int i = 0; i < substeps_; ++i) {
       const StepStatus status = advance(method_, equation, i * substep_, substep_, next);
@@ -217,7 +218,8 @@ class SteppedSystem final : public Stepper {
                             double h, MotionState<n>& state) noexcept {
     const MotionState<n> from = state;
     inputs_.enter(offset + 0.5 * h);
-    const StepStatus status = method_step_(method, equation, offset, h, state);
+    const EquationOf<Model> own(equation);
+    const StepStatus status = forcedStep(method, ForcedEquation<n>{own, inputs_}, offset, h, state);
     double work = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
       work += inputs_.held()[i] * ((state.q[i] - from.q[i]) + (state.q_low[i] - from.q_low[i]));
@@ -236,8 +238,10 @@ class SteppedSystem final : public Stepper {
     }
     return corner;
   }
-  StepStatus advanceInParts(Method& method, const DrivenEquation<Model>& equation, double offset,
-                            double end, MotionState<n>& state) noexcept {
+  [[gnu::noinline, gnu::cold]] StepStatus advanceInParts(Method& method,
+                                                         const DrivenEquation<Model>& equation,
+                                                         double offset, double end,
+                                                         MotionState<n>& state) noexcept {
     const double sliver = kSliver * (end - offset);
     StepStatus status = StepStatus::kOk;
     while (status == StepStatus::kOk && end - offset > sliver) {
@@ -298,7 +302,6 @@ class SteppedSystem final : public Stepper {
 
   Model model_;
   const Drive& drive_;
-  InputForce inputs_;
   double substep_;  ///< [s]
   int substeps_;
   MethodStep method_step_ = methodStepHere();
@@ -309,6 +312,7 @@ class SteppedSystem final : public Stepper {
   double error_sum_ = 0.0;
   int steps_since_estimate_ = 0;
   std::int64_t turns_ = 0;  ///< of a spin, beyond its coordinate
+  InputForce inputs_;       ///< last: few systems have any
 };
 
 }  // namespace whirl_twin

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
 
+#include "messages/refusal.h"
 #include "scene/scene_error.h"
 
 namespace whirl_twin {
@@ -31,7 +31,7 @@ Twin::Twin(BuiltScene built)
     }
     try {
       steppers_.push_back(stepperOf(system));
-    } catch (const std::domain_error& error) {
+    } catch (const RunFailure& error) {
       throw SceneError(
           {fmt::format("{}: systems.{}: {}", scene().source, system.spec.name, error.what())});
     }
@@ -63,7 +63,7 @@ void Twin::buildEnsembles() {
                                                  Excitation(drives_[system.drive], &inputs_[i]));
     } catch (const Refusal& error) {
       throw refused(error);
-    } catch (const std::domain_error& error) {
+    } catch (const RunFailure& error) {  // its steps cannot be prepared
       throw refused(error);
     }
   }
@@ -110,7 +110,9 @@ void Twin::beginStep() noexcept {
     drive.begin(time);
   }
   for (Inputs& inputs : inputs_) {
-    inputs.begin(time);
+    if (inputs.count() > 0) {
+      inputs.begin(time);
+    }
   }
 }
 
