@@ -9,6 +9,7 @@
 #include <complex>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "analysis/eigenvalue_refinement.h"
 
@@ -39,6 +40,35 @@ RestModes restModes(const Linearization& l) {
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(l.stiffness, l.mass);
   return {solver.eigenvalues().cwiseMax(0.0).cwiseSqrt(), solver.eigenvectors()};
 }
+
+/// Solves for one speed after another: the order of elimination is found anew only where other
+/// entries are zero.
+class SparseSolver {
+ public:
+  using Matrix = Eigen::SparseMatrix<Complex>;
+
+  /// Not a number for a singular matrix.
+  VectorXcd solve(const Matrix& a, const VectorXcd& b) {
+    const Index entries = a.nonZeros();
+    if (a.outerSize() + 1 != static_cast<Index>(columns_.size()) ||
+        entries != static_cast<Index>(rows_.size()) ||
+        !std::equal(columns_.begin(), columns_.end(), a.outerIndexPtr()) ||
+        !std::equal(rows_.begin(), rows_.end(), a.innerIndexPtr())) {
+      lu_.analyzePattern(a);
+      columns_.assign(a.outerIndexPtr(), a.outerIndexPtr() + a.outerSize() + 1);
+      rows_.assign(a.innerIndexPtr(), a.innerIndexPtr() + entries);
+    }
+    lu_.factorize(a);
+    if (lu_.info() != Eigen::Success) {
+      return VectorXcd::Constant(b.size(), Complex(std::nan(""), 0.0));
+    }
+    return lu_.solve(b);
+  }
+
+ private:
+  Eigen::SparseLU<Matrix> lu_;
+  std::vector<int> columns_, rows_;  // of the entries
+};
 
 /// Everything about the full rotor that the search for shapes needs.
 class FullRotor {
@@ -93,8 +123,9 @@ class FullRotor {
   /// Once it is above `enough` the rest of the speeds is left out.
   double responseError(const MatrixXd& shapes, double enough) const {
     double worst = 0.0;
+    const Eigen::MatrixXcd complex_shapes = shapes.cast<Complex>();
     for (const SpeedPoint& point : points_) {
-      const Eigen::MatrixXcd moved = point.dynamic * shapes.cast<Complex>();
+      const Eigen::MatrixXcd moved = point.dynamic * complex_shapes;
       const Eigen::MatrixXcd dynamic = shapes.transpose() * moved;
       const VectorXcd force = shapes.transpose() * point.force;
       const Eigen::Vector2cd found = atStation(shapes * dynamic.partialPivLu().solve(force));
@@ -132,9 +163,8 @@ class FullRotor {
 
   SpeedPoint pointAt(double speed) const {
     const Linearization l = rotor_.matrices(speed);
-    const Eigen::MatrixXcd dynamic =
-        (l.stiffness + l.circulatory - speed * speed * l.mass).cast<Complex>() +
-        Complex(0.0, speed) * (l.damping + l.gyroscopic);
+    const auto dynamic = (l.stiffness + l.circulatory - speed * speed * l.mass).cast<Complex>() +
+                         Complex(0.0, speed) * (l.damping + l.gyroscopic);
     SpeedPoint point{dynamic.sparseView(), rotor_.synchronousForce(speed), {}};
     point.response = atStation(response(point));
     return point;
@@ -142,11 +172,7 @@ class FullRotor {
 
   /// Not a number at an undamped critical speed.
   VectorXcd response(const SpeedPoint& point) const {
-    const Eigen::SparseLU<Eigen::SparseMatrix<Complex>> solver(point.dynamic);
-    if (solver.info() != Eigen::Success) {
-      return VectorXcd::Constant(dof(), Complex(std::nan(""), 0.0));
-    }
-    return solver.solve(point.force);
+    return solver_.solve(point.dynamic, point.force);
   }
 
   Eigen::Vector2cd atStation(const VectorXcd& q) const {
@@ -194,6 +220,7 @@ class FullRotor {
   Linearization middle_;  // at half the highest speed: bearings may follow it
   RestModes modes_;
   std::vector<SpeedPoint> points_;
+  mutable SparseSolver solver_;
 };
 
 struct Choice {
