@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include <Eigen/QR>
-#include <stdexcept>
+
+#include "messages/refusal.h"
 
 namespace whirl_twin {
 
@@ -11,18 +12,18 @@ namespace {
 
 void requireIndependentShapes(const Eigen::MatrixXd& shapes, Eigen::Index coordinates) {
   if (shapes.rows() != coordinates || shapes.cols() < 1 || shapes.cols() > coordinates) {
-    throw std::invalid_argument(
+    throw Refusal(
         fmt::format("assumed modes: expected 1 to {0} shapes of {0} entries, found {1} of {2}",
                     coordinates, shapes.cols(), shapes.rows()));
   }
   if (!shapes.allFinite()) {
-    throw std::invalid_argument("assumed modes: expected finite entries");
+    throw Refusal("assumed modes: expected finite entries");
   }
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors;
   factors.setThreshold(1e-10);
   factors.compute(shapes.colwise().normalized());
   if (factors.rank() < shapes.cols() || shapes.colwise().squaredNorm().minCoeff() == 0.0) {
-    throw std::invalid_argument(fmt::format(
+    throw Refusal(fmt::format(
         "assumed modes: expected linearly independent shapes, found {} that span only {} "
         "directions: a shape that is a sum of the others adds no motion",
         shapes.cols(), factors.rank()));

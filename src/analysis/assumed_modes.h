@@ -13,7 +13,7 @@
 namespace whirl_twin {
 
 /// The system in r assumed shapes [n x r]; C, G and N are reduced like M and K. Throws
-/// std::invalid_argument for shapes of the wrong size or linearly dependent ones (to 1e-10 of their
+/// Refusal for shapes of the wrong size or linearly dependent ones (to 1e-10 of their
 /// length).
 Linearization reduced(const Linearization& system, const Eigen::MatrixXd& shapes);
 

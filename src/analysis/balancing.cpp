@@ -6,7 +6,8 @@
 #include <Eigen/SVD>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
+
+#include "messages/refusal.h"
 
 namespace whirl_twin {
 
@@ -16,16 +17,15 @@ Eigen::MatrixXcd influenceOfPlanes(const Eigen::VectorXcd& initial,
   Eigen::VectorXd weight = Eigen::VectorXd::Zero(planes);
   for (const TrialRun& run : runs) {
     if (run.plane < 0 || run.plane >= planes) {
-      throw std::invalid_argument(
+      throw Refusal(
           fmt::format("balancing: expected a plane below {}, found {}", planes, run.plane));
     }
     if (run.mass_radius == 0.0) {
-      throw std::invalid_argument("balancing: expected a trial mass that is not zero");
+      throw Refusal("balancing: expected a trial mass that is not zero");
     }
     if (run.readings.size() != initial.size()) {
-      throw std::invalid_argument(
-          fmt::format("balancing: expected {} readings of each run, found {}", initial.size(),
-                      run.readings.size()));
+      throw Refusal(fmt::format("balancing: expected {} readings of each run, found {}",
+                                initial.size(), run.readings.size()));
     }
     // A column minimizes sum |reading - v_0 - a u|^2 over its runs.
     influence.col(run.plane) += std::conj(run.mass_radius) * (run.readings - initial);
@@ -33,7 +33,7 @@ Eigen::MatrixXcd influenceOfPlanes(const Eigen::VectorXcd& initial,
   }
   for (Eigen::Index plane = 0; plane < planes; ++plane) {
     if (weight[plane] == 0.0) {
-      throw std::invalid_argument(
+      throw Refusal(
           fmt::format("balancing: expected a trial run for every plane, found none for {}", plane));
     }
     influence.col(plane) /= weight[plane];
@@ -45,7 +45,7 @@ BalanceCorrection balance(const Eigen::MatrixXcd& influence, const Eigen::Vector
                           const Eigen::VectorXd& weights) {
   if (influence.rows() != initial.size() || weights.size() != initial.size() ||
       !(weights.array() >= 0.0).all()) {
-    throw std::invalid_argument(
+    throw Refusal(
         fmt::format("balancing: expected {} readings and as many weights >= 0, found {} and {}",
                     influence.rows(), initial.size(), weights.size()));
   }

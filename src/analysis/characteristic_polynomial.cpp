@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "messages/refusal.h"
+
 namespace whirl_twin {
 
 namespace {
@@ -38,7 +40,7 @@ Matrix solve(Matrix m, Matrix b) {
       ++pivot;
     }
     if (pivot == m.size()) {
-      throw std::invalid_argument("the mass matrix is singular");
+      throw Refusal("the mass matrix is singular");
     }
     std::swap(m[i], m[pivot]);
     std::swap(b[i], b[pivot]);
@@ -197,7 +199,7 @@ std::vector<Rational> characteristicPolynomial(const Linearization& l) {
   }
   const Rational leading = polynomial[count - 1];
   if (leading == 0) {
-    throw std::invalid_argument("the mass matrix is singular");
+    throw Refusal("the mass matrix is singular");
   }
   std::vector<Rational> monic;
   for (std::size_t k = count; k-- > 0;) {

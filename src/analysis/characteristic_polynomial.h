@@ -14,7 +14,7 @@
 namespace whirl_twin {
 
 /// Monic, highest power first, degree 2 dof. The cost grows fast: meant for a few coordinates.
-/// Throws std::invalid_argument if the mass matrix is singular.
+/// Throws Refusal if the mass matrix is singular.
 std::vector<Rational> characteristicPolynomial(const Linearization& linearization);
 
 /// The minimal polynomial of the state matrix: a repeated root of the characteristic polynomial is

@@ -14,8 +14,8 @@ struct DunkerleyBound {
   Eigen::VectorXd terms;   ///< [s^2], D_ii; of a diagonal mass 1 / p_ii^2 [n]
 };
 
-/// Throws std::domain_error, with the reason, for a stiffness without influence coefficients
-/// (singular: p_1 = 0 has no lower bound above it), std::invalid_argument as naturalModes().
+/// Throws RunFailure, with the reason, for a stiffness without influence coefficients
+/// (singular: p_1 = 0 has no lower bound above it), Refusal as naturalModes().
 DunkerleyBound dunkerleyBound(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& stiffness);
 
 }  // namespace whirl_twin

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
+
+#include "messages/refusal.h"
 
 namespace whirl_twin {
 
@@ -35,7 +36,7 @@ bool takeSign(const std::string& text, std::size_t& at) {
 }
 
 [[noreturn]] void reject(const std::string& expected, const std::string& found) {
-  throw std::invalid_argument(fmt::format("expected {}, found \"{}\"", expected, found));
+  throw Refusal(fmt::format("expected {}, found \"{}\"", expected, found));
 }
 
 ScaledFloat normalised(long double mantissa, std::int64_t exponent) {
@@ -102,7 +103,7 @@ ComplexRational parseComplex(const std::string& text) {
   try {
     return {begin == 0 ? Rational(0) : parseRational(body.substr(0, begin)),
             parseRational(imaginary)};
-  } catch (const std::invalid_argument&) {
+  } catch (const Refusal&) {
     reject("a finite decimal or complex number such as 3, 2i or 3+2i", text);
   }
 }

@@ -29,11 +29,11 @@ struct ComplexRational {
 };
 
 /// The exact value of a decimal number such as "0.1", "1e-200" or "-2.5E+3".
-/// Throws std::invalid_argument for anything else: text, nan, inf, an exponent beyond +-5000.
+/// Throws Refusal for anything else: text, nan, inf, an exponent beyond +-5000.
 Rational parseRational(const std::string& text);
 
 /// The exact value of "3", "3+2i", "-1e-3-2.5i", "2i", "-i" or the same with j.
-/// Throws std::invalid_argument as parseRational() does.
+/// Throws Refusal as parseRational() does.
 ComplexRational parseComplex(const std::string& text);
 
 /// What an exact computation may cost, in products of 64-bit words. It is counted, not timed: the

@@ -5,7 +5,8 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <cmath>
-#include <stdexcept>
+
+#include "messages/refusal.h"
 
 namespace whirl_twin {
 
@@ -18,7 +19,7 @@ constexpr double kSingular = 1e-13;  // a few hundred roundings of terms of size
 Eigen::MatrixXcd receptance(const Linearization& system, double frequency) {
   const double w = frequency;
   if (!std::isfinite(w)) {
-    throw std::invalid_argument("frequency response: expected a finite frequency [rad/s]");
+    throw Refusal("frequency response: expected a finite frequency [rad/s]");
   }
   Eigen::MatrixXcd dynamic_stiffness(system.mass.rows(), system.mass.cols());
   dynamic_stiffness.real() = system.stiffness + system.circulatory - w * w * system.mass;
@@ -33,11 +34,11 @@ Eigen::MatrixXcd receptance(const Linearization& system, double frequency) {
   const Eigen::JacobiSVD<Eigen::MatrixXcd> singular(scaled);
   if (!(singular.singularValues().minCoeff() > kSingular)) {
     if (w == 0.0) {
-      throw std::domain_error(
+      throw RunFailure(
           "frequency response: a constant force has no steady response: the stiffness is singular, "
           "and the force accelerates the system instead of deflecting it");
     }
-    throw std::domain_error(
+    throw RunFailure(
         fmt::format("frequency response: undamped resonance at {:.6g} rad/s: the response grows "
                     "with time and has no steady amplitude",
                     w));
@@ -48,9 +49,8 @@ Eigen::MatrixXcd receptance(const Linearization& system, double frequency) {
 Eigen::VectorXcd steadyResponse(const Linearization& system, const Eigen::VectorXcd& force,
                                 double frequency) {
   if (force.size() != system.mass.rows()) {
-    throw std::invalid_argument(
-        fmt::format("frequency response: expected a force of {} entries, found {}",
-                    system.mass.rows(), force.size()));
+    throw Refusal(fmt::format("frequency response: expected a force of {} entries, found {}",
+                              system.mass.rows(), force.size()));
   }
   return receptance(system, frequency) * force;
 }

@@ -10,7 +10,7 @@
 namespace whirl_twin {
 
 /// Receptance [n x n] at W [rad/s], in the inverse of the units of the stiffness; entry ij is the
-/// phasor of coordinate i under a unit force on j. Throws std::domain_error, with the reason, where
+/// phasor of coordinate i under a unit force on j. Throws RunFailure, with the reason, where
 /// there is no steady response: at an undamped resonance, and under a constant force on a
 /// rigid-body mode (singular to 1e-13 as scaled to terms of size 1).
 Eigen::MatrixXcd receptance(const Linearization& system, double frequency);

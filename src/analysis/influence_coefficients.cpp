@@ -3,16 +3,16 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
-#include <stdexcept>
 
 #include "analysis/rigid_body_modes.h"
+#include "messages/refusal.h"
 
 namespace whirl_twin {
 
 Eigen::MatrixXd influenceCoefficients(const Eigen::MatrixXd& stiffness) {
   const Eigen::Index free = rigidBodyModes(stiffness).cols();
   if (free > 0) {
-    throw std::domain_error(
+    throw RunFailure(
         fmt::format("influence coefficients: the stiffness is singular, with {} rigid-body mode{}: "
                     "without supports a unit force accelerates the system instead of deflecting it",
                     free, free > 1 ? "s" : ""));

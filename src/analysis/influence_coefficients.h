@@ -7,8 +7,8 @@
 namespace whirl_twin {
 
 /// [a] of a stiffness [n x n], in the inverse of its units (m/N between lengths), symmetric.
-/// Throws std::domain_error, with the reason in words, for a stiffness that carries no load at
-/// rest: one with rigid-body modes, or negative for some motion; std::invalid_argument for one that
+/// Throws RunFailure, with the reason in words, for a stiffness that carries no load at
+/// rest: one with rigid-body modes, or negative for some motion; Refusal for one that
 /// is not symmetric.
 Eigen::MatrixXd influenceCoefficients(const Eigen::MatrixXd& stiffness);
 

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "analysis/influence_coefficients.h"
 #include "analysis/natural_modes.h"
 #include "analysis/quadratic_form.h"
+#include "messages/refusal.h"
 
 namespace whirl_twin {
 
@@ -103,12 +103,11 @@ std::vector<IteratedMode> matrixIteration(const Eigen::MatrixXd& mass,
   requirePositiveDefinite(mass, "mass");
   const Eigen::Index n = mass.rows();
   if (start.size() != n || !start.allFinite() || start.isZero(0.0)) {
-    throw std::invalid_argument(
+    throw Refusal(
         fmt::format("matrix iteration: expected a start of {} finite entries that is not zero", n));
   }
   if (count < 1 || count > n) {
-    throw std::invalid_argument(
-        fmt::format("matrix iteration: expected 1 to {} modes, found {}", n, count));
+    throw Refusal(fmt::format("matrix iteration: expected 1 to {} modes, found {}", n, count));
   }
   Iteration iteration(mass, stiffness, limits);
   std::vector<IteratedMode> modes{iteration.next(start)};

@@ -24,7 +24,7 @@ struct IteratedMode {
 /// The `count` lowest modes, 1 to n, by rising frequency, the first from the shape `start` [n]. A
 /// start without any part of a mode would never come to it: a shape that has converged is disturbed
 /// once, and has to converge again. Ends with a mode that does not converge.
-/// Throws std::domain_error for a stiffness without influence coefficients, std::invalid_argument
+/// Throws RunFailure for a stiffness without influence coefficients, Refusal
 /// for a zero start, a wrong size or count, or a mass that is not positive definite.
 std::vector<IteratedMode> matrixIteration(const Eigen::MatrixXd& mass,
                                           const Eigen::MatrixXd& stiffness, int count,

@@ -13,7 +13,7 @@ namespace whirl_twin {
 
 void requireSameSize(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& stiffness) {
   if (mass.rows() != stiffness.rows() || mass.cols() != stiffness.cols()) {
-    throw std::invalid_argument(
+    throw std::logic_error(
         fmt::format("mass and stiffness: expected the same size, found {} x {} and {} x {}",
                     mass.rows(), mass.cols(), stiffness.rows(), stiffness.cols()));
   }

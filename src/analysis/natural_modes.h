@@ -17,12 +17,12 @@ struct NaturalModes {
   int rigid_body_modes = 0;     ///< how many of the frequencies are zero
 };
 
-/// Throws std::invalid_argument if the mass is not positive definite or a matrix not symmetric, and
-/// std::domain_error if the stiffness is negative for some motion: then p is imaginary. Which
+/// Throws Refusal if the mass is not positive definite or a matrix not symmetric, and
+/// RunFailure if the stiffness is negative for some motion: then p is imaginary. Which
 /// motions count as rigid-body modes: rigidBodyModes().
 NaturalModes naturalModes(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& stiffness);
 
-/// Throws std::invalid_argument unless both are of the same size.
+/// Throws Refusal unless both are of the same size.
 void requireSameSize(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& stiffness);
 
 }  // namespace whirl_twin

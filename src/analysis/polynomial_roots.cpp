@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include "analysis/root_location.h"
+#include "messages/refusal.h"
 
 namespace whirl_twin {
 
@@ -142,7 +142,7 @@ std::vector<std::complex<double>> solve(const std::vector<Coefficient>& coeffici
   std::vector<Complex> wide;
   for (const std::complex<double> coefficient : coefficients) {
     if (!std::isfinite(coefficient.real()) || !std::isfinite(coefficient.imag())) {
-      throw std::invalid_argument(fmt::format(
+      throw Refusal(fmt::format(
           "polynomial: coefficient {} of {} must be a finite number, found {}{:+}i",
           wide.size() + 1, coefficients.size(), coefficient.real(), coefficient.imag()));
     }

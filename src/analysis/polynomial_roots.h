@@ -16,7 +16,7 @@ namespace whirl_twin {
 /// `coefficients`: highest power first; leading zeros are dropped. Those of a real polynomial are
 /// real or exact conjugate pairs; trailing zero coefficients give exact zeros; a non-zero constant
 /// has none; a root too large for a double comes out infinite.
-/// Throws std::invalid_argument without a non-zero coefficient or with one that is not finite.
+/// Throws Refusal without a non-zero coefficient or with one that is not finite.
 /// Not real-time safe (allocates).
 std::vector<std::complex<double>> roots(const std::vector<double>& coefficients);
 std::vector<std::complex<double>> roots(const std::vector<std::complex<double>>& coefficients);

@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
-#include <stdexcept>
+
+#include "messages/refusal.h"
 
 namespace whirl_twin {
 
@@ -33,7 +34,7 @@ void requireSymmetric(const Eigen::MatrixXd& form, const std::string& name) {
     found = fmt::format("{} in row {}, column {} and {} opposite to it", form(row, column), row + 1,
                         column + 1, form(column, row));
   }
-  throw std::invalid_argument(
+  throw Refusal(
       fmt::format("{}: expected a symmetric matrix of finite numbers, found {}", name, found));
 }
 
@@ -57,7 +58,7 @@ Definiteness definiteness(const Eigen::MatrixXd& form, const std::string& name) 
 void requirePositiveDefinite(const Eigen::MatrixXd& form, const std::string& name) {
   const Definiteness found = definiteness(form, name);
   if (found != Definiteness::kPositiveDefinite) {
-    throw std::invalid_argument(fmt::format(
+    throw Refusal(fmt::format(
         "{}: expected a positive definite matrix, found one that is {} for some motion (smallest "
         "eigenvalue, scaled to unit diagonal: {:.3g})",
         name, found == Definiteness::kPositiveSemidefinite ? "zero" : "negative",

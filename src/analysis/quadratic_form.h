@@ -16,14 +16,14 @@ enum class Definiteness : std::uint8_t { kPositiveDefinite, kPositiveSemidefinit
 /// digits.
 constexpr double kZeroEigenvalue = 1e-12;
 
-/// Of a symmetric matrix [n x n]. Throws std::invalid_argument if it is not square, symmetric (to
+/// Of a symmetric matrix [n x n]. Throws Refusal if it is not square, symmetric (to
 /// 1e-9 of its largest entry) and finite; `name`, such as "stiffness", is for the message.
 Definiteness definiteness(const Eigen::MatrixXd& form, const std::string& name);
 
-/// Throws std::invalid_argument, saying why, unless the form is positive definite.
+/// Throws Refusal, saying why, unless the form is positive definite.
 void requirePositiveDefinite(const Eigen::MatrixXd& form, const std::string& name);
 
-/// Throws std::invalid_argument unless it is square, symmetric and finite, as definiteness().
+/// Throws Refusal unless it is square, symmetric and finite, as definiteness().
 void requireSymmetric(const Eigen::MatrixXd& form, const std::string& name);
 
 /// The form with its coordinates scaled to make the diagonal 1 (or -1; a zero stays zero).

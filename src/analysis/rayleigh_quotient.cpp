@@ -8,6 +8,7 @@
 #include "analysis/influence_coefficients.h"
 #include "analysis/natural_modes.h"
 #include "analysis/quadratic_form.h"
+#include "messages/refusal.h"
 
 namespace whirl_twin {
 
@@ -15,7 +16,7 @@ namespace {
 
 void requireSize(const Eigen::VectorXd& vector, const Eigen::MatrixXd& matrix, const char* what) {
   if (vector.size() != matrix.rows()) {
-    throw std::invalid_argument(
+    throw std::logic_error(
         fmt::format("{}: expected {} entries, found {}", what, matrix.rows(), vector.size()));
   }
 }
@@ -29,7 +30,7 @@ double rayleighFrequency(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& sti
   requireSymmetric(stiffness, "stiffness");
   requireSize(shape, mass, "assumed shape");
   if (!shape.allFinite() || shape.isZero(0.0)) {
-    throw std::invalid_argument("assumed shape: expected finite entries, not all of them zero");
+    throw Refusal("assumed shape: expected finite entries, not all of them zero");
   }
   const Eigen::VectorXd phi = shape / shape.cwiseAbs().maxCoeff();
   const double squared = phi.dot(stiffness * phi) / phi.dot(mass * phi);
@@ -37,7 +38,7 @@ double rayleighFrequency(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& sti
   const double rounding =
       1e-12 * phi.cwiseAbs().dot(stiffness.cwiseAbs() * phi.cwiseAbs()) / phi.dot(mass * phi);
   if (squared < -rounding) {
-    throw std::domain_error(
+    throw RunFailure(
         fmt::format("Rayleigh's quotient: the stiffness is negative for the assumed shape, p^2 = "
                     "{:.6g} (rad/s)^2: the position is statically unstable",
                     squared));

@@ -9,8 +9,8 @@
 
 namespace whirl_twin {
 
-/// p [rad/s] from a shape [n] that is not zero. Throws std::invalid_argument for a zero shape, one
-/// of the wrong size, or a mass that is not positive definite, and std::domain_error if the
+/// p [rad/s] from a shape [n] that is not zero. Throws Refusal for a zero shape, one
+/// of the wrong size, or a mass that is not positive definite, and RunFailure if the
 /// stiffness is negative for the shape (p is then imaginary).
 double rayleighFrequency(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& stiffness,
                          const Eigen::VectorXd& shape);

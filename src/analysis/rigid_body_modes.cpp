@@ -2,13 +2,14 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
-#include <stdexcept>
+
+#include "messages/refusal.h"
 
 namespace whirl_twin {
 
 Eigen::MatrixXd rigidBodyModes(const Eigen::MatrixXd& stiffness) {
   if (definiteness(stiffness, "stiffness") == Definiteness::kIndefinite) {
-    throw std::domain_error(
+    throw RunFailure(
         "stiffness: it is negative for some motion, so the position is statically unstable: a "
         "small "
         "deviation grows instead of vibrating");

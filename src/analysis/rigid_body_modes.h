@@ -10,8 +10,8 @@ namespace whirl_twin {
 
 /// An orthonormal basis of the motions that the stiffness does not resist [n x r], r = 0 for a
 /// definite one. A motion counts as free if the stiffness, scaled to unit diagonal, resists it by
-/// less than kZeroEigenvalue. Throws std::invalid_argument for a matrix that is not symmetric,
-/// std::domain_error for one that is negative for some motion (a statically unstable position).
+/// less than kZeroEigenvalue. Throws Refusal for a matrix that is not symmetric,
+/// RunFailure for one that is negative for some motion (a statically unstable position).
 Eigen::MatrixXd rigidBodyModes(const Eigen::MatrixXd& stiffness);
 
 }  // namespace whirl_twin

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <utility>
 
 #include "analysis/real_root_count.h"
 #include "analysis/root_location.h"
+#include "messages/refusal.h"
 
 namespace whirl_twin {
 
@@ -191,7 +191,7 @@ RouthResult routh(const std::vector<double>& coefficients) {
   exact.reserve(coefficients.size());
   for (const double coefficient : coefficients) {
     if (!std::isfinite(coefficient)) {
-      throw std::invalid_argument(
+      throw Refusal(
           fmt::format("polynomial: coefficient {} of {} must be a finite number, found {}",
                       exact.size() + 1, coefficients.size(), coefficient));
     }

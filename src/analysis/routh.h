@@ -48,7 +48,7 @@ struct RouthResult {
 
 /// Roots of a real polynomial, coefficients highest power first; leading zeros are dropped.
 /// Exact for the numbers given, whatever their size. A non-zero constant is asymptotically stable.
-/// Throws std::invalid_argument without a non-zero coefficient or with one that is not finite.
+/// Throws Refusal without a non-zero coefficient or with one that is not finite.
 /// Not real-time safe (allocates).
 RouthResult routh(const std::vector<Rational>& coefficients);
 RouthResult routh(const std::vector<double>& coefficients);

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+
+#include "messages/refusal.h"
 
 namespace whirl_twin {
 
@@ -21,7 +22,7 @@ std::vector<RouthCondition> routhConditions(const std::vector<Rational>& coeffic
                                   [](const Rational& c) { return c != 0; });
   const auto degree = coefficients.end() - first - 1;
   if (degree < kLeastConditionDegree || degree > kMostConditionDegree) {
-    throw std::invalid_argument(
+    throw Refusal(
         fmt::format("Routh's conditions: expected a polynomial of degree {} to {}, found {}",
                     kLeastConditionDegree, kMostConditionDegree,
                     degree < 0 ? "zero" : fmt::format("degree {}", degree)));
@@ -61,8 +62,7 @@ std::vector<RouthCondition> routhConditions(const std::vector<double>& coefficie
   std::vector<Rational> exact;
   for (const double c : coefficients) {
     if (!std::isfinite(c)) {
-      throw std::invalid_argument(
-          fmt::format("Routh's conditions: expected finite coefficients, found {}", c));
+      throw Refusal(fmt::format("Routh's conditions: expected finite coefficients, found {}", c));
     }
     exact.emplace_back(c);
   }

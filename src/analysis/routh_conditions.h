@@ -29,7 +29,7 @@ constexpr int kMostConditionDegree = 6;
 
 /// The conditions of a real polynomial of degree 1 to 6, highest power first, leading zeros
 /// dropped: A0 > 0 ... first, then the others. It is asymptotically stable if and only if all hold,
-/// as routh() says. Throws std::invalid_argument for another degree or a coefficient that is not
+/// as routh() says. Throws Refusal for another degree or a coefficient that is not
 /// finite.
 std::vector<RouthCondition> routhConditions(const std::vector<Rational>& coefficients);
 std::vector<RouthCondition> routhConditions(const std::vector<double>& coefficients);

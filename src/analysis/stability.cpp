@@ -7,13 +7,13 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 
 #include "analysis/characteristic_polynomial.h"
 #include "analysis/quadratic_form.h"
 #include "analysis/rigid_body_modes.h"
 #include "analysis/stability_margins.h"
+#include "messages/refusal.h"
 
 namespace whirl_twin {
 
@@ -189,7 +189,7 @@ std::vector<std::complex<double>> eigenvalues(const Linearization& l, std::size_
   Eigen::EigenSolver<Eigen::MatrixXd> solver(a.rows());
   solver.setMaxIterations(kMostIterations * a.rows()).compute(a, false);
   if (solver.info() != Eigen::Success) {
-    throw std::domain_error("the eigenvalues of the linearized system cannot be computed");
+    throw RunFailure("the eigenvalues of the linearized system cannot be computed");
   }
   const Eigen::VectorXcd& values = solver.eigenvalues();
   std::vector<std::complex<double>> roots(values.data(), values.data() + values.size());

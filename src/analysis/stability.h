@@ -42,7 +42,7 @@ bool cannotGrow(const Linearization& linearization);
 
 /// Judges M q'' + (C + G) q' + (K + N) q = 0. The verdict is kUncertain where the largest real part
 /// is below the rounding of the eigenvalues and the polynomial does not make it exactly zero.
-/// Throws std::domain_error for matrices beyond the range of double, std::invalid_argument for a
+/// Throws RunFailure for matrices beyond the range of double, Refusal for a
 /// singular mass.
 Stability stability(const Linearization& linearization);
 

@@ -4,10 +4,10 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "analysis/bracketed_root.h"
 #include "analysis/whirl_modes.h"
+#include "messages/refusal.h"
 
 namespace whirl_twin {
 
@@ -42,7 +42,7 @@ Pencil pencil(const LinearRotor& rotor, double speed, bool vectors) {
     factor.compute(stiffness);
   }
   if (factor.info() != Eigen::Success) {
-    throw std::domain_error(
+    throw RunFailure(
         "undamped critical speeds: the stiffness of the rotor is negative for some motion");
   }
   const MatrixXcd inertia =

@@ -22,7 +22,7 @@ struct UndampedCriticalSpeed {
 };
 
 /// Ascending, up to `highest` [rad/s]. A motion without stiffness has none. Throws
-/// std::domain_error for a stiffness that is negative for some motion.
+/// RunFailure for a stiffness that is negative for some motion.
 std::vector<UndampedCriticalSpeed> undampedCriticalSpeeds(const LinearRotor& rotor,
                                                           const std::vector<Station>& stations,
                                                           double highest);

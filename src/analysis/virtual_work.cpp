@@ -9,7 +9,7 @@ namespace whirl_twin {
 double virtualWork(const Dynamics& dynamics, const Eigen::VectorXd& q,
                    const Eigen::VectorXd& displacement, const Moment<double>& at) {
   if (q.size() != dynamics.dof() || displacement.size() != dynamics.dof()) {
-    throw std::invalid_argument(fmt::format(
+    throw std::logic_error(fmt::format(
         "virtual work: expected {} coordinates and as many displacements, found {} and {}",
         dynamics.dof(), q.size(), displacement.size()));
   }

@@ -12,7 +12,7 @@ namespace whirl_twin {
 
 /// delta W [J] of all forces on a system held at rest in q, for a virtual displacement of its
 /// coordinates [dof] at one moment: work of the first order, the force taken as it is in q. Zero
-/// for every displacement at an equilibrium. Throws std::invalid_argument for a wrong size.
+/// for every displacement at an equilibrium. Throws std::logic_error for a wrong size.
 double virtualWork(const Dynamics& dynamics, const Eigen::VectorXd& q,
                    const Eigen::VectorXd& displacement, const Moment<double>& at);
 

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <stdexcept>
 
 #include "analysis/cyclic_coordinates.h"
 #include "analysis/stability_margins.h"
+#include "messages/refusal.h"
 
 namespace whirl_twin {
 
@@ -46,7 +46,7 @@ EigenPairs eigenPairs(const Linearization& l) {
   a.bottomRightCorner(n, n) = -mass.solve(l.damping + l.gyroscopic);
   const Eigen::EigenSolver<MatrixXd> solver(a);
   if (solver.info() != Eigen::Success) {
-    throw std::domain_error("the eigenvalues of the rotor cannot be computed");
+    throw RunFailure("the eigenvalues of the rotor cannot be computed");
   }
   return {solver.eigenvalues(), solver.eigenvectors().topRows(n)};
 }

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
+
+#include "messages/refusal.h"
 
 namespace whirl_twin {
 namespace {
@@ -20,12 +21,10 @@ Drive::Drive(double speed, double angle) : Drive(speed, angle, {}) {}
 Drive::Drive(double speed, double angle, const std::vector<SpeedMove>& moves,
              std::int64_t start_nanoseconds) {
   if (!(std::abs(speed) <= kLargestSpeed)) {
-    throw std::invalid_argument(
-        fmt::format("drive: speed must lie within +-1e6 rad/s, found {}", speed));
+    throw Refusal(fmt::format("drive: speed must lie within +-1e6 rad/s, found {}", speed));
   }
   if (!(std::abs(angle) <= 1.0e15)) {
-    throw std::invalid_argument(
-        fmt::format("drive: angle must lie within +-1e15 rad, found {}", angle));
+    throw Refusal(fmt::format("drive: angle must lie within +-1e15 rad, found {}", angle));
   }
 
   const auto append = [this](const SpeedSegment& motion, double target) {
@@ -44,13 +43,13 @@ Drive::Drive(double speed, double angle, const std::vector<SpeedMove>& moves,
   for (std::size_t i = 0; i < moves.size(); ++i) {
     const SpeedMove& move = moves[i];
     if (const auto fault = faultOf(move)) {
-      throw std::invalid_argument(fmt::format("drive: profile move {}: {}, found {}", i + 1,
-                                              fault->expected, fault->found));
+      throw Refusal(fmt::format("drive: profile move {}: {}, found {}", i + 1, fault->expected,
+                                fault->found));
     }
     const SpeedChange change = planSpeedChange(speed, 0.0, move);
     total += change.duration + move.dwell;
     if (!(total <= kLongestDuration)) {
-      throw std::invalid_argument(fmt::format(
+      throw Refusal(fmt::format(
           "drive: profile move {}: the profile up to its end must last at most 1e9 s, found {} s",
           i + 1, total));
     }

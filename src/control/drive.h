@@ -38,7 +38,7 @@ class Drive {
   Drive(double speed, double angle);
 
   /// Moves that follow one another from `speed` and `angle` at simulated time `start_nanoseconds`.
-  /// Throws std::invalid_argument that names the move and the value.
+  /// Throws Refusal that names the move and the value.
   Drive(double speed, double angle, const std::vector<SpeedMove>& moves,
         std::int64_t start_nanoseconds = 0);
 

@@ -19,8 +19,8 @@ Inputs::Inputs(const std::vector<InputSignal>& signals) {
   for (const InputSignal& signal : signals) {
     const SignalFault fault = faultOf(signal);
     if (fault.expected != nullptr) {
-      throw std::invalid_argument("input " + std::to_string(channels_.size()) + ": " + fault.field +
-                                  " " + fault.expected);
+      throw std::logic_error("input " + std::to_string(channels_.size()) + ": " + fault.field +
+                             " " + fault.expected);
     }
     Channel channel;
     channel.signal = signal;

@@ -24,7 +24,7 @@ class Inputs {
   // Not real-time safe.
 
   Inputs() = default;
-  /// One signal for each input of a model. Throws std::invalid_argument for one with a fault.
+  /// One signal for each input of a model. Throws std::logic_error for one with a fault.
   explicit Inputs(const std::vector<InputSignal>& signals);
 
   std::size_t count() const noexcept { return channels_.size(); }

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "messages/refusal.h"
+
 namespace whirl_twin {
 
 namespace {
@@ -15,16 +17,16 @@ void requireSizes(const LinearModel& model) {
   for (const Eigen::MatrixXd* matrix :
        {&model.mass, &model.damping, &model.gyroscopic, &model.stiffness, &model.circulatory}) {
     if (matrix->rows() != n || matrix->cols() != n) {
-      throw std::invalid_argument("linear system of " + std::to_string(n) +
-                                  " coordinates: a matrix is " + std::to_string(matrix->rows()) +
-                                  " x " + std::to_string(matrix->cols()));
+      throw std::logic_error("linear system of " + std::to_string(n) +
+                             " coordinates: a matrix is " + std::to_string(matrix->rows()) + " x " +
+                             std::to_string(matrix->cols()));
     }
   }
   for (const HarmonicForce& force : model.forces) {
     if (force.amplitude.size() != n) {
-      throw std::invalid_argument("linear system of " + std::to_string(n) +
-                                  " coordinates: a force has " +
-                                  std::to_string(force.amplitude.size()) + " components");
+      throw std::logic_error("linear system of " + std::to_string(n) +
+                             " coordinates: a force has " + std::to_string(force.amplitude.size()) +
+                             " components");
     }
   }
 }
@@ -46,7 +48,7 @@ LinearDynamics::LinearDynamics(LinearModel model) : model_(std::move(model)) {
   requireSizes(model_);
   mass_.compute(model_.mass);
   if (mass_.info() != Eigen::Success) {
-    throw std::invalid_argument("linear system: the mass matrix is not positive definite");
+    throw Refusal("linear system: the mass matrix is not positive definite");
   }
   natural_length_ = largestDeflection(model_);
   LinearModel mean = model_;

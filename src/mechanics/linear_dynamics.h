@@ -40,7 +40,7 @@ struct LinearModel {
 
 class LinearDynamics final : public Dynamics {
  public:
-  /// Throws std::invalid_argument for matrices or forces of the wrong size and for a mass matrix
+  /// Throws Refusal for matrices or forces of the wrong size and for a mass matrix
   /// that is not positive definite.
   explicit LinearDynamics(LinearModel model);
 

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "messages/refusal.h"
+
 namespace whirl_twin {
 
 namespace {
@@ -11,8 +13,8 @@ namespace {
 void requireSizes(const RotorDescription& description, const LinearRotor& rotor) {
   const auto n = static_cast<Eigen::Index>(description.coordinates.size());
   const auto refuse = [&](const std::string& what, Eigen::Index size) {
-    throw std::invalid_argument("rotor of " + std::to_string(n) + " coordinates: " + what +
-                                " has size " + std::to_string(size));
+    throw std::logic_error("rotor of " + std::to_string(n) + " coordinates: " + what +
+                           " has size " + std::to_string(size));
   };
   const Linearization l = rotor.matrices(0.0);
   for (const Eigen::MatrixXd* m :
@@ -44,7 +46,7 @@ LinearRotorDynamics::LinearRotorDynamics(RotorDescription description, LinearRot
   mass_ = rotor_.matrices(0.0).mass;
   mass_factor_.compute(mass_);
   if (mass_factor_.info() != Eigen::Success) {
-    throw std::invalid_argument("rotor: the mass matrix is not positive definite");
+    throw Refusal("rotor: the mass matrix is not positive definite");
   }
   if (!rotor_.forces.empty()) {
     LinearRotor balanced = rotor_;

@@ -29,7 +29,7 @@ struct RotorDescription {
 
 class LinearRotorDynamics final : public Dynamics {
  public:
-  /// Throws std::invalid_argument for matrices of the wrong size and for a mass matrix that is not
+  /// Throws Refusal for matrices of the wrong size and for a mass matrix that is not
   /// positive definite.
   LinearRotorDynamics(RotorDescription description, LinearRotor rotor);
 

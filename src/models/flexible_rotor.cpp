@@ -8,13 +8,13 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "analysis/modal_reduction.h"
 #include "integration/exponential.h"
 #include "mechanics/linear_rotor_dynamics.h"
+#include "messages/refusal.h"
 #include "models/flexible_rotor_picture.h"
 #include "models/flexible_shaft_settings.h"
 #include "models/linear_rotor_setup.h"
@@ -133,7 +133,7 @@ void requireFinite(const LinearRotor& rotor) {
 std::shared_ptr<const Dynamics> dynamicsOf(RotorDescription description, LinearRotor rotor) {
   try {
     return std::make_shared<const LinearRotorDynamics>(std::move(description), std::move(rotor));
-  } catch (const std::invalid_argument&) {
+  } catch (const Refusal&) {
     throw SetupError("elements",
                      "must give a mass in every motion that rounding does not hide "
                      "beside the others");

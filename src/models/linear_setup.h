@@ -6,7 +6,7 @@
 
 namespace whirl_twin {
 
-/// A setup that steps with every method of linear systems. Throws std::invalid_argument as
+/// A setup that steps with every method of linear systems. Throws Refusal as
 /// LinearDynamics does.
 ModelSetup linearSetup(LinearModel model);
 

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <limits>
 #include <set>
-#include <stdexcept>
 #include <utility>
 
 #include "analysis/assumed_modes.h"
 #include "integration/linear_methods.h"
 #include "messages/names.h"
+#include "messages/refusal.h"
 #include "models/linear_setup.h"
 #include "models/matrix_settings.h"
 #include "models/models.h"
@@ -114,7 +114,7 @@ LinearModel inAssumedModes(const LinearModel& full, const MatrixXd& shapes) {
     model.gyroscopic = part(r.gyroscopic, -1.0);
     model.stiffness = part(r.stiffness, 1.0);
     model.circulatory = part(r.circulatory, -1.0);
-  } catch (const std::invalid_argument&) {
+  } catch (const Refusal&) {
     throw SetupError(dependent);
   }
   if (!hasMassInEveryMotion(model.mass)) {

@@ -67,7 +67,7 @@ std::unique_ptr<Stepper> makeStepper(MethodList<Methods...>, const Model& model,
                                  : void()),
    ...);
   if (!system) {
-    throw std::invalid_argument(std::string(Model::kName) + " has no integrator " + integrator);
+    throw std::logic_error(std::string(Model::kName) + " has no integrator " + integrator);
   }
   return system;
 }

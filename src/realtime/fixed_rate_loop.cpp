@@ -11,6 +11,7 @@
 #include <thread>
 #include <utility>
 
+#include "messages/refusal.h"
 #include "realtime/denormals.h"
 
 namespace whirl_twin {
@@ -32,7 +33,7 @@ std::int64_t monotonicNow() noexcept {
 
 void check(bool in_range, const char* option, const std::string& expected, std::int64_t found) {
   if (!in_range) {
-    throw std::invalid_argument(
+    throw Refusal(
         fmt::format("fixed-rate loop: {}: expected {}, found {}", option, expected, found));
   }
 }
@@ -60,7 +61,7 @@ FixedRateLoop::~FixedRateLoop() {
 
 void FixedRateLoop::start(Cycle cycle) {
   if (!cycle) {
-    throw std::invalid_argument("fixed-rate loop: expected a cycle function, found none");
+    throw std::logic_error("fixed-rate loop: expected a cycle function, found none");
   }
   const std::lock_guard<std::mutex> lock(control_mutex_);
   if (running()) {
@@ -91,8 +92,8 @@ void FixedRateLoop::start(Cycle cycle) {
   pthread_attr_destroy(&attributes);
   if (error != 0) {
     running_ = false;
-    throw std::runtime_error(fmt::format("fixed-rate loop: no thread with a stack of {} bytes: {}",
-                                         options_.stack_size, std::strerror(error)));
+    throw RunFailure(fmt::format("fixed-rate loop: no thread with a stack of {} bytes: {}",
+                                 options_.stack_size, std::strerror(error)));
   }
   joinable_ = true;
   try {

@@ -51,14 +51,14 @@ class FixedRateLoop {
     std::uint64_t warm_up_cycles = 10;   ///< left out of the histograms
   };
 
-  /// std::invalid_argument names an option that is out of range.
+  /// Refusal names an option that is out of range.
   explicit FixedRateLoop(const Options& options);
   ~FixedRateLoop();
   FixedRateLoop(const FixedRateLoop&) = delete;
   FixedRateLoop& operator=(const FixedRateLoop&) = delete;
 
   /// Locks memory, starts the thread, waits until it has its scheduling, and returns; the first
-  /// cycle is due one period later. std::runtime_error when the thread cannot be had as
+  /// cycle is due one period later. RunFailure when the thread cannot be had as
   /// RealtimeMode::kEnforce demands (nothing runs then), std::logic_error when it runs already. A
   /// loop that has ended can be started again; its timing begins anew.
   void start(Cycle cycle);

@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "messages/refusal.h"
+
 namespace whirl_twin {
 
 std::string toString(OverrunPolicy policy) {
@@ -23,8 +25,7 @@ OverrunPolicy parseOverrunPolicy(const std::string& name) {
       return policy;
     }
   }
-  throw std::invalid_argument("overrun policy: expected skip, catch_up or stop, found \"" + name +
-                              "\"");
+  throw Refusal("overrun policy: expected skip, catch_up or stop, found \"" + name + "\"");
 }
 
 }  // namespace whirl_twin

@@ -46,7 +46,7 @@ constexpr WakeUp nextWakeUp(OverrunPolicy policy, std::int64_t scheduled, std::i
 /// "skip", "catch_up" or "stop".
 std::string toString(OverrunPolicy policy);
 
-/// The reverse of toString; std::invalid_argument names what was found and what is expected.
+/// The reverse of toString; Refusal names what was found and what is expected.
 OverrunPolicy parseOverrunPolicy(const std::string& name);
 
 }  // namespace whirl_twin

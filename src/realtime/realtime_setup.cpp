@@ -18,13 +18,15 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "messages/refusal.h"
+
 namespace whirl_twin {
 namespace {
 
 // What was asked for and not obtained: an error where it is demanded, else a warning.
 void notObtained(RealtimeMode mode, const std::string& what, RealtimeStatus& status) {
   if (mode == RealtimeMode::kEnforce) {
-    throw std::runtime_error("realtime enforce: " + what);
+    throw RunFailure("realtime enforce: " + what);
   }
   status.warnings.push_back(what);
 }
@@ -91,7 +93,7 @@ RealtimeMode parseRealtimeMode(const std::string& name) {
       return mode;
     }
   }
-  throw std::invalid_argument("realtime: expected enforce, warn or ignore, found \"" + name + "\"");
+  throw Refusal("realtime: expected enforce, warn or ignore, found \"" + name + "\"");
 }
 
 void lockMemory(RealtimeMode mode, RealtimeStatus& status) {

@@ -20,7 +20,7 @@ enum class RealtimeMode {
 /// "enforce", "warn" or "ignore".
 std::string toString(RealtimeMode mode);
 
-/// The reverse of toString; std::invalid_argument names what was found and what is expected.
+/// The reverse of toString; Refusal names what was found and what is expected.
 RealtimeMode parseRealtimeMode(const std::string& name);
 
 /// What was obtained.
@@ -35,7 +35,7 @@ struct RealtimeStatus {
 /// Locks present and future memory of the process and keeps freed memory in it. It stays locked:
 /// other loops of the process may rely on it. Without CAP_IPC_LOCK under a finite RLIMIT_MEMLOCK
 /// nothing is locked, because later allocations would fail there. A failure is a
-/// std::runtime_error in kEnforce, a warning in kWarn; kIgnore only reads back.
+/// RunFailure in kEnforce, a warning in kWarn; kIgnore only reads back.
 void lockMemory(RealtimeMode mode, RealtimeStatus& status);
 
 /// Gives the calling thread SCHED_FIFO at `priority` and reads back what it has. A failure is

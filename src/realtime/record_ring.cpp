@@ -9,15 +9,14 @@ namespace {
 
 std::size_t doublesNeeded(std::size_t record_size, std::size_t capacity_records) {
   if (record_size == 0 || capacity_records == 0) {
-    throw std::invalid_argument(
+    throw std::logic_error(
         "record ring: expected a record size of at least 1 double and a capacity of at least 1 "
         "record, found " +
         std::to_string(record_size) + " and " + std::to_string(capacity_records));
   }
   if (capacity_records > std::numeric_limits<std::size_t>::max() / sizeof(double) / record_size) {
-    throw std::invalid_argument("record ring: " + std::to_string(capacity_records) +
-                                " records of " + std::to_string(record_size) +
-                                " doubles are more than memory can hold");
+    throw std::logic_error("record ring: " + std::to_string(capacity_records) + " records of " +
+                           std::to_string(record_size) + " doubles are more than memory can hold");
   }
   return record_size * capacity_records;
 }

@@ -17,7 +17,7 @@ namespace whirl_twin {
 
 class RecordRing {
  public:
-  /// `record_size` [doubles] and `capacity_records` are at least 1, else std::invalid_argument.
+  /// `record_size` [doubles] and `capacity_records` are at least 1, else std::logic_error.
   RecordRing(std::size_t record_size, std::size_t capacity_records);
 
   /// Producer: copies recordSize() doubles in; false, and counted, when there is no room for them.

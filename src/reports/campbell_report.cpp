@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
+#include "messages/refusal.h"
 #include "monitoring/separation_margin.h"
 #include "reports/matrix_json.h"
 #include "reports/verdict_text.h"
@@ -65,7 +65,7 @@ CampbellReport campbellReport(const RotorSystem& system, const SpeedRange& range
   r.diagram = campbell(system.rotor, system.stations, {range.speeds(), harmonics, branches});
   try {
     r.undamped = undampedCriticalSpeeds(system.rotor, system.stations, range.to);
-  } catch (const std::domain_error&) {
+  } catch (const RunFailure&) {
     r.undamped.clear();  // springs that push: without damping it does not whirl, it falls
   }
   r.peaks = criticalSpeeds(*system.dynamics);

@@ -15,6 +15,7 @@
 #include "analysis/rigid_body_modes.h"
 #include "analysis/validity.h"
 #include "analysis/virtual_work.h"
+#include "messages/refusal.h"
 
 namespace whirl_twin {
 
@@ -36,7 +37,7 @@ std::string name(Definiteness form) {
 std::optional<double> ritzFrequency(const Linearization& l, const Eigen::MatrixXd& shapes) {
   try {
     return ritzModes(l.mass, l.stiffness, shapes).assumed.frequencies[0];
-  } catch (const std::invalid_argument&) {
+  } catch (const Refusal&) {
     return std::nullopt;
   }
 }
@@ -54,7 +55,7 @@ FrequencyBounds frequencyBounds(const Linearization& l, bool definite) {
   if (!definite) {
     try {
       static_cast<void>(dunkerleyBound(l.mass, l.stiffness));
-    } catch (const std::domain_error& error) {
+    } catch (const RunFailure& error) {
       b.refusal = error.what();
     }
     return b;
@@ -151,7 +152,7 @@ std::vector<SteadyResponse> steadyResponses(const BuiltSystem& system, const Sys
       const Eigen::VectorXcd x = steadyResponse(a.linearization, force, frequencies[k]);
       response.amplitude = x.cwiseAbs();
       response.lag = -x.array().arg();
-    } catch (const std::domain_error& error) {
+    } catch (const RunFailure& error) {
       response.refusal = error.what();
     }
     all.push_back(response);

@@ -22,7 +22,7 @@ class SampleWriter {
   virtual void finish() = 0;
 };
 
-// All throw RunFailure (or std::runtime_error) when they cannot write. `systems`: which ones of the
+// All throw RunFailure when they cannot write. `systems`: which ones of the
 // twin's; the twin outlives the writer.
 
 /// Comma-separated values, 17 significant digits: time, then for each system its coordinates, its

@@ -5,7 +5,6 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include "analysis/critical_speeds.h"
 #include "analysis/instability_speed.h"

@@ -16,7 +16,7 @@ struct SystemPlot {
 };
 
 /// Its picture (where it has one), time history, phase portrait (of a rotor: orbit) and energies,
-/// and its ensemble, at the end of the run, unless that is null. Throws std::runtime_error.
+/// and its ensemble, at the end of the run, unless that is null. Throws RunFailure.
 std::vector<SystemPlot> systemPlots(const BuiltSystem& system, const Ensemble* ensemble,
                                     const PlotHistory& history, ImageFormat format);
 

@@ -61,7 +61,7 @@ BuiltScene build(const Scene& scene) {
     if (!spec.drive) {
       drive = constant++;
     } else if (drive == scene.drives.size()) {
-      throw std::invalid_argument("no drive named " + *spec.drive);
+      throw std::logic_error("no drive named " + *spec.drive);
     }
     built.systems.push_back(build(spec, surroundingsOf(scene, spec), drive));
     spec.setup = built.systems.back()->spec.setup;

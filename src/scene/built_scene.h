@@ -27,7 +27,7 @@ struct BuiltScene {
 };
 
 /// Takes the setups that reading left in the scene, and makes only those anew whose specs were
-/// changed since. Throws std::invalid_argument for a scene that readScene() would have refused.
+/// changed since. Throws std::logic_error for a scene that readScene() would have refused.
 BuiltScene build(const Scene& scene);
 
 }  // namespace whirl_twin

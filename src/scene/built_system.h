@@ -47,7 +47,7 @@ struct BuiltSystem {
 
 using SharedSystem = std::shared_ptr<const BuiltSystem>;
 
-/// Throws std::invalid_argument where there is no such model, and what the model throws of
+/// Throws std::logic_error where there is no such model, and what the model throws of
 /// parameters that do not fit together.
 SharedSystem build(SystemSpec spec, const Surroundings& around, std::size_t drive);
 

@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
-#include <stdexcept>
 
 #include "messages/names.h"
+#include "messages/refusal.h"
 #include "scene/node_reader.h"
 
 namespace whirl_twin {
@@ -50,13 +50,13 @@ std::vector<std::string> fields(const std::string& line) {
 void requireFile(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) {
-    throw std::runtime_error("no such file");
+    throw Refusal("no such file");
   }
   if (!std::filesystem::is_regular_file(path, error)) {
-    throw std::runtime_error("not a file");
+    throw Refusal("not a file");
   }
   if (std::filesystem::file_size(path, error) > kLargestFile) {
-    throw std::runtime_error("larger than 64 MiB: not a table of an input");
+    throw Refusal("larger than 64 MiB: not a table of an input");
   }
 }
 
@@ -68,15 +68,14 @@ std::vector<std::vector<double>> csvColumns(const std::string& path,
   std::ifstream file(path, std::ios::binary);
   std::string line;
   if (!std::getline(file, line)) {
-    throw std::runtime_error("empty: the first line names the columns");
+    throw Refusal("empty: the first line names the columns");
   }
   const std::vector<std::string> header = fields(line);
   std::vector<std::size_t> places;
   for (const std::string& name : names) {
     const auto found = std::find(header.begin(), header.end(), name);
     if (found == header.end()) {
-      throw std::runtime_error(
-          fmt::format("no column {}{}", quoted(name), printable(hint(name, header))));
+      throw Refusal(fmt::format("no column {}{}", quoted(name), printable(hint(name, header))));
     }
     places.push_back(static_cast<std::size_t>(found - header.begin()));
   }
@@ -90,7 +89,7 @@ std::vector<std::vector<double>> csvColumns(const std::string& path,
       const std::optional<double> value =
           places[i] < values.size() ? parseNumber(values[places[i]]) : std::nullopt;
       if (!value) {
-        throw std::runtime_error(fmt::format(
+        throw Refusal(fmt::format(
             "line {}: {} must be a finite number, found {}", row, printable(names[i]),
             places[i] < values.size() ? quoted(values[places[i]]) : std::string("nothing")));
       }
@@ -98,7 +97,7 @@ std::vector<std::vector<double>> csvColumns(const std::string& path,
     }
   }
   if (columns.front().empty()) {
-    throw std::runtime_error("no rows below the names of the columns");
+    throw Refusal("no rows below the names of the columns");
   }
   return columns;
 }

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
 #include <vector>
 
 #include "control/drive.h"
 #include "control/motor.h"
 #include "control/speed_profile.h"
+#include "messages/refusal.h"
 
 namespace whirl_twin {
 
@@ -120,7 +120,7 @@ DriveSpec readDrive(const YAML::Node& node, const std::string& key, const std::s
   if (complaints.all().size() == before) {
     try {  // what only the whole profile shows, such as moves that last longer than can be timed
       static_cast<void>(Drive(drive.speed, drive.angle, drive.profile, start));
-    } catch (const std::invalid_argument& error) {
+    } catch (const Refusal& error) {
       complaints.add(key, error.what());
     }
   }

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "messages/refusal.h"
 #include "scene/csv_columns.h"
 
 namespace whirl_twin {
@@ -49,7 +50,7 @@ InputSignal readTable(const MapReader& map, const std::string& folder, Complaint
     for (std::size_t row = 0; row < columns[0].size(); ++row) {
       const double seconds = columns[0][row];
       if (!(std::fabs(seconds) <= kLargestTime)) {
-        throw std::runtime_error(
+        throw Refusal(
             fmt::format("row {}: {} must lie within +-1e9 s, found {} s", row + 1, time, seconds));
       }
       instants.push_back(std::llround(seconds * 1e9));
@@ -57,12 +58,11 @@ InputSignal readTable(const MapReader& map, const std::string& folder, Complaint
     InputSignal signal = InputSignal::table(std::move(instants), columns[1], hold);
     const SignalFault fault = faultOf(signal);
     if (fault.expected != nullptr) {
-      throw std::runtime_error(fmt::format("row {}: {} {}, by a nanosecond or more, found {} s",
-                                           fault.row + 1, time, fault.expected,
-                                           columns[0][fault.row]));
+      throw Refusal(fmt::format("row {}: {} {}, by a nanosecond or more, found {} s", fault.row + 1,
+                                time, fault.expected, columns[0][fault.row]));
     }
     return signal;
-  } catch (const std::runtime_error& error) {
+  } catch (const Refusal& error) {
     complaints.add(map.key("table"), fmt::format("{}: {}", path.string(), error.what()));
     return {};
   }
@@ -126,7 +126,7 @@ std::vector<InputSignal> signalsOf(const std::vector<InputInfo>& inputs,
     signals.push_back(signal != given.end() ? signal->second : InputSignal{});
   }
   if (found != given.size()) {
-    throw std::invalid_argument("an input is given that the model does not have");
+    throw std::logic_error("an input is given that the model does not have");
   }
   return signals;
 }

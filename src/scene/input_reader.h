@@ -19,7 +19,7 @@ std::map<std::string, InputSignal> readInputs(const MapReader& system,
                                               const std::string& folder, Complaints& complaints);
 
 /// One signal for each input of a model, in its order; those not given do not act. Throws
-/// std::invalid_argument for a name that the model does not have.
+/// std::logic_error for a name that the model does not have.
 std::vector<InputSignal> signalsOf(const std::vector<InputInfo>& inputs,
                                    const std::map<std::string, InputSignal>& given);
 

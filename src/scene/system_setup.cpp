@@ -71,7 +71,7 @@ const SystemSetup& setupOf(SystemSpec& spec, const Surroundings& around) {
       !same(known->around, around)) {
     const ModelInfo* const model = findModel(spec.model);
     if (model == nullptr) {
-      throw std::invalid_argument("no model named " + spec.model);
+      throw std::logic_error("no model named " + spec.model);
     }
     spec.setup = setUp(*model, spec, around);
   }

@@ -29,7 +29,7 @@ std::shared_ptr<const SystemSetup> setUp(const ModelInfo& model, const SystemSpe
                                          const Surroundings& around);
 
 /// The setup that the spec carries if that is of what it says now; else a new one, which it
-/// carries from now on. Throws std::invalid_argument where there is no such model, and as setUp().
+/// carries from now on. Throws std::logic_error where there is no such model, and as setUp().
 const SystemSetup& setupOf(SystemSpec& spec, const Surroundings& around);
 
 }  // namespace whirl_twin

@@ -28,7 +28,7 @@ std::int64_t parseNanoseconds(const std::string& option, const std::string& text
   Rational nanoseconds;
   try {
     nanoseconds = parseRational(text) * 1000000000;
-  } catch (const std::invalid_argument&) {
+  } catch (const Refusal&) {
     throw Refusal(fmt::format("{}: {}, found '{}'", option, expected, text));
   }
   if (nanoseconds < low || nanoseconds > high) {

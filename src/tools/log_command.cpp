@@ -124,12 +124,7 @@ struct Request {
 
 int summarize(const Request& request) {
   requireLcmPrefix(request.lcm_prefix);
-  LogSummary log;
-  try {
-    log = readEventLog(request.file, request.lcm_prefix);
-  } catch (const std::runtime_error& error) {
-    throw Refusal(error.what());
-  }
+  const LogSummary log = readEventLog(request.file, request.lcm_prefix);
   if (log.events == 0) {
     throw Refusal(log.channels.empty()
                       ? fmt::format("{}: expected an LCM log, found no event in {} bytes",

@@ -51,7 +51,7 @@ std::vector<ComplexRational> parseCoefficients(const std::vector<std::string>& t
   for (std::size_t i = 0; i < typed.size(); ++i) {
     try {
       coefficients.push_back(parseComplex(typed[i]));
-    } catch (const std::invalid_argument& error) {
+    } catch (const Refusal& error) {
       errors.push_back(
           fmt::format("coefficient {} (of s^{}): {}", i + 1, typed.size() - 1 - i, error.what()));
     }

@@ -8,7 +8,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <stdexcept>
+
+#include "messages/refusal.h"
 
 namespace whirl_twin {
 
@@ -21,12 +22,12 @@ FileWindow::FileWindow(const std::string& path)
     if (file_ >= 0) {
       ::close(file_);
     }
-    throw std::runtime_error(fmt::format("{}: cannot be read: {}", path, why));
+    throw Refusal(fmt::format("{}: cannot be read: {}", path, why));
   }
   if (!S_ISREG(status.st_mode)) {
     ::close(file_);
-    throw std::runtime_error(fmt::format("{}: expected a file, found {}", path,
-                                         S_ISDIR(status.st_mode) ? "a directory" : "a device"));
+    throw Refusal(fmt::format("{}: expected a file, found {}", path,
+                              S_ISDIR(status.st_mode) ? "a directory" : "a device"));
   }
   size_ = static_cast<std::uint64_t>(status.st_size);
 }
@@ -49,9 +50,8 @@ const std::uint8_t* FileWindow::at(std::uint64_t offset, std::size_t length) {
     }
     if (got <= 0) {
       window_.clear();
-      throw std::runtime_error(
-          fmt::format("{}: cannot be read at byte {}: {}", path_, offset + filled,
-                      got < 0 ? std::strerror(errno) : "the file has become shorter"));
+      throw Refusal(fmt::format("{}: cannot be read at byte {}: {}", path_, offset + filled,
+                                got < 0 ? std::strerror(errno) : "the file has become shorter"));
     }
     filled += static_cast<std::size_t>(got);
   }

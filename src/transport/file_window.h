@@ -14,7 +14,7 @@ class FileWindow {
   /// Longest stretch that can be asked for [bytes].
   static constexpr std::size_t kMaxLength = std::size_t{1} << 21;
 
-  /// Throws std::runtime_error if there is no regular file at `path` that can be read.
+  /// Throws Refusal if there is no regular file at `path` that can be read.
   explicit FileWindow(const std::string& path);
   ~FileWindow();
   FileWindow(const FileWindow&) = delete;
@@ -24,7 +24,7 @@ class FileWindow {
   std::uint64_t size() const { return size_; }
 
   /// The bytes [offset, offset + length), all of which must lie within the file; valid until the
-  /// next call. Throws std::runtime_error if they cannot be read.
+  /// next call. Throws Refusal if they cannot be read.
   const std::uint8_t* at(std::uint64_t offset, std::size_t length);
 
  private:

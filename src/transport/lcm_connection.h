@@ -4,15 +4,16 @@
 #include <chrono>
 #include <lcm/lcm-cpp.hpp>
 #include <memory>
-#include <stdexcept>
 #include <string>
+
+#include "messages/refusal.h"
 
 namespace whirl_twin {
 
 /// LCM did not open; what() says at which url and what to do about it.
-class LcmNotAvailable : public std::runtime_error {
+class LcmNotAvailable : public RunFailure {
  public:
-  using std::runtime_error::runtime_error;
+  using RunFailure::RunFailure;
 };
 
 /// An open LCM at `url`, e.g. kDefaultLcmUrl. Throws LcmNotAvailable.

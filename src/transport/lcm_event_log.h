@@ -62,7 +62,7 @@ struct LogSummary {
 };
 
 /// Reads the log at `path` from beginning to end, in memory that grows with the number of channels
-/// but not with the length. Throws std::runtime_error if there is no regular file there that can be
+/// but not with the length. Throws Refusal if there is no regular file there that can be
 /// read; whatever is wrong inside the file is in the summary. LCM events carry no checksum: a
 /// changed bit inside a measured value, or in a timestamp that stays in order to within a second,
 /// cannot be seen.
@@ -73,12 +73,12 @@ LogSummary readEventLog(const std::string& path, const std::string& prefix = kDe
 /// the same bytes.
 class EventLogWriter {
  public:
-  /// Creates the file, or empties it. Throws std::runtime_error if it cannot be written.
+  /// Creates the file, or empties it. Throws RunFailure if it cannot be written.
   explicit EventLogWriter(const std::string& path);
   EventLogWriter(const EventLogWriter&) = delete;
   EventLogWriter& operator=(const EventLogWriter&) = delete;
 
-  /// Throws std::runtime_error if the event cannot be written.
+  /// Throws RunFailure if the event cannot be written.
   template <class State>
   void write(const State& state) {
     const std::int64_t utime = encode(state, payload_);
@@ -86,7 +86,7 @@ class EventLogWriter {
   }
 
   /// Hands everything to the file system: only then is a full disk noticed. Throws
-  /// std::runtime_error.
+  /// RunFailure.
   void finish();
 
  private:

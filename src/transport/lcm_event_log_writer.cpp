@@ -3,15 +3,15 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <stdexcept>
 
+#include "messages/refusal.h"
 #include "transport/lcm_event_log.h"
 
 namespace whirl_twin {
 namespace {
 
 [[noreturn]] void throwCannotWrite(const std::string& path) {
-  throw std::runtime_error(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
+  throw RunFailure(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
 }
 
 }  // namespace

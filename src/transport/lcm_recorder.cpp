@@ -5,16 +5,16 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <stdexcept>
 #include <utility>
 
+#include "messages/refusal.h"
 #include "transport/lcm_connection.h"
 
 namespace whirl_twin {
 namespace {
 
 [[noreturn]] void throwCannotWrite(const std::string& path, int error) {
-  throw std::runtime_error(fmt::format("{}: cannot be written: {}", path, std::strerror(error)));
+  throw RunFailure(fmt::format("{}: cannot be written: {}", path, std::strerror(error)));
 }
 
 }  // namespace

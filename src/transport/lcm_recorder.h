@@ -15,14 +15,14 @@ class LcmRecorder {
  public:
   /// Listens to the channels that match `pattern`, a regular expression, and writes into a new file
   /// at `path`, or over an existing one. Throws LcmNotAvailable if LCM cannot receive,
-  /// std::runtime_error if the file cannot be written.
+  /// RunFailure if the file cannot be written.
   LcmRecorder(std::shared_ptr<lcm::LCM> lcm, const std::string& pattern, const std::string& path);
   ~LcmRecorder();
   LcmRecorder(const LcmRecorder&) = delete;
   LcmRecorder& operator=(const LcmRecorder&) = delete;
 
   /// Waits up to `timeout` for an event, records all that have arrived, at most `most` of them, and
-  /// hands them to the file system. Returns how many. Throws std::runtime_error if they cannot be
+  /// hands them to the file system. Returns how many. Throws RunFailure if they cannot be
   /// written.
   int record(std::chrono::milliseconds timeout, int most = 1000);
 

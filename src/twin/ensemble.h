@@ -49,7 +49,7 @@ class Ensemble {
  public:
   /// Of a system of a scene, on its drive and with its inputs, which act on all members alike.
   /// Throws Refusal that names the member whose parameters do not fit together, or would make it a
-  /// system of another kind; std::domain_error where steps cannot be prepared.
+  /// system of another kind; RunFailure where steps cannot be prepared.
   Ensemble(const Scene& scene, const BuiltSystem& system, const Excitation& excitation);
 
   std::size_t count() const { return count_; }

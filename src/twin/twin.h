@@ -43,7 +43,7 @@ class Twin {
   Ensemble* ensemble(std::size_t system) noexcept { return ensembles_[system].get(); }
   const Ensemble* ensemble(std::size_t system) const noexcept { return ensembles_[system].get(); }
   /// What steps a system, on its drive and with its inputs; its state is yet to be set. Throws
-  /// std::domain_error where its steps cannot be prepared.
+  /// RunFailure where its steps cannot be prepared.
   std::unique_ptr<Stepper> stepperOf(const BuiltSystem& system) const;
 
   // Real-time safe.

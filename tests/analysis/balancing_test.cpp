@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <stdexcept>
 
 #include "analysis/synchronous_response.h"
+#include "messages/refusal.h"
 #include "rotors_under_test.h"
 
 namespace whirl_twin {
@@ -84,12 +84,11 @@ TEST(Balancing, HonoursTheWeights) {
 
 TEST(Balancing, RefusesWhatDoesNotFit) {
   const Runs runs = simulatedRuns();
-  EXPECT_THROW(influenceOfPlanes(runs.initial, {runs.trials[0]}, 2), std::invalid_argument);
-  EXPECT_THROW(influenceOfPlanes(runs.initial, {{0, 0.0, runs.initial}}, 1), std::invalid_argument);
-  EXPECT_THROW(influenceOfPlanes(runs.initial, {{0, 1.0, runs.initial.head(2)}}, 1),
-               std::invalid_argument);
+  EXPECT_THROW(influenceOfPlanes(runs.initial, {runs.trials[0]}, 2), Refusal);
+  EXPECT_THROW(influenceOfPlanes(runs.initial, {{0, 0.0, runs.initial}}, 1), Refusal);
+  EXPECT_THROW(influenceOfPlanes(runs.initial, {{0, 1.0, runs.initial.head(2)}}, 1), Refusal);
   EXPECT_THROW(balance(Eigen::MatrixXcd::Identity(4, 2), runs.initial, Eigen::VectorXd::Ones(3)),
-               std::invalid_argument);
+               Refusal);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "analysis/influence_coefficients.h"
 #include "analysis/rayleigh_quotient.h"
 #include "analysis/rigid_body_modes.h"
+#include "messages/refusal.h"
 #include "random_systems.h"
 
 namespace whirl_twin {
@@ -117,12 +118,12 @@ TEST(NaturalModes, SayWhyTheyAreRefused) {
   const MatrixXd massless = Eigen::Vector2d(1.0, 0.0).asDiagonal();
   MatrixXd skewed = one;
   skewed(0, 1) = 0.5;
-  EXPECT_THROW(naturalModes(massless, one), std::invalid_argument);
-  EXPECT_THROW(naturalModes(tilted, one), std::invalid_argument);
-  EXPECT_THROW(naturalModes(one, skewed), std::invalid_argument);
-  EXPECT_THROW(naturalModes(one, MatrixXd::Identity(3, 3)), std::invalid_argument);
-  EXPECT_THROW(naturalModes(one, NAN * one), std::invalid_argument);
-  EXPECT_THROW(naturalModes(one, tilted), std::domain_error);
+  EXPECT_THROW(naturalModes(massless, one), Refusal);
+  EXPECT_THROW(naturalModes(tilted, one), Refusal);
+  EXPECT_THROW(naturalModes(one, skewed), Refusal);
+  EXPECT_THROW(naturalModes(one, MatrixXd::Identity(3, 3)), std::logic_error);
+  EXPECT_THROW(naturalModes(one, NAN * one), Refusal);
+  EXPECT_THROW(naturalModes(one, tilted), RunFailure);
   EXPECT_PRED2(mentions, messageOf([&] { naturalModes(massless, one); }), "zero for some motion");
   EXPECT_PRED2(mentions, messageOf([&] { naturalModes(one, tilted); }), "statically unstable");
 }
@@ -176,9 +177,9 @@ TEST(InfluenceCoefficients, AreDeflectionsUnderUnitForces) {
 
 TEST(InfluenceCoefficients, DoNotExistWithoutSupports) {
   const MatrixXd free = freeBeamStiffness(5);
-  EXPECT_THROW(influenceCoefficients(free), std::domain_error);
-  EXPECT_THROW(staticDeflection(free, VectorXd::Ones(5)), std::domain_error);
-  EXPECT_THROW(dunkerleyBound(MatrixXd::Identity(5, 5), free), std::domain_error);
+  EXPECT_THROW(influenceCoefficients(free), RunFailure);
+  EXPECT_THROW(staticDeflection(free, VectorXd::Ones(5)), RunFailure);
+  EXPECT_THROW(dunkerleyBound(MatrixXd::Identity(5, 5), free), RunFailure);
   const std::string message = messageOf([&] { influenceCoefficients(free); });
   EXPECT_PRED2(mentions, message, "2 rigid-body modes");
   EXPECT_PRED2(mentions, message, "accelerates the system instead of deflecting it");
@@ -251,19 +252,19 @@ TEST(Rayleigh, ARigidBodyShapeHasNoFrequencyAndAnUnstableOneIsRefused) {
   const MatrixXd mass = MatrixXd::Identity(5, 5);
   EXPECT_NEAR(rayleighFrequency(mass, freeBeamStiffness(5), VectorXd::LinSpaced(5, 0.1, 0.7)), 0.0,
               1e-7);
-  EXPECT_THROW(rayleighFrequency(mass, -mass, VectorXd::Ones(5)), std::domain_error);
-  EXPECT_THROW(rayleighFrequency(mass, mass, VectorXd::Zero(5)), std::invalid_argument);
-  EXPECT_THROW(rayleighFrequency(mass, mass, VectorXd::Ones(4)), std::invalid_argument);
+  EXPECT_THROW(rayleighFrequency(mass, -mass, VectorXd::Ones(5)), RunFailure);
+  EXPECT_THROW(rayleighFrequency(mass, mass, VectorXd::Zero(5)), Refusal);
+  EXPECT_THROW(rayleighFrequency(mass, mass, VectorXd::Ones(4)), std::logic_error);
 }
 
 TEST(AssumedModes, LinearlyDependentShapesAreRefused) {
   MatrixXd shapes(3, 2);
   shapes << 1.0, 2.0, 2.0, 4.0, 3.0, 6.0;
   const MatrixXd one = MatrixXd::Identity(3, 3);
-  EXPECT_THROW(ritzModes(one, one, shapes), std::invalid_argument);
+  EXPECT_THROW(ritzModes(one, one, shapes), Refusal);
   EXPECT_PRED2(mentions, messageOf([&] { ritzModes(one, one, shapes); }), "linearly independent");
-  EXPECT_THROW(ritzModes(one, one, MatrixXd::Zero(3, 1)), std::invalid_argument);
-  EXPECT_THROW(ritzModes(one, one, MatrixXd::Ones(2, 1)), std::invalid_argument);
+  EXPECT_THROW(ritzModes(one, one, MatrixXd::Zero(3, 1)), Refusal);
+  EXPECT_THROW(ritzModes(one, one, MatrixXd::Ones(2, 1)), Refusal);
 }
 
 TEST(AssumedModes, EveryMatrixIsReduced) {

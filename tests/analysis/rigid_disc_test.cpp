@@ -11,6 +11,7 @@
 #include "../integration/running_system.h"
 #include "analysis/equilibria.h"
 #include "analysis/stability.h"
+#include "messages/refusal.h"
 
 namespace whirl_twin {
 namespace {
@@ -26,7 +27,7 @@ Json expected(const std::string& id, const std::string& name) {
       }
     }
   }
-  throw std::invalid_argument("nothing expected of " + id + " " + name);
+  throw std::logic_error("nothing expected of " + id + " " + name);
 }
 
 /// The overhung disc of the reference rotors: steel, 20 mm, 0.3 m.

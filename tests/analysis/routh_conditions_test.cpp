@@ -8,6 +8,7 @@
 
 #include "analysis/routh.h"
 #include "hurwitz_minors.h"
+#include "messages/refusal.h"
 #include "reference_polynomials.h"
 
 namespace whirl_twin {
@@ -129,10 +130,10 @@ TEST(RouthConditions, OnTheBoundaryDoNotHold) {
 }
 
 TEST(RouthConditions, RefuseOtherDegrees) {
-  EXPECT_THROW(routhConditions(Polynomial{5}), std::invalid_argument);
-  EXPECT_THROW(routhConditions(Polynomial{0, 0}), std::invalid_argument);
-  EXPECT_THROW(routhConditions(Polynomial(8, 1)), std::invalid_argument);
-  EXPECT_THROW(routhConditions(std::vector<double>{1.0, NAN}), std::invalid_argument);
+  EXPECT_THROW(routhConditions(Polynomial{5}), Refusal);
+  EXPECT_THROW(routhConditions(Polynomial{0, 0}), Refusal);
+  EXPECT_THROW(routhConditions(Polynomial(8, 1)), Refusal);
+  EXPECT_THROW(routhConditions(std::vector<double>{1.0, NAN}), Refusal);
   EXPECT_EQ(routhConditions(Polynomial{0, 0, 2, 4}).size(), 1u);  // leading zeros dropped
 }
 

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "hurwitz_minors.h"
+#include "messages/refusal.h"
 #include "reference_polynomials.h"
 
 namespace whirl_twin {
@@ -134,13 +135,13 @@ TEST(Routh, FirstColumnBeyondTheRangeOfDoubleKeepsItsSign) {
 }
 
 TEST(Routh, RefusesWhatIsNoPolynomial) {
-  EXPECT_THROW(routh(std::vector<double>{}), std::invalid_argument);
-  EXPECT_THROW(routh(std::vector<double>{0, 0}), std::invalid_argument);
-  EXPECT_THROW(routh(std::vector<Rational>{}), std::invalid_argument);
+  EXPECT_THROW(routh(std::vector<double>{}), Refusal);
+  EXPECT_THROW(routh(std::vector<double>{0, 0}), Refusal);
+  EXPECT_THROW(routh(std::vector<Rational>{}), Refusal);
   try {
     routh(std::vector<double>{1, 2, std::numeric_limits<double>::quiet_NaN()});
     FAIL() << "accepted NaN";
-  } catch (const std::invalid_argument& error) {
+  } catch (const Refusal& error) {
     EXPECT_STREQ(error.what(), "polynomial: coefficient 3 of 3 must be a finite number, found nan");
   }
 }

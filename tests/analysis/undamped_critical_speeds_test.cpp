@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "messages/refusal.h"
 #include "rotors_under_test.h"
 
 namespace whirl_twin {
@@ -85,7 +86,7 @@ TEST(UndampedCriticalSpeeds, RiseWithTheBearingsToTheRotorOnRigidOnes) {
 
 TEST(UndampedCriticalSpeeds, OfANegativeStiffnessAreRefused) {
   const RotorUnderTest r = chainRotor(3, -1.0e5);
-  EXPECT_THROW(undampedCriticalSpeeds(r.rotor, r.stations, 1.0e3), std::domain_error);
+  EXPECT_THROW(undampedCriticalSpeeds(r.rotor, r.stations, 1.0e3), RunFailure);
 }
 
 TEST(UndampedCriticalSpeeds, OfAFreeRotorLeaveOutItsDrift) {

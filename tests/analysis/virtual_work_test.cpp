@@ -57,8 +57,8 @@ TEST(VirtualWork, IsTheLossOfPotentialEnergyWhereForcesHaveOne) {
 
 TEST(VirtualWork, RefusesAWrongSize) {
   const auto pendulum = doublePendulum();
-  EXPECT_THROW(virtualWork(*pendulum, one(1.0), VectorXd::Ones(2), {}), std::invalid_argument);
-  EXPECT_THROW(virtualWork(*pendulum, VectorXd::Ones(2), one(1.0), {}), std::invalid_argument);
+  EXPECT_THROW(virtualWork(*pendulum, one(1.0), VectorXd::Ones(2), {}), std::logic_error);
+  EXPECT_THROW(virtualWork(*pendulum, VectorXd::Ones(2), one(1.0), {}), std::logic_error);
 }
 
 }  // namespace

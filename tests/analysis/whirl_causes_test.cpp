@@ -12,6 +12,7 @@
 #include "../integration/running_system.h"
 #include "analysis/equilibria.h"
 #include "analysis/instability_speed.h"
+#include "messages/refusal.h"
 #include "models_under_test.h"
 
 namespace whirl_twin {
@@ -29,7 +30,7 @@ Json referenceRotor(const std::string& id) {
       return reference;
     }
   }
-  throw std::invalid_argument("no reference rotor " + id);
+  throw Refusal("no reference rotor " + id);
 }
 
 Json expected(const Json& reference, const std::string& name) {
@@ -38,7 +39,7 @@ Json expected(const Json& reference, const std::string& name) {
       return entry["value"];
     }
   }
-  throw std::invalid_argument("nothing expected of " + name);
+  throw std::logic_error("nothing expected of " + name);
 }
 
 ParameterValues rotor(ParameterValues effects) {

@@ -9,9 +9,10 @@
 #include <cstdint>
 #include <limits>
 #include <random>
-#include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "messages/refusal.h"
 
 namespace whirl_twin {
 namespace {
@@ -264,7 +265,7 @@ TEST(Drive, BadProfilesAreNamed) {
   const auto message = [](double speed, double angle, const std::vector<SpeedMove>& moves) {
     try {
       const Drive drive(speed, angle, moves);
-    } catch (const std::invalid_argument& error) {
+    } catch (const Refusal& error) {
       return std::string(error.what());
     }
     return std::string();

@@ -13,6 +13,7 @@
 
 #include "allocation_guard.h"
 #include "integration/linear_rotor_stepper.h"
+#include "messages/refusal.h"
 #include "models/linear_rotor_setup.h"
 #include "running_system.h"
 
@@ -30,7 +31,7 @@ Json reference(const std::string& id) {
       return entry;
     }
   }
-  throw std::invalid_argument("no reference rotor " + id);
+  throw Refusal("no reference rotor " + id);
 }
 
 Json expected(const Json& entry, const std::string& name) {
@@ -39,7 +40,7 @@ Json expected(const Json& entry, const std::string& name) {
       return value["value"];
     }
   }
-  throw std::invalid_argument("nothing expected of " + name);
+  throw std::logic_error("nothing expected of " + name);
 }
 
 /// A rotor whose matrices are given, stepped alone.

@@ -138,13 +138,13 @@ TEST(LinearDynamics, HasTheStaticDeflectionForItsNaturalLength) {
 TEST(LinearDynamics, RefusesWhatIsNoSystem) {
   LinearModel model = freeModel(3);
   model.damping = MatrixXd::Zero(2, 3);
-  EXPECT_THROW(LinearDynamics{model}, std::invalid_argument);
+  EXPECT_THROW(LinearDynamics{model}, std::logic_error);
   model = freeModel(3);
   model.mass(1, 1) = 0.0;
-  EXPECT_THROW(LinearDynamics{model}, std::invalid_argument);
+  EXPECT_THROW(LinearDynamics{model}, std::logic_error);
   model = freeModel(3);
   model.forces = {{VectorXd::Ones(2), 0.0, 0.0}};
-  EXPECT_THROW(LinearDynamics{model}, std::invalid_argument);
+  EXPECT_THROW(LinearDynamics{model}, std::logic_error);
 }
 
 }  // namespace

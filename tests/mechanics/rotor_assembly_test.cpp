@@ -262,7 +262,7 @@ TEST(RotorAssembly, refusesANodeThatDoesNotExist) {
   try {
     const RotorAssembly rotor(shaft);
     FAIL() << "was accepted";
-  } catch (const std::invalid_argument& error) {
+  } catch (const std::logic_error& error) {
     EXPECT_STREQ(error.what(), "disc: node must be 0 to 4, found 5");
   }
 }

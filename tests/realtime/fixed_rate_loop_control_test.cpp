@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "loop_trial.h"
+#include "messages/refusal.h"
 #include "realtime/denormals.h"
 #include "realtime/fixed_rate_loop.h"
 #include "without_privileges.h"
@@ -140,7 +141,7 @@ TEST(FixedRateLoopControl, AnOptionOutOfRangeIsNamed) {
   const auto message_of = [](FixedRateLoop::Options options) -> std::string {
     try {
       FixedRateLoop loop(options);
-    } catch (const std::invalid_argument& error) {
+    } catch (const Refusal& error) {
       return error.what();
     }
     return "accepted";
@@ -158,7 +159,7 @@ TEST(FixedRateLoopControl, AnOptionOutOfRangeIsNamed) {
   EXPECT_EQ(message_of(options),
             "fixed-rate loop: stack_size: expected at least 65536 bytes, found 1000");
   FixedRateLoop loop(ordinary());
-  EXPECT_THROW(loop.start(nullptr), std::invalid_argument);
+  EXPECT_THROW(loop.start(nullptr), std::logic_error);
 }
 
 }  // namespace

@@ -3,7 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <random>
-#include <stdexcept>
+
+#include "messages/refusal.h"
 
 namespace whirl_twin {
 namespace {
@@ -161,7 +162,7 @@ TEST(OverrunPolicy, AnUnknownNameIsRefusedWithWhatIsExpected) {
   try {
     parseOverrunPolicy("Skip");
     FAIL() << "accepted";
-  } catch (const std::invalid_argument& error) {
+  } catch (const Refusal& error) {
     EXPECT_STREQ(error.what(), "overrun policy: expected skip, catch_up or stop, found \"Skip\"");
   }
 }

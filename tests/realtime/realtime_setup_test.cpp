@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "messages/refusal.h"
 #include "realtime/denormals.h"
 #include "without_privileges.h"
 
@@ -42,7 +43,7 @@ TEST(RealtimeMode, AnUnknownNameIsRefusedWithWhatIsExpected) {
   try {
     parseRealtimeMode("always");
     FAIL() << "accepted";
-  } catch (const std::invalid_argument& error) {
+  } catch (const Refusal& error) {
     EXPECT_STREQ(error.what(), "realtime: expected enforce, warn or ignore, found \"always\"");
   }
 }

@@ -126,9 +126,9 @@ TEST(RecordRing, EveryRecordEitherArrivesOrIsCountedAsDropped) {
 }
 
 TEST(RecordRing, ASizeOfZeroIsRefused) {
-  EXPECT_THROW(RecordRing(0, 4), std::invalid_argument);
-  EXPECT_THROW(RecordRing(4, 0), std::invalid_argument);
-  EXPECT_THROW(RecordRing(std::size_t{1} << 40, std::size_t{1} << 40), std::invalid_argument);
+  EXPECT_THROW(RecordRing(0, 4), std::logic_error);
+  EXPECT_THROW(RecordRing(4, 0), std::logic_error);
+  EXPECT_THROW(RecordRing(std::size_t{1} << 40, std::size_t{1} << 40), std::logic_error);
 }
 
 TEST(RecordRing, PushAndPopDoNotAllocate) {

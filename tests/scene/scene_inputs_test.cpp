@@ -79,7 +79,7 @@ TEST_F(SceneInputs, AreNumbersHarmonicsAndTables) {
       signalsOf({{"torque1", "N m", {}, ""}, {"torque2", "N m", {}, ""}}, constant.inputs);
   EXPECT_EQ(signals[0].kind, InputSignal::Kind::kNone);
   EXPECT_EQ(signals[1].value, -3.5);
-  EXPECT_THROW(signalsOf({{"force", "N", {}, ""}}, constant.inputs), std::invalid_argument);
+  EXPECT_THROW(signalsOf({{"force", "N", {}, ""}}, constant.inputs), std::logic_error);
   EXPECT_TRUE(read("{}").inputs.empty());
 }
 

@@ -33,7 +33,7 @@ std::vector<Knot> knotsOf(const std::vector<BearingRow>& rows) {
   std::vector<Knot> knots;
   for (const BearingRow& row : rows) {
     if (!knots.empty() && !(row.speed > knots.back().speed)) {
-      throw std::invalid_argument("bearing table: the speeds must rise");
+      throw std::logic_error("bearing table: the speeds must rise");
     }
     knots.push_back({row.speed, eight(row.coefficients), {}});
   }
@@ -76,7 +76,7 @@ BearingCoefficients interpolated(const std::vector<Knot>& knots, double speed) {
 
 SpeedBearing tabulatedBearing(int node, const std::vector<BearingRow>& rows) {
   if (rows.empty()) {
-    throw std::invalid_argument("bearing table: it has no row");
+    throw std::logic_error("bearing table: it has no row");
   }
   SpeedBearing bearing;
   bearing.node = node;

@@ -17,7 +17,7 @@ struct BearingRow {
   BearingCoefficients coefficients;
 };
 
-/// Rows by rising speed, one at least. Throws std::invalid_argument if speeds do not rise.
+/// Rows by rising speed, one at least. Throws std::logic_error if speeds do not rise.
 SpeedBearing tabulatedBearing(int node, const std::vector<BearingRow>& rows);
 
 /// Under a load [N] along -y.

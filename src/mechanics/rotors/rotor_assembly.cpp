@@ -45,9 +45,8 @@ void add(const BearingCoefficients& b, const MatrixXd& place, Linearization& l) 
 void requireNodes(const FlexibleShaft& shaft) {
   const auto require = [&](int node, const char* what) {
     if (node < 0 || node >= shaft.nodes()) {
-      throw std::invalid_argument(std::string(what) + ": node must be 0 to " +
-                                  std::to_string(shaft.nodes() - 1) + ", found " +
-                                  std::to_string(node));
+      throw std::logic_error(std::string(what) + ": node must be 0 to " +
+                             std::to_string(shaft.nodes() - 1) + ", found " + std::to_string(node));
     }
   };
   for (const RotorDisc& disc : shaft.discs) {

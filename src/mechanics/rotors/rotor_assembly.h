@@ -63,7 +63,7 @@ struct FlexibleShaft {
 /// The parts of a rotor's equations, in all coordinates or in the amplitudes of shapes.
 class RotorAssembly {
  public:
-  /// Throws std::invalid_argument for a node that does not exist.
+  /// Throws std::logic_error for a node that does not exist.
   explicit RotorAssembly(const FlexibleShaft& shaft);
 
   Eigen::Index dof() const { return constant_.mass.rows(); }
