@@ -40,6 +40,8 @@ struct LoopStatistics {
   std::vector<double> tolerance;         ///< [-], what integrator: auto promises; else NaN
   std::vector<std::uint8_t> stopped;     ///< 0: running, 1 to 3: as in the message
   std::vector<std::string> stopped_why;  ///< empty while running
+  std::uint64_t lcm_failed = 0;          ///< messages that LCM could not send
+  std::uint64_t publish_every = 0;       ///< steps from one publication to the next, at present
 
   template <class Visit>
   static void fields(Visit& visit) {
@@ -66,6 +68,8 @@ struct LoopStatistics {
     visit.along(system, TWIN_FIELD(tolerance), "-");
     visit.along(system, TWIN_FIELD(stopped), "", each(between(0, 3)));
     visit.along(system, TWIN_FIELD(stopped_why), "", each(requireText));
+    visit(TWIN_FIELD(lcm_failed), "", count);
+    visit(TWIN_FIELD(publish_every), "", count);
   }
 };
 

@@ -6,6 +6,8 @@ namespace whirl_twin {
 
 namespace {
 
+constexpr double kLately = 10.0;  // s, that a warning stands
+
 double seconds(std::int64_t nanoseconds) {
   return static_cast<double>(nanoseconds) * 1.0e-9;
 }
@@ -48,14 +50,25 @@ state::LoopStatistics loopStatistics(const Twin& twin, const Observer& observer,
   return m;
 }
 
-void summarize(const state::LoopStatistics& loop,
-               diagnostic_updater::DiagnosticStatusWrapper& status) {
+bool LoopDiagnostics::Watched::roseLately(std::uint64_t now, double time) {
+  if (now > count) {
+    rose = time;
+  }
+  count = now;
+  return time - rose < kLately;
+}
+
+void LoopDiagnostics::summarize(const state::LoopStatistics& loop, double time,
+                                diagnostic_updater::DiagnosticStatusWrapper& status) {
   using diagnostic_msgs::DiagnosticStatus;
   status.summary(DiagnosticStatus::OK, loop.paused ? "paused" : "running");
-  if (loop.dropped_snapshots > 0) {
+  if (dropped_.roseLately(loop.dropped_snapshots, time)) {
     status.mergeSummary(DiagnosticStatus::WARN, "states were not published: publisher too slow");
   }
-  if (loop.skipped_steps > 0) {
+  if (lcm_failed_.roseLately(loop.lcm_failed, time)) {
+    status.mergeSummary(DiagnosticStatus::WARN, "messages could not be sent on LCM");
+  }
+  if (skipped_.roseLately(loop.skipped_steps, time)) {
     status.mergeSummary(DiagnosticStatus::WARN, "steps were skipped: the machine was late");
   }
   for (std::size_t i = 0; i < loop.system.size(); ++i) {
@@ -75,6 +88,8 @@ void summarize(const state::LoopStatistics& loop,
   status.add("overruns", loop.overruns);
   status.add("skipped steps", loop.skipped_steps);
   status.add("dropped states", loop.dropped_snapshots);
+  status.add("messages not sent on LCM", loop.lcm_failed);
+  status.add("published every [steps]", loop.publish_every);
   status.add("wake-up latency p99 [s]", loop.wakeup_latency_p99);
   status.add("wake-up latency max [s]", loop.wakeup_latency_max);
   status.add("execution p99 [s]", loop.execution_p99);

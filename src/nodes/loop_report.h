@@ -14,9 +14,22 @@ state::LoopStatistics loopStatistics(const Twin& twin, const Observer& observer,
                                      const RealtimeStatus& status, const LoopTiming& timing,
                                      bool paused, std::uint64_t dropped);
 
-/// OK, or a warning when periods were skipped or records dropped, or an error when a system
-/// stopped.
-void summarize(const state::LoopStatistics& loop,
-               diagnostic_updater::DiagnosticStatusWrapper& status);
+class LoopDiagnostics {
+ public:
+  /// OK, or a warning when within the last ten seconds periods were skipped, or states not
+  /// published or not sent, or an error when a system has stopped. time [s]: of a clock that
+  /// nobody sets.
+  void summarize(const state::LoopStatistics& loop, double time,
+                 diagnostic_updater::DiagnosticStatusWrapper& status);
+
+ private:
+  /// A count that should not rise.
+  struct Watched {
+    std::uint64_t count = 0;
+    double rose = -1.0e9;  // [s]
+    bool roseLately(std::uint64_t now, double time);
+  };
+  Watched dropped_, skipped_, lcm_failed_;
+};
 
 }  // namespace whirl_twin

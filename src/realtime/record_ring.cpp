@@ -24,7 +24,9 @@ std::size_t doublesNeeded(std::size_t record_size, std::size_t capacity_records)
 }  // namespace
 
 RecordRing::RecordRing(std::size_t record_size, std::size_t capacity_records)
-    : record_size_(record_size), values_(doublesNeeded(record_size, capacity_records)) {}
+    : record_size_(record_size),
+      capacity_(capacity_records),
+      values_(doublesNeeded(record_size, capacity_records)) {}
 
 bool RecordRing::push(const double* record) noexcept {
   if (values_.write_available() < record_size_) {
@@ -42,6 +44,10 @@ bool RecordRing::pop(double* record) noexcept {
   }
   values_.pop(record, record_size_);
   return true;
+}
+
+std::size_t RecordRing::waiting() const noexcept {
+  return values_.read_available() / record_size_;
 }
 
 }  // namespace whirl_twin

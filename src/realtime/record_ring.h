@@ -27,6 +27,11 @@ class RecordRing {
   /// Consumer: copies the oldest record out; false when there is none. Real-time safe.
   bool pop(double* record) noexcept;
 
+  /// Consumer: records that wait for it.
+  std::size_t waiting() const noexcept;
+
+  std::size_t capacity() const noexcept { return capacity_; }
+
   /// Records that found no room. Any thread.
   std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
 
@@ -34,6 +39,7 @@ class RecordRing {
 
  private:
   std::size_t record_size_;
+  std::size_t capacity_;
   boost::lockfree::spsc_queue<double> values_;
   std::atomic<std::uint64_t> dropped_{0};
 };

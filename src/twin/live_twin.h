@@ -91,6 +91,9 @@ class LiveTwin {
   // One other thread: records, in order.
   bool pop(double* record) noexcept { return ring_.pop(record); }
   std::uint64_t dropped() const noexcept { return ring_.dropped(); }
+  /// Those that wait, and how many there is room for.
+  std::size_t waiting() const noexcept { return ring_.waiting(); }
+  std::size_t ringCapacity() const noexcept { return ring_.capacity(); }
   /// The statistics of its ensembles, for the thread of the records; the twin outlives it.
   EnsembleObserver ensembles() { return EnsembleObserver(twin_); }
 

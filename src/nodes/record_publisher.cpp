@@ -1,0 +1,163 @@
+#include "nodes/record_publisher.h"
+
+#include <ros/ros.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <ctime>
+#include <utility>
+
+#include "nodes/loop_report.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr auto kClockPausePeriod = std::chrono::milliseconds(100);
+constexpr auto kReportPeriod = std::chrono::seconds(1);
+constexpr int kMostAtOnce = 64;                   // records, between looks at what else is due
+constexpr std::int64_t kClockStep = 100'000'000;  // [ns]: more is no slewing
+
+/// [ns]
+std::int64_t now(clockid_t clock) {
+  timespec now{};
+  clock_gettime(clock, &now);
+  return now.tv_sec * 1'000'000'000LL + now.tv_nsec;
+}
+
+std::int64_t wallClockAtZero() {
+  return now(CLOCK_REALTIME) - now(CLOCK_MONOTONIC);
+}
+
+}  // namespace
+
+RecordPublisher::RecordPublisher(LiveTwin& live, const FixedRateLoop& loop, StatePublisher states,
+                                 std::int64_t every, bool clock)
+    : live_(live),
+      loop_(loop),
+      observer_(live.twin(), live.generations()),
+      states_(std::move(states)),
+      clock_(clock),
+      every_(every),
+      thinning_(live.ringCapacity()),
+      epoch_(wallClockAtZero()),
+      stopped_(live.twin().systems().size()) {
+  if (!states_.lcm().warning().empty()) {
+    ROS_WARN("%s", states_.lcm().warning().c_str());
+  }
+}
+
+RecordPublisher::~RecordPublisher() {
+  join();
+}
+
+void RecordPublisher::start() {
+  thread_ = std::thread([this] { run(); });
+}
+
+void RecordPublisher::join() {
+  ending_.store(true);
+  if (thread_.joinable()) {
+    thread_.join();
+  }
+}
+
+state::LoopStatistics RecordPublisher::report() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return report_;
+}
+
+void RecordPublisher::run() {
+  std::vector<double> record(live_.twin().layout().size);
+  auto next_report = std::chrono::steady_clock::now();
+  auto next_clock = next_report;
+  while (true) {
+    const bool last_round = ending_.load();
+    bool stopped_now = false;
+    int taken = 0;
+    while ((taken < kMostAtOnce || last_round) && live_.pop(record.data())) {
+      stopped_now = take(record.data()) || stopped_now;
+      thinning_.consumed(live_.waiting());
+      ++taken;
+    }
+    if (taken > 0) {  // once for all records, which are not to wait for statistics
+      states_.publishEnsembles(observer_);
+    }
+    if (reset_requested_.exchange(false)) {
+      forgetCounts();
+    }
+    const auto now = std::chrono::steady_clock::now();
+    if (stopped_now || now >= next_report) {
+      followWallClock();
+      publishReport();
+      next_report = now + kReportPeriod;
+    }
+    if (clock_ && live_.paused() && now >= next_clock) {
+      states_.publishClock(observer_);
+      next_clock = now + kClockPausePeriod;
+    }
+    if (last_round) {
+      return;
+    }
+    if (taken < kMostAtOnce) {
+      std::this_thread::sleep_for(std::chrono::microseconds(500));
+    }
+  }
+}
+
+/// One record; true if a system has just stopped.
+bool RecordPublisher::take(const double* record) {
+  observer_.observe(record);
+  const Scene& scene = live_.twin().scene();
+  observer_.setStamp(clock_ ? scene.time + observer_.step() * scene.step
+                            : epoch_ + RecordLayout::scheduled(record));
+  const bool due = observer_.step() % every_ == 0 && !observer_.tellsOnlyChange();
+  const bool published = due && observer_.step() / every_ % thinning_.every() == 0;
+  left_out_ += due && !published ? 1 : 0;
+  states_.publish(observer_, published);
+  bool stopped_now = false;
+  for (std::size_t i = 0; i < stopped_.size(); ++i) {
+    const bool stopped = observer_.status(i) != StepStatus::kOk;
+    if (stopped && !stopped_[i]) {
+      ROS_ERROR("%s", observer_.stopReason(i).c_str());
+      stopped_now = true;
+    }
+    stopped_[i] = stopped;
+  }
+  return stopped_now;
+}
+
+void RecordPublisher::publishReport() {
+  state::LoopStatistics report = loopStatistics(live_.twin(), observer_, loop_.status(),
+                                                loop_.timing(), live_.paused(), dropped());
+  report.at.stamp = static_cast<std::int64_t>(ros::Time::now().toNSec());
+  report.lcm_failed = lcmFailed();
+  report.publish_every = static_cast<std::uint64_t>(every_ * thinning_.every());
+  if (report.lcm_failed > lcm_failed_told_) {
+    ROS_WARN("%lu messages could not be sent on LCM, %lu in all: is there a route for multicast?",
+             static_cast<unsigned long>(report.lcm_failed - lcm_failed_told_),
+             static_cast<unsigned long>(report.lcm_failed));
+  }
+  lcm_failed_told_ = report.lcm_failed;
+  states_.publish(report);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  report_ = report;
+}
+
+/// Stamps are those of the wall clock, also after it has been set.
+void RecordPublisher::followWallClock() {
+  const std::int64_t epoch = wallClockAtZero();
+  if (!clock_ && std::abs(epoch - epoch_) > kClockStep) {
+    ROS_WARN("the wall clock was set by %+.3f s; stamps follow it",
+             static_cast<double>(epoch - epoch_) * 1.0e-9);
+  }
+  epoch_ = epoch;
+}
+
+void RecordPublisher::forgetCounts() {
+  dropped_before_ = live_.dropped() + left_out_;
+  lcm_failed_before_ = states_.lcm().failed();
+  lcm_failed_told_ = 0;
+}
+
+}  // namespace whirl_twin

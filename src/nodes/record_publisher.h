@@ -1,0 +1,68 @@
+// The publisher thread of the simulation: everything that leaves the node at the rate of the steps.
+//
+// Where it is too slow for all that is due it publishes evenly what it can (realtime/thinning.h),
+// and says so in the loop's statistics, which go on whatever the load is.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "messages/loop_statistics.h"
+#include "nodes/state_publisher.h"
+#include "realtime/fixed_rate_loop.h"
+#include "realtime/thinning.h"
+#include "twin/live_twin.h"
+#include "twin/observer.h"
+
+namespace whirl_twin {
+
+class RecordPublisher {
+ public:
+  /// What is referred to outlives it. every: steps from one publication to the next; clock: stamps
+  /// are simulated time, else wall time.
+  RecordPublisher(LiveTwin& live, const FixedRateLoop& loop, StatePublisher states,
+                  std::int64_t every, bool clock);
+  ~RecordPublisher();
+
+  void start();
+  void join();
+  // Any thread.
+
+  /// The newest report, for the diagnostics.
+  state::LoopStatistics report() const;
+  /// What was dropped, left out or not sent counts from zero again.
+  void resetCounts() { reset_requested_.store(true); }
+
+ private:
+  void run();
+  bool take(const double* record);
+  void publishReport();
+  void followWallClock();
+  std::uint64_t dropped() const { return live_.dropped() + left_out_ - dropped_before_; }
+  std::uint64_t lcmFailed() const { return states_.lcm().failed() - lcm_failed_before_; }
+  void forgetCounts();
+
+  LiveTwin& live_;
+  const FixedRateLoop& loop_;
+  Observer observer_;
+  StatePublisher states_;
+  bool clock_;
+  std::int64_t every_;  // steps
+  Thinning thinning_;
+  std::int64_t epoch_;  // [ns], wall clock at zero of CLOCK_MONOTONIC
+  std::vector<bool> stopped_;
+  std::uint64_t left_out_ = 0;  // steps that were due
+  std::uint64_t dropped_before_ = 0;
+  std::uint64_t lcm_failed_before_ = 0;
+  std::uint64_t lcm_failed_told_ = 0;
+  mutable std::mutex mutex_;  // report_, between this thread and the diagnostics
+  state::LoopStatistics report_;
+  std::atomic<bool> reset_requested_{false};
+  std::atomic<bool> ending_{false};
+  std::thread thread_;
+};
+
+}  // namespace whirl_twin

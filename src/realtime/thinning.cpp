@@ -1,0 +1,36 @@
+#include "realtime/thinning.h"
+
+#include <algorithm>
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr std::size_t kLooks = 8;            // while a ring's worth of records goes by
+constexpr int kCalmLooks = 16;               // after which more is tried: two rings' worth
+constexpr std::int64_t kMostLeftOut = 4096;  // one record of so many tells what goes on
+
+}  // namespace
+
+Thinning::Thinning(std::size_t capacity) : capacity_(capacity) {}
+
+void Thinning::consumed(std::size_t waiting) noexcept {
+  if (++since_look_ < std::max<std::size_t>(1, capacity_ / kLooks)) {
+    return;
+  }
+  since_look_ = 0;
+  if (waiting > capacity_ / 2) {
+    calm_looks_ = 0;
+    if (waiting >= waiting_before_) {  // what was done before is not enough
+      every_ = std::min(2 * every_, kMostLeftOut);
+    }
+  } else if (waiting > capacity_ / 16) {
+    calm_looks_ = 0;
+  } else if (++calm_looks_ >= kCalmLooks) {
+    calm_looks_ = 0;
+    every_ = std::max<std::int64_t>(1, every_ / 2);
+  }
+  waiting_before_ = waiting;
+}
+
+}  // namespace whirl_twin
