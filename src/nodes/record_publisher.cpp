@@ -107,14 +107,18 @@ void RecordPublisher::run() {
 
 /// One record; true if a system has just stopped.
 bool RecordPublisher::take(const double* record) {
+  const std::int64_t step = RecordLayout::step(record);
+  const bool due = step % every_ == 0;
+  const bool shown = due && step / every_ % thinning_.every() == 0;
+  left_out_ += due && !shown ? 1 : 0;
+  if (!shown && !observer_.mustSee(record)) {
+    return false;
+  }
   observer_.observe(record);
   const Scene& scene = live_.twin().scene();
-  observer_.setStamp(clock_ ? scene.time + observer_.step() * scene.step
+  observer_.setStamp(clock_ ? scene.time + step * scene.step
                             : epoch_ + RecordLayout::scheduled(record));
-  const bool due = observer_.step() % every_ == 0 && !observer_.tellsOnlyChange();
-  const bool published = due && observer_.step() / every_ % thinning_.every() == 0;
-  left_out_ += due && !published ? 1 : 0;
-  states_.publish(observer_, published);
+  states_.publish(observer_, shown && !observer_.tellsOnlyChange());
   bool stopped_now = false;
   for (std::size_t i = 0; i < stopped_.size(); ++i) {
     const bool stopped = observer_.status(i) != StepStatus::kOk;

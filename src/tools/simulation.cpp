@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 
@@ -47,13 +48,19 @@ void Simulation::run(SampleWriter* writer, bool results_on_standard_output) {
   if (writer != nullptr) {
     writer->write(observer_);
   }
+  const bool every_step = !plan_.sensors.empty() || validity_.watches();
+  std::int64_t next_look = 1;
   for (std::int64_t i = 1; i <= plan_.steps; ++i) {
     twin_.step();
-    twin_.write(record.data());
-    observer_.observe(record.data());  // every step: the phase is unwrapped from step to step
-    noteStops(bar);
-    warn(bar);
-    if (writer != nullptr && i % plan_.stride == 0) {
+    const bool shown = writer != nullptr && i % plan_.stride == 0;
+    if (shown || every_step || i >= next_look || i == plan_.steps || stopsNow()) {
+      twin_.write(record.data());
+      observer_.observe(record.data());
+      next_look = i + observer_.mayPass();
+      noteStops(bar);
+      warn(bar);
+    }
+    if (shown) {
       writer->write(observer_);
     }
     for (const state::Measurement& block : measurements_.observe(observer_)) {
@@ -78,6 +85,13 @@ bool Simulation::sound() const {
     }
   }
   return true;
+}
+
+/// Has a system stopped that has not been reported?
+bool Simulation::stopsNow() const {
+  return std::any_of(plan_.systems.begin(), plan_.systems.end(), [&](std::size_t i) {
+    return twin_.status(i) != StepStatus::kOk && !stopped_[i];
+  });
 }
 
 void Simulation::noteStops(ProgressBar& bar) {

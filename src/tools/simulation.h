@@ -57,6 +57,7 @@ class Simulation {
   Json json() const;
 
  private:
+  bool stopsNow() const;
   void noteStops(ProgressBar& bar);
   void warn(ProgressBar& bar);
   Json systemJson(std::size_t system) const;

@@ -15,6 +15,8 @@ class ValidityWatch {
  public:
   ValidityWatch(const Twin& twin, const std::vector<std::size_t>& systems);
 
+  /// Is there a condition that any step can break?
+  bool watches() const { return !watched_.empty(); }
   /// Looks at the newest step. Returns a sentence for each condition that broke in it for the
   /// first time.
   std::vector<std::string> look(const Observer& observer);

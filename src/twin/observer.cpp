@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "analysis/equilibria.h"
@@ -15,6 +16,21 @@ namespace {
 /// Part of the lowest natural frequency below which the 1X orbit is not told: it divides by the
 /// speed.
 constexpr double kSlowestOrbit = 0.01;
+
+/// Without a phase to follow, energies are still looked at now and then: the largest in play is
+/// what the residual is a part of.
+constexpr std::int64_t kMostPassed = 64;
+constexpr int kMostCoordinates = 8;
+
+/// A bound [rad/s] on the frequencies of a linear rotor, with a margin for what bearings and
+/// gyroscopic moments do at speed. Infinite where it is not to be had.
+double fastestOf(const Dynamics& dynamics, const Linearization& l, bool driven_from_outside) {
+  if (!dynamics.linear() || driven_from_outside || l.mass.rows() > kMostCoordinates) {
+    return std::numeric_limits<double>::infinity();
+  }
+  const Eigen::MatrixXd squared = l.mass.ldlt().solve(l.stiffness + l.circulatory);
+  return 2.0 * std::sqrt(squared.cwiseAbs().rowwise().sum().maxCoeff());
+}
 
 Eigen::VectorXd vector(const double* x, std::size_t n) {
   return Eigen::Map<const Eigen::VectorXd>(x, static_cast<Eigen::Index>(n));
@@ -59,6 +75,44 @@ void Observer::observe(const double* record) {
   }
   followMotors();
   tells_only_change_ = changed && step() == before;
+  may_pass_ = quietSteps();
+}
+
+bool Observer::mustSee(const double* record) const {
+  const std::int64_t passed = RecordLayout::step(record) - step();
+  if (passed <= 0 || passed >= may_pass_) {
+    return true;
+  }
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    const SystemView now = twin_.layout().system(record, i);
+    if (now.generation() != tracks_[i].generation || now.status() != status(i)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// A motor's track adds up from record to record.
+std::int64_t Observer::quietSteps() const {
+  double quiet = static_cast<double>(kMostPassed) * twin_.scene().stepSeconds();
+  for (std::size_t i = 0; i < motors_.size(); ++i) {
+    if (twin_.turnedBy(i) != Twin::kNoSystem) {
+      return 1;
+    }
+  }
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    if (!isRotor(i) || status(i) != StepStatus::kOk) {
+      continue;
+    }
+    const ShaftView shaft = shaftOf(i);
+    // The mark where the shaft goes faster in the meantime.
+    const double speed = std::fabs(shaft.speed()) + std::fabs(shaft.acceleration()) * quiet;
+    for (std::size_t k = 0; k < tracks_[i].stations.size(); ++k) {
+      quiet = std::min(quiet, tracks_[i].stations[k].phase.quietFor(
+                                  whirlOf(i, k), speed, std::max(speed, tracks_[i].fastest)));
+    }
+  }
+  return std::max<std::int64_t>(1, static_cast<std::int64_t>(quiet / twin_.scene().stepSeconds()));
 }
 
 bool Observer::takeGeneration(std::size_t system) {
@@ -78,6 +132,7 @@ bool Observer::takeGeneration(std::size_t system) {
     takeStations(system);
     const Linearization l =
         linearizationAtRest(dynamics, Eigen::VectorXd::Zero(dynamics.dof()), 0.0);
+    track.fastest = fastestOf(dynamics, l, !twin_.systems()[system]->spec.inputs.empty());
     track.slowest_orbit = kSlowestOrbit * std::sqrt(std::min(l.stiffness(0, 0) / l.mass(0, 0),
                                                              l.stiffness(1, 1) / l.mass(1, 1)));
   }

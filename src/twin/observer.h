@@ -29,6 +29,12 @@ class Observer {
   /// Takes the next record. A step count that goes back means the twin was reset.
   void observe(const double* record);
 
+  /// How many steps further the next record may be, so that phases are as if every one had been
+  /// seen; 1: the next. Conditions, sensors and what else a step can do are the caller's to know.
+  std::int64_t mayPass() const { return may_pass_; }
+  /// Must this record be observed, and not only the ones that are shown?
+  bool mustSee(const double* record) const;
+
   /// [ns], what states carry as their stamp from now on.
   void setStamp(std::int64_t stamp) { stamp_ = stamp; }
 
@@ -85,6 +91,7 @@ class Observer {
     std::shared_ptr<const Dynamics> dynamics;
     state::ParameterChange parameters;
     double slowest_orbit = 0.0;  // [rad/s], below which there is no 1X orbit to speak of
+    double fastest = 0.0;  // [rad/s], that the whirl is known not to exceed; infinite: nothing is
     EnergyAudit energy;
     ErrorTrack error;
     std::string stop_reason;
@@ -98,6 +105,7 @@ class Observer {
   void takeStations(std::size_t system);
   void follow(std::size_t system);
   void followMotors();
+  std::int64_t quietSteps() const;
 
   const Twin& twin_;
   std::shared_ptr<SystemGenerations> generations_;
@@ -107,6 +115,7 @@ class Observer {
   std::vector<MotorTrack> motors_;                  // of each drive
   std::int64_t stamp_ = 0;
   bool tells_only_change_ = false;
+  std::int64_t may_pass_ = 1;
 };
 
 }  // namespace whirl_twin

@@ -35,4 +35,16 @@ double WhirlPhase::lag() const {
   return valid_ ? lag_ : std::numeric_limits<double>::quiet_NaN();
 }
 
+double WhirlPhase::quietFor(const WhirlMotion& whirl, double speed, double fastest) const {
+  if (!valid_) {
+    return 0.0;
+  }
+  const double radius = whirl.radius();
+  const double velocity = std::hypot(whirl.x_rate, whirl.y_rate);
+  const double of_speed = 0.5 * radius / velocity;
+  const double of_acceleration = std::sqrt(0.5 * radius / largest_radius_) / fastest;
+  const double of_mark = 0.5 * kPi / std::fabs(speed);
+  return std::min({of_speed, of_acceleration, of_mark});
+}
+
 }  // namespace whirl_twin

@@ -18,6 +18,11 @@ class WhirlPhase {
   /// The radius is large enough to have an angle.
   bool valid() const { return valid_; }
   double lag() const;  ///< [rad]; NaN unless valid
+  /// [s] from the last record, where the whirl was this one, for which neither the whirl nor a mark
+  /// that turns at `speed` [rad/s] leaves its quadrant: the phase need not be seen for so long.
+  /// `fastest` [rad/s]: no frequency of the whirl is above it, and amplitudes are not above twice
+  /// the largest radius seen, so that the whirl goes no further than v t + (fastest)^2 R t^2.
+  double quietFor(const WhirlMotion& whirl, double speed, double fastest) const;
 
  private:
   double largest_radius_ = 0.0;  // [m], so far
