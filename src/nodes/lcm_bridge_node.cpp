@@ -22,6 +22,7 @@
 #include "transport/channels.h"
 #include "transport/lcm_connection.h"
 #include "transport/lcm_receiver.h"
+#include "transport/master_watch.h"
 
 namespace whirl_twin {
 namespace {
@@ -67,6 +68,7 @@ void run() {
       openLcm(url), kindsToTell(derived),
       [&bridge](const Message& message) { bridge.publish(message); }, prefix);
 
+  const MasterWatch master;
   diagnostic_updater::Updater diagnostics;
   diagnostics.setHardwareID("LCM " + url);
   diagnostics.add("received from LCM", [&receiver](auto& status) { report(receiver, status); });

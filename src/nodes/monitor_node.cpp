@@ -18,6 +18,7 @@
 #include "transport/lcm_connection.h"
 #include "transport/lcm_publisher.h"
 #include "transport/lcm_receiver.h"
+#include "transport/master_watch.h"
 #include "transport/ros_parameters.h"
 #include "transport/ros_topics.h"
 #include "twin/step_messages.h"
@@ -255,6 +256,7 @@ class MonitorNode {
 void run() {
   usePluginModels();
   MonitorNode monitor{ros::NodeHandle(twinNamespace())};
+  const MasterWatch master;
   while (!stopRequested() && ros::ok()) {
     monitor.spinOnce();
   }

@@ -23,6 +23,7 @@
 #include "realtime/fixed_rate_loop.h"
 #include "scene/scene_reader.h"
 #include "transport/channels.h"
+#include "transport/master_watch.h"
 #include "transport/ros_parameters.h"
 #include "transport/twin_namespace.h"
 #include "twin/live_twin.h"
@@ -117,6 +118,14 @@ void run() {
       status.add("commands to inputs", commands.taken());
       status.add("refused commands to inputs", commands.refused());
     }
+  });
+
+  const MasterWatch master({node.resolveName("scene"), node.resolveName("scene_file")});
+  diagnostics.add("ROS master", [&](diagnostic_updater::DiagnosticStatusWrapper& status) {
+    const std::string trouble = master.trouble();
+    status.summary(trouble.empty() ? diagnostic_msgs::DiagnosticStatus::OK
+                                   : diagnostic_msgs::DiagnosticStatus::ERROR,
+                   trouble.empty() ? "this node is known to it" : trouble);
   });
 
   for (const SharedSystem& system : live.twin().systems()) {

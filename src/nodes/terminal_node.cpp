@@ -11,6 +11,7 @@
 
 #include "display/terminal_text.h"
 #include "display/twin_listener.h"
+#include "transport/master_watch.h"
 
 namespace whirl_twin {
 namespace {
@@ -100,6 +101,7 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "terminal_node", ros::init_options::AnonymousName);
   ros::NodeHandle node;  // keeps ROS up between the first topic and the last
   const whirl_twin::TerminalDisplay display;
+  const whirl_twin::MasterWatch master;
   ros::spin();
   return 0;
 }

@@ -22,6 +22,7 @@
 #include "messages/refusal.h"
 #include "nodes/private_parameter.h"
 #include "plugins/plugin_models.h"
+#include "transport/master_watch.h"
 #include "transport/twin_namespace.h"
 
 namespace whirl_twin {
@@ -186,6 +187,7 @@ int main(int argc, char** argv) {
     whirl_twin::usePluginModels();
     whirl_twin::requireKnownParameters({"whirl_scale", "trail_turns", "rate"});
     whirl_twin::VisualizationNode visualization;
+    const whirl_twin::MasterWatch master;
     ros::spin();
   } catch (const whirl_twin::Refusal& error) {
     std::fprintf(stderr, "visualization_node: %s\n", error.what());

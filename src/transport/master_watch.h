@@ -1,0 +1,53 @@
+// What a node does about its ROS master: when the master has been restarted it is told again of the
+// node's topics, services and parameters, so that the node is found as before; and another node
+// that publishes on the topics of this node's twin is named.
+#pragma once
+
+#include <ros/ros.h>
+
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace whirl_twin {
+
+class MasterWatch {
+ public:
+  /// Looks at the master every two seconds, in a thread of its own, once the node has started.
+  /// `parameters`: names of further trees to bring back, beside the node's own.
+  explicit MasterWatch(std::vector<std::string> parameters = {});
+  ~MasterWatch();
+
+  /// What stands in the way at present, in a sentence for the diagnostics; empty: nothing.
+  std::string trouble() const;
+
+ private:
+  struct Registered {
+    std::set<std::string> topics;                                   // this node publishes
+    std::set<std::string> services;                                 // this node gives
+    std::map<std::string, std::set<std::string>> other_publishers;  // of topics
+  };
+
+  void run();
+  void look();
+  Registered registered(XmlRpc::XmlRpcValue& state) const;
+  void rememberParameters();
+  void tellAll() const;
+  void reportRivals(const Registered& now);
+
+  std::vector<std::string> parameter_names_;
+  std::map<std::string, XmlRpc::XmlRpcValue> parameters_;
+  std::set<std::string> services_;  // ever registered
+  bool answered_ = true;
+  std::set<std::string> rivals_;
+  mutable std::mutex mutex_;
+  std::string trouble_;
+  std::atomic<bool> ending_{false};
+  std::thread thread_;
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,128 @@
+#!/usr/bin/python3
+"""The ROS master is killed under a running twin and started again: the same processes are found as before,
+with topics, services, scene and alerts, and LCM has no hole. A second twin in the namespace is named."""
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import roslib.packages
+import rosgraph
+import rospkg
+import rosparam
+import rostest
+
+PORT = 11499
+PATIENCE = 30.0  # s
+SCENE = os.path.join(rospkg.RosPack().get_path('whirl_twin'), 'config', 'scenes', 'demo.yaml')
+TOPICS = ['/twin/rotor/whirl', '/twin/loop', '/twin/alerts', '/twin/rotor/stability', '/diagnostics']
+SERVICES = ['/simulation_node/set_speed', '/simulation_node/reset']
+
+
+def wait_until(condition):
+    end = time.monotonic() + PATIENCE
+    while not condition() and time.monotonic() < end:
+        time.sleep(0.2)
+    return condition()
+
+
+class MasterRestart(unittest.TestCase):
+    def setUp(self):
+        self.environment = dict(os.environ, ROS_MASTER_URI='http://127.0.0.1:%d' % PORT)
+        self.master = rosgraph.Master('/test', 'http://127.0.0.1:%d' % PORT)
+        self.processes = []
+        self.folder = tempfile.TemporaryDirectory()
+        self.start_master()
+        (scene, _), = rosparam.load_file(SCENE)
+        self.master.setParam('/twin/scene', scene)
+        self.master.setParam('/twin/scene_file', SCENE)
+
+    def tearDown(self):
+        for process in reversed(self.processes):
+            if process.poll() is None:
+                process.send_signal(signal.SIGINT)
+        for process in reversed(self.processes):
+            process.wait(20)
+        self.folder.cleanup()
+
+    def start(self, command, **options):
+        process = subprocess.Popen(command, env=self.environment, **options)
+        self.processes.append(process)
+        return process
+
+    def start_node(self, node, *arguments):
+        program = roslib.packages.find_node('whirl_twin', node)[0]
+        log = open(os.path.join(self.folder.name, '%s%d.log' % (node, len(self.processes))), 'w+')
+        self.start([program] + list(arguments), stdout=log, stderr=subprocess.STDOUT)
+        return log
+
+    def start_master(self):
+        # rosmaster alone: roscore would also start rosout, another process to wait for.
+        self.core = self.start(['rosmaster', '--core', '-p', str(PORT)], stdout=subprocess.DEVNULL,
+                               stderr=subprocess.DEVNULL)
+        self.assertTrue(wait_until(self.master.is_online), 'no master')
+
+    def registered(self):
+        try:
+            publishers, _, services = self.master.getSystemState()
+        except Exception:
+            return False
+        return (set(TOPICS) <= {topic for topic, _ in publishers} and
+                set(SERVICES) <= {service for service, _ in services} and
+                self.master.hasParam('/twin/scene'))
+
+    def hears(self, topic):
+        """Does somebody new hear the topic, through the master?"""
+        return subprocess.run(['rostopic', 'echo', '-n1', topic], env=self.environment, timeout=PATIENCE,
+                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 0
+
+    def test_everything_is_back(self):
+        log = os.path.join(self.folder.name, 'run.lcmlog')
+        said = self.start_node('simulation_node', '_realtime:=ignore')
+        self.start_node('monitor_node')
+        recorder = self.start([roslib.packages.find_node('whirl_twin', 'lcm_recorder_node')[0], '_log:=' + log],
+                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.assertTrue(wait_until(self.registered))
+        self.assertTrue(wait_until(lambda: os.path.exists(log)))
+        scene = self.master.getParam('/twin/scene')
+
+        self.core.kill()
+        self.core.wait()
+        time.sleep(3.0)
+        self.start_master()
+        self.assertTrue(wait_until(self.registered), self.master.getSystemState())
+        self.assertEqual(self.master.getParam('/twin/scene'), scene)
+        for topic in TOPICS:
+            self.assertTrue(self.hears(topic), topic)
+        answer = subprocess.run(['rosservice', 'call', '/simulation_node/set_speed',
+                                 '{drive: shaft, speed: 20.0, max_acceleration: 10.0, max_jerk: 0.0}'],
+                                env=self.environment, timeout=PATIENCE, stdout=subprocess.PIPE,
+                                universal_newlines=True)
+        self.assertIn('rue', answer.stdout)
+        said.seek(0)
+        self.assertIn('the ROS master was restarted', said.read())
+
+        recorder.send_signal(signal.SIGINT)
+        recorder.wait(20)
+        twin = roslib.packages.find_node('whirl_twin', 'simulation_node')[0]
+        program = os.path.join(os.path.dirname(twin), '..', '..', '..', 'bin', 'twin')
+        summary = subprocess.run([program, 'log', log], stdout=subprocess.PIPE, universal_newlines=True)
+        self.assertEqual(summary.returncode, 0, summary.stdout)
+        self.assertNotIn('missing', summary.stdout)
+
+    def test_a_second_twin_is_named(self):
+        first = self.start_node('simulation_node', '_realtime:=ignore', '_lcm_url:=')
+        self.assertTrue(wait_until(lambda: '/twin/loop' in {t for t, _ in self.master.getSystemState()[0]}))
+        self.start_node('simulation_node', '_realtime:=ignore', '_lcm_url:=', '__name:=intruder')
+
+        def named():
+            first.seek(0)
+            return '/intruder publishes on topics of this node' in first.read()
+        self.assertTrue(wait_until(named))
+
+
+if __name__ == '__main__':
+    rostest.rosrun('whirl_twin', 'master_restart_test', MasterRestart, sys.argv)
