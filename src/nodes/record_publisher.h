@@ -1,7 +1,8 @@
 // The publisher thread of the simulation: everything that leaves the node at the rate of the steps.
 //
-// Where it is too slow for all that is due it publishes evenly what it can (realtime/thinning.h),
-// and says so in the loop's statistics, which go on whatever the load is.
+// Where it is too slow for all that is due it publishes evenly what it can
+// (realtime/even_thinning.h), and says so in the loop's statistics, which go on whatever the load
+// is.
 #pragma once
 
 #include <atomic>
@@ -12,8 +13,8 @@
 
 #include "messages/loop_statistics.h"
 #include "nodes/state_publisher.h"
+#include "realtime/even_thinning.h"
 #include "realtime/fixed_rate_loop.h"
-#include "realtime/thinning.h"
 #include "twin/live_twin.h"
 #include "twin/observer.h"
 
@@ -51,7 +52,7 @@ class RecordPublisher {
   StatePublisher states_;
   bool clock_;
   std::int64_t every_;  // steps
-  Thinning thinning_;
+  EvenThinning thinning_;
   std::int64_t epoch_;  // [ns], wall clock at zero of CLOCK_MONOTONIC
   std::vector<bool> stopped_;
   std::uint64_t left_out_ = 0;  // steps that were due

@@ -7,10 +7,10 @@
 
 namespace whirl_twin {
 
-class Thinning {
+class EvenThinning {
  public:
   /// Of a ring with room for so many records, one at least.
-  explicit Thinning(std::size_t capacity);
+  explicit EvenThinning(std::size_t capacity);
 
   /// After a record has been consumed, with so many still waiting.
   void consumed(std::size_t waiting) noexcept;

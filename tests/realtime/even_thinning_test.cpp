@@ -1,4 +1,4 @@
-#include "realtime/thinning.h"
+#include "realtime/even_thinning.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ constexpr std::size_t kCapacity = 1000;
 struct Consumer {
   double look;
   double take;
-  Thinning thinning{kCapacity};
+  EvenThinning thinning{kCapacity};
   double waiting = 0.0;
   std::int64_t step = 0;
   std::int64_t dropped = 0;
@@ -39,14 +39,14 @@ struct Consumer {
   }
 };
 
-TEST(Thinning, TakesEveryRecordOfWhatItKeepsUpWith) {
+TEST(EvenThinning, TakesEveryRecordOfWhatItKeepsUpWith) {
   Consumer consumer{0.1, 0.8};
   consumer.consume(100'000);
   EXPECT_EQ(consumer.thinning.every(), 1);
   EXPECT_EQ(consumer.taken.size(), 100'000u);
 }
 
-TEST(Thinning, LeavesOutEvenlyAndNoMoreThanItMust) {
+TEST(EvenThinning, LeavesOutEvenlyAndNoMoreThanItMust) {
   Consumer consumer{0.1, 5.0};  // keeps up with one of six at most: one of eight
   consumer.consume(20'000);
   const std::size_t settled = consumer.taken.size();
@@ -61,7 +61,7 @@ TEST(Thinning, LeavesOutEvenlyAndNoMoreThanItMust) {
   EXPECT_GT(consumer.taken.size() - settled, 200'000u / 10);
 }
 
-TEST(Thinning, TakesAllAgainWhenItKeepsUp) {
+TEST(EvenThinning, TakesAllAgainWhenItKeepsUp) {
   Consumer consumer{0.1, 20.0};
   consumer.consume(50'000);
   EXPECT_GT(consumer.thinning.every(), 8);
@@ -70,7 +70,7 @@ TEST(Thinning, TakesAllAgainWhenItKeepsUp) {
   EXPECT_EQ(consumer.thinning.every(), 1);
 }
 
-TEST(Thinning, StaysBelowABoundWhateverHappens) {
+TEST(EvenThinning, StaysBelowABoundWhateverHappens) {
   Consumer consumer{2.0, 5.0};
   consumer.consume(1'000'000);
   EXPECT_EQ(consumer.thinning.every(), 4096);

@@ -1,4 +1,4 @@
-#include "realtime/thinning.h"
+#include "realtime/even_thinning.h"
 
 #include <algorithm>
 
@@ -12,9 +12,9 @@ constexpr std::int64_t kMostLeftOut = 4096;  // one record of so many tells what
 
 }  // namespace
 
-Thinning::Thinning(std::size_t capacity) : capacity_(capacity) {}
+EvenThinning::EvenThinning(std::size_t capacity) : capacity_(capacity) {}
 
-void Thinning::consumed(std::size_t waiting) noexcept {
+void EvenThinning::consumed(std::size_t waiting) noexcept {
   if (++since_look_ < std::max<std::size_t>(1, capacity_ / kLooks)) {
     return;
   }
