@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <ros/connection_manager.h>
 #include <ros/network.h>
+#include <ros/publication.h>
 #include <ros/topic_manager.h>
 #include <ros/xmlrpc_manager.h>
 

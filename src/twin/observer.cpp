@@ -1,5 +1,6 @@
 #include "twin/observer.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
