@@ -40,6 +40,10 @@ struct LoopStatistics {
   std::vector<double> tolerance;         ///< [-], what integrator: auto promises; else NaN
   std::vector<std::uint8_t> stopped;     ///< 0: running, 1 to 3: as in the message
   std::vector<std::string> stopped_why;  ///< empty while running
+  // Which run of simulated time this is. A reset is announced by a higher epoch, a simulation that
+  // was started again by a later start; 0: not told.
+  std::int64_t started = 0;  ///< [ns], wall clock when the simulation was started
+  std::uint64_t epoch = 0;   ///< resets since then
   std::uint64_t lcm_failed = 0;          ///< messages that LCM could not send
   std::uint64_t publish_every = 0;       ///< steps from one publication to the next, at present
 
@@ -68,6 +72,8 @@ struct LoopStatistics {
     visit.along(system, TWIN_FIELD(tolerance), "-");
     visit.along(system, TWIN_FIELD(stopped), "", each(between(0, 3)));
     visit.along(system, TWIN_FIELD(stopped_why), "", each(requireText));
+    visit(TWIN_FIELD(started), "ns", between(0, kMaxStamp));
+    visit(TWIN_FIELD(epoch), "", count);
     visit(TWIN_FIELD(lcm_failed), "", count);
     visit(TWIN_FIELD(publish_every), "", count);
   }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,10 @@ struct StabilityMargin {
   double log_decrement = 0.0;      ///< [-]; NaN when overdamped
   double instability_speed = 0.0;  ///< [rad/s]; NaN: none found
   std::vector<CriticalSpeedMargin> critical_speeds;
+  // Where the verdict changes, going from the present speed; NaN: nowhere.
+  double threshold_below = std::numeric_limits<double>::quiet_NaN();  ///< [rad/s], nearest below
+  double threshold_above = std::numeric_limits<double>::quiet_NaN();  ///< [rad/s], nearest above
+  double age = std::numeric_limits<double>::quiet_NaN();  ///< [s], wall time; NaN: not told
 
   template <class Visit>
   static void fields(Visit& visit) {
@@ -81,6 +86,8 @@ struct StabilityMargin {
     visit.derived(TWIN_FIELD(instability_speed_valid),
                   [](const auto& message) { return !std::isnan(message.instability_speed); });
     visit.rows(TWIN_FIELD(critical_speeds), TWIN_FIELD(critical_speeds));
+    visit.numbers("rad/s", TWIN_FIELD(threshold_below), TWIN_FIELD(threshold_above));
+    visit(TWIN_FIELD(age), "s");
   }
 };
 

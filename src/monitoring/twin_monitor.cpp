@@ -67,7 +67,8 @@ TwinMonitor::TwinMonitor(const BuiltScene& scene, const AlarmSettings& settings)
   }
 }
 
-void TwinMonitor::restart() {
+void TwinMonitor::restart(double time, double wall_time) {
+  time_ = loop_time_ = time;
   for (const state::Alert& alert : alerts_.active()) {
     alerts_.clear(alert.system, alert.type, time_, "the simulation was reset");
   }
@@ -83,7 +84,11 @@ void TwinMonitor::restart() {
     watch.judged = false;
   }
   data_lost_alarm_ = DataLostAlarm(names, settings_);
-  newest_.clear();
+  for (auto& [source, clock] : clocks_) {
+    clock.restartAt(time, wall_time);
+  }
+  loop_clock_.restartAt(time, wall_time);
+  resets_.begin();
 }
 
 bool TwinMonitor::take(const state::ParameterChange& change) {
@@ -107,16 +112,22 @@ TwinMonitor::Watch* TwinMonitor::find(const std::string& system) {
   return found == watches_.end() ? nullptr : &*found;
 }
 
-void TwinMonitor::arrived(const std::string& source, const state::Instant& at, double wall_time) {
+bool TwinMonitor::arrived(const std::string& source, const state::Instant& at, double wall_time) {
   // Each source against itself: one may be seconds ahead of another when the monitor was held up.
-  const auto before = newest_.find(source);
-  if (before != newest_.end() && at.time < before->second) {
-    time_ = at.time;
-    restart();
+  const auto [known, first] = clocks_.try_emplace(source);
+  SourceClock& clock = known->second;
+  SourceClock::Order order = clock.take(at.time, wall_time);
+  if (order != SourceClock::Order::kInStep && resets_.confirmedBy(at.time, wall_time)) {
+    restart(at.time, wall_time);
+    order = clock.take(at.time, wall_time);
   }
-  time_ = newest_.empty() ? at.time : std::max(time_, at.time);
-  newest_[source] = at.time;
+  if (order == SourceClock::Order::kOutOfStep) {
+    return false;
+  }
+  const bool anew = order == SourceClock::Order::kFollowed || (first && clocks_.size() == 1);
+  time_ = anew ? at.time : std::max(time_, at.time);
   data_lost_alarm_.received(source, wall_time, time_, alerts_);
+  return true;
 }
 
 void TwinMonitor::watchShaft(Watch& watch, const state::DriveState& shaft) {
@@ -133,7 +144,8 @@ void TwinMonitor::judge(Watch& watch, const state::Instant& at, const std::vecto
   const double threshold = watch.judge.instabilitySpeed();
   const bool passed =
       (std::fabs(watch.speed) > threshold) != (std::fabs(watch.judged_speed) > threshold);
-  if (watch.judged && !passed && at.time < watch.judged_at + kJudgingPeriod * (1.0 - 1.0e-9)) {
+  const double since = at.time - watch.judged_at;  // back where a log is played a second time
+  if (watch.judged && !passed && since >= 0.0 && since < kJudgingPeriod * (1.0 - 1.0e-9)) {
     return;
   }
   if (watch.parameters_new) {  // not before: a ramp changes them more often than they are judged
@@ -153,7 +165,9 @@ void TwinMonitor::take(const state::WhirlState& whirl, double wall_time) {
   if (watch == nullptr || !watch->rotor) {
     return;
   }
-  arrived(whirl.system, whirl.at, wall_time);
+  if (!arrived(whirl.system, whirl.at, wall_time)) {
+    return;
+  }
   if (watch->drive.empty()) {
     state::DriveState shaft;
     shaft.at = whirl.at;
@@ -172,7 +186,9 @@ void TwinMonitor::take(const state::PendulumState& pendulum, double wall_time) {
       pendulum.rate.size() != watch->dof) {
     return;
   }
-  arrived(pendulum.system, pendulum.at, wall_time);
+  if (!arrived(pendulum.system, pendulum.at, wall_time)) {
+    return;
+  }
   watch->state_alarm.updateEnergy(pendulum.at.time, pendulum.energy_residual, alerts_);
   const auto n = static_cast<Eigen::Index>(watch->dof);
   watch->validity_alarm.update(Eigen::Map<const Eigen::VectorXd>(pendulum.angle.data(), n),
@@ -187,26 +203,33 @@ void TwinMonitor::take(const state::DriveState& drive, double wall_time) {
     if (watch.drive != drive.drive) {
       continue;
     }
-    if (!known) {
-      arrived("drives/" + drive.drive, drive.at, wall_time);  // a system may have the same name
-      known = true;
+    // A system may have the same name.
+    if (!known && !arrived("drives/" + drive.drive, drive.at, wall_time)) {
+      return;
     }
+    known = true;
     watchShaft(watch, drive);
   }
 }
 
-void TwinMonitor::takeStopped(const std::string& system, double time, StepStatus status,
-                              const std::string& why) {
-  if (Watch* watch = find(system)) {
-    watch->state_alarm.updateStopped(time, status, why, alerts_);
+bool TwinMonitor::take(const state::LoopStatistics& loop, double wall_time) {
+  if (resets_.take(loop, wall_time)) {
+    restart(loop.at.time, wall_time);
   }
-}
-
-void TwinMonitor::takeAccuracy(const std::string& system, double time, double estimate,
-                               double tolerance) {
-  if (Watch* watch = find(system)) {
-    watch->state_alarm.updateAccuracy(time, estimate, tolerance, alerts_);
+  // In a pause time stands still, and the statistics go on.
+  const double time = loop.at.time;
+  if (time != loop_time_ && loop_clock_.take(time, wall_time) == SourceClock::Order::kOutOfStep) {
+    return false;
   }
+  loop_time_ = time;
+  for (std::size_t i = 0; i < loop.system.size(); ++i) {
+    if (Watch* watch = find(loop.system[i])) {
+      watch->state_alarm.updateStopped(time, static_cast<StepStatus>(loop.stopped[i]),
+                                       loop.stopped_why[i], alerts_);
+      watch->state_alarm.updateAccuracy(time, loop.error_estimate[i], loop.tolerance[i], alerts_);
+    }
+  }
+  return true;
 }
 
 std::vector<state::StabilityMargin> TwinMonitor::takeMargins() {

@@ -7,10 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "messages/loop_statistics.h"
 #include "monitoring/alarm_settings.h"
 #include "monitoring/alert_list.h"
 #include "monitoring/critical_speed_alarm.h"
 #include "monitoring/data_lost_alarm.h"
+#include "monitoring/reset_watch.h"
+#include "monitoring/source_clock.h"
 #include "monitoring/stability_alarm.h"
 #include "monitoring/state_alarm.h"
 #include "monitoring/system_judge.h"
@@ -24,8 +27,8 @@ class TwinMonitor {
   TwinMonitor(const BuiltScene& scene, const AlarmSettings& settings);
 
   // States as they arrive, wall_time [s] from a clock that only goes forward. Those of systems and
-  // drives the scene does not have, or has as another kind, are ignored. Time that goes back for
-  // one of them means the twin was reset: all alerts clear and the alarms begin anew.
+  // drives the scene does not have, or has as another kind, are ignored, and so are those out of
+  // step with their source (source_clock.h): they clear nothing and restart no delay.
   void take(const state::WhirlState& whirl, double wall_time);
   void take(const state::PendulumState& pendulum, double wall_time);
   void take(const state::DriveState& drive, double wall_time);
@@ -35,13 +38,10 @@ class TwinMonitor {
   /// Wall time passes though nothing may arrive, to be called a few times a second; paused: the
   /// simulation says that it is held.
   void tick(double wall_time, bool paused);
-  /// The simulation says whether a system has stopped, and why: its code of the cause and its
-  /// sentence.
-  void takeStopped(const std::string& system, double time, StepStatus status,
-                   const std::string& why);
-
-  /// The simulation says how accurate a system is (NaN: it does not know), and is to be.
-  void takeAccuracy(const std::string& system, double time, double estimate, double tolerance);
+  /// The simulation says how its systems fare: whether one has stopped, and why; how accurate it
+  /// is. And whether it was reset: then all alerts clear and the alarms begin anew. False for
+  /// statistics out of step, which are ignored.
+  bool take(const state::LoopStatistics& loop, double wall_time);
 
   /// Margins judged since last asked: ten a second of simulated time for each system, and at once
   /// where a rotor passes its threshold speed.
@@ -74,9 +74,10 @@ class TwinMonitor {
     double judged_speed = 0.0;  ///< [rad/s]
   };
 
-  void restart();
+  void restart(double time, double wall_time);
   Watch* find(const std::string& system);
-  void arrived(const std::string& source, const state::Instant& at, double wall_time);
+  /// False for a state that is not to be believed.
+  bool arrived(const std::string& source, const state::Instant& at, double wall_time);
   void judge(Watch& watch, const state::Instant& at, const std::vector<double>& q,
              const std::vector<double>& v);
   void watchShaft(Watch& watch, const state::DriveState& shaft);
@@ -86,7 +87,10 @@ class TwinMonitor {
   DataLostAlarm data_lost_alarm_;
   AlertList alerts_;
   std::vector<state::StabilityMargin> margins_;
-  std::map<std::string, double> newest_;  ///< [s], simulated, of each source since the last reset
+  std::map<std::string, SourceClock> clocks_;  ///< of each source
+  SourceClock loop_clock_;
+  double loop_time_ = 0.0;  ///< [s], simulated, of the newest statistics
+  ResetWatch resets_;
   double time_ = 0.0;
 };
 

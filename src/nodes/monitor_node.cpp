@@ -187,12 +187,8 @@ class MonitorNode {
     }
   }
   void takeState(const state::LoopStatistics& loop) {
-    paused_ = loop.paused;
-    for (std::size_t i = 0; i < loop.system.size(); ++i) {
-      monitor_.takeStopped(loop.system[i], loop.at.time, static_cast<StepStatus>(loop.stopped[i]),
-                           loop.stopped_why[i]);
-      monitor_.takeAccuracy(loop.system[i], loop.at.time, loop.error_estimate[i],
-                            loop.tolerance[i]);
+    if (monitor_.take(loop, wallTime())) {
+      paused_ = loop.paused;
     }
   }
 

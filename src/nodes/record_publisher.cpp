@@ -40,7 +40,8 @@ RecordPublisher::RecordPublisher(LiveTwin& live, const FixedRateLoop& loop, Stat
       clock_(clock),
       every_(every),
       thinning_(live.ringCapacity()),
-      epoch_(wallClockAtZero()),
+      started_(now(CLOCK_REALTIME)),
+      clock_zero_(wallClockAtZero()),
       stopped_(live.twin().systems().size()) {
   if (!states_.lcm().warning().empty()) {
     ROS_WARN("%s", states_.lcm().warning().c_str());
@@ -114,10 +115,14 @@ bool RecordPublisher::take(const double* record) {
   if (!shown && !observer_.mustSee(record)) {
     return false;
   }
+  const bool reset = step < observer_.step();
   observer_.observe(record);
   const Scene& scene = live_.twin().scene();
   observer_.setStamp(clock_ ? scene.time + step * scene.step
-                            : epoch_ + RecordLayout::scheduled(record));
+                            : clock_zero_ + RecordLayout::scheduled(record));
+  if (reset) {
+    publishReport();  // the new epoch, ahead of its states
+  }
   states_.publish(observer_, shown && !observer_.tellsOnlyChange());
   bool stopped_now = false;
   for (std::size_t i = 0; i < stopped_.size(); ++i) {
@@ -135,6 +140,8 @@ void RecordPublisher::publishReport() {
   state::LoopStatistics report = loopStatistics(live_.twin(), observer_, loop_.status(),
                                                 loop_.timing(), live_.paused(), dropped());
   report.at.stamp = static_cast<std::int64_t>(ros::Time::now().toNSec());
+  report.started = started_;
+  report.epoch = live_.resets();
   report.lcm_failed = lcmFailed();
   report.publish_every = static_cast<std::uint64_t>(every_ * thinning_.every());
   if (report.lcm_failed > lcm_failed_told_) {
@@ -150,12 +157,12 @@ void RecordPublisher::publishReport() {
 
 /// Stamps are those of the wall clock, also after it has been set.
 void RecordPublisher::followWallClock() {
-  const std::int64_t epoch = wallClockAtZero();
-  if (!clock_ && std::abs(epoch - epoch_) > kClockStep) {
+  const std::int64_t zero = wallClockAtZero();
+  if (!clock_ && std::abs(zero - clock_zero_) > kClockStep) {
     ROS_WARN("the wall clock was set by %+.3f s; stamps follow it",
-             static_cast<double>(epoch - epoch_) * 1.0e-9);
+             static_cast<double>(zero - clock_zero_) * 1.0e-9);
   }
-  epoch_ = epoch;
+  clock_zero_ = zero;
 }
 
 void RecordPublisher::forgetCounts() {

@@ -53,7 +53,8 @@ class RecordPublisher {
   bool clock_;
   std::int64_t every_;  // steps
   EvenThinning thinning_;
-  std::int64_t epoch_;  // [ns], wall clock at zero of CLOCK_MONOTONIC
+  std::int64_t started_;     // [ns], wall clock
+  std::int64_t clock_zero_;  // [ns], wall clock at zero of CLOCK_MONOTONIC
   std::vector<bool> stopped_;
   std::uint64_t left_out_ = 0;  // steps that were due
   std::uint64_t dropped_before_ = 0;

@@ -4,28 +4,72 @@
 
 #include <limits>
 
-#include "transport/lcm_converters.h"
+#include "transport/earlier_forms.h"
+#include "transport/lcm_encode.h"
 #include "transport/payload_layout.h"
 
 namespace whirl_twin {
 namespace {
 
-template <class Type>
-bool hasFingerprintOf(const void* data, std::size_t size) {
+constexpr std::size_t kFingerprintSize = 8;
+/// No message is near this, so that a few fields more fit an int, too.
+constexpr std::size_t kLongest = std::numeric_limits<int>::max() / 2;
+
+bool hasFingerprint(std::uint64_t expected, const void* data, std::size_t size) {
   std::int64_t fingerprint = 0;
-  return size >= 8 && __int64_t_decode_array(data, 0, 8, &fingerprint, 1) == 8 &&
-         fingerprint == Type::getHash();
+  return size >= kFingerprintSize &&
+         __int64_t_decode_array(data, 0, kFingerprintSize, &fingerprint, 1) == kFingerprintSize &&
+         static_cast<std::uint64_t>(fingerprint) == expected;
+}
+
+template <class State>
+bool hasFingerprintOf(const void* data, std::size_t size) {
+  return hasFingerprint(static_cast<std::uint64_t>(LcmType<State>::getHash()), data, size);
+}
+
+/// The earlier form that the payload begins like; null for one of today's, or of another type.
+template <class State>
+const EarlierForm* earlierFormOf(const void* data, std::size_t size) {
+  for (const EarlierForm& form : kEarlierForms<State>) {
+    if (hasFingerprint(form.fingerprint, data, size)) {
+      return &form;
+    }
+  }
+  return nullptr;
+}
+
+/// A payload in an earlier form as it would be today, the later fields as nothing has set them.
+template <class State>
+std::vector<std::uint8_t> inTodaysForm(const EarlierForm& form, const void* data,
+                                       std::size_t size) {
+  const std::string& today = layoutOf<State>();
+  requireLayout(today.substr(0, today.size() - form.later.size()), data, size);
+  std::size_t later = 0;
+  for (const char field : form.later) {
+    later += field == 'b' ? 1 : field == 'i' ? 4 : 8;
+  }
+  std::vector<std::uint8_t> unset;
+  encode(State{}, unset);
+  const auto* bytes = static_cast<const std::uint8_t*>(data);
+  std::vector<std::uint8_t> payload(unset.begin(), unset.begin() + kFingerprintSize);
+  payload.insert(payload.end(), bytes + kFingerprintSize, bytes + size);
+  payload.insert(payload.end(), unset.end() - static_cast<std::ptrdiff_t>(later), unset.end());
+  return payload;
 }
 
 template <class State>
 State decode(const void* data, std::size_t size) {
   using Type = LcmType<State>;
-  if (!hasFingerprintOf<Type>(data, size)) {
+  if (size > kLongest) {
+    throw RejectedMessage(fmt::format("payload: too long: {} bytes", size));
+  }
+  if (const EarlierForm* form = earlierFormOf<State>(data, size)) {
+    const std::vector<std::uint8_t> payload = inTodaysForm<State>(*form, data, size);
+    return decode<State>(payload.data(), payload.size());
+  }
+  if (!hasFingerprintOf<State>(data, size)) {
     throw RejectedMessage(
         fmt::format("expected the fingerprint of {}, found another type", Type::getTypeName()));
-  }
-  if (size > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
-    throw RejectedMessage(fmt::format("payload: too long: {} bytes", size));
   }
   requireLayout(layoutOf<State>(), data, size);
   Type message;
@@ -61,7 +105,8 @@ Message decodeEvent(const std::string& channel, const void* data, std::size_t si
 bool hasTwinFingerprint(const void* data, std::size_t size) {
   bool found = false;
   eachKind([&](auto kind) {
-    found = found || hasFingerprintOf<LcmType<typename decltype(kind)::State>>(data, size);
+    using State = typename decltype(kind)::State;
+    found = found || hasFingerprintOf<State>(data, size) || earlierFormOf<State>(data, size);
   });
   return found;
 }

@@ -49,6 +49,7 @@ void LiveTwin::carryOut(const TwinCommand& command) noexcept {
       return finish(true, 0.0);
     case TwinCommand::Kind::kReset:
       twin_.reset();
+      resets_.fetch_add(1, std::memory_order_relaxed);  // before the record that begins anew
       at_start_ = true;
       return finish(true, 0.0);
     case TwinCommand::Kind::kStep:

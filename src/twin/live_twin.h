@@ -83,6 +83,8 @@ class LiveTwin {
 
   // Any thread.
 
+  /// Resets carried out.
+  std::uint64_t resets() const { return resets_.load(std::memory_order_relaxed); }
   /// The step reached.
   std::int64_t stepCount() const { return step_.load(std::memory_order_relaxed); }
   /// What the records' generations stand for.
@@ -113,6 +115,7 @@ class LiveTwin {
   std::atomic<std::uint64_t> carried_out_{0};
   std::atomic<bool> paused_{false};
   std::atomic<std::int64_t> step_{0};
+  std::atomic<std::uint64_t> resets_{0};
   TwinAnswer answer_;
   std::unique_ptr<Stepper> retired_;  ///< by the last kReplace; deleted outside of the loop
   std::uint64_t steps_to_do_ = 0;     ///< of a kStep under way

@@ -6,65 +6,13 @@
 
 #include <cmath>
 #include <map>
-#include <set>
 
-#include "../scene/scenes.h"
 #include "mechanics/rotors/short_journal_bearing.h"
-#include "twin/observer.h"
+#include "watched_twin.h"
 
 namespace whirl_twin {
 
 namespace {
-
-/// Runs the scene for `duration` [s] and feeds every step to the monitor.
-struct WatchedTwin {
-  explicit WatchedTwin(const Scene& scene, const AlarmSettings& settings = {})
-      : twin(scene), observer(twin), monitor(build(scene), settings), record(twin.layout().size) {}
-
-  void run(double duration) {
-    const auto steps =
-        static_cast<std::int64_t>(std::llround(duration / twin.scene().stepSeconds()));
-    for (std::int64_t i = 0; i < steps; ++i) {
-      twin.step();
-      feed();
-    }
-  }
-  void feed() {
-    twin.write(record.data());
-    observer.observe(record.data());
-    const double wall = observer.drive(0).at.time;
-    for (std::size_t d = 0; d < twin.scene().drives.size(); ++d) {
-      monitor.take(observer.drive(d), wall);
-    }
-    for (std::size_t s = 0; s < observer.systemCount(); ++s) {
-      if (observer.isRotor(s)) {
-        monitor.take(observer.whirl(s), wall);
-      } else {
-        monitor.take(observer.pendulum(s), wall);
-      }
-    }
-    for (auto& margin : monitor.takeMargins()) {
-      margins.push_back(margin);
-    }
-    for (auto& event : monitor.alerts().takeEvents()) {
-      events.push_back(event);
-    }
-  }
-  std::size_t count(const std::string& type, bool raised) const {
-    std::size_t n = 0;
-    for (const auto& e : events) {
-      n += e.type == type && e.raised == raised ? 1 : 0;
-    }
-    return n;
-  }
-
-  Twin twin;
-  Observer observer;
-  TwinMonitor monitor;
-  std::vector<double> record;
-  std::vector<state::StabilityMargin> margins;
-  std::vector<state::Alert> events;
-};
 
 // Threshold 100 (1 + 10/10) = 200 rad/s, passed upwards and back.
 constexpr const char* kSelfExcited = R"(
@@ -138,33 +86,6 @@ TEST(TwinMonitor, marginsComeTenASecondAndTellTheThreshold) {
     EXPECT_EQ(margin.first_column.size(), 5u);
     ASSERT_EQ(margin.critical_speeds.size(), 1u);
   }
-}
-
-TEST(TwinMonitor, aResetClearsEverythingAndBeginsAnew) {
-  WatchedTwin watched(sceneOf(kSelfExcited));
-  watched.run(1.0);
-  ASSERT_FALSE(watched.monitor.alerts().active().empty());
-  watched.twin.reset();
-  watched.feed();
-  EXPECT_TRUE(watched.monitor.alerts().active().empty());
-  watched.run(1.0);
-  EXPECT_EQ(watched.count("UNSTABLE", true), 2u);
-}
-
-// After a stall one topic's backlog may come whole before another's.
-TEST(TwinMonitor, aTopicSecondsAheadOfAnotherIsNoReset) {
-  WatchedTwin watched(sceneOf(kSelfExcited));
-  watched.run(1.0);
-  const auto active = watched.monitor.alerts().active();
-  ASSERT_FALSE(active.empty());
-  state::WhirlState whirl = watched.observer.whirl(0);
-  state::DriveState drive = watched.observer.drive(0);
-  whirl.at.time += 3.0;
-  watched.monitor.take(whirl, whirl.at.time);
-  drive.at.time += 0.001;
-  watched.monitor.take(drive, whirl.at.time);
-  ASSERT_EQ(watched.monitor.alerts().active().size(), active.size());
-  EXPECT_EQ(watched.monitor.alerts().active()[0].id, active[0].id);
 }
 
 // As when a log of one scene is played beside another: no reading past the end of a state.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <std_srvs/Trigger.h>
 #include <whirl_twin/DriveState.h>
+#include <whirl_twin/LoopStatistics.h>
 #include <whirl_twin/SetSpeed.h>
 #include <whirl_twin/StepN.h>
 #include <whirl_twin/WhirlState.h>
@@ -26,11 +27,14 @@ class Services : public testing::Test {
         [this](const DriveState::ConstPtr& m) { shaft_ = *m; };
     whirl_subscriber_ = node_.subscribe<WhirlState>("/twin/rotor/whirl", 10000, on_whirl);
     drive_subscriber_ = node_.subscribe<DriveState>("/twin/drives/shaft", 10000, on_drive);
+    const boost::function<void(const LoopStatistics::ConstPtr&)> on_loop =
+        [this](const LoopStatistics::ConstPtr& m) { loop_ = *m; };
+    loop_subscriber_ = node_.subscribe<LoopStatistics>("/twin/loop", 100, on_loop);
     for (const char* service : {"pause", "resume", "reset", "step", "set_speed"}) {
       ASSERT_TRUE(ros::service::waitForService(std::string("/simulation_node/") + service, 40000));
     }
     ASSERT_TRUE(trigger("resume").success);
-    ASSERT_TRUE(waitUntil([this] { return whirl_ && shaft_; }));
+    ASSERT_TRUE(waitUntil([this] { return whirl_ && shaft_ && loop_; }));
   }
 
   std_srvs::Trigger::Response trigger(const std::string& service) {
@@ -58,8 +62,10 @@ class Services : public testing::Test {
   ros::NodeHandle node_;
   ros::Subscriber whirl_subscriber_;
   ros::Subscriber drive_subscriber_;
+  ros::Subscriber loop_subscriber_;
   std::optional<WhirlState> whirl_;
   std::optional<DriveState> shaft_;
+  std::optional<LoopStatistics> loop_;
 };
 
 TEST_F(Services, pausedItStandsStillAndStepsAsAsked) {
@@ -90,11 +96,16 @@ TEST_F(Services, resumedItGoesOnFromWhereItStood) {
 TEST_F(Services, resetBringsBackTheStart) {
   ASSERT_TRUE(waitUntil([&] { return whirl_->step > 300; }));
   ASSERT_TRUE(trigger("pause").success);
+  const LoopStatistics before = *loop_;
   ASSERT_TRUE(trigger("reset").success);
   EXPECT_TRUE(waitUntil([&] { return whirl_->step == 0; }));
   EXPECT_EQ(whirl_->radius, 0.0);
   EXPECT_FALSE(whirl_->phase_valid);
   EXPECT_TRUE(std::isnan(whirl_->phase));
+  EXPECT_TRUE(waitUntil([&] { return loop_->epoch > before.epoch; })) << "it is announced";
+  EXPECT_EQ(loop_->epoch, before.epoch + 1);
+  EXPECT_EQ(loop_->started, before.started);
+  EXPECT_EQ(loop_->step, 0);
   EXPECT_TRUE(waitUntil([&] { return shaft_->step == 0; }));
   EXPECT_EQ(shaft_->shaft_angle, 0.0);
 }

@@ -89,6 +89,7 @@ class StateSamples {
     s.tolerance = numbers(systems);
     s.stopped.assign(systems, static_cast<std::uint8_t>(below(4)));
     s.stopped_why.assign(systems, "why");
+    s.started = static_cast<std::int64_t>(below(kMaxStamp));
     return s;
   }
 
