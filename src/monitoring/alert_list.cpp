@@ -1,9 +1,15 @@
 #include "monitoring/alert_list.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace whirl_twin {
+namespace {
+
+constexpr double kCountdownPeriod = 0.2;  // s
+
+}  // namespace
 
 void AlertList::raise(state::Alert alert, const std::string& decision) {
   alert.raised = true;
@@ -12,13 +18,20 @@ void AlertList::raise(state::Alert alert, const std::string& decision) {
     alert.id = ++last_id_;
     alert.raised_time = alert.time;
     events_.push_back(alert);
-    entries_.push_back({std::move(alert), decision});
+    const double time = alert.time;
+    entries_.push_back({std::move(alert), decision, time});
   } else {
     alert.id = entry->alert.id;
     alert.raised_time = entry->alert.raised_time;
     const bool same = alert.severity == entry->alert.severity && decision == entry->decision;
     entry->alert = std::move(alert);
     if (same) {
+      Entry& now = *entry;
+      if (std::isfinite(now.alert.time_to_entry) &&
+          !(std::abs(now.alert.time - now.counted_at) < kCountdownPeriod)) {
+        now.counted_at = now.alert.time;
+        changed_ = true;
+      }
       return;
     }
     entry->decision = decision;

@@ -16,7 +16,8 @@ class AlertList {
   /// Raises the alert, or brings an active one of the same system and type up to date. Its id and
   /// raised_time are set here (raised_time: its time when it was raised).
   /// decision: what the text says apart from its digits, e.g. which critical speed; the list counts
-  /// as changed when it differs, not when only numbers do.
+  /// as changed when it differs, not when only numbers do. But a countdown (time_to_entry) changes
+  /// it every 0.2 s, so that it never stands still.
   void raise(state::Alert alert, const std::string& decision);
 
   /// Takes an alert off the list at time [s, simulated]; nothing happens when it is not active.
@@ -41,6 +42,7 @@ class AlertList {
   struct Entry {
     state::Alert alert;
     std::string decision;
+    double counted_at;  ///< [s], simulated: of the countdown that the list last changed for
   };
   std::vector<Entry>::iterator locate(const std::string& system, const std::string& type);
   void sort();

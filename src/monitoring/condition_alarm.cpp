@@ -1,5 +1,6 @@
 #include "monitoring/condition_alarm.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace whirl_twin {
@@ -32,6 +33,10 @@ ConditionAlarm::Change ConditionAlarm::update(double time, AlarmCondition condit
     return Change::kCleared;
   }
 
+  if (!raise_since_) {
+    repeat_ = cause_seen_ && time >= *cause_seen_ && time - *cause_seen_ < repeats_.window;
+  }
+  cause_seen_ = time;
   const state::Severity severity =
       condition == AlarmCondition::kDanger ? state::Severity::kDanger : state::Severity::kWarning;
   if (active_) {
@@ -41,11 +46,14 @@ ConditionAlarm::Change ConditionAlarm::update(double time, AlarmCondition condit
     severity_ = severity;
     return Change::kUpgraded;
   }
-  if (elapsed(raise_since_, time) < raise_delay_) {
+  const double held = elapsed(raise_since_, time);
+  const bool waits = repeat_ && condition != AlarmCondition::kDanger;
+  if (held < (waits ? std::max(raise_delay_, repeats_.delay) : raise_delay_)) {
     return Change::kNone;
   }
   active_ = true;
   severity_ = severity;
+  repeat_ = false;
   return Change::kRaised;
 }
 

@@ -12,6 +12,10 @@ namespace whirl_twin {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
+constexpr double kRepeatWindow = 2.0;       // s, after an alarm has cleared
+constexpr double kTurningHorizon = 5.0;     // approach times, that a speed may take to turn back
+constexpr double kPassageLimit = 3.0;       // dwell limits, that a passage may take
+constexpr double kLongestCountdown = 60.0;  // s: what is further away is no countdown
 
 bool isEmpty(const state::CriticalSpeedMargin& critical) {
   return !(critical.band_low < critical.band_high);
@@ -22,6 +26,12 @@ std::string criticalSpeedText(const state::CriticalSpeedMargin& critical) {
                      critical.speed * 30.0 / kPi);
 }
 
+/// A cause that is back a moment after its alarm has cleared is a repeat, until it lasts as long as
+/// a dwell.
+ConditionAlarm::Repeats repeatsOf(const AlarmSettings& settings) {
+  return {settings.clear_delay + kRepeatWindow, settings.dwell_limit};
+}
+
 std::string bandText(const state::CriticalSpeedMargin& critical) {
   return fmt::format("between {:.1f} and {:.1f} rad/s", critical.band_low, critical.band_high);
 }
@@ -30,7 +40,7 @@ std::string bandText(const state::CriticalSpeedMargin& critical) {
 
 /// A band the present move reaches from outside.
 struct CriticalSpeedAlarm::Entry {
-  std::size_t index = 0;  ///< of its critical speed
+  Place place;
   double time = 0.0;      ///< [s] to the edge; infinite while there is no acceleration toward it
   bool creeping = false;  ///< within the hysteresis of the edge
 
@@ -42,8 +52,8 @@ struct CriticalSpeedAlarm::Entry {
 CriticalSpeedAlarm::CriticalSpeedAlarm(std::string system, const AlarmSettings& settings)
     : system_(std::move(system)),
       settings_(settings),
-      band_alarm_(settings.clear_delay),
-      approach_alarm_(settings.clear_delay) {}
+      band_alarm_(settings.clear_delay, 0.0, repeatsOf(settings)),
+      approach_alarm_(settings.clear_delay, 0.0, repeatsOf(settings)) {}
 
 void CriticalSpeedAlarm::update(const state::DriveState& shaft,
                                 const CriticalSpeeds& critical_speeds, AlertList& alerts) {
@@ -70,6 +80,7 @@ void CriticalSpeedAlarm::updateBand(const state::DriveState& shaft,
   const double speed = std::abs(shaft.speed);
   const double time = shaft.at.time;
   bool near = false;
+  const bool reverse = shaft.speed < 0.0;
   std::optional<std::size_t> occupied;
   for (std::size_t i = 0; i < critical_speeds.size(); ++i) {
     const state::CriticalSpeedMargin& critical = critical_speeds[i];
@@ -83,22 +94,34 @@ void CriticalSpeedAlarm::updateBand(const state::DriveState& shaft,
     }
   }
 
-  // The time in the band runs on through excursions within the hysteresis, so that a speed that
-  // wavers about the edge still counts as dwelling.
-  if (occupied && (!passing_ || time < entered_at_)) {
+  // The time in the band runs on through excursions within the hysteresis, or too short to clear,
+  // so that a speed that wavers about the edge still counts as dwelling.
+  if (occupied && ((!passing_ && !band_alarm_.active()) || time < entered_at_)) {
     entered_at_ = time;
   }
-  passing_ = occupied || (passing_ && near);
-
-  const double dwell = time - entered_at_;
-  AlarmCondition condition = near ? AlarmCondition::kHold : AlarmCondition::kClear;
   if (occupied) {
-    condition = dwell >= settings_.dwell_limit ? AlarmCondition::kDanger : AlarmCondition::kWarning;
+    const Place now{*occupied, reverse};
+    if (!(now == stay_) && !band_alarm_.active()) {
+      band_alarm_.forgetCause();
+    }
+    stay_ = now;
+  }
+  passing_ = occupied || (passing_ && near);
+  if (passing_ && stay_ == approached_) {
+    approach_alarm_.causeSeen(time);
+  }
+
+  AlarmCondition condition =
+      near || turnsBack(shaft, critical_speeds) ? AlarmCondition::kHold : AlarmCondition::kClear;
+  if (occupied) {
+    const bool dwells =
+        time - entered_at_ >= settings_.dwell_limit && !passesInTime(shaft, critical_speeds);
+    condition = dwells ? AlarmCondition::kDanger : AlarmCondition::kWarning;
   }
   if (band_alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
     alerts.clear(system_, alert_type::kInCriticalBand, time,
                  fmt::format("{}: left the critical band, speed {:.1f} rad/s", system_, speed));
-  } else if (occupied) {
+  } else if (occupied && band_alarm_.active()) {
     const state::CriticalSpeedMargin& critical = critical_speeds[*occupied];
     const bool danger = band_alarm_.severity() == state::Severity::kDanger;
     state::Alert alert = alertAbout(shaft, critical);
@@ -121,14 +144,14 @@ void CriticalSpeedAlarm::updateApproach(const state::DriveState& shaft,
     approach_alarm_.update(time, AlarmCondition::kHold);
     return;
   }
-  const bool entered = passing_ && approached_ < critical_speeds.size() &&
-                       inOrNear(shaft.speed, critical_speeds[approached_]);
+  const bool entered = passing_ && approached_.index < critical_speeds.size() &&
+                       inOrNear(shaft.speed, critical_speeds[approached_.index]);
   if (approach_alarm_.active() && entered) {
     approach_alarm_.clearNow();
     alerts.clear(system_, alert_type::kCriticalSpeedApproach, time,
                  fmt::format("{}: entered the critical band {} of {}", system_,
-                             bandText(critical_speeds[approached_]),
-                             criticalSpeedText(critical_speeds[approached_])));
+                             bandText(critical_speeds[approached_.index]),
+                             criticalSpeedText(critical_speeds[approached_.index])));
   }
 
   const std::optional<Entry> entry = nextEntry(shaft, critical_speeds);
@@ -136,33 +159,55 @@ void CriticalSpeedAlarm::updateApproach(const state::DriveState& shaft,
   const bool imminent = entry && (entry->time < settings_.approach_time || entry->creeping);
   if (imminent) {
     condition = AlarmCondition::kWarning;
+    if (!(entry->place == approached_) && !approach_alarm_.active()) {
+      approach_alarm_.forgetCause();
+    }
+    approached_ = entry->place;
   }
   if (approach_alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
     alerts.clear(system_, alert_type::kCriticalSpeedApproach, time,
                  fmt::format("{}: the move no longer reaches a critical band", system_));
-  } else if (imminent) {
-    const state::CriticalSpeedMargin& critical = critical_speeds[entry->index];
+  } else if (imminent && approach_alarm_.active()) {
+    const state::CriticalSpeedMargin& critical = critical_speeds[entry->place.index];
     const double speed = std::abs(shaft.speed);
-    approached_ = entry->index;
     state::Alert alert = alertAbout(shaft, critical);
     alert.type = alert_type::kCriticalSpeedApproach;
     alert.severity = approach_alarm_.severity();
     std::string when = fmt::format("close to {:.1f} rad/s", speed);
-    if (std::isfinite(entry->time)) {
+    if (entry->time < kLongestCountdown) {
       alert.time_to_entry = entry->time;
       when = fmt::format("band entered in {:.1f} s at {:.3g} rad/s^2", entry->time,
                          std::abs(shaft.acceleration));
     }
     alert.text = fmt::format("{}: {}, {}: do not dwell {}", system_, criticalSpeedText(critical),
                              when, bandText(critical));
-    alerts.raise(std::move(alert), fmt::format("critical {} from {}", entry->index,
+    alerts.raise(std::move(alert), fmt::format("critical {} from {}", entry->place.index,
                                                speed < critical.speed ? "below" : "above"));
   }
 }
 
+std::optional<CriticalSpeedAlarm::Entry> CriticalSpeedAlarm::entryOf(
+    const state::DriveState& shaft, const state::CriticalSpeedMargin& critical, Place place) const {
+  const double low = place.reverse ? -critical.band_high : critical.band_low;
+  const double high = place.reverse ? -critical.band_low : critical.band_high;
+  const bool below = shaft.speed < low;
+  const double edge = below ? low : high;
+  const double distance = below ? low - shaft.speed : shaft.speed - high;
+  const double toward = below ? shaft.acceleration : -shaft.acceleration;
+  // Nor does a shaft of which nothing else is known turn round.
+  bool reached = toward > 0.0 && (place.reverse ? shaft.speed <= 0.0 : shaft.speed >= 0.0);
+  if (!std::isnan(shaft.target_speed)) {
+    reached = below ? shaft.target_speed >= low : shaft.target_speed <= high;
+  }
+  if (distance < 0.0 || !reached) {
+    return std::nullopt;
+  }
+  const double time = toward > 0.0 ? distance / toward : std::numeric_limits<double>::infinity();
+  return Entry{place, time, distance <= widening(edge)};
+}
+
 std::optional<CriticalSpeedAlarm::Entry> CriticalSpeedAlarm::nextEntry(
     const state::DriveState& shaft, const CriticalSpeeds& critical_speeds) const {
-  const bool target_known = !std::isnan(shaft.target_speed);
   std::optional<Entry> next;
   for (std::size_t i = 0; i < critical_speeds.size(); ++i) {
     const state::CriticalSpeedMargin& critical = critical_speeds[i];
@@ -170,29 +215,51 @@ std::optional<CriticalSpeedAlarm::Entry> CriticalSpeedAlarm::nextEntry(
     if (isEmpty(critical) || (passing_ && inOrNear(shaft.speed, critical))) {
       continue;
     }
-    // The band in this sense of rotation and its mirror image in the other.
-    for (const auto& [low, high] : {std::pair{critical.band_low, critical.band_high},
-                                    std::pair{-critical.band_high, -critical.band_low}}) {
-      const bool below = shaft.speed < low;
-      const double edge = below ? low : high;
-      const double distance = below ? low - shaft.speed : shaft.speed - high;
-      const double toward = below ? shaft.acceleration : -shaft.acceleration;
-      bool reached = toward > 0.0;
-      if (target_known) {
-        reached = below ? shaft.target_speed >= low : shaft.target_speed <= high;
-      }
-      if (distance < 0.0 || !reached) {
+    for (const bool reverse : {false, true}) {
+      const Place place{i, reverse};
+      if (band_alarm_.active() && place == stay_) {
         continue;
       }
-      const double time =
-          toward > 0.0 ? distance / toward : std::numeric_limits<double>::infinity();
-      const Entry entry{i, time, distance <= widening(edge)};
-      if (!next || entry < *next) {
+      const std::optional<Entry> entry = entryOf(shaft, critical, place);
+      if (entry && (!next || *entry < *next)) {
         next = entry;
       }
     }
   }
   return next;
+}
+
+bool CriticalSpeedAlarm::turnsBack(const state::DriveState& shaft,
+                                   const CriticalSpeeds& critical_speeds) const {
+  if (!band_alarm_.active() || stay_.index >= critical_speeds.size() ||
+      isEmpty(critical_speeds[stay_.index])) {
+    return false;
+  }
+  const auto entry = entryOf(shaft, critical_speeds[stay_.index], stay_);
+  return entry && entry->time < kTurningHorizon * settings_.approach_time;
+}
+
+bool CriticalSpeedAlarm::passesInTime(const state::DriveState& shaft,
+                                      const CriticalSpeeds& critical_speeds) const {
+  const double sense = shaft.speed < 0.0 ? -1.0 : 1.0;
+  const double speed = std::abs(shaft.speed);
+  const double acceleration = sense * shaft.acceleration;
+  const bool upward = acceleration > 0.0;
+  // Bands that overlap are one to be passed.
+  double edge = speed;
+  for (std::size_t pass = 0; pass < critical_speeds.size(); ++pass) {
+    for (const state::CriticalSpeedMargin& critical : critical_speeds) {
+      if (!isEmpty(critical) && edge >= critical.band_low && edge <= critical.band_high) {
+        edge = upward ? critical.band_high : critical.band_low;
+      }
+    }
+  }
+  const double target = sense * shaft.target_speed;
+  if (acceleration == 0.0 || (upward ? target <= edge : target >= edge)) {
+    return false;  // it stays, or means to
+  }
+  const double left = (edge - speed) / acceleration;
+  return shaft.at.time + left <= entered_at_ + kPassageLimit * settings_.dwell_limit;
 }
 
 state::Alert CriticalSpeedAlarm::alertAbout(const state::DriveState& shaft,

@@ -4,6 +4,10 @@
 // The entry is predicted at constant acceleration: time = distance to the nearer edge of the band /
 // acceleration toward it; and only when the present move of the drive reaches the band. A run-up, a
 // run-down and negative rotation are alike: the band mirrored at zero is watched as well.
+//
+// A shaft that stays in a band longer than the dwell limit is in danger, unless it passes: its
+// present acceleration takes it out within three times that limit since it entered, and its target
+// lies beyond.
 #pragma once
 
 #include <cstddef>
@@ -29,20 +33,30 @@ class CriticalSpeedAlarm {
   /// creeps toward it from within the hysteresis of its edge. It stays as long as the move still
   /// reaches the band, and goes at once when the band is entered, because IN_CRITICAL_BAND then
   /// takes over; it does not come back while the rotor is no further from the band than the
-  /// hysteresis.
+  /// hysteresis, or IN_CRITICAL_BAND still stands for it. A list with one is published anew a few
+  /// times a second, for its countdown.
   /// IN_CRITICAL_BAND: a warning while passing, danger after dwell_limit; clears outside of the
-  /// band widened by the hysteresis, after clear_delay.
+  /// band widened by the hysteresis, after clear_delay. It stays while the speed turns back to the
+  /// band. Either is raised at most once by a speed that ripples about an edge: see ConditionAlarm.
   ///
   /// shaft: at.time [s], speed and target_speed [rad/s], acceleration [rad/s^2]. A target_speed of
-  /// NaN is unknown: the move is taken to go on as it accelerates. When the speed is not finite
-  /// nothing is raised or cleared.
-  /// critical_speeds: in an order that does not change from call to call; an empty band (critically
-  /// damped) never alarms.
+  /// NaN is unknown: the move is taken to go on as it accelerates, to standstill at most. When the
+  /// speed is not finite nothing is raised or cleared. critical_speeds: in an order that does not
+  /// change from call to call; an empty band (critically damped) never alarms.
   void update(const state::DriveState& shaft,
               const std::vector<state::CriticalSpeedMargin>& critical_speeds, AlertList& alerts);
 
  private:
   struct Entry;
+  /// A band of one sense of rotation.
+  struct Place {
+    std::size_t index = 0;  ///< of its critical speed
+    bool reverse = false;   ///< rotation in the negative sense
+
+    bool operator==(const Place& other) const {
+      return index == other.index && reverse == other.reverse;
+    }
+  };
   using CriticalSpeeds = std::vector<state::CriticalSpeedMargin>;
 
   double widening(double edge) const;
@@ -51,8 +65,13 @@ class CriticalSpeedAlarm {
                   AlertList& alerts);
   void updateApproach(const state::DriveState& shaft, const CriticalSpeeds& critical_speeds,
                       AlertList& alerts);
+  /// How the present move enters a band from outside; nothing if it does not.
+  std::optional<Entry> entryOf(const state::DriveState& shaft,
+                               const state::CriticalSpeedMargin& critical, Place place) const;
   std::optional<Entry> nextEntry(const state::DriveState& shaft,
                                  const CriticalSpeeds& critical_speeds) const;
+  bool turnsBack(const state::DriveState& shaft, const CriticalSpeeds& critical_speeds) const;
+  bool passesInTime(const state::DriveState& shaft, const CriticalSpeeds& critical_speeds) const;
   state::Alert alertAbout(const state::DriveState& shaft,
                           const state::CriticalSpeedMargin& critical) const;
 
@@ -60,9 +79,10 @@ class CriticalSpeedAlarm {
   AlarmSettings settings_;
   ConditionAlarm band_alarm_;
   ConditionAlarm approach_alarm_;
-  bool passing_ = false;        ///< has entered a band and not yet left it by the hysteresis
-  double entered_at_ = 0.0;     ///< [s], while passing_
-  std::size_t approached_ = 0;  ///< which critical speed the active approach is about
+  bool passing_ = false;     ///< has entered a band and not yet left it by the hysteresis
+  double entered_at_ = 0.0;  ///< [s], while passing_ or the band alarm is active
+  Place stay_;               ///< the band that it passes, or that it was in last
+  Place approached_;         ///< which band the active approach is about
 };
 
 }  // namespace whirl_twin
