@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -15,7 +16,8 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kReach = 1000.0;  // times the lowest natural frequency
+constexpr double kReach = 1000.0;           // times the lowest natural frequency
+constexpr double kNearStandstill = 1.0e-2;  // of it
 constexpr int kStrides = 240;
 constexpr int kFewerStrides = 120;  // where each costs milliseconds
 constexpr double kGrowth = 1.0e-9;  // or decay, of the largest eigenvalue: no rounding
@@ -83,28 +85,74 @@ std::optional<Eigen::VectorXd> restNear(const Dynamics& dynamics, const Eigen::V
   return dynamics.linear() ? q : equilibriumNear(dynamics, q, speed);
 }
 
+using SpeedAndRest = std::pair<double, Eigen::VectorXd>;
+
+/// [rad/s], of small motions at a speed, the scale of the search; NaN where nothing could become
+/// unstable with speed.
+double lowestFrequency(const Dynamics& dynamics, const Eigen::VectorXd& q, double speed) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  if (!dynamics.hasShaft()) {
+    return kNone;
+  }
+  const SmallMotion motion = motionAt(dynamics, q, speed);
+  if (motion.matrices.mass.rows() == 0) {
+    return kNone;  // nothing is left that could move otherwise
+  }
+  const auto frequencies = stability(motion.matrices, motion.zeros).natural_frequencies;
+  return frequencies.empty() ? kNone : std::max(frequencies.front(), 1.0e-6 * std::max(1.0, speed));
+}
+
+int stridesFor(const Dynamics& dynamics) {
+  return dynamics.dof() <= kMostExactCoordinates ? kStrides : kFewerStrides;
+}
+
+/// The equilibrium q at `speed` and on from there to `end`, in strides of a ratio.
+std::vector<SpeedAndRest> branch(const Dynamics& dynamics, const Eigen::VectorXd& q, double speed,
+                                 double end, double ratio) {
+  std::vector<SpeedAndRest> points{{speed, q}};
+  const bool upward = end > speed;
+  while (upward ? points.back().first < end : points.back().first > end) {
+    const double next = upward ? std::min(points.back().first * ratio, end)
+                               : std::max(points.back().first / ratio, end);
+    auto rest = restNear(dynamics, points.back().second, next);
+    if (!rest) {
+      break;
+    }
+    points.emplace_back(next, std::move(*rest));
+  }
+  return points;
+}
+
+/// Where the verdict changes between two speeds of which one is unstable.
+double thresholdBetween(const Dynamics& dynamics, StabilityTest& test, const SpeedAndRest& below,
+                        double high, bool unstable_above) {
+  double low = below.first;
+  while (high - low > 1.0e-15 * high) {
+    const double middle = 0.5 * (low + high);
+    if (middle <= low || middle >= high) {
+      break;
+    }
+    const auto there = restNear(dynamics, below.second, middle);
+    const bool unstable = !there || test.unstable(motionAt(dynamics, *there, middle));
+    (unstable == unstable_above ? high : low) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
 }  // namespace
 
 std::optional<double> instabilitySpeed(const Dynamics& dynamics, const Eigen::VectorXd& q,
                                        double speed) {
-  if (!dynamics.hasShaft()) {
-    return std::nullopt;
-  }
   const double from = dynamics.linear() ? 0.0 : std::fabs(speed);
-  const SmallMotion at_first = motionAt(dynamics, q, from);
-  if (at_first.matrices.mass.rows() == 0) {
-    return std::nullopt;  // nothing is left that could move otherwise
-  }
-  const auto frequencies = stability(at_first.matrices, at_first.zeros).natural_frequencies;
-  if (frequencies.empty()) {
+  const double lowest = lowestFrequency(dynamics, q, from);
+  if (std::isnan(lowest)) {
     return std::nullopt;
   }
-  const double lowest = std::max(frequencies.front(), 1.0e-6 * std::max(1.0, from));
-  const double first = std::max(from, 1.0e-2 * lowest);
+  const double first = std::max(from, kNearStandstill * lowest);
   const double last = kReach * lowest;
-  std::vector<std::pair<double, Eigen::VectorXd>> passed{{from, q}};
+  std::vector<SpeedAndRest> passed{{from, q}};
   StabilityTest test;
-  const int strides = dynamics.dof() <= kMostExactCoordinates ? kStrides : kFewerStrides;
+  const int strides = stridesFor(dynamics);
   for (int i = 0; i <= strides; ++i) {
     const double high = first * std::pow(last / first, static_cast<double>(i) / strides);
     const auto next = restNear(dynamics, passed.back().second, high);
@@ -122,20 +170,61 @@ std::optional<double> instabilitySpeed(const Dynamics& dynamics, const Eigen::Ve
       top = passed.back().first;
       passed.pop_back();
     }
-    double low = passed.back().first;
-    const Eigen::VectorXd& before = passed.back().second;
-    while (top - low > 1.0e-15 * top) {
-      const double middle = 0.5 * (low + top);
-      if (middle <= low || middle >= top) {
-        break;
-      }
-      const auto there = restNear(dynamics, before, middle);
-      const bool lost = !there || test.unstable(motionAt(dynamics, *there, middle));
-      (lost ? top : low) = middle;
-    }
-    return 0.5 * (low + top);
+    return thresholdBetween(dynamics, test, passed.back(), top, true);
   }
   return std::nullopt;
+}
+
+std::vector<StabilityThreshold> stabilityThresholds(const Dynamics& dynamics,
+                                                    const Eigen::VectorXd& q, double speed) {
+  const double lowest = lowestFrequency(dynamics, q, dynamics.linear() ? 0.0 : std::fabs(speed));
+  if (std::isnan(lowest)) {
+    return {};
+  }
+  const double first = kNearStandstill * lowest;
+  const double last = kReach * lowest;
+  const double ratio = std::pow(last / first, 1.0 / stridesFor(dynamics));
+  const double from = dynamics.linear() ? first : std::max(std::fabs(speed), first);
+  std::vector<SpeedAndRest> points = branch(dynamics, q, from, first, ratio);
+  if (dynamics.linear()) {
+    points.emplace_back(0.0, q);
+  }
+  std::reverse(points.begin(), points.end());
+  const std::vector<SpeedAndRest> upward = branch(dynamics, q, from, std::max(last, from), ratio);
+  points.insert(points.end(), upward.begin() + 1, upward.end());
+
+  std::vector<StabilityThreshold> found;
+  StabilityTest test;
+  bool before = false;  // unstable
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const SmallMotion motion = motionAt(dynamics, points[i].second, points[i].first);
+    // What neither grows nor decays for sure costs an exact test, and only beside what grows.
+    const bool sure = surelyUnstable(motion);
+    const bool now = sure || (before && test.unstable(motion));
+    if (i == 0) {
+      before = now;
+      if (now) {
+        found.push_back({0.0, true});
+      }
+      continue;
+    }
+    if (now != before) {
+      std::size_t stable = i - 1;  // what grew too slowly to be sure of has been passed too
+      std::size_t grown = i;
+      while (now && stable > 0 &&
+             test.unstable(motionAt(dynamics, points[stable].second, points[stable].first))) {
+        grown = stable--;
+      }
+      if (found.empty() || points[stable].first >= found.back().speed) {
+        found.push_back(
+            {thresholdBetween(dynamics, test, points[stable], points[grown].first, now), now});
+      } else {  // it had not become stable in between
+        found.pop_back();
+      }
+      before = now;
+    }
+  }
+  return found;
 }
 
 }  // namespace whirl_twin

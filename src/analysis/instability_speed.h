@@ -1,8 +1,9 @@
-// The shaft speed above which a system is unstable.
+// The shaft speeds at which a system loses its stability, or finds it again.
 #pragma once
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 #include "mechanics/dynamics.h"
 
@@ -16,5 +17,17 @@ namespace whirl_twin {
 /// eigenvalues alone do, to about 1e-10 of it.
 std::optional<double> instabilitySpeed(const Dynamics& dynamics, const Eigen::VectorXd& q,
                                        double speed);
+
+/// A speed at which the verdict changes.
+struct StabilityThreshold {
+  double speed = 0.0;           ///< [rad/s]
+  bool unstable_above = false;  ///< else below
+};
+
+/// All of them, ascending, as far as instabilitySpeed() searches, and likewise exact; 0 is one where
+/// the system is unstable from standstill on. Of anything but a linear rotor the equilibrium q is
+/// followed from `speed` [rad/s] down and up, as far as there is one.
+std::vector<StabilityThreshold> stabilityThresholds(const Dynamics& dynamics,
+                                                    const Eigen::VectorXd& q, double speed);
 
 }  // namespace whirl_twin

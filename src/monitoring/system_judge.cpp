@@ -4,7 +4,6 @@
 #include <exception>
 
 #include "analysis/equilibria.h"
-#include "analysis/instability_speed.h"
 #include "monitoring/separation_margin.h"
 
 namespace whirl_twin {
@@ -32,14 +31,17 @@ std::vector<state::CriticalSpeedMargin> SystemJudge::criticalSpeedMargins(double
   return margins;
 }
 
-void SystemJudge::findInstabilitySpeed(double time, const Eigen::VectorXd& about, double speed) {
-  const bool settled = dynamics_->linear() && instability_found_at_;
-  if (settled ||
-      (instability_found_at_ && std::fabs(time - *instability_found_at_) < kSearchPeriod)) {
+void SystemJudge::findThresholds(double time, const Eigen::VectorXd& about, double speed,
+                                 Verdict verdict) {
+  // An equilibrium that moves with speed may be another than the one that was followed: then the
+  // verdict tells.
+  const bool expected =
+      dynamics_->linear() || (verdict == Verdict::kUnstable) == thresholds_.unstableAt(speed);
+  if (searched_at_ && (expected || std::fabs(time - *searched_at_) < kSearchPeriod)) {
     return;
   }
-  instability_speed_ = whirl_twin::instabilitySpeed(*dynamics_, about, speed).value_or(kNaN);
-  instability_found_at_ = time;
+  thresholds_ = ThresholdSpeeds(stabilityThresholds(*dynamics_, about, speed));
+  searched_at_ = time;
 }
 
 state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::vector<double>& q,
@@ -66,7 +68,7 @@ state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::v
     s = point ? point->stability
               : reducedStability(linearizationAbout(*dynamics_, about, rates, shaft_speed),
                                  cyclicCoordinates(*dynamics_, shaft_speed));
-    findInstabilitySpeed(at.time, about, shaft_speed);
+    findThresholds(at.time, about, shaft_speed, s.routh.verdict);
   } catch (const std::exception&) {
     // Numbers beyond the range of double, or a singular mass: uncertain. The others are watched on.
   }
@@ -90,7 +92,9 @@ state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::v
   m.decay_rate = s.decay_rate;
   m.damping_ratio = s.damping_ratio;
   m.log_decrement = s.log_decrement;
-  m.instability_speed = instability_speed_;
+  m.instability_speed = thresholds_.lowest();
+  m.threshold_below = thresholds_.below(shaft_speed);
+  m.threshold_above = thresholds_.above(shaft_speed);
   m.critical_speeds = criticalSpeedMargins(shaft_speed);
   return m;
 }

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,6 +12,7 @@
 #include "analysis/critical_speeds.h"
 #include "analysis/equilibria.h"
 #include "messages/stability_margin.h"
+#include "monitoring/threshold_speeds.h"
 #include "scene/built_system.h"
 
 namespace whirl_twin {
@@ -28,18 +28,18 @@ class SystemJudge {
   /// of the equilibrium or steady motion it operates about, its conserved momenta as they are.
   state::StabilityMargin judge(const state::Instant& at, const std::vector<double>& q,
                                const std::vector<double>& v, double speed);
-  /// [rad/s], of the last judgement; NaN: none.
-  double instabilitySpeed() const { return instability_speed_; }
+  /// As of the last judgement.
+  const ThresholdSpeeds& thresholds() const { return thresholds_; }
 
  private:
-  void findInstabilitySpeed(double time, const Eigen::VectorXd& about, double speed);
+  void findThresholds(double time, const Eigen::VectorXd& about, double speed, Verdict verdict);
 
   std::string system_;
   std::string model_;
   std::shared_ptr<const Dynamics> dynamics_;
   std::vector<CriticalSpeed> critical_speeds_;
-  double instability_speed_ = std::numeric_limits<double>::quiet_NaN();
-  std::optional<double> instability_found_at_;  ///< [s], simulated
+  ThresholdSpeeds thresholds_;
+  std::optional<double> searched_at_;   ///< [s], simulated: for thresholds
   std::optional<Equilibrium> settled_;  ///< of a linear system without a shaft: once for all
 };
 

@@ -141,9 +141,7 @@ void TwinMonitor::tick(double wall_time, bool paused) {
 
 void TwinMonitor::judge(Watch& watch, const state::Instant& at, const std::vector<double>& q,
                         const std::vector<double>& v) {
-  const double threshold = watch.judge.instabilitySpeed();
-  const bool passed =
-      (std::fabs(watch.speed) > threshold) != (std::fabs(watch.judged_speed) > threshold);
+  const bool passed = watch.judge.thresholds().between(watch.judged_speed, watch.speed);
   const double since = at.time - watch.judged_at;  // back where a log is played a second time
   if (watch.judged && !passed && since >= 0.0 && since < kJudgingPeriod * (1.0 - 1.0e-9)) {
     return;
