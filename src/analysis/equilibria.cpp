@@ -67,8 +67,10 @@ std::vector<double> starts(const Dynamics& dynamics, Eigen::Index coordinate, st
 /// All combinations of the starts of each coordinate of the shape.
 std::vector<Eigen::VectorXd> grid(const Dynamics& dynamics, const CyclicCoordinates& cyclic) {
   std::vector<Eigen::VectorXd> points{Eigen::VectorXd::Zero(dynamics.dof())};
-  // A rotor in nonlinear bearings hangs near their line: there is nothing to search further away.
-  if (dynamics.linear() || (dynamics.isRotor() && cyclic.shape.size() > 2)) {
+  // A rotor in nonlinear bearings hangs near their line, and so does one on its motor without its
+  // unbalance: there is nothing to search further away.
+  if (dynamics.linear() ||
+      (dynamics.isRotor() && (cyclic.shape.size() > 2 || !cyclic.driven.empty()))) {
     return points;
   }
   for (const Eigen::Index i : cyclic.shape) {
@@ -84,9 +86,9 @@ std::vector<Eigen::VectorXd> grid(const Dynamics& dynamics, const CyclicCoordina
   return points;
 }
 
-/// Do two steady motions have one shape, and one rate of every driven coordinate?
-bool same(const Dynamics& dynamics, const CyclicCoordinates& cyclic, const SteadyMotion& a,
-          const SteadyMotion& b) {
+template <class Motion>
+bool sameMotion(const Dynamics& dynamics, const CyclicCoordinates& cyclic, const Motion& a,
+                const Motion& b) {
   const Eigen::VectorXd v = a.v(cyclic.driven);
   const Eigen::VectorXd w = b.v(cyclic.driven);
   return distance(dynamics, cyclic, a.q, b.q) < kSame && (v - w).norm() <= kSame * v.norm();
@@ -110,7 +112,7 @@ std::vector<Equilibrium> allOf(const Dynamics& dynamics, const CyclicCoordinates
       }
       motion->q = tidied(dynamics, motion->q);
       if (std::none_of(found.begin(), found.end(), [&](const SteadyMotion& other) {
-            return same(dynamics, cyclic, *motion, other);
+            return sameMotion(dynamics, cyclic, *motion, other);
           })) {
         found.push_back(*motion);
       }
@@ -166,11 +168,22 @@ std::vector<Equilibrium> equilibria(const Dynamics& dynamics, double speed) {
   return allOf(dynamics, cyclicCoordinates(dynamics, speed), speed, zero, zero, zero);
 }
 
+bool same(const Dynamics& dynamics, const CyclicCoordinates& cyclic, const Equilibrium& a,
+          const Equilibrium& b) {
+  return sameMotion(dynamics, cyclic, a, b);
+}
+
 std::optional<Equilibrium> operatingPoint(const Dynamics& dynamics, const Eigen::VectorXd& q,
                                           const Eigen::VectorXd& v, double speed) {
+  return operatingPointAmong(dynamics, equilibria(dynamics, speed, q, v), q, v, speed);
+}
+
+std::optional<Equilibrium> operatingPointAmong(const Dynamics& dynamics,
+                                               std::vector<Equilibrium> stable,
+                                               const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                               double speed) {
   const CyclicCoordinates cyclic = cyclicCoordinates(dynamics, speed);
   const Eigen::VectorXd momenta = dynamics.momenta(q, v, {0.0, 0.0, speed, 0.0});
-  std::vector<Equilibrium> stable = allOf(dynamics, cyclic, speed, q, momenta, v);
   stable.erase(std::remove_if(stable.begin(), stable.end(),
                               [](const Equilibrium& e) { return !e.stability.bounded(); }),
                stable.end());

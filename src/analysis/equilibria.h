@@ -44,6 +44,15 @@ std::optional<Eigen::VectorXd> equilibriumNear(const Dynamics& dynamics, const E
 /// none.
 std::optional<Equilibrium> operatingPoint(const Dynamics& dynamics, const Eigen::VectorXd& q,
                                           const Eigen::VectorXd& v, double speed);
+/// The same among equilibria that are known.
+std::optional<Equilibrium> operatingPointAmong(const Dynamics& dynamics,
+                                               std::vector<Equilibrium> known,
+                                               const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                               double speed);
+
+/// Whether two are one: one shape, and one rate of every driven coordinate.
+bool same(const Dynamics& dynamics, const CyclicCoordinates& cyclic, const Equilibrium& a,
+          const Equilibrium& b);
 
 /// Linearization at rest in q at a constant speed [rad/s].
 Linearization linearizationAtRest(const Dynamics& dynamics, const Eigen::VectorXd& q, double speed);

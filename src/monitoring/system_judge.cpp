@@ -4,7 +4,6 @@
 #include <exception>
 
 #include "analysis/equilibria.h"
-#include "monitoring/separation_margin.h"
 
 namespace whirl_twin {
 
@@ -20,27 +19,19 @@ SystemJudge::SystemJudge(const BuiltSystem& system)
     : system_(system.spec.name),
       model_(system.model->name),
       dynamics_(system.dynamics),
-      critical_speeds_(criticalSpeeds(*system.dynamics)) {}
-
-std::vector<state::CriticalSpeedMargin> SystemJudge::criticalSpeedMargins(double speed) const {
-  std::vector<state::CriticalSpeedMargin> margins;
-  for (const CriticalSpeed& c : critical_speeds_) {
-    margins.push_back(criticalSpeedMargin(speed, c.speed, c.forward ? "forward" : "backward",
-                                          c.amplification_factor));
-  }
-  return margins;
-}
+      speeds_{criticalSpeeds(*system.dynamics), {}},
+      steady_motions_(system.dynamics) {}
 
 void SystemJudge::findThresholds(double time, const Eigen::VectorXd& about, double speed,
                                  Verdict verdict) {
   // An equilibrium that moves with speed may be another than the one that was followed: then the
   // verdict tells.
-  const bool expected =
-      dynamics_->linear() || (verdict == Verdict::kUnstable) == thresholds_.unstableAt(speed);
+  const bool expected = dynamics_->linear() ||
+                        (verdict == Verdict::kUnstable) == speeds_.thresholds.unstableAt(speed);
   if (searched_at_ && (expected || std::fabs(time - *searched_at_) < kSearchPeriod)) {
     return;
   }
-  thresholds_ = ThresholdSpeeds(stabilityThresholds(*dynamics_, about, speed));
+  speeds_.thresholds = ThresholdSpeeds(stabilityThresholds(*dynamics_, about, speed));
   searched_at_ = time;
 }
 
@@ -56,7 +47,9 @@ state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::v
   s.decay_rate = s.damping_ratio = s.log_decrement = kNaN;
   try {
     const std::optional<Equilibrium> point =
-        settled_ ? settled_ : operatingPoint(*dynamics_, present, rates, shaft_speed);
+        settled_                  ? settled_
+        : steady_motions_.apply() ? steady_motions_.operatingPoint(at.time, present, rates)
+                                  : operatingPoint(*dynamics_, present, rates, shaft_speed);
     if (dynamics_->linear() && !dynamics_->hasShaft()) {
       settled_ = point;
     }
@@ -92,10 +85,10 @@ state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::v
   m.decay_rate = s.decay_rate;
   m.damping_ratio = s.damping_ratio;
   m.log_decrement = s.log_decrement;
-  m.instability_speed = thresholds_.lowest();
-  m.threshold_below = thresholds_.below(shaft_speed);
-  m.threshold_above = thresholds_.above(shaft_speed);
-  m.critical_speeds = criticalSpeedMargins(shaft_speed);
+  m.instability_speed = speeds_.thresholds.lowest();
+  m.threshold_below = speeds_.thresholds.below(shaft_speed);
+  m.threshold_above = speeds_.thresholds.above(shaft_speed);
+  m.critical_speeds = speeds_.marginsAt(shaft_speed);
   return m;
 }
 

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "analysis/critical_speeds.h"
 #include "analysis/equilibria.h"
+#include "analysis/known_steady_motions.h"
 #include "messages/stability_margin.h"
-#include "monitoring/threshold_speeds.h"
+#include "monitoring/judged_speeds.h"
 #include "scene/built_system.h"
 
 namespace whirl_twin {
@@ -22,14 +22,12 @@ class SystemJudge {
   explicit SystemJudge(const BuiltSystem& system);
 
   const std::string& system() const { return system_; }
-  /// Critical speeds seen from a running speed [rad/s]; empty for anything but a linear rotor.
-  std::vector<state::CriticalSpeedMargin> criticalSpeedMargins(double speed) const;
   /// The verdict with coordinates q and rates v at shaft speed [rad/s] (ignored without a shaft):
   /// of the equilibrium or steady motion it operates about, its conserved momenta as they are.
   state::StabilityMargin judge(const state::Instant& at, const std::vector<double>& q,
                                const std::vector<double>& v, double speed);
-  /// As of the last judgement.
-  const ThresholdSpeeds& thresholds() const { return thresholds_; }
+  /// Its critical speeds, and its thresholds as of the last judgement.
+  const JudgedSpeeds& speeds() const { return speeds_; }
 
  private:
   void findThresholds(double time, const Eigen::VectorXd& about, double speed, Verdict verdict);
@@ -37,8 +35,8 @@ class SystemJudge {
   std::string system_;
   std::string model_;
   std::shared_ptr<const Dynamics> dynamics_;
-  std::vector<CriticalSpeed> critical_speeds_;
-  ThresholdSpeeds thresholds_;
+  JudgedSpeeds speeds_;
+  KnownSteadyMotions steady_motions_;
   std::optional<double> searched_at_;   ///< [s], simulated: for thresholds
   std::optional<Equilibrium> settled_;  ///< of a linear system without a shaft: once for all
 };

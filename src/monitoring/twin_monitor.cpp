@@ -29,8 +29,9 @@ std::vector<std::string> systemNames(const std::vector<SharedSystem>& systems) {
 
 }  // namespace
 
-TwinMonitor::Watch::Watch(SharedSystem built, const AlarmSettings& settings)
-    : judge(*built),
+TwinMonitor::Watch::Watch(SharedSystem built, JudgedSpeeds first, const AlarmSettings& settings)
+    : name(built->spec.name),
+      speeds(std::move(first)),
       rotor(built->dynamics->isRotor()),
       dof(built->spec.q.size()),
       drive(built->spec.drive.value_or("")),
@@ -60,21 +61,24 @@ std::vector<double> TwinMonitor::Watch::coordinates(double x, double y, double t
   return all;
 }
 
-TwinMonitor::TwinMonitor(const BuiltScene& scene, const AlarmSettings& settings)
-    : settings_(settings), data_lost_alarm_(systemNames(scene.systems), settings) {
-  for (const SharedSystem& system : scene.systems) {
-    watches_.emplace_back(system, settings_);
+TwinMonitor::TwinMonitor(const BuiltScene& scene, const AlarmSettings& settings, Judging::Mode mode)
+    : settings_(settings),
+      judging_(scene.systems, mode),
+      data_lost_alarm_(systemNames(scene.systems), settings) {
+  for (std::size_t i = 0; i < scene.systems.size(); ++i) {
+    watches_.emplace_back(scene.systems[i], judging_.speedsOf(i), settings_);
   }
 }
 
 void TwinMonitor::restart(double time, double wall_time) {
   time_ = loop_time_ = time;
+  ++run_;
   for (const state::Alert& alert : alerts_.active()) {
     alerts_.clear(alert.system, alert.type, time_, "the simulation was reset");
   }
   std::vector<std::string> names;
   for (Watch& watch : watches_) {
-    names.push_back(watch.judge.system());
+    names.push_back(watch.name);
     const std::string& name = names.back();
     const std::shared_ptr<const Dynamics>& dynamics = watch.system->dynamics;
     watch.critical_speed_alarm = CriticalSpeedAlarm(name, settings_);
@@ -99,16 +103,14 @@ bool TwinMonitor::take(const state::ParameterChange& change) {
   }
   if (changed->dynamics != watch->system->dynamics) {  // else they are what they were
     watch->system = std::move(changed);
-    watch->parameters_new = true;
     watch->validity_alarm.setDynamics(watch->system->dynamics);
   }
   return true;
 }
 
 TwinMonitor::Watch* TwinMonitor::find(const std::string& system) {
-  const auto found = std::find_if(watches_.begin(), watches_.end(), [&](const Watch& watch) {
-    return watch.judge.system() == system;
-  });
+  const auto found = std::find_if(watches_.begin(), watches_.end(),
+                                  [&](const Watch& watch) { return watch.name == system; });
   return found == watches_.end() ? nullptr : &*found;
 }
 
@@ -132,30 +134,38 @@ bool TwinMonitor::arrived(const std::string& source, const state::Instant& at, d
 
 void TwinMonitor::watchShaft(Watch& watch, const state::DriveState& shaft) {
   watch.speed = shaft.speed;
-  watch.critical_speed_alarm.update(shaft, watch.judge.criticalSpeedMargins(shaft.speed), alerts_);
+  watch.critical_speed_alarm.update(shaft, watch.speeds.marginsAt(shaft.speed), alerts_);
 }
 
 void TwinMonitor::tick(double wall_time, bool paused) {
+  takeJudgements();
   data_lost_alarm_.tick(wall_time, time_, paused, alerts_);
 }
 
 void TwinMonitor::judge(Watch& watch, const state::Instant& at, const std::vector<double>& q,
                         const std::vector<double>& v) {
-  const bool passed = watch.judge.thresholds().between(watch.judged_speed, watch.speed);
+  const bool passed = watch.speeds.thresholds.between(watch.judged_speed, watch.speed);
   const double since = at.time - watch.judged_at;  // back where a log is played a second time
   if (watch.judged && !passed && since >= 0.0 && since < kJudgingPeriod * (1.0 - 1.0e-9)) {
     return;
   }
-  if (watch.parameters_new) {  // not before: a ramp changes them more often than they are judged
-    watch.judge = SystemJudge(*watch.system);
-    watch.parameters_new = false;
-  }
-  const state::StabilityMargin margin = watch.judge.judge(at, q, v, watch.speed);
   watch.judged = true;
   watch.judged_at = at.time;
   watch.judged_speed = watch.speed;
-  watch.stability_alarm.update(margin, alerts_);
-  margins_.push_back(margin);
+  const auto place = static_cast<std::size_t>(&watch - watches_.data());
+  judging_.ask({place, watch.system, at, q, v, watch.speed, run_});
+  takeJudgements();
+}
+
+void TwinMonitor::takeJudgements() {
+  for (Judgement& judgement : judging_.take()) {
+    Watch& watch = watches_[judgement.system];
+    watch.speeds = std::move(judgement.speeds);
+    if (judgement.run == run_) {  // else of before a reset
+      watch.stability_alarm.update(judgement.margin, alerts_);
+      margins_.push_back(std::move(judgement.margin));
+    }
+  }
 }
 
 void TwinMonitor::take(const state::WhirlState& whirl, double wall_time) {
@@ -231,9 +241,8 @@ bool TwinMonitor::take(const state::LoopStatistics& loop, double wall_time) {
 }
 
 std::vector<state::StabilityMargin> TwinMonitor::takeMargins() {
-  std::vector<state::StabilityMargin> margins;
-  margins.swap(margins_);
-  return margins;
+  takeJudgements();
+  return std::exchange(margins_, {});
 }
 
 }  // namespace whirl_twin

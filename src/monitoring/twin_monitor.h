@@ -12,11 +12,11 @@
 #include "monitoring/alert_list.h"
 #include "monitoring/critical_speed_alarm.h"
 #include "monitoring/data_lost_alarm.h"
+#include "monitoring/judging.h"
 #include "monitoring/reset_watch.h"
 #include "monitoring/source_clock.h"
 #include "monitoring/stability_alarm.h"
 #include "monitoring/state_alarm.h"
-#include "monitoring/system_judge.h"
 #include "monitoring/validity_alarm.h"
 #include "scene/built_scene.h"
 
@@ -24,7 +24,9 @@ namespace whirl_twin {
 
 class TwinMonitor {
  public:
-  TwinMonitor(const BuiltScene& scene, const AlarmSettings& settings);
+  /// With Judging::Mode::kBeside verdicts, and alerts on them, come with a later call.
+  TwinMonitor(const BuiltScene& scene, const AlarmSettings& settings,
+              Judging::Mode mode = Judging::Mode::kAtOnce);
 
   // States as they arrive, wall_time [s] from a clock that only goes forward. Those of systems and
   // drives the scene does not have, or has as another kind, are ignored, and so are those out of
@@ -51,9 +53,10 @@ class TwinMonitor {
 
  private:
   struct Watch {
-    Watch(SharedSystem system, const AlarmSettings& settings);
+    Watch(SharedSystem system, JudgedSpeeds speeds, const AlarmSettings& settings);
 
-    SystemJudge judge;
+    std::string name;
+    JudgedSpeeds speeds;  ///< as last judged
     bool rotor;
     std::size_t dof;
     Station station = {};    ///< of a rotor: where its whirl is seen
@@ -67,9 +70,8 @@ class TwinMonitor {
     StabilityAlarm stability_alarm;
     StateAlarm state_alarm;
     ValidityAlarm validity_alarm;
-    SharedSystem system;          ///< with its parameters as they are now
-    bool parameters_new = false;  ///< to be judged with from now on
-    bool judged = false;
+    SharedSystem system;        ///< with its parameters as they are now
+    bool judged = false;        ///< or asked to be
     double judged_at = 0.0;     ///< [s], simulated
     double judged_speed = 0.0;  ///< [rad/s]
   };
@@ -78,11 +80,14 @@ class TwinMonitor {
   Watch* find(const std::string& system);
   /// False for a state that is not to be believed.
   bool arrived(const std::string& source, const state::Instant& at, double wall_time);
+  void takeJudgements();
   void judge(Watch& watch, const state::Instant& at, const std::vector<double>& q,
              const std::vector<double>& v);
   void watchShaft(Watch& watch, const state::DriveState& shaft);
 
   AlarmSettings settings_;
+  Judging judging_;
+  std::uint64_t run_ = 0;  ///< of simulated time: resets so far
   std::vector<Watch> watches_;
   DataLostAlarm data_lost_alarm_;
   AlertList alerts_;

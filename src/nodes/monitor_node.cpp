@@ -76,7 +76,7 @@ class MonitorNode {
       : node_(node),
         scene_(sceneOf(parameterTree(node, "scene"))),
         settings_(alarmSettings()),
-        monitor_(scene_, settings_),
+        monitor_(scene_, settings_, Judging::Mode::kBeside),
         url_(privateParameter<std::string>("lcm_url", "an LCM url, or nothing", kDefaultLcmUrl)),
         lcm_(url_, lcmPrefixParameter()),
         topics_(node, kPublishQueue) {

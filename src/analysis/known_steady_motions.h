@@ -1,0 +1,38 @@
+// The steady motions of a rotor whose spin is free and driven, kept from one judgement to the next:
+// they follow from its parameters alone, so that the one it operates about now is picked from those
+// that are known. To find all anew takes hundreds of runs of Newton's method; that is done rarely,
+// from the rates that the motion has then, for one that had not been found.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "analysis/equilibria.h"
+
+namespace whirl_twin {
+
+class KnownSteadyMotions {
+ public:
+  explicit KnownSteadyMotions(std::shared_ptr<const Dynamics> dynamics);
+
+  /// Its steady motions are those of its parameters: rates are driven, no momentum is conserved,
+  /// and no shaft's speed is prescribed.
+  bool apply() const { return apply_; }
+  /// As operatingPoint(), of the motion through q and v at time [s].
+  std::optional<Equilibrium> operatingPoint(double time, const Eigen::VectorXd& q,
+                                            const Eigen::VectorXd& v);
+
+ private:
+  void search(const Eigen::VectorXd& q, const Eigen::VectorXd& v);
+
+  std::shared_ptr<const Dynamics> dynamics_;
+  CyclicCoordinates cyclic_;
+  bool apply_;
+  std::vector<Equilibrium> known_;
+  std::optional<double> searched_at_;  ///< [s]
+  double wait_;                        ///< [s], until the next search
+};
+
+}  // namespace whirl_twin

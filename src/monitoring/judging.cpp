@@ -1,0 +1,99 @@
+#include "monitoring/judging.h"
+
+#include <chrono>
+#include <utility>
+
+namespace whirl_twin {
+namespace {
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+Judging::Judging(const std::vector<SharedSystem>& systems, Mode mode) : waiting_(systems.size()) {
+  for (const SharedSystem& system : systems) {
+    seats_.push_back({system, std::make_unique<SystemJudge>(*system)});
+    first_speeds_.push_back(seats_.back().judge->speeds());
+  }
+  if (mode == Mode::kBeside) {
+    thread_ = std::thread([this] { run(); });
+  }
+}
+
+Judging::~Judging() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ending_ = true;
+  }
+  asked_.notify_one();
+  if (thread_.joinable()) {
+    thread_.join();
+  }
+}
+
+void Judging::ask(JudgementRequest request) {
+  const std::size_t system = request.system;
+  Waiting waiting{std::move(request), now()};
+  if (!thread_.joinable()) {
+    done_.push_back(judge(waiting));
+    return;
+  }
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    waiting_[system] = std::move(waiting);
+  }
+  asked_.notify_one();
+}
+
+std::vector<Judgement> Judging::take() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return std::exchange(done_, {});
+}
+
+Judgement Judging::judge(const Waiting& waiting) {
+  const JudgementRequest& request = waiting.request;
+  Seat& seat = seats_[request.system];
+  if (seat.built != request.built) {
+    seat = {request.built, std::make_unique<SystemJudge>(*request.built)};
+  }
+  Judgement judgement;
+  judgement.system = request.system;
+  judgement.run = request.run;
+  judgement.margin = seat.judge->judge(request.at, request.q, request.v, request.speed);
+  judgement.margin.age = now() - waiting.since;
+  judgement.speeds = seat.judge->speeds();
+  return judgement;
+}
+
+void Judging::run() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (true) {
+    std::optional<Waiting> waiting = next();
+    if (ending_) {
+      return;
+    }
+    if (!waiting) {
+      asked_.wait(lock);
+      continue;
+    }
+    lock.unlock();
+    Judgement judgement = judge(*waiting);
+    lock.lock();
+    done_.push_back(std::move(judgement));
+  }
+}
+
+std::optional<Judging::Waiting> Judging::next() {
+  for (std::size_t i = 0; i < waiting_.size(); ++i) {
+    const std::size_t system = (turn_ + i) % waiting_.size();
+    if (waiting_[system]) {
+      turn_ = system + 1;
+      return std::exchange(waiting_[system], std::nullopt);
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace whirl_twin

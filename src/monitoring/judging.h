@@ -1,0 +1,76 @@
+// Judges systems when asked: at once, or in a thread of its own beside those who ask, so that no
+// alarm waits behind a judgement that takes long. There the newest question about a system replaces
+// one that still waits, and all systems have their turn: however slow it is, a verdict is about
+// the newest state there was when it was begun.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "monitoring/system_judge.h"
+#include "scene/built_system.h"
+
+namespace whirl_twin {
+
+struct JudgementRequest {
+  std::size_t system = 0;  ///< its place
+  SharedSystem built;      ///< with its parameters as they are
+  state::Instant at;
+  std::vector<double> q, v;
+  double speed = 0.0;     ///< [rad/s], of its shaft
+  std::uint64_t run = 0;  ///< of simulated time: comes back with the verdict
+};
+
+struct Judgement {
+  std::size_t system = 0;
+  std::uint64_t run = 0;
+  state::StabilityMargin margin;  ///< age: wall time since it was asked for
+  JudgedSpeeds speeds;
+};
+
+class Judging {
+ public:
+  enum class Mode { kAtOnce, kBeside };
+
+  Judging(const std::vector<SharedSystem>& systems, Mode mode);
+  ~Judging();
+  Judging(const Judging&) = delete;
+  Judging& operator=(const Judging&) = delete;
+
+  /// Those of a system's first parameters, before anything is asked.
+  const JudgedSpeeds& speedsOf(std::size_t system) const { return first_speeds_[system]; }
+  void ask(JudgementRequest request);
+  /// What has been judged since last asked, in order.
+  std::vector<Judgement> take();
+
+ private:
+  struct Seat {
+    SharedSystem built;
+    std::unique_ptr<SystemJudge> judge;
+  };
+  struct Waiting {
+    JudgementRequest request;
+    double since;  ///< [s], of a clock that only goes forward
+  };
+
+  Judgement judge(const Waiting& waiting);
+  void run();
+  std::optional<Waiting> next();  ///< mutex_ is held
+
+  std::vector<Seat> seats_;  ///< the thread's, while there is one
+  std::vector<JudgedSpeeds> first_speeds_;
+  std::mutex mutex_;  ///< what follows
+  std::condition_variable asked_;
+  std::vector<std::optional<Waiting>> waiting_;  ///< of each system
+  std::vector<Judgement> done_;
+  std::size_t turn_ = 0;
+  bool ending_ = false;
+  std::thread thread_;
+};
+
+}  // namespace whirl_twin
