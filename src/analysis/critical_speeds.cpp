@@ -5,10 +5,12 @@
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <stdexcept>
+#include <optional>
+#include <utility>
 
 #include "analysis/bracketed_root.h"
 #include "analysis/cyclic_coordinates.h"
+#include "analysis/equilibrium_branch.h"
 #include "analysis/orbit.h"
 #include "analysis/synchronous_poles.h"
 #include "analysis/synchronous_response.h"
@@ -27,7 +29,8 @@ constexpr double kInfinitePeak = 1.0e12;   // eccentricities: of this height a p
 constexpr double kInfiniteFactor = 1.0e9;  // amplification factor, likewise
 constexpr double kUndamped = 1.0e-13;      // damping ratio, likewise
 constexpr int kCoarse = 300;
-constexpr double kReach = 50.0;  // times the highest resonance: heavy damping drives a peak up
+constexpr double kMargin = 0.01;  // a derivative needs speeds to both sides
+constexpr double kReach = 50.0;   // times the highest resonance: heavy damping drives a peak up
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -42,16 +45,13 @@ struct UnbalanceResponse {
 /// The rotor as its published station sees it.
 class Probe {
  public:
-  explicit Probe(const Dynamics& dynamics) : rotor_(dynamics.linearRotor()) {
-    const std::vector<Station> stations = dynamics.stations();
-    if (stations.empty()) {
-      throw std::logic_error(dynamics.model() + " is not a rotor");
-    }
-    station_ = stations.front();
+  /// `speed` [rad/s]: one at which it has matrices.
+  Probe(LinearRotor rotor, Station station, double speed)
+      : rotor_(std::move(rotor)), station_(std::move(station)) {
     if (!hasSynchronousForce(rotor_)) {
       const VectorXcd shape =
           station_.along_x.cast<Complex>() - Complex(0.0, 1.0) * station_.along_y.cast<Complex>();
-      rotor_.forces = {{rotor_.matrices(0.0).mass.cast<Complex>() * shape, 1, true}};
+      rotor_.forces = {{rotor_.matrices(speed).mass.cast<Complex>() * shape, 1, true}};
     }
   }
 
@@ -176,23 +176,49 @@ double peakBetween(const Probe& probe, double low, double high) {
   return bracketedRoot(fall, low, high, fall(low), fall(high));
 }
 
+/// What a search goes over.
+struct Search {
+  Probe probe;
+  double low = 0.0;   ///< [rad/s]
+  double high = 0.0;  ///< [rad/s]
+};
+
+std::optional<Search> searchOf(const Dynamics& dynamics) {
+  const std::vector<Station> stations = dynamics.stations();
+  if (!dynamics.hasShaft() || stations.empty()) {
+    return std::nullopt;
+  }
+  if (!dynamics.linear()) {
+    SmallMotionRotor small = smallMotionRotor(dynamics);
+    if (small.rotor.dof() == 0) {
+      return std::nullopt;
+    }
+    return Search{Probe(std::move(small.rotor), stations.front(), small.highest),
+                  (1.0 + kMargin) * small.lowest, small.highest / (1.0 + kMargin)};
+  }
+  Probe probe(dynamics.linearRotor(), stations.front(), 0.0);
+  const Linearization matrices = probe.rotor().matrices(0.0);
+  const Stability at_rest = reducedStability(matrices, rigidBodyMotions(matrices));
+  if (at_rest.natural_frequencies.empty()) {
+    return std::nullopt;
+  }
+  return Search{std::move(probe), 0.02 * at_rest.natural_frequencies.front(),
+                kReach * at_rest.natural_frequencies.back()};
+}
+
 }  // namespace
 
 CriticalSpeedSearch searchCriticalSpeeds(const Dynamics& dynamics) {
   CriticalSpeedSearch search;
   search.highest_speed = kInfinity;
-  if (!dynamics.linear() || !dynamics.hasShaft() || dynamics.stations().empty()) {
+  const std::optional<Search> over = searchOf(dynamics);
+  if (!over) {
     return search;
   }
-  const Probe probe(dynamics);
+  const Probe& probe = over->probe;
+  const double low = over->low;
+  const double high = over->high;
   search.highest_speed = probe.rotor().highest_speed;
-  const Linearization matrices = probe.rotor().matrices(0.0);
-  const Stability at_rest = reducedStability(matrices, rigidBodyMotions(matrices));
-  if (at_rest.natural_frequencies.empty()) {
-    return search;
-  }
-  const double low = 0.02 * at_rest.natural_frequencies.front();
-  const double high = kReach * at_rest.natural_frequencies.back();
   const auto poles = synchronousPoles(probe.rotor(), low, high);
   double last = low;
   double before = probe.response(low).slope;

@@ -1,4 +1,4 @@
-// Critical speeds of a linear rotor: the speeds at which its synchronous unbalance response peaks.
+// Critical speeds of a rotor: the speeds at which its synchronous unbalance response peaks.
 //
 //   (K + N - w^2 M + i w (C + G)) X = F(w)
 //
@@ -9,6 +9,8 @@
 // Nc = p / sqrt(1 - 2 zeta^2). Damping moves and widens a peak, and above zeta = 0.707 it is gone;
 // so is the critical speed. A mode that the unbalance does not excite, or that has its node at the
 // station, makes no peak: undamped_critical_speeds.h has them all.
+//
+// Of a nonlinear rotor they are those of its small motion about where it hangs at each speed.
 #pragma once
 
 #include <vector>
@@ -32,7 +34,8 @@ struct CriticalSpeedSearch {
   double highest_speed = 0.0;        ///< [rad/s], that a reduced rotor holds to; else infinity
 };
 
-/// Empty for models that are not linear rotors.
+/// Empty for models that are not rotors on a shaft; of one whose spin is free it is the rotor with
+/// its shaft held that has some (held_rotor.h).
 CriticalSpeedSearch searchCriticalSpeeds(const Dynamics& dynamics);
 /// Those found.
 std::vector<CriticalSpeed> criticalSpeeds(const Dynamics& dynamics);

@@ -9,6 +9,7 @@
 #include "analysis/characteristic_polynomial.h"
 #include "analysis/cyclic_coordinates.h"
 #include "analysis/equilibria.h"
+#include "analysis/equilibrium_branch.h"
 #include "analysis/routh.h"
 #include "analysis/stability.h"
 
@@ -85,8 +86,6 @@ std::optional<Eigen::VectorXd> restNear(const Dynamics& dynamics, const Eigen::V
   return dynamics.linear() ? q : equilibriumNear(dynamics, q, speed);
 }
 
-using SpeedAndRest = std::pair<double, Eigen::VectorXd>;
-
 /// [rad/s], of small motions at a speed, the scale of the search; NaN where nothing could become
 /// unstable with speed.
 double lowestFrequency(const Dynamics& dynamics, const Eigen::VectorXd& q, double speed) {
@@ -106,33 +105,16 @@ int stridesFor(const Dynamics& dynamics) {
   return dynamics.dof() <= kMostExactCoordinates ? kStrides : kFewerStrides;
 }
 
-/// The equilibrium q at `speed` and on from there to `end`, in strides of a ratio.
-std::vector<SpeedAndRest> branch(const Dynamics& dynamics, const Eigen::VectorXd& q, double speed,
-                                 double end, double ratio) {
-  std::vector<SpeedAndRest> points{{speed, q}};
-  const bool upward = end > speed;
-  while (upward ? points.back().first < end : points.back().first > end) {
-    const double next = upward ? std::min(points.back().first * ratio, end)
-                               : std::max(points.back().first / ratio, end);
-    auto rest = restNear(dynamics, points.back().second, next);
-    if (!rest) {
-      break;
-    }
-    points.emplace_back(next, std::move(*rest));
-  }
-  return points;
-}
-
 /// Where the verdict changes between two speeds of which one is unstable.
-double thresholdBetween(const Dynamics& dynamics, StabilityTest& test, const SpeedAndRest& below,
+double thresholdBetween(const Dynamics& dynamics, StabilityTest& test, const RestAt& below,
                         double high, bool unstable_above) {
-  double low = below.first;
+  double low = below.speed;
   while (high - low > 1.0e-15 * high) {
     const double middle = 0.5 * (low + high);
     if (middle <= low || middle >= high) {
       break;
     }
-    const auto there = restNear(dynamics, below.second, middle);
+    const auto there = restNear(dynamics, below.q, middle);
     const bool unstable = !there || test.unstable(motionAt(dynamics, *there, middle));
     (unstable == unstable_above ? high : low) = middle;
   }
@@ -150,24 +132,24 @@ std::optional<double> instabilitySpeed(const Dynamics& dynamics, const Eigen::Ve
   }
   const double first = std::max(from, kNearStandstill * lowest);
   const double last = kReach * lowest;
-  std::vector<SpeedAndRest> passed{{from, q}};
+  std::vector<RestAt> passed{{from, q}};
   StabilityTest test;
   const int strides = stridesFor(dynamics);
   for (int i = 0; i <= strides; ++i) {
     const double high = first * std::pow(last / first, static_cast<double>(i) / strides);
-    const auto next = restNear(dynamics, passed.back().second, high);
+    const auto next = restNear(dynamics, passed.back().q, high);
     if (!next) {
       return std::nullopt;
     }
     if (!surelyUnstable(motionAt(dynamics, *next, high))) {
-      passed.emplace_back(high, *next);
+      passed.push_back({high, *next});
       continue;
     }
     // What grows too slowly to be sure of has been passed too: Routh's test finds the way back.
     double top = high;
     while (passed.size() > 1 &&
-           test.unstable(motionAt(dynamics, passed.back().second, passed.back().first))) {
-      top = passed.back().first;
+           test.unstable(motionAt(dynamics, passed.back().q, passed.back().speed))) {
+      top = passed.back().speed;
       passed.pop_back();
     }
     return thresholdBetween(dynamics, test, passed.back(), top, true);
@@ -185,19 +167,20 @@ std::vector<StabilityThreshold> stabilityThresholds(const Dynamics& dynamics,
   const double last = kReach * lowest;
   const double ratio = std::pow(last / first, 1.0 / stridesFor(dynamics));
   const double from = dynamics.linear() ? first : std::max(std::fabs(speed), first);
-  std::vector<SpeedAndRest> points = branch(dynamics, q, from, first, ratio);
+  std::vector<RestAt> points = equilibriumBranch(dynamics, q, from, first, ratio);
   if (dynamics.linear()) {
-    points.emplace_back(0.0, q);
+    points.push_back({0.0, q});
   }
   std::reverse(points.begin(), points.end());
-  const std::vector<SpeedAndRest> upward = branch(dynamics, q, from, std::max(last, from), ratio);
+  const std::vector<RestAt> upward =
+      equilibriumBranch(dynamics, q, from, std::max(last, from), ratio);
   points.insert(points.end(), upward.begin() + 1, upward.end());
 
   std::vector<StabilityThreshold> found;
   StabilityTest test;
   bool before = false;  // unstable
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const SmallMotion motion = motionAt(dynamics, points[i].second, points[i].first);
+    const SmallMotion motion = motionAt(dynamics, points[i].q, points[i].speed);
     // What neither grows nor decays for sure costs an exact test, and only beside what grows.
     const bool sure = surelyUnstable(motion);
     const bool now = sure || (before && test.unstable(motion));
@@ -212,12 +195,12 @@ std::vector<StabilityThreshold> stabilityThresholds(const Dynamics& dynamics,
       std::size_t stable = i - 1;  // what grew too slowly to be sure of has been passed too
       std::size_t grown = i;
       while (now && stable > 0 &&
-             test.unstable(motionAt(dynamics, points[stable].second, points[stable].first))) {
+             test.unstable(motionAt(dynamics, points[stable].q, points[stable].speed))) {
         grown = stable--;
       }
-      if (found.empty() || points[stable].first >= found.back().speed) {
+      if (found.empty() || points[stable].speed >= found.back().speed) {
         found.push_back(
-            {thresholdBetween(dynamics, test, points[stable], points[grown].first, now), now});
+            {thresholdBetween(dynamics, test, points[stable], points[grown].speed, now), now});
       } else {  // it had not become stable in between
         found.pop_back();
       }

@@ -24,9 +24,9 @@ struct StabilityThreshold {
   bool unstable_above = false;  ///< else below
 };
 
-/// All of them, ascending, as far as instabilitySpeed() searches, and likewise exact; 0 is one where
-/// the system is unstable from standstill on. Of anything but a linear rotor the equilibrium q is
-/// followed from `speed` [rad/s] down and up, as far as there is one.
+/// All of them, ascending, as far as instabilitySpeed() searches, and likewise exact; 0 is one
+/// where the system is unstable from standstill on. Of anything but a linear rotor the equilibrium
+/// q is followed from `speed` [rad/s] down and up, as far as there is one.
 std::vector<StabilityThreshold> stabilityThresholds(const Dynamics& dynamics,
                                                     const Eigen::VectorXd& q, double speed);
 

@@ -5,6 +5,7 @@
 #include <complex>
 
 #include "analysis/bracketed_root.h"
+#include "analysis/stability.h"
 #include "analysis/synchronous_poles.h"
 #include "analysis/synchronous_response.h"
 
@@ -13,9 +14,23 @@ namespace whirl_twin {
 namespace {
 
 constexpr double kSlowest = 1.0e-4;  // of the highest speed
+constexpr double kSlow = 1.0e-2;     // of the lowest natural frequency
 constexpr int kCoarse = 400;
 
+constexpr double kFastest = 1.0e6;  // [rad/s], that a motor without a limit is looked at
+
 }  // namespace
+
+double highestSpeed(const Motor& motor) {
+  double speed = 1.0;
+  for (std::size_t i = 0; i < motor.count; ++i) {
+    speed = std::max(speed, motor.points[i].speed);
+  }
+  while (speed < kFastest && motor.torque(speed) > motor.drag * speed) {
+    speed *= 2.0;
+  }
+  return std::min(speed, kFastest);
+}
 
 double whirlTorque(const LinearRotor& rotor, double speed) {
   const Eigen::VectorXcd x = synchronousResponse(rotor, {}, speed).q;
@@ -29,7 +44,10 @@ std::vector<SteadySpeed> sommerfeldSpeeds(const LinearRotor& rotor, const Motor&
   const auto surplus = [&](double speed) {
     return motor.torque(speed) - motor.drag * speed - whirlTorque(rotor, speed);
   };
-  const double lowest = kSlowest * highest;
+  // The resonances are above its lowest natural frequency, however fast the motor could turn it.
+  const auto frequencies = stability(rotor.matrices(0.0)).natural_frequencies;
+  const double scale = frequencies.empty() ? highest : std::min(highest, frequencies.front());
+  const double lowest = (highest > scale ? kSlow : kSlowest) * scale;
   std::vector<double> speeds =
       speedsToLookAt(synchronousPoles(rotor, lowest, highest), lowest, highest, kCoarse);
   for (std::size_t i = 0; i < motor.count; ++i) {  // corners of the motor's law

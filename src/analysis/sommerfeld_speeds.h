@@ -31,4 +31,8 @@ double whirlTorque(const LinearRotor& rotor, double speed);
 std::vector<SteadySpeed> sommerfeldSpeeds(const LinearRotor& rotor, const Motor& motor,
                                           double highest);
 
+/// Where the motor's torque comes down to its drag: the whirl only slows it further. [rad/s], 1e6
+/// for a motor without a limit.
+double highestSpeed(const Motor& motor);
+
 }  // namespace whirl_twin

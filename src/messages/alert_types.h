@@ -5,6 +5,7 @@ namespace whirl_twin::alert_type {
 
 inline constexpr char kCriticalSpeedApproach[] = "CRITICAL_SPEED_APPROACH";
 inline constexpr char kInCriticalBand[] = "IN_CRITICAL_BAND";
+inline constexpr char kSommerfeldCapture[] = "SOMMERFELD_CAPTURE";
 inline constexpr char kUnstable[] = "UNSTABLE";
 inline constexpr char kLowDamping[] = "LOW_DAMPING";
 inline constexpr char kEnergyResidual[] = "ENERGY_RESIDUAL";

@@ -1,8 +1,16 @@
 #include "monitoring/judged_speeds.h"
 
 #include "monitoring/separation_margin.h"
+#include "scene/held_rotor.h"
 
 namespace whirl_twin {
+
+JudgedSpeeds JudgedSpeeds::of(const BuiltSystem& system) {
+  JudgedSpeeds speeds;
+  speeds.critical = criticalSpeeds(*heldDynamics(system));
+  speeds.captures = captureSpeeds(system, speeds.marginsAt(0.0));
+  return speeds;
+}
 
 std::vector<state::CriticalSpeedMargin> JudgedSpeeds::marginsAt(double speed) const {
   std::vector<state::CriticalSpeedMargin> margins;

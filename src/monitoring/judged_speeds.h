@@ -6,6 +6,7 @@
 
 #include "analysis/critical_speeds.h"
 #include "messages/stability_margin.h"
+#include "monitoring/capture_speeds.h"
 #include "monitoring/threshold_speeds.h"
 
 namespace whirl_twin {
@@ -13,6 +14,10 @@ namespace whirl_twin {
 struct JudgedSpeeds {
   std::vector<CriticalSpeed> critical;
   ThresholdSpeeds thresholds;
+  std::vector<CaptureSpeed> captures;  ///< of a rotor on its motor
+
+  /// Those that follow from its parameters alone.
+  static JudgedSpeeds of(const BuiltSystem& system);
 
   /// The critical speeds seen from a running speed [rad/s].
   std::vector<state::CriticalSpeedMargin> marginsAt(double speed) const;

@@ -19,7 +19,7 @@ SystemJudge::SystemJudge(const BuiltSystem& system)
     : system_(system.spec.name),
       model_(system.model->name),
       dynamics_(system.dynamics),
-      speeds_{criticalSpeeds(*system.dynamics), {}},
+      speeds_(JudgedSpeeds::of(system)),
       steady_motions_(system.dynamics) {}
 
 void SystemJudge::findThresholds(double time, const Eigen::VectorXd& about, double speed,
@@ -88,7 +88,7 @@ state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::v
   m.instability_speed = speeds_.thresholds.lowest();
   m.threshold_below = speeds_.thresholds.below(shaft_speed);
   m.threshold_above = speeds_.thresholds.above(shaft_speed);
-  m.critical_speeds = speeds_.marginsAt(shaft_speed);
+  m.critical_speeds = speeds_.marginsAt(speed);
   return m;
 }
 

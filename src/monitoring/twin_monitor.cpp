@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace whirl_twin {
@@ -9,6 +10,7 @@ namespace whirl_twin {
 namespace {
 
 constexpr double kJudgingPeriod = 0.1;  // s, simulated
+constexpr double kMeanOver = 0.05;      // s, simulated: an acceleration made of speeds
 
 /// Low damping is a criterion for rotors; a pendulum may swing as long as it likes.
 AlarmSettings settingsFor(const Dynamics& dynamics, AlarmSettings settings) {
@@ -37,16 +39,17 @@ TwinMonitor::Watch::Watch(SharedSystem built, JudgedSpeeds first, const AlarmSet
       drive(built->spec.drive.value_or("")),
       speed(built->spec.speed.value_or(0.0)),
       critical_speed_alarm(built->spec.name, settings),
+      capture_alarm(built->spec.name, settings),
       stability_alarm(built->spec.name, settingsFor(*built->dynamics, settings)),
       state_alarm(built->spec.name, settings),
       validity_alarm(built->spec.name, built->dynamics, settings),
       system(std::move(built)) {
   if (rotor) {
     station = system->dynamics->stations().front();
-    const std::vector<CoordinateInfo> all = system->dynamics->coordinates();
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      spin = all[k].name == "spin" ? static_cast<Eigen::Index>(k) : spin;
-    }
+  }
+  const std::vector<CoordinateInfo> all = system->dynamics->coordinates();
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    spin = all[k].name == "spin" ? static_cast<Eigen::Index>(k) : spin;
   }
 }
 
@@ -59,6 +62,22 @@ std::vector<double> TwinMonitor::Watch::coordinates(double x, double y, double t
                              y * station.along_y[k] / station.along_y.squaredNorm();
   }
   return all;
+}
+
+state::DriveState TwinMonitor::Watch::shaftOf(const state::PendulumState& state) {
+  state::DriveState shaft;
+  shaft.at = state.at;
+  shaft.speed = state.rate[static_cast<std::size_t>(spin)];
+  if (!seen || shaft.at.time < seen->at.time) {
+    seen = shaft;
+  }
+  const double since = shaft.at.time - seen->at.time;
+  shaft.acceleration = seen->acceleration;
+  if (since >= kMeanOver) {
+    shaft.acceleration = (shaft.speed - seen->speed) / since;
+    seen = shaft;
+  }
+  return shaft;
 }
 
 TwinMonitor::TwinMonitor(const BuiltScene& scene, const AlarmSettings& settings, Judging::Mode mode)
@@ -82,6 +101,8 @@ void TwinMonitor::restart(double time, double wall_time) {
     const std::string& name = names.back();
     const std::shared_ptr<const Dynamics>& dynamics = watch.system->dynamics;
     watch.critical_speed_alarm = CriticalSpeedAlarm(name, settings_);
+    watch.capture_alarm = CaptureAlarm(name, settings_);
+    watch.seen.reset();
     watch.stability_alarm = StabilityAlarm(name, settingsFor(*dynamics, settings_));
     watch.state_alarm = StateAlarm(name, settings_);
     watch.validity_alarm = ValidityAlarm(name, dynamics, settings_);
@@ -132,8 +153,12 @@ bool TwinMonitor::arrived(const std::string& source, const state::Instant& at, d
   return true;
 }
 
-void TwinMonitor::watchShaft(Watch& watch, const state::DriveState& shaft) {
+void TwinMonitor::watchShaft(Watch& watch, state::DriveState shaft) {
   watch.speed = shaft.speed;
+  if (watch.spin >= 0) {  // a motor has no target: it goes on as it accelerates
+    shaft.target_speed = std::numeric_limits<double>::quiet_NaN();
+  }
+  watch.capture_alarm.update(shaft, watch.speeds.captures, alerts_);
   watch.critical_speed_alarm.update(shaft, watch.speeds.marginsAt(shaft.speed), alerts_);
 }
 
@@ -198,6 +223,9 @@ void TwinMonitor::take(const state::PendulumState& pendulum, double wall_time) {
     return;
   }
   watch->state_alarm.updateEnergy(pendulum.at.time, pendulum.energy_residual, alerts_);
+  if (watch->spin >= 0) {
+    watchShaft(*watch, watch->shaftOf(pendulum));
+  }
   const auto n = static_cast<Eigen::Index>(watch->dof);
   watch->validity_alarm.update(Eigen::Map<const Eigen::VectorXd>(pendulum.angle.data(), n),
                                Eigen::Map<const Eigen::VectorXd>(pendulum.rate.data(), n),

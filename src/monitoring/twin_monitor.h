@@ -10,6 +10,7 @@
 #include "messages/loop_statistics.h"
 #include "monitoring/alarm_settings.h"
 #include "monitoring/alert_list.h"
+#include "monitoring/capture_alarm.h"
 #include "monitoring/critical_speed_alarm.h"
 #include "monitoring/data_lost_alarm.h"
 #include "monitoring/judging.h"
@@ -60,13 +61,18 @@ class TwinMonitor {
     bool rotor;
     std::size_t dof;
     Station station = {};    ///< of a rotor: where its whirl is seen
-    Eigen::Index spin = -1;  ///< of a rotor that a motor turns: the coordinate of its shaft
+    Eigen::Index spin = -1;  ///< of one whose spin is free: the coordinate of its shaft
     /// All coordinates of a rotor (or rates) as far as its whirl tells them: the smallest that give
     /// x and y at the station, and what the shaft has turned.
     std::vector<double> coordinates(double x, double y, double turned) const;
-    std::string drive;  ///< "" at a constant speed of its own
-    double speed;       ///< [rad/s], newest
+    /// The shaft of one whose spin is a coordinate that it tells; its acceleration is the mean over
+    /// some hundredths of a second.
+    state::DriveState shaftOf(const state::PendulumState& state);
+    std::string drive;                      ///< "" at a constant speed of its own
+    double speed;                           ///< [rad/s], newest
+    std::optional<state::DriveState> seen;  ///< its shaft, of one without a drive
     CriticalSpeedAlarm critical_speed_alarm;
+    CaptureAlarm capture_alarm;
     StabilityAlarm stability_alarm;
     StateAlarm state_alarm;
     ValidityAlarm validity_alarm;
@@ -83,7 +89,7 @@ class TwinMonitor {
   void takeJudgements();
   void judge(Watch& watch, const state::Instant& at, const std::vector<double>& q,
              const std::vector<double>& v);
-  void watchShaft(Watch& watch, const state::DriveState& shaft);
+  void watchShaft(Watch& watch, state::DriveState shaft);
 
   AlarmSettings settings_;
   Judging judging_;

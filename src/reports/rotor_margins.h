@@ -8,7 +8,7 @@
 
 #include "analysis/sommerfeld_speeds.h"
 #include "mechanics/dynamics.h"
-#include "scene/scene.h"
+#include "scene/built_system.h"
 
 namespace whirl_twin {
 
@@ -26,6 +26,6 @@ std::optional<CrossCouplingMargin> crossCouplingMarginOf(const Dynamics& dynamic
 
 /// Steady speeds of a rotor that a motor turns, by the linear rotor that it is at constant speed;
 /// empty where there is no motor, or that rotor is not linear.
-std::vector<SteadySpeed> steadySpeedsOf(const Scene& scene, const SystemSpec& system);
+std::vector<SteadySpeed> steadySpeedsOf(const BuiltSystem& system);
 
 }  // namespace whirl_twin

@@ -10,6 +10,7 @@
 #include "analysis/instability_speed.h"
 #include "messages/refusal.h"
 #include "monitoring/separation_margin.h"
+#include "scene/held_rotor.h"
 
 namespace whirl_twin {
 
@@ -76,7 +77,7 @@ SystemAnalysis analyzeSystem(const BuiltScene& scene, const BuiltSystem& system)
     }
   }
   a.instability_speed = instabilitySpeed(dynamics, a.about, shaft.speed);
-  const CriticalSpeedSearch search = searchCriticalSpeeds(dynamics);
+  const CriticalSpeedSearch search = searchCriticalSpeeds(*heldDynamics(system));
   a.critical_speeds_beyond = search.beyond;
   a.highest_speed = search.highest_speed;
   for (const CriticalSpeed& critical : search.found) {
@@ -85,7 +86,7 @@ SystemAnalysis analyzeSystem(const BuiltScene& scene, const BuiltSystem& system)
                                                     critical.amplification_factor));
   }
   a.cross_coupling = crossCouplingMarginOf(dynamics, shaft.speed);
-  a.steady_speeds = steadySpeedsOf(scene.scene, system.spec);
+  a.steady_speeds = steadySpeedsOf(system);
   return a;
 }
 

@@ -1,0 +1,81 @@
+#include "monitoring/capture_alarm.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "messages/alert_types.h"
+
+namespace whirl_twin {
+namespace {
+
+constexpr double kStill = 0.005;   // of the critical speed, that it may change by meanwhile
+constexpr double kStillFor = 1.5;  // s
+constexpr double kNear = 0.1;      // of the critical speed, from where it is to hang
+constexpr double kPi = 3.14159265358979323846;
+
+}  // namespace
+
+CaptureAlarm::CaptureAlarm(std::string system, const AlarmSettings& settings)
+    : system_(std::move(system)), settings_(settings), alarm_(settings.clear_delay) {}
+
+bool CaptureAlarm::standsStill(double time, double speed, double scale) {
+  if (!stands_ || time < stood_since_ || std::abs(speed - stood_at_) > kStill * scale) {
+    stands_ = true;
+    stood_since_ = time;
+    stood_at_ = speed;
+  }
+  return time - stood_since_ >= kStillFor;
+}
+
+void CaptureAlarm::update(const state::DriveState& shaft, const std::vector<CaptureSpeed>& captures,
+                          AlertList& alerts) {
+  const double time = shaft.at.time;
+  const double speed = shaft.speed;
+  if (!std::isfinite(speed) || !std::isfinite(time)) {
+    alarm_.update(time, AlarmCondition::kHold);
+    return;
+  }
+  // What is behind it, by more than the hysteresis, holds it no more.
+  const auto ahead = std::find_if(captures.begin(), captures.end(), [&](const CaptureSpeed& c) {
+    return speed <= (1.0 + settings_.hysteresis) * c.band.high;
+  });
+  AlarmCondition condition = AlarmCondition::kClear;
+  if (ahead != captures.end()) {
+    const bool still = standsStill(time, speed, ahead->critical_speed);
+    const bool near = std::abs(speed - ahead->speed) <= kNear * ahead->critical_speed;
+    condition = speed > ahead->escape ? AlarmCondition::kHold : AlarmCondition::kWarning;
+    condition = still && near ? AlarmCondition::kDanger : condition;
+  }
+  if (alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
+    alerts.clear(system_, alert_type::kSommerfeldCapture, time,
+                 fmt::format("{}: its motor has passed, speed {:.1f} rad/s", system_, speed));
+  } else if (alarm_.active() && isRaising(condition)) {
+    state::Alert alert;
+    alert.type = alert_type::kSommerfeldCapture;
+    alert.system = system_;
+    alert.severity = alarm_.severity();
+    alert.time = time;
+    alert.speed = speed;
+    alert.acceleration = shaft.acceleration;
+    alert.critical_speed = ahead->critical_speed;
+    const std::string where =
+        fmt::format("critical speed {:.1f} rad/s ({:.0f} rpm)", ahead->critical_speed,
+                    ahead->critical_speed * 30.0 / kPi);
+    const bool danger = alarm_.severity() == state::Severity::kDanger;
+    alert.text = danger
+                     ? fmt::format(
+                           "{}: captured near {:.1f} rad/s by {}: all its motor gives goes into "
+                           "the whirl: cut the motor, or give it more torque",
+                           system_, ahead->speed, where)
+                     : fmt::format(
+                           "{}: its motor gives less torque than {} takes, it will hang at {:.1f} "
+                           "rad/s: stay below {:.1f} rad/s, or give it more torque",
+                           system_, where, ahead->speed, ahead->band.low);
+    alerts.raise(std::move(alert), fmt::format("capture {}", ahead - captures.begin()));
+  }
+}
+
+}  // namespace whirl_twin
