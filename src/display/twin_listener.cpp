@@ -33,7 +33,8 @@ std::vector<TwinTopic> twinTopics(const ros::master::V_TopicInfo& all,
     }
     const std::string rest = info.name.substr(prefix.size());
     const std::size_t slash = rest.find('/');
-    if (isType<AlertArray>(info.datatype) && slash == std::string::npos) {
+    if ((isType<AlertArray>(info.datatype) || isType<MonitorStatus>(info.datatype)) &&
+        slash == std::string::npos) {
       topics.push_back({info.name, info.datatype, ""});
     } else if (slash == std::string::npos || rest.find('/', slash + 1) != std::string::npos) {
       continue;
@@ -112,6 +113,11 @@ ros::Subscriber TwinListener::subscribe(const TwinTopic& topic) {
     return listen<DriveState>(
         topic, [this, subject](const DriveState::ConstPtr& drive) { drives_[subject] = drive; });
   }
+  if (isType<MonitorStatus>(topic.type)) {
+    return listen<MonitorStatus>(topic, [this](const MonitorStatus::ConstPtr&) {
+      pulse_.beat(ros::WallTime::now().toSec());
+    });
+  }
   return listen<AlertArray>(topic, [this](const AlertArray::ConstPtr& alerts) {
     alerts_ = alerts;
     if (alert_handler_) {
@@ -128,6 +134,10 @@ void TwinListener::forget(const TwinTopic& topic) {
   } else if (isType<AlertArray>(topic.type)) {
     alerts_.reset();
   }
+}
+
+std::string TwinListener::monitorSilence() const {
+  return pulse_.silence(ros::WallTime::now().toSec());
 }
 
 std::vector<Alert> TwinListener::alertsOf(const std::string& system) const {

@@ -10,8 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "messages/monitor_pulse.h"
 #include "whirl_twin/AlertArray.h"
 #include "whirl_twin/DriveState.h"
+#include "whirl_twin/MonitorStatus.h"
 #include "whirl_twin/ParameterChange.h"
 #include "whirl_twin/PendulumState.h"
 #include "whirl_twin/StabilityMargin.h"
@@ -62,6 +64,9 @@ class TwinListener {
   /// The latest state of a drive; null when there is none.
   const DriveState* drive(const std::string& name) const;
 
+  /// "the monitor is silent ..."; "" while it beats. Then margins are old, and alerts too.
+  std::string monitorSilence() const;
+
   /// [s], latest simulated time of any system.
   double time() const;
 
@@ -85,6 +90,7 @@ class TwinListener {
   std::map<std::string, SystemReadout> systems_;
   std::map<std::string, DriveState::ConstPtr> drives_;
   AlertArray::ConstPtr alerts_;
+  MonitorPulse pulse_;
 };
 
 }  // namespace whirl_twin

@@ -38,6 +38,7 @@ void Judging::ask(JudgementRequest request) {
   Waiting waiting{std::move(request), now()};
   if (!thread_.joinable()) {
     done_.push_back(judge(waiting));
+    busy_ += now() - waiting.since;
     return;
   }
   {
@@ -52,6 +53,11 @@ std::vector<Judgement> Judging::take() {
   return std::exchange(done_, {});
 }
 
+double Judging::busy() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return busy_;
+}
+
 Judgement Judging::judge(const Waiting& waiting) {
   const JudgementRequest& request = waiting.request;
   Seat& seat = seats_[request.system];
@@ -61,6 +67,7 @@ Judgement Judging::judge(const Waiting& waiting) {
   Judgement judgement;
   judgement.system = request.system;
   judgement.run = request.run;
+  judgement.arrived_at = request.arrived_at;
   judgement.margin = seat.judge->judge(request.at, request.q, request.v, request.speed);
   judgement.margin.age = now() - waiting.since;
   judgement.speeds = seat.judge->speeds();
@@ -79,8 +86,11 @@ void Judging::run() {
       continue;
     }
     lock.unlock();
+    const double begun = now();
     Judgement judgement = judge(*waiting);
+    const double taken = now() - begun;
     lock.lock();
+    busy_ += taken;
     done_.push_back(std::move(judgement));
   }
 }

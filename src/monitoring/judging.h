@@ -22,13 +22,15 @@ struct JudgementRequest {
   SharedSystem built;      ///< with its parameters as they are
   state::Instant at;
   std::vector<double> q, v;
-  double speed = 0.0;     ///< [rad/s], of its shaft
-  std::uint64_t run = 0;  ///< of simulated time: comes back with the verdict
+  double speed = 0.0;       ///< [rad/s], of its shaft
+  std::uint64_t run = 0;    ///< of simulated time: comes back with the verdict
+  double arrived_at = 0.0;  ///< [s], wall time of the state, likewise
 };
 
 struct Judgement {
   std::size_t system = 0;
   std::uint64_t run = 0;
+  double arrived_at = 0.0;
   state::StabilityMargin margin;  ///< age: wall time since it was asked for
   JudgedSpeeds speeds;
 };
@@ -47,6 +49,8 @@ class Judging {
   void ask(JudgementRequest request);
   /// What has been judged since last asked, in order.
   std::vector<Judgement> take();
+  /// [s], wall time that judging has taken so far.
+  double busy();
 
  private:
   struct Seat {
@@ -69,6 +73,7 @@ class Judging {
   std::vector<std::optional<Waiting>> waiting_;  ///< of each system
   std::vector<Judgement> done_;
   std::size_t turn_ = 0;
+  double busy_ = 0.0;  ///< [s]
   bool ending_ = false;
   std::thread thread_;
 };

@@ -148,7 +148,10 @@ bool TwinMonitor::arrived(const std::string& source, const state::Instant& at, d
     return false;
   }
   const bool anew = order == SourceClock::Order::kFollowed || (first && clocks_.size() == 1);
-  time_ = anew ? at.time : std::max(time_, at.time);
+  if (anew || at.time >= time_) {
+    time_ = at.time;
+    step_ = at.step;
+  }
   data_lost_alarm_.received(source, wall_time, time_, alerts_);
   return true;
 }
@@ -168,7 +171,7 @@ void TwinMonitor::tick(double wall_time, bool paused) {
 }
 
 void TwinMonitor::judge(Watch& watch, const state::Instant& at, const std::vector<double>& q,
-                        const std::vector<double>& v) {
+                        const std::vector<double>& v, double wall_time) {
   const bool passed = watch.speeds.thresholds.between(watch.judged_speed, watch.speed);
   const double since = at.time - watch.judged_at;  // back where a log is played a second time
   if (watch.judged && !passed && since >= 0.0 && since < kJudgingPeriod * (1.0 - 1.0e-9)) {
@@ -178,7 +181,7 @@ void TwinMonitor::judge(Watch& watch, const state::Instant& at, const std::vecto
   watch.judged_at = at.time;
   watch.judged_speed = watch.speed;
   const auto place = static_cast<std::size_t>(&watch - watches_.data());
-  judging_.ask({place, watch.system, at, q, v, watch.speed, run_});
+  judging_.ask({place, watch.system, at, q, v, watch.speed, run_, wall_time});
   takeJudgements();
 }
 
@@ -187,6 +190,7 @@ void TwinMonitor::takeJudgements() {
     Watch& watch = watches_[judgement.system];
     watch.speeds = std::move(judgement.speeds);
     if (judgement.run == run_) {  // else of before a reset
+      watch.verdict_of = judgement.arrived_at;
       watch.stability_alarm.update(judgement.margin, alerts_);
       margins_.push_back(std::move(judgement.margin));
     }
@@ -210,7 +214,7 @@ void TwinMonitor::take(const state::WhirlState& whirl, double wall_time) {
   watch->speed = whirl.speed;
   watch->state_alarm.updateEnergy(whirl.at.time, whirl.energy_residual, alerts_);
   judge(*watch, whirl.at, watch->coordinates(whirl.x, whirl.y, whirl.shaft_angle),
-        watch->coordinates(whirl.x_rate, whirl.y_rate, whirl.speed));
+        watch->coordinates(whirl.x_rate, whirl.y_rate, whirl.speed), wall_time);
 }
 
 void TwinMonitor::take(const state::PendulumState& pendulum, double wall_time) {
@@ -230,7 +234,7 @@ void TwinMonitor::take(const state::PendulumState& pendulum, double wall_time) {
   watch->validity_alarm.update(Eigen::Map<const Eigen::VectorXd>(pendulum.angle.data(), n),
                                Eigen::Map<const Eigen::VectorXd>(pendulum.rate.data(), n),
                                {pendulum.at.time, 0.0, watch->speed, 0.0}, alerts_);
-  judge(*watch, pendulum.at, pendulum.angle, pendulum.rate);
+  judge(*watch, pendulum.at, pendulum.angle, pendulum.rate, wall_time);
 }
 
 void TwinMonitor::take(const state::DriveState& drive, double wall_time) {
@@ -266,6 +270,29 @@ bool TwinMonitor::take(const state::LoopStatistics& loop, double wall_time) {
     }
   }
   return true;
+}
+
+state::MonitorStatus TwinMonitor::status(double wall_time, bool paused) {
+  takeJudgements();
+  state::MonitorStatus status;
+  status.at.step = step_;
+  status.at.time = time_;
+  status.paused = paused;
+  const double busy = judging_.busy();
+  if (wall_time > status_at_) {
+    status.load = (busy - status_busy_) / (wall_time - status_at_);
+  }
+  status_at_ = wall_time;
+  status_busy_ = busy;
+  for (const state::Alert& alert : alerts_.active()) {
+    ++status.alerts;
+    status.dangers += alert.severity == state::Severity::kDanger ? 1 : 0;
+  }
+  for (const Watch& watch : watches_) {
+    status.system.push_back(watch.name);
+    status.verdict_age.push_back(wall_time - watch.verdict_of);
+  }
+  return status;
 }
 
 std::vector<state::StabilityMargin> TwinMonitor::takeMargins() {

@@ -1,6 +1,7 @@
 // The monitor of a whole scene: live states in, stability margins and alerts out. No ROS, no LCM.
 #pragma once
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "messages/loop_statistics.h"
+#include "messages/monitor_status.h"
 #include "monitoring/alarm_settings.h"
 #include "monitoring/alert_list.h"
 #include "monitoring/capture_alarm.h"
@@ -50,6 +52,8 @@ class TwinMonitor {
   /// where a rotor passes its threshold speed.
   std::vector<state::StabilityMargin> takeMargins();
   AlertList& alerts() { return alerts_; }
+  /// That it is there, at wall_time [s], to be told about once a second; without a stamp.
+  state::MonitorStatus status(double wall_time, bool paused);
   double time() const { return time_; }  ///< [s], simulated, of the newest state
 
  private:
@@ -80,6 +84,7 @@ class TwinMonitor {
     bool judged = false;        ///< or asked to be
     double judged_at = 0.0;     ///< [s], simulated
     double judged_speed = 0.0;  ///< [rad/s]
+    double verdict_of = std::numeric_limits<double>::quiet_NaN();  ///< [s], that of the verdict
   };
 
   void restart(double time, double wall_time);
@@ -88,7 +93,7 @@ class TwinMonitor {
   bool arrived(const std::string& source, const state::Instant& at, double wall_time);
   void takeJudgements();
   void judge(Watch& watch, const state::Instant& at, const std::vector<double>& q,
-             const std::vector<double>& v);
+             const std::vector<double>& v, double wall_time);
   void watchShaft(Watch& watch, state::DriveState shaft);
 
   AlarmSettings settings_;
@@ -103,6 +108,9 @@ class TwinMonitor {
   double loop_time_ = 0.0;  ///< [s], simulated, of the newest statistics
   ResetWatch resets_;
   double time_ = 0.0;
+  std::int64_t step_ = 0;     ///< of the newest state
+  double status_at_ = 0.0;    ///< [s], wall time of the last status
+  double status_busy_ = 0.0;  ///< [s], judging until then
 };
 
 }  // namespace whirl_twin

@@ -86,6 +86,7 @@ class MonitorNode {
     for (const SharedSystem& system : scene_.systems) {
       topics_.advertise<state::StabilityMargin>(system->spec.name);
     }
+    topics_.advertise<state::MonitorStatus>();
     publishAlerts();
 
     const auto source = privateParameter<std::string>("source", "ros or lcm", "ros");
@@ -116,6 +117,7 @@ class MonitorNode {
     if (wallTime() >= next_report_) {
       next_report_ = wallTime() + kReportPeriod;
       diagnostics_.force_update();
+      beat();
     }
   }
 
@@ -209,6 +211,14 @@ class MonitorNode {
     if (monitor_.alerts().takeChanged()) {
       publishAlerts();
     }
+  }
+
+  /// That it is there. Wall time: in a pause, too.
+  void beat() {
+    state::MonitorStatus status = monitor_.status(wallTime(), paused_);
+    status.at.stamp = static_cast<std::int64_t>(ros::Time::now().toNSec());
+    topics_.publish(status);
+    lcm_.publish(status);
   }
 
   void publishAlerts() {

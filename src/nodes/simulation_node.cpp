@@ -7,11 +7,13 @@
 #include <fmt/format.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
+#include <whirl_twin/MonitorStatus.h>
 
 #include <chrono>
 #include <cmath>
 
 #include "accuracy/step_choice.h"
+#include "messages/monitor_pulse.h"
 #include "nodes/input_commands.h"
 #include "nodes/loop_report.h"
 #include "nodes/private_parameter.h"
@@ -109,11 +111,21 @@ void run() {
 
   InputCommands commands(live, services, node, settings.lcm_url, settings.lcm_prefix);
 
+  MonitorPulse pulse;
+  const ros::Subscriber monitor = node.subscribe<MonitorStatus>(
+      topicName(state::MonitorStatus::kKind), 10,
+      boost::function<void(const MonitorStatus::ConstPtr&)>(
+          [&pulse](const MonitorStatus::ConstPtr&) { pulse.beat(ros::WallTime::now().toSec()); }));
+
   diagnostic_updater::Updater diagnostics;
   diagnostics.setHardwareID("none");
   LoopDiagnostics loop_diagnostics;
   diagnostics.add("real-time loop", [&](diagnostic_updater::DiagnosticStatusWrapper& status) {
     loop_diagnostics.summarize(publisher.report(), ros::SteadyTime::now().toSec(), status);
+    const std::string silence = pulse.silence(ros::WallTime::now().toSec());
+    if (!silence.empty()) {
+      status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, silence);
+    }
     if (commands.any()) {
       status.add("commands to inputs", commands.taken());
       status.add("refused commands to inputs", commands.refused());

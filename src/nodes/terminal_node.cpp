@@ -36,16 +36,22 @@ class TerminalDisplay {
   }
 
   void print() {
+    const std::string silence = listener_.monitorSilence();
     std::vector<std::string> readouts;
     for (const auto& [system, readout] : listener_.systems()) {
       if (readout.whirl || readout.pendulum) {
-        readouts.push_back(readoutText(system, readout));
+        SystemReadout known = readout;
+        if (!silence.empty()) {
+          known.margin.reset();  // it would look live
+        }
+        readouts.push_back(readoutText(system, known));
       }
     }
     if (readouts.empty()) {
       return;
     }
-    const std::string time = fmt::format("{:.3f} s", listener_.time());
+    const std::string time =
+        fmt::format("{:.3f} s{}{}", listener_.time(), silence.empty() ? "" : " | ", silence);
     if (is_terminal_) {
       erase();
       show(time);

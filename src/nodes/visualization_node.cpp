@@ -148,7 +148,7 @@ class VisualizationNode {
       const auto& [name, display] = displays[i];
       const Eigen::Isometry3d pose = display->placedAt(places[i]);
       MarkerCanvas canvas(markers, name, pose);
-      display->draw({listener_.systems().at(name).margin, listener_.alertsOf(name)}, canvas);
+      display->draw(statusOf(name), canvas);
       transforms.push_back(stampedTransform(MarkerCanvas::kWorldFrame, name, now, pose));
       transforms.push_back(
           stampedTransform(name, name + "_" + display->bodyName(), now, display->bodyPose()));
@@ -159,6 +159,20 @@ class VisualizationNode {
       broadcaster_.sendTransform(transforms);
       transformed_ = now;
     }
+  }
+
+  /// What the monitor says of a system; that it says nothing, where it is silent.
+  SystemStatus statusOf(const std::string& name) const {
+    const std::string silence = listener_.monitorSilence();
+    if (silence.empty()) {
+      return {listener_.systems().at(name).margin, listener_.alertsOf(name)};
+    }
+    Alert silent;
+    silent.severity = Alert::WARNING;
+    silent.type = "MONITOR_SILENT";
+    silent.system = name;
+    silent.text = silence;
+    return {nullptr, {silent}};
   }
 
   double whirl_scale_;  // -

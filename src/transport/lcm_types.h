@@ -8,6 +8,7 @@
 #include "whirl_twin/input_command_t.hpp"
 #include "whirl_twin/loop_statistics_t.hpp"
 #include "whirl_twin/measurement_t.hpp"
+#include "whirl_twin/monitor_status_t.hpp"
 #include "whirl_twin/motor_state_t.hpp"
 #include "whirl_twin/parameter_change_t.hpp"
 #include "whirl_twin/pendulum_state_t.hpp"
@@ -28,6 +29,7 @@ loop_statistics_t lcmTypeOf(const state::LoopStatistics&);
 measurement_t lcmTypeOf(const state::Measurement&);
 input_command_t lcmTypeOf(const state::InputCommand&);
 alert_t lcmTypeOf(const state::Alert&);
+monitor_status_t lcmTypeOf(const state::MonitorStatus&);
 
 template <class State>
 using LcmType = decltype(lcmTypeOf(std::declval<State>()));

@@ -12,6 +12,7 @@
 #include "whirl_twin/InputCommand.h"
 #include "whirl_twin/LoopStatistics.h"
 #include "whirl_twin/Measurement.h"
+#include "whirl_twin/MonitorStatus.h"
 #include "whirl_twin/MotorState.h"
 #include "whirl_twin/ParameterChange.h"
 #include "whirl_twin/PendulumState.h"
@@ -31,6 +32,7 @@ ParameterChange rosTypeOf(const state::ParameterChange&);
 LoopStatistics rosTypeOf(const state::LoopStatistics&);
 Measurement rosTypeOf(const state::Measurement&);
 InputCommand rosTypeOf(const state::InputCommand&);
+MonitorStatus rosTypeOf(const state::MonitorStatus&);
 Alert rosTypeOf(const state::Alert&);  // one of an AlertArray
 
 template <class State>

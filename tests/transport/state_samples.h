@@ -139,6 +139,14 @@ class StateSamples {
     return s;
   }
 
+  state::MonitorStatus status() {
+    auto s = sample<state::MonitorStatus>();
+    s.alerts = static_cast<std::int64_t>(below(100));
+    s.dangers = static_cast<std::int64_t>(below(100));
+    s.verdict_age = numbers(s.system.size());
+    return s;
+  }
+
   state::Alert alert() {
     auto s = sample<state::Alert>();
     s.severity = static_cast<state::Severity>(below(3));
@@ -188,6 +196,7 @@ class StateSamples {
   auto of(KindOf<state::Measurement>) { return measurement(); }
   auto of(KindOf<state::InputCommand>) { return command(); }
   auto of(KindOf<state::Alert>) { return alert(); }
+  auto of(KindOf<state::MonitorStatus>) { return status(); }
 
   double time() { return static_cast<double>(below(1000000000)) * 1e-3; }
 

@@ -1,0 +1,38 @@
+// The monitor's heartbeat: that it is there, how old its verdicts are, and what they cost.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "messages/states.h"
+
+namespace whirl_twin::state {
+
+struct MonitorStatus {
+  static constexpr MessageKind kKind{"monitor", "MonitorStatus", "monitor", MessageKind::kJudged};
+
+  Instant at;                ///< of the newest state that came; stamp: of this message
+  bool paused = false;       ///< the simulation says that it is held
+  double load = 0.0;         ///< [-], part of one core that judging took in the last second
+  std::int64_t alerts = 0;   ///< active
+  std::int64_t dangers = 0;  ///< of them, of severity DANGER
+  // One entry a system.
+  std::vector<std::string> system;
+  std::vector<double> verdict_age;  ///< [s], wall time since its state came; NaN: none yet
+
+  template <class Visit>
+  static void fields(Visit& visit) {
+    const auto count = between(0, std::numeric_limits<std::int64_t>::max());
+    visit.head();
+    visit(TWIN_FIELD(paused), "", requireFlag);
+    visit(TWIN_FIELD(load), "-");
+    visit(TWIN_FIELD(alerts), "", count);
+    visit(TWIN_FIELD(dangers), "", count);
+    visit.array(TWIN_FIELD(systems), TWIN_FIELD(system), "", each(requireName), Stays::kSame);
+    visit.along(TWIN_FIELD(system), TWIN_FIELD(verdict_age), "s");
+  }
+};
+
+}  // namespace whirl_twin::state
