@@ -23,6 +23,6 @@ inline constexpr std::array<EarlierForm, 1> kEarlierForms<state::StabilityMargin
     {{0x04269617e2cfdbe6, "ddd"}}};
 template <>
 inline constexpr std::array<EarlierForm, 1> kEarlierForms<state::LoopStatistics>{
-    {{0xe676f1d3c287e44f, "ll"}}};
+    {{0xe676f1d3c287e44f, "llll"}}};
 
 }  // namespace whirl_twin
