@@ -53,34 +53,35 @@ TEST(SparseObservation, PhasesOfRandomRotorsAreUnwrappedAlike) {
   for (int trial = 0; trial < 60; ++trial) {
     const double target = between(-300.0, 300.0);
     const std::string text = fmt::format(
-        "{{step: {}, drives: {{d: {{speed: {}, profile: [{{to: {}, max_acceleration: {}}}]}}}}, "
+        "{{step: {}, drives: {{d: {{speed: {}, profile: [{{speed: {}, max_acceleration: {}}}]}}}}, "
         "systems: {{rotor: {{model: jeffcott_rotor, drive: d, parameters: {{mass: 2, "
         "stiffness: {}, stiffness_y: {}, damping: {}, eccentricity: {}, internal_damping: {}}}, "
         "initial: {{x: {}, y: {}, x_rate: {}, y_rate: {}}}}}}}}}",
         trial % 3 == 0 ? 0.0001 : 0.001, between(-300.0, 300.0), target, between(10.0, 500.0),
         between(500.0, 80000.0), between(500.0, 80000.0), between(0.0, 20.0),
-        trial % 4 == 0 ? 0.0 : between(0.0, 1e-3), trial % 5 == 0 ? 3.0 : 0.0,
-        between(-1e-3, 1e-3), trial % 2 == 0 ? 0.0 : between(-1e-3, 1e-3),
-        trial % 2 == 0 ? 0.0 : between(-0.1, 0.1), between(-0.1, 0.1));
+        trial % 4 == 0 ? 0.0 : between(0.0, 1e-3), trial % 5 == 0 ? 3.0 : 0.0, between(-1e-3, 1e-3),
+        trial % 2 == 0 ? 0.0 : between(-1e-3, 1e-3), trial % 2 == 0 ? 0.0 : between(-0.1, 0.1),
+        between(-0.1, 0.1));
     const Comparison c = compare(sceneOf(text), 20'000);
-    EXPECT_EQ(c.largest_difference, 0.0) << text;
+    EXPECT_LT(c.largest_difference, 1e-9) << text;
     EXPECT_GT(c.looks, 0);
   }
 }
 
-// Eight steps of a millisecond at 60 rad/s: half a radian.
-TEST(SparseObservation, SteadyWhirlIsLookedAtTwelveTimesATurn) {
-  const Scene scene =
-      sceneOf("{step: 0.001, systems: {rotor: {model: jeffcott_rotor, parameters: {mass: 2, "
-              "stiffness: 7200, damping: 120, eccentricity: 1e-4, speed: 60}}}}");
+// Of steps of a millisecond, at 60 rad/s, five may go by.
+TEST(SparseObservation, SteadyWhirlIsLookedAtOnlyNowAndThen) {
+  const Scene scene = sceneOf(
+      "{step: 0.001, systems: {rotor: {model: jeffcott_rotor, parameters: {mass: 2, "
+      "stiffness: 7200, damping: 120, eccentricity: 1e-4, speed: 60}}}}");
   const Comparison c = compare(scene, 20'000);
-  EXPECT_EQ(c.largest_difference, 0.0);
-  EXPECT_LT(c.looks, 20'000 / 6);
+  EXPECT_LT(c.largest_difference, 1e-9);
+  EXPECT_LT(c.looks, 20'000 / 4);
 }
 
 TEST(SparseObservation, PendulumsHaveNoPhaseToFollow) {
   const Scene scene = sceneOf(
-      "{systems: {p: {model: double_pendulum, parameters: {mass1: 1, mass2: 1, length1: 1, "
+      "{step: 0.001, systems: {p: {model: double_pendulum, parameters: {mass1: 1, mass2: 1, "
+      "length1: 1, "
       "length2: 1}, initial: {theta1: 1}}}}");
   const Twin twin(scene);
   EXPECT_EQ(Observer(twin).mayPass(), 64);
