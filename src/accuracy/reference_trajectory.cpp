@@ -2,71 +2,217 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
+
+#include "integration/step_methods.h"
 
 namespace whirl_twin {
 
 namespace {
 
-/// Half the step makes an error of order one half; rounding, which hides any order, it does not.
-constexpr double kFalling = 0.7;
-/// A disturbance of the start in parts of the motion, and the rounding that it stands for.
-constexpr double kDisturbance = 1.0e-8;
+/// Trajectories that are so far from each other have parted.
+constexpr double kParted = 0.1;
+/// Steps that are shorter by half and do not lessen the difference so much are in vain.
+constexpr double kGain = 0.7;
+constexpr double kLonger = 1.02;  // or make it last so much longer
+/// A try that costs less than this part of the budget may be in vain.
+constexpr double kCheap = 0.01;
+constexpr int kMostSubsteps = 1 << 20;
+constexpr double kHopeless = 0.25;
+/// A disturbance of the start in parts of the largest coordinates, and the rounding of all steps
+/// that it stands for.
+constexpr double kDisturbance = 1.0e-13;
 constexpr double kRounding = 2.0e-15;
+constexpr std::size_t kFewSamples = 16;
 
-std::vector<double> smallDisturbance(const Trajectory& t) {
-  std::vector<double> largest(t.dof);
-  for (std::size_t i = 0; i < t.coordinates.size(); ++i) {
-    double& own = largest[i % t.dof];
-    own = std::max(own, std::fabs(t.coordinates[i]));
-  }
-  for (std::size_t i = 0; i < t.dof; ++i) {
-    largest[i] = kDisturbance * (t.angular[i] ? std::min(largest[i], 1.0) : largest[i]);
-  }
-  return largest;
+/// The methods' order is six at least, where the motion is smooth.
+int doublingsFor(double times) {
+  return static_cast<int>(std::clamp(std::ceil(std::log2(times) / 6.0), 1.0, 3.0));
 }
 
 }  // namespace
 
-std::size_t ReferenceTrajectory::samplesWithin(double most) const {
-  if (error <= most) {
-    return trajectory.samples();
-  }
-  return std::min(whirl_twin::samplesWithin(coarser.back().second, trajectory, most),
-                  whirl_twin::samplesWithin(disturbed, coarser.front().second,
-                                            most * kDisturbance / kRounding));
+EvaluationBudget::EvaluationBudget(double evaluations, const Scene& one, const ModelSetup& setup)
+    : left_(evaluations) {
+  const double pairs = std::max(1.0, 0.5 * static_cast<double>(one.systems.front().q.size()));
+  size_ = pairs * pairs * setup.evaluation_cost;
 }
 
-ReferenceTrajectory referenceTrajectory(const Scene& one, const std::string& integrator,
-                                        std::int64_t duration, std::int64_t interval, double wanted,
-                                        int most_substeps) {
-  StepSetting setting{integrator, one.step, one.systems.front().substeps};
-  const auto run = [&] { return trajectory(withSetting(one, setting), duration, interval); };
-  ReferenceTrajectory best;
-  best.trajectory = run();
-  double before = std::numeric_limits<double>::infinity();
-  for (bool last = false; !last;) {
-    best.coarser.emplace_back(setting.substeps, std::move(best.trajectory));
-    setting.substeps *= 2;
-    best.trajectory = run();
-    const Trajectory& coarser = best.coarser.back().second;
-    const double difference =
-        trajectoryError(coarser, best.trajectory, best.trajectory.samples()).position;
-    // A geometric series from here on, as far as rounding lets it.
-    const double ratio = difference / before;
-    const bool converging = ratio < kFalling;
-    best.error = difference * (converging ? std::max(0.25, ratio / (1.0 - ratio)) : 1.0);
-    last = best.error <= wanted || (!converging && before < 1.0) ||
-           setting.substeps * 2 > most_substeps;
-    before = difference;
+EvaluationBudget EvaluationBudget::upTo(double evaluations) const {
+  EvaluationBudget part = *this;
+  part.left_ = std::min(left_, evaluations);
+  return part;
+}
+
+double EvaluationBudget::cost(const StepSetting& setting, std::int64_t interval,
+                              std::size_t samples) const {
+  const double steps = static_cast<double>(samples) * static_cast<double>(interval) /
+                       static_cast<double>(setting.step);
+  return size_ * steps * setting.substeps * stepMethod(setting.integrator).evaluations;
+}
+
+bool EvaluationBudget::take(double cost) {
+  if (cost > left_) {
+    return false;
   }
-  best.setting = setting;
-  const auto& [substeps, undisturbed] = best.coarser.front();
-  best.disturbed = trajectory(withSetting(one, {integrator, one.step, substeps}), duration,
-                              interval, smallDisturbance(undisturbed));
-  best.growth =
-      trajectoryError(best.disturbed, undisturbed, undisturbed.samples()).position / kDisturbance;
-  best.error = std::max(best.error, best.growth * kRounding);
+  left_ -= cost;
+  return true;
+}
+
+double ReferenceTrajectory::magnifiedRounding(std::size_t sample) const {
+  return sample < disturbed.samples() ? disturbed.position(sample) / kDisturbance * kRounding : 0.0;
+}
+
+double ReferenceTrajectory::error(std::size_t sample) const {
+  return std::max(2.0 * difference.position(sample), magnifiedRounding(sample));
+}
+
+double ReferenceTrajectory::rateError(std::size_t sample) const {
+  const double growth = sample < disturbed.samples() ? disturbed.rate(sample) / kDisturbance : 0.0;
+  return std::max(2.0 * difference.rate(sample), growth * kRounding);
+}
+
+std::size_t ReferenceTrajectory::lastWithin(double most) const {
+  std::size_t last = difference.samples();
+  while (last > 1 && error(last - 1) > most) {
+    --last;
+  }
+  return last == 0 ? 0 : last - 1;
+}
+
+namespace {
+
+/// One pair of trajectories, as far as they go together.
+ReferenceTrajectory pair(const Scene& one, const StepSetting& setting, const StepSetting& other,
+                         std::int64_t interval, std::size_t samples) {
+  ReferenceTrajectory now;
+  now.setting = setting;
+  now.other = other;
+  const Trajectory beside = motion(withSetting(one, other), interval, samples);
+  now.trajectory = motion(withSetting(one, setting), interval, samples, [&](const Trajectory& t) {
+    return now.difference.take(t, beside) &&
+           now.difference.position(now.difference.samples() - 1) < kParted;
+  });
+  return now;
+}
+
+/// How far one goes astray that starts slightly off.
+ErrorCurve disturbed(const Scene& one, const StepSetting& setting, std::int64_t interval,
+                     const Trajectory& right) {
+  std::vector<double> largest(right.dof);
+  for (std::size_t i = 0; i < right.coordinates.size(); ++i) {
+    double& own = largest[i % right.dof];
+    own = std::max(own, std::fabs(right.coordinates[i]));
+  }
+  Scene off = withSetting(one, setting);
+  for (std::size_t i = 0; i < right.dof; ++i) {
+    off.systems.front().q[i] +=
+        kDisturbance * (right.angular[i] ? std::min(largest[i], 1.0) : largest[i]);
+  }
+  ErrorCurve curve;
+  motion(off, interval, right.samples(), [&](const Trajectory& t) {
+    return curve.take(t, right) && curve.position(curve.samples() - 1) < kParted;
+  });
+  return curve;
+}
+
+/// Is a pair by shorter steps worth them?
+bool isBetter(const ReferenceTrajectory& now, const ReferenceTrajectory& best, double wanted) {
+  const auto longer = [](std::size_t a, std::size_t b) {
+    return static_cast<double>(a) > kLonger * static_cast<double>(b);
+  };
+  const std::size_t common = std::min(now.difference.samples(), best.difference.samples());
+  return longer(now.lastWithin(wanted), best.lastWithin(wanted)) ||
+         longer(now.difference.samples(), best.difference.samples()) ||
+         (common > 0 && now.error(common - 1) < kGain * best.error(common - 1));
+}
+
+}  // namespace
+
+ReferenceTrajectory referenceTrajectory(const Scene& one, const std::string& method,
+                                        std::vector<std::string> others, bool magnifies,
+                                        std::int64_t interval, std::size_t samples, double wanted,
+                                        EvaluationBudget& budget) {
+  const double all = budget.left();
+  ReferenceTrajectory best;
+  std::size_t asked = samples;
+  bool parted = true;
+  const auto settingOf = [&](const std::string& other, int substeps) {
+    return StepSetting{other, one.step, substeps * (stepMethod(other).order == 4 ? 2 : 1)};
+  };
+  const auto costOfOne = [&](int substeps) {
+    double cost = budget.cost({method, one.step, substeps / 2 * 3}, interval, 1);
+    for (const std::string& other : others) {
+      cost += budget.cost(settingOf(other, substeps), interval, 1);
+    }
+    return cost;
+  };
+  for (int substeps = 2 * one.systems.front().substeps; substeps <= kMostSubsteps;) {
+    const StepSetting setting{method, one.step, substeps / 2 * 3};
+    const double of_one = costOfOne(substeps);
+    const bool first = best.trajectory.samples() == 0;
+    // Of the first, leaving room for shorter steps; of what has parted as much as can be had.
+    const double affordable = (first ? 0.5 : 1.0) * budget.left() / of_one;
+    if (static_cast<double>(asked) > affordable) {
+      if (!first && !parted) {
+        break;
+      }
+      asked = samples = static_cast<std::size_t>(affordable);
+      if (asked < 2 || asked <= best.difference.samples()) {
+        break;
+      }
+    }
+    const double spent = of_one * static_cast<double>(asked);
+    budget.take(spent);
+    ReferenceTrajectory now =
+        pair(one, setting, settingOf(others.front(), substeps), interval, asked);
+    for (std::size_t i = 1; i < others.size() && now.difference.samples() < asked; ++i) {
+      ReferenceTrajectory by_other =
+          pair(one, setting, settingOf(others[i], substeps), interval, asked);
+      if (by_other.lastWithin(wanted) > now.lastWithin(wanted) ||
+          by_other.difference.samples() > 2 * now.difference.samples()) {
+        now = std::move(by_other);
+      }
+    }
+    const std::size_t got = now.difference.samples();
+    if (got >= kFewSamples) {
+      others = {now.other.integrator};
+    }
+    const double last = now.error(got - 1);
+    parted = got < asked;
+    const std::size_t agreed = now.lastWithin(wanted);
+    const bool enough = agreed + 1 >= samples;
+    if (magnifies && !enough && budget.take(budget.cost(now.other, interval, got))) {
+      now.disturbed = disturbed(one, now.other, interval, now.trajectory);
+    }
+    // Shorter steps do not help where rounding has grown as large as that.
+    const bool rounding = now.magnifiedRounding(agreed + 1) > kHopeless * now.error(agreed + 1);
+    if (first || isBetter(now, best, wanted)) {
+      best = std::move(now);
+    } else if (spent > kCheap * all) {
+      break;
+    }
+    if (enough || rounding) {
+      break;
+    }
+    if (!parted && asked < samples) {
+      asked = samples;  // the same steps go further than the last ones did
+      parted = true;
+    } else if (parted) {
+      substeps *= got < kFewSamples ? 4 : 2;
+      asked = std::min(samples, 2 * got + kFewSamples);
+    } else {
+      int doublings = doublingsFor(last / wanted);
+      while (doublings > 1 &&
+             costOfOne(substeps << doublings) * static_cast<double>(asked) > budget.left()) {
+        --doublings;
+      }
+      substeps <<= doublings;
+    }
+  }
+  if (magnifies && best.trajectory.samples() > 0 && best.disturbed.samples() == 0) {
+    best.disturbed = disturbed(one, best.other, interval, best.trajectory);
+  }
   return best;
 }
 

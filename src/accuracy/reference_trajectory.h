@@ -1,38 +1,61 @@
 // The trajectory that others are judged by, with a bound of its own error.
+//
+// It is taken twice, by two methods that have nothing in common and at two steps of which neither
+// is a multiple of the other, both finer than the scene's: what the two differ by, twice over,
+// bounds the error of the better one. Of a motion that magnifies errors, by luck they may have
+// got the same ones: there some roundings, magnified as a small disturbance of the start is, bound
+// it too. Both steps are made finer until they agree as well as is wanted, or it helps no more.
 #pragma once
 
+#include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "accuracy/trajectory.h"
 #include "accuracy/trajectory_error.h"
+#include "models/model_info.h"
 
 namespace whirl_twin {
 
-struct ReferenceTrajectory {
-  StepSetting setting;
-  Trajectory trajectory;
-  /// Position error, bounded from the difference from steps twice as long and how that falls with
-  /// the step: at least a quarter of it (order six promises a 63rd), all of it at rounding; and
-  /// from what becomes of some roundings of the start.
-  double error = 0.0;
-  double growth = 0.0;  ///< [-], of a small disturbance of the start, at most
-  /// Those on the way, with their substeps, coarse to fine.
-  std::vector<std::pair<int, Trajectory>> coarser;
+/// Evaluations of accelerations that are left to spend, those of a pendulum of two coordinates.
+class EvaluationBudget {
+ public:
+  EvaluationBudget(double evaluations, const Scene& one, const ModelSetup& setup);
 
-  /// The first samples, in which the error is at most that: fewer than all where the motion
-  /// magnifies rounding, or where the method converges slowly.
-  std::size_t samplesWithin(double most) const;
+  /// What samples of a motion cost, an interval [ns] apart.
+  double cost(const StepSetting& setting, std::int64_t interval, std::size_t samples) const;
+  bool take(double cost);  ///< false, with nothing taken: there is less left
+  double left() const { return left_; }
+  /// What is left if it were no more than that.
+  EvaluationBudget upTo(double evaluations) const;
 
-  Trajectory disturbed;  ///< as the first of `coarser`, but from a start slightly off
+ private:
+  double size_;  // of an evaluation; it goes as the square of the coordinates
+  double left_;
 };
 
-/// Doubles the substeps of a method, at most until there are `most_substeps`, until the error is
-/// `wanted` or nothing is gained any more. duration and interval [ns] are multiples of the scene's
-/// step.
-ReferenceTrajectory referenceTrajectory(const Scene& one, const std::string& integrator,
-                                        std::int64_t duration, std::int64_t interval, double wanted,
-                                        int most_substeps = 256);
+struct ReferenceTrajectory {
+  StepSetting setting;
+  StepSetting other;      ///< that it was compared with
+  Trajectory trajectory;  ///< coordinates and rates, at most as many samples as were asked for
+  ErrorCurve difference;  ///< of the two
+  ErrorCurve disturbed;   ///< of one from a start slightly off; none: errors are not magnified
+
+  /// Bound of its position error up to a sample; infinite where the two have parted for good.
+  double error(std::size_t sample) const;
+  double rateError(std::size_t sample) const;
+  double magnifiedRounding(std::size_t sample) const;  ///< the part of `error` that rounding has
+  /// The last sample up to which its error is at most that.
+  std::size_t lastWithin(double error) const;
+};
+
+/// By `method` and the one of `others` that goes with it furthest (the same method where there is
+/// no other): an explicit one is the better judge, but a stiff system needs an implicit. `samples`
+/// an interval [ns] apart, a multiple of the scene's step; fewer where the budget ends or the
+/// motion is lost. magnifies: its motion may do that to errors.
+ReferenceTrajectory referenceTrajectory(const Scene& one, const std::string& method,
+                                        std::vector<std::string> others, bool magnifies,
+                                        std::int64_t interval, std::size_t samples, double wanted,
+                                        EvaluationBudget& budget);
 
 }  // namespace whirl_twin

@@ -6,13 +6,13 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <vector>
+#include <optional>
 
-#include "accuracy/reference_trajectory.h"
 #include "integration/step_methods.h"
 #include "models/model_registry.h"
 #include "realtime/denormals.h"
 #include "scene/drive_profile.h"
+#include "scene/scene_error.h"
 #include "twin/observer.h"
 #include "twin/twin.h"
 
@@ -20,116 +20,47 @@ namespace whirl_twin {
 
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMostCalibrations = 32;
-constexpr double kSafety = 4.0;  // the error aimed at is so much below the tolerance
-constexpr int kMostSubsteps = 64;
-constexpr double kHorizons = 3.0;  // looked ahead, without a profile
+/// Of a step: substeps are no shorter than this, but for so many as there always may be.
+constexpr std::int64_t kShortestSubstep = 500;  // ns
+constexpr int kFewSubsteps = 64;
+constexpr int kMostSubsteps = 4096;
+constexpr double kHorizons = 3.0;      // looked ahead, without a profile
+constexpr double kLookBudget = 5.0e5;  // evaluations, for that
 constexpr int kRounds = 2;
 constexpr std::int64_t kLook = 64;
-constexpr int kMostReferenceSubsteps = 8;
-constexpr std::int64_t kSamples = 128;
-/// Evaluations that a step of the twin takes in a calibration: the reference's two runs and a
-/// method or two. A system that is not smooth takes a few times that.
-constexpr double kEvaluationsPerStep = 60.0;
 /// A method that is not symplectic has to be this much cheaper than gauss_legendre_6.
 constexpr double kWorthwhile = 0.7;
+constexpr double kBelieved = 1.0e12;  // an excess beyond says only that the motion was lost
+constexpr double kGain = 0.7;
+constexpr double kMostDoublings = 16.0;
+/// A step of twice the length may be wrong by so much more.
+constexpr double kRoundingExcess = 1.0e-3;
+constexpr double kFastRate = 1.0e3;  // [m/s] or [rad/s]
 const char* const kReference = "gauss_legendre_6";
 const char* const kExact = "exponential";
-/// What a run-up by the table over speed leaves out at steps that a scene may well have.
-constexpr double kTableError = 1.0e-7;
-/// From a calibration's end to the horizon's; far beyond what any method keeps, and no infinity: at
-/// rest the error is 0 over any horizon.
-constexpr double kMostGrowth = 1.0e100;
-constexpr double kMostDoublings = 16.0;  // of the substeps at once
 
-struct Calibration {
-  const Scene& one;
-  std::int64_t interval = 0;  // [ns]
-  std::int64_t duration = 0;  // [ns]
-  bool whole = true;          // to the horizon
-  double growth = 1.0;        // of the error from the calibration's end to the horizon's
-};
-
-/// Accelerations cost as the square of the coordinates, two of them what the budget counts in.
-double sizeOf(const SystemSpec& spec) {
-  const double pairs = std::max(1.0, 0.5 * static_cast<double>(spec.q.size()));
-  return pairs * pairs;
-}
-
-Calibration calibration(const Scene& one, double budget) {
-  const double steps = one.systems.front().horizon / one.stepSeconds();
-  const double affordable = budget / (kEvaluationsPerStep * sizeOf(one.systems.front()));
-  Calibration c{one};
-  c.whole = steps <= affordable;
-  const auto whole =
-      std::max<std::int64_t>(8, static_cast<std::int64_t>(std::min(steps, affordable)));
-  c.interval = std::max<std::int64_t>(2, whole / kSamples / 2 * 2) * one.step;
-  c.duration =
-      std::max<std::int64_t>(1, (whole * one.step + c.interval - 1) / c.interval) * c.interval;
-  // The phase of a motion whose energy drifts goes with the square of the time.
-  const double covered = static_cast<double>(c.duration) / static_cast<double>(one.step);
-  c.growth = std::clamp(std::pow(steps / covered, 2), 1.0, kMostGrowth);
-  return c;
-}
-
-/// What settings are judged by.
-struct Judge {
-  const Calibration& c;
-  ReferenceTrajectory reference;
-  std::size_t samples = 0;  // compared
-  double allowed = 0.0;     // error at the horizon
-
-  double errorOf(const Trajectory& t) const {
-    return c.growth * trajectoryError(t, reference.trajectory, samples).position;
-  }
-  double errorOf(const StepSetting& setting) const {
-    return errorOf(trajectory(withSetting(c.one, setting), c.duration, c.interval));
-  }
-};
-
-/// A motion that magnifies rounding is judged as far as it can be; where no step resolves it, any
-/// method is good that does as well as the reference.
-Judge judge(const Calibration& c, const std::string& integrator, double wanted) {
-  const int substeps = c.one.systems.front().substeps;
-  Judge j{c, referenceTrajectory(c.one, integrator, c.duration, c.interval, 0.1 * wanted / c.growth,
-                                 kMostReferenceSubsteps * substeps)};
-  const std::size_t all = j.reference.trajectory.samples();
-  j.samples = j.reference.samplesWithin(0.5 * wanted / c.growth);
-  j.allowed = wanted;
-  if (j.samples < all / 4) {
-    j.samples = all;
-    j.allowed = std::max(wanted, 2.0 * c.growth * j.reference.error);
-  }
-  return j;
-}
-
-/// Rates enter the forces (the matrices at the start; a motion far from there may differ, and is
-/// what the calibration is for).
+/// Rates enter the forces: in the matrices at the start, or in what friction does at rates large
+/// and small. (A motion far from there may differ, and is what the calibration is for.)
 bool hasRateForces(const ModelSetup& setup, const SystemSpec& spec) {
   const auto vector = [](const std::vector<double>& values) {
     return Eigen::Map<const Eigen::VectorXd>(values.data(),
                                              static_cast<Eigen::Index>(values.size()));
   };
+  const Dynamics& dynamics = *setup.dynamics;
   const Moment<double> at{0.0, 0.0, spec.speed.value_or(1.0), 0.0};
   const Eigen::VectorXd q = vector(spec.q);
   const Eigen::VectorXd v = vector(spec.v);
-  const Linearization l =
-      setup.dynamics->linearization(q, v, setup.dynamics->acceleration(q, v, at), at);
-  return (l.damping.array() != 0.0).any() || (l.gyroscopic.array() != 0.0).any();
+  const Linearization l = dynamics.linearization(q, v, dynamics.acceleration(q, v, at), at);
+  const Eigen::VectorXd rates = Eigen::VectorXd::Constant(v.size(), kFastRate);
+  return (l.damping.array() != 0.0).any() || (l.gyroscopic.array() != 0.0).any() ||
+         dynamics.appliedForce(q, rates, at) != dynamics.appliedForce(q, -rates, at);
 }
 
-/// An explicit method near its limit of stability is no choice: it must be sound at twice the step.
-bool soundAtTwiceTheStep(const Judge& judge, const StepSetting& setting, const StepMethod& method,
-                         double error) {
-  StepSetting twice = setting;
-  twice.step *= 2;
-  return judge.errorOf(twice) <= std::pow(2.0, method.order + 3) * error + 1.0e-12;
-}
-
-/// How often the substeps have to be doubled for an error so many times the one allowed, believed
-/// up to `most`: beyond it, or where it is no number, it only says that the motion was lost.
-int doublings(double times, double most, int order) {
-  const double missing = std::ceil(std::log2(times < most ? times : most) / order);
+/// How often the substeps have to be doubled for so many times the error allowed.
+int doublings(double times, int order) {
+  const double missing = std::ceil(std::log2(std::min(times, kBelieved)) / (order > 0 ? order : 4));
   return static_cast<int>(std::clamp(missing, 1.0, kMostDoublings));
 }
 
@@ -137,56 +68,39 @@ double cost(const StepChoice& choice) {
   return choice.substeps * stepMethod(choice.integrator).evaluations;
 }
 
-std::string reasonFor(const StepChoice& choice, const SystemSpec& spec, const Calibration& c) {
-  const std::string where =
-      c.whole ? ""
-              : fmt::format(", from its first {:.3g} s", 1.0e-9 * static_cast<double>(c.duration));
-  if (choice.until < spec.horizon) {
-    return fmt::format("the best here: keeps {:g} until t = {:.3g} s{}; beyond, no step does",
-                       spec.tolerance, choice.until, where);
-  }
-  if (!std::isfinite(choice.error)) {
-    return fmt::format("the best here: no step resolves its motion over {:g} s{}", spec.horizon,
-                       where);
-  }
-  if (!(choice.error <= spec.tolerance)) {
-    return fmt::format("the best here: error {:.1g} over {:g} s{}, above the tolerance {:g}",
-                       choice.error, spec.horizon, where, spec.tolerance);
-  }
-  return fmt::format("error {:.1g} over {:g} s where {:g} is allowed{}{}", choice.error,
-                     spec.horizon, spec.tolerance, where,
-                     choice.raised ? "; its later motion needs shorter steps" : "");
+StepSetting settingOf(const Scene& one, const StepChoice& choice) {
+  return {choice.integrator, one.step, choice.substeps};
 }
 
-/// The coarsest step of the reference's own method that is good enough, or its finest.
-StepChoice ofReference(const Judge& j) {
-  const ReferenceTrajectory& reference = j.reference;
-  StepChoice best;
-  best.integrator = reference.setting.integrator;
-  best.substeps = reference.setting.substeps;
-  best.error = j.c.growth * reference.error;
-  for (auto coarser = reference.coarser.rbegin(); coarser != reference.coarser.rend(); ++coarser) {
-    const double error = j.errorOf(coarser->second);
-    if (error > j.allowed) {
-      break;
-    }
-    best.substeps = coarser->first;
-    best.error = error + j.c.growth * reference.error;
+int mostSubsteps(const Scene& one) {
+  return static_cast<int>(
+      std::clamp<std::int64_t>(one.step / kShortestSubstep, kFewSubsteps, kMostSubsteps));
+}
+
+std::string reasonFor(const StepChoice& choice, const SystemSpec& spec) {
+  const Promise& p = choice.promise;
+  if (p.kept) {
+    return fmt::format("error {:.1g}, known to {:.1g}, over {:g} s where {:g} is allowed{}",
+                       p.error, p.reference_error, spec.horizon, spec.tolerance,
+                       choice.raised ? "; its later motion needs shorter steps" : "");
   }
-  best.until = best.calibrated = j.c.one.systems.front().horizon;
-  if (!j.c.whole) {
-    best.calibrated = 1.0e-9 * static_cast<double>(j.c.duration);
+  const bool known = p.known_until >= spec.horizon;
+  std::string said = p.kept_until > 0.0 ? fmt::format("keeps {:g} until t = {:.3g} s",
+                                                      spec.tolerance, p.kept_until)
+                                        : fmt::format("does not keep {:g}", spec.tolerance);
+  if (p.known_until > p.kept_until) {
+    said += std::isfinite(p.error)
+                ? fmt::format(", error {:.1g} over {:.3g} s", p.error, p.known_until)
+                : fmt::format(", no step resolves it over {:.3g} s", p.known_until);
   }
-  if (j.samples < reference.trajectory.samples()) {
-    best.until = reference.trajectory.interval * static_cast<double>(j.samples - 1);
-  }
-  return best;
+  return "the best here: " + said +
+         (known ? "" : fmt::format("; not known beyond {:.3g} s", p.known_until));
 }
 
 /// Largest error over a horizon that the twin would see in itself (observer.h) in so many steps.
 double largestEstimate(const Scene& one, const StepChoice& choice, std::int64_t steps) {
   const DenormalsToZero denormals_to_zero;
-  Twin twin(withSetting(one, {choice.integrator, one.step, choice.substeps}));
+  Twin twin(withSetting(one, settingOf(one, choice)));
   Observer observer(twin);
   std::vector<double> record(twin.layout().size);
   double largest = 0.0;
@@ -198,25 +112,26 @@ double largestEstimate(const Scene& one, const StepChoice& choice, std::int64_t 
       largest = std::max(largest, observer.errorEstimate(0));
     }
   }
-  return twin.status(0) == StepStatus::kOk ? largest : std::numeric_limits<double>::infinity();
+  return twin.status(0) == StepStatus::kOk ? largest : kInfinity;
 }
 
 /// With as many substeps as the motion after the horizon needs: through the drive's profile, or a
 /// few horizons, as far as the budget goes.
-StepChoice lasting(const Scene& one, StepChoice choice, double budget) {
+StepChoice lasting(const Scene& one, const ModelSetup& setup, StepChoice choice) {
   const SystemSpec& spec = one.systems.front();
   const double later = one.drives.empty() ? 0.0 : profileDuration(one.drives.front());
   const double steps = std::max(later, kHorizons * spec.horizon) / one.stepSeconds();
   const StepMethod& method = stepMethod(choice.integrator);
   for (int round = 0; round < kRounds; ++round) {
-    const double affordable = budget / (cost(choice) * sizeOf(spec));
+    EvaluationBudget budget(kLookBudget, one, setup);
+    const double affordable = kLookBudget / budget.cost(settingOf(one, choice), one.step, 1);
     const double estimate = largestEstimate(
         one, choice, static_cast<std::int64_t>(std::max(1.0, std::min(steps, affordable))));
     if (!(estimate > spec.tolerance)) {
       break;
     }
-    const int more = doublings(estimate / spec.tolerance, 1.0e6, method.order);
-    if (choice.substeps > kMostSubsteps >> more) {
+    const int more = doublings(std::min(estimate / spec.tolerance, 1.0e6), method.order);
+    if (choice.substeps > mostSubsteps(one) >> more) {
       break;
     }
     choice.substeps <<= more;
@@ -225,89 +140,178 @@ StepChoice lasting(const Scene& one, StepChoice choice, double budget) {
   return choice;
 }
 
-/// The cheapest of the methods that a nonlinear system has.
-StepChoice calibrated(const Scene& one, const ModelSetup& setup, const Calibration& c,
-                      double budget) {
-  const SystemSpec& spec = one.systems.front();
-  const Judge j = judge(c, kReference, spec.tolerance / kSafety);
-  StepChoice best = ofReference(j);
-  const StepChoice reference = best;
-  const double implicit_cost = cost(best);
-  const bool rate_forces = hasRateForces(setup, spec);
-  for (const StepMethod& method : stepMethods()) {
-    if (method.order == 0 || method.name == kReference || (method.predicts_rates && rate_forces) ||
-        !canStepWith(setup, spec.drive.has_value(), method.name)) {
-      continue;
-    }
-    StepChoice choice = best;
+/// An explicit method near its limit of stability is no choice: it must be sound at twice the step.
+bool soundAtTwiceTheStep(StepJudge& judge, const StepSetting& setting, const StepMethod& method,
+                         double excess) {
+  return judge.excessAtTwiceTheStep(setting) <=
+         std::pow(2.0, method.order + 3) * std::max(excess, kRoundingExcess);
+}
+
+/// Finds the cheapest of the ways to step that are good enough, and the best if none is.
+class Search {
+ public:
+  Search(const Scene& one, const ModelSetup& setup, StepJudge& judge)
+      : one_(one), setup_(setup), judge_(judge) {}
+
+  void tryMethod(const StepMethod& method) {
+    const SystemSpec& spec = one_.systems.front();
+    StepChoice choice;
     choice.integrator = method.name;
     choice.substeps = spec.substeps;
-    while (choice.substeps <= kMostSubsteps && cost(choice) < cost(best) &&
-           (method.symplectic || cost(choice) < kWorthwhile * implicit_cost)) {
-      const StepSetting setting{choice.integrator, one.step, choice.substeps};
-      choice.error = j.errorOf(setting);
-      if (choice.error <= j.allowed) {
-        if (method.implicit || soundAtTwiceTheStep(j, setting, method, choice.error)) {
-          best = choice;
-          best.error += c.growth * j.reference.error;
-        }
-        break;
+    double before = kInfinity;
+    while (
+        choice.substeps <= std::max(mostSubsteps(one_), spec.substeps) &&
+        (!found_ || cost(choice) < cost(*found_)) &&
+        (method.symplectic || method.order == 0 || cost(choice) < kWorthwhile * implicit_cost_)) {
+      const StepSetting setting = settingOf(one_, choice);
+      const double excess = judge_.excess(setting);
+      if (excess < best_excess_) {
+        best_excess_ = excess;
+        best_ = choice;
       }
-      choice.substeps <<= doublings(choice.error / j.allowed, 1.0e12, method.order);
+      if (excess <= 1.0) {
+        if (method.implicit || method.order == 0 ||
+            soundAtTwiceTheStep(judge_, setting, method, excess)) {
+          found_ = choice;
+          if (method.name == kReference) {
+            implicit_cost_ = cost(choice);
+          }
+        }
+        return;
+      }
+      if (std::isfinite(before) && excess > kGain * before) {
+        return;  // shorter steps are no better
+      }
+      before = excess;
+      choice.substeps <<= doublings(excess, method.order);
     }
   }
-  best = lasting(one, best, 0.5 * budget);
-  if (best.raised && best.integrator != kReference) {
-    const StepChoice other = lasting(one, reference, 0.5 * budget);
-    best = cost(other) < cost(best) ? other : best;
+  bool found() const { return found_.has_value(); }
+  /// With what there is to begin with if nothing was any good.
+  StepChoice best() const {
+    if (found_ || best_) {
+      return found_ ? *found_ : *best_;
+    }
+    StepChoice plain;
+    const SystemSpec& spec = one_.systems.front();
+    plain.integrator = chooseIntegrator(setup_, spec.drive.has_value()).integrator;
+    plain.substeps = spec.substeps;
+    return plain;
   }
-  return best;
+
+ private:
+  const Scene& one_;
+  const ModelSetup& setup_;
+  StepJudge& judge_;
+  std::optional<StepChoice> found_;
+  std::optional<StepChoice> best_;
+  double best_excess_ = kInfinity;
+  double implicit_cost_ = kInfinity;
+};
+
+StepChoice searched(const Scene& one, const ModelSetup& setup, StepJudge& judge) {
+  const SystemSpec& spec = one.systems.front();
+  const bool on_drive = spec.drive.has_value();
+  const IntegratorChoice structural = chooseIntegrator(setup, on_drive);
+  Search search(one, setup, judge);
+  if (structural.integrator == kExact || setup.integrators.size() == 1) {
+    search.tryMethod(stepMethod(structural.integrator));
+    return search.best();
+  }
+  const bool rate_forces = hasRateForces(setup, spec);
+  search.tryMethod(stepMethod(kReference));
+  if (search.found() && !judge.knowsMuch()) {
+    return search.best();  // what is robust, where nobody knows what comes
+  }
+  for (const StepMethod& method : stepMethods()) {
+    if (method.order != 0 && method.name != kReference && !(method.predicts_rates && rate_forces) &&
+        canStepWith(setup, on_drive, method.name)) {
+      search.tryMethod(method);
+    }
+  }
+  return search.best();
 }
 
 }  // namespace
 
-StepChoice chooseStep(const Scene& given, double budget) {
+StepChoice chooseStep(const Scene& given, double evaluations) {
   const BuiltScene built = build(given);
   const Scene& one = built.scene;  // with its setup, which the runs take from there
   const SystemSpec& spec = one.systems.front();
   const ModelSetup& setup = built.systems.front()->setup();
   const IntegratorChoice structural = chooseIntegrator(setup, spec.drive.has_value());
-  const bool exponential = structural.integrator == kExact;
-  const bool table = exponential && spec.drive && setup.dynamics->speedDependent();
-  if (budget <= 0.0 || (exponential && !(table && spec.tolerance < kTableError)) ||
-      (!exponential && setup.integrators.size() == 1)) {
+  EvaluationBudget budget(evaluations, one, setup);
+  if (evaluations <= 0.0) {
     StepChoice plain;
     plain.integrator = structural.integrator;
     plain.substeps = spec.substeps;
-    plain.until = plain.calibrated = spec.horizon;
-    plain.reason = structural.reason;
+    plain.reason = structural.reason + "; not calibrated: too many systems";
     return plain;
   }
-  const Calibration c = calibration(one, budget);
-  StepChoice choice = exponential ? ofReference(judge(c, kExact, spec.tolerance / kSafety))
-                                  : calibrated(one, setup, c, budget);
-  choice.reason = reasonFor(choice, spec, c);
+  StepJudge judge(one, setup, budget);
+  StepChoice choice = searched(one, setup, judge);
+  choice.promise = judge.promise(settingOf(one, choice));
+  if (choice.promise.kept) {
+    const StepChoice longer = lasting(one, setup, choice);
+    if (longer.raised) {
+      choice = longer;
+      choice.promise = judge.promise(settingOf(one, choice));
+    }
+  }
+  choice.reason = reasonFor(choice, spec);
+  if (choice.integrator == kExact && stepsAreExact(one, setup)) {
+    choice.reason = structural.reason + "; " + choice.reason;
+  }
   return choice;
 }
 
-Scene withStepsChosen(const Scene& scene) {
-  Scene chosen = build(scene).scene;
+StepChoice judgeStep(const Scene& given, double evaluations) {
+  const BuiltScene built = build(given);
+  EvaluationBudget budget(evaluations, built.scene, built.systems.front()->setup());
+  StepChoice named;
+  named.integrator = built.systems.front()->integrator;
+  named.substeps = built.scene.systems.front().substeps;
+  if (evaluations > 0.0) {
+    StepJudge judge(built.scene, built.systems.front()->setup(), budget);
+    named.promise = judge.promise(settingOf(built.scene, named));
+  }
+  return named;
+}
+
+std::vector<StepChoice> chooseSteps(const Scene& scene, bool judge_named) {
+  const Scene whole = build(scene).scene;
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < scene.systems.size(); ++i) {
-    if (scene.systems[i].integrator == "auto") {
+    if (scene.systems[i].integrator == "auto" || judge_named) {
       open.push_back(i);
     }
   }
   const double budget = open.size() <= kMostCalibrations
                             ? kCalibrationBudget / static_cast<double>(open.size())
                             : 0.0;
+  std::vector<StepChoice> choices(scene.systems.size());
   for (const std::size_t i : open) {
-    const StepChoice choice = chooseStep(sceneOfOne(chosen, i), budget);
-    chosen.systems[i].chosen_integrator = choice.integrator;
-    chosen.systems[i].substeps = choice.substeps;
-    chosen.systems[i].choice_reason = choice.reason;
+    const Scene one = sceneOfOne(whole, i);
+    choices[i] =
+        scene.systems[i].integrator == "auto" ? chooseStep(one, budget) : judgeStep(one, budget);
+  }
+  return choices;
+}
+
+Scene withSteps(const Scene& scene, const std::vector<StepChoice>& choices) {
+  Scene chosen = build(scene).scene;
+  for (std::size_t i = 0; i < chosen.systems.size(); ++i) {
+    if (chosen.systems[i].integrator == "auto") {
+      chosen.systems[i].chosen_integrator = choices[i].integrator;
+      chosen.systems[i].substeps = choices[i].substeps;
+      chosen.systems[i].choice_reason = choices[i].reason;
+    }
   }
   return chosen;
+}
+
+Scene withStepsChosen(const Scene& scene) {
+  return withSteps(scene, chooseSteps(scene));
 }
 
 }  // namespace whirl_twin

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include "analysis/cyclic_coordinates.h"
 #include "realtime/denormals.h"
+#include "scene/scene_error.h"
 #include "twin/observer.h"
 #include "twin/twin.h"
 
@@ -75,7 +78,49 @@ class MomentumWatch {
   double change_ = 0.0;
 };
 
+Trajectory emptyTrajectory(const Dynamics& dynamics, std::int64_t interval) {
+  Trajectory result;
+  result.interval = static_cast<double>(interval) * 1.0e-9;
+  result.dof = static_cast<std::size_t>(dynamics.dof());
+  for (const CoordinateInfo& c : dynamics.coordinates()) {
+    result.angular.push_back(c.isAngle());
+  }
+  return result;
+}
+
 }  // namespace
+
+Trajectory motion(const Scene& one, std::int64_t interval, std::size_t samples,
+                  const std::function<bool(const Trajectory&)>& go_on) {
+  const DenormalsToZero denormals_to_zero;
+  BuiltScene built = build(one);
+  Trajectory result = emptyTrajectory(*built.systems.front()->dynamics, interval);
+  std::unique_ptr<Twin> twin;
+  try {
+    twin = std::make_unique<Twin>(std::move(built));
+  } catch (const SceneError&) {
+    return result;
+  }
+  std::vector<double> record(twin->layout().size);
+  const std::int64_t stride = interval / one.step;
+  for (std::size_t k = 0; k < samples; ++k) {
+    for (std::int64_t i = 0; k > 0 && i < stride; ++i) {
+      twin->step();
+    }
+    result.status = twin->status(0);
+    if (result.status != StepStatus::kOk) {
+      break;
+    }
+    twin->write(record.data());
+    const SystemView now = twin->layout().system(record.data(), 0);
+    result.coordinates.insert(result.coordinates.end(), now.q(), now.q() + result.dof);
+    result.rates.insert(result.rates.end(), now.v(), now.v() + result.dof);
+    if (go_on && !go_on(result)) {
+      break;
+    }
+  }
+  return result;
+}
 
 Trajectory trajectory(const Scene& one, std::int64_t duration, std::int64_t interval,
                       const std::vector<double>& dq) {
@@ -88,18 +133,14 @@ Trajectory trajectory(const Scene& one, std::int64_t duration, std::int64_t inte
   Observer observer(twin);
   std::vector<double> record(twin.layout().size);
   const Dynamics& dynamics = *twin.systems().front()->dynamics;
-  Trajectory result;
-  result.interval = static_cast<double>(interval) * 1.0e-9;
-  result.dof = static_cast<std::size_t>(dynamics.dof());
-  for (const CoordinateInfo& c : dynamics.coordinates()) {
-    result.angular.push_back(c.isAngle());
-  }
+  Trajectory result = emptyTrajectory(dynamics, interval);
   MomentumWatch momentum(dynamics, twin.drive(twin.systems().front()->drive).at(0.0).speed);
   const auto sample = [&] {
     twin.write(record.data());
     observer.observe(record.data());
     result.coordinates.insert(result.coordinates.end(), observer.coordinates(0),
                               observer.coordinates(0) + result.dof);
+    result.rates.insert(result.rates.end(), observer.rates(0), observer.rates(0) + result.dof);
     if (dynamics.isRotor()) {
       result.whirl_radius.push_back(observer.whirlRadius(0));
       result.whirl_phase.push_back(observer.whirlPhase(0));

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -30,6 +31,7 @@ struct Trajectory {
   std::size_t dof = 0;               ///< numbers of each sample in `coordinates`
   std::vector<bool> angular;         ///< of each coordinate: [rad], not [m]
   std::vector<double> coordinates;   ///< sample by sample
+  std::vector<double> rates;         ///< likewise
   std::vector<double> whirl_radius;  ///< [m], of a rotor
   std::vector<double> whirl_phase;   ///< [rad], of a rotor; NaN where there is none
   std::vector<double> energy;        ///< [J], T + V
@@ -41,6 +43,12 @@ struct Trajectory {
 
   std::size_t samples() const { return dof == 0 ? 0 : coordinates.size() / dof; }
 };
+
+/// Of a scene of one system the coordinates and rates alone: `samples` of them, the start the
+/// first, an interval [ns], a multiple of the step, apart. A system that stops ends it, and so does
+/// `go_on`, asked at every sample, if it is given; one whose steps cannot be prepared has none.
+Trajectory motion(const Scene& one, std::int64_t interval, std::size_t samples,
+                  const std::function<bool(const Trajectory&)>& go_on = {});
 
 /// Runs a scene of one system from its start, from q + dq if that is given. duration and interval
 /// [ns] are multiples of the step. A system that stops ends it.

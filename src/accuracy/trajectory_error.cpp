@@ -87,19 +87,43 @@ TrajectoryError trajectoryError(const Trajectory& t, const Trajectory& reference
   return error;
 }
 
-std::size_t samplesWithin(const Trajectory& t, const Trajectory& reference, double tolerance) {
-  std::size_t samples = std::min(t.samples(), reference.samples());
-  while (true) {  // each time measured by what the motion does in the samples that are left
-    const Scales scales = scalesOf(reference, samples);
-    std::size_t k = 0;
-    while (k < samples && positionError(t, reference, scales, k) <= tolerance) {
-      ++k;
-    }
-    if (k == samples) {
-      return samples;
-    }
-    samples = k;
+ErrorCurve::ErrorCurve(const Trajectory& trajectory, const Trajectory& reference) {
+  while (take(trajectory, reference)) {
   }
+}
+
+bool ErrorCurve::take(const Trajectory& t, const Trajectory& reference) {
+  const auto ratio = static_cast<std::size_t>(std::llround(t.interval / reference.interval));
+  const std::size_t sample = samples();
+  if (sample >= t.samples() || sample * ratio >= reference.samples()) {
+    return false;
+  }
+  for (std::size_t i = 0; i < t.dof; ++i) {
+    const std::size_t at = sample * t.dof + i;
+    const std::size_t there = sample * ratio * t.dof + i;
+    const auto follow = [&](double value, double right, ByUnit& scales, ByUnit& errors) {
+      double& scale = scales.of(t.angular[i]);
+      scale = std::max(scale, std::fabs(right));
+      double& error = errors.of(t.angular[i]);
+      error = std::max(error, std::fabs(value - right));
+    };
+    follow(t.coordinates[at], reference.coordinates[there], position_scale_, position_error_);
+    follow(t.rates[at], reference.rates[there], rate_scale_, rate_error_);
+  }
+  position_.push_back(
+      std::max(relative(position_error_.length, position_scale_.length),
+               relative(position_error_.angle, std::min(position_scale_.angle, 1.0))));
+  rate_.push_back(std::max(relative(rate_error_.length, rate_scale_.length),
+                           relative(rate_error_.angle, rate_scale_.angle)));
+  return true;
+}
+
+double ErrorCurve::position(std::size_t sample) const {
+  return sample < position_.size() ? position_[sample] : kInfinity;
+}
+
+double ErrorCurve::rate(std::size_t sample) const {
+  return sample < rate_.size() ? rate_[sample] : kInfinity;
 }
 
 }  // namespace whirl_twin

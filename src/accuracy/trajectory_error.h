@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "accuracy/trajectory.h"
 
@@ -22,9 +23,31 @@ struct TrajectoryError {
 TrajectoryError trajectoryError(const Trajectory& trajectory, const Trajectory& reference,
                                 std::size_t samples);
 
-/// Number of samples, from the start, in which the positions of two trajectories differ by at most
-/// `tolerance` (as TrajectoryError::position).
-std::size_t samplesWithin(const Trajectory& trajectory, const Trajectory& reference,
-                          double tolerance);
+/// The largest differences of a trajectory from another, up to each sample, in parts of the largest
+/// coordinates (or rates) of that other up to there.
+class ErrorCurve {
+ public:
+  ErrorCurve() = default;
+  /// As far as both go. The trajectory's interval is a multiple of the reference's.
+  ErrorCurve(const Trajectory& trajectory, const Trajectory& reference);
+
+  /// Takes the next sample of a trajectory. False: the trajectory or the reference ends before.
+  bool take(const Trajectory& trajectory, const Trajectory& reference);
+
+  std::size_t samples() const { return position_.size(); }
+  /// [-], as TrajectoryError::position; infinite beyond the last sample.
+  double position(std::size_t sample) const;
+  /// [-], of rates in m/s and in rad/s, each in parts of the largest of its kind.
+  double rate(std::size_t sample) const;
+
+ private:
+  struct ByUnit {
+    double length = 0.0;
+    double angle = 0.0;
+    double& of(bool angular) { return angular ? angle : length; }
+  };
+  ByUnit position_scale_, rate_scale_, position_error_, rate_error_;  // so far
+  std::vector<double> position_, rate_;
+};
 
 }  // namespace whirl_twin

@@ -57,9 +57,9 @@ int partsFor(const std::vector<IsotropicRotor>& rotors, double h, double highest
 }  // namespace
 
 IsotropicRotors::IsotropicRotors(const std::vector<IsotropicRotor>& rotors, double h,
-                                 double highest_speed)
+                                 double highest_speed, int finer)
     : count_(rotors.size()),
-      parts_(partsFor(rotors, h, highest_speed)),
+      parts_(finer * partsFor(rotors, h, highest_speed)),
       part_(h / parts_),
       limit_speed_(2.0 * kLongestPart / part_ - fastest(rotors)),
       rotors_(rotors),
@@ -207,6 +207,24 @@ std::complex<double> IsotropicRotors::position(std::size_t rotor) const noexcept
   const Block& block = blocks_[rotor / kLanes];
   const std::size_t lane = rotor % kLanes;
   return {block.z_re[lane] + block.rest_re[lane], block.z_im[lane] + block.rest_im[lane]};
+}
+
+std::complex<double> IsotropicRotors::rate(std::size_t rotor) const noexcept {
+  const Block& block = blocks_[rotor / kLanes];
+  const std::size_t lane = rotor % kLanes;
+  return frequencies_[rotor] * std::complex<double>{block.w_re[lane], block.w_im[lane]};
+}
+
+void IsotropicRotors::put(std::size_t rotor, const IsotropicRotors& others,
+                          std::size_t other) noexcept {
+  Block& to = blocks_[rotor / kLanes];
+  const Block& from = others.blocks_[other / kLanes];
+  const std::size_t lane = rotor % kLanes;
+  const std::size_t there = other % kLanes;
+  to.z_re[lane] = from.z_re[there];
+  to.z_im[lane] = from.z_im[there];
+  to.w_re[lane] = from.w_re[there];
+  to.w_im[lane] = from.w_im[there];
 }
 
 double IsotropicRotors::peak(std::size_t rotor) const noexcept {

@@ -37,8 +37,10 @@ struct IsotropicRotor {
 
 class IsotropicRotors {
  public:
-  /// Prepares steps of h [s] for shaft speeds up to `highest_speed` [rad/s] of either sign.
-  IsotropicRotors(const std::vector<IsotropicRotor>& rotors, double h, double highest_speed);
+  /// Prepares steps of h [s] for shaft speeds up to `highest_speed` [rad/s] of either sign, in so
+  /// many times the parts that they need.
+  IsotropicRotors(const std::vector<IsotropicRotor>& rotors, double h, double highest_speed,
+                  int finer = 1);
 
   std::size_t count() const noexcept { return count_; }
   int parts() const noexcept { return parts_; }  ///< of a step
@@ -53,6 +55,10 @@ class IsotropicRotors {
   void step(const Drive& drive) noexcept;
   /// [m], z of a rotor. Not finite: it ran away.
   std::complex<double> position(std::size_t rotor) const noexcept;
+  /// [m/s], z' likewise.
+  std::complex<double> rate(std::size_t rotor) const noexcept;
+  /// Puts a rotor where one of others, equal to it, is.
+  void put(std::size_t rotor, const IsotropicRotors& others, std::size_t other) noexcept;
   /// [m], the largest |z| of a rotor at the start and after any step since.
   double peak(std::size_t rotor) const noexcept;
 

@@ -10,6 +10,7 @@
 #include "integration/excitation.h"
 #include "integration/jacobi_integral.h"
 #include "integration/rotor_step.h"
+#include "integration/step_error_sum.h"
 #include "integration/stepper.h"
 #include "mechanics/dynamics.h"
 
@@ -27,6 +28,7 @@ class LinearRotorStepper final : public Stepper {
   StepStatus step(double time) noexcept override;
   std::size_t dof() const noexcept override { return static_cast<std::size_t>(state_.q.size()); }
   void write(double* out) const noexcept override;
+  double errorSum() const noexcept override { return errors_.sum(); }
   void set(const double* q, const double* v) noexcept override;
   std::unique_ptr<Stepper> readyFor(double lowest_speed, double highest_speed) const override;
 
@@ -35,6 +37,7 @@ class LinearRotorStepper final : public Stepper {
                      const Excitation& excitation, double step, int substeps,
                      const std::pair<double, double>& speeds, std::vector<double> constant_speeds);
   double furtherEnergy() const noexcept;
+  void estimateError() noexcept;
 
   std::shared_ptr<const Dynamics> dynamics_;
   JacobiIntegral jacobi_;  ///< may be empty
@@ -47,8 +50,12 @@ class LinearRotorStepper final : public Stepper {
   double further_energy_ = 0.0;  ///< [J], at the start
   ActingInputs inputs_;
   RotorStep method_;
+  RotorStep halves_;  ///< of half the length
   LinearMotion state_;
   LinearMotion next_;
+  LinearMotion finer_;         ///< next_, by halves
+  std::vector<char> angular_;  ///< of each coordinate
+  StepErrorSum errors_{kLinearErrorEvery, false};
 };
 
 }  // namespace whirl_twin

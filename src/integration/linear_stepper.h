@@ -9,6 +9,7 @@
 
 #include "integration/acting_inputs.h"
 #include "integration/linear_step.h"
+#include "integration/step_error_sum.h"
 #include "integration/stepper.h"
 #include "mechanics/linear_dynamics.h"
 
@@ -32,16 +33,23 @@ class LinearStepper final : public Stepper {
   StepStatus step(double time) noexcept override;
   std::size_t dof() const noexcept override { return static_cast<std::size_t>(state_.q.size()); }
   void write(double* out) const noexcept override;
+  double errorSum() const noexcept override { return errors_.sum(); }
   void set(const double* q, const double* v) noexcept override;
 
  private:
+  void estimateError(double time) noexcept;
+
   ActingInputs inputs_;
   LinearStep method_;
-  double substep_;  ///< [s]
+  LinearStep halves_;  ///< of half the length
+  double substep_;     ///< [s]
   int substeps_;
   std::int64_t step_;  ///< [ns], of the twin
   LinearMotion state_;
   LinearMotion next_;
+  LinearMotion finer_;         ///< next_, by halves
+  std::vector<char> angular_;  ///< of each coordinate
+  StepErrorSum errors_{kLinearErrorEvery};
 };
 
 }  // namespace whirl_twin

@@ -15,6 +15,7 @@
 #include "integration/finite.h"
 #include "integration/forced_step.h"
 #include "integration/input_force.h"
+#include "integration/step_error_sum.h"
 #include "integration/stepper.h"
 #include "mechanics/dynamics.h"
 
@@ -59,15 +60,14 @@ class SteppedSystem final : public Stepper {
     if (!hasPhase(next)) {
       return StepStatus::kOutOfRange;
     }
-    if (++steps_since_estimate_ == kEstimateEvery) {
-      steps_since_estimate_ = 0;
+    if (errors_.countStep()) {
       estimateError(equation, next);
     }
     state_ = next;
     wholeTurns();
     return StepStatus::kOk;
   }
-  double errorSum() const noexcept override { return error_sum_; }
+  double errorSum() const noexcept override { return errors_.sum(); }
   std::size_t dof() const noexcept override { return n; }
   void write(double* out) const noexcept override {
     for (std::size_t i = 0; i < n; ++i) {
@@ -110,17 +110,10 @@ class SteppedSystem final : public Stepper {
       }
     }
     method_.restart();
-    sizes_ = {};
-    error_sum_ = 0.0;
-    steps_since_estimate_ = 0;
+    errors_.restart();
   }
 
  private:
-  /// Largest so far, of the coordinates of a unit.
-  struct Size {
-    double q = 0.0;
-    double v = 0.0;
-  };
   static WHIRL_TWIN_INLINE bool finite(const MotionState<n>& state) noexcept {
     bool all = isFinite(state.work.high);
     for (std::size_t i = 0; i < n; ++i) {
@@ -259,40 +252,21 @@ class SteppedSystem final : public Stepper {
     return status;
   }
 
-  /// The error of the step from state_ to `end`: how far two of half the length come out from it.
-  /// Order p leaves out a part of 2^-p of it.
+  /// Takes the step from state_ to `end` once more, in halves.
   void estimateError(const DrivenEquation<Model>& equation, const MotionState<n>& end) noexcept {
     MotionState<n> finer = state_;
     const double h = 0.5 * substep_;
     finer_method_.restart();
     for (int i = 0; i < 2 * substeps_; ++i) {
       if (advance(finer_method_, equation, i * h, h, finer) != StepStatus::kOk) {
+        errors_.passOver();
         return;
       }
     }
-    const auto angular = [](std::size_t i) {
-      return std::size_t{Model::kCoordinates[i].unit[0] == 'r'};
-    };
-    for (std::size_t i = 0; i < n; ++i) {
-      Size& size = sizes_[angular(i)];
-      size.q = std::fmax(size.q, std::fabs(end.q[i]));
-      size.v = std::fmax(size.v, std::fabs(end.v[i]));
-    }
-    const auto relative = [](double error, double size) {
-      return error == 0.0 ? 0.0 : std::fabs(error) / size;
-    };
-    double error = 0.0;
-    for (std::size_t i = 0; i < n; ++i) {
-      const Size& size = sizes_[angular(i)];
-      const double q_size = angular(i) == 1 ? std::fmin(size.q, 1.0) : size.q;
-      error = std::fmax(error, std::fmax(relative(end.q[i] - finer.q[i], q_size),
-                                         relative(end.v[i] - finer.v[i], size.v)));
-    }
-    error_sum_ += kEstimateEvery * error;
+    errors_.add(n, end.q, end.v, finer.q, finer.v,
+                [](std::size_t i) { return Model::kCoordinates[i].unit[0] == 'r'; });
   }
 
-  /// One step in so many is taken twice, the second time in halves.
-  static constexpr int kEstimateEvery = 64;
   /// Parts shorter than this share of a substep are not worth a step: they are rounding.
   static constexpr double kSliver = 1.0e-12;
   static constexpr double kTwoPi = 6.283185307179586;
@@ -308,9 +282,7 @@ class SteppedSystem final : public Stepper {
   Method method_{};
   Method finer_method_{};
   MotionState<n> state_{};
-  std::array<Size, 2> sizes_{};  ///< of sliding and of angular coordinates
-  double error_sum_ = 0.0;
-  int steps_since_estimate_ = 0;
+  StepErrorSum errors_;
   std::int64_t turns_ = 0;  ///< of a spin, beyond its coordinate
   InputForce inputs_;       ///< last: few systems have any
 };

@@ -9,6 +9,9 @@ namespace whirl_twin {
 
 namespace {
 
+constexpr double kFilmCost = 30.0;
+constexpr double kKinkCost = 15.0;
+
 bool given(const ParameterValues& values, const char* name) {
   return values.at(name) > 0.0;
 }
@@ -88,9 +91,14 @@ ModelInfo jeffcottRotorInfo() {
     if (gravity_on == settings.choices.end() || gravity_on->second != "true") {
       felt.gravity = 0.0;
     }
-    return isNonlinear(values)               ? setUpNonlinearJeffcott(values, felt)
-           : given(values, "bearing_length") ? setUpJournalJeffcott(values, felt)
-                                             : setUpLinear(values, felt);
+    ModelSetup setup = isNonlinear(values)               ? setUpNonlinearJeffcott(values, felt)
+                       : given(values, "bearing_length") ? setUpJournalJeffcott(values, felt)
+                                                         : setUpLinear(values, felt);
+    // At a kink, as of a rub, implicit steps are solved by many evaluations.
+    setup.evaluation_cost = given(values, "bearing_length") ? kFilmCost
+                            : isNonlinear(values)           ? kKinkCost
+                                                            : 1.0;
+    return setup;
   };
   return info;
 }

@@ -53,6 +53,9 @@ struct ModelSetup {
   std::string note = "";  ///< what the user should know of how it was set up
   /// `exponential` follows a speed that changes although the matrices change with it.
   bool exact_run_ups = false;
+  /// What an evaluation of its accelerations costs, in those of a pendulum of as many coordinates:
+  /// calibrations budget with it, for they look at no clock.
+  double evaluation_cost = 1.0;
 };
 
 /// Parameters that are each in range but do not fit together.

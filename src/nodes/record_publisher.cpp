@@ -42,7 +42,8 @@ RecordPublisher::RecordPublisher(LiveTwin& live, const FixedRateLoop& loop, Stat
       thinning_(live.ringCapacity()),
       started_(now(CLOCK_REALTIME)),
       clock_zero_(wallClockAtZero()),
-      stopped_(live.twin().systems().size()) {
+      stopped_(live.twin().systems().size()),
+      inaccurate_(live.twin().systems().size()) {
   if (!states_.lcm().warning().empty()) {
     ROS_WARN("%s", states_.lcm().warning().c_str());
   }
@@ -151,6 +152,14 @@ void RecordPublisher::publishReport() {
   }
   lcm_failed_told_ = report.lcm_failed;
   states_.publish(report);
+  for (std::size_t i = 0; i < inaccurate_.size(); ++i) {
+    const bool lost = report.error_estimate[i] > report.tolerance[i];
+    if (lost && !inaccurate_[i]) {
+      ROS_WARN("%s: error about %.1g over its horizon, more than its tolerance %g (ACCURACY_LOST)",
+               report.system[i].c_str(), report.error_estimate[i], report.tolerance[i]);
+    }
+    inaccurate_[i] = lost;
+  }
   const std::lock_guard<std::mutex> lock(mutex_);
   report_ = report;
 }

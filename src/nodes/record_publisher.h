@@ -56,6 +56,7 @@ class RecordPublisher {
   std::int64_t started_;     // [ns], wall clock
   std::int64_t clock_zero_;  // [ns], wall clock at zero of CLOCK_MONOTONIC
   std::vector<bool> stopped_;
+  std::vector<bool> inaccurate_;
   std::uint64_t left_out_ = 0;  // steps that were due
   std::uint64_t dropped_before_ = 0;
   std::uint64_t lcm_failed_before_ = 0;

@@ -29,6 +29,8 @@ SystemCheck checkSystem(const BuiltSystem& system) {
   check.integrator = system.integrator;
   check.reason = system.integrator_reason.empty() ? "named in the scene" : system.integrator_reason;
   check.substeps = system.spec.substeps;
+  check.tolerance = system.spec.tolerance;
+  check.horizon = system.spec.horizon;
   check.drive = system.spec.drive;
   check.speed = system.spec.speed;
   for (const InputInfo& input : system.dynamics->inputs()) {
@@ -81,13 +83,15 @@ SceneCheck checkScene(const Scene& scene, const std::vector<std::size_t>& system
   for (const std::size_t i : systems) {
     check.scene.systems.push_back(scene.systems[i]);
   }
-  check.scene = withStepsChosen(check.scene);
+  const std::vector<StepChoice> choices = chooseSteps(check.scene, true);
+  check.scene = withSteps(check.scene, choices);
   const BuiltScene built = build(check.scene);
   const double budget =
       std::min(kSystemBudget, kSystemsBudget / static_cast<double>(built.systems.size()));
   for (std::size_t i = 0; i < built.systems.size(); ++i) {
     check.systems.push_back(checkSystem(*built.systems[i]));
     SystemCheck& system = check.systems.back();
+    system.accuracy = choices[i].promise;
     const RunningCost cost = runningCost(sceneOfOne(check.scene, i), budget);
     system.step_cost = cost.step;
     system.memory = cost.memory;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "accuracy/promise.h"
 #include "reports/output.h"
 #include "twin/twin.h"
 
@@ -38,6 +39,9 @@ struct SystemCheck {
   std::string integrator;
   std::string reason;  ///< why this one
   int substeps = 1;
+  double tolerance = 0.0;  ///< [-], of the scene,
+  double horizon = 0.0;    ///< [s], over which
+  Promise accuracy;
   std::optional<std::string> drive;
   std::optional<double> speed;  ///< [rad/s], constant
   std::vector<InputCheck> inputs;

@@ -69,6 +69,14 @@ Json systemJson(const SystemCheck& system) {
   }
   json["integrator"] = system.integrator;
   json["reason"] = system.reason;
+  json["accuracy"] = {{"tolerance", system.tolerance},
+                      {"horizon", system.horizon},
+                      {"error", system.accuracy.error},
+                      {"rate_error", system.accuracy.rate_error},
+                      {"reference_error", system.accuracy.reference_error},
+                      {"kept", system.accuracy.kept},
+                      {"kept_until", system.accuracy.kept_until},
+                      {"known_until", system.accuracy.known_until}};
   json["substeps"] = system.substeps;
   addPublished(system.published, json);
   if (!system.ensemble.empty()) {

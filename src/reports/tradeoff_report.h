@@ -16,8 +16,10 @@ namespace whirl_twin {
 
 struct TradeoffRow {
   StepSetting setting;
-  TrajectoryError error;  ///< against the reference
-  /// Largest position error of this and every finer step of the method: what it can be trusted for.
+  TrajectoryError error;  ///< against the reference; of positions its own at least
+  bool below = false;     ///< positions nearer to the reference than that is to the truth
+  /// Largest position error of this and every finer step of the method: what it can be trusted for;
+  /// the reference's own at least.
   double worst = 0.0;
   double energy_drift = 0.0;    ///< [-], largest energy residual over the whole duration
   double momentum_drift = 0.0;  ///< [-], of conserved momenta; NaN: there is none
@@ -40,6 +42,7 @@ struct TradeoffReport {
   double compared = 0.0;  ///< [s], from the start: beyond, no trajectory can be promised
   double growth = 0.0;    ///< [-], of a small disturbance over the duration
   StepSetting reference;
+  StepSetting checked_by;         ///< another method, with which the reference was compared
   double reference_error = 0.0;   ///< bound, of its positions up to `compared`
   double tolerance = 0.0;         ///< of the scene
   std::vector<TradeoffRow> rows;  ///< method by method, from the coarsest step to the finest

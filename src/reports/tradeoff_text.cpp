@@ -18,7 +18,8 @@ std::string rowText(const TradeoffReport& report, std::size_t index) {
   return fmt::format(
       "  {:<19} {:>10} {:>8}  {:>9} {:>9} {:>9} {:>9}  {:>9} {:>8.0f} {:>6.0f} {:>9.3g}  {}{}\n",
       row.setting.integrator, fmt::format("{:g}", 1.0e-9 * static_cast<double>(row.setting.step)),
-      row.setting.substeps, row.stable ? number(row.error.position) : "unstable",
+      row.setting.substeps,
+      row.stable ? (row.below ? "<" : "") + number(row.error.position) : "unstable",
       row.stable ? number(row.error.radius) : "-", row.stable ? number(row.error.phase) : "-",
       row.stable ? number(row.error.energy) : "-", row.stable ? number(row.energy_drift) : "-",
       row.step_cost, row.cost_spread, real_time, row.pareto ? "*" : "",
@@ -30,8 +31,9 @@ std::string rowText(const TradeoffReport& report, std::size_t index) {
 std::string text(const TradeoffReport& r) {
   std::string out = fmt::format("{} ({}), {:g} s\n", r.system, r.model, r.duration);
   out += fmt::format(
-      "  judged by {}, {} in {:g} s: its own error is below {:.1e}{}\n", r.reference.integrator,
-      r.reference.substeps, 1.0e-9 * static_cast<double>(r.reference.step), r.reference_error,
+      "  judged by {}, {} in {:g} s, and {}, {}: its own error is below {:.1e}{}\n",
+      r.reference.integrator, r.reference.substeps, 1.0e-9 * static_cast<double>(r.reference.step),
+      r.checked_by.integrator, r.checked_by.substeps, r.reference_error,
       r.compared < r.duration ? fmt::format("; compared up to {:.4g} s: beyond, the motion "
                                             "magnifies errors past what any step resolves",
                                             r.compared)
@@ -64,6 +66,7 @@ Json rowJson(const TradeoffReport& report, const TradeoffRow& row) {
   j["step"] = 1.0e-9 * static_cast<double>(row.setting.step);
   j["substeps"] = row.setting.substeps;
   j["error"] = row.error.position;
+  j["below_reference"] = row.below;
   j["errors"] = {{"position", row.error.position},
                  {"radius", row.error.radius},
                  {"phase", row.error.phase},
@@ -91,6 +94,7 @@ Json summaryJson(const TradeoffReport& r) {
   j["reference"] = {{"integrator", r.reference.integrator},
                     {"step", 1.0e-9 * static_cast<double>(r.reference.step)},
                     {"substeps", r.reference.substeps},
+                    {"checked_by", r.checked_by.integrator},
                     {"error", r.reference_error}};
   Json stable = Json::object();
   for (const TradeoffRow& row : r.rows) {

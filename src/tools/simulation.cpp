@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <csignal>
+#include <utility>
 
 #include "messages/refusal.h"
 #include "realtime/denormals.h"
@@ -33,6 +34,7 @@ Simulation::Simulation(const SimulationPlan& plan)
       observer_(twin_),
       measurements_(plan.sensors, twin_.built(), observer_),
       validity_(twin_, plan_.systems),
+      accuracy_(twin_, plan_.systems),
       stopped_(plan.scene.systems.size()) {
   twin_.buildEnsembles();
   // Before a writer begins its file, which an interrupted run takes away.
@@ -105,7 +107,11 @@ void Simulation::noteStops(ProgressBar& bar) {
 }
 
 void Simulation::warn(ProgressBar& bar) {
-  for (const std::string& warning : validity_.look(observer_)) {
+  std::vector<std::string> warnings = validity_.look(observer_);
+  for (std::string& warning : accuracy_.look(observer_)) {
+    warnings.push_back(std::move(warning));
+  }
+  for (const std::string& warning : warnings) {
     bar.clear();
     complain(fmt::format("twin: {}\n", warning));
   }
@@ -138,6 +144,8 @@ Json Simulation::systemJson(std::size_t system) const {
   }
   json["energy_residual"] = observer_.energyResidual(system);
   json["error_estimate"] = observer_.errorEstimate(system);
+  const std::optional<double> lost = accuracy_.lostAt(system);
+  json["accuracy_lost"] = lost ? Json(*lost) : Json();
   json["invalid"] = validity_.json(system);
   if (twin_.ensemble(system) != nullptr) {
     json["ensemble"] = ensembleJson(*twin_.ensemble(system));

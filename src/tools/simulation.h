@@ -8,6 +8,7 @@
 
 #include "reports/output.h"
 #include "reports/sample_writer.h"
+#include "tools/accuracy_watch.h"
 #include "tools/progress_bar.h"
 #include "tools/validity_watch.h"
 #include "twin/measurements.h"
@@ -68,6 +69,7 @@ class Simulation {
   Observer observer_;
   Measurements measurements_;
   ValidityWatch validity_;
+  AccuracyWatch accuracy_;
   std::vector<std::optional<std::int64_t>> stopped_;  ///< the step in which each system stopped
 };
 

@@ -37,6 +37,8 @@ class EnsembleSteps {
   /// What is told of each member, and the largest magnitude of it since the start: members times
   /// quantities. NaN: the member has stopped.
   virtual void write(double* values, double* peaks) const noexcept = 0;
+  /// As Stepper::errorSum(), the largest of a sample of the members that have not stopped.
+  virtual double errorSum() const noexcept = 0;
 };
 
 /// A number that is told of each member.
@@ -68,6 +70,7 @@ class Ensemble {
 
   void reset() noexcept;
   void step(double time) noexcept { steps_->step(time); }
+  double errorSum() const noexcept { return steps_->errorSum(); }
   /// Its statistics are told every so many steps, some fifty times a simulated second.
   std::int64_t period() const noexcept { return every_; }
   /// The present record.

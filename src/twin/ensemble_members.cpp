@@ -1,6 +1,7 @@
 #include "twin/ensemble_members.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -10,6 +11,7 @@
 #include "integration/exponential.h"
 #include "integration/finite.h"
 #include "integration/isotropic_rotors.h"
+#include "integration/step_error_sum.h"
 #include "twin/record.h"
 
 namespace whirl_twin {
@@ -17,6 +19,7 @@ namespace whirl_twin {
 namespace {
 
 constexpr int kMostParts = 64;
+constexpr std::size_t kMostSampled = 8;  // members, whose errors are measured
 constexpr double kStopped = std::numeric_limits<double>::quiet_NaN();
 
 /// The member as one complex number, if it is isotropic, linear and free of what turns with the
@@ -64,15 +67,43 @@ std::optional<IsotropicRotor> isotropicRotor(const EnsembleMember& member) {
 class SideBySide final : public EnsembleSteps {
  public:
   SideBySide(const std::vector<IsotropicRotor>& rotors, const Drive& drive, double step)
-      : drive_(drive), rotors_(rotors, step, highestSpeed(drive)) {}
+      : drive_(drive),
+        rotors_(rotors, step, highestSpeed(drive)),
+        sampled_(sampleOf(rotors.size())),
+        halves_(of(sampled_, rotors), step, highestSpeed(drive), 2),
+        errors_(sampled_.size(), StepErrorSum(kLinearErrorEvery)) {}
   int parts() const { return rotors_.parts(); }
 
   const char* description() const override { return "side by side in vectors"; }
   std::pair<double, double> speeds() const override {
     return {-rotors_.limitSpeed(), rotors_.limitSpeed()};
   }
-  void reset() noexcept override { rotors_.reset(); }
-  void step(double) noexcept override { rotors_.step(drive_); }
+  void reset() noexcept override {
+    rotors_.reset();
+    for (StepErrorSum& errors : errors_) {
+      errors.restart();
+    }
+  }
+  void step(double) noexcept override {
+    bool due = false;
+    for (StepErrorSum& errors : errors_) {
+      due = errors.countStep();  // of all at once
+    }
+    for (std::size_t k = 0; due && k < sampled_.size(); ++k) {
+      halves_.put(k, rotors_, sampled_[k]);
+    }
+    rotors_.step(drive_);
+    if (due) {
+      estimateErrors();
+    }
+  }
+  double errorSum() const noexcept override {
+    double largest = 0.0;
+    for (const StepErrorSum& errors : errors_) {
+      largest = std::fmax(largest, errors.sum());
+    }
+    return largest;
+  }
   void write(double* values, double* peaks) const noexcept override {
     for (std::size_t i = 0; i < rotors_.count(); ++i) {
       const double radius = std::sqrt(std::norm(rotors_.position(i)));
@@ -86,9 +117,48 @@ class SideBySide final : public EnsembleSteps {
     const auto [low, high] = drive.speedRange();
     return std::fmax(std::fabs(low), std::fabs(high));
   }
+  /// Members evenly spread.
+  static std::vector<std::size_t> sampleOf(std::size_t count) {
+    const std::size_t sampled = std::min(count, kMostSampled);
+    std::vector<std::size_t> members;
+    for (std::size_t k = 0; k < sampled; ++k) {
+      members.push_back(k * count / sampled);
+    }
+    return members;
+  }
+  static std::vector<IsotropicRotor> of(const std::vector<std::size_t>& members,
+                                        const std::vector<IsotropicRotor>& rotors) {
+    std::vector<IsotropicRotor> chosen;
+    for (const std::size_t member : members) {
+      chosen.push_back(rotors[member]);
+    }
+    return chosen;
+  }
+  /// Takes the last step once more, in halves.
+  void estimateErrors() noexcept {
+    halves_.step(drive_);
+    for (std::size_t k = 0; k < sampled_.size(); ++k) {
+      const std::complex<double> q = rotors_.position(sampled_[k]);
+      const std::complex<double> v = rotors_.rate(sampled_[k]);
+      const std::complex<double> finer_q = halves_.position(k);
+      const std::complex<double> finer_v = halves_.rate(k);
+      const auto plane = [](const std::complex<double>& z) {
+        return std::array<double, 2>{z.real(), z.imag()};
+      };
+      if (isFinite(std::norm(q))) {
+        errors_[k].add(2, plane(q), plane(v), plane(finer_q), plane(finer_v),
+                       [](std::size_t) { return false; });
+      } else {
+        errors_[k].passOver();
+      }
+    }
+  }
 
   const Drive& drive_;
   IsotropicRotors rotors_;
+  std::vector<std::size_t> sampled_;  // members
+  IsotropicRotors halves_;            // of these, by steps of half the length
+  std::vector<StepErrorSum> errors_;  // likewise
 };
 
 class OneByOne final : public EnsembleSteps {
@@ -135,6 +205,16 @@ class OneByOne final : public EnsembleSteps {
   void write(double* values, double* peaks) const noexcept override {
     std::copy(values_.begin(), values_.end(), values);
     std::copy(peaks_.begin(), peaks_.end(), peaks);
+  }
+  double errorSum() const noexcept override {
+    double largest = 0.0;
+    const std::size_t apart = (members_.size() + kMostSampled - 1) / kMostSampled;
+    for (std::size_t i = 0; i < members_.size(); i += apart) {
+      if (members_[i].status == StepStatus::kOk) {
+        largest = std::fmax(largest, members_[i].system->errorSum());
+      }
+    }
+    return largest;
   }
 
  private:

@@ -6,8 +6,10 @@ namespace whirl_twin {
 
 class ErrorTrack {
  public:
-  /// The next record: time [s], sum of the steps' errors since the system was set [-].
-  void observe(double time, double sum, double horizon);
+  /// The next record: time [s], sum of the steps' errors since the system was set [-], which was
+  /// `anew` since the last record. At the beginning the sum may also fall: it counts in parts of a
+  /// motion that grows.
+  void observe(double time, double sum, double horizon, bool anew);
   double estimate() const { return estimate_; }  ///< [-]; NaN: not estimated
 
  private:

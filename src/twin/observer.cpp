@@ -64,7 +64,8 @@ void Observer::observe(const double* record) {
     if (restarted) {
       tracks_[i] = Track{};
     }
-    changed = takeGeneration(i) || changed;
+    const bool anew = takeGeneration(i);
+    changed = anew || changed;
     if (status(i) != StepStatus::kOk) {
       if (tracks_[i].stop_reason.empty()) {
         tracks_[i].stop_reason =
@@ -72,7 +73,7 @@ void Observer::observe(const double* record) {
       }
       continue;
     }
-    follow(i);
+    follow(i, anew);
   }
   followMotors();
   tells_only_change_ = changed && step() == before;
@@ -155,7 +156,7 @@ void Observer::takeStations(std::size_t system) {
   }
 }
 
-void Observer::follow(std::size_t system) {
+void Observer::follow(std::size_t system, bool anew) {
   Track& track = tracks_[system];
   if (isRotor(system)) {
     const double mark = shaftOf(system).remainder() + track.dynamics->phaseMark();
@@ -165,7 +166,8 @@ void Observer::follow(std::size_t system) {
   }
   const SystemView now = view(system);
   track.energy.observe(energies(system), now.work());
-  track.error.observe(twin_.seconds(step()), now.errorSum(), twin_.systems()[system]->spec.horizon);
+  track.error.observe(twin_.seconds(step()), now.errorSum(), twin_.systems()[system]->spec.horizon,
+                      anew);
 }
 
 void Observer::followMotors() {

@@ -103,7 +103,8 @@ class Observer {
   ShaftView shaftOf(std::size_t system) const;
   bool takeGeneration(std::size_t system);
   void takeStations(std::size_t system);
-  void follow(std::size_t system);
+  /// anew: its sums have begun again since the last record.
+  void follow(std::size_t system, bool anew);
   void followMotors();
   std::int64_t quietSteps() const;
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "messages/refusal.h"
 #include "scene/scene_error.h"
@@ -166,7 +167,8 @@ void Twin::write(double* record) const noexcept {
     place.setStatus(status_[i]);
     running_[i]->write(place.motion());
     place.setGeneration(generation_[i]);
-    place.setErrorSum(running_[i]->errorSum());
+    const double own = running_[i]->errorSum();
+    place.setErrorSum(ensembles_[i] ? std::fmax(own, ensembles_[i]->errorSum()) : own);
   }
 }
 

@@ -1,0 +1,177 @@
+#include "independent_motion.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "scene/built_scene.h"
+
+namespace whirl_twin {
+
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr int kColumns = 8;  // order 16
+constexpr double kFine = 1.0e-14;
+constexpr double kCoarse = 1.0e-12;
+/// The two runs take other steps, so that their rounding differs, too.
+constexpr double kOtherStep = 0.37;
+constexpr double kLeastStep = 1.0e-12;  // s
+
+struct State {
+  VectorXd q, v;
+};
+
+class Extrapolation {
+ public:
+  /// longest: of a step, in parts of the interval.
+  Extrapolation(const Scene& one, double tolerance, double longest, double evaluations)
+      : built_(build(one)),
+        dynamics_(*built_.systems.front()->dynamics),
+        drive_(built_.drives()[built_.systems.front()->drive]),
+        tolerance_(tolerance),
+        longest_(longest),
+        left_(evaluations) {}
+
+  Trajectory run(std::int64_t interval, std::size_t samples) {
+    const SystemSpec& spec = built_.scene.systems.front();
+    const auto n = static_cast<Eigen::Index>(spec.q.size());
+    State y{Eigen::Map<const VectorXd>(spec.q.data(), n),
+            Eigen::Map<const VectorXd>(spec.v.data(), n)};
+    Trajectory t;
+    t.interval = 1.0e-9 * static_cast<double>(interval);
+    t.dof = spec.q.size();
+    for (const CoordinateInfo& c : dynamics_.coordinates()) {
+      t.angular.push_back(c.isAngle());
+    }
+    q_size_ = y.q.cwiseAbs();
+    v_size_ = y.v.cwiseAbs();
+    step_ = t.interval;
+    for (std::size_t k = 0; k < samples; ++k) {
+      if (k > 0 && !advance(built_.scene.time + static_cast<std::int64_t>(k - 1) * interval,
+                            t.interval, y)) {
+        break;
+      }
+      t.coordinates.insert(t.coordinates.end(), y.q.data(), y.q.data() + n);
+      t.rates.insert(t.rates.end(), y.v.data(), y.v.data() + n);
+    }
+    return t;
+  }
+
+ private:
+  /// From an instant [ns] on by so long [s], from corner to corner of the drive.
+  bool advance(std::int64_t from, double duration, State& y) {
+    drive_.begin(from);
+    time_ = 1.0e-9 * static_cast<double>(from);
+    double offset = 0.0;
+    while (offset < duration) {
+      const double corner = std::min(duration, drive_.nextCorner(offset));
+      const double h = std::min({step_, longest_ * duration, corner - offset});
+      const bool last = h >= (corner - offset) * (1.0 - 1.0e-12);
+      State next = y;
+      const double error = extrapolated(offset, h, next);
+      if (left_ < 0.0 || h < kLeastStep) {
+        return false;
+      }
+      const double factor = std::clamp(0.9 * std::pow(error, -1.0 / (2 * kColumns - 1)), 0.1, 3.0);
+      if (!(error <= 1.0)) {
+        step_ = h * (std::isfinite(error) ? factor : 0.1);
+        continue;
+      }
+      y = next;
+      q_size_ = q_size_.cwiseMax(y.q.cwiseAbs());
+      v_size_ = v_size_.cwiseMax(y.v.cwiseAbs());
+      offset = last ? std::nextafter(corner, 2.0 * duration) : offset + h;
+      step_ = last ? std::max(step_, h * factor) : h * factor;
+    }
+    return true;
+  }
+
+  VectorXd acceleration(const State& y, double offset) {
+    left_ -= 1.0;
+    const ShaftMotion shaft = drive_.at(offset);
+    return dynamics_.acceleration(y.q, y.v,
+                                  {time_ + offset, shaft.angle, shaft.speed, shaft.acceleration});
+  }
+
+  /// Returns its error in parts of what is allowed.
+  double extrapolated(double offset, double h, State& y) {
+    std::array<State, kColumns> row;
+    const State start = y;
+    const VectorXd a0 = acceleration(start, offset);
+    double error = 0.0;
+    for (int k = 0; k < kColumns; ++k) {
+      const int n = 2 * (k + 1);
+      State next = midpoint(start, a0, offset, h / n, n);
+      for (int j = 0; j < k; ++j) {  // row[j]: column j of the row before
+        const double ratio = std::pow(static_cast<double>(n) / (2 * (k - j)), 2);
+        const State better{next.q + (next.q - row[static_cast<std::size_t>(j)].q) / (ratio - 1.0),
+                           next.v + (next.v - row[static_cast<std::size_t>(j)].v) / (ratio - 1.0)};
+        row[static_cast<std::size_t>(j)] = next;
+        next = better;
+      }
+      if (k + 1 == kColumns) {
+        error = distance(next, row[kColumns - 2]);
+        y = next;
+      }
+      row[static_cast<std::size_t>(k)] = next;
+    }
+    return error / tolerance_;
+  }
+
+  State midpoint(const State& start, const VectorXd& a0, double offset, double h, int n) {
+    State before = start;
+    State now{start.q + h * start.v, start.v + h * a0};
+    for (int i = 1; i < n; ++i) {
+      const VectorXd a = acceleration(now, offset + i * h);
+      const State next{before.q + 2.0 * h * now.v, before.v + 2.0 * h * a};
+      before = now;
+      now = next;
+    }
+    const VectorXd a = acceleration(now, offset + n * h);
+    return {0.5 * (now.q + before.q + h * now.v), 0.5 * (now.v + before.v + h * a)};
+  }
+
+  /// In parts of the largest so far, of all coordinates and rates of a unit.
+  double distance(const State& a, const State& b) const {
+    double largest = 0.0;
+    const double q = std::max(q_size_.maxCoeff(), a.q.cwiseAbs().maxCoeff());
+    const double v = std::max(v_size_.maxCoeff(), a.v.cwiseAbs().maxCoeff());
+    for (Eigen::Index i = 0; i < a.q.size(); ++i) {
+      const double off_q = std::fabs(a.q[i] - b.q[i]);
+      const double off_v = std::fabs(a.v[i] - b.v[i]);
+      largest = std::max({largest, off_q == 0.0 ? 0.0 : off_q / q, off_v == 0.0 ? 0.0 : off_v / v});
+      if (!std::isfinite(off_q) || !std::isfinite(off_v)) {
+        return std::numeric_limits<double>::infinity();
+      }
+    }
+    return largest;
+  }
+
+  BuiltScene built_;
+  const Dynamics& dynamics_;
+  Drive drive_;
+  double tolerance_;
+  double longest_;
+  double left_;        // evaluations
+  double time_ = 0.0;  // [s], of the drive's begin()
+  double step_ = 0.0;
+  VectorXd q_size_, v_size_;
+};
+
+}  // namespace
+
+IndependentMotion independentMotion(const Scene& one, std::int64_t interval, std::size_t samples,
+                                    double evaluations) {
+  IndependentMotion m;
+  m.trajectory = Extrapolation(one, kFine, 1.0, evaluations).run(interval, samples);
+  const Trajectory coarse =
+      Extrapolation(one, kCoarse, kOtherStep, evaluations).run(interval, samples);
+  m.own = ErrorCurve(coarse, m.trajectory);
+  return m;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,136 @@
+// Promises where they are hard to keep: at coarse steps, across narrow dry friction, in chaos, at
+// speeds that no step resolves, and in run-ups of linear rotors. Each is judged by a method that
+// the twin does not have; what cannot be known is not promised.
+#include "accuracy/promise.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "../scene/scenes.h"
+#include "accuracy/step_choice.h"
+#include "independent_motion.h"
+
+namespace whirl_twin {
+namespace {
+
+/// The error of a choice over the horizon, at the scene's own samples.
+double trueError(const Scene& one, const StepChoice& choice) {
+  const double steps = one.systems.front().horizon / one.stepSeconds();
+  const auto samples = 1 + static_cast<std::size_t>(std::llround(std::ceil(steps)));
+  const IndependentMotion truth = independentMotion(one, one.step, samples, 1.0e6);
+  EXPECT_LT(truth.own.position(samples - 1), 1.0e-9) << "the judge must be better";
+  const Trajectory chosen =
+      motion(withSetting(one, {choice.integrator, one.step, choice.substeps}), one.step, samples);
+  return ErrorCurve(chosen, truth.trajectory).position(samples - 1);
+}
+
+void expectKept(const Scene& one) {
+  const StepChoice choice = chooseStep(one);
+  EXPECT_TRUE(choice.promise.kept) << choice.reason;
+  EXPECT_EQ(choice.promise.known_until, one.systems.front().horizon);
+  const double error = trueError(one, choice);
+  EXPECT_LE(error, one.systems.front().tolerance) << choice.reason;
+  EXPECT_GE(5.0 * choice.promise.error + 1.0e-12, error) << choice.reason;
+}
+
+Scene pendulum(const std::string& step, const std::string& more) {
+  return sceneOf("{step: " + step +
+                 ", systems: {p: {model: double_pendulum, parameters: {mass1: 1, mass2: 1, "
+                 "length1: 1, length2: 1}, initial: {theta1: 1.0}" +
+                 more + "}}}");
+}
+
+TEST(Promise, IsKeptAtStepsFarTooCoarseForAnyMethodByItself) {
+  for (const char* step : {"0.1", "0.5", "1.0", "10.0"}) {
+    SCOPED_TRACE(step);
+    expectKept(pendulum(step, ""));
+    expectKept(pendulum(step, ", tolerance: 1.0e-3"));
+  }
+}
+
+TEST(Promise, IsKeptInRunUpsOfLinearRotorsAtCoarseSteps) {
+  for (const char* step : {"0.005", "0.02"}) {
+    for (const char* more : {"", ", internal_damping: 6, stiffness_y: 2.2e4"}) {
+      for (const char* tolerance : {"1.0e-6", "1.0e-9"}) {
+        SCOPED_TRACE(std::string(step) + more + ", " + tolerance);
+        expectKept(sceneOf(std::string("{step: ") + step +
+                           ", drives: {shaft: {speed: 0, profile: [{speed: 250, "
+                           "max_acceleration: 100, dwell: 10}]}}, systems: {r: {model: "
+                           "jeffcott_rotor, drive: shaft, horizon: 3, tolerance: " +
+                           tolerance +
+                           ", parameters: {mass: 2, stiffness: 2.0e4, damping: 10, eccentricity: "
+                           "1.0e-4" +
+                           more + "}}}}"));
+      }
+    }
+  }
+}
+
+TEST(Promise, OfNarrowDryFrictionEndsWhereItIsNotKnown) {
+  for (const char* width : {"3.0e-6", "1.0e-6", "1.0e-8"}) {
+    SCOPED_TRACE(width);
+    const StepChoice choice = chooseStep(sceneOf(
+        std::string("{step: 0.001, systems: {p: {model: friction_oscillator, tolerance: 1.0e-6, "
+                    "parameters: {mass: 1, friction_coefficient: 0.3, half_spacing: 0.0762, "
+                    "height: 0.0127, roller_speed: 0.2, regularization: ") +
+        width + "}, initial: {x: 0.05}}}}"));
+    const Promise& p = choice.promise;
+    EXPECT_TRUE(!p.kept) << choice.reason << ": no step there is resolves it";
+    EXPECT_GT(p.kept_until, 0.09) << "it slides until then";
+    EXPECT_LT(p.kept_until, 0.3) << "and sticks";
+    EXPECT_NE(choice.integrator, "velocity_verlet") << "friction is nothing but rates";
+  }
+}
+
+// Their errors grow e-fold 2.4 times a second, whatever was asked of them.
+TEST(Promise, OfChaosDoesNotDependOnTheHorizon) {
+  const auto promised = [](const std::string& tolerance, const std::string& horizon) {
+    Scene one = pendulum("0.001", ", tolerance: " + tolerance + ", horizon: " + horizon);
+    one.systems.front().q = {2.0, 2.5};
+    const Promise p = chooseStep(one).promise;
+    EXPECT_FALSE(p.kept) << tolerance << ", " << horizon;
+    EXPECT_LT(p.known_until, 25.0) << tolerance << ", " << horizon;
+    return p.kept_until;
+  };
+  const double short_sighted = promised("1.0e-6", "20");
+  EXPECT_NEAR(promised("1.0e-6", "100"), short_sighted, 0.02 * short_sighted);
+  EXPECT_GT(promised("1.0e-2", "60"), short_sighted);
+}
+
+TEST(Promise, IsNotMadeOfMotionsThatNoStepResolves) {
+  const StepChoice fast = chooseStep(
+      sceneOf("{step: 0.001, systems: {p: {model: spinning_pendulum, parameters: {mass: 1, length: "
+              "0.2, speed: 1.0e5}, initial: {theta: 0.5}}}}"));
+  EXPECT_FALSE(fast.promise.kept) << fast.reason;
+  EXPECT_LT(fast.promise.kept_until, 0.1) << fast.reason;
+  const StepChoice lopsided = chooseStep(
+      sceneOf("{step: 0.001, systems: {p: {model: double_pendulum, parameters: {mass1: 1, mass2: "
+              "1.0e9, length1: 1, length2: 1.0e-3}, initial: {theta1: 1.0, theta2: 0.3}}}}"));
+  EXPECT_FALSE(lopsided.promise.kept) << lopsided.reason;
+  EXPECT_LT(lopsided.promise.kept_until, 1.0) << lopsided.reason;
+}
+
+TEST(Promise, OfAMethodThatTheSceneNamesIsItsOwnError) {
+  const Scene rough = pendulum("0.01", ", integrator: velocity_verlet, horizon: 3");
+  const StepChoice named = judgeStep(rough);
+  EXPECT_EQ(named.integrator, "velocity_verlet");
+  EXPECT_FALSE(named.promise.kept);
+  const double error = trueError(rough, named);
+  EXPECT_NEAR(named.promise.error, error, 0.01 * error);
+  EXPECT_LT(named.promise.kept_until, 0.5);
+  EXPECT_EQ(named.promise.known_until, 3.0);
+  EXPECT_GT(named.promise.rate_error, 0.1 * error);
+}
+
+TEST(Promise, OfExactStepsHoldsOverAMonth) {
+  const StepChoice month = chooseStep(
+      sceneOf("{step: 0.001, systems: {r: {model: jeffcott_rotor, horizon: 2.6e6, parameters: "
+              "{mass: 1, stiffness: 1.0e4, damping: 10, speed: 50, eccentricity: 1.0e-4}}}}"));
+  EXPECT_TRUE(month.promise.kept) << month.reason;
+  EXPECT_LT(month.promise.error, 1e-6);
+}
+
+}  // namespace
+}  // namespace whirl_twin
