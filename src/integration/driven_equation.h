@@ -1,4 +1,4 @@
-// The equation that a step integrates: a model and the motion of its shaft. Inputs: forced_step.h.
+// The equation that a step integrates: a model and the motion of its shaft. Inputs: called_step.h.
 #pragma once
 
 #include <Eigen/Core>

@@ -11,19 +11,25 @@
 
 #include "control/drive.h"
 #include "control/shaft_angle.h"
+#include "integration/called_step.h"
 #include "integration/driven_equation.h"
 #include "integration/finite.h"
-#include "integration/forced_step.h"
 #include "integration/input_force.h"
 #include "integration/step_error_sum.h"
 #include "integration/stepper.h"
 #include "mechanics/dynamics.h"
 
-#if defined(__x86_64__) && !defined(__clang__) && !defined(WHIRL_TWIN_LONG_EQUATIONS)
+#if defined(__x86_64__) && !defined(__clang__)
 #define WHIRL_TWIN_FUSED_STEPS
 #endif
 
 namespace whirl_twin {
+
+#ifdef WHIRL_TWIN_LONG_EQUATIONS
+constexpr bool kLongEquations = true;
+#else
+constexpr bool kLongEquations = false;
+#endif
 
 /// A shaft whose angle is the coordinate kSpin.
 template <class Model, class = void>
@@ -153,14 +159,15 @@ class SteppedSystem final : public Stepper {
     return {turns_, angle < 0.0 ? 0.0 : angle};  // below 0 only by rounding
   }
 
-  /// Out of line: one copy of the equations for a system and a method is enough.
+  // Three ways to take a step of the method; one or two of them are compiled.
+
+  /// The equations within the method, in one copy for a system and a method.
   [[gnu::noinline]] static StepStatus methodStep(Method& method,
                                                  const DrivenEquation<Model>& equation,
                                                  double offset, double h,
                                                  MotionState<n>& state) noexcept {
     return method.step(equation, offset, h, state);
   }
-
 #ifdef WHIRL_TWIN_FUSED_STEPS
   /// The same with fused multiply-add, which takes half as long for sums of products.
   [[gnu::noinline, gnu::target("avx2,fma")]] static StepStatus fusedMethodStep(
@@ -169,19 +176,30 @@ class SteppedSystem final : public Stepper {
     return method.step(equation, offset, h, state);
   }
 #endif
+  /// The equations reached by calls.
+  static StepStatus calledMethodStep(Method& method, const DrivenEquation<Model>& equation,
+                                     double offset, double h, MotionState<n>& state) noexcept {
+    const EquationOf<Model> own(equation);
+    return calledStep(method, CalledEquation<n>{own}, offset, h, state);
+  }
+
   using MethodStep = StepStatus (*)(Method&, const DrivenEquation<Model>&, double, double,
                                     MotionState<n>&) noexcept;
   /// The one for the processor this runs on; linear models have the exact steps if they must be
   /// fast.
   static MethodStep methodStepHere() {
+    if constexpr (kLongEquations && !Model::kLinear) {
+      return calledMethodStep;
+    } else {
 #ifdef WHIRL_TWIN_FUSED_STEPS
-    if constexpr (!Model::kLinear) {
-      if (__builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0) {
-        return fusedMethodStep;
+      if constexpr (!Model::kLinear) {
+        return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0
+                   ? fusedMethodStep
+                   : calledMethodStep;
       }
-    }
 #endif
-    return methodStep;
+      return methodStep;
+    }
   }
 
   /// One step of the method, in parts where the drive or an input has a corner inside it: across a
@@ -212,7 +230,8 @@ class SteppedSystem final : public Stepper {
     const MotionState<n> from = state;
     inputs_.enter(offset + 0.5 * h);
     const EquationOf<Model> own(equation);
-    const StepStatus status = forcedStep(method, ForcedEquation<n>{own, inputs_}, offset, h, state);
+    const StepStatus status =
+        calledStep(method, CalledEquation<n>{own, &inputs_}, offset, h, state);
     double work = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
       work += inputs_.held()[i] * ((state.q[i] - from.q[i]) + (state.q_low[i] - from.q_low[i]));

@@ -42,10 +42,10 @@ struct LoopStatistics {
   std::vector<std::string> stopped_why;  ///< empty while running
   // Which run of simulated time this is. A reset is announced by a higher epoch, a simulation that
   // was started again by a later start; 0: not told.
-  std::int64_t started = 0;  ///< [ns], wall clock when the simulation was started
-  std::uint64_t epoch = 0;   ///< resets since then
-  std::uint64_t lcm_failed = 0;          ///< messages that LCM could not send
-  std::uint64_t publish_every = 0;       ///< steps from one publication to the next, at present
+  std::int64_t started = 0;         ///< [ns], wall clock when the simulation was started
+  std::uint64_t epoch = 0;          ///< resets since then
+  std::uint64_t lcm_failed = 0;     ///< messages that LCM could not send
+  std::uint64_t publish_every = 0;  ///< steps from one publication to the next, at present
 
   template <class Visit>
   static void fields(Visit& visit) {
