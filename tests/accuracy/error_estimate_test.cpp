@@ -159,8 +159,8 @@ TEST(ErrorEstimateOf, ARotorSteppedFromATableOverSpeed) {
 
 TEST(ErrorEstimateOf, ALinearSystem) {
   const std::string system =
-      "{step: 0.01, systems: {one: {model: linear_system, parameters: {coordinates: [a, b], mass: "
-      "[[1, 0], [0, 2]], stiffness: [[30, -10], [-10, 20]]}, initial: {a: 0.1}, integrator: ";
+      "{step: 0.01, systems: {one: {model: linear_system, parameters: {mass: [[1, 0], [0, 2]], "
+      "stiffness: [[30, -10], [-10, 20]]}, initial: {q1: 0.1}, integrator: ";
   const Estimated rough = estimated(sceneOf(system + "implicit_midpoint}}}"));
   ASSERT_GT(rough.error, 1e-5);
   EXPECT_GT(rough.estimate, 0.3 * rough.error) << rough.error;
