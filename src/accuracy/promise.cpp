@@ -58,7 +58,8 @@ StepJudge::StepJudge(const Scene& one, const ModelSetup& setup, EvaluationBudget
   EvaluationBudget part = budget.upTo(exact_ ? kExactBudget : kReferencePart * budget.left());
   const double before = part.left();
   const double steps = std::max(1.0, std::ceil(spec.horizon / one.stepSeconds() - 1.0e-6));
-  const double evaluations = exact_ ? kExactEvaluations : kEvaluations;
+  const bool by_itself = setup.integrators.size() == 1;
+  const double evaluations = exact_ || by_itself ? kExactEvaluations : kEvaluations;
   const double affordable =
       before / (evaluations * budget.cost({kExact, one.step, spec.substeps}, one.step, 1));
   const double seen = std::min(steps, std::max(affordable, 8.0));

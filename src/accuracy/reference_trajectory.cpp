@@ -141,18 +141,15 @@ ReferenceTrajectory referenceTrajectory(const Scene& one, const std::string& met
     return StepSetting{other, one.step, substeps * (stepMethod(other).order == 4 ? 2 : 1)};
   };
   const auto costOfOne = [&](int substeps) {
-    double cost = budget.cost({method, one.step, substeps / 2 * 3}, interval, 1);
-    for (const std::string& other : others) {
-      cost += budget.cost(settingOf(other, substeps), interval, 1);
-    }
-    return cost;
+    return budget.cost({method, one.step, substeps / 2 * 3}, interval, 1) +
+           budget.cost(settingOf(others.front(), substeps), interval, 1);
   };
   for (int substeps = 2 * one.systems.front().substeps; substeps <= kMostSubsteps;) {
     const StepSetting setting{method, one.step, substeps / 2 * 3};
     const double of_one = costOfOne(substeps);
     const bool first = best.trajectory.samples() == 0;
     // Of the first, leaving room for shorter steps; of what has parted as much as can be had.
-    const double affordable = (first ? 0.5 : 1.0) * budget.left() / of_one;
+    const double affordable = (first ? 0.4 : 1.0) * budget.left() / of_one;
     if (static_cast<double>(asked) > affordable) {
       if (!first && !parted) {
         break;
@@ -166,9 +163,13 @@ ReferenceTrajectory referenceTrajectory(const Scene& one, const std::string& met
     budget.take(spent);
     ReferenceTrajectory now =
         pair(one, setting, settingOf(others.front(), substeps), interval, asked);
-    for (std::size_t i = 1; i < others.size() && now.difference.samples() < asked; ++i) {
-      ReferenceTrajectory by_other =
-          pair(one, setting, settingOf(others[i], substeps), interval, asked);
+    for (std::size_t i = 1; i < others.size() && 8 * now.lastWithin(wanted) < asked; ++i) {
+      const StepSetting other = settingOf(others[i], substeps);
+      if (!budget.take(budget.cost(setting, interval, asked) +
+                       budget.cost(other, interval, asked))) {
+        break;
+      }
+      ReferenceTrajectory by_other = pair(one, setting, other, interval, asked);
       if (by_other.lastWithin(wanted) > now.lastWithin(wanted) ||
           by_other.difference.samples() > 2 * now.difference.samples()) {
         now = std::move(by_other);

@@ -10,7 +10,7 @@ namespace whirl_twin {
 namespace {
 
 constexpr double kFilmCost = 30.0;
-constexpr double kKinkCost = 15.0;
+constexpr double kKinkCost = 8.0;
 
 bool given(const ParameterValues& values, const char* name) {
   return values.at(name) > 0.0;

@@ -55,6 +55,40 @@ TEST(Check, TellsWhatTheDemoModels) {
 
 // A jerk-limited move of dv with the acceleration limit A reached lasts dv/A + A/J; without a jerk
 // limit dv/A.
+TEST(Check, TellsWhatIsPromisedOfEachSystem) {
+  const TemporaryDirectory directory;
+  const std::string scene = directory.write("three.yaml", R"(
+name: three
+step: 0.01
+systems:
+  exact: {model: jeffcott_rotor, tolerance: 1.0e-9, horizon: 2.0,
+    parameters: {mass: 1, stiffness: 100, speed: 5, eccentricity: 0.001}}
+  rough: {model: double_pendulum, integrator: velocity_verlet, horizon: 2.0,
+    parameters: {mass1: 1, mass2: 1, length1: 1, length2: 1}, initial: {theta1: 1}}
+  tumbling: {model: double_pendulum, tolerance: 1.0e-9, horizon: 100.0,
+    parameters: {mass1: 1, mass2: 1, length1: 1, length2: 1}, initial: {theta1: 3, theta2: 3}}
+)");
+  const Ending end = twin({"check", scene, "--json"});
+  ASSERT_EQ(end.status, 0) << end.err;  // what cannot be kept can still run
+  const Json exact = end.json()["systems"]["exact"]["accuracy"];
+  EXPECT_EQ(exact["tolerance"], 1.0e-9);
+  EXPECT_EQ(exact["horizon"], 2.0);
+  EXPECT_EQ(exact["kept"], true);
+  EXPECT_EQ(exact["kept_until"], 2.0);
+  EXPECT_EQ(exact["known_until"], 2.0);
+  EXPECT_LT(exact["error"].get<double>(), 1.0e-12);
+  const Json rough = end.json()["systems"]["rough"]["accuracy"];
+  EXPECT_EQ(rough["kept"], false);
+  EXPECT_EQ(rough["known_until"], 2.0);
+  EXPECT_GT(rough["error"].get<double>(), 1.0e-5);
+  EXPECT_GT(rough["rate_error"].get<double>(), 1.0e-5);
+  EXPECT_LT(rough["reference_error"].get<double>(), 1.0e-7);
+  const Json tumbling = end.json()["systems"]["tumbling"]["accuracy"];
+  EXPECT_EQ(tumbling["kept"], false);
+  EXPECT_LT(tumbling["known_until"].get<double>(), 20.0);
+  EXPECT_GT(tumbling["kept_until"].get<double>(), 1.0);
+}
+
 TEST(Check, TimesTheMovesOfADrive) {
   const TemporaryDirectory directory;
   const std::string scene = directory.write("scene.yaml", R"(

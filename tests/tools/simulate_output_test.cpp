@@ -85,6 +85,27 @@ TEST(Times, AreRoundedToWholeStepsAndItIsSaid) {
   }
 }
 
+// A pendulum calibrated while it creeps away from its upright equilibrium, which then falls.
+TEST(Output, ARunLessAccurateThanPromisedSaysSo) {
+  const TemporaryDirectory directory;
+  const std::string scene = directory.write("falls.yaml", R"(
+name: falls
+step: 0.05
+systems:
+  arms: {model: double_pendulum, tolerance: 1.0e-6, horizon: 0.1,
+    parameters: {mass1: 1, mass2: 1, length1: 1, length2: 1}, initial: {theta1: 3, theta2: 3}}
+)");
+  const Ending kept = twin({"simulate", scene, "--duration", "0.1", "--json"});
+  ASSERT_EQ(kept.status, 0) << kept.err;
+  EXPECT_EQ(kept.err, "");
+  EXPECT_TRUE(kept.json()["systems"]["arms"]["accuracy_lost"].is_null());
+  EXPECT_GT(kept.json()["systems"]["arms"]["error_estimate"].get<double>(), 0.0) << "two steps";
+  const Ending lost = twin({"simulate", scene, "--duration", "20", "--json"});
+  ASSERT_EQ(lost.status, 0);
+  EXPECT_NE(lost.err.find("ACCURACY_LOST"), std::string::npos) << lost.err;
+  EXPECT_GT(lost.json()["systems"]["arms"]["accuracy_lost"].get<double>(), 0.1);
+}
+
 TEST(Output, FileHasTheBytesOfStandardOutput) {
   const TemporaryDirectory directory;
   const std::string path = directory.file("demo.csv");

@@ -65,6 +65,14 @@ TEST(Tradeoff, ErrorsFallWithTheOrderAndTheRecommendedRowKeepsTheTolerance) {
     }
   }
   for (const Json& best : report["recommended"]) {
+    for (const Json& row : report["rows"]) {
+      const double own = best["reference"]["error"];
+      if (row["system"] == best["system"]) {
+        EXPECT_GE(row["error"].get<double>(), own) << "no better known than the reference is";
+        EXPECT_EQ(row["below_reference"].get<bool>(), row["error"].get<double>() == own);
+      }
+    }
+    EXPECT_NE(best["reference"]["checked_by"], nullptr);
     EXPECT_LE(best["error"].get<double>(), best["tolerance"].get<double>());
     EXPECT_EQ(best["step"].get<double>(), 0.002);
     EXPECT_LT(best["reference"]["error"].get<double>(), 1e-9);
