@@ -8,16 +8,21 @@
 //     a rotor with film, hysteresis, rub or motor     exponential
 //         Method and energies are one function after compiling. `auto` calibrates.
 //
-//     energies, linear, matrices the same at every    exponential      SteppedSystem<Model,
-//     speed: jeffcott_rotor, friction_oscillator                                    Exponential>
-//         e^(A h) of state and shaft phasor in one matrix of fixed size; while the speed changes
-//         the force by four Gauss nodes at the drive's exact angle.
+//     energies, linear, of two coordinates:           exponential      LateralRotorStepper
+//     jeffcott_rotor
+//         Two oscillators that the shaft drives and couples. At constant speed the plain exact
+//         step, of an isotropic rotor in z = x + i y; in a run-up 4, 8 or 12 Gauss nodes at the
+//         drive's exact angle, as many as the step needs, side by side in vectors. Very stiff
+//         ones (more than 640 rad a step) go by LinearRotorStepper.
 //
-//     energies, linear, matrices that change with     exponential      LinearRotorStepper
-//     speed: jeffcott_rotor with internal damping                      (RotorStep)
-//     or fluid, rigid_disc_rotor
+//     energies, linear, without a shaft:              exponential      SteppedSystem<Model,
+//     friction_oscillator                                                           Exponential>
+//         e^(A h) of the state in one matrix of fixed size.
+//
+//     energies, linear, of more coordinates:          exponential      LinearRotorStepper
+//     rigid_disc_rotor                                                 (RotorStep)
 //         e^(A(w) h) from a table over the drive's speeds, so that run-ups are exact too but for
-//         (a h^2)^2. withExactRunUps() puts it in Exponential's place.
+//         (a h^2)^2. withExactRunUps() puts either in Exponential's place.
 //
 //     rigid_disc_rotor, frame: rotating               exponential at   SteppedSystem<Model, Method>
 //                                                     constant speed

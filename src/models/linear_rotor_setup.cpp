@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "integration/exponential.h"
+#include "integration/lateral_rotor_stepper.h"
 #include "integration/linear_rotor_stepper.h"
 #include "models/exact_stepper.h"
 
@@ -36,14 +37,19 @@ ModelSetup linearRotorSetup(std::shared_ptr<const Dynamics> dynamics) {
 }
 
 ModelSetup withExactRunUps(ModelSetup setup, JacobiIntegral jacobi) {
-  if (!setup.dynamics->linear() || !setup.dynamics->speedDependent()) {
-    return setup;
-  }
-  setup.system = [plain = setup.system, exact = exactSetup(setup.dynamics, jacobi).system](
+  setup.system = [dynamics = setup.dynamics, plain = setup.system, jacobi](
                      const std::string& integrator, const Excitation& excitation, double step,
                      int substeps) {
-    const bool exponential = integrator == Exponential<1>::kName;
-    return (exponential ? exact : plain)(integrator, excitation, step, substeps);
+    if (integrator != Exponential<1>::kName) {
+      return plain(integrator, excitation, step, substeps);
+    }
+    if (excitation.inputs == nullptr) {
+      if (auto lateral = LateralRotorStepper::of(dynamics->linearRotor(), jacobi, excitation.drive,
+                                                 step, substeps)) {
+        return lateral;
+      }
+    }
+    return exactStepper(dynamics, jacobi, excitation, step, substeps);
   };
   setup.exact_run_ups = true;
   return setup;

@@ -14,7 +14,7 @@ namespace whirl_twin {
 ModelSetup linearRotorSetup(std::shared_ptr<const Dynamics> dynamics);
 
 /// A setup of a linear model with a shaft, in the fixed frame, whose `exponential` follows a
-/// changing speed by that step where its matrices change with speed; else as it was.
+/// changing speed: of two coordinates without inputs by LateralRotorStepper, else by that step.
 ModelSetup withExactRunUps(ModelSetup setup, JacobiIntegral jacobi);
 
 }  // namespace whirl_twin

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "integration/lateral_rotor.h"
 #include "integration/step_methods.h"
 #include "models/models.h"
 
@@ -132,11 +133,14 @@ IntegratorChoice chooseIntegrator(const ModelSetup& setup, bool speed_changes) {
   if (dynamics.linear() && !speed_changes) {
     return {"exponential", "linear at constant speed: the exact step"};
   }
-  if (dynamics.linear() && !dynamics.speedDependent()) {
-    return {"exponential", "linear with matrices that do not change with speed: exact free motion"};
+  if (dynamics.linear() && setup.exact_run_ups && lateralRotor(dynamics.linearRotor())) {
+    return {"exponential", "linear, of two coordinates: the exact step at any speed"};
   }
   if (dynamics.linear() && setup.exact_run_ups) {
-    return {"exponential", "linear: the exact step, from a table over the drive's speeds"};
+    return {"exponential", "linear: the exact step, from a table over the drive's speeds", true};
+  }
+  if (dynamics.linear() && !dynamics.speedDependent()) {
+    return {"exponential", "linear with matrices that do not change with speed: exact free motion"};
   }
   if (dynamics.linear()) {
     return {"gauss_legendre_6", "its matrices change with the drive's speed"};

@@ -145,15 +145,15 @@ constexpr const char* kRunUp =
     "systems: {one: {model: jeffcott_rotor, drive: shaft, parameters: {mass: 2, stiffness: 2.0e4, "
     "damping: 10, eccentricity: 1.0e-4";
 
+constexpr const char* kByTable = ", internal_damping: 6}, inputs: {force_x: 0.0}}}}";
+
 // The table over speed leaves out the change of speed inside a step: 0.02 s are coarse.
 TEST(ErrorEstimateOf, ARotorSteppedFromATableOverSpeed) {
-  const Estimated coarse =
-      estimated(sceneOf(std::string("{step: 0.02, ") + kRunUp + ", internal_damping: 6}}}}"));
+  const Estimated coarse = estimated(sceneOf(std::string("{step: 0.02, ") + kRunUp + kByTable));
   ASSERT_GT(coarse.error, 1e-6);
   EXPECT_GT(coarse.estimate, 0.3 * coarse.error) << coarse.error;
   EXPECT_LT(coarse.estimate, 50.0 * coarse.error) << coarse.error;
-  const Estimated fine =
-      estimated(sceneOf(std::string("{step: 0.001, ") + kRunUp + ", internal_damping: 6}}}}"));
+  const Estimated fine = estimated(sceneOf(std::string("{step: 0.001, ") + kRunUp + kByTable));
   EXPECT_LT(fine.estimate, 1e-6);
 }
 

@@ -1,0 +1,43 @@
+// A linear rotor of two coordinates, its disc's x and y, as two oscillators that the shaft drives
+// and couples. Per unit of mass
+//
+//   x'' + c_x x' + k_x x = -n(w) y + f_x,   y'' + c_y y' + k_y y = n(w) x + f_y,   n = n_0 + n_1 w
+//   f = Re[(w^2 - i a) E e^(i theta)] + Re[B e^(i theta)] + g
+//
+// n: what rotates with the shaft or around it (internal damping, a fluid, cross-coupled stiffness),
+// linear in the speed w. All linear forms of the Jeffcott rotor are of this kind. Where the axes
+// are alike the rotor is isotropic and whirls as one complex number z = x + i y (lecture notes,
+// "whirling of shafts").
+#pragma once
+
+#include <array>
+#include <complex>
+#include <optional>
+
+#include "mechanics/linear_rotor.h"
+
+namespace whirl_twin {
+
+/// Along x and along y.
+struct LateralRotor {
+  using Complex = std::complex<double>;
+
+  double mass = 0.0;                      ///< [kg]
+  std::array<double, 2> damping{};        ///< c [1/s]
+  std::array<double, 2> stiffness{};      ///< k [1/s^2]
+  double coupling = 0.0;                  ///< n_0 [1/s^2]
+  double coupling_slope = 0.0;            ///< n_1 [1/s]
+  std::array<Complex, 2> eccentricity{};  ///< E [m]
+  std::array<Complex, 2> bow_force{};     ///< B [m/s^2]
+  std::array<double, 2> load{};           ///< g [m/s^2]
+  bool isotropic = false;                 ///< c, k alike; E_y = -i E_x, B_y = -i B_x
+
+  double couplingAt(double speed) const noexcept { return coupling + coupling_slope * speed; }
+  /// [1/s]: no free motion without coupling turns or decays faster.
+  double fastest() const noexcept;
+};
+
+/// The rotor as one of this kind, if it is; one that is so but for rounding is not.
+std::optional<LateralRotor> lateralRotor(const LinearRotor& rotor);
+
+}  // namespace whirl_twin

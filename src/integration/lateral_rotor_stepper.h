@@ -1,0 +1,72 @@
+// A rotor of two coordinates (lateral_rotor.h) on its drive: the plain exact step at constant
+// speed, quadrature at Gauss nodes while it changes. It is ready for any speed.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+
+#include "integration/excitation.h"
+#include "integration/jacobi_integral.h"
+#include "integration/lateral_exact_step.h"
+#include "integration/lateral_motion.h"
+#include "integration/lateral_rotor.h"
+#include "integration/lateral_run_up.h"
+#include "integration/stepper.h"
+
+namespace whirl_twin {
+
+class LateralRotorStepper : public Stepper {
+ public:
+  /// A stepper of this kind for step [s] of the twin in `substeps` parts, or nullptr: the rotor is
+  /// of another kind, or so stiff that a run-up would take very many parts of a step. The step
+  /// audits h = T + V of the matrices; what `jacobi`, if there is one, changes by besides is added
+  /// to the work.
+  static std::unique_ptr<Stepper> of(const LinearRotor& rotor, JacobiIntegral jacobi,
+                                     const Drive& drive, double step, int substeps);
+
+  LateralRotorStepper(const LateralRotor& rotor, JacobiIntegral jacobi, const Drive& drive,
+                      double step, int substeps);
+
+  std::size_t dof() const noexcept override { return 2; }
+  void write(double* out) const noexcept override;
+  double errorSum() const noexcept override { return error_sum_; }
+  void set(const double* q, const double* v) noexcept override;
+
+ protected:
+  /// Compiled for each width of vectors.
+  template <int lanes>
+  WHIRL_TWIN_INLINE StepStatus take() noexcept {
+    StepStatus status;
+    if (__builtin_expect(drive_.constantFor(step_), 1) &&
+        __builtin_expect(exact_.goesOn<lanes>(drive_.angle().remainder, motion_, status), 1)) {
+      return __builtin_expect(status == StepStatus::kOk, 1) ? status : stopped(status);
+    }
+    return otherStep();
+  }
+
+ private:
+  StepStatus otherStep() noexcept;
+  /// The shaft goes on without the rotor: what energy it has besides is that of now.
+  StepStatus stopped(StepStatus why) noexcept;
+  StepStatus changingStep() noexcept;
+  StepStatus advance(double offset, double h, LateralMotion& motion) noexcept;
+  void estimateError(const LateralMotion& end) noexcept;
+  double furtherEnergy() const noexcept;
+
+  const Drive& drive_;
+  double step_;  ///< [s]
+  LateralMotion motion_;
+  LateralExactStep exact_;
+  LateralRunUp run_up_;
+  LateralRotor rotor_;
+  JacobiIntegral jacobi_;
+  int substeps_;
+  double further_energy_ = 0.0;             ///< [J], at the start
+  std::optional<double> last_energy_ = {};  ///< [J], of one that has stopped
+  int steps_since_estimate_ = 0;
+  double largest_place_ = 0.0, largest_rate_ = 0.0;  ///< so far
+  double error_sum_ = 0.0;
+};
+
+}  // namespace whirl_twin

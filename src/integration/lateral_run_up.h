@@ -1,0 +1,76 @@
+// Steps of a rotor of two coordinates while the speed of its shaft changes.
+//
+// The free motion of each axis goes by its propagator, exact for any step; the forces by
+// Gauss-Legendre quadrature with the shaft's own angle at the nodes (variation of constants),
+//
+//   y(h) = e^(A h) y(0) + sum of w_j h e^(A (h - x_j h)) f(x_j h).
+//
+// Four nodes, eight or twelve: as many as the step needs to leave 1e-12 or less of the forces
+// where the shaft turns, and the free motion whirls or decays, by (w + p) h together. A step that
+// is longer than twelve nodes can take is parted.
+//
+// The rates at the nodes follow from the polynomial through the forces there (collocation), and
+// with them the audited work by the same nodes and weights, to the same order. What couples the
+// axes, n(w) (-y, x), is a force like the others, at deflections found by sweeps: each of them
+// leaves a small part of the last, n h^2 / 2 / (number of the sweep) or less.
+//
+// lateral_gauss_step.h takes the step.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+
+#include "control/drive.h"
+#include "integration/gauss_nodes.h"
+#include "integration/lateral_gauss_step.h"
+#include "integration/lateral_motion.h"
+#include "integration/lateral_rotor.h"
+
+namespace whirl_twin {
+
+class LateralRunUp {
+ public:
+  /// Prepares steps of h [s].
+  LateralRunUp(const LateralRotor& rotor, double h);
+
+  /// Advances by a length [s] from offset [s] after the drive's begin(), with no corner of its
+  /// motion inside. Real-time safe; a length other than h is prepared for first. kOutOfRange where
+  /// the shaft turns too far for any number of parts that a step may take.
+  StepStatus advance(const Drive& drive, double offset, double length,
+                     LateralMotion& motion) noexcept;
+
+ private:
+  static constexpr std::size_t kSets = 3;  // of nodes
+
+  struct Weights {
+    double length = 0.0;  ///< [s], prepared for
+    std::size_t set = 0;
+    std::array<LateralGaussWeights, 2> axes;
+  };
+  struct Set {
+    explicit Set(std::size_t count);
+    GaussStretches stretches;
+    TakeLateralGaussStep take;
+    alignas(32) std::array<double, kMostGaussNodes> nodes{};
+    alignas(32) std::array<double, kMostGaussNodes> weights{};
+  };
+  static const std::array<Set, kSets>& sets();
+
+  void prepare(Weights& weights, std::size_t set, double length) const noexcept;
+  void prepare(LateralGaussWeights& axis, std::size_t of, const Set& set,
+               double length) const noexcept;
+  const Weights& weightsFor(std::size_t set, double length) noexcept;
+  double couplingWithin(double highest_speed, double length) const noexcept;
+
+  LateralRotor rotor_;
+  double h_;  ///< [s]
+  const std::array<Set, kSets>* sets_;
+  double fastest_;      ///< [1/s], of the free motion
+  double flexibility_;  ///< [s], largest deflection after a unit impulse
+  std::array<std::unique_ptr<Weights>, kSets> whole_;
+  std::array<std::unique_ptr<Weights>, 2> other_;  ///< lengths met on the way
+  std::size_t oldest_ = 0;                         ///< of those
+};
+
+}  // namespace whirl_twin
