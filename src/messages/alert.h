@@ -34,6 +34,12 @@ struct Alert {
   double amplification_factor = kNone;        ///< [-]
   double decay_rate = kNone;                  ///< [1/s]
   std::string text;                           ///< one sentence for a person
+  bool acknowledged = false;                  ///< somebody has said that they have seen it
+  bool latched = false;            ///< its cause has gone, and it waits for a reset of the alarms
+  bool first_out = false;          ///< none of its system was there when it was raised
+  std::uint32_t repeats = 0;       ///< how often it had been raised before, since the last reset
+  double amplitude = kNone;        ///< [m], whirl radius
+  double amplitude_limit = kNone;  ///< [m], that it is above
 
   template <class Visit>
   static void fields(Visit& visit) {
@@ -53,6 +59,11 @@ struct Alert {
     visit(TWIN_FIELD(amplification_factor), "-");
     visit(TWIN_FIELD(decay_rate), "1/s");
     visit(TWIN_FIELD(text), "", requireText);
+    visit(TWIN_FIELD(acknowledged), "", requireFlag);
+    visit(TWIN_FIELD(latched), "", requireFlag);
+    visit(TWIN_FIELD(first_out), "", requireFlag);
+    visit(TWIN_FIELD(repeats), "");
+    visit.numbers("m", TWIN_FIELD(amplitude), TWIN_FIELD(amplitude_limit));
   }
 };
 

@@ -6,6 +6,7 @@ namespace whirl_twin::alert_type {
 inline constexpr char kCriticalSpeedApproach[] = "CRITICAL_SPEED_APPROACH";
 inline constexpr char kInCriticalBand[] = "IN_CRITICAL_BAND";
 inline constexpr char kSommerfeldCapture[] = "SOMMERFELD_CAPTURE";
+inline constexpr char kWhirlAmplitude[] = "WHIRL_AMPLITUDE";
 inline constexpr char kUnstable[] = "UNSTABLE";
 inline constexpr char kLowDamping[] = "LOW_DAMPING";
 inline constexpr char kEnergyResidual[] = "ENERGY_RESIDUAL";
@@ -14,5 +15,21 @@ inline constexpr char kNotFinite[] = "NOT_FINITE";
 inline constexpr char kStopped[] = "STOPPED";  // for any other cause
 inline constexpr char kModelInvalid[] = "MODEL_INVALID";
 inline constexpr char kDataLost[] = "DATA_LOST";
+
+inline constexpr const char* kAll[] = {kCriticalSpeedApproach,
+                                       kInCriticalBand,
+                                       kSommerfeldCapture,
+                                       kWhirlAmplitude,
+                                       kUnstable,
+                                       kLowDamping,
+                                       kEnergyResidual,
+                                       kAccuracyLost,
+                                       kNotFinite,
+                                       kStopped,
+                                       kModelInvalid,
+                                       kDataLost};
+
+/// The system of an alert about all of the twin.
+inline constexpr char kEverybody[] = "twin";
 
 }  // namespace whirl_twin::alert_type

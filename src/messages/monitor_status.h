@@ -21,6 +21,8 @@ struct MonitorStatus {
   // One entry a system.
   std::vector<std::string> system;
   std::vector<double> verdict_age;  ///< [s], wall time since its state came; NaN: none yet
+  std::vector<std::string> not_ok;  ///< why what comes from it cannot be judged; "": it can
+  std::vector<double> inhibited;    ///< [s], wall time that its alerts are still held back; else 0
 
   template <class Visit>
   static void fields(Visit& visit) {
@@ -32,6 +34,8 @@ struct MonitorStatus {
     visit(TWIN_FIELD(dangers), "", count);
     visit.array(TWIN_FIELD(systems), TWIN_FIELD(system), "", each(requireName), Stays::kSame);
     visit.along(TWIN_FIELD(system), TWIN_FIELD(verdict_age), "s");
+    visit.along(TWIN_FIELD(system), TWIN_FIELD(not_ok), "", each(requireText));
+    visit.along(TWIN_FIELD(system), TWIN_FIELD(inhibited), "s");
   }
 };
 

@@ -2,9 +2,34 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 
 namespace whirl_twin {
+
+double AmplitudeLevels::levelAt(const std::vector<double>& levels, double shaft_speed) const {
+  if (levels.empty()) {
+    return std::numeric_limits<double>::infinity();
+  }
+  const double s = std::abs(shaft_speed);
+  const auto above =
+      static_cast<std::size_t>(std::upper_bound(speed.begin(), speed.end(), s) - speed.begin());
+  if (above == 0) {
+    return levels.front();
+  }
+  if (above == speed.size()) {
+    return levels.back();
+  }
+  const double part = (s - speed[above - 1]) / (speed[above] - speed[above - 1]);
+  return levels[above - 1] + part * (levels[above] - levels[above - 1]);
+}
+
+AlarmDelays AlarmSettings::delaysOf(const std::string& type) const {
+  const auto own = delays.find(type);
+  return own == delays.end() ? AlarmDelays{0.0, clear_delay} : own->second;
+}
 
 std::vector<std::string> settingErrors(const AlarmSettings& settings) {
   std::vector<std::string> errors;
@@ -28,6 +53,10 @@ std::vector<std::string> settingErrors(const AlarmSettings& settings) {
   not_negative("log_decrement_warning", settings.log_decrement_warning, ">= 0 (dimensionless)");
   positive("energy_residual", settings.energy_residual, "> 0 (dimensionless)");
   positive("data_timeout", settings.data_timeout, "> 0 s");
+  check("trip_multiply", settings.trip_multiply,
+        settings.trip_multiply >= 1.0 && settings.trip_multiply <= 10.0,
+        "from 1 to 10 (dimensionless)");
+  not_negative("start_up_acceleration", settings.start_up_acceleration, ">= 0 rad/s^2");
   return errors;
 }
 

@@ -2,10 +2,35 @@
 // The defaults are those of config/monitor.yaml.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
 namespace whirl_twin {
+
+/// Which alerts stay after their cause has gone, until the alarms are reset.
+enum class Latch { kNone, kDanger, kAll };
+
+/// Levels of a system's whirl radius [m] over the speed of its shaft, its sign left out: linear
+/// between the points, and beyond them as at the last. Without points of speed, one level for all.
+struct AmplitudeLevels {
+  std::vector<double> speed;   ///< [rad/s], rising
+  std::vector<double> alert;   ///< [m], one a point; empty: none
+  std::vector<double> danger;  ///< [m], likewise
+
+  /// Infinite where there is none.
+  double alertAt(double shaft_speed) const { return levelAt(alert, shaft_speed); }
+  double dangerAt(double shaft_speed) const { return levelAt(danger, shaft_speed); }
+
+ private:
+  double levelAt(const std::vector<double>& levels, double shaft_speed) const;
+};
+
+/// Of one type of alert [s]: how long its cause has to be there, and to have gone.
+struct AlarmDelays {
+  double set = 0.0;
+  double clear = 1.0;
+};
 
 struct AlarmSettings {
   double approach_time = 2.0;          ///< [s], warn when a critical band will be entered within
@@ -16,6 +41,13 @@ struct AlarmSettings {
   double log_decrement_warning = 0.1;  ///< [-], warn below (API 617 stability); 0: do not
   double energy_residual = 1.0e-6;     ///< [-], warn when the energy balance is off by more
   double data_timeout = 1.0;           ///< [s] wall time, silence of one system among others
+  Latch latch = Latch::kNone;
+  std::map<std::string, AlarmDelays> delays;         ///< of types that have their own
+  std::map<std::string, AmplitudeLevels> amplitude;  ///< of systems that have some
+  double trip_multiply = 1.0;          ///< [-], of the amplitude levels while a shaft starts up
+  double start_up_acceleration = 0.5;  ///< [rad/s^2], it starts up when it gains speed faster
+
+  AlarmDelays delaysOf(const std::string& type) const;
 };
 
 /// What is wrong with the settings, one sentence a value ("clear_delay: must be >= 0 s, found -1");

@@ -14,46 +14,141 @@ constexpr double kCountdownPeriod = 0.2;  // s
 void AlertList::raise(state::Alert alert, const std::string& decision) {
   alert.raised = true;
   const auto entry = locate(alert.system, alert.type);
-  if (entry == entries_.end()) {
-    alert.id = ++last_id_;
-    alert.raised_time = alert.time;
-    events_.push_back(alert);
-    const double time = alert.time;
-    entries_.push_back({std::move(alert), decision, time});
-  } else {
-    alert.id = entry->alert.id;
-    alert.raised_time = entry->alert.raised_time;
-    const bool same = alert.severity == entry->alert.severity && decision == entry->decision;
-    entry->alert = std::move(alert);
-    if (same) {
-      Entry& now = *entry;
-      if (std::isfinite(now.alert.time_to_entry) &&
-          !(std::abs(now.alert.time - now.counted_at) < kCountdownPeriod)) {
-        now.counted_at = now.alert.time;
-        changed_ = true;
-      }
-      return;
-    }
-    entry->decision = decision;
-    events_.push_back(entry->alert);
+  if (entry != entries_.end()) {
+    bringUpToDate(*entry, std::move(alert), decision);
+  } else if (inhibited_.count(alert.system) == 0) {
+    add(std::move(alert), decision);
   }
-  changed_ = true;
+}
+
+void AlertList::add(state::Alert alert, const std::string& decision) {
+  alert.id = ++last_id_;
+  alert.raised_time = alert.time;
+  alert.repeats = counts_[{alert.system, alert.type}]++;
+  alert.first_out = std::none_of(entries_.begin(), entries_.end(), [&](const Entry& other) {
+    return other.alert.system == alert.system;
+  });
+  tell(alert);
+  const double time = alert.time;
+  entries_.push_back({std::move(alert), decision, time});
+  sort();
+}
+
+void AlertList::bringUpToDate(Entry& entry, state::Alert alert, const std::string& decision) {
+  const state::Alert& known = entry.alert;
+  alert.id = known.id;
+  alert.raised_time = known.raised_time;
+  alert.first_out = known.first_out;
+  alert.repeats = known.repeats;
+  alert.acknowledged = known.acknowledged;
+  alert.severity = std::max(alert.severity, entry.restored);
+  entry.in_doubt = false;
+  const bool back = known.latched;
+  if (back) {
+    alert.repeats = counts_[{alert.system, alert.type}]++;
+  }
+  const bool worse = alert.severity > known.severity;
+  const bool same = alert.severity == known.severity && decision == entry.decision && !back;
+  if (worse || back) {
+    alert.acknowledged = false;
+  }
+  entry.alert = std::move(alert);
+  if (same) {
+    if (std::isfinite(entry.alert.time_to_entry) &&
+        !(std::abs(entry.alert.time - entry.counted_at) < kCountdownPeriod)) {
+      entry.counted_at = entry.alert.time;
+      changed_ = true;
+    }
+    return;
+  }
+  entry.decision = decision;
+  tell(entry.alert);
   sort();
 }
 
 void AlertList::clear(const std::string& system, const std::string& type, double time,
                       const std::string& reason) {
   const auto entry = locate(system, type);
-  if (entry == entries_.end()) {
+  if (entry == entries_.end() || entry->alert.latched) {
     return;
   }
-  state::Alert cleared = std::move(entry->alert);
-  entries_.erase(entry);
-  cleared.raised = false;
-  cleared.time = time;
-  cleared.text = reason;
-  events_.push_back(std::move(cleared));
+  const bool latches = latch_ == Latch::kAll || (latch_ == Latch::kDanger &&
+                                                 entry->alert.severity == state::Severity::kDanger);
+  state::Alert& alert = entry->alert;
+  alert.time = time;
+  alert.text = reason;
+  alert.time_to_entry = state::Alert::kNone;
+  alert.latched = latches;
+  alert.raised = latches;
+  entry->in_doubt = false;
+  entry->restored = latches ? alert.severity : state::Severity::kInfo;
+  tell(alert);
+  if (!latches) {
+    entries_.erase(entry);
+  }
+}
+
+std::size_t AlertList::acknowledge(const std::string& system, const std::string& type) {
+  std::size_t count = 0;
+  for (Entry& entry : entries_) {
+    state::Alert& alert = entry.alert;
+    if (!alert.acknowledged && (system.empty() || system == alert.system) &&
+        (type.empty() || type == alert.type)) {
+      alert.acknowledged = true;
+      tell(alert);
+      ++count;
+    }
+  }
+  return count;
+}
+
+std::size_t AlertList::reset(double time) {
+  acknowledge("", "");
+  counts_.clear();
+  for (Entry& entry : entries_) {
+    if (entry.alert.latched) {
+      entry.alert.latched = entry.alert.raised = false;
+      entry.alert.time = time;
+      tell(entry.alert);
+    } else {
+      entry.restored = state::Severity::kInfo;
+      counts_[{entry.alert.system, entry.alert.type}] = 1;
+    }
+  }
+  const auto off = std::remove_if(entries_.begin(), entries_.end(),
+                                  [](const Entry& entry) { return !entry.alert.raised; });
+  const auto count = static_cast<std::size_t>(entries_.end() - off);
+  entries_.erase(off, entries_.end());
+  return count;
+}
+
+void AlertList::setInhibited(const std::string& system, bool inhibited) {
+  if (inhibited) {
+    inhibited_.insert(system);
+  } else {
+    inhibited_.erase(system);
+  }
+}
+
+void AlertList::restore(const std::vector<state::Alert>& alerts, std::uint32_t last_id,
+                        Counts counts) {
+  for (const state::Alert& alert : alerts) {
+    entries_.push_back({alert, alert.text, alert.time, !alert.latched, alert.severity});
+  }
+  last_id_ = std::max(last_id_, last_id);
+  counts_ = std::move(counts);
   changed_ = true;
+  sort();
+}
+
+std::vector<state::Alert> AlertList::inDoubt() const {
+  std::vector<state::Alert> alerts;
+  for (const Entry& entry : entries_) {
+    if (entry.in_doubt) {
+      alerts.push_back(entry.alert);
+    }
+  }
+  return alerts;
 }
 
 const state::Alert* AlertList::find(const std::string& system, const std::string& type) const {
@@ -87,6 +182,11 @@ std::vector<AlertList::Entry>::iterator AlertList::locate(const std::string& sys
   return std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
     return entry.alert.system == system && entry.alert.type == type;
   });
+}
+
+void AlertList::tell(const state::Alert& alert) {
+  events_.push_back(alert);
+  changed_ = true;
 }
 
 void AlertList::sort() {

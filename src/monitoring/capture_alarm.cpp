@@ -19,7 +19,9 @@ constexpr double kPi = 3.14159265358979323846;
 }  // namespace
 
 CaptureAlarm::CaptureAlarm(std::string system, const AlarmSettings& settings)
-    : system_(std::move(system)), settings_(settings), alarm_(settings.clear_delay) {}
+    : system_(std::move(system)),
+      settings_(settings),
+      alarm_(settings.delaysOf(alert_type::kSommerfeldCapture)) {}
 
 bool CaptureAlarm::standsStill(double time, double speed, double scale) {
   if (!stands_ || time < stood_since_ || std::abs(speed - stood_at_) > kStill * scale) {

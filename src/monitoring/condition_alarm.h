@@ -14,6 +14,7 @@
 #include <optional>
 
 #include "messages/alert.h"
+#include "monitoring/alarm_settings.h"
 
 namespace whirl_twin {
 
@@ -30,6 +31,9 @@ class ConditionAlarm {
   };
 
   /// Delays in s of the clock that update() is given.
+  explicit ConditionAlarm(AlarmDelays delays) : ConditionAlarm(delays.clear, delays.set) {}
+  ConditionAlarm(AlarmDelays delays, Repeats repeats)
+      : ConditionAlarm(delays.clear, delays.set, repeats) {}
   explicit ConditionAlarm(double clear_delay, double raise_delay = 0.0)
       : ConditionAlarm(clear_delay, raise_delay, Repeats{}) {}
   ConditionAlarm(double clear_delay, double raise_delay, Repeats repeats)

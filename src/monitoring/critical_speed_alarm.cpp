@@ -52,8 +52,8 @@ struct CriticalSpeedAlarm::Entry {
 CriticalSpeedAlarm::CriticalSpeedAlarm(std::string system, const AlarmSettings& settings)
     : system_(std::move(system)),
       settings_(settings),
-      band_alarm_(settings.clear_delay, 0.0, repeatsOf(settings)),
-      approach_alarm_(settings.clear_delay, 0.0, repeatsOf(settings)) {}
+      band_alarm_(settings.delaysOf(alert_type::kInCriticalBand), repeatsOf(settings)),
+      approach_alarm_(settings.delaysOf(alert_type::kCriticalSpeedApproach), repeatsOf(settings)) {}
 
 void CriticalSpeedAlarm::update(const state::DriveState& shaft,
                                 const CriticalSpeeds& critical_speeds, AlertList& alerts) {

@@ -11,18 +11,17 @@
 namespace whirl_twin {
 namespace {
 
-constexpr char kEverybody[] = "twin";
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 }  // namespace
 
 DataLostAlarm::DataLostAlarm(const std::vector<std::string>& systems, const AlarmSettings& settings)
     : timeout_(settings.data_timeout),
-      everybody_(settings.clear_delay),
+      everybody_(settings.delaysOf(alert_type::kDataLost)),
       last_arrival_(kNever),
       flowing_since_(kNever) {
   for (const std::string& system : systems) {
-    watches_.push_back({system, kNever, ConditionAlarm(settings.clear_delay)});
+    watches_.push_back({system, kNever, ConditionAlarm(settings.delaysOf(alert_type::kDataLost))});
   }
 }
 
@@ -48,10 +47,10 @@ void DataLostAlarm::tick(double wall_time, double time, bool paused, AlertList& 
   const bool lost = silence > timeout_ && !paused;
   const AlarmCondition condition = lost ? AlarmCondition::kWarning : AlarmCondition::kClear;
   if (everybody_.update(wall_time, condition) == ConditionAlarm::Change::kCleared) {
-    alerts.clear(kEverybody, alert_type::kDataLost, time, "states arrive again");
+    alerts.clear(alert_type::kEverybody, alert_type::kDataLost, time, "states arrive again");
   } else if (everybody_.active() && lost) {
     state::Alert alert;
-    alert.system = kEverybody;
+    alert.system = alert_type::kEverybody;
     alert.type = alert_type::kDataLost;
     alert.severity = everybody_.severity();
     alert.time = time;

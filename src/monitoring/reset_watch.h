@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 #include "messages/loop_statistics.h"
 
@@ -20,6 +21,13 @@ class ResetWatch {
   /// Whether a state at time [s, simulated] belongs to the run of time that was announced, if one
   /// was.
   bool confirmedBy(double time, double wall_time) const;
+  /// When the simulation was started and how often reset; none before it has said so.
+  std::optional<std::pair<std::int64_t, std::uint64_t>> present() const {
+    if (!present_) {
+      return std::nullopt;
+    }
+    return std::make_pair(present_->started, present_->epoch);
+  }
   /// The announced run of time is the present one.
   void begin();
 

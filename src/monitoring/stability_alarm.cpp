@@ -52,8 +52,8 @@ std::string unstableText(const std::string& system, const state::StabilityMargin
 StabilityAlarm::StabilityAlarm(std::string system, const AlarmSettings& settings)
     : system_(std::move(system)),
       settings_(settings),
-      unstable_alarm_(settings.clear_delay),
-      low_damping_alarm_(settings.clear_delay) {}
+      unstable_alarm_(settings.delaysOf(alert_type::kUnstable)),
+      low_damping_alarm_(settings.delaysOf(alert_type::kLowDamping)) {}
 
 void StabilityAlarm::update(const state::StabilityMargin& margin, AlertList& alerts) {
   updateUnstable(margin, alerts);

@@ -12,9 +12,9 @@ namespace whirl_twin {
 StateAlarm::StateAlarm(std::string system, const AlarmSettings& settings)
     : system_(std::move(system)),
       settings_(settings),
-      energy_alarm_(settings.clear_delay),
-      accuracy_alarm_(settings.clear_delay),
-      stopped_alarm_(settings.clear_delay) {}
+      energy_alarm_(settings.delaysOf(alert_type::kEnergyResidual)),
+      accuracy_alarm_(settings.delaysOf(alert_type::kAccuracyLost)),
+      stopped_alarm_(settings.delaysOf(alert_type::kStopped)) {}
 
 void StateAlarm::updateEnergy(double time, double residual, AlertList& alerts) {
   const double limit = settings_.energy_residual;

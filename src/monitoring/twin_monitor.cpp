@@ -21,7 +21,7 @@ AlarmSettings settingsFor(const Dynamics& dynamics, AlarmSettings settings) {
   return settings;
 }
 
-std::vector<std::string> systemNames(const std::vector<SharedSystem>& systems) {
+std::vector<std::string> namesOf(const std::vector<SharedSystem>& systems) {
   std::vector<std::string> names;
   for (const SharedSystem& system : systems) {
     names.push_back(system->spec.name);
@@ -38,6 +38,7 @@ TwinMonitor::Watch::Watch(SharedSystem built, JudgedSpeeds first, const AlarmSet
       dof(built->spec.q.size()),
       drive(built->spec.drive.value_or("")),
       speed(built->spec.speed.value_or(0.0)),
+      amplitude_alarm(built->spec.name, settings),
       critical_speed_alarm(built->spec.name, settings),
       capture_alarm(built->spec.name, settings),
       stability_alarm(built->spec.name, settingsFor(*built->dynamics, settings)),
@@ -83,7 +84,9 @@ state::DriveState TwinMonitor::Watch::shaftOf(const state::PendulumState& state)
 TwinMonitor::TwinMonitor(const BuiltScene& scene, const AlarmSettings& settings, Judging::Mode mode)
     : settings_(settings),
       judging_(scene.systems, mode),
-      data_lost_alarm_(systemNames(scene.systems), settings) {
+      data_lost_alarm_(namesOf(scene.systems), settings),
+      alerts_(settings.latch),
+      restored_(settings) {
   for (std::size_t i = 0; i < scene.systems.size(); ++i) {
     watches_.emplace_back(scene.systems[i], judging_.speedsOf(i), settings_);
   }
@@ -100,6 +103,7 @@ void TwinMonitor::restart(double time, double wall_time) {
     names.push_back(watch.name);
     const std::string& name = names.back();
     const std::shared_ptr<const Dynamics>& dynamics = watch.system->dynamics;
+    watch.amplitude_alarm = AmplitudeAlarm(name, settings_);
     watch.critical_speed_alarm = CriticalSpeedAlarm(name, settings_);
     watch.capture_alarm = CaptureAlarm(name, settings_);
     watch.seen.reset();
@@ -114,6 +118,7 @@ void TwinMonitor::restart(double time, double wall_time) {
   }
   loop_clock_.restartAt(time, wall_time);
   resets_.begin();
+  restored_.restart();
 }
 
 bool TwinMonitor::take(const state::ParameterChange& change) {
@@ -153,11 +158,13 @@ bool TwinMonitor::arrived(const std::string& source, const state::Instant& at, d
     step_ = at.step;
   }
   data_lost_alarm_.received(source, wall_time, time_, alerts_);
+  restored_.heard(source, at.time, alerts_);
   return true;
 }
 
 void TwinMonitor::watchShaft(Watch& watch, state::DriveState shaft) {
   watch.speed = shaft.speed;
+  watch.acceleration = shaft.acceleration;
   if (watch.spin >= 0) {  // a motor has no target: it goes on as it accelerates
     shaft.target_speed = std::numeric_limits<double>::quiet_NaN();
   }
@@ -168,6 +175,32 @@ void TwinMonitor::watchShaft(Watch& watch, state::DriveState shaft) {
 void TwinMonitor::tick(double wall_time, bool paused) {
   takeJudgements();
   data_lost_alarm_.tick(wall_time, time_, paused, alerts_);
+  liftInhibitions(wall_time);
+}
+
+void TwinMonitor::liftInhibitions(double wall_time) {
+  for (auto held = inhibited_until_.begin(); held != inhibited_until_.end();) {
+    if (wall_time >= held->second) {
+      alerts_.setInhibited(held->first, false);
+      held = inhibited_until_.erase(held);
+    } else {
+      ++held;
+    }
+  }
+}
+
+bool TwinMonitor::inhibit(const std::string& system, double duration, double wall_time) {
+  if (!system.empty() && find(system) == nullptr) {
+    return false;
+  }
+  for (const Watch& watch : watches_) {
+    if (system.empty() || watch.name == system) {
+      inhibited_until_[watch.name] = wall_time + duration;
+      alerts_.setInhibited(watch.name, true);
+    }
+  }
+  liftInhibitions(wall_time);  // a duration of 0 ends now
+  return true;
 }
 
 void TwinMonitor::judge(Watch& watch, const state::Instant& at, const std::vector<double>& q,
@@ -212,6 +245,8 @@ void TwinMonitor::take(const state::WhirlState& whirl, double wall_time) {
     watchShaft(*watch, shaft);
   }
   watch->speed = whirl.speed;
+  watch->amplitude_alarm.update(whirl.at.time, whirl.radius, whirl.speed, watch->acceleration,
+                                alerts_);
   watch->state_alarm.updateEnergy(whirl.at.time, whirl.energy_residual, alerts_);
   judge(*watch, whirl.at, watch->coordinates(whirl.x, whirl.y, whirl.shaft_angle),
         watch->coordinates(whirl.x_rate, whirl.y_rate, whirl.speed), wall_time);
@@ -269,7 +304,16 @@ bool TwinMonitor::take(const state::LoopStatistics& loop, double wall_time) {
       watch->state_alarm.updateAccuracy(time, loop.error_estimate[i], loop.tolerance[i], alerts_);
     }
   }
+  restored_.heard(loop, alerts_);
   return true;
+}
+
+std::vector<std::string> TwinMonitor::systemNames() const {
+  std::vector<std::string> names;
+  for (const Watch& watch : watches_) {
+    names.push_back(watch.name);
+  }
+  return names;
 }
 
 state::MonitorStatus TwinMonitor::status(double wall_time, bool paused) {
@@ -291,6 +335,9 @@ state::MonitorStatus TwinMonitor::status(double wall_time, bool paused) {
   for (const Watch& watch : watches_) {
     status.system.push_back(watch.name);
     status.verdict_age.push_back(wall_time - watch.verdict_of);
+    const auto held = inhibited_until_.find(watch.name);
+    status.inhibited.push_back(held == inhibited_until_.end() ? 0.0 : held->second - wall_time);
+    status.not_ok.emplace_back();
   }
   return status;
 }

@@ -10,13 +10,16 @@
 
 #include "messages/loop_statistics.h"
 #include "messages/monitor_status.h"
+#include "monitoring/alarm_memory.h"
 #include "monitoring/alarm_settings.h"
 #include "monitoring/alert_list.h"
+#include "monitoring/amplitude_alarm.h"
 #include "monitoring/capture_alarm.h"
 #include "monitoring/critical_speed_alarm.h"
 #include "monitoring/data_lost_alarm.h"
 #include "monitoring/judging.h"
 #include "monitoring/reset_watch.h"
+#include "monitoring/restored_alerts.h"
 #include "monitoring/source_clock.h"
 #include "monitoring/stability_alarm.h"
 #include "monitoring/state_alarm.h"
@@ -52,8 +55,16 @@ class TwinMonitor {
   /// where a rotor passes its threshold speed.
   std::vector<state::StabilityMargin> takeMargins();
   AlertList& alerts() { return alerts_; }
+  /// It was here before: to be said before anything arrives.
+  void remember(const AlarmMemory& memory) { restored_.begin(memory, alerts_); }
+  /// The run of simulated time; none before the simulation has told.
+  std::optional<TwinRun> run() const { return resets_.present(); }
+  /// Holds back what a system ("": every one) would raise for a duration [s, wall]; 0 ends it.
+  /// What is there stays. False for a system that the scene does not have.
+  bool inhibit(const std::string& system, double duration, double wall_time);
   /// That it is there, at wall_time [s], to be told about once a second; without a stamp.
   state::MonitorStatus status(double wall_time, bool paused);
+  std::vector<std::string> systemNames() const;
   double time() const { return time_; }  ///< [s], simulated, of the newest state
 
  private:
@@ -75,6 +86,8 @@ class TwinMonitor {
     std::string drive;                      ///< "" at a constant speed of its own
     double speed;                           ///< [rad/s], newest
     std::optional<state::DriveState> seen;  ///< its shaft, of one without a drive
+    double acceleration = 0.0;              ///< [rad/s^2], newest
+    AmplitudeAlarm amplitude_alarm;
     CriticalSpeedAlarm critical_speed_alarm;
     CaptureAlarm capture_alarm;
     StabilityAlarm stability_alarm;
@@ -91,6 +104,7 @@ class TwinMonitor {
   Watch* find(const std::string& system);
   /// False for a state that is not to be believed.
   bool arrived(const std::string& source, const state::Instant& at, double wall_time);
+  void liftInhibitions(double wall_time);
   void takeJudgements();
   void judge(Watch& watch, const state::Instant& at, const std::vector<double>& q,
              const std::vector<double>& v, double wall_time);
@@ -102,6 +116,8 @@ class TwinMonitor {
   std::vector<Watch> watches_;
   DataLostAlarm data_lost_alarm_;
   AlertList alerts_;
+  RestoredAlerts restored_;
+  std::map<std::string, double> inhibited_until_;  ///< [s, wall]
   std::vector<state::StabilityMargin> margins_;
   std::map<std::string, SourceClock> clocks_;  ///< of each source
   SourceClock loop_clock_;

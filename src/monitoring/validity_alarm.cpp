@@ -13,7 +13,7 @@ ValidityAlarm::ValidityAlarm(std::string system, std::shared_ptr<const Dynamics>
     : system_(std::move(system)),
       dynamics_(std::move(dynamics)),
       has_conditions_(hasConditions(*dynamics_)),
-      alarm_(settings.clear_delay) {}
+      alarm_(settings.delaysOf(alert_type::kModelInvalid)) {}
 
 void ValidityAlarm::setDynamics(std::shared_ptr<const Dynamics> dynamics) {
   dynamics_ = std::move(dynamics);

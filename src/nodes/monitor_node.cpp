@@ -7,10 +7,14 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
+#include "monitoring/alarm_history.h"
+#include "monitoring/alarm_settings_reader.h"
 #include "monitoring/twin_monitor.h"
+#include "nodes/alarm_services.h"
 #include "nodes/private_parameter.h"
 #include "nodes/run_node.h"
 #include "plugins/plugin_models.h"
@@ -35,28 +39,21 @@ double wallTime() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Throws Refusal for a parameter of the node that is unknown, or out of range.
-AlarmSettings alarmSettings() {
-  AlarmSettings s;
-  std::vector<std::string> known{"lcm_url", "lcm_prefix", "source"};
-  const auto read = [&known](const char* name, double& value) {
-    known.emplace_back(name);
-    value = privateParameter(name, "a number", value);
-  };
-  read("approach_time", s.approach_time);
-  read("clear_delay", s.clear_delay);
-  read("hysteresis", s.hysteresis);
-  read("dwell_limit", s.dwell_limit);
-  read("decay_rate_alarm", s.decay_rate_alarm);
-  read("log_decrement_warning", s.log_decrement_warning);
-  read("energy_residual", s.energy_residual);
-  read("data_timeout", s.data_timeout);
-  requireKnownParameters(known);
-  const std::vector<std::string> errors = settingErrors(s);
-  if (!errors.empty()) {
-    throw Refusal(fmt::format("{}", fmt::join(errors, "\n")));
+/// Throws Refusal for parameters of the node that are unknown, or out of range.
+AlarmSettings alarmSettings(const BuiltScene& scene) {
+  std::vector<std::string> rotors;
+  for (const SharedSystem& system : scene.systems) {
+    if (system->dynamics->isRotor()) {
+      rotors.push_back(system->spec.name);
+    }
   }
-  return s;
+  std::vector<std::string> others{"lcm_url", "lcm_prefix", "source", "history"};
+  others.insert(others.end(), kParametersOfRos.begin(), kParametersOfRos.end());
+  XmlRpc::XmlRpcValue all;
+  const std::string node = ros::this_node::getName();
+  const bool any = ros::param::get(node, all) && all.getType() == XmlRpc::XmlRpcValue::TypeStruct;
+  return readAlarmSettings(any ? toYaml(all) : YAML::Node(YAML::NodeType::Map), node, rotors,
+                           others);
 }
 
 /// Whether the monitor takes messages of a kind as states, with the time they arrived at.
@@ -75,11 +72,13 @@ class MonitorNode {
   explicit MonitorNode(ros::NodeHandle node)
       : node_(node),
         scene_(sceneOf(parameterTree(node, "scene"))),
-        settings_(alarmSettings()),
+        settings_(alarmSettings(scene_)),
         monitor_(scene_, settings_, Judging::Mode::kBeside),
         url_(privateParameter<std::string>("lcm_url", "an LCM url, or nothing", kDefaultLcmUrl)),
         lcm_(url_, lcmPrefixParameter()),
-        topics_(node, kPublishQueue) {
+        topics_(node, kPublishQueue),
+        services_(monitor_, ros::NodeHandle("~"), wallTime, [this] { wasReset(); }) {
+    openHistory();
     if (!lcm_.warning().empty()) {
       ROS_WARN("%s", lcm_.warning().c_str());
     }
@@ -194,20 +193,64 @@ class MonitorNode {
     }
   }
 
+  void openHistory() {
+    const auto path =
+        privateParameter<std::string>("history", "the path of a file, or nothing", "");
+    if (path.empty()) {
+      return;
+    }
+    history_.emplace(path);
+    monitor_.remember(history_->memory());
+    if (const std::size_t lines = history_->unreadableLines(); lines > 0) {
+      ROS_WARN("%s: %zu lines cannot be read and are left out", path.c_str(), lines);
+    }
+    run_ = history_->memory().run;
+    tellHistoryProblem();
+  }
+
+  /// Once: the alarms go on without.
+  void tellHistoryProblem() {
+    if (history_ && !history_->problem().empty()) {
+      ROS_WARN("%s", history_->problem().c_str());
+      history_.reset();
+    }
+  }
+
+  void wasReset() {
+    keepEvents();
+    if (history_) {
+      history_->writeReset();
+    }
+  }
+
+  void keepEvents() {
+    for (const state::Alert& event : monitor_.alerts().takeEvents()) {
+      if (history_) {
+        history_->write(event);
+      }
+      lcm_.publish(event);
+      if (!event.raised || event.latched) {
+        ROS_INFO("%s: %s %s: %s", event.system.c_str(), event.type.c_str(),
+                 event.latched ? "latched" : "cleared", event.text.c_str());
+      } else if (event.acknowledged) {
+        ROS_INFO("%s: %s acknowledged", event.system.c_str(), event.type.c_str());
+      } else {
+        ROS_WARN("%s", event.text.c_str());
+      }
+    }
+  }
+
   void publish() {
     for (const state::StabilityMargin& margin : monitor_.takeMargins()) {
       lcm_.publish(margin);
       topics_.publish(margin);
     }
-    for (const state::Alert& event : monitor_.alerts().takeEvents()) {
-      lcm_.publish(event);
-      if (event.raised) {
-        ROS_WARN("%s", event.text.c_str());
-      } else {
-        ROS_INFO("%s: %s cleared: %s", event.system.c_str(), event.type.c_str(),
-                 event.text.c_str());
-      }
+    keepEvents();
+    if (history_ && monitor_.run() && monitor_.run() != run_) {
+      run_ = monitor_.run();
+      history_->writeRun(*run_);
     }
+    tellHistoryProblem();
     if (monitor_.alerts().takeChanged()) {
       publishAlerts();
     }
@@ -250,6 +293,9 @@ class MonitorNode {
   std::string url_;
   LcmPublisher lcm_;
   RosTopics topics_;
+  std::optional<AlarmHistory> history_;
+  std::optional<TwinRun> run_;  ///< as the history knows it
+  AlarmServices services_;
   std::vector<ros::Subscriber> subscribers_;
   std::unique_ptr<LcmReceiver> receiver_;
   diagnostic_updater::Updater diagnostics_;

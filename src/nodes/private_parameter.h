@@ -16,12 +16,14 @@
 
 namespace whirl_twin {
 
+/// What ROS's own libraries read of a node's private parameters.
+inline const std::vector<std::string> kParametersOfRos{"diagnostic_period",
+                                                       "diagnostic_updater_use_fqn", "tf_prefix"};
+
 /// Throws Refusal with every private parameter of the node that is none of these, and none that
 /// ROS's own libraries read: one that is misspelt would leave the default in its place without a
 /// word.
 inline void requireKnownParameters(const std::vector<std::string>& known) {
-  const std::vector<std::string> of_ros{"diagnostic_period", "diagnostic_updater_use_fqn",
-                                        "tf_prefix"};
   const auto isIn = [](const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
@@ -33,7 +35,7 @@ inline void requireKnownParameters(const std::vector<std::string>& known) {
   std::vector<std::string> unknown;
   for (const auto& parameter : all) {
     const std::string& name = parameter.first;
-    if (!isIn(known, name) && !isIn(of_ros, name)) {
+    if (!isIn(known, name) && !isIn(kParametersOfRos, name)) {
       unknown.push_back(
           fmt::format("{}/{}: unknown parameter{}", node, printable(name), hint(name, known)));
     }

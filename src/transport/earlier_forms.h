@@ -24,5 +24,8 @@ inline constexpr std::array<EarlierForm, 1> kEarlierForms<state::StabilityMargin
 template <>
 inline constexpr std::array<EarlierForm, 1> kEarlierForms<state::LoopStatistics>{
     {{0xe676f1d3c287e44f, "llll"}}};
+template <>
+inline constexpr std::array<EarlierForm, 1> kEarlierForms<state::Alert>{
+    {{0x966688c34b63f52f, "bbbidd"}}};
 
 }  // namespace whirl_twin

@@ -102,5 +102,82 @@ TEST(AlertList, TellsEachEventOnceWithTheIdItBeganWith) {
   EXPECT_TRUE(list.takeEvents().empty());
 }
 
+TEST(AlertList, LatchedStaysUntilResetAndIsTheSameAlertWhenItsCauseIsBack) {
+  AlertList list(Latch::kDanger);
+  list.raise(alertOf("a", "X", state::Severity::kDanger, 1.0), "");
+  list.raise(alertOf("a", "Y", state::Severity::kWarning, 1.5), "");
+  list.clear("a", "X", 2.0, "gone");
+  list.clear("a", "Y", 2.0, "gone");
+  ASSERT_EQ(list.active().size(), 1u) << "a warning does not latch here";
+  EXPECT_TRUE(list.active()[0].latched);
+  EXPECT_EQ(list.active()[0].text, "gone");
+  list.acknowledge("", "");
+  list.raise(alertOf("a", "X", state::Severity::kDanger, 3.0), "");
+  EXPECT_FALSE(list.active()[0].latched);
+  EXPECT_FALSE(list.active()[0].acknowledged) << "nobody has seen that it is back";
+  EXPECT_EQ(list.active()[0].id, 1u);
+  EXPECT_EQ(list.active()[0].repeats, 1u);
+  EXPECT_EQ(list.reset(4.0), 0u) << "its cause is there";
+  ASSERT_EQ(list.active().size(), 1u);
+  EXPECT_TRUE(list.active()[0].acknowledged);
+  list.clear("a", "X", 5.0, "gone");
+  list.takeEvents();
+  EXPECT_EQ(list.reset(6.0), 1u);
+  EXPECT_TRUE(list.active().empty());
+  const auto events = list.takeEvents();
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_FALSE(events[0].raised);
+  EXPECT_EQ(events[0].id, 1u);
+}
+
+TEST(AlertList, WorseIsToBeAcknowledgedAgain) {
+  AlertList list;
+  list.raise(alertOf("a", "X", state::Severity::kWarning), "");
+  list.raise(alertOf("b", "X", state::Severity::kWarning), "");
+  list.takeEvents();
+  EXPECT_EQ(list.acknowledge("a", "X"), 1u);
+  EXPECT_EQ(list.acknowledge("a", ""), 0u);
+  EXPECT_EQ(list.takeEvents().size(), 1u);
+  EXPECT_TRUE(list.find("a", "X")->acknowledged);
+  EXPECT_FALSE(list.find("b", "X")->acknowledged);
+  list.raise(alertOf("a", "X", state::Severity::kDanger), "");
+  EXPECT_FALSE(list.find("a", "X")->acknowledged);
+}
+
+TEST(AlertList, InhibitedNothingIsRaisedAndWhatIsThereStays) {
+  AlertList list;
+  list.raise(alertOf("a", "X", state::Severity::kWarning), "");
+  list.setInhibited("a", true);
+  list.raise(alertOf("a", "X", state::Severity::kDanger), "");
+  list.raise(alertOf("a", "Y", state::Severity::kDanger), "");
+  list.raise(alertOf("b", "Y", state::Severity::kDanger), "");
+  EXPECT_EQ(list.find("a", "X")->severity, state::Severity::kDanger);
+  EXPECT_EQ(list.find("a", "Y"), nullptr);
+  EXPECT_NE(list.find("b", "Y"), nullptr);
+  list.setInhibited("a", false);
+  list.raise(alertOf("a", "Y", state::Severity::kDanger), "");
+  EXPECT_NE(list.find("a", "Y"), nullptr) << "its cause is still there";
+}
+
+TEST(AlertList, TheFirstOfASystemIsFirstOutAndRepeatsCount) {
+  AlertList list;
+  list.raise(alertOf("a", "X", state::Severity::kWarning), "");
+  list.raise(alertOf("a", "Y", state::Severity::kDanger), "");
+  list.raise(alertOf("b", "Y", state::Severity::kDanger), "");
+  EXPECT_TRUE(list.find("a", "X")->first_out);
+  EXPECT_FALSE(list.find("a", "Y")->first_out);
+  EXPECT_TRUE(list.find("b", "Y")->first_out);
+  list.clear("a", "X", 1.0, "gone");
+  EXPECT_FALSE(list.find("a", "Y")->first_out) << "it came second";
+  list.raise(alertOf("a", "X", state::Severity::kWarning), "");
+  EXPECT_FALSE(list.find("a", "X")->first_out);
+  EXPECT_EQ(list.find("a", "X")->repeats, 1u);
+  EXPECT_EQ(list.find("a", "Y")->repeats, 0u);
+  list.clear("a", "X", 2.0, "gone");
+  list.reset(3.0);
+  list.raise(alertOf("a", "X", state::Severity::kWarning), "");
+  EXPECT_EQ(list.find("a", "X")->repeats, 0u);
+}
+
 }  // namespace
 }  // namespace whirl_twin

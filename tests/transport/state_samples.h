@@ -144,6 +144,8 @@ class StateSamples {
     s.alerts = static_cast<std::int64_t>(below(100));
     s.dangers = static_cast<std::int64_t>(below(100));
     s.verdict_age = numbers(s.system.size());
+    s.not_ok.assign(s.system.size(), "no state for 2.0 s");
+    s.inhibited = numbers(s.system.size());
     return s;
   }
 

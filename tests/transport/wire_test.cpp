@@ -67,7 +67,13 @@ void expectBeginsWith(const Bytes& now, const Bytes& then, std::size_t from,
 /// [bytes] of the fields that a kind has got since.
 template <class State>
 std::size_t laterFieldsOf(const State&) {
-  return kEarlierForms<State>.empty() ? 0 : 8 * kEarlierForms<State>.front().later.size();
+  std::size_t bytes = 0;
+  if constexpr (!kEarlierForms<State>.empty()) {
+    for (const char field : kEarlierForms<State>.front().later) {
+      bytes += field == 'b' ? 1 : field == 'i' ? 4 : 8;
+    }
+  }
+  return bytes;
 }
 
 TEST(Wire, OfLcmIsWhatItWas) {

@@ -1,0 +1,151 @@
+#include "monitoring/alarm_settings_reader.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "messages/alert_types.h"
+#include "scene/node_reader.h"
+#include "scene/scene_error.h"
+
+namespace whirl_twin {
+namespace {
+
+constexpr double kLongest = 3600.0;  // s, of a delay
+
+/// A number, or a list of as many as there are points; each > 0 unless zero is fine.
+std::vector<double> readList(const MapReader& map, const std::string& name, const char* unit,
+                             bool zero, Complaints& complaints) {
+  std::vector<double> values;
+  if (!map.has(name)) {
+    return values;
+  }
+  const YAML::Node node = map.at(name);
+  const auto add = [&](const YAML::Node& item, const std::string& key) {
+    const std::optional<double> value =
+        item.IsScalar() ? parseNumber(item.Scalar()) : std::optional<double>();
+    if (!value || *value < 0.0 || (!zero && *value == 0.0)) {
+      complaints.add(
+          key, fmt::format("must be {} {}, found {}", zero ? ">= 0" : "> 0", unit, shown(item)));
+    }
+    values.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
+  };
+  if (!node.IsSequence()) {
+    add(node, map.key(name));
+    return values;
+  }
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    add(node[i], fmt::format("{}[{}]", map.key(name), i));
+  }
+  if (values.empty()) {
+    complaints.add(map.key(name), "must be a number or a list of numbers, found an empty list");
+  }
+  return values;
+}
+
+AmplitudeLevels readLevels(const YAML::Node& node, const std::string& key, Complaints& complaints) {
+  const MapReader map(node, key, {"speed", "alert", "danger"}, "key of amplitude levels",
+                      complaints);
+  AmplitudeLevels levels;
+  if (!map.usable()) {
+    return levels;
+  }
+  levels.speed = readList(map, "speed", "rad/s", true, complaints);
+  levels.alert = readList(map, "alert", "m", false, complaints);
+  levels.danger = readList(map, "danger", "m", false, complaints);
+  if (levels.alert.empty() && levels.danger.empty()) {
+    complaints.add(key, "must have a level: alert or danger [m], or both; found none");
+  }
+  for (std::size_t i = 1; i < levels.speed.size(); ++i) {
+    if (levels.speed[i] <= levels.speed[i - 1]) {
+      complaints.add(fmt::format("{}[{}]", map.key("speed"), i),
+                     fmt::format("must be above the one before, {:g} rad/s, found {:g}",
+                                 levels.speed[i - 1], levels.speed[i]));
+    }
+  }
+  const std::size_t points = levels.speed.empty() ? 1 : levels.speed.size();
+  for (const auto& [name, list] :
+       {std::pair("alert", &levels.alert), std::pair("danger", &levels.danger)}) {
+    if (!list->empty() && list->size() != points) {
+      complaints.add(map.key(name), fmt::format("must be {} [m], one for each speed, found {}",
+                                                points, list->size()));
+    }
+  }
+  for (std::size_t i = 0; i < levels.alert.size() && i < levels.danger.size(); ++i) {
+    if (levels.danger[i] <= levels.alert[i]) {
+      complaints.add(map.key("danger"), fmt::format("must be above alert, {:g} m, found {:g}",
+                                                    levels.alert[i], levels.danger[i]));
+    }
+  }
+  return levels;
+}
+
+}  // namespace
+
+AlarmSettings readAlarmSettings(const YAML::Node& tree, const std::string& source,
+                                const std::vector<std::string>& rotors,
+                                const std::vector<std::string>& besides) {
+  AlarmSettings s;
+  const std::vector<std::pair<const char*, double*>> numbers{
+      {"approach_time", &s.approach_time},
+      {"clear_delay", &s.clear_delay},
+      {"hysteresis", &s.hysteresis},
+      {"dwell_limit", &s.dwell_limit},
+      {"decay_rate_alarm", &s.decay_rate_alarm},
+      {"log_decrement_warning", &s.log_decrement_warning},
+      {"energy_residual", &s.energy_residual},
+      {"data_timeout", &s.data_timeout},
+      {"trip_multiply", &s.trip_multiply},
+      {"start_up_acceleration", &s.start_up_acceleration}};
+  std::vector<std::string> known{"latch", "delays", "amplitude"};
+  for (const auto& number : numbers) {
+    known.emplace_back(number.first);
+  }
+  known.insert(known.end(), besides.begin(), besides.end());
+
+  Complaints complaints(source);
+  const MapReader map(tree, "", known, "setting of the monitor", complaints);
+  for (const auto& [name, value] : numbers) {
+    *value = map.number(name, Range::kAny, "", *value);
+  }
+  for (const std::string& error : settingErrors(s)) {
+    const auto colon = error.find(": ");
+    complaints.add(error.substr(0, colon), error.substr(colon + 2));
+  }
+
+  const std::string latch =
+      map.choice("latch", {"none", "danger", "all"}, "none, danger or all", "none");
+  s.latch = latch == "all" ? Latch::kAll : latch == "danger" ? Latch::kDanger : Latch::kNone;
+
+  if (map.has("delays")) {
+    const std::vector<std::string> types(std::begin(alert_type::kAll), std::end(alert_type::kAll));
+    const MapReader delays(map.at("delays"), "delays", types, "type of alert", complaints);
+    for (const std::string& type : delays.names()) {
+      const MapReader of(delays.at(type), delays.key(type), {"set", "clear"}, "key of delays",
+                         complaints);
+      AlarmDelays& delay = s.delays[type];
+      delay.set = of.numberBetween("set", 0.0, kLongest, "s", 0.0);
+      delay.clear = of.numberBetween("clear", 0.0, kLongest, "s", s.clear_delay);
+    }
+  }
+  if (map.has("amplitude")) {
+    const MapReader amplitude(map.at("amplitude"), "amplitude", rotors, "rotor of the scene",
+                              complaints);
+    for (const std::string& rotor : amplitude.names()) {
+      if (rotors.empty()) {
+        complaints.add(amplitude.key(rotor), "the scene has no system with a whirl");
+        continue;
+      }
+      s.amplitude[rotor] = readLevels(amplitude.at(rotor), amplitude.key(rotor), complaints);
+    }
+  }
+  if (!complaints.all().empty()) {
+    throw SceneError(complaints.all());
+  }
+  return s;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,81 @@
+#include "monitoring/amplitude_alarm.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "messages/alert_types.h"
+
+namespace whirl_twin {
+AmplitudeAlarm::AmplitudeAlarm(std::string system, const AlarmSettings& settings)
+    : system_(std::move(system)),
+      hysteresis_(settings.hysteresis),
+      trip_multiply_(settings.trip_multiply),
+      start_up_acceleration_(settings.start_up_acceleration),
+      start_up_tail_(settings.clear_delay),
+      alarm_(settings.delaysOf(alert_type::kWhirlAmplitude)) {
+  const auto levels = settings.amplitude.find(system_);
+  if (levels != settings.amplitude.end()) {
+    levels_ = levels->second;
+  }
+}
+
+bool AmplitudeAlarm::startsUp(double time, double speed, double acceleration) {
+  if (started_up_ && time < *started_up_) {  // time was set back
+    started_up_.reset();
+  }
+  const bool gains = std::copysign(1.0, speed) * acceleration > start_up_acceleration_ ||
+                     (speed == 0.0 && std::abs(acceleration) > start_up_acceleration_);
+  if (gains) {
+    started_up_ = time;
+  }
+  return started_up_ && time - *started_up_ < start_up_tail_;
+}
+
+void AmplitudeAlarm::update(double time, double radius, double speed, double acceleration,
+                            AlertList& alerts) {
+  if (!levels_) {
+    return;
+  }
+  if (!std::isfinite(radius) || !std::isfinite(speed) || !std::isfinite(time)) {
+    alarm_.update(time, AlarmCondition::kHold);
+    return;
+  }
+  const bool multiplied = trip_multiply_ != 1.0 && startsUp(time, speed, acceleration);
+  const double by = multiplied ? trip_multiply_ : 1.0;
+  const double alert_level = by * levels_->alertAt(speed);
+  const double danger_level = by * levels_->dangerAt(speed);
+  AlarmCondition condition = AlarmCondition::kHold;
+  if (radius > danger_level) {
+    condition = AlarmCondition::kDanger;
+  } else if (radius > alert_level) {
+    condition = AlarmCondition::kWarning;
+  } else if (radius <= std::fmin(alert_level, danger_level) * (1.0 - hysteresis_)) {
+    condition = AlarmCondition::kClear;
+  }
+  if (alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
+    alerts.clear(system_, alert_type::kWhirlAmplitude, time,
+                 fmt::format("{}: whirl back to {:.3g} mm, speed {:.1f} rad/s", system_,
+                             1.0e3 * radius, speed));
+  } else if (alarm_.active() && isRaising(condition)) {
+    const bool danger = condition == AlarmCondition::kDanger;
+    state::Alert alert;
+    alert.system = system_;
+    alert.type = alert_type::kWhirlAmplitude;
+    alert.severity = alarm_.severity();
+    alert.time = time;
+    alert.speed = speed;
+    alert.acceleration = acceleration;
+    alert.amplitude = radius;
+    alert.amplitude_limit = danger ? danger_level : alert_level;
+    alert.text = fmt::format(
+        "{}: whirl {:.3g} mm at {:.1f} rad/s, above the {} level {:.3g} mm{}: {}", system_,
+        1.0e3 * radius, speed, danger ? "danger" : "alert", 1.0e3 * alert.amplitude_limit,
+        multiplied ? fmt::format(" (times {:g} in start-up)", trip_multiply_) : "",
+        danger ? "stop it, or leave this speed" : "look for what has grown, or leave this speed");
+    alerts.raise(std::move(alert), danger ? "danger" : "alert");
+  }
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,37 @@
+// WHIRL_AMPLITUDE: the whirl of a system is wider than its alert level (a warning) or its danger
+// level, as set for the speed of its shaft. While the shaft starts up, and clear_delay after, the
+// levels are multiplied (trip multiply): the resonances it passes are expected, and the protection
+// does not go blind meanwhile.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "monitoring/alarm_settings.h"
+#include "monitoring/alert_list.h"
+#include "monitoring/condition_alarm.h"
+
+namespace whirl_twin {
+
+class AmplitudeAlarm {
+ public:
+  AmplitudeAlarm(std::string system, const AlarmSettings& settings);
+
+  /// radius [m] at time [s, simulated], with the speed [rad/s] and acceleration [rad/s^2] of the
+  /// shaft. A NaN neither raises nor clears.
+  void update(double time, double radius, double speed, double acceleration, AlertList& alerts);
+
+ private:
+  bool startsUp(double time, double speed, double acceleration);
+
+  std::string system_;
+  std::optional<AmplitudeLevels> levels_;
+  double hysteresis_;
+  double trip_multiply_;
+  double start_up_acceleration_;
+  double start_up_tail_;  ///< [s], that the multiplied levels stay
+  ConditionAlarm alarm_;
+  std::optional<double> started_up_;  ///< [s], when it last gained speed
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,112 @@
+// The file of settings is read like a scene: what is not said has its default, and all that is
+// wrong is named at once.
+#include "monitoring/alarm_settings_reader.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "messages/alert_types.h"
+#include "scene/scene_error.h"
+
+namespace whirl_twin {
+namespace {
+
+AlarmSettings settingsOf(const std::string& text) {
+  return readAlarmSettings(YAML::Load(text), "monitor.yaml", {"rotor", "pump"}, {"lcm_url"});
+}
+
+std::vector<std::string> errorsOf(const std::string& text) {
+  try {
+    settingsOf(text);
+  } catch (const SceneError& error) {
+    return error.errors();
+  }
+  return {};
+}
+
+TEST(AlarmSettingsReader, TheShippedFileAndNothingAreTheDefaults) {
+  const YAML::Node file = YAML::LoadFile(std::string(WHIRL_TWIN_SOURCE) + "/config/monitor.yaml");
+  for (const AlarmSettings& read :
+       {settingsOf("{}"), readAlarmSettings(file, "monitor.yaml", {"rotor"}, {})}) {
+    const AlarmSettings defaults;
+    EXPECT_EQ(read.clear_delay, defaults.clear_delay);
+    EXPECT_EQ(read.energy_residual, defaults.energy_residual);
+    EXPECT_EQ(read.latch, Latch::kNone);
+    EXPECT_EQ(read.trip_multiply, 1.0);
+    EXPECT_TRUE(read.delays.empty());
+    EXPECT_TRUE(read.amplitude.empty());
+    EXPECT_EQ(read.delaysOf(alert_type::kUnstable).set, 0.0);
+    EXPECT_EQ(read.delaysOf(alert_type::kUnstable).clear, 1.0);
+  }
+}
+
+TEST(AlarmSettingsReader, ReadsLevelsDelaysAndLatch) {
+  const AlarmSettings read = settingsOf(R"(
+lcm_url: ""
+clear_delay: 1.5
+latch: danger
+trip_multiply: 3
+delays:
+  UNSTABLE: {set: 0.5}
+  LOW_DAMPING: {set: 1, clear: 4}
+amplitude:
+  rotor: {alert: 1.0e-3, danger: 2.0e-3}
+  pump: {speed: [0, 100], danger: [1.0e-3, 3.0e-3]}
+)");
+  EXPECT_EQ(read.latch, Latch::kDanger);
+  EXPECT_EQ(read.trip_multiply, 3.0);
+  EXPECT_EQ(read.delaysOf(alert_type::kUnstable).set, 0.5);
+  EXPECT_EQ(read.delaysOf(alert_type::kUnstable).clear, 1.5);
+  EXPECT_EQ(read.delaysOf(alert_type::kLowDamping).clear, 4.0);
+  EXPECT_EQ(read.delaysOf(alert_type::kStopped).clear, 1.5);
+  EXPECT_EQ(read.amplitude.at("rotor").alertAt(77.0), 1.0e-3);
+  EXPECT_NEAR(read.amplitude.at("pump").dangerAt(50.0), 2.0e-3, 1.0e-15);
+}
+
+TEST(AlarmSettingsReader, NamesAllThatIsWrongWithTheNearestName) {
+  const std::vector<std::string> errors = errorsOf(R"(
+clear_dely: 1.0
+clear_delay: -1
+dwell_limit: long
+latch: dangers
+trip_multiply: 50
+delays:
+  UNSTABEL: {set: 0.5}
+  LOW_DAMPING: {set: -1, clar: 2}
+amplitude:
+  roter: {alert: 1.0e-3}
+  rotor: {alert: 2.0e-3, danger: 1.0e-3}
+  pump: {speed: [0, 100, 50], alert: [1.0e-3, 0.0]}
+)");
+  const std::vector<std::string> expected{
+      "clear_dely: unknown setting of the monitor; did you mean 'clear_delay'?",
+      "clear_delay: must be >= 0 s, found -1",
+      "dwell_limit: must be",
+      "trip_multiply: must be from 1 to 10 (dimensionless), found 50",
+      "latch: must be none, danger or all, found 'dangers'; did you mean 'danger'?",
+      "delays.UNSTABEL: unknown type of alert; did you mean 'UNSTABLE'?",
+      "delays.LOW_DAMPING.clar: unknown key of delays; did you mean 'clear'?",
+      "delays.LOW_DAMPING.set: must be from 0 to 3600 s, found -1",
+      "amplitude.roter: unknown rotor of the scene; did you mean 'rotor'?",
+      "amplitude.rotor.danger: must be above alert, 0.002 m, found 0.001",
+      "amplitude.pump.speed[2]: must be above the one before, 100 rad/s, found 50",
+      "amplitude.pump.alert[1]: must be > 0 m, found 0.0",
+      "amplitude.pump.alert: must be 3 [m], one for each speed, found 2"};
+  for (const std::string& text : expected) {
+    bool found = false;
+    for (const std::string& error : errors) {
+      found = found || error.find("monitor.yaml: " + text) == 0;
+    }
+    EXPECT_TRUE(found) << text;
+  }
+  std::string all;
+  for (const std::string& error : errors) {
+    all += error + "\n";
+  }
+  EXPECT_EQ(errors.size(), expected.size()) << all;
+}
+
+}  // namespace
+}  // namespace whirl_twin

@@ -1,0 +1,99 @@
+#!/usr/bin/python3
+"""An alert is acknowledged, outlives a monitor that is killed, latches, is reset, and is held back, by the services
+of the monitor."""
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import roslib.packages
+import rospy
+import rostest
+from std_srvs.srv import Trigger
+from whirl_twin.msg import AlertArray, MonitorStatus, StabilityMargin
+from whirl_twin.srv import Acknowledge, Inhibit, SetSpeed
+
+PATIENCE = 30.0  # s
+
+
+def wait_until(condition):
+    end = time.monotonic() + PATIENCE
+    while not condition() and time.monotonic() < end:
+        time.sleep(0.05)
+    return condition()
+
+
+def call(name, kind, *request):
+    rospy.wait_for_service(name, PATIENCE)
+    return rospy.ServiceProxy(name, kind)(*request)
+
+
+class Alarms(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.list = self.margin = self.status = None
+        rospy.Subscriber('/twin/alerts', AlertArray, lambda m: setattr(self, 'list', m))
+        rospy.Subscriber('/twin/rotor/stability', StabilityMargin, lambda m: setattr(self, 'margin', m))
+        rospy.Subscriber('/twin/monitor', MonitorStatus, lambda m: setattr(self, 'status', m))
+        self.start_monitor()
+
+    def tearDown(self):
+        self.monitor.kill()
+        self.monitor.wait()
+        self.folder.cleanup()
+
+    def start_monitor(self):
+        program = roslib.packages.find_node('whirl_twin', 'monitor_node')[0]
+        self.monitor = subprocess.Popen([program, '_latch:=danger', '_history:=%s/of/alarms' % self.folder.name])
+
+    def unstable(self):
+        alerts = [a for a in self.list.alerts if a.type == 'UNSTABLE'] if self.list else []
+        return alerts[0] if alerts else None
+
+    def run_to(self, speed):
+        self.assertTrue(call('/simulation_node/set_speed', SetSpeed, 'shaft', speed, 200.0, 0.0).success)
+
+    def test_a_danger_from_raised_to_reset(self):
+        self.assertTrue(wait_until(lambda: self.margin))
+        self.assertFalse(call('/monitor_node/acknowledge', Acknowledge, 'rotor', 'UNSTABLE').success)
+        self.run_to(250.0)
+        self.assertTrue(wait_until(self.unstable))
+        raised = self.unstable()
+        self.assertFalse(raised.acknowledged)
+        self.assertTrue(call('/monitor_node/acknowledge', Acknowledge, 'rotor', 'UNSTABLE').success)
+        self.assertTrue(wait_until(lambda: self.unstable().acknowledged))
+
+        self.monitor.kill()
+        self.monitor.wait()
+        self.list = self.margin = None
+        self.start_monitor()
+        self.assertTrue(wait_until(lambda: self.list))
+        self.assertEqual(self.unstable().id, raised.id)
+        self.assertTrue(self.unstable().acknowledged)
+        self.assertTrue(wait_until(lambda: self.margin and self.margin.time > raised.time + 4.0))
+        self.assertEqual(self.unstable().id, raised.id)
+        self.assertFalse(self.unstable().latched)
+
+        self.assertTrue(call('/monitor_node/reset_alarms', Trigger).success)
+        self.assertTrue(self.unstable())  # its cause is there
+        self.run_to(150.0)
+        self.assertTrue(wait_until(lambda: self.unstable().latched))
+        self.assertEqual(self.unstable().id, raised.id)
+        self.assertTrue(call('/monitor_node/reset_alarms', Trigger).success)
+        self.assertTrue(wait_until(lambda: not self.unstable()))
+
+        self.assertFalse(call('/monitor_node/inhibit', Inhibit, 'roter', 60.0).success)
+        self.assertTrue(call('/monitor_node/inhibit', Inhibit, 'rotor', 60.0).success)
+        self.run_to(250.0)
+        self.assertTrue(wait_until(lambda: self.margin.verdict == StabilityMargin.UNSTABLE and
+                                   self.status.inhibited[0] > 0.0))
+        self.assertFalse(self.unstable())
+        self.assertTrue(call('/monitor_node/inhibit', Inhibit, '', 0.0).success)
+        self.assertTrue(wait_until(self.unstable))
+        self.assertGreater(self.unstable().id, raised.id)
+
+
+if __name__ == '__main__':
+    rospy.init_node('alarms_test')
+    rostest.rosrun('whirl_twin', 'alarms_test', Alarms, sys.argv)
