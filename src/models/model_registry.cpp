@@ -137,7 +137,7 @@ IntegratorChoice chooseIntegrator(const ModelSetup& setup, bool speed_changes) {
     return {"exponential", "linear, of two coordinates: the exact step at any speed"};
   }
   if (dynamics.linear() && setup.exact_run_ups) {
-    return {"exponential", "linear: the exact step, from a table over the drive's speeds", true};
+    return {"exponential", "linear: the exact step, from a table over the drive's speeds"};
   }
   if (dynamics.linear() && !dynamics.speedDependent()) {
     return {"exponential", "linear with matrices that do not change with speed: exact free motion"};

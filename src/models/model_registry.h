@@ -31,8 +31,6 @@ const std::vector<std::string>& integratorNames();
 struct IntegratorChoice {
   std::string integrator;
   std::string reason;
-  /// Steps come from a table over the speed, which leaves something out while it changes.
-  bool by_table = false;
 };
 /// speed_changes: the model is on a drive that has a profile or may be given a new speed.
 IntegratorChoice chooseIntegrator(const ModelSetup& setup, bool speed_changes);
