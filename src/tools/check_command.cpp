@@ -48,7 +48,9 @@ void addCheckCommand(CLI::App& twin, int& status) {
   const auto request = std::make_shared<Request>();
   addSceneOption(command, request->scene);
   command->add_option("--system", request->system, "show this system only")->type_name("NAME");
-  command->add_flag("--json", request->json, "print one JSON object");
+  command->add_flag(
+      "--json", request->json,
+      "print one JSON object; `accuracy` of each system: what is kept, until when it is known");
   command->footer(kFooter);
   command->callback([request, &status] { status = check(*request); });
 }

@@ -13,7 +13,8 @@
 #include "general_position.h"
 #include "measured.h"
 #include "models/model_registry.h"
-#include "scene/built_scene.h"
+#include "scene/surroundings.h"
+#include "scene/system_setup.h"
 
 namespace whirl_twin {
 namespace {
@@ -62,21 +63,26 @@ Scene anyModel(Dice& dice) {
         value *= dice.anySize(0.3, 3.0);
       }
     }
-    for (std::size_t i = 0; i < spec.q.size(); ++i) {
-      spec.q[i] *= dice.uniform(-2.0, 2.0);
-      spec.v[i] *= dice.uniform(-5.0, 5.0);
-    }
     if (!one.drives.empty()) {
       giveAProfile(one, dice);
     }
     one.step = std::llround(dice.anySize(1.0e5, 1.0e8));
     spec.horizon = dice.anySize(0.3, 10.0);
-    one.systems = {spec};
     try {
-      build(one);
-      return one;
+      // How many coordinates a rotor is reduced to depends on its numbers.
+      const auto dof =
+          static_cast<std::size_t>(setupOf(spec, surroundingsOf(one, spec)).made.dynamics->dof());
+      spec.q.resize(dof, 0.5);
+      spec.v.resize(dof, 0.1);
     } catch (const std::exception&) {  // numbers that do not fit together
+      continue;
     }
+    for (std::size_t i = 0; i < spec.q.size(); ++i) {
+      spec.q[i] *= dice.uniform(-2.0, 2.0);
+      spec.v[i] *= dice.uniform(-5.0, 5.0);
+    }
+    one.systems = {spec};
+    return one;
   }
 }
 
