@@ -2,6 +2,7 @@
 // The defaults are those of config/monitor.yaml.
 #pragma once
 
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -17,6 +18,9 @@ struct AmplitudeLevels {
   std::vector<double> speed;   ///< [rad/s], rising
   std::vector<double> alert;   ///< [m], one a point; empty: none
   std::vector<double> danger;  ///< [m], likewise
+
+  /// [m]: a wider whirl is no measurement (data_quality.h).
+  double range = std::numeric_limits<double>::infinity();
 
   /// Infinite where there is none.
   double alertAt(double shaft_speed) const { return levelAt(alert, shaft_speed); }

@@ -47,7 +47,7 @@ std::vector<double> readList(const MapReader& map, const std::string& name, cons
 }
 
 AmplitudeLevels readLevels(const YAML::Node& node, const std::string& key, Complaints& complaints) {
-  const MapReader map(node, key, {"speed", "alert", "danger"}, "key of amplitude levels",
+  const MapReader map(node, key, {"speed", "alert", "danger", "range"}, "key of amplitude levels",
                       complaints);
   AmplitudeLevels levels;
   if (!map.usable()) {
@@ -56,8 +56,11 @@ AmplitudeLevels readLevels(const YAML::Node& node, const std::string& key, Compl
   levels.speed = readList(map, "speed", "rad/s", true, complaints);
   levels.alert = readList(map, "alert", "m", false, complaints);
   levels.danger = readList(map, "danger", "m", false, complaints);
-  if (levels.alert.empty() && levels.danger.empty()) {
-    complaints.add(key, "must have a level: alert or danger [m], or both; found none");
+  if (levels.alert.empty() && levels.danger.empty() && !map.has("range")) {
+    complaints.add(key, "must have a level: alert, danger or range [m]; found none");
+  }
+  if (map.has("range")) {
+    levels.range = map.number("range", Range::kPositive, "m", std::nullopt);
   }
   for (std::size_t i = 1; i < levels.speed.size(); ++i) {
     if (levels.speed[i] <= levels.speed[i - 1]) {
@@ -78,6 +81,15 @@ AmplitudeLevels readLevels(const YAML::Node& node, const std::string& key, Compl
     if (levels.danger[i] <= levels.alert[i]) {
       complaints.add(map.key("danger"), fmt::format("must be above alert, {:g} m, found {:g}",
                                                     levels.alert[i], levels.danger[i]));
+    }
+  }
+  for (const std::vector<double>* list : {&levels.alert, &levels.danger}) {
+    for (const double level : *list) {
+      if (levels.range <= level) {
+        complaints.add(map.key("range"), fmt::format("must be above the levels, {:g} m, found {:g}",
+                                                     level, levels.range));
+        return levels;
+      }
     }
   }
   return levels;

@@ -20,6 +20,8 @@ class AmplitudeAlarm {
   /// radius [m] at time [s, simulated], with the speed [rad/s] and acceleration [rad/s^2] of the
   /// shaft. A NaN neither raises nor clears.
   void update(double time, double radius, double speed, double acceleration, AlertList& alerts);
+  /// What comes cannot be judged: delays are broken, and nothing is raised or cleared.
+  void hold() { alarm_.hold(); }
 
  private:
   bool startsUp(double time, double speed, double acceleration);

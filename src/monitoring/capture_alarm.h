@@ -21,6 +21,11 @@ class CaptureAlarm {
   /// shaft: at.time [s] and speed [rad/s]; one that is not finite neither raises nor clears.
   void update(const state::DriveState& shaft, const std::vector<CaptureSpeed>& captures,
               AlertList& alerts);
+  /// What comes cannot be judged: delays are broken, and nothing is raised or cleared.
+  void hold() {
+    alarm_.hold();
+    stands_ = false;
+  }
 
  private:
   bool standsStill(double time, double speed, double scale);

@@ -57,6 +57,11 @@ ConditionAlarm::Change ConditionAlarm::update(double time, AlarmCondition condit
   return Change::kRaised;
 }
 
+void ConditionAlarm::hold() {
+  raise_since_.reset();
+  clear_since_.reset();
+}
+
 void ConditionAlarm::clearNow() {
   active_ = false;
   severity_ = state::Severity::kInfo;

@@ -43,6 +43,9 @@ class ConditionAlarm {
   /// changes nothing.
   Change update(double time, AlarmCondition condition);
 
+  /// Nothing can be judged at this instant: both delays are broken.
+  void hold();
+
   /// Lets go at once, without the clear delay: another alarm has taken over.
   void clearNow();
 

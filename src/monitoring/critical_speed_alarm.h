@@ -45,6 +45,11 @@ class CriticalSpeedAlarm {
   /// change from call to call; an empty band (critically damped) never alarms.
   void update(const state::DriveState& shaft,
               const std::vector<state::CriticalSpeedMargin>& critical_speeds, AlertList& alerts);
+  /// What comes cannot be judged: delays are broken, and nothing is raised or cleared.
+  void hold() {
+    band_alarm_.hold();
+    approach_alarm_.hold();
+  }
 
  private:
   struct Entry;

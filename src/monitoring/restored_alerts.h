@@ -24,6 +24,8 @@ class RestoredAlerts {
   void begin(const AlarmMemory& memory, AlertList& alerts);
   /// A state of a source came, at time [s, simulated].
   void heard(const std::string& source, double time, AlertList& alerts);
+  /// What comes from a source cannot be judged: the time that it is heard begins anew.
+  void interrupted(const std::string& source) { heard_since_.erase(source); }
   /// The simulation said how its systems fare.
   void heard(const state::LoopStatistics& loop, AlertList& alerts);
   /// Time has begun anew.

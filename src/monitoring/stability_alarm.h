@@ -26,6 +26,11 @@ class StabilityAlarm {
   /// Judges one margin and brings the list up to date. LOW_DAMPING is a rotor criterion: a system
   /// without a shaft (speed NaN) does not raise it, nor does a system that is unstable already.
   void update(const state::StabilityMargin& margin, AlertList& alerts);
+  /// What comes cannot be judged: delays are broken, and nothing is raised or cleared.
+  void hold() {
+    unstable_alarm_.hold();
+    low_damping_alarm_.hold();
+  }
 
  private:
   void updateUnstable(const state::StabilityMargin& margin, AlertList& alerts);

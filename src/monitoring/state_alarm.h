@@ -36,6 +36,8 @@ class StateAlarm {
   /// status: what the system reports at time [s, simulated]; text: its own sentence of why it
   /// stopped, which names the system. Clears clear_delay after the system runs again.
   void updateStopped(double time, StepStatus status, const std::string& text, AlertList& alerts);
+  /// Its energy cannot be judged: delays are broken, and nothing is raised or cleared.
+  void holdEnergy() { energy_alarm_.hold(); }
 
  private:
   std::string system_;

@@ -10,16 +10,6 @@ namespace whirl_twin {
 namespace {
 
 constexpr double kJudgingPeriod = 0.1;  // s, simulated
-constexpr double kMeanOver = 0.05;      // s, simulated: an acceleration made of speeds
-
-/// Low damping is a criterion for rotors; a pendulum may swing as long as it likes.
-AlarmSettings settingsFor(const Dynamics& dynamics, AlarmSettings settings) {
-  if (!dynamics.isRotor()) {
-    settings.log_decrement_warning = 0.0;
-    settings.decay_rate_alarm = 0.0;
-  }
-  return settings;
-}
 
 std::vector<std::string> namesOf(const std::vector<SharedSystem>& systems) {
   std::vector<std::string> names;
@@ -30,56 +20,6 @@ std::vector<std::string> namesOf(const std::vector<SharedSystem>& systems) {
 }
 
 }  // namespace
-
-TwinMonitor::Watch::Watch(SharedSystem built, JudgedSpeeds first, const AlarmSettings& settings)
-    : name(built->spec.name),
-      speeds(std::move(first)),
-      rotor(built->dynamics->isRotor()),
-      dof(built->spec.q.size()),
-      drive(built->spec.drive.value_or("")),
-      speed(built->spec.speed.value_or(0.0)),
-      amplitude_alarm(built->spec.name, settings),
-      critical_speed_alarm(built->spec.name, settings),
-      capture_alarm(built->spec.name, settings),
-      stability_alarm(built->spec.name, settingsFor(*built->dynamics, settings)),
-      state_alarm(built->spec.name, settings),
-      validity_alarm(built->spec.name, built->dynamics, settings),
-      system(std::move(built)) {
-  if (rotor) {
-    station = system->dynamics->stations().front();
-  }
-  const std::vector<CoordinateInfo> all = system->dynamics->coordinates();
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    spin = all[k].name == "spin" ? static_cast<Eigen::Index>(k) : spin;
-  }
-}
-
-std::vector<double> TwinMonitor::Watch::coordinates(double x, double y, double turned) const {
-  std::vector<double> all(dof, 0.0);
-  for (std::size_t i = 0; i < dof; ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    all[i] = k == spin ? turned
-                       : x * station.along_x[k] / station.along_x.squaredNorm() +
-                             y * station.along_y[k] / station.along_y.squaredNorm();
-  }
-  return all;
-}
-
-state::DriveState TwinMonitor::Watch::shaftOf(const state::PendulumState& state) {
-  state::DriveState shaft;
-  shaft.at = state.at;
-  shaft.speed = state.rate[static_cast<std::size_t>(spin)];
-  if (!seen || shaft.at.time < seen->at.time) {
-    seen = shaft;
-  }
-  const double since = shaft.at.time - seen->at.time;
-  shaft.acceleration = seen->acceleration;
-  if (since >= kMeanOver) {
-    shaft.acceleration = (shaft.speed - seen->speed) / since;
-    seen = shaft;
-  }
-  return shaft;
-}
 
 TwinMonitor::TwinMonitor(const BuiltScene& scene, const AlarmSettings& settings, Judging::Mode mode)
     : settings_(settings),
@@ -98,21 +38,10 @@ void TwinMonitor::restart(double time, double wall_time) {
   for (const state::Alert& alert : alerts_.active()) {
     alerts_.clear(alert.system, alert.type, time_, "the simulation was reset");
   }
-  std::vector<std::string> names;
-  for (Watch& watch : watches_) {
-    names.push_back(watch.name);
-    const std::string& name = names.back();
-    const std::shared_ptr<const Dynamics>& dynamics = watch.system->dynamics;
-    watch.amplitude_alarm = AmplitudeAlarm(name, settings_);
-    watch.critical_speed_alarm = CriticalSpeedAlarm(name, settings_);
-    watch.capture_alarm = CaptureAlarm(name, settings_);
-    watch.seen.reset();
-    watch.stability_alarm = StabilityAlarm(name, settingsFor(*dynamics, settings_));
-    watch.state_alarm = StateAlarm(name, settings_);
-    watch.validity_alarm = ValidityAlarm(name, dynamics, settings_);
-    watch.judged = false;
+  for (SystemWatch& watch : watches_) {
+    watch.restart(settings_);
   }
-  data_lost_alarm_ = DataLostAlarm(names, settings_);
+  data_lost_alarm_ = DataLostAlarm(systemNames(), settings_);
   for (auto& [source, clock] : clocks_) {
     clock.restartAt(time, wall_time);
   }
@@ -122,7 +51,7 @@ void TwinMonitor::restart(double time, double wall_time) {
 }
 
 bool TwinMonitor::take(const state::ParameterChange& change) {
-  Watch* watch = find(change.system);
+  SystemWatch* watch = find(change.system);
   SharedSystem changed = watch == nullptr ? nullptr : watch->system->with(change);
   if (changed == nullptr) {
     return false;
@@ -134,9 +63,9 @@ bool TwinMonitor::take(const state::ParameterChange& change) {
   return true;
 }
 
-TwinMonitor::Watch* TwinMonitor::find(const std::string& system) {
+SystemWatch* TwinMonitor::find(const std::string& system) {
   const auto found = std::find_if(watches_.begin(), watches_.end(),
-                                  [&](const Watch& watch) { return watch.name == system; });
+                                  [&](const SystemWatch& watch) { return watch.name == system; });
   return found == watches_.end() ? nullptr : &*found;
 }
 
@@ -158,11 +87,10 @@ bool TwinMonitor::arrived(const std::string& source, const state::Instant& at, d
     step_ = at.step;
   }
   data_lost_alarm_.received(source, wall_time, time_, alerts_);
-  restored_.heard(source, at.time, alerts_);
   return true;
 }
 
-void TwinMonitor::watchShaft(Watch& watch, state::DriveState shaft) {
+void TwinMonitor::watchShaft(SystemWatch& watch, state::DriveState shaft) {
   watch.speed = shaft.speed;
   watch.acceleration = shaft.acceleration;
   if (watch.spin >= 0) {  // a motor has no target: it goes on as it accelerates
@@ -172,8 +100,31 @@ void TwinMonitor::watchShaft(Watch& watch, state::DriveState shaft) {
   watch.critical_speed_alarm.update(shaft, watch.speeds.marginsAt(shaft.speed), alerts_);
 }
 
+bool TwinMonitor::isFit(SystemWatch& watch, bool fit, double time) {
+  if (fit) {
+    restored_.heard(watch.name, time, alerts_);
+  } else {
+    restored_.interrupted(watch.name);
+    watch.hold();
+  }
+  return fit;
+}
+
+std::vector<std::string> TwinMonitor::notOk(double wall_time, bool paused) const {
+  std::vector<std::string> why;
+  for (const SystemWatch& watch : watches_) {
+    why.push_back(watch.quality.notOk(wall_time, paused));
+  }
+  return why;
+}
+
 void TwinMonitor::tick(double wall_time, bool paused) {
   takeJudgements();
+  for (SystemWatch& watch : watches_) {
+    if (watch.quality.isStale(wall_time) && !paused) {
+      isFit(watch, false, time_);
+    }
+  }
   data_lost_alarm_.tick(wall_time, time_, paused, alerts_);
   liftInhibitions(wall_time);
 }
@@ -193,7 +144,7 @@ bool TwinMonitor::inhibit(const std::string& system, double duration, double wal
   if (!system.empty() && find(system) == nullptr) {
     return false;
   }
-  for (const Watch& watch : watches_) {
+  for (const SystemWatch& watch : watches_) {
     if (system.empty() || watch.name == system) {
       inhibited_until_[watch.name] = wall_time + duration;
       alerts_.setInhibited(watch.name, true);
@@ -203,7 +154,7 @@ bool TwinMonitor::inhibit(const std::string& system, double duration, double wal
   return true;
 }
 
-void TwinMonitor::judge(Watch& watch, const state::Instant& at, const std::vector<double>& q,
+void TwinMonitor::judge(SystemWatch& watch, const state::Instant& at, const std::vector<double>& q,
                         const std::vector<double>& v, double wall_time) {
   const bool passed = watch.speeds.thresholds.between(watch.judged_speed, watch.speed);
   const double since = at.time - watch.judged_at;  // back where a log is played a second time
@@ -220,7 +171,7 @@ void TwinMonitor::judge(Watch& watch, const state::Instant& at, const std::vecto
 
 void TwinMonitor::takeJudgements() {
   for (Judgement& judgement : judging_.take()) {
-    Watch& watch = watches_[judgement.system];
+    SystemWatch& watch = watches_[judgement.system];
     watch.speeds = std::move(judgement.speeds);
     if (judgement.run == run_) {  // else of before a reset
       watch.verdict_of = judgement.arrived_at;
@@ -231,11 +182,12 @@ void TwinMonitor::takeJudgements() {
 }
 
 void TwinMonitor::take(const state::WhirlState& whirl, double wall_time) {
-  Watch* watch = find(whirl.system);
+  SystemWatch* watch = find(whirl.system);
   if (watch == nullptr || !watch->rotor) {
     return;
   }
-  if (!arrived(whirl.system, whirl.at, wall_time)) {
+  if (!arrived(whirl.system, whirl.at, wall_time) ||
+      !isFit(*watch, watch->quality.take(whirl, wall_time), whirl.at.time)) {
     return;
   }
   if (watch->drive.empty()) {
@@ -253,12 +205,13 @@ void TwinMonitor::take(const state::WhirlState& whirl, double wall_time) {
 }
 
 void TwinMonitor::take(const state::PendulumState& pendulum, double wall_time) {
-  Watch* watch = find(pendulum.system);
+  SystemWatch* watch = find(pendulum.system);
   if (watch == nullptr || watch->rotor || pendulum.angle.size() != watch->dof ||
       pendulum.rate.size() != watch->dof) {
     return;
   }
-  if (!arrived(pendulum.system, pendulum.at, wall_time)) {
+  if (!arrived(pendulum.system, pendulum.at, wall_time) ||
+      !isFit(*watch, watch->quality.take(pendulum, wall_time), pendulum.at.time)) {
     return;
   }
   watch->state_alarm.updateEnergy(pendulum.at.time, pendulum.energy_residual, alerts_);
@@ -274,7 +227,7 @@ void TwinMonitor::take(const state::PendulumState& pendulum, double wall_time) {
 
 void TwinMonitor::take(const state::DriveState& drive, double wall_time) {
   bool known = false;
-  for (Watch& watch : watches_) {
+  for (SystemWatch& watch : watches_) {
     if (watch.drive != drive.drive) {
       continue;
     }
@@ -298,7 +251,7 @@ bool TwinMonitor::take(const state::LoopStatistics& loop, double wall_time) {
   }
   loop_time_ = time;
   for (std::size_t i = 0; i < loop.system.size(); ++i) {
-    if (Watch* watch = find(loop.system[i])) {
+    if (SystemWatch* watch = find(loop.system[i])) {
       watch->state_alarm.updateStopped(time, static_cast<StepStatus>(loop.stopped[i]),
                                        loop.stopped_why[i], alerts_);
       watch->state_alarm.updateAccuracy(time, loop.error_estimate[i], loop.tolerance[i], alerts_);
@@ -310,7 +263,7 @@ bool TwinMonitor::take(const state::LoopStatistics& loop, double wall_time) {
 
 std::vector<std::string> TwinMonitor::systemNames() const {
   std::vector<std::string> names;
-  for (const Watch& watch : watches_) {
+  for (const SystemWatch& watch : watches_) {
     names.push_back(watch.name);
   }
   return names;
@@ -332,12 +285,12 @@ state::MonitorStatus TwinMonitor::status(double wall_time, bool paused) {
     ++status.alerts;
     status.dangers += alert.severity == state::Severity::kDanger ? 1 : 0;
   }
-  for (const Watch& watch : watches_) {
+  status.not_ok = notOk(wall_time, paused);
+  for (const SystemWatch& watch : watches_) {
     status.system.push_back(watch.name);
     status.verdict_age.push_back(wall_time - watch.verdict_of);
     const auto held = inhibited_until_.find(watch.name);
     status.inhibited.push_back(held == inhibited_until_.end() ? 0.0 : held->second - wall_time);
-    status.not_ok.emplace_back();
   }
   return status;
 }

@@ -13,17 +13,12 @@
 #include "monitoring/alarm_memory.h"
 #include "monitoring/alarm_settings.h"
 #include "monitoring/alert_list.h"
-#include "monitoring/amplitude_alarm.h"
-#include "monitoring/capture_alarm.h"
-#include "monitoring/critical_speed_alarm.h"
 #include "monitoring/data_lost_alarm.h"
 #include "monitoring/judging.h"
 #include "monitoring/reset_watch.h"
 #include "monitoring/restored_alerts.h"
 #include "monitoring/source_clock.h"
-#include "monitoring/stability_alarm.h"
-#include "monitoring/state_alarm.h"
-#include "monitoring/validity_alarm.h"
+#include "monitoring/system_watch.h"
 #include "scene/built_scene.h"
 
 namespace whirl_twin {
@@ -65,55 +60,27 @@ class TwinMonitor {
   /// That it is there, at wall_time [s], to be told about once a second; without a stamp.
   state::MonitorStatus status(double wall_time, bool paused);
   std::vector<std::string> systemNames() const;
+  /// Of each system, why what comes from it cannot be judged; "": it can.
+  std::vector<std::string> notOk(double wall_time, bool paused) const;
   double time() const { return time_; }  ///< [s], simulated, of the newest state
 
  private:
-  struct Watch {
-    Watch(SharedSystem system, JudgedSpeeds speeds, const AlarmSettings& settings);
-
-    std::string name;
-    JudgedSpeeds speeds;  ///< as last judged
-    bool rotor;
-    std::size_t dof;
-    Station station = {};    ///< of a rotor: where its whirl is seen
-    Eigen::Index spin = -1;  ///< of one whose spin is free: the coordinate of its shaft
-    /// All coordinates of a rotor (or rates) as far as its whirl tells them: the smallest that give
-    /// x and y at the station, and what the shaft has turned.
-    std::vector<double> coordinates(double x, double y, double turned) const;
-    /// The shaft of one whose spin is a coordinate that it tells; its acceleration is the mean over
-    /// some hundredths of a second.
-    state::DriveState shaftOf(const state::PendulumState& state);
-    std::string drive;                      ///< "" at a constant speed of its own
-    double speed;                           ///< [rad/s], newest
-    std::optional<state::DriveState> seen;  ///< its shaft, of one without a drive
-    double acceleration = 0.0;              ///< [rad/s^2], newest
-    AmplitudeAlarm amplitude_alarm;
-    CriticalSpeedAlarm critical_speed_alarm;
-    CaptureAlarm capture_alarm;
-    StabilityAlarm stability_alarm;
-    StateAlarm state_alarm;
-    ValidityAlarm validity_alarm;
-    SharedSystem system;        ///< with its parameters as they are now
-    bool judged = false;        ///< or asked to be
-    double judged_at = 0.0;     ///< [s], simulated
-    double judged_speed = 0.0;  ///< [rad/s]
-    double verdict_of = std::numeric_limits<double>::quiet_NaN();  ///< [s], that of the verdict
-  };
-
   void restart(double time, double wall_time);
-  Watch* find(const std::string& system);
+  SystemWatch* find(const std::string& system);
   /// False for a state that is not to be believed.
   bool arrived(const std::string& source, const state::Instant& at, double wall_time);
   void liftInhibitions(double wall_time);
+  /// What came can be judged, or holds the alarms.
+  bool isFit(SystemWatch& watch, bool fit, double time);
   void takeJudgements();
-  void judge(Watch& watch, const state::Instant& at, const std::vector<double>& q,
+  void judge(SystemWatch& watch, const state::Instant& at, const std::vector<double>& q,
              const std::vector<double>& v, double wall_time);
-  void watchShaft(Watch& watch, state::DriveState shaft);
+  void watchShaft(SystemWatch& watch, state::DriveState shaft);
 
   AlarmSettings settings_;
   Judging judging_;
   std::uint64_t run_ = 0;  ///< of simulated time: resets so far
-  std::vector<Watch> watches_;
+  std::vector<SystemWatch> watches_;
   DataLostAlarm data_lost_alarm_;
   AlertList alerts_;
   RestoredAlerts restored_;

@@ -22,6 +22,8 @@ class ValidityAlarm {
   /// The state at at.time [s, simulated].
   void update(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Moment<double>& at,
               AlertList& alerts);
+  /// What comes cannot be judged: delays are broken, and nothing is raised or cleared.
+  void hold() { alarm_.hold(); }
 
  private:
   std::string system_;

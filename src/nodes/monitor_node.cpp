@@ -281,6 +281,13 @@ class MonitorNode {
     if (!paused_ && wallTime() - newest_arrival_ > settings_.data_timeout) {
       status.mergeSummary(DiagnosticStatus::WARN, "no states arrive: nothing is being watched");
     }
+    const std::vector<std::string> not_ok = monitor_.notOk(wallTime(), paused_);
+    const std::vector<std::string> systems = monitor_.systemNames();
+    for (std::size_t i = 0; i < systems.size(); ++i) {
+      if (!not_ok[i].empty()) {
+        status.add(systems[i] + " not OK", not_ok[i]);
+      }
+    }
     status.add("active alerts", active.size());
     status.add("simulated time [s]", monitor_.time());
     status.add("rejected messages", rejected_ + (receiver_ ? receiver_->rejected() : 0));

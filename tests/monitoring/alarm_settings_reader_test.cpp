@@ -77,7 +77,7 @@ delays:
   LOW_DAMPING: {set: -1, clar: 2}
 amplitude:
   roter: {alert: 1.0e-3}
-  rotor: {alert: 2.0e-3, danger: 1.0e-3}
+  rotor: {alert: 2.0e-3, danger: 1.0e-3, range: 1.5e-3}
   pump: {speed: [0, 100, 50], alert: [1.0e-3, 0.0]}
 )");
   const std::vector<std::string> expected{
@@ -91,6 +91,7 @@ amplitude:
       "delays.LOW_DAMPING.set: must be from 0 to 3600 s, found -1",
       "amplitude.roter: unknown rotor of the scene; did you mean 'rotor'?",
       "amplitude.rotor.danger: must be above alert, 0.002 m, found 0.001",
+      "amplitude.rotor.range: must be above the levels, 0.002 m, found 0.0015",
       "amplitude.pump.speed[2]: must be above the one before, 100 rad/s, found 50",
       "amplitude.pump.alert[1]: must be > 0 m, found 0.0",
       "amplitude.pump.alert: must be 3 [m], one for each speed, found 2"};

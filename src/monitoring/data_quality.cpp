@@ -1,0 +1,64 @@
+#include "monitoring/data_quality.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+namespace whirl_twin {
+
+DataQuality::DataQuality(const std::string& system, const AlarmSettings& settings)
+    : timeout_(settings.data_timeout) {
+  const auto levels = settings.amplitude.find(system);
+  if (levels != settings.amplitude.end()) {
+    range_ = levels->second.range;
+  }
+}
+
+bool DataQuality::take(std::string unfit, double wall_time) {
+  heard_at_ = wall_time;
+  unfit_ = std::move(unfit);
+  return unfit_.empty();
+}
+
+bool DataQuality::take(const state::WhirlState& whirl, double wall_time) {
+  for (const auto& [name, value] :
+       {std::pair("x", whirl.x), std::pair("y", whirl.y), std::pair("x_rate", whirl.x_rate),
+        std::pair("y_rate", whirl.y_rate), std::pair("radius", whirl.radius),
+        std::pair("speed", whirl.speed)}) {
+    if (!std::isfinite(value)) {
+      return take(fmt::format("not finite: {}", name), wall_time);
+    }
+  }
+  if (whirl.radius > range_) {
+    return take(fmt::format("out of range: whirl {:.3g} mm, beyond {:.3g} mm", 1.0e3 * whirl.radius,
+                            1.0e3 * range_),
+                wall_time);
+  }
+  return take("", wall_time);
+}
+
+bool DataQuality::take(const state::PendulumState& pendulum, double wall_time) {
+  for (std::size_t i = 0; i < pendulum.angle.size(); ++i) {
+    if (!std::isfinite(pendulum.angle[i]) || !std::isfinite(pendulum.rate[i])) {
+      return take(fmt::format("not finite: {}", pendulum.name[i]), wall_time);
+    }
+  }
+  return take("", wall_time);
+}
+
+bool DataQuality::isStale(double wall_time) const {
+  return !(wall_time - heard_at_ <= timeout_);
+}
+
+std::string DataQuality::notOk(double wall_time, bool paused) const {
+  if (std::isinf(heard_at_)) {
+    return "stale: nothing has come yet";
+  }
+  if (isStale(wall_time) && !paused) {
+    return fmt::format("stale: no state for {:.1f} s", wall_time - heard_at_);
+  }
+  return unfit_;
+}
+
+}  // namespace whirl_twin

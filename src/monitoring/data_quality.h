@@ -1,0 +1,36 @@
+// Whether what comes from a system can be judged at all: not-OK, as machine protection has it,
+// which is no alarm, raises none and clears none. Stale: no state for data_timeout, while the
+// simulation is not held. Not finite: a number of its newest state is none. Out of range: its whirl
+// is wider than what the settings call its range.
+#pragma once
+
+#include <limits>
+#include <string>
+
+#include "messages/states.h"
+#include "monitoring/alarm_settings.h"
+
+namespace whirl_twin {
+
+class DataQuality {
+ public:
+  DataQuality(const std::string& system, const AlarmSettings& settings);
+
+  /// A state came at wall_time [s]; returns whether it can be judged.
+  bool take(const state::WhirlState& whirl, double wall_time);
+  bool take(const state::PendulumState& pendulum, double wall_time);
+  /// No state has come for too long, or none ever.
+  bool isStale(double wall_time) const;
+  /// Why what comes cannot be judged; "": it can. paused: the simulation says that it is held.
+  std::string notOk(double wall_time, bool paused) const;
+
+ private:
+  bool take(std::string unfit, double wall_time);
+
+  double timeout_;                                              ///< [s, wall]
+  double range_ = std::numeric_limits<double>::infinity();      ///< [m]
+  double heard_at_ = -std::numeric_limits<double>::infinity();  ///< [s, wall]
+  std::string unfit_;                                           ///< why the newest state is
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,94 @@
+#include "monitoring/system_watch.h"
+
+#include <memory>
+#include <utility>
+
+namespace whirl_twin {
+namespace {
+
+constexpr double kMeanOver = 0.05;  // s, simulated: an acceleration made of speeds
+
+/// Low damping is a criterion for rotors; a pendulum may swing as long as it likes.
+AlarmSettings settingsFor(const Dynamics& dynamics, AlarmSettings settings) {
+  if (!dynamics.isRotor()) {
+    settings.log_decrement_warning = 0.0;
+    settings.decay_rate_alarm = 0.0;
+  }
+  return settings;
+}
+
+}  // namespace
+
+SystemWatch::SystemWatch(SharedSystem built, JudgedSpeeds first, const AlarmSettings& settings)
+    : name(built->spec.name),
+      speeds(std::move(first)),
+      rotor(built->dynamics->isRotor()),
+      dof(built->spec.q.size()),
+      drive(built->spec.drive.value_or("")),
+      speed(built->spec.speed.value_or(0.0)),
+      quality(built->spec.name, settings),
+      amplitude_alarm(built->spec.name, settings),
+      critical_speed_alarm(built->spec.name, settings),
+      capture_alarm(built->spec.name, settings),
+      stability_alarm(built->spec.name, settingsFor(*built->dynamics, settings)),
+      state_alarm(built->spec.name, settings),
+      validity_alarm(built->spec.name, built->dynamics, settings),
+      system(std::move(built)) {
+  if (rotor) {
+    station = system->dynamics->stations().front();
+  }
+  const std::vector<CoordinateInfo> all = system->dynamics->coordinates();
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    spin = all[k].name == "spin" ? static_cast<Eigen::Index>(k) : spin;
+  }
+}
+
+std::vector<double> SystemWatch::coordinates(double x, double y, double turned) const {
+  std::vector<double> all(dof, 0.0);
+  for (std::size_t i = 0; i < dof; ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    all[i] = k == spin ? turned
+                       : x * station.along_x[k] / station.along_x.squaredNorm() +
+                             y * station.along_y[k] / station.along_y.squaredNorm();
+  }
+  return all;
+}
+
+state::DriveState SystemWatch::shaftOf(const state::PendulumState& state) {
+  state::DriveState shaft;
+  shaft.at = state.at;
+  shaft.speed = state.rate[static_cast<std::size_t>(spin)];
+  if (!seen || shaft.at.time < seen->at.time) {
+    seen = shaft;
+  }
+  const double since = shaft.at.time - seen->at.time;
+  shaft.acceleration = seen->acceleration;
+  if (since >= kMeanOver) {
+    shaft.acceleration = (shaft.speed - seen->speed) / since;
+    seen = shaft;
+  }
+  return shaft;
+}
+
+void SystemWatch::restart(const AlarmSettings& settings) {
+  const std::shared_ptr<const Dynamics>& dynamics = system->dynamics;
+  amplitude_alarm = AmplitudeAlarm(name, settings);
+  critical_speed_alarm = CriticalSpeedAlarm(name, settings);
+  capture_alarm = CaptureAlarm(name, settings);
+  seen.reset();
+  stability_alarm = StabilityAlarm(name, settingsFor(*dynamics, settings));
+  state_alarm = StateAlarm(name, settings);
+  validity_alarm = ValidityAlarm(name, dynamics, settings);
+  judged = false;
+}
+
+void SystemWatch::hold() {
+  amplitude_alarm.hold();
+  critical_speed_alarm.hold();
+  capture_alarm.hold();
+  stability_alarm.hold();
+  state_alarm.holdEnergy();
+  validity_alarm.hold();
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,62 @@
+// What the monitor keeps of one system: what it is, how it was last judged, and its alarms.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "messages/states.h"
+#include "monitoring/alarm_settings.h"
+#include "monitoring/amplitude_alarm.h"
+#include "monitoring/capture_alarm.h"
+#include "monitoring/critical_speed_alarm.h"
+#include "monitoring/data_quality.h"
+#include "monitoring/judged_speeds.h"
+#include "monitoring/stability_alarm.h"
+#include "monitoring/state_alarm.h"
+#include "monitoring/validity_alarm.h"
+#include "scene/built_scene.h"
+
+namespace whirl_twin {
+
+struct SystemWatch {
+  SystemWatch(SharedSystem system, JudgedSpeeds speeds, const AlarmSettings& settings);
+  /// Time begins anew: so do the alarms.
+  void restart(const AlarmSettings& settings);
+  /// What comes cannot be judged: no alarm clears by it, or counts it as time without its cause.
+  void hold();
+  /// All coordinates of a rotor (or rates) as far as its whirl tells them: the smallest that give
+  /// x and y at the station, and what the shaft has turned.
+  std::vector<double> coordinates(double x, double y, double turned) const;
+  /// The shaft of one whose spin is a coordinate that it tells; its acceleration is the mean over
+  /// some hundredths of a second.
+  state::DriveState shaftOf(const state::PendulumState& state);
+
+  std::string name;
+  JudgedSpeeds speeds;  ///< as last judged
+  bool rotor;
+  std::size_t dof;
+  Station station = {};    ///< of a rotor: where its whirl is seen
+  Eigen::Index spin = -1;  ///< of one whose spin is free: the coordinate of its shaft
+  std::string drive;       ///< "" at a constant speed of its own
+  double speed;            ///< [rad/s], newest
+  std::optional<state::DriveState> seen;  ///< its shaft, of one without a drive
+  double acceleration = 0.0;              ///< [rad/s^2], newest
+  DataQuality quality;
+  AmplitudeAlarm amplitude_alarm;
+  CriticalSpeedAlarm critical_speed_alarm;
+  CaptureAlarm capture_alarm;
+  StabilityAlarm stability_alarm;
+  StateAlarm state_alarm;
+  ValidityAlarm validity_alarm;
+  SharedSystem system;        ///< with its parameters as they are now
+  bool judged = false;        ///< or asked to be
+  double judged_at = 0.0;     ///< [s], simulated
+  double judged_speed = 0.0;  ///< [rad/s]
+  double verdict_of = std::numeric_limits<double>::quiet_NaN();  ///< [s], that of the verdict
+};
+
+}  // namespace whirl_twin
