@@ -119,7 +119,7 @@ AlarmSettings readAlarmSettings(const YAML::Node& tree, const std::string& sourc
   known.insert(known.end(), besides.begin(), besides.end());
 
   Complaints complaints(source);
-  const MapReader map(tree, "", known, "setting of the monitor", complaints);
+  const MapReader map(tree, "", known, "parameter", complaints);
   for (const auto& [name, value] : numbers) {
     *value = map.number(name, Range::kAny, "", *value);
   }

@@ -81,7 +81,7 @@ amplitude:
   pump: {speed: [0, 100, 50], alert: [1.0e-3, 0.0]}
 )");
   const std::vector<std::string> expected{
-      "clear_dely: unknown setting of the monitor; did you mean 'clear_delay'?",
+      "clear_dely: unknown parameter; did you mean 'clear_delay'?",
       "clear_delay: must be >= 0 s, found -1",
       "dwell_limit: must be",
       "trip_multiply: must be from 1 to 10 (dimensionless), found 50",

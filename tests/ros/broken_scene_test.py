@@ -51,7 +51,7 @@ class BrokenScene(unittest.TestCase):
             done = run(node)
             rospy.delete_param('/%s/%s' % (node, wrong))
             self.assertEqual(done.returncode, 2, done.stdout)
-            self.assertIn("/%s/%s: unknown parameter; did you mean '%s'?" % (node, wrong, right),
+            self.assertIn("%s: unknown parameter; did you mean '%s'?" % (wrong, right),
                           done.stdout)
 
     def test_no_scene_at_all(self):
