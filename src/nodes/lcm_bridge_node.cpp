@@ -68,7 +68,7 @@ void run() {
       openLcm(url), kindsToTell(derived),
       [&bridge](const Message& message) { bridge.publish(message); }, prefix);
 
-  const MasterWatch master;
+  MasterWatch master;
   diagnostic_updater::Updater diagnostics;
   diagnostics.setHardwareID("LCM " + url);
   diagnostics.add("received from LCM", [&receiver](auto& status) { report(receiver, status); });
@@ -92,6 +92,7 @@ void run() {
       diagnostics.force_update();
     }
   }
+  master.stop();
   ros::shutdown();
   fmt::print("lcm_bridge_node: {}\n", countsOf(receiver));
   for (const auto& [name, count] : receiver.channels()) {

@@ -315,10 +315,11 @@ class MonitorNode {
 void run() {
   usePluginModels();
   MonitorNode monitor{ros::NodeHandle(twinNamespace())};
-  const MasterWatch master;
+  MasterWatch master;
   while (!stopRequested() && ros::ok()) {
     monitor.spinOnce();
   }
+  master.stop();
   ros::shutdown();
 }
 

@@ -132,7 +132,7 @@ void run() {
     }
   });
 
-  const MasterWatch master({node.resolveName("scene"), node.resolveName("scene_file")});
+  MasterWatch master({node.resolveName("scene"), node.resolveName("scene_file")});
   diagnostics.add("ROS master", [&](diagnostic_updater::DiagnosticStatusWrapper& status) {
     const std::string trouble = master.trouble();
     status.summary(trouble.empty() ? diagnostic_msgs::DiagnosticStatus::OK
@@ -170,6 +170,7 @@ void run() {
   loop.stop();
   publisher.join();
   ROS_INFO("stopped after %ld steps", static_cast<long>(live.twin().stepCount()));
+  master.stop();
   ros::shutdown();
   if (by_itself) {
     throw RunFailure("a step ended too late, and the parameter overrun says stop");

@@ -62,8 +62,14 @@ MasterWatch::MasterWatch(std::vector<std::string> parameters)
 }
 
 MasterWatch::~MasterWatch() {
+  stop();
+}
+
+void MasterWatch::stop() {
   ending_.store(true);
-  thread_.join();
+  if (thread_.joinable()) {
+    thread_.join();
+  }
 }
 
 std::string MasterWatch::trouble() const {

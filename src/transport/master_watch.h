@@ -21,6 +21,8 @@ class MasterWatch {
   /// `parameters`: names of further trees to bring back, beside the node's own.
   explicit MasterWatch(std::vector<std::string> parameters = {});
   ~MasterWatch();
+  /// Ends the thread, as must be before ros::shutdown().
+  void stop();
 
   /// What stands in the way at present, in a sentence for the diagnostics; empty: nothing.
   std::string trouble() const;
