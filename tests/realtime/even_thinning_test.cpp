@@ -20,7 +20,7 @@ struct Consumer {
   double waiting = 0.0;
   std::int64_t step = 0;
   std::int64_t dropped = 0;
-  std::vector<std::int64_t> taken;
+  std::vector<std::int64_t> taken{};
 
   void consume(std::int64_t records) {
     for (std::int64_t i = 0; i < records; ++i) {
