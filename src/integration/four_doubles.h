@@ -1,4 +1,4 @@
-// Four doubles side by side: in one vector or in two, as the processor has it.
+// Four doubles side by side, two complex numbers: in one vector or in two, as the processor has it.
 #pragma once
 
 #include "mechanics/force_inline.h"
@@ -33,13 +33,14 @@ struct FourDoubles {
     }
     return x;
   }
-  static WHIRL_TWIN_INLINE FourDoubles all(double value) {
+  /// One complex number twice.
+  static WHIRL_TWIN_INLINE FourDoubles twice(double real, double imaginary) {
     FourDoubles x;
     for (Part& part : x.part) {
       if constexpr (lanes == 4) {
-        part = Part{value, value, value, value};
+        part = Part{real, imaginary, real, imaginary};
       } else {
-        part = Part{value, value};
+        part = Part{real, imaginary};
       }
     }
     return x;
@@ -48,6 +49,29 @@ struct FourDoubles {
     for (int i = 0; i < kParts; ++i) {
       reinterpret_cast<InMemory*>(to)[i] = part[i];
     }
+  }
+
+  static WHIRL_TWIN_INLINE FourDoubles all(double value) {
+    FourDoubles x;
+    for (Part& part : x.part) {
+      part = Part{} + value;
+    }
+    return x;
+  }
+  /// Of one complex number in memory, twice.
+  static WHIRL_TWIN_INLINE FourDoubles twice(const double* from) { return twice(from[0], from[1]); }
+
+  /// Real and imaginary parts in each other's place.
+  WHIRL_TWIN_INLINE FourDoubles across() const {
+    FourDoubles x;
+    for (int i = 0; i < kParts; ++i) {
+      if constexpr (lanes == 4) {
+        x.part[i] = Part{part[i][1], part[i][0], part[i][3], part[i][2]};
+      } else {
+        x.part[i] = Part{part[i][1], part[i][0]};
+      }
+    }
+    return x;
   }
   WHIRL_TWIN_INLINE double sum() const {
     if constexpr (lanes == 4) {
