@@ -56,13 +56,14 @@ double LinearRotorStepper::furtherEnergy() const noexcept {
 
 StepStatus LinearRotorStepper::step(double) noexcept {
   next_ = state_;
-  bool done = false;
-  const std::int64_t corner = inputs_.nextCorner(0);
-  if (corner != Inputs::kNever) {
-    const std::int64_t length = std::llround(step_ * 1e9);
-    done = corner < length && method_.advanceInParts(excitation_.drive, 0, length, next_);
+  bool corner = false;
+  const std::int64_t next_corner = inputs_.nextCorner(0);
+  std::int64_t length = 0;
+  if (next_corner != Inputs::kNever) {
+    length = std::llround(step_ * 1e9);
+    corner = next_corner < length;
   }
-  if (!done) {
+  if (!corner || !method_.advanceInParts(excitation_.drive, 0, length, next_)) {
     for (int i = 0; i < substeps_; ++i) {
       const StepStatus status = method_.advance(excitation_.drive, i * (step_ / substeps_), next_);
       if (status != StepStatus::kOk) {

@@ -27,7 +27,8 @@ void WhirlPhase::observe(const WhirlMotion& whirl, double mark) {
   }
   const double lag = mark - std::atan2(whirl.y, whirl.x);
   const double reference = known_ ? lag_ : 0.0;
-  lag_ = reference + std::remainder(lag - reference, 2.0 * kPi);
+  // Whole turns, so that the last bit does not depend on which records were seen before.
+  lag_ = lag + 2.0 * kPi * std::nearbyint((reference - lag) / (2.0 * kPi));
   known_ = true;
 }
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "mechanics/rotors/jeffcott_rotor.h"
+#include "messages/refusal.h"
 
 namespace whirl_twin {
 namespace {
@@ -141,7 +142,7 @@ TEST(LinearDynamics, RefusesWhatIsNoSystem) {
   EXPECT_THROW(LinearDynamics{model}, std::logic_error);
   model = freeModel(3);
   model.mass(1, 1) = 0.0;
-  EXPECT_THROW(LinearDynamics{model}, std::logic_error);
+  EXPECT_THROW(LinearDynamics{model}, Refusal);
   model = freeModel(3);
   model.forces = {{VectorXd::Ones(2), 0.0, 0.0}};
   EXPECT_THROW(LinearDynamics{model}, std::logic_error);

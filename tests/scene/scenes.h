@@ -49,6 +49,7 @@ systems:
     model: jeffcott_rotor
     drive: shaft
     parameters: {mass: 1.0, stiffness: 1.0e4, damping: 5.0, internal_damping: 4.0, eccentricity: 1.0e-4}
+    inputs: {force_x: 0.0}
 )";
 
 }  // namespace whirl_twin

@@ -172,7 +172,8 @@ TEST(DamagedEventLog, IsNoticedAfterBytesWereOverwrittenLostOrAdded) {
     const auto summary = summaryOf(log);
     EXPECT_LE(summary.events, extents.size());
     if (must_be_noticed) {
-      EXPECT_FALSE(summary.intact() && summary.continuous()) << "mutation " << mutation;
+      EXPECT_FALSE(summary.intact() && summary.continuous())
+          << "mutation " << mutation << ", " << length << " bytes at " << at;
     }
   }
 }
