@@ -45,11 +45,13 @@ double LinearRotorStepper::furtherEnergy() const noexcept {
     return 0.0;
   }
   const ShaftMotion shaft = excitation_.drive.at(0.0);
-  double energy = jacobi_(state_.q.data(), state_.v.data(),
+  double energy = jacobi_(state_.q().data(), state_.v().data(),
                           {0.0, shaft.angle, shaft.speed, shaft.acceleration});
-  for (Eigen::Index i = 0; i < state_.q.size(); ++i) {
-    energy -= 0.5 * state_.v[i] * audited_.mass.col(i).dot(state_.v) +
-              0.5 * state_.q[i] * audited_.stiffness.col(i).dot(state_.q) - load_[i] * state_.q[i];
+  const auto q = state_.q();
+  const auto v = state_.v();
+  for (Eigen::Index i = 0; i < state_.dof(); ++i) {
+    energy -= 0.5 * v[i] * audited_.mass.col(i).dot(v) +
+              0.5 * q[i] * audited_.stiffness.col(i).dot(q) - load_[i] * q[i];
   }
   return energy;
 }
@@ -97,7 +99,7 @@ void LinearRotorStepper::estimateError() noexcept {
     }
   }
   // Of the coordinates: what the rates of stiff modes are off by comes and goes within a step.
-  errors_.add(dof(), next_.q.data(), next_.v.data(), finer_.q.data(), next_.v.data(),
+  errors_.add(dof(), next_.q().data(), next_.v().data(), finer_.q().data(), next_.v().data(),
               [&](std::size_t i) { return angular_[i] != 0; });
 }
 

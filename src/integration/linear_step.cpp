@@ -28,22 +28,17 @@ void addTo(double* __restrict high, double* __restrict low, const double* __rest
 }  // namespace
 
 LinearMotion::LinearMotion(Eigen::Index n)
-    : q(Eigen::VectorXd::Zero(n)),
-      v(Eigen::VectorXd::Zero(n)),
-      q_low(Eigen::VectorXd::Zero(n)),
-      v_low(Eigen::VectorXd::Zero(n)) {}
+    : state(Eigen::VectorXd::Zero(2 * n)), low(Eigen::VectorXd::Zero(2 * n)) {}
 
 void LinearMotion::set(const double* position, const double* rate) noexcept {
-  q = Eigen::Map<const Eigen::VectorXd>(position, q.size());
-  v = Eigen::Map<const Eigen::VectorXd>(rate, v.size());
-  q_low.setZero();
-  v_low.setZero();
+  q() = Eigen::Map<const Eigen::VectorXd>(position, dof());
+  v() = Eigen::Map<const Eigen::VectorXd>(rate, dof());
+  low.setZero();
   work = CompensatedSum{};
 }
 
-void LinearMotion::advance(const double* position, const double* rate, double energy) noexcept {
-  addTo(q.data(), q_low.data(), position, q.size());
-  addTo(v.data(), v_low.data(), rate, v.size());
+void LinearMotion::advance(const double* increment, double energy) noexcept {
+  addTo(state.data(), low.data(), increment, state.size());
   work.add(energy);
 }
 
@@ -66,8 +61,7 @@ LinearStep::LinearStep(const LinearModel& model, const std::string& method, doub
 
 void LinearStep::apply(PackedMatrix& map, double time, double offset, std::int64_t piece,
                        LinearMotion& motion) noexcept {
-  y_.head(n_) = motion.q;
-  y_.segment(n_, n_) = motion.v;
+  y_.head(2 * n_) = motion.state;
   double* phasor = y_.data() + 2 * n_;
   for (const double frequency : frequencies_) {
     const double cosine = std::cos(frequency * time);  // both together cost little more than one
@@ -79,7 +73,7 @@ void LinearStep::apply(PackedMatrix& map, double time, double offset, std::int64
     inputs_.writePairs(offset, piece, 1.0, phasor);
   }
   map.multiply(y_.data(), result_.data());
-  motion.advance(result_.data(), result_.data() + n_, y_.dot(result_.segment(2 * n_, y_.size())));
+  motion.advance(result_.data(), y_.dot(result_.segment(2 * n_, y_.size())));
 }
 
 void LinearStep::advance(double time, LinearMotion& motion, double offset) noexcept {

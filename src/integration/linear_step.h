@@ -35,13 +35,19 @@ namespace whirl_twin {
 struct LinearMotion {
   explicit LinearMotion(Eigen::Index n);
 
-  // Real-time safe; n numbers each.
-  void set(const double* position, const double* rate) noexcept;
-  void advance(const double* position, const double* rate, double energy) noexcept;
+  Eigen::Index dof() const { return state.size() / 2; }
+  auto q() const { return state.head(dof()); }  ///< [rad] or [m]
+  auto v() const { return state.tail(dof()); }  ///< their rates
+  auto q() { return state.head(dof()); }
+  auto v() { return state.tail(dof()); }
 
-  Eigen::VectorXd q, v;  ///< [rad] or [m], and their rates
-  Eigen::VectorXd q_low, v_low;
-  CompensatedSum work;  ///< [J], integral of dh/dt
+  // Real-time safe.
+  void set(const double* position, const double* rate) noexcept;  ///< n numbers each
+  void advance(const double* increment, double energy) noexcept;  ///< 2 n, those of q first
+
+  Eigen::VectorXd state;  ///< q and below it v: one loop goes through both
+  Eigen::VectorXd low;    ///< of it
+  CompensatedSum work;    ///< [J], integral of dh/dt
 };
 
 class LinearStep {

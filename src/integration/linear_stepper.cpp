@@ -10,12 +10,11 @@ namespace whirl_twin {
 
 bool isFinite(const LinearMotion& motion) noexcept {
   // What is not finite makes its sum so.
-  return isFinite(motion.work.high + motion.q.sum() + motion.v.sum());
+  return isFinite(motion.work.high + motion.state.sum());
 }
 
 void write(const LinearMotion& motion, double* out) noexcept {
-  out = std::copy_n(motion.q.data(), motion.q.size(), out);
-  out = std::copy_n(motion.v.data(), motion.v.size(), out);
+  out = std::copy_n(motion.state.data(), motion.state.size(), out);
   *out = motion.work.high;
 }
 
@@ -74,7 +73,7 @@ void LinearStepper::estimateError(double time) noexcept {
   for (int i = 0; i < 2 * substeps_; ++i) {
     halves_.advance(time + i * h, finer_, i * h);
   }
-  errors_.add(dof(), next_.q.data(), next_.v.data(), finer_.q.data(), finer_.v.data(),
+  errors_.add(dof(), next_.q().data(), next_.v().data(), finer_.q().data(), finer_.v().data(),
               [&](std::size_t i) { return angular_[i] != 0; });
 }
 

@@ -31,7 +31,7 @@ class LinearStepper final : public Stepper {
                 const Inputs* inputs = nullptr);
 
   StepStatus step(double time) noexcept override;
-  std::size_t dof() const noexcept override { return static_cast<std::size_t>(state_.q.size()); }
+  std::size_t dof() const noexcept override { return static_cast<std::size_t>(state_.dof()); }
   void write(double* out) const noexcept override;
   double errorSum() const noexcept override { return errors_.sum(); }
   void set(const double* q, const double* v) noexcept override;

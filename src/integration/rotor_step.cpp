@@ -253,8 +253,7 @@ RotorStep::ConstantSpeed* RotorStep::constantAt(double speed) noexcept {
 void RotorStep::constantStep(PackedMatrix& map, const ShaftMotion& shaft, double offset,
                              std::int64_t piece, LinearMotion& motion) noexcept {
   work_.restart();
-  y_.head(n_) = motion.q;
-  y_.segment(n_, n_) = motion.v;
+  y_.head(2 * n_) = motion.state;
   Index input = 2 * n_;
   for (const ForceChannel& channel : channels_) {
     const double size = channel.inertial ? shaft.speed * shaft.speed : 1.0;
@@ -270,8 +269,7 @@ void RotorStep::constantStep(PackedMatrix& map, const ShaftMotion& shaft, double
     input += 2 * acting_.count();
   }
   map.multiply(y_.data(), result_.data());
-  motion.advance(result_.data(), result_.data() + n_,
-                 y_.head(input).dot(result_.segment(2 * n_, input)));
+  motion.advance(result_.data(), y_.head(input).dot(result_.segment(2 * n_, input)));
 }
 
 /// Fills the inputs from 2 n on with the coefficients of g.
@@ -327,8 +325,7 @@ void RotorStep::shear(Cell& cell, double s, double e, const double* rates) noexc
 
 void RotorStep::changingStep(Cell& cell, const Drive& drive, double offset,
                              LinearMotion& motion) noexcept {
-  y_.head(n_) = motion.q;
-  y_.segment(n_, n_) = motion.v;
+  y_.head(2 * n_) = motion.state;
   increment_.setZero();
   work_.start(cell.work, drive, offset, acting_, y_.head(2 * n_));
   project();
@@ -356,7 +353,7 @@ void RotorStep::changingStep(Cell& cell, const Drive& drive, double offset,
     y_.segment(n_, n_) -= shear_.head(n_);
     increment_.tail(n_) -= shear_.head(n_);
   }
-  motion.advance(increment_.data(), increment_.data() + n_,
+  motion.advance(increment_.data(),
                  work_.work(cell.work, drive, offset, nodes_, acting_, y_.head(2 * n_)));
 }
 

@@ -105,13 +105,13 @@ TYPED_TEST(SameMethod, OfMatricesAsOfEnergies) {
     }
     const LinearModel model = matricesOf(rotor);
     LinearMotion motion(2);
-    motion.q << 0.02, -0.05;
-    motion.v << 0.3, 0.1;
+    motion.q() << 0.02, -0.05;
+    motion.v() << 0.3, 0.1;
     motion = after(model, TypeParam::kName, h, kSteps, motion);
     // 512 steps of rounding, 1e-16 each of what a step adds to states of size 0.05 and 0.5.
     for (std::size_t i = 0; i < 2; ++i) {
-      EXPECT_NEAR(motion.q[static_cast<Eigen::Index>(i)], fixed.q[i], 1e-14);
-      EXPECT_NEAR(motion.v[static_cast<Eigen::Index>(i)], fixed.v[i], 1e-13);
+      EXPECT_NEAR(motion.q()[static_cast<Eigen::Index>(i)], fixed.q[i], 1e-14);
+      EXPECT_NEAR(motion.v()[static_cast<Eigen::Index>(i)], fixed.v[i], 1e-13);
     }
     if (eccentricity == 0.0) {  // with it the Jacobi integrals differ: the shaft's work is in one
       EXPECT_NEAR(motion.work.high, fixed.work.high, 1e-14);
@@ -133,7 +133,7 @@ double errorAfterASecond(const LinearModel& model, const std::string& method, lo
   const LinearMotion start = startOf(model);
   const LinearMotion exact = after(model, "exponential", 1.0, 1, start);
   const LinearMotion found = after(model, method, 1.0 / static_cast<double>(steps), steps, start);
-  return (found.q - exact.q).norm() + 0.1 * (found.v - exact.v).norm();
+  return (found.q() - exact.q()).norm() + 0.1 * (found.v() - exact.v()).norm();
 }
 
 TEST_P(LinearMethod, HasItsOrder) {
@@ -191,7 +191,7 @@ TEST_P(LinearMethod, GivesNoNumberBeyondTheRangeOfDoubles) {
   model.mass *= 1e-200;
   model.stiffness = 1e200 * Eigen::MatrixXd::Identity(2, 2);
   const LinearMotion end = after(model, GetParam(), 1e-3, 1, startOf(model));
-  EXPECT_FALSE(end.q.allFinite());
+  EXPECT_FALSE(end.q().allFinite());
 }
 
 INSTANTIATE_TEST_SUITE_P(All, LinearMethod, testing::ValuesIn(linearMethodNames()),

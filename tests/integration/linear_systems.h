@@ -59,8 +59,8 @@ inline LinearModel drivenMass(double m, double p, double force, double w) {
 /// A state in general position.
 inline LinearMotion startOf(const LinearModel& model) {
   LinearMotion motion(model.mass.rows());
-  motion.q.setLinSpaced(-0.6, 0.8);
-  motion.v.setLinSpaced(3.0, -1.0);
+  motion.q().setLinSpaced(-0.6, 0.8);
+  motion.v().setLinSpaced(3.0, -1.0);
   return motion;
 }
 
@@ -76,7 +76,8 @@ inline LinearMotion after(const LinearModel& model, const std::string& method, d
 
 /// T + V [J].
 inline double energy(const LinearModel& model, const LinearMotion& motion) {
-  return 0.5 * motion.v.dot(model.mass * motion.v) + 0.5 * motion.q.dot(model.stiffness * motion.q);
+  return 0.5 * motion.v().dot(model.mass * motion.v()) +
+         0.5 * motion.q().dot(model.stiffness * motion.q());
 }
 
 }  // namespace whirl_twin
