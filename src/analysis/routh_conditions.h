@@ -9,20 +9,12 @@
 // determinants D2, D4 and D3, A5 D5 written out (Lienard and Chipart 1914).
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "analysis/exact_number.h"
+#include "analysis/routh_result.h"
 
 namespace whirl_twin {
-
-/// One inequality left > right of the coefficients.
-struct RouthCondition {
-  std::string name;    ///< "A1 A2 > A0"
-  double left = 0.0;   ///< rounded
-  double right = 0.0;  ///< rounded
-  bool holds = false;  ///< exact
-};
 
 constexpr int kLeastConditionDegree = 1;
 constexpr int kMostConditionDegree = 6;

@@ -12,6 +12,7 @@
 #include "analysis/characteristic_polynomial.h"
 #include "analysis/quadratic_form.h"
 #include "analysis/rigid_body_modes.h"
+#include "analysis/routh.h"
 #include "analysis/stability_margins.h"
 #include "messages/refusal.h"
 

@@ -1,22 +1,15 @@
 // The equation that a step integrates: a model and the motion of its shaft. Inputs: called_step.h.
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/LU>
 #include <array>
 #include <cstddef>
 
 #include "control/drive.h"
+#include "integration/acceleration_jacobian.h"
 #include "mechanics/dynamics.h"
 #include "mechanics/lagrangian.h"
 
 namespace whirl_twin {
-
-/// da/dq and da/dv.
-template <std::size_t n>
-struct AccelerationJacobian {
-  Eigen::Matrix<double, static_cast<int>(n), static_cast<int>(n)> by_q, by_v;
-};
 
 /// q'' = a(q, v, t) of a model on its drive during one step; offset [s] counts from its start.
 template <class Model>
@@ -51,11 +44,7 @@ struct DrivenEquation {
   /// Where the acceleration is that of further forces, too.
   Jacobian jacobian(const Array& q, const Array& v, const Array& acceleration,
                     const Moment<double>& at) const {
-    const auto l = linearization(model, q, v, acceleration, at);
-    // Not mass.inverse(): Eigen's of size four needs signed zeros, which steps are compiled
-    // without.
-    const auto mass = l.mass.partialPivLu();
-    return {-mass.solve(l.stiffness + l.circulatory), -mass.solve(l.damping + l.gyroscopic)};
+    return accelerationJacobian(linearization(model, q, v, acceleration, at));
   }
   static constexpr bool hasInputs() { return false; }
   /// Is the forcing that of a shaft at one speed? Loads that alternate by themselves are not.

@@ -13,10 +13,10 @@
 // is not L-stable), and it does not see discontinuities inside a step.
 #pragma once
 
-#include <Eigen/LU>
 #include <cmath>
 
 #include "integration/motion_state.h"
+#include "integration/stage_solver.h"
 
 namespace whirl_twin {
 
@@ -316,38 +316,27 @@ class GaussLegendre {
   }
 
   /// Simplified Newton with one Jacobian, until it converges or no longer contracts.
-  template <class Equation, class Jacobian>
+  template <class Equation>
   bool iterate(const Equation& equation, double offset, double h, const MotionState<n>& state,
-               const Jacobian& jacobian, Stages& a, Powers& power) const {
-    constexpr int kSize = static_cast<int>(stages * n);
-    Eigen::Matrix<double, kSize, kSize> matrix;
-    constexpr int kDof = static_cast<int>(n);
-    for (std::size_t k = 0; k < stages; ++k) {
-      for (std::size_t l = 0; l < stages; ++l) {
-        matrix.template block<kDof, kDof>(static_cast<int>(k * n), static_cast<int>(l * n)) =
-            -h * (Tableau::kA[k][l] * jacobian.by_v +
-                  h * gauss_legendre::kAA<stages>[k][l] * jacobian.by_q);
-      }
-    }
-    matrix.diagonal().array() += 1.0;
-    const Eigen::PartialPivLU<Eigen::Matrix<double, kSize, kSize>> lu(matrix);
+               const AccelerationJacobian<n>& jacobian, Stages& a, Powers& power) const {
+    const StageSolver<stages, n> solver(h, Tableau::kA, gauss_legendre::kAA<stages>, jacobian);
     double previous = 0.0;
     for (int iteration = 0; iteration < kMaxNewton; ++iteration) {
       Stages next;
       evaluate(equation, offset, h, state, a, next, power);
-      Eigen::Matrix<double, kSize, 1> residual;
+      Stages residual;
       for (std::size_t k = 0; k < stages; ++k) {
         for (std::size_t i = 0; i < n; ++i) {
-          residual[static_cast<int>(k * n + i)] = next[k][i] - a[k][i];
+          residual[k][i] = next[k][i] - a[k][i];
         }
       }
-      const Eigen::Matrix<double, kSize, 1> correction = lu.solve(residual);
+      const Stages correction = solver.solve(residual);
       double size = 0.0;
       double change = 0.0;
       bool small = true;
       for (std::size_t k = 0; k < stages; ++k) {
         for (std::size_t i = 0; i < n; ++i) {
-          const double c = correction[static_cast<int>(k * n + i)];
+          const double c = correction[k][i];
           a[k][i] += c;
           change = std::fmax(change, std::fabs(c));
           small = small &&

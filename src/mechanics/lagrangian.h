@@ -215,8 +215,8 @@ FixedLinearization<n> linearization(const Model& model, const std::array<double,
   }
   const EquationsOfMotion<B, n> eom = equationsOfMotion(model, q_dual, v_dual, at);
   FixedLinearization<n> r;
-  Eigen::Matrix<double, n, n> by_q;
-  Eigen::Matrix<double, n, n> by_v;
+  std::array<std::array<double, n>, n> by_q;
+  std::array<std::array<double, n>, n> by_v;
   for (std::size_t i = 0; i < n; ++i) {
     B residual = -eom.force[i];
     for (std::size_t j = 0; j < n; ++j) {
@@ -225,14 +225,18 @@ FixedLinearization<n> linearization(const Model& model, const std::array<double,
       residual = residual + entry * a[j];
     }
     for (std::size_t j = 0; j < n; ++j) {
-      by_q(i, j) = residual.slope[j];
-      by_v(i, j) = residual.slope[n + j];
+      by_q[i][j] = residual.slope[j];
+      by_v[i][j] = residual.slope[n + j];
     }
   }
-  r.damping = 0.5 * (by_v + by_v.transpose());
-  r.gyroscopic = 0.5 * (by_v - by_v.transpose());
-  r.stiffness = 0.5 * (by_q + by_q.transpose());
-  r.circulatory = 0.5 * (by_q - by_q.transpose());
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) {
+      r.damping(i, j) = 0.5 * (by_v[i][j] + by_v[j][i]);
+      r.gyroscopic(i, j) = 0.5 * (by_v[i][j] - by_v[j][i]);
+      r.stiffness(i, j) = 0.5 * (by_q[i][j] + by_q[j][i]);
+      r.circulatory(i, j) = 0.5 * (by_q[i][j] - by_q[j][i]);
+    }
+  }
   return r;
 }
 

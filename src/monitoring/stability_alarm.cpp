@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "analysis/routh.h"
+#include "analysis/routh_result.h"
 #include "messages/alert_types.h"
 
 namespace whirl_twin {

@@ -13,6 +13,7 @@
 #include "analysis/natural_modes.h"
 #include "analysis/rayleigh_quotient.h"
 #include "analysis/rigid_body_modes.h"
+#include "analysis/routh_conditions.h"
 #include "analysis/validity.h"
 #include "analysis/virtual_work.h"
 #include "messages/refusal.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "analysis/quadratic_form.h"
-#include "analysis/routh_conditions.h"
+#include "analysis/routh_result.h"
 #include "reports/output.h"
 #include "reports/system_analysis.h"
 

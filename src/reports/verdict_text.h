@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "analysis/routh.h"
+#include "analysis/routh_result.h"
 
 namespace whirl_twin {
 

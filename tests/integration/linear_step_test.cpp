@@ -30,9 +30,7 @@ constexpr double kSpeed = 17.0;  // rad/s
 /// A Jeffcott rotor at constant speed, for the methods of fixed size.
 struct RotorEquation {
   using Array = std::array<double, 2>;
-  struct Jacobian {
-    Eigen::Matrix2d by_q, by_v;
-  };
+  using Jacobian = AccelerationJacobian<2>;
   const JeffcottRotor& rotor;
   double time;
 
