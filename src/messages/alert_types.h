@@ -15,6 +15,7 @@ inline constexpr char kNotFinite[] = "NOT_FINITE";
 inline constexpr char kStopped[] = "STOPPED";  // for any other cause
 inline constexpr char kModelInvalid[] = "MODEL_INVALID";
 inline constexpr char kDataLost[] = "DATA_LOST";
+inline constexpr char kLcmLost[] = "LCM_LOST";
 
 inline constexpr const char* kAll[] = {kCriticalSpeedApproach,
                                        kInCriticalBand,
@@ -27,7 +28,8 @@ inline constexpr const char* kAll[] = {kCriticalSpeedApproach,
                                        kNotFinite,
                                        kStopped,
                                        kModelInvalid,
-                                       kDataLost};
+                                       kDataLost,
+                                       kLcmLost};
 
 /// The system of an alert about all of the twin.
 inline constexpr char kEverybody[] = "twin";

@@ -15,7 +15,7 @@ constexpr char kLoop[] = "the loop";  // no system has such a name
 /// What the simulation itself says, and no state.
 bool isToldByLoop(const std::string& type) {
   return type == alert_type::kNotFinite || type == alert_type::kStopped ||
-         type == alert_type::kAccuracyLost;
+         type == alert_type::kAccuracyLost || type == alert_type::kLcmLost;
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ TwinMonitor::TwinMonitor(const BuiltScene& scene, const AlarmSettings& settings,
     : settings_(settings),
       judging_(scene.systems, mode),
       data_lost_alarm_(namesOf(scene.systems), settings),
+      lcm_lost_alarm_(settings),
       alerts_(settings.latch),
       restored_(settings) {
   for (std::size_t i = 0; i < scene.systems.size(); ++i) {
@@ -42,6 +43,7 @@ void TwinMonitor::restart(double time, double wall_time) {
     watch.restart(settings_);
   }
   data_lost_alarm_ = DataLostAlarm(systemNames(), settings_);
+  lcm_lost_alarm_ = LcmLostAlarm(settings_);
   for (auto& [source, clock] : clocks_) {
     clock.restartAt(time, wall_time);
   }
@@ -246,7 +248,8 @@ bool TwinMonitor::take(const state::LoopStatistics& loop, double wall_time) {
   }
   // In a pause time stands still, and the statistics go on.
   const double time = loop.at.time;
-  if (time != loop_time_ && loop_clock_.take(time, wall_time) == SourceClock::Order::kOutOfStep) {
+  if (time != loop_time_ &&
+      loop_clock_.take(time, wall_time) == SourceClock::Order::kOutOfStep) {
     return false;
   }
   loop_time_ = time;
@@ -257,6 +260,7 @@ bool TwinMonitor::take(const state::LoopStatistics& loop, double wall_time) {
       watch->state_alarm.updateAccuracy(time, loop.error_estimate[i], loop.tolerance[i], alerts_);
     }
   }
+  lcm_lost_alarm_.update(wall_time, time, loop.lcm_failed, alerts_);
   restored_.heard(loop, alerts_);
   return true;
 }

@@ -15,6 +15,7 @@
 #include "monitoring/alert_list.h"
 #include "monitoring/data_lost_alarm.h"
 #include "monitoring/judging.h"
+#include "monitoring/lcm_lost_alarm.h"
 #include "monitoring/reset_watch.h"
 #include "monitoring/restored_alerts.h"
 #include "monitoring/source_clock.h"
@@ -82,6 +83,7 @@ class TwinMonitor {
   std::uint64_t run_ = 0;  ///< of simulated time: resets so far
   std::vector<SystemWatch> watches_;
   DataLostAlarm data_lost_alarm_;
+  LcmLostAlarm lcm_lost_alarm_;
   AlertList alerts_;
   RestoredAlerts restored_;
   std::map<std::string, double> inhibited_until_;  ///< [s, wall]

@@ -8,12 +8,12 @@
 #include <chrono>
 #include <memory>
 #include <optional>
-#include <type_traits>
 #include <utility>
 
 #include "monitoring/alarm_history.h"
 #include "monitoring/alarm_settings_reader.h"
 #include "monitoring/twin_monitor.h"
+#include "monitoring/watched_kinds.h"
 #include "nodes/alarm_services.h"
 #include "nodes/private_parameter.h"
 #include "nodes/run_node.h"
@@ -55,13 +55,6 @@ AlarmSettings alarmSettings(const BuiltScene& scene) {
   return readAlarmSettings(any ? toYaml(all) : YAML::Node(YAML::NodeType::Map), node, rotors,
                            others);
 }
-
-/// Whether the monitor takes messages of a kind as states, with the time they arrived at.
-template <class State, class = void>
-struct IsState : std::false_type {};
-template <class State>
-struct IsState<State, std::void_t<decltype(std::declval<TwinMonitor&>().take(
-                          std::declval<const State&>(), double{}))>> : std::true_type {};
 
 BuiltScene sceneOf(const ParameterTree& given) {
   return build(readScene(given.tree, given.source));
@@ -166,16 +159,9 @@ class MonitorNode {
     receiver_ = std::make_unique<LcmReceiver>(openLcm(url), kinds, take, lcm_.prefix());
   }
 
-  /// What the monitor listens to; the rest is of no concern to it.
-  template <class State>
-  static constexpr bool isWatched() {
-    return IsState<State>::value || std::is_same_v<State, state::ParameterChange> ||
-           std::is_same_v<State, state::LoopStatistics>;
-  }
-
   template <class State>
   void takeState(const State& state) {
-    if constexpr (IsState<State>::value) {
+    if constexpr (IsWatchedState<State>::value) {
       newest_arrival_ = wallTime();
       monitor_.take(state, newest_arrival_);
     }

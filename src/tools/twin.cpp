@@ -106,6 +106,7 @@ int run(int argc, const char* const* argv) {
   addTradeoffCommand(twin, status);
   addRouthCommand(twin, status);
   addLogCommand(twin, status);
+  addMonitorCommand(twin, status);
 
   std::vector<std::string> arguments = orderedArguments(argc, argv);
   if (unknownCommand(twin, arguments)) {

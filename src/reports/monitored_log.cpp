@@ -1,0 +1,243 @@
+#include "reports/monitored_log.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include "messages/message_check.h"
+#include "messages/refusal.h"
+#include "monitoring/twin_monitor.h"
+#include "monitoring/watched_kinds.h"
+#include "transport/channels.h"
+#include "transport/event_scan.h"
+#include "transport/lcm_decode.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kTick = 0.1;       // s, as the node ticks at least
+constexpr double kSample = 0.1;     // s, simulated, of what is drawn
+constexpr double kSilence = 600.0;  // s: a longer one is a clock that was set, or two recordings
+constexpr std::uint64_t kTell = 20000;  // events
+constexpr int kBelievedAstray = 10;     // events
+
+class Replay {
+ public:
+  Replay(const BuiltScene& scene, const AlarmSettings& settings, MonitoredLog& run)
+      : monitor_(scene, settings), run_(run) {
+    for (const SharedSystem& system : scene.systems) {
+      SystemCourse course;
+      course.name = system->spec.name;
+      course.rotor = system->dynamics->isRotor();
+      run_.systems.push_back(course);
+      drives_.push_back(system->spec.drive.value_or(""));
+    }
+    peaks_.assign(run_.systems.size(), 0.0);
+  }
+
+  /// Of the stamp of an event [us].
+  void passTo(std::int64_t stamp) {
+    const double at = 1.0e-6 * static_cast<double>(stamp);
+    const double silence = started_ ? at - newest_stamp_ : 0.0;
+    if (silence < 0.0 || silence > kSilence) {
+      // One that stands alone is of another time, as repeated parameters of a simulated log are.
+      astray_ = at > stray_stamp_ && at - stray_stamp_ <= kSilence ? astray_ + 1 : 1;
+      stray_stamp_ = at;
+      if (astray_ < kBelievedAstray) {
+        return;
+      }
+    }
+    astray_ = 0;
+    started_ = true;
+    newest_stamp_ = at;
+    if (silence < 0.0 || silence > kSilence) {
+      return;  // the clock was set, or another recording begins: time goes on from here
+    }
+    const double until = wall_ + silence;
+    while (until - ticked_ >= kTick) {
+      ticked_ += kTick;
+      monitor_.tick(ticked_, paused_);
+      keep();
+    }
+    wall_ = until;
+  }
+
+  void take(const Message& message) {
+    std::visit([this](const auto& state) { takeOf(state); }, message);
+  }
+
+  void finish() {
+    run_.duration = wall_;
+    keep();
+  }
+
+ private:
+  template <class State>
+  void takeOf(const State& state) {
+    if constexpr (std::is_same_v<State, state::ParameterChange>) {
+      monitor_.take(state) ? ++run_.watched : ++run_.rejected;
+    } else if constexpr (std::is_same_v<State, state::LoopStatistics>) {
+      if (monitor_.take(state, wall_)) {
+        paused_ = state.paused;
+      }
+      ++run_.watched;
+    } else if constexpr (IsWatchedState<State>::value) {
+      monitor_.take(state, wall_);
+      ++run_.watched;
+      span(state.at.time);
+      draw(state);
+    }
+    keep();
+  }
+
+  void span(double time) {
+    run_.begin = spanned_ ? std::min(run_.begin, time) : time;
+    run_.end = spanned_ ? std::max(run_.end, time) : time;
+    spanned_ = true;
+  }
+
+  SystemCourse* courseOf(const std::string& name) {
+    const auto found =
+        std::find_if(run_.systems.begin(), run_.systems.end(),
+                     [&](const SystemCourse& course) { return course.name == name; });
+    return found == run_.systems.end() ? nullptr : &*found;
+  }
+
+  void draw(const state::WhirlState& whirl) {
+    if (SystemCourse* course = courseOf(whirl.system)) {
+      double& peak = peaks_[static_cast<std::size_t>(course - run_.systems.data())];
+      peak = std::max(peak, whirl.radius);
+      if (sample(*course, whirl.at.time, whirl.speed)) {
+        course->radius.push_back(peak);
+        peak = 0.0;
+      }
+    }
+  }
+  void draw(const state::PendulumState& pendulum) {
+    if (SystemCourse* course = courseOf(pendulum.system)) {
+      sample(*course, pendulum.at.time, speedOf(*course));
+    }
+  }
+  void draw(const state::DriveState& drive) { speeds_[drive.drive] = drive.speed; }
+
+  double speedOf(const SystemCourse& course) const {
+    const auto found =
+        speeds_.find(drives_[static_cast<std::size_t>(&course - run_.systems.data())]);
+    return found == speeds_.end() ? std::numeric_limits<double>::quiet_NaN() : found->second;
+  }
+
+  /// Is this state one of those that are drawn?
+  static bool sample(SystemCourse& course, double time, double speed) {
+    ++course.states;
+    if (!course.time.empty() && time >= course.time.back() &&
+        time < course.time.back() + kSample * (1.0 - 1.0e-9)) {
+      return false;
+    }
+    course.time.push_back(time);
+    course.speed.push_back(speed);
+    return true;
+  }
+
+  void keep() {
+    for (const state::StabilityMargin& margin : monitor_.takeMargins()) {
+      keepMargin(margin);
+    }
+    for (const state::Alert& event : monitor_.alerts().takeEvents()) {
+      keepEvent(event);
+    }
+    if (const std::optional<TwinRun> run = monitor_.run()) {
+      run_.resets = std::max(run_.resets, run->second);
+    }
+  }
+
+  void keepMargin(const state::StabilityMargin& margin) {
+    SystemCourse* course = courseOf(margin.system);
+    if (course == nullptr) {
+      return;
+    }
+    course->margin_time.push_back(margin.at.time);
+    course->decay_rate.push_back(margin.decay_rate);
+    if (!(margin.decay_rate >= course->least_decay_rate)) {
+      course->least_decay_rate = margin.decay_rate;
+      course->least_at = margin.at.time;
+      course->least_at_speed = margin.speed;
+      course->least_verdict = margin.verdict_name;
+    }
+  }
+
+  void keepEvent(const state::Alert& event) {
+    const auto same = std::find_if(run_.alerts.rbegin(), run_.alerts.rend(),
+                                   [&](const AlertCourse& a) { return a.worst.id == event.id; });
+    if (same == run_.alerts.rend()) {
+      run_.alerts.push_back(
+          {event, event.raised_time, std::numeric_limits<double>::quiet_NaN(), ""});
+    } else if (!event.raised) {
+      same->cleared = event.time;
+      same->why_cleared = event.text;
+    } else if (event.severity > same->worst.severity) {
+      same->worst = event;
+    }
+  }
+
+  TwinMonitor monitor_;
+  MonitoredLog& run_;
+  std::vector<std::string> drives_;  ///< of each system
+  std::map<std::string, double> speeds_;
+  std::vector<double> peaks_;  ///< [m], of each system since its last sample
+  bool started_ = false, spanned_ = false, paused_ = false;
+  double newest_stamp_ = 0.0;  ///< [s]
+  double stray_stamp_ = 0.0;   ///< [s], of the last event that was out of order
+  int astray_ = 0;             ///< events out of order, in a row and in order among themselves
+  double wall_ = 0.0;          ///< [s], from the first event on
+  double ticked_ = 0.0;        ///< [s]
+};
+
+}  // namespace
+
+MonitoredLog monitorLog(const BuiltScene& scene, const AlarmSettings& settings,
+                        const std::string& log, const std::string& prefix,
+                        const std::function<void(std::uint64_t, std::uint64_t)>& advanced) {
+  EventScan scan(log);
+  MonitoredLog run;
+  run.scene = scene.scene.name;
+  run.log = log;
+  Replay replay(scene, settings, run);
+  RawEvent event;
+  std::uint64_t events = 0;
+  for (auto found = scan.next(event); found != EventScan::Found::kEnd; found = scan.next(event)) {
+    if (++events % kTell == 0) {
+      advanced(scan.offset(), scan.size());
+    }
+    if (found != EventScan::Found::kEvent) {
+      ++run.damaged;
+      continue;
+    }
+    if (event.data == nullptr || !parseChannel(event.channel, prefix)) {
+      continue;  // not the twin's
+    }
+    try {
+      const Message message = decodeEvent(event.channel, event.data, event.size, prefix);
+      replay.passTo(event.timestamp);
+      replay.take(message);
+    } catch (const RejectedMessage&) {
+      ++run.rejected;
+    }
+  }
+  replay.finish();
+  if (std::all_of(run.systems.begin(), run.systems.end(),
+                  [](const SystemCourse& course) { return course.states == 0; })) {
+    throw Refusal(
+        fmt::format("{}: expected states of the systems of '{}' on channels that begin "
+                    "with {} (--lcm-prefix), found none in {} bytes",
+                    log, scene.scene.name, prefix, scan.size()));
+  }
+  return run;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,70 @@
+// A recorded run as the monitor sees it: a log replayed through it, faster than real time.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "messages/alert.h"
+#include "monitoring/alarm_settings.h"
+#include "plots/chart.h"
+#include "reports/output.h"
+#include "scene/built_scene.h"
+
+namespace whirl_twin {
+
+/// An alert from the time it was raised until it cleared, as it was when it was worst.
+struct AlertCourse {
+  state::Alert worst;
+  double raised = 0.0;                                        ///< [s], simulated
+  double cleared = std::numeric_limits<double>::quiet_NaN();  ///< [s]; NaN: it stood at the end
+  std::string why_cleared;
+};
+
+/// What is drawn of a system, ten values a second of simulated time, and its margins.
+struct SystemCourse {
+  std::string name;
+  bool rotor = false;
+  std::vector<double> time;         ///< [s], simulated
+  std::vector<double> speed;        ///< [rad/s], of its shaft; NaN without one
+  std::vector<double> radius;       ///< [m], the largest since the value before; of rotors
+  std::vector<double> margin_time;  ///< [s]
+  std::vector<double> decay_rate;   ///< [1/s], of the slowest motion
+  std::uint64_t states = 0;
+  // Where the margin was least; NaN: it was never judged.
+  double least_decay_rate = std::numeric_limits<double>::quiet_NaN();  ///< [1/s]
+  double least_at = std::numeric_limits<double>::quiet_NaN();          ///< [s]
+  double least_at_speed = std::numeric_limits<double>::quiet_NaN();    ///< [rad/s]
+  std::string least_verdict;
+};
+
+struct MonitoredLog {
+  std::string scene, log;
+  double begin = 0.0, end = 0.0;  ///< [s], simulated: earliest and latest of what was watched
+  double duration = 0.0;          ///< [s], by the stamps of the log, without silences beyond 10 min
+  std::uint64_t watched = 0;      ///< messages that the monitor took
+  std::uint64_t rejected = 0;     ///< that could not be meant, or do not fit the scene
+  std::uint64_t damaged = 0;      ///< places of the log that are no event
+  std::uint64_t resets = 0;       ///< of simulated time
+  std::vector<SystemCourse> systems;  ///< in the order of the scene
+  std::vector<AlertCourse> alerts;    ///< as they were raised
+};
+
+/// Replays the log of a twin whose channels begin with `prefix`; the monitor's wall time is that of
+/// the log's stamps. advanced(bytes, of_bytes) is called now and then. Throws Refusal for a file
+/// that cannot be read, or holds no states of the scene's systems.
+MonitoredLog monitorLog(const BuiltScene& scene, const AlarmSettings& settings,
+                        const std::string& log, const std::string& prefix,
+                        const std::function<void(std::uint64_t, std::uint64_t)>& advanced);
+
+std::string text(const MonitoredLog& run);
+Json json(const MonitoredLog& run);
+/// Speed, whirl and margin of a system over one time axis, its alerts behind them.
+Figure figure(const MonitoredLog& run, const SystemCourse& system);
+/// A page with all of it, pictures inside: nothing else is needed to read or print it. Throws
+/// RunFailure.
+std::string page(const MonitoredLog& run);
+
+}  // namespace whirl_twin

@@ -1,0 +1,163 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/monitored_log.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr const char* kStyle =
+    "body{font:15px/1.5 sans-serif;color:#21212a;max-width:60em;margin:2em auto;padding:0 1em}"
+    "table{border-collapse:collapse;margin:1em 0}"
+    "th,td{text-align:left;padding:.25em .8em;border-bottom:1px solid #ddd;vertical-align:top}"
+    "td.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}"
+    ".danger{color:#b5330a;font-weight:bold}.warning{color:#8a5a00;font-weight:bold}"
+    "svg{max-width:100%;height:auto}h2{margin-top:2em}"
+    "@media print{h2{break-before:page}table,svg{break-inside:avoid}}";
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      default:
+        out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    }
+  }
+  return out;
+}
+
+std::string number(double x) {
+  return std::isfinite(x) ? fmt::format("{:.6g}", x) : "–";
+}
+
+const char* className(state::Severity severity) {
+  return severity == state::Severity::kDanger    ? "danger"
+         : severity == state::Severity::kWarning ? "warning"
+                                                 : "info";
+}
+
+/// The ground behind the curves while an alert stands; each severity named once.
+std::vector<Band> bandsOf(const MonitoredLog& run, const SystemCourse& system) {
+  std::vector<Band> bands;
+  for (const bool danger : {false, true}) {
+    bool named = false;
+    for (const AlertCourse& alert : run.alerts) {
+      if (alert.worst.system != system.name ||
+          (alert.worst.severity == state::Severity::kDanger) != danger) {
+        continue;
+      }
+      const double cleared = std::isnan(alert.cleared) ? run.end : alert.cleared;
+      if (cleared > alert.raised) {  // else simulated time was set back
+        bands.push_back({named    ? ""
+                         : danger ? "danger"
+                                  : "warning",
+                         alert.raised, cleared,
+                         paler(danger ? ink::kVermilion : ink::kOrange, danger ? 0.6 : 0.75)});
+        named = true;
+      }
+    }
+  }
+  return bands;
+}
+
+bool any(const std::vector<double>& values) {
+  return std::any_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
+}
+
+/// Inline, without what stands before the picture in a file of its own.
+std::string inlined(const Figure& figure) {
+  const std::string file = figureImage(figure, ImageFormat::kSvg);
+  const std::size_t start = file.find("<svg");
+  return start == std::string::npos ? "" : file.substr(start);
+}
+
+}  // namespace
+
+Figure figure(const MonitoredLog& run, const SystemCourse& system) {
+  Figure figure;
+  figure.title = system.name;
+  figure.width = 940;
+  figure.chart_height = 260;
+  const auto add = [&](const char* label, const std::vector<double>& time,
+                       const std::vector<double>& values) {
+    if (!any(values)) {
+      return;
+    }
+    Chart chart;
+    chart.x = {"time (s)", false, true};
+    chart.y = {label, false, false};
+    chart.series = {{"", time, values}};
+    chart.bands = bandsOf(run, system);
+    figure.charts.push_back(chart);
+  };
+  add("speed of the shaft (rad/s)", system.time, system.speed);
+  add("whirl radius (m)", system.time, system.radius);
+  add("decay of the slowest motion (1/s)", system.margin_time, system.decay_rate);
+  if (!figure.charts.empty() && any(system.decay_rate)) {
+    Series edge{"", {run.begin, run.end}, {0.0, 0.0}};  // a curve, so that it is always seen
+    edge.pen = Pen{ink::kVermilion, 1.5, {6.0, 4.0}};
+    figure.charts.back().series.push_back(edge);
+    figure.charts.back().horizontal = {{0.0, "edge of stability"}};
+  }
+  return figure;
+}
+
+std::string page(const MonitoredLog& run) {
+  std::string out = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
+      "<title>{0}: {1}</title>\n<style>{2}</style></head><body>\n<h1>{0}</h1>\n"
+      "<p>{1}: t = {3:g} to {4:g} s of simulated time, {5} messages watched, {6} rejected, {7} "
+      "damaged places, {8} resets.</p>\n",
+      escaped(run.scene), escaped(run.log), kStyle, run.begin, run.end, run.watched, run.rejected,
+      run.damaged, run.resets);
+  out += "<h2>Alerts</h2>\n";
+  if (run.alerts.empty()) {
+    out += "<p>None.</p>\n";
+  } else {
+    out +=
+        "<table><tr><th>raised, s</th><th>cleared, s</th><th>severity</th><th>alert</th>"
+        "<th>system</th><th>what was said</th></tr>\n";
+    for (const AlertCourse& alert : run.alerts) {
+      out += fmt::format(
+          "<tr><td class=\"n\">{:.3f}</td><td class=\"n\">{}</td><td class=\"{}\">{}</td>"
+          "<td>{}</td><td>{}</td><td>{}</td></tr>\n",
+          alert.raised, std::isnan(alert.cleared) ? "–" : fmt::format("{:.3f}", alert.cleared),
+          className(alert.worst.severity), className(alert.worst.severity),
+          escaped(alert.worst.type), escaped(alert.worst.system), escaped(alert.worst.text));
+    }
+    out += "</table>\n";
+  }
+  out +=
+      "<h2>Margins</h2>\n<table><tr><th>system</th><th>least decay, 1/s</th><th>at, s</th>"
+      "<th>at speed, rad/s</th><th>verdict there</th></tr>\n";
+  for (const SystemCourse& system : run.systems) {
+    out += fmt::format(
+        "<tr><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
+        "<td>{}</td></tr>\n",
+        escaped(system.name), number(system.least_decay_rate), number(system.least_at),
+        number(system.least_at_speed),
+        system.least_verdict.empty() ? "not judged" : escaped(system.least_verdict));
+  }
+  out += "</table>\n";
+  for (const SystemCourse& system : run.systems) {
+    const Figure drawn = figure(run, system);
+    if (!drawn.charts.empty()) {
+      out += fmt::format("<h2>{}</h2>\n{}\n", escaped(system.name), inlined(drawn));
+    }
+  }
+  return out + "</body></html>\n";
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,102 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "reports/monitored_log.h"
+
+namespace whirl_twin {
+
+namespace {
+
+std::string number(double x, const char* unit) {
+  return std::isfinite(x) ? fmt::format("{:.6g} {}", x, unit) : "-";
+}
+
+std::string plural(std::uint64_t count, const char* one, const char* many) {
+  return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+const char* severityName(state::Severity severity) {
+  switch (severity) {
+    case state::Severity::kDanger:
+      return "danger";
+    case state::Severity::kWarning:
+      return "warning";
+    default:
+      return "info";
+  }
+}
+
+}  // namespace
+
+std::string text(const MonitoredLog& run) {
+  std::string out =
+      fmt::format("{}: {} of '{}', t = {:g} .. {:g} s\n", run.log,
+                  plural(run.watched, "message", "messages"), run.scene, run.begin, run.end);
+  if (run.damaged + run.rejected > 0) {
+    out += fmt::format("  left out: {} that cannot be meant, {} of the file\n",
+                       plural(run.rejected, "message", "messages"),
+                       plural(run.damaged, "damaged place", "damaged places"));
+  }
+  if (run.resets > 0) {
+    out += fmt::format("  the simulation was reset {}\n", plural(run.resets, "time", "times"));
+  }
+  out += fmt::format("\n  {:<20} {:>14} {:>12} {:>14}  {}\n", "system", "least decay", "at",
+                     "at speed", "verdict there");
+  for (const SystemCourse& system : run.systems) {
+    out += fmt::format("  {:<20} {:>14} {:>12} {:>14}  {}\n", system.name,
+                       number(system.least_decay_rate, "1/s"), number(system.least_at, "s"),
+                       number(system.least_at_speed, "rad/s"),
+                       system.least_verdict.empty() ? "not judged" : system.least_verdict);
+  }
+  if (run.alerts.empty()) {
+    return out + "\n  no alerts\n";
+  }
+  out += fmt::format("\n  {:>10} {:>10}  {:<8} {:<26} {}\n", "raised, s", "cleared, s", "severity",
+                     "alert", "system");
+  for (const AlertCourse& alert : run.alerts) {
+    out += fmt::format("  {:>10.3f} {:>10}  {:<8} {:<26} {}\n    {}\n", alert.raised,
+                       std::isnan(alert.cleared) ? "-" : fmt::format("{:.3f}", alert.cleared),
+                       severityName(alert.worst.severity), alert.worst.type, alert.worst.system,
+                       alert.worst.text);
+  }
+  return out;
+}
+
+Json json(const MonitoredLog& run) {
+  Json json;
+  json["log"] = run.log;
+  json["scene"] = run.scene;
+  json["begin"] = run.begin;
+  json["end"] = run.end;
+  json["duration"] = run.duration;
+  json["messages"] = run.watched;
+  json["rejected"] = run.rejected;
+  json["damaged"] = run.damaged;
+  json["resets"] = run.resets;
+  json["systems"] = Json::object();
+  for (const SystemCourse& system : run.systems) {
+    json["systems"][system.name] = {{"states", system.states},
+                                    {"verdicts", system.margin_time.size()},
+                                    {"least_decay_rate", system.least_decay_rate},
+                                    {"time", system.least_at},
+                                    {"speed", system.least_at_speed},
+                                    {"verdict", system.least_verdict}};
+  }
+  json["alerts"] = Json::array();
+  for (const AlertCourse& alert : run.alerts) {
+    json["alerts"].push_back({{"id", alert.worst.id},
+                              {"type", alert.worst.type},
+                              {"system", alert.worst.system},
+                              {"severity", severityName(alert.worst.severity)},
+                              {"raised", alert.raised},
+                              {"cleared", alert.cleared},
+                              {"first_out", alert.worst.first_out},
+                              {"repeats", alert.worst.repeats},
+                              {"text", alert.worst.text},
+                              {"why_cleared", alert.why_cleared}});
+  }
+  return json;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,112 @@
+#include <fstream>
+#include <memory>
+#include <optional>
+
+#include "monitoring/alarm_settings_reader.h"
+#include "reports/monitored_log.h"
+#include "scene/scene_reader.h"
+#include "scene/yaml_file.h"
+#include "tools/arguments.h"
+#include "tools/commands.h"
+#include "tools/progress_bar.h"
+#include "tools/shipped_scenes.h"
+#include "transport/channels.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr const char* kDescription =
+    "Replays an LCM log through the monitor, faster than real time: which alerts it raises and\n"
+    "when, and where the margins are least.";
+
+constexpr const char* kFooter =
+    "The monitor's clock is that of the log's stamps; it judges with the settings of --settings, "
+    "as\nmonitor_node does with its parameters. Exit status: 0 replayed, whatever it raised; 2 a "
+    "scene, a\nlog or settings that cannot be used.\n"
+    "\n"
+    "Examples:\n"
+    "  twin simulate demo.yaml --output demo.lcmlog && twin monitor demo.yaml demo.lcmlog\n"
+    "  twin monitor pump.yaml night.lcmlog --settings monitor.yaml --output night.html";
+
+struct Request {
+  std::string scene;
+  std::string log;
+  std::optional<std::string> settings;
+  std::optional<std::string> output;
+  std::string lcm_prefix = kDefaultLcmPrefix;
+  bool json = false;
+};
+
+AlarmSettings settingsOf(const BuiltScene& scene, const std::optional<std::string>& path) {
+  if (!path) {
+    return {};
+  }
+  std::vector<std::string> rotors;
+  for (const SharedSystem& system : scene.systems) {
+    if (system->dynamics->isRotor()) {
+      rotors.push_back(system->spec.name);
+    }
+  }
+  return readAlarmSettings(readYamlFile(*path, "settings of the monitor", "alarms"), *path, rotors,
+                           {});
+}
+
+void writePage(const MonitoredLog& run, const std::string& path) {
+  PendingFile file(path);
+  std::ofstream out(file.path(), std::ios::binary);
+  out << page(run) << std::flush;
+  if (!out) {
+    throw RunFailure(path + ": cannot be written");
+  }
+  out.close();
+  file.complete();
+}
+
+int monitor(const Request& request) {
+  requireLcmPrefix(request.lcm_prefix);
+  const BuiltScene scene = build(readSceneFile(scenePath(request.scene)));
+  const AlarmSettings settings = settingsOf(scene, request.settings);
+  constexpr std::int64_t kParts = 1000;
+  ProgressBar progress(kParts, false);
+  const MonitoredLog run = monitorLog(
+      scene, settings, request.log, request.lcm_prefix,
+      [&](std::uint64_t bytes, std::uint64_t all) {
+        progress.show(static_cast<std::int64_t>(
+            static_cast<double>(kParts) * static_cast<double>(bytes) / static_cast<double>(all)));
+      });
+  progress.clear();
+  if (request.output) {
+    writePage(run, *request.output);
+  }
+  if (request.json) {
+    printJson(json(run));
+  } else {
+    printText(text(run));
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void addMonitorCommand(CLI::App& twin, int& status) {
+  CLI::App* command = twin.add_subcommand("monitor", kDescription);
+  const auto request = std::make_shared<Request>();
+  addSceneOption(command, request->scene);
+  command->add_option("LOG", request->log, "LCM log, such as demo.lcmlog")
+      ->required()
+      ->type_name("");
+  command->add_option("--settings", request->settings, "as config/monitor.yaml; default: that")
+      ->type_name("FILE");
+  command->add_option("--output", request->output, "write the report as a page, FILE.html")
+      ->type_name("FILE");
+  command
+      ->add_option("--lcm-prefix", request->lcm_prefix,
+                   "what the channels of the recorded twin begin with; default: TWIN_")
+      ->type_name("PREFIX");
+  command->add_flag("--json", request->json, "print one JSON object");
+  command->footer(kFooter);
+  command->callback([request, &status] { status = monitor(*request); });
+}
+
+}  // namespace whirl_twin

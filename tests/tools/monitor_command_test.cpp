@@ -1,0 +1,133 @@
+// `twin monitor`: a log replayed through the monitor.
+#include <gtest/gtest.h>
+
+#include "twin_program.h"
+
+namespace whirl_twin {
+namespace {
+
+using Json = nlohmann::json;
+
+/// m 2, k 7200, c 12: critical speed 60.15 rad/s, to be avoided from 48.13 to 70.74 rad/s.
+constexpr const char* kRunUp = R"(name: run_up
+step: 0.001
+drives:
+  shaft: {speed: 30.0, profile: [{speed: 90.0, max_acceleration: 5.0}]}
+systems:
+  rotor:
+    model: jeffcott_rotor
+    drive: shaft
+    parameters: {mass: 2.0, stiffness: 7200.0, damping: 12.0, eccentricity: 1.0e-4}
+)";
+
+class RunUpLog : public testing::Test {
+ protected:
+  RunUpLog() {
+    const Ending end =
+        twin({"simulate", scene_, "--duration", "12", "--sample", "0.002", "--output", log_});
+    EXPECT_EQ(end.status, 0) << end.err;
+  }
+  static Json alertOf(const Json& run, const std::string& type) {
+    Json found;
+    for (const Json& alert : run["alerts"]) {
+      if (alert["type"] == type) {
+        EXPECT_TRUE(found.is_null()) << type << " is raised twice";
+        found = alert;
+      }
+    }
+    return found;
+  }
+
+  const TemporaryDirectory directory_;
+  const std::string scene_ = directory_.write("run_up.yaml", kRunUp);
+  const std::string log_ = directory_.file("run_up.lcmlog");
+};
+
+TEST_F(RunUpLog, TheBandIsAnnouncedEnteredAndLeft) {
+  const Ending end = twin({"monitor", scene_, log_, "--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  const Json run = end.json();
+  EXPECT_EQ(run["begin"], 0.0);
+  EXPECT_EQ(run["end"], 12.0);
+  EXPECT_NEAR(run["duration"].get<double>(), 12.0, 1e-6);
+  EXPECT_EQ(run["rejected"], 0);
+  EXPECT_EQ(run["damaged"], 0);
+  // 5 rad/s^2 from 30 rad/s on: in the band from 3.626 to 8.148 s, told two seconds before.
+  const Json approach = alertOf(run, "CRITICAL_SPEED_APPROACH");
+  ASSERT_FALSE(approach.is_null());
+  EXPECT_NEAR(approach["raised"].get<double>(), 1.626, 0.01);
+  const Json in_band = alertOf(run, "IN_CRITICAL_BAND");
+  ASSERT_FALSE(in_band.is_null());
+  EXPECT_NEAR(in_band["raised"].get<double>(), 3.626, 0.01);
+  EXPECT_EQ(in_band["severity"], "warning") << "a passage is no danger";
+  EXPECT_GT(in_band["cleared"].get<double>(), 8.148 + 0.9);
+  EXPECT_LT(in_band["cleared"].get<double>(), 8.148 + 1.5);
+  const Json& rotor = run["systems"]["rotor"];
+  EXPECT_EQ(rotor["states"], 6001);
+  EXPECT_NEAR(rotor["verdicts"].get<double>(), 120, 2);
+  EXPECT_NEAR(rotor["least_decay_rate"].get<double>(), 12.0 / (2.0 * 2.0), 1e-9);
+}
+
+/// Its parameters, told again every ten seconds, bear the time that they hold from.
+TEST_F(RunUpLog, NoSilenceIsHeardWhereNoneIs) {
+  EXPECT_TRUE(alertOf(twin({"monitor", scene_, log_, "--json"}).json(), "DATA_LOST").is_null());
+}
+
+TEST_F(RunUpLog, DamageIsCountedAndChangesNoAlert) {
+  std::string bytes = contentsOf(log_);
+  const Json whole = twin({"monitor", scene_, log_, "--json"}).json();
+  bytes.replace(bytes.size() / 2, 5000, std::string(5000, '\x5a'));
+  const std::string garbled = directory_.write("garbled.lcmlog", bytes);
+  const Ending end = twin({"monitor", scene_, garbled, "--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  const Json run = end.json();
+  EXPECT_GT(run["damaged"].get<int>(), 0);
+  EXPECT_LT(run["messages"], whole["messages"]);
+  ASSERT_EQ(run["alerts"].size(), whole["alerts"].size());
+  for (std::size_t i = 0; i < run["alerts"].size(); ++i) {
+    EXPECT_EQ(run["alerts"][i]["type"], whole["alerts"][i]["type"]);
+    EXPECT_EQ(run["alerts"][i]["raised"], whole["alerts"][i]["raised"]);
+  }
+}
+
+TEST_F(RunUpLog, ThePageHoldsItsPicturesAndStandsAlone) {
+  const std::string page = directory_.file("run_up.html");
+  const Ending end = twin({"monitor", scene_, log_, "--output", page});
+  ASSERT_EQ(end.status, 0) << end.err;
+  EXPECT_NE(end.out.find("IN_CRITICAL_BAND"), std::string::npos) << end.out;
+  const std::string html = contentsOf(page);
+  EXPECT_NE(html.find("<svg"), std::string::npos);
+  EXPECT_NE(html.find("IN_CRITICAL_BAND"), std::string::npos);
+  EXPECT_NE(html.find("whirl radius"), std::string::npos);
+  EXPECT_EQ(html.find("src="), std::string::npos) << "a page that needs another file";
+  EXPECT_EQ(html.substr(html.size() - 8), "</html>\n");
+}
+
+TEST_F(RunUpLog, SettingsAreThoseOfTheNodeAndCheckedAsThere) {
+  const std::string late = directory_.write("late.yaml", "approach_time: 1.0\n");
+  const Ending end = twin({"monitor", scene_, log_, "--settings", late, "--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  EXPECT_NEAR(alertOf(end.json(), "CRITICAL_SPEED_APPROACH")["raised"].get<double>(), 2.626, 0.01);
+
+  const std::string wrong = directory_.write("wrong.yaml", "aproach_time: 1.0\nhysteresis: -1\n");
+  const Ending refused = twin({"monitor", scene_, log_, "--settings", wrong});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("approach_time"), std::string::npos) << refused.err;
+  EXPECT_NE(refused.err.find("hysteresis"), std::string::npos) << refused.err;
+}
+
+TEST_F(RunUpLog, OfAnotherSceneIsRefused) {
+  const Ending end = twin({"monitor", kDemo, scene_});
+  EXPECT_EQ(end.status, 2) << "no log";
+  const std::string page = directory_.file("page.html");
+  std::string renamed = kRunUp;
+  renamed.replace(renamed.find("rotor:"), 5, "spool");
+  const std::string other = directory_.write("other.yaml", renamed);
+  const Ending refused = twin({"monitor", other, log_, "--output", page});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("expected states"), std::string::npos) << refused.err;
+  EXPECT_EQ(contentsOf(page), "") << "nothing half-done";
+}
+
+}  // namespace
+}  // namespace whirl_twin
