@@ -46,6 +46,9 @@ struct LoopStatistics {
   std::uint64_t epoch = 0;          ///< resets since then
   std::uint64_t lcm_failed = 0;     ///< messages that LCM could not send
   std::uint64_t publish_every = 0;  ///< steps from one publication to the next, at present
+  // Simulated time beside wall time [-]; NaN: not told.
+  double real_time_factor = std::numeric_limits<double>::quiet_NaN();  ///< asked; 0: all it can
+  double achieved_factor = std::numeric_limits<double>::quiet_NaN();   ///< since the last message
 
   template <class Visit>
   static void fields(Visit& visit) {
@@ -76,6 +79,7 @@ struct LoopStatistics {
     visit(TWIN_FIELD(epoch), "", count);
     visit(TWIN_FIELD(lcm_failed), "", count);
     visit(TWIN_FIELD(publish_every), "", count);
+    visit.numbers("-", TWIN_FIELD(real_time_factor), TWIN_FIELD(achieved_factor));
   }
 };
 

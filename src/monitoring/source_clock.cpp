@@ -12,10 +12,10 @@ constexpr double kFollowAfter = 0.5;
 
 }  // namespace
 
-SourceClock::Order SourceClock::take(double time, double wall_time) {
-  if (!newest_ ||
-      (time > newest_->time &&
-       time - newest_->time <= kLargestGap + kFastestPlay * (wall_time - newest_->wall_time))) {
+SourceClock::Order SourceClock::take(double time, double wall_time, double pace) {
+  if (!newest_ || (time > newest_->time &&
+                   time - newest_->time <=
+                       pace * (kLargestGap + kFastestPlay * (wall_time - newest_->wall_time)))) {
     newest_ = {time, wall_time};
     other_.reset();
     return Order::kInStep;

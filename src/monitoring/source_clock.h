@@ -15,8 +15,9 @@ class SourceClock {
     kFollowed,   ///< out of step, as all have been for so long that these are the states now
   };
 
-  /// A state that holds at time [s, simulated] arrived at wall_time [s].
-  Order take(double time, double wall_time);
+  /// A state that holds at time [s, simulated] arrived at wall_time [s]; pace: simulated time
+  /// beside wall time, as far as it is known to go faster.
+  Order take(double time, double wall_time, double pace = 1.0);
   /// The next state is one from soon after `time` on: the source has said that it begins there.
   void restartAt(double time, double wall_time);
 

@@ -75,10 +75,10 @@ bool TwinMonitor::arrived(const std::string& source, const state::Instant& at, d
   // Each source against itself: one may be seconds ahead of another when the monitor was held up.
   const auto [known, first] = clocks_.try_emplace(source);
   SourceClock& clock = known->second;
-  SourceClock::Order order = clock.take(at.time, wall_time);
+  SourceClock::Order order = clock.take(at.time, wall_time, pace_);
   if (order != SourceClock::Order::kInStep && resets_.confirmedBy(at.time, wall_time)) {
     restart(at.time, wall_time);
-    order = clock.take(at.time, wall_time);
+    order = clock.take(at.time, wall_time, pace_);
   }
   if (order == SourceClock::Order::kOutOfStep) {
     return false;
@@ -248,10 +248,12 @@ bool TwinMonitor::take(const state::LoopStatistics& loop, double wall_time) {
   }
   // In a pause time stands still, and the statistics go on.
   const double time = loop.at.time;
+  const double pace = std::fmax(1.0, std::fmax(loop.real_time_factor, loop.achieved_factor));
   if (time != loop_time_ &&
-      loop_clock_.take(time, wall_time) == SourceClock::Order::kOutOfStep) {
+      loop_clock_.take(time, wall_time, pace) == SourceClock::Order::kOutOfStep) {
     return false;
   }
+  pace_ = pace;
   loop_time_ = time;
   for (std::size_t i = 0; i < loop.system.size(); ++i) {
     if (SystemWatch* watch = find(loop.system[i])) {

@@ -90,6 +90,7 @@ class TwinMonitor {
   std::vector<state::StabilityMargin> margins_;
   std::map<std::string, SourceClock> clocks_;  ///< of each source
   SourceClock loop_clock_;
+  double pace_ = 1.0;       ///< [-], of simulated time, where it goes faster than the clock
   double loop_time_ = 0.0;  ///< [s], simulated, of the newest statistics
   ResetWatch resets_;
   double time_ = 0.0;

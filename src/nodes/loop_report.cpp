@@ -90,6 +90,8 @@ void LoopDiagnostics::summarize(const state::LoopStatistics& loop, double time,
   status.add("dropped states", loop.dropped_snapshots);
   status.add("messages not sent on LCM", loop.lcm_failed);
   status.add("published every [steps]", loop.publish_every);
+  status.add("real-time factor", loop.real_time_factor);
+  status.add("real-time factor achieved", loop.achieved_factor);
   status.add("wake-up latency p99 [s]", loop.wakeup_latency_p99);
   status.add("wake-up latency max [s]", loop.wakeup_latency_max);
   status.add("execution p99 [s]", loop.execution_p99);

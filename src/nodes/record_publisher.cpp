@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "nodes/loop_report.h"
+#include "realtime/monotonic_clock.h"
 
 namespace whirl_twin {
 
@@ -19,14 +20,14 @@ constexpr int kMostAtOnce = 64;                   // records, between looks at w
 constexpr std::int64_t kClockStep = 100'000'000;  // [ns]: more is no slewing
 
 /// [ns]
-std::int64_t now(clockid_t clock) {
+std::int64_t wallClock() {
   timespec now{};
-  clock_gettime(clock, &now);
+  clock_gettime(CLOCK_REALTIME, &now);
   return now.tv_sec * 1'000'000'000LL + now.tv_nsec;
 }
 
 std::int64_t wallClockAtZero() {
-  return now(CLOCK_REALTIME) - now(CLOCK_MONOTONIC);
+  return wallClock() - monotonicNow();
 }
 
 }  // namespace
@@ -40,7 +41,7 @@ RecordPublisher::RecordPublisher(LiveTwin& live, const FixedRateLoop& loop, Stat
       clock_(clock),
       every_(every),
       thinning_(live.ringCapacity()),
-      started_(now(CLOCK_REALTIME)),
+      started_(wallClock()),
       clock_zero_(wallClockAtZero()),
       stopped_(live.twin().systems().size()),
       inaccurate_(live.twin().systems().size()) {
@@ -145,6 +146,8 @@ void RecordPublisher::publishReport() {
   report.epoch = live_.resets();
   report.lcm_failed = lcmFailed();
   report.publish_every = static_cast<std::uint64_t>(every_ * thinning_.every());
+  report.real_time_factor = live_.pace();
+  report.achieved_factor = achievedFactor(report);
   if (report.lcm_failed > lcm_failed_told_) {
     ROS_WARN("%lu messages could not be sent on LCM, %lu in all: is there a route for multicast?",
              static_cast<unsigned long>(report.lcm_failed - lcm_failed_told_),
@@ -162,6 +165,18 @@ void RecordPublisher::publishReport() {
   }
   const std::lock_guard<std::mutex> lock(mutex_);
   report_ = report;
+}
+
+/// Since the report before; NaN where there is none, or a reset lies between.
+double RecordPublisher::achievedFactor(const state::LoopStatistics& report) {
+  const double at = static_cast<double>(monotonicNow()) * 1.0e-9;
+  const double factor = report.epoch == reported_epoch_
+                            ? (report.at.time - reported_time_) / (at - reported_at_)
+                            : std::numeric_limits<double>::quiet_NaN();
+  reported_epoch_ = report.epoch;
+  reported_time_ = report.at.time;
+  reported_at_ = at;
+  return factor;
 }
 
 /// Stamps are those of the wall clock, also after it has been set.

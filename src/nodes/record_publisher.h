@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <limits>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -41,6 +42,7 @@ class RecordPublisher {
   void run();
   bool take(const double* record);
   void publishReport();
+  double achievedFactor(const state::LoopStatistics& report);
   void followWallClock();
   std::uint64_t dropped() const { return live_.dropped() + left_out_ - dropped_before_; }
   std::uint64_t lcmFailed() const { return states_.lcm().failed() - lcm_failed_before_; }
@@ -61,6 +63,10 @@ class RecordPublisher {
   std::uint64_t dropped_before_ = 0;
   std::uint64_t lcm_failed_before_ = 0;
   std::uint64_t lcm_failed_told_ = 0;
+  // Of the report before.
+  std::uint64_t reported_epoch_ = 0;
+  double reported_time_ = 0.0;                                     // [s], simulated
+  double reported_at_ = std::numeric_limits<double>::quiet_NaN();  // [s], of a clock nobody sets
   mutable std::mutex mutex_;  // report_, between this thread and the diagnostics
   state::LoopStatistics report_;
   std::atomic<bool> reset_requested_{false};

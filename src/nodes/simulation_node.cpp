@@ -46,12 +46,13 @@ struct Settings {
   std::string lcm_url;
   std::string lcm_prefix;
   bool clock;
+  double real_time_factor;
   FixedRateLoop::Options loop;
 };
 
 Settings readSettings(const Scene& scene) {
-  requireKnownParameters(
-      {"publish_rate", "lcm_url", "lcm_prefix", "clock", "realtime", "priority", "overrun"});
+  requireKnownParameters({"publish_rate", "lcm_url", "lcm_prefix", "clock", "realtime", "priority",
+                          "overrun", "real_time_factor"});
   Settings s;
   const auto rate = privateParameter("publish_rate", "a number in Hz", 0.0);
   if (!(rate == 0.0 || (rate >= kSlowestRate && std::isfinite(rate)))) {
@@ -65,6 +66,10 @@ Settings readSettings(const Scene& scene) {
   s.clock = privateParameter("clock", "true or false", false);
   if (s.clock && scene.time < 0) {
     throw Refusal("clock: needs a scene whose time is >= 0 s");
+  }
+  s.real_time_factor = privateParameter("real_time_factor", "a number", 1.0);
+  if (const std::string fault = factorFault(s.real_time_factor); !fault.empty()) {
+    throw Refusal(fault);
   }
   if (scene.step < kShortestStep) {
     throw Refusal(fmt::format("{}: step: must be >= {:g} s to run live, found {:g} s", scene.source,
@@ -91,6 +96,7 @@ void run() {
   const auto capacity =
       static_cast<std::size_t>(std::max<std::int64_t>(64, 500'000'000 / scene.step));
   LiveTwin live(scene, std::min<std::size_t>(capacity, 100'000));
+  live.setPace(settings.real_time_factor);
   FixedRateLoop loop(settings.loop);
   RecordPublisher publisher(
       live, loop,

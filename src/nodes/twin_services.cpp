@@ -24,17 +24,28 @@ constexpr const char* kEnded = "the simulation is ending";
 
 }  // namespace
 
+std::string factorFault(double factor) {
+  return Pace::canBe(factor)
+             ? ""
+             : fmt::format(
+                   "real_time_factor: must be 0 (as fast as it goes), or from {:g} to {:g}, "
+                   "found {}",
+                   Pace::kSlowest, Pace::kFastest, factor);
+}
+
 TwinServices::TwinServices(LiveTwin& twin, ros::NodeHandle node, std::function<bool()> keep_waiting)
     : twin_(twin),
       keep_waiting_(std::move(keep_waiting)),
       parameters_(twin, [this] { return wait(); }) {
-  servers_ = {node.advertiseService("pause", &TwinServices::pause, this),
-              node.advertiseService("resume", &TwinServices::resume, this),
-              node.advertiseService("reset", &TwinServices::reset, this),
-              node.advertiseService("step", &TwinServices::step, this),
-              node.advertiseService("set_speed", &TwinServices::setSpeed, this),
-              node.advertiseService("set_input", &TwinServices::setInput, this),
-              node.advertiseService("set_parameter", &TwinServices::setParameter, this)};
+  servers_ = {
+      node.advertiseService("pause", &TwinServices::pause, this),
+      node.advertiseService("resume", &TwinServices::resume, this),
+      node.advertiseService("reset", &TwinServices::reset, this),
+      node.advertiseService("step", &TwinServices::step, this),
+      node.advertiseService("set_speed", &TwinServices::setSpeed, this),
+      node.advertiseService("set_input", &TwinServices::setInput, this),
+      node.advertiseService("set_parameter", &TwinServices::setParameter, this),
+      node.advertiseService("set_real_time_factor", &TwinServices::setRealTimeFactor, this)};
 }
 
 bool TwinServices::wait() {
@@ -246,6 +257,19 @@ bool TwinServices::setParameter(SetParameter::Request& request, SetParameter::Re
   response.message = answer.message;
   response.previous = answer.done ? answer.previous.front() : std::nan("");
   response.step = answer.step;
+  return true;
+}
+
+bool TwinServices::setRealTimeFactor(SetRealTimeFactor::Request& request,
+                                     SetRealTimeFactor::Response& response) {
+  response.message = factorFault(request.factor);
+  response.success = response.message.empty();
+  if (response.success) {
+    twin_.setPace(request.factor);
+    response.message = request.factor == Pace::kAsFastAsItGoes
+                           ? "as fast as it goes and is published"
+                           : fmt::format("{:g} simulated seconds in one", request.factor);
+  }
   return true;
 }
 

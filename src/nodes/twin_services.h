@@ -6,6 +6,7 @@
 #include <std_srvs/Trigger.h>
 #include <whirl_twin/SetInput.h>
 #include <whirl_twin/SetParameter.h>
+#include <whirl_twin/SetRealTimeFactor.h>
 #include <whirl_twin/SetSpeed.h>
 #include <whirl_twin/StepN.h>
 
@@ -16,6 +17,9 @@
 #include "twin/live_twin.h"
 
 namespace whirl_twin {
+
+/// Why a real-time factor cannot be taken; "" if it can.
+std::string factorFault(double factor);
 
 class TwinServices {
  public:
@@ -42,6 +46,8 @@ class TwinServices {
   std::string readInput(const std::string& system, const std::string& input, double value,
                         double duration, TwinCommand& command) const;
   bool setParameter(SetParameter::Request& request, SetParameter::Response& response);
+  bool setRealTimeFactor(SetRealTimeFactor::Request& request,
+                         SetRealTimeFactor::Response& response);
 
   bool trigger(TwinCommand::Kind kind, const char* done, Trigger::Response& response);
   /// Until all that was sent is carried out; false when the loop ended first.

@@ -13,6 +13,7 @@
 
 #include "messages/refusal.h"
 #include "realtime/denormals.h"
+#include "realtime/monotonic_clock.h"
 
 namespace whirl_twin {
 namespace {
@@ -24,12 +25,6 @@ constexpr std::int64_t kLongestSleep = kSecond / 20;      // [ns], so that stop(
 
 // The loop whose cycle this thread is running, if any: stop() must not join its own thread.
 thread_local const FixedRateLoop* own_loop = nullptr;
-
-std::int64_t monotonicNow() noexcept {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return now.tv_sec * kSecond + now.tv_nsec;
-}
 
 void check(bool in_range, const char* option, const std::string& expected, std::int64_t found) {
   if (!in_range) {

@@ -38,6 +38,10 @@ bool RecordRing::push(const double* record) noexcept {
   return true;
 }
 
+bool RecordRing::hasRoomFor(std::size_t records) const noexcept {
+  return values_.write_available() / record_size_ >= records;
+}
+
 bool RecordRing::pop(double* record) noexcept {
   if (values_.read_available() < record_size_) {
     return false;

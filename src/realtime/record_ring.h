@@ -24,6 +24,9 @@ class RecordRing {
   /// Real-time safe.
   bool push(const double* record) noexcept;
 
+  /// Producer: is there room for so many records? Real-time safe.
+  bool hasRoomFor(std::size_t records) const noexcept;
+
   /// Consumer: copies the oldest record out; false when there is none. Real-time safe.
   bool pop(double* record) noexcept;
 

@@ -15,15 +15,15 @@ struct EarlierForm {
   std::string_view later;     ///< the fields since: the end of the layout (payload_layout.h)
 };
 
-/// Of a kind, none if nothing is said.
+/// Of a kind, the earliest first; none if nothing is said.
 template <class State>
 inline constexpr std::array<EarlierForm, 0> kEarlierForms{};
 template <>
 inline constexpr std::array<EarlierForm, 1> kEarlierForms<state::StabilityMargin>{
     {{0x04269617e2cfdbe6, "ddd"}}};
 template <>
-inline constexpr std::array<EarlierForm, 1> kEarlierForms<state::LoopStatistics>{
-    {{0xe676f1d3c287e44f, "llll"}}};
+inline constexpr std::array<EarlierForm, 2> kEarlierForms<state::LoopStatistics>{
+    {{0xe676f1d3c287e44f, "lllldd"}, {0x9af8de11c53ac49c, "dd"}}};
 template <>
 inline constexpr std::array<EarlierForm, 1> kEarlierForms<state::Alert>{
     {{0x966688c34b63f52f, "bbbidd"}}};

@@ -1,5 +1,7 @@
 #include "twin/live_twin.h"
 
+#include "realtime/monotonic_clock.h"
+
 namespace whirl_twin {
 
 LiveTwin::LiveTwin(const Scene& scene, std::size_t ring_capacity)
@@ -18,25 +20,67 @@ LiveTwin::~LiveTwin() {
 }
 
 bool LiveTwin::cycle(std::int64_t scheduled) noexcept {
-  TwinCommand command;
-  while (steps_to_do_ == 0 && commands_.pop(command)) {
-    carryOut(command);
-  }
+  carryOutCommands();
   if (at_start_) {
     at_start_ = false;
     publish(scheduled);
     return true;
   }
-  if (paused_.load(std::memory_order_relaxed) && steps_to_do_ == 0) {
+  if (holds()) {
     return true;
   }
+  if (steps_to_do_ > 0 || pace_.factor() == Pace::kAsFastAsItGoes) {
+    stepWhileThereIsTime(scheduled);
+    return true;
+  }
+  const std::int64_t due = pace_.due();
+  for (std::int64_t i = 0; i < due; ++i) {
+    if (i > 0) {
+      carryOutCommands();
+      if (holds() || at_start_) {
+        break;
+      }
+    }
+    step(scheduled + i * twin_.scene().step / due);
+  }
+  return true;
+}
+
+void LiveTwin::carryOutCommands() noexcept {
+  TwinCommand command;
+  while (steps_to_do_ == 0 && commands_.pop(command)) {
+    carryOut(command);
+  }
+}
+
+bool LiveTwin::holds() const noexcept {
+  return paused_.load(std::memory_order_relaxed) && steps_to_do_ == 0;
+}
+
+void LiveTwin::step(std::int64_t scheduled) noexcept {
   twin_.step();
   step_.store(twin_.stepCount(), std::memory_order_relaxed);
   publish(scheduled);
   if (steps_to_do_ > 0 && --steps_to_do_ == 0) {
     finish(true, 0.0);
   }
-  return true;
+}
+
+void LiveTwin::stepWhileThereIsTime(std::int64_t scheduled) noexcept {
+  const std::int64_t end = scheduled + twin_.scene().step / 10 * 8;  // the rest is others'
+  std::int64_t now = scheduled;
+  const auto goesOn = [&] {
+    return now < end && !at_start_ && !holds() &&
+           (steps_to_do_ > 0 || pace_.factor() == Pace::kAsFastAsItGoes);
+  };
+  do {
+    if (!ring_.hasRoomFor(7 * ring_.capacity() / 8)) {
+      return;
+    }
+    step(now);
+    carryOutCommands();
+    now = monotonicNow();
+  } while (goesOn());
 }
 
 void LiveTwin::carryOut(const TwinCommand& command) noexcept {

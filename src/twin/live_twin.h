@@ -1,5 +1,9 @@
 // The twin as a fixed-rate loop runs it: one cycle a period, commands in, records out. No thread of
 // its own, no lock, no allocation in a cycle.
+//
+// What goes as fast as it goes (the factor 0, and the steps of a command in a pause) takes most of
+// a period, and waits while more than an eighth of the ring waits for its reader: nothing of it is
+// lost.
 #pragma once
 
 #include <atomic>
@@ -10,6 +14,7 @@
 
 #include "realtime/record_ring.h"
 #include "twin/ensemble_observer.h"
+#include "twin/pace.h"
 #include "twin/system_generations.h"
 #include "twin/twin.h"
 
@@ -62,7 +67,8 @@ class LiveTwin {
   /// Of the twin only what does not change while it runs may be used while the loop runs.
   const Twin& twin() const { return twin_; }
 
-  /// The loop's thread, once a period; scheduled [ns] goes into the record. Real-time safe.
+  /// The loop's thread, once a period; scheduled [ns] goes into the record, and where there are
+  /// several they stand evenly in the period. Real-time safe.
   bool cycle(std::int64_t scheduled) noexcept;
 
   // One other thread: commands.
@@ -83,6 +89,9 @@ class LiveTwin {
 
   // Any thread.
 
+  /// The real-time factor, that Pace::canBe(); of commands it is independent.
+  void setPace(double factor) noexcept { pace_.set(factor); }
+  double pace() const noexcept { return pace_.factor(); }
   /// Resets carried out.
   std::uint64_t resets() const { return resets_.load(std::memory_order_relaxed); }
   /// The step reached.
@@ -100,6 +109,10 @@ class LiveTwin {
   EnsembleObserver ensembles() { return EnsembleObserver(twin_); }
 
  private:
+  void carryOutCommands() noexcept;
+  bool holds() const noexcept;
+  void step(std::int64_t scheduled) noexcept;
+  void stepWhileThereIsTime(std::int64_t scheduled) noexcept;
   void carryOut(const TwinCommand& command) noexcept;
   void look(std::size_t drive) noexcept;
   void replaceNow(const TwinCommand& command) noexcept;
@@ -119,7 +132,8 @@ class LiveTwin {
   TwinAnswer answer_;
   std::unique_ptr<Stepper> retired_;  ///< by the last kReplace; deleted outside of the loop
   std::uint64_t steps_to_do_ = 0;     ///< of a kStep under way
-  bool at_start_ = true;              ///< the state at step 0 has not been published
+  Pace pace_;
+  bool at_start_ = true;  ///< the state at step 0 has not been published
 };
 
 }  // namespace whirl_twin

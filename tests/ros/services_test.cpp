@@ -4,6 +4,7 @@
 #include <std_srvs/Trigger.h>
 #include <whirl_twin/DriveState.h>
 #include <whirl_twin/LoopStatistics.h>
+#include <whirl_twin/SetRealTimeFactor.h>
 #include <whirl_twin/SetSpeed.h>
 #include <whirl_twin/StepN.h>
 #include <whirl_twin/WhirlState.h>
@@ -67,6 +68,29 @@ class Services : public testing::Test {
   std::optional<DriveState> shaft_;
   std::optional<LoopStatistics> loop_;
 };
+
+TEST_F(Services, simulatedTimeGoesAsFastAsAsked) {
+  const auto set = [](double factor) {
+    SetRealTimeFactor call;
+    call.request.factor = factor;
+    EXPECT_TRUE(ros::service::call("/simulation_node/set_real_time_factor", call));
+    return call.response;
+  };
+  for (const double wrong : {-1.0, 1e-3, 1e4, std::nan("")}) {
+    const auto refused = set(wrong);
+    EXPECT_FALSE(refused.success) << wrong;
+    EXPECT_NE(refused.message.find("from 0.01 to 1000"), std::string::npos) << refused.message;
+  }
+  EXPECT_EQ(loop_->real_time_factor, 1.0);
+  ASSERT_TRUE(set(0.1).success);
+  EXPECT_TRUE(
+      waitUntil([this] { return loop_->real_time_factor == 0.1 && loop_->achieved_factor < 0.2; }));
+  ASSERT_TRUE(set(0.0).success);
+  EXPECT_TRUE(waitUntil([this] {
+    return loop_->real_time_factor == 0.0 && loop_->achieved_factor > 1.0;
+  })) << loop_->achieved_factor;
+  ASSERT_TRUE(set(1.0).success);
+}
 
 TEST_F(Services, pausedItStandsStillAndStepsAsAsked) {
   ASSERT_TRUE(trigger("pause").success);

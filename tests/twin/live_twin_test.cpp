@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "../scene/scenes.h"
+#include "realtime/monotonic_clock.h"
 
 namespace whirl_twin {
 namespace {
@@ -129,6 +130,56 @@ TEST_F(Live, TooManyCommandsAreRefusedAtTheDoor) {
   EXPECT_GE(accepted, 60);
   stepsAfter(1);
   EXPECT_EQ(live_.carriedOut(), live_.sent());
+}
+
+TEST_F(Live, SlowerThanTheClockItStepsInSomeOfThePeriods) {
+  stepsAfter(1);
+  live_.setPace(0.25);
+  EXPECT_EQ(stepsAfter(8), (Steps{1, 2}));
+  live_.setPace(0.1);
+  EXPECT_EQ(stepsAfter(500).size(), 50u);
+  live_.setPace(1.0);
+  EXPECT_EQ(stepsAfter(10).size(), 10u);
+}
+
+TEST_F(Live, FasterThanTheClockItTakesSeveralStepsStampedEvenlyInThePeriod) {
+  stepsAfter(1);
+  live_.setPace(2.5);
+  EXPECT_EQ(stepsAfter(4).size(), 10u);
+  live_.setPace(4.0);
+  live_.cycle(scheduled_ += 1000000);
+  for (std::int64_t i = 0; i < 4; ++i) {
+    ASSERT_TRUE(live_.pop(record_.data()));
+    EXPECT_EQ(RecordLayout::scheduled(record_.data()), scheduled_ + i * 250000);
+  }
+  send(Kind::kPause);
+  EXPECT_EQ(stepsAfter(3), Steps{});
+}
+
+TEST_F(Live, AsFastAsItGoesNothingIsLostHoweverSlowTheReader) {
+  stepsAfter(1);
+  live_.setPace(Pace::kAsFastAsItGoes);
+  std::int64_t taken = 0;
+  for (int i = 0; i < 200; ++i) {
+    live_.cycle(monotonicNow() + 1000000);  // there is time
+    if (i % 3 == 0 && live_.pop(record_.data())) {
+      ++taken;
+      EXPECT_EQ(RecordLayout::step(record_.data()), taken) << "every step, in order";
+    }
+  }
+  EXPECT_EQ(live_.dropped(), 0u);
+  EXPECT_GT(live_.stepCount(), taken);
+  EXPECT_LT(live_.stepCount() - taken, 20) << "an eighth of the ring";
+}
+
+TEST_F(Live, StepsThatAreAskedForNeedNoRealTime) {
+  stepsAfter(1);
+  send(Kind::kPause);
+  send(Kind::kStep, 10);
+  live_.cycle(monotonicNow() + 3600 * std::int64_t{1000000000});  // all the time there is
+  EXPECT_EQ(live_.stepCount(), 10);
+  EXPECT_EQ(live_.carriedOut(), live_.sent());
+  EXPECT_EQ(stepsAfter(3).size(), 10u) << "and then it stands still";
 }
 
 struct SmallRing : Live {
