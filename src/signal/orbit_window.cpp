@@ -1,0 +1,150 @@
+#include "signal/orbit_window.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kTurn = 6.283185307179586;
+constexpr std::size_t kMost = 8192;        // samples kept, before the older half goes
+constexpr double kSamplesPerTurn = 64.0;   // kept at least, where there are so many
+constexpr double kLongestPeriod = 2.5e-3;  // [s], for a whirl that is faster than the shaft
+
+bool isFinite(const OrbitSample& s) {
+  return std::isfinite(s.time) && std::isfinite(s.remainder) && std::isfinite(s.speed) &&
+         std::isfinite(s.x) && std::isfinite(s.y);
+}
+
+double turned(const OrbitSample& from, const OrbitSample& to) {
+  return static_cast<double>(to.turns - from.turns) + (to.remainder - from.remainder) / kTurn;
+}
+
+}  // namespace
+
+void OrbitWindow::clear() {
+  kept_.clear();
+  stride_ = 1;
+  sampling_ = 0.0;
+}
+
+void OrbitWindow::take(const OrbitSample& sample) {
+  if (!isFinite(sample)) {
+    return;
+  }
+  if (!kept_.empty() && (sample.index <= last_ || sample.time <= last_time_)) {
+    clear();
+  }
+  if (!kept_.empty()) {
+    sampling_ = (sample.time - last_time_) / static_cast<double>(sample.index - last_);
+    const double wanted =
+        std::min(kTurn / (kSamplesPerTurn * std::fabs(sample.speed)), kLongestPeriod);
+    while (stride_ > 1 && static_cast<double>(stride_) * sampling_ > wanted) {
+      stride_ /= 2;
+    }
+    while (2.0 * static_cast<double>(stride_) * sampling_ <= 0.8 * wanted) {
+      stride_ *= 2;
+    }
+  }
+  last_ = sample.index;
+  last_time_ = sample.time;
+  if (kept_.empty() || sample.index % stride_ == 0) {
+    if (kept_.size() == kMost) {
+      kept_.erase(kept_.begin(), kept_.begin() + kMost / 2);
+    }
+    kept_.push_back({sample, stride_});
+  }
+}
+
+double OrbitWindow::since(double turns) const {
+  if (kept_.empty()) {
+    return 0.0;
+  }
+  const OrbitSample& now = kept_.back();
+  const double direction = now.speed < 0.0 ? -1.0 : 1.0;
+  // Back by halves: the angle is monotonic as long as the shaft does not turn back, which is
+  // looked for after.
+  const auto far = [&](const OrbitSample& s) { return direction * turned(s, now) >= turns; };
+  const auto first_near = std::partition_point(kept_.begin(), kept_.end(), far);
+  if (first_near == kept_.begin()) {
+    return 0.0;
+  }
+  const auto from = std::prev(first_near);
+  const bool turned_back = std::any_of(
+      from, kept_.end(), [&](const OrbitSample& s) { return direction * s.speed <= 0.0; });
+  return turned_back ? 0.0 : now.time - from->time;
+}
+
+std::size_t OrbitWindow::firstOf(double seconds) const {
+  const double from = kept_.back().time - seconds * (1.0 + 1.0e-12);
+  const auto first = std::partition_point(kept_.begin(), kept_.end(),
+                                          [&](const OrbitSample& s) { return s.time < from; });
+  return static_cast<std::size_t>(first - kept_.begin());
+}
+
+OrbitPart OrbitWindow::last(double seconds, std::size_t most) const {
+  OrbitPart part;
+  if (kept_.empty()) {
+    return part;
+  }
+  const std::size_t first = firstOf(seconds);
+  // Strides are powers of two, so that indices of the widest are kept everywhere.
+  std::int64_t stride = 1;
+  for (std::size_t i = first; i < kept_.size(); ++i) {
+    stride = std::max(stride, kept_[i].stride);
+  }
+  const std::int64_t span = kept_.back().index - kept_[first].index;
+  while (static_cast<std::size_t>(span / stride) >= most) {
+    stride *= 2;
+  }
+  std::vector<const OrbitSample*> taken;
+  for (std::size_t i = first; i < kept_.size(); ++i) {
+    if (kept_[i].index % stride == 0) {
+      taken.push_back(&kept_[i]);
+    }
+  }
+  if (taken.size() < 2) {
+    return part;
+  }
+  const auto n = static_cast<Eigen::Index>(taken.size());
+  const OrbitSample& from = *taken.front();
+  part.centre = 0.5 * (from.time + taken.back()->time);
+  part.half = 0.5 * (taken.back()->time - from.time);
+  part.period = static_cast<double>(stride) * sampling_;
+  part.tau.resize(n);
+  part.angle.resize(n);
+  part.x.resize(n);
+  part.y.resize(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const OrbitSample& s = *taken[static_cast<std::size_t>(i)];
+    part.tau[i] = (s.time - part.centre) / part.half;
+    part.angle[i] = static_cast<double>(s.turns - from.turns) * kTurn + s.remainder;
+    part.x[i] = s.x;
+    part.y[i] = s.y;
+    part.place.push_back((s.index - from.index) / stride);
+  }
+  const auto after = std::partition_point(
+      taken.begin(), taken.end(), [&](const OrbitSample* s) { return s->time < part.centre; });
+  const OrbitSample& right = **after;
+  const OrbitSample& left = **std::prev(after);
+  part.speed = left.speed +
+               (right.speed - left.speed) * (part.centre - left.time) / (right.time - left.time);
+  return part;
+}
+
+double OrbitWindow::peakToPeak(double seconds) const {
+  if (kept_.empty()) {
+    return 0.0;
+  }
+  double left = kept_.back().x, right = left, bottom = kept_.back().y, top = bottom;
+  for (std::size_t i = firstOf(seconds); i < kept_.size(); ++i) {
+    left = std::min(left, kept_[i].x);
+    right = std::max(right, kept_[i].x);
+    bottom = std::min(bottom, kept_[i].y);
+    top = std::max(top, kept_[i].y);
+  }
+  return std::max(right - left, top - bottom);
+}
+
+}  // namespace whirl_twin

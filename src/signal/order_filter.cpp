@@ -1,0 +1,236 @@
+#include "signal/order_filter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "signal/full_spectrum.h"
+#include "signal/harmonic_fit.h"
+
+namespace whirl_twin {
+
+/// How long a window is, and how its amplitudes may change.
+struct OrderFilter::Reach {
+  double turns;
+  int degree;         // of the first order
+  int higher_degree;  // of the others
+  int mean_degree;
+};
+
+namespace {
+
+constexpr double kTurn = 6.283185307179586;
+constexpr double kLongest = 2.0;     // [s], of a window that a shorter one could do for
+constexpr double kLast = 20.0;       // [s], of any
+constexpr double kStandstill = 1.0;  // [s], of one without turns
+constexpr std::size_t kMostSamples = 640;
+constexpr int kLineDegree = 3;
+constexpr int kMostLines = 3;
+/// Of a peak of noise among some hundred bins hardly ever.
+constexpr double kProminent = 12.0;
+/// A line takes this part of the noise away, or it is none.
+constexpr double kWorthwhile = 0.8;
+/// Of the last terms of a polynomial, what those after them may add up to at the middle.
+constexpr double kTruncation = 0.3;
+/// Parts of the motion: noise below the first is not looked into for lines, and lines below the
+/// second, which may stand for how another one changes, are not told.
+constexpr double kQuiet = 1.0e-7;
+constexpr double kSmallestLine = 1.0e-4;
+
+/// Cycles in a window by which two frequencies have to differ where their amplitudes may change as
+/// polynomials of these degrees: each takes (degree + 1)/2 of them.
+double cyclesApart(int degree, int other) {
+  return 0.25 * (degree + other + 2);
+}
+
+/// The fit of a window, and what is fitted.
+struct Fit {
+  const OrbitPart& part;
+  std::vector<int> degrees;  // of the mean and the orders
+  HarmonicFit harmonics;
+  std::vector<double> lines;  // [rad/s]
+
+  Fit(const OrbitPart& of, std::vector<int> degrees_of_orders, Eigen::Index columns)
+      : part(of), degrees(std::move(degrees_of_orders)), harmonics(of.tau, columns) {
+    harmonics.addMean(degrees.front());
+    for (std::size_t k = 1; k < degrees.size(); ++k) {
+      harmonics.addHarmonic(static_cast<double>(k) * part.angle, degrees[k]);
+    }
+  }
+
+  bool solve() { return harmonics.solve(part.x, part.y); }
+  std::size_t lineAt(std::size_t i) const { return degrees.size() + i; }
+  double perCycle() const { return kTurn / (2.0 * part.half); }  // [rad/s], over the window
+  void addLine(double frequency) {
+    harmonics.addHarmonic(frequency * part.half * part.tau, kLineDegree);
+    lines.push_back(frequency);
+  }
+  void removeLine() {
+    harmonics.removeLast();
+    lines.pop_back();
+  }
+
+  /// (a'/a) [1/s] of the larger part of a line, at the middle.
+  std::complex<double> changeOf(std::size_t i) const {
+    const std::complex<double> f = harmonics.forward(lineAt(i));
+    const std::complex<double> b = harmonics.backward(lineAt(i));
+    const std::complex<double> change = std::abs(f) >= std::abs(b)
+                                            ? harmonics.forwardChange(lineAt(i)) / f
+                                            : std::conj(harmonics.backwardChange(lineAt(i)) / b);
+    return change / part.half;
+  }
+
+  std::optional<double> lineInTheRest() const;
+  bool findLine();
+};
+
+/// [rad/s], of the highest line that no order and no line so far explains.
+std::optional<double> Fit::lineInTheRest() const {
+  Eigen::ArrayXcd rest = Eigen::ArrayXcd::Zero(part.place.back() + 1);  // holes hold nothing
+  for (std::size_t i = 0; i < part.place.size(); ++i) {
+    rest[part.place[i]] = harmonics.rest()[static_cast<Eigen::Index>(i)];
+  }
+  const auto peak = FullSpectrum(rest, part.period).highest([&](double frequency) {
+    const double w = std::fabs(frequency);
+    for (std::size_t k = 0; k < degrees.size(); ++k) {
+      const double order = static_cast<double>(k) * std::fabs(part.speed);
+      if (std::fabs(w - order) < cyclesApart(degrees[k], kLineDegree) * perCycle()) {
+        return false;
+      }
+    }
+    return std::all_of(lines.begin(), lines.end(), [&](double line) {
+      return std::fabs(w - line) >= cyclesApart(kLineDegree, kLineDegree) * perCycle();
+    });
+  });
+  if (!peak || peak->prominence < kProminent) {
+    return std::nullopt;
+  }
+  return std::fabs(peak->frequency);
+}
+
+/// Adds a line and fits again. False, and nothing has changed, where there is none.
+bool Fit::findLine() {
+  const double before = harmonics.noise();
+  std::optional<double> found = lineInTheRest();
+  if (!found || !harmonics.hasRoom(kLineDegree)) {
+    return false;
+  }
+  addLine(*found);
+  bool fits = solve();
+  if (fits) {
+    // The amplitude turns by what the frequency was off.
+    const double better = *found + changeOf(lines.size() - 1).imag();
+    if (std::fabs(better - *found) < perCycle() && better > 0.0) {
+      removeLine();
+      addLine(better);
+      fits = solve();
+    }
+  }
+  if (fits && harmonics.noise() <= kWorthwhile * before) {
+    return true;
+  }
+  removeLine();
+  solve();
+  return false;
+}
+
+/// Area swept about the mean, beside what as long a path of steps could sweep.
+double precessionOf(const OrbitPart& part, std::complex<double> mean) {
+  double swept = 0.0;
+  double most = 0.0;
+  for (Eigen::Index i = 0; i + 1 < part.x.size(); ++i) {
+    const double x = part.x[i] - mean.real(), y = part.y[i] - mean.imag();
+    const double dx = part.x[i + 1] - part.x[i], dy = part.y[i + 1] - part.y[i];
+    swept += x * dy - y * dx;
+    most += std::hypot(x, y) * std::hypot(dx, dy);
+  }
+  return most > 0.0 ? std::copysign(1.0, part.speed) * swept / most : 0.0;
+}
+
+}  // namespace
+
+OrbitEstimate OrderFilter::fitted(const Reach& reach, double seconds, double* doubt) const {
+  const OrbitPart part = window_.last(seconds, kMostSamples);
+  std::vector<int> degrees = {reach.mean_degree};
+  Eigen::Index columns = reach.mean_degree + 1;
+  for (int k = 1; k <= highest_ && reach.turns > 0.0; ++k) {
+    degrees.push_back(k == 1 ? reach.degree : reach.higher_degree);
+    columns += 2 * (degrees.back() + 1);
+  }
+  OrbitEstimate estimate;
+  if (part.tau.size() < 2 * columns) {
+    return estimate;
+  }
+  Fit fit(part, degrees, columns + 2 * kMostLines * (kLineDegree + 1));
+  if (!fit.solve()) {
+    return estimate;
+  }
+  const double size = std::sqrt((part.x - part.x.mean()).square().mean() +
+                                (part.y - part.y.mean()).square().mean());
+  for (int i = 0; i < kMostLines && fit.harmonics.noise() > kQuiet * size; ++i) {
+    if (!fit.findLine()) {
+      break;
+    }
+  }
+  estimate.valid = degrees.size() > 1;
+  estimate.time = part.centre;
+  estimate.delay = window_.newest().time - part.centre;
+  estimate.speed = part.speed;
+  estimate.window = 2.0 * part.half;
+  estimate.mean = fit.harmonics.mean();
+  estimate.noise = fit.harmonics.noise();
+  for (std::size_t k = 1; k < degrees.size(); ++k) {
+    estimate.orders.push_back({static_cast<int>(k), fit.harmonics.forward(k),
+                               fit.harmonics.backward(k), fit.harmonics.deviation(k)});
+  }
+  if (doubt != nullptr && estimate.valid) {
+    *doubt = fit.harmonics.deviation(1) + kTruncation * fit.harmonics.lastTerms(1);
+  }
+  for (std::size_t i = 0; i < fit.lines.size(); ++i) {
+    const std::complex<double> change = fit.changeOf(i);
+    const double forward = std::abs(fit.harmonics.forward(fit.lineAt(i)));
+    const double backward = std::abs(fit.harmonics.backward(fit.lineAt(i)));
+    if (std::max(forward, backward) > kSmallestLine * size) {
+      estimate.lines.push_back({fit.lines[i] + change.imag(), forward, backward, change.real()});
+    }
+  }
+  std::sort(estimate.lines.begin(), estimate.lines.end(), [](const auto& a, const auto& b) {
+    return std::max(a.forward, a.backward) > std::max(b.forward, b.backward);
+  });
+  estimate.precession = precessionOf(part, estimate.mean);
+  estimate.peak_to_peak = window_.peakToPeak(seconds);
+  return estimate;
+}
+
+OrbitEstimate OrderFilter::estimate() const {
+  // From the quietest to the quickest: what 4 and 2 turns can tell of a resonance that is passed.
+  static constexpr Reach kReaches[] = {{16, 2, 2, 1}, {8, 4, 2, 1}, {4, 7, 3, 0}, {2, 3, 2, 0}};
+  static constexpr Reach kFewSamples = {64, 2, 2, 1};  // a turn
+  static constexpr Reach kMeanOnly = {0, 0, 0, 1};
+  OrbitEstimate best;
+  if (window_.empty()) {
+    return best;
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (const Reach& reach : kReaches) {
+    const double seconds = window_.since(reach.turns);
+    const bool last = reach.turns == 2;
+    if (seconds == 0.0 || seconds > (last ? kLast : kLongest)) {
+      continue;
+    }
+    double doubt = 0.0;
+    OrbitEstimate now = fitted(reach, seconds, &doubt);
+    if (now.valid && doubt < least) {
+      least = doubt;
+      best = std::move(now);
+    }
+  }
+  if (!best.valid && window_.since(kFewSamples.turns) > 0.0) {
+    best = fitted(kFewSamples, window_.since(kFewSamples.turns));
+  }
+  return best.valid ? best : fitted(kMeanOnly, kStandstill);
+}
+
+}  // namespace whirl_twin
