@@ -137,8 +137,8 @@ void RotorDisplay::draw(const SystemStatus& status, MarkerCanvas& canvas) const 
     lines = marginLines(*status.margin);
   }
   std::string whirl = whirlText(state_);
-  if (state_.phase_valid) {
-    whirl += state_.forward ? ", forward" : ", backward";
+  if (status.orders) {
+    whirl += ", " + ordersText(*status.orders);
   }
   lines.insert(lines.begin(), {speedText(state_.speed), whirl});
   drawStatus(name_, lines, status.alerts, kTextFoot * Eigen::Vector3d::UnitY(),

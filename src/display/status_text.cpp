@@ -34,11 +34,28 @@ std::string speedText(double speed) {
 }
 
 std::string whirlText(const WhirlState& state) {
-  std::string text = fmt::format("whirl {:.1f} um", state.radius * 1e6);
-  if (state.phase_valid) {
-    text += fmt::format(", lag {:.1f} deg", wrappedDegrees(state.phase));
+  return fmt::format("whirl {:.1f} um", state.radius * 1e6);
+}
+
+std::string ordersText(const OrderState& orders) {
+  std::vector<std::string> parts;
+  double first = 0.0;
+  if (orders.valid && !orders.order.empty()) {
+    first = orders.forward_amplitude[0] + orders.backward_amplitude[0];
+    parts.push_back(fmt::format("1X {:.1f} um", first * 1e6));
+    // Below what the estimate can tell there is no angle.
+    if (orders.forward_amplitude[0] > 3.0 * orders.deviation[0]) {
+      parts.push_back(fmt::format("lag {:.1f} deg", wrappedDegrees(orders.forward_lag[0])));
+    }
   }
-  return text;
+  parts.emplace_back(orders.forward ? "forward" : "backward");
+  if (!orders.line_frequency.empty()) {
+    const double line = orders.line_forward[0] + orders.line_backward[0];
+    if (line > first) {
+      parts.push_back(fmt::format("{:.1f} rad/s {:.1f} um", orders.line_frequency[0], line * 1e6));
+    }
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 std::vector<CoordinateInfo> coordinatesByName(const std::vector<std::string>& name) {

@@ -7,6 +7,7 @@
 
 #include "mechanics/dynamics.h"
 #include "whirl_twin/Alert.h"
+#include "whirl_twin/OrderState.h"
 #include "whirl_twin/PendulumState.h"
 #include "whirl_twin/StabilityMargin.h"
 #include "whirl_twin/WhirlState.h"
@@ -19,8 +20,12 @@ double wrappedDegrees(double angle);
 /// "speed 100.00 rad/s (954.9 rpm)".
 std::string speedText(double speed);
 
-/// "whirl 123.4 um, lag 87.3 deg"; without the lag while the phase is not valid.
+/// "whirl 123.4 um": how far the centre is out at this instant.
 std::string whirlText(const WhirlState& state);
+
+/// "1X 120.0 um, lag 34.5 deg, forward": the first order, in which sense the whirl runs, and the
+/// largest line if it is larger than the first order; without orders what there is.
+std::string ordersText(const OrderState& orders);
 
 /// Coordinates of which only the names are known: an angle is named so, all others are lengths.
 std::vector<CoordinateInfo> coordinatesByName(const std::vector<std::string>& name);

@@ -8,13 +8,15 @@
 
 #include "display/marker_canvas.h"
 #include "whirl_twin/Alert.h"
+#include "whirl_twin/OrderState.h"
 #include "whirl_twin/StabilityMargin.h"
 
 namespace whirl_twin {
 
-/// What the monitor says about a system at the moment.
+/// What is known of a system at the moment, beside its state.
 struct SystemStatus {
   StabilityMargin::ConstPtr margin;  ///< null before the first
+  OrderState::ConstPtr orders;       ///< of a rotor, likewise
   std::vector<Alert> alerts;         ///< active, most severe first
 };
 

@@ -26,6 +26,9 @@ std::string readoutText(const std::string& system, const SystemReadout& readout)
     parts.push_back(speedText(readout.whirl->speed));
     parts.push_back(whirlText(*readout.whirl));
   }
+  if (readout.orders) {
+    parts.push_back(ordersText(*readout.orders));
+  }
   if (readout.pendulum) {
     parts.push_back(
         coordinateText(coordinatesByName(readout.pendulum->name), readout.pendulum->angle));

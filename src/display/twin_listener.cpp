@@ -41,7 +41,8 @@ std::vector<TwinTopic> twinTopics(const ros::master::V_TopicInfo& all,
     } else if (isType<DriveState>(info.datatype)) {
       topics.push_back({info.name, info.datatype, rest.substr(slash + 1)});
     } else if (isType<WhirlState>(info.datatype) || isType<PendulumState>(info.datatype) ||
-               isType<StabilityMargin>(info.datatype) || isType<ParameterChange>(info.datatype)) {
+               isType<StabilityMargin>(info.datatype) || isType<ParameterChange>(info.datatype) ||
+               isType<OrderState>(info.datatype)) {
       topics.push_back({info.name, info.datatype, rest.substr(0, slash)});
     }
   }
@@ -95,6 +96,11 @@ ros::Subscriber TwinListener::subscribe(const TwinTopic& topic) {
       if (pendulum_handler_) {
         pendulum_handler_(subject, *state);
       }
+    });
+  }
+  if (isType<OrderState>(topic.type)) {
+    return listen<OrderState>(topic, [this, subject](const OrderState::ConstPtr& orders) {
+      systems_[subject].orders = orders;
     });
   }
   if (isType<StabilityMargin>(topic.type)) {

@@ -14,6 +14,7 @@
 #include "whirl_twin/AlertArray.h"
 #include "whirl_twin/DriveState.h"
 #include "whirl_twin/MonitorStatus.h"
+#include "whirl_twin/OrderState.h"
 #include "whirl_twin/ParameterChange.h"
 #include "whirl_twin/PendulumState.h"
 #include "whirl_twin/StabilityMargin.h"
@@ -24,6 +25,7 @@ namespace whirl_twin {
 /// The latest that is known of one system; null before the first message.
 struct SystemReadout {
   WhirlState::ConstPtr whirl;
+  OrderState::ConstPtr orders;
   PendulumState::ConstPtr pendulum;
   StabilityMargin::ConstPtr margin;
 };

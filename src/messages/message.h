@@ -8,16 +8,18 @@
 #include "messages/loop_statistics.h"
 #include "messages/measurement.h"
 #include "messages/monitor_status.h"
+#include "messages/order_state.h"
 #include "messages/stability_margin.h"
 #include "messages/states.h"
 
 namespace whirl_twin {
 
 /// Whatever the twin can say, or be told.
-using Message = std::variant<state::WhirlState, state::PendulumState, state::DriveState,
-                             state::MotorState, state::EnsembleState, state::StabilityMargin,
-                             state::ParameterChange, state::LoopStatistics, state::Measurement,
-                             state::InputCommand, state::Alert, state::MonitorStatus>;
+using Message =
+    std::variant<state::WhirlState, state::PendulumState, state::DriveState, state::MotorState,
+                 state::EnsembleState, state::StabilityMargin, state::ParameterChange,
+                 state::LoopStatistics, state::Measurement, state::InputCommand, state::Alert,
+                 state::MonitorStatus, state::OrderState>;
 
 /// A kind as a value: typename decltype(kind)::State.
 template <class T>

@@ -37,9 +37,9 @@ struct WhirlState {
   double y = 0.0;                ///< [m]
   double x_rate = 0.0;           ///< [m/s]
   double y_rate = 0.0;           ///< [m/s]
-  double orbit_major = 0.0;      ///< [m], semi-major axis of the synchronous orbit
+  double orbit_major = 0.0;      ///< [m], semi-major axis of the orbit if all were synchronous
   double orbit_minor = 0.0;      ///< [m], semi-minor axis
-  bool forward = true;           ///< the orbit runs in the direction of rotation
+  bool forward = true;           ///< that orbit runs in the direction of rotation
   double energy_residual = 0.0;  ///< [-]
 
   template <class Visit>

@@ -37,6 +37,7 @@ RecordPublisher::RecordPublisher(LiveTwin& live, const FixedRateLoop& loop, Stat
     : live_(live),
       loop_(loop),
       observer_(live.twin(), live.generations()),
+      orders_(live.twin()),
       states_(std::move(states)),
       clock_(clock),
       every_(every),
@@ -114,11 +115,14 @@ bool RecordPublisher::take(const double* record) {
   const bool due = step % every_ == 0;
   const bool shown = due && step / every_ % thinning_.every() == 0;
   left_out_ += due && !shown ? 1 : 0;
-  if (!shown && !observer_.mustSee(record)) {
+  const bool orders_due = orders_.dueAt(step);
+  if (!shown && !orders_due && !observer_.mustSee(record)) {
+    orders_.take(record, observer_);
     return false;
   }
   const bool reset = step < observer_.step();
   observer_.observe(record);
+  orders_.take(record, observer_);
   const Scene& scene = live_.twin().scene();
   observer_.setStamp(clock_ ? scene.time + step * scene.step
                             : clock_zero_ + RecordLayout::scheduled(record));
@@ -126,6 +130,9 @@ bool RecordPublisher::take(const double* record) {
     publishReport();  // the new epoch, ahead of its states
   }
   states_.publish(observer_, shown && !observer_.tellsOnlyChange());
+  if (orders_due && !observer_.tellsOnlyChange()) {
+    states_.publishOrders(observer_, orders_);
+  }
   bool stopped_now = false;
   for (std::size_t i = 0; i < stopped_.size(); ++i) {
     const bool stopped = observer_.status(i) != StepStatus::kOk;

@@ -18,6 +18,7 @@
 #include "realtime/fixed_rate_loop.h"
 #include "twin/live_twin.h"
 #include "twin/observer.h"
+#include "twin/order_observer.h"
 
 namespace whirl_twin {
 
@@ -51,6 +52,7 @@ class RecordPublisher {
   LiveTwin& live_;
   const FixedRateLoop& loop_;
   Observer observer_;
+  OrderObserver orders_;
   StatePublisher states_;
   bool clock_;
   std::int64_t every_;  // steps

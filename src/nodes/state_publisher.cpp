@@ -76,6 +76,10 @@ void StatePublisher::publishEnsembles(const Observer& observer) {
   messages_.tellEnsembles(observer, take, StepSink{topics_, lcm_});
 }
 
+void StatePublisher::publishOrders(const Observer& observer, const OrderObserver& orders) {
+  messages_.tellOrders(observer, orders, StepSink{topics_, lcm_});
+}
+
 void StatePublisher::publish(const state::LoopStatistics& loop) {
   topics_.publish(loop);
   lcm_.publish(loop);

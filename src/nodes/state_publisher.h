@@ -28,6 +28,8 @@ class StatePublisher {
   /// Publishes the statistics of those ensembles that have newer ones than when last asked, if
   /// somebody listens; the observer says when now is.
   void publishEnsembles(const Observer& observer);
+  /// Publishes the orders that are due at the observer's step.
+  void publishOrders(const Observer& observer, const OrderObserver& orders);
   void publish(const state::LoopStatistics& loop);
   /// The clock alone, for those who join while the twin is paused; only with clock.
   void publishClock(const Observer& observer);

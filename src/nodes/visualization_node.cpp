@@ -165,14 +165,15 @@ class VisualizationNode {
   SystemStatus statusOf(const std::string& name) const {
     const std::string silence = listener_.monitorSilence();
     if (silence.empty()) {
-      return {listener_.systems().at(name).margin, listener_.alertsOf(name)};
+      return {listener_.systems().at(name).margin, listener_.systems().at(name).orders,
+              listener_.alertsOf(name)};
     }
     Alert silent;
     silent.severity = Alert::WARNING;
     silent.type = "MONITOR_SILENT";
     silent.system = name;
     silent.text = silence;
-    return {nullptr, {silent}};
+    return {nullptr, listener_.systems().at(name).orders, {silent}};
   }
 
   double whirl_scale_;  // -

@@ -5,6 +5,7 @@
 #include "reports/sample_writer.h"
 #include "transport/lcm_event_log.h"
 #include "twin/ensemble_statistics.h"
+#include "twin/order_observer.h"
 #include "twin/step_messages.h"
 
 namespace whirl_twin {
@@ -16,6 +17,7 @@ class LogWriter final : public SampleWriter {
   LogWriter(const Twin& twin, std::vector<std::size_t> systems, const std::string& path)
       : twin_(twin),
         messages_(twin.built(), std::move(systems)),
+        orders_(twin),
         pending_(path),
         log_(pending_.path()) {}
 
@@ -26,6 +28,15 @@ class LogWriter final : public SampleWriter {
       return takeEnsemble(system, now, ensemble);
     };
     messages_.tellEnsembles(observer, take, Sink{log_});
+  }
+
+  bool followsSteps() const override { return true; }
+  bool hasToSee(std::int64_t step) const override { return orders_.dueAt(step); }
+  void follow(const double* record, const Observer& observer) override {
+    orders_.take(record, observer);
+    if (RecordLayout::step(record) == observer.step()) {
+      messages_.tellOrders(observer, orders_, Sink{log_});
+    }
   }
 
   void write(const state::Measurement& measurement) override { log_.write(measurement); }
@@ -64,6 +75,7 @@ class LogWriter final : public SampleWriter {
 
   const Twin& twin_;
   StepMessages messages_;
+  OrderObserver orders_;
   PendingFile pending_;
   EventLogWriter log_;
   std::map<std::size_t, std::int64_t> next_ensemble_;  // step, of each system

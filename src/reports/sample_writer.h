@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,6 +17,11 @@ class SampleWriter {
   virtual ~SampleWriter() = default;
   /// The state the observer has seen last.
   virtual void write(const Observer& observer) = 0;
+  /// Whether it is to be told of every step by follow(), and of which its observer has to have seen
+  /// the record.
+  virtual bool followsSteps() const { return false; }
+  virtual bool hasToSee(std::int64_t /*step*/) const { return false; }
+  virtual void follow(const double* /*record*/, const Observer& /*observer*/) {}
   /// A block of what the scene's sensors have measured; a table has no place for it.
   virtual void write(const state::Measurement& /*measurement*/) {}
   /// Completes the file. A writer destroyed without leaves no file behind.

@@ -11,6 +11,9 @@ namespace {
 /// Of the pivots of the normal equations, which stand for the squared conditioning.
 constexpr double kSmallestPivot = 1.0e-13;
 
+/// Of the last terms of a polynomial, what those after them may add up to at the middle.
+constexpr double kTruncation = 0.3;
+
 /// L_p and its derivative at 0, for p = 0, 1, ...
 class LegendreAtZero {
  public:
@@ -128,15 +131,23 @@ double HarmonicFit::deviation(std::size_t harmonic) const {
   return 0.5 * noise_ * std::sqrt(both);
 }
 
-double HarmonicFit::lastTerms(std::size_t harmonic) const {
+double HarmonicFit::doubt(std::size_t harmonic) const {
   const Harmonic& h = harmonics_[harmonic];
-  double largest = 0.0;
-  for (int p = std::max(1, h.degree - 1); p <= h.degree; ++p) {
+  double stays = 0.0;  // mean squares of the polynomials over the window
+  double changes = 0.0;
+  double last = 0.0;
+  const double by_noise = deviation(harmonic);
+  for (int p = 0; p <= h.degree; ++p) {
     const auto cosine = coefficients_.row(h.first + p);
     const auto sine = coefficients_.row(h.first + p + h.degree + 1);
-    largest = std::max(largest, std::sqrt(0.5 * (cosine.squaredNorm() + sine.squaredNorm())));
+    const double square = 0.5 * (cosine.squaredNorm() + sine.squaredNorm());
+    (p == 0 ? stays : changes) += square / (2.0 * p + 1.0);
+    if (p > 0 && p + 1 >= h.degree) {  // beyond what noise makes of it
+      last = std::max(last, std::sqrt(square) - 3.0 * std::sqrt(2.0 * p + 1.0) * by_noise);
+    }
   }
-  return largest;
+  const double likely = std::hypot(by_noise, kTruncation * last);
+  return changes > stays ? std::max(likely, std::sqrt(changes)) : likely;
 }
 
 }  // namespace whirl_twin

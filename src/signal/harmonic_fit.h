@@ -45,9 +45,10 @@ class HarmonicFit {
   }
   /// Standard deviation of either part of forward or backward, if what is left over is noise.
   double deviation(std::size_t harmonic) const;
-  /// The larger of the last two polynomials of a harmonic: what a change that goes further than
-  /// they do is likely to be.
-  double lastTerms(std::size_t harmonic) const;
+  /// How far [the unit of x] forward or backward may be off: by noise, by what the last terms of
+  /// the polynomial let expect of those that it does not have, and by all of its change where that
+  /// is more than what stays, for then something else turns beside this harmonic.
+  double doubt(std::size_t harmonic) const;
   /// What is left over, as x + i y, and its root mean square in one direction.
   const Eigen::ArrayXcd& rest() const { return rest_; }
   double noise() const { return noise_; }

@@ -8,9 +8,13 @@ namespace whirl_twin {
 namespace {
 
 constexpr double kTurn = 6.283185307179586;
-constexpr std::size_t kMost = 8192;        // samples kept, before the older half goes
+constexpr std::size_t kMost = 4096;        // samples kept, before the oldest quarter goes
 constexpr double kSamplesPerTurn = 64.0;   // kept at least, where there are so many
-constexpr double kLongestPeriod = 2.5e-3;  // [s], for a whirl that is faster than the shaft
+constexpr double kLongestPeriod = 5.0e-3;  // [s], for a whirl that is faster than the shaft
+
+/// Of the highest speed in a window, below which its turns are not alike: what an unbalance does
+/// goes by the square of the speed.
+constexpr double kSlowest = 0.5;
 
 bool isFinite(const OrbitSample& s) {
   return std::isfinite(s.time) && std::isfinite(s.remainder) && std::isfinite(s.speed) &&
@@ -33,7 +37,10 @@ void OrbitWindow::take(const OrbitSample& sample) {
   if (!isFinite(sample)) {
     return;
   }
-  if (!kept_.empty() && (sample.index <= last_ || sample.time <= last_time_)) {
+  if (!kept_.empty() && sample.index == last_) {
+    return;
+  }
+  if (!kept_.empty() && (sample.index < last_ || sample.time <= last_time_)) {
     clear();
   }
   if (!kept_.empty()) {
@@ -51,7 +58,7 @@ void OrbitWindow::take(const OrbitSample& sample) {
   last_time_ = sample.time;
   if (kept_.empty() || sample.index % stride_ == 0) {
     if (kept_.size() == kMost) {
-      kept_.erase(kept_.begin(), kept_.begin() + kMost / 2);
+      kept_.erase(kept_.begin(), kept_.begin() + kMost / 4);
     }
     kept_.push_back({sample, stride_});
   }
@@ -63,17 +70,20 @@ double OrbitWindow::since(double turns) const {
   }
   const OrbitSample& now = kept_.back();
   const double direction = now.speed < 0.0 ? -1.0 : 1.0;
-  // Back by halves: the angle is monotonic as long as the shaft does not turn back, which is
-  // looked for after.
+  // By halves: the angle is monotonic as long as the shaft does not turn back, which is looked for
+  // after.
   const auto far = [&](const OrbitSample& s) { return direction * turned(s, now) >= turns; };
   const auto first_near = std::partition_point(kept_.begin(), kept_.end(), far);
   if (first_near == kept_.begin()) {
     return 0.0;
   }
   const auto from = std::prev(first_near);
-  const bool turned_back = std::any_of(
-      from, kept_.end(), [&](const OrbitSample& s) { return direction * s.speed <= 0.0; });
-  return turned_back ? 0.0 : now.time - from->time;
+  const auto [slowest, fastest] =
+      std::minmax_element(from, kept_.end(), [&](const OrbitSample& a, const OrbitSample& b) {
+        return direction * a.speed < direction * b.speed;
+      });
+  const bool alike = direction * slowest->speed > kSlowest * direction * fastest->speed;
+  return alike ? now.time - from->time : 0.0;
 }
 
 std::size_t OrbitWindow::firstOf(double seconds) const {

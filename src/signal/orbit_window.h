@@ -35,15 +35,15 @@ struct OrbitPart {
 class OrbitWindow {
  public:
   /// Takes the next sample. An index or a time that goes back begins anew; a sample that is not
-  /// finite is left out.
+  /// finite, or the last one again, is left out.
   void take(const OrbitSample& sample);
   void clear();
 
   bool empty() const { return kept_.empty(); }
   const OrbitSample& newest() const { return kept_.back(); }
 
-  /// How far back [s] the shaft has turned so many turns; 0 where it has not, has stood still or
-  /// turned back meanwhile, or the samples do not reach.
+  /// How far back [s] the shaft has turned so many turns; 0 where it has not, where the samples do
+  /// not reach, or where it was slower than half its highest speed meanwhile.
   double since(double turns) const;
   /// The samples of the last so many seconds, at most `most`, evenly.
   OrbitPart last(double seconds, std::size_t most) const;

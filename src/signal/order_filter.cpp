@@ -27,13 +27,11 @@ constexpr double kLast = 20.0;       // [s], of any
 constexpr double kStandstill = 1.0;  // [s], of one without turns
 constexpr std::size_t kMostSamples = 640;
 constexpr int kLineDegree = 3;
-constexpr int kMostLines = 3;
+constexpr int kMostLines = 4;
 /// Of a peak of noise among some hundred bins hardly ever.
 constexpr double kProminent = 12.0;
 /// A line takes this part of the noise away, or it is none.
 constexpr double kWorthwhile = 0.8;
-/// Of the last terms of a polynomial, what those after them may add up to at the middle.
-constexpr double kTruncation = 0.3;
 /// Parts of the motion: noise below the first is not looked into for lines, and lines below the
 /// second, which may stand for how another one changes, are not told.
 constexpr double kQuiet = 1.0e-7;
@@ -82,9 +80,23 @@ struct Fit {
     return change / part.half;
   }
 
+  bool standsApart(double frequency) const;
   std::optional<double> lineInTheRest() const;
   bool findLine();
 };
+
+/// A line there can be told from the orders, and from the lines so far.
+bool Fit::standsApart(double frequency) const {
+  for (std::size_t k = 0; k < degrees.size(); ++k) {
+    const double order = static_cast<double>(k) * std::fabs(part.speed);
+    if (std::fabs(frequency - order) < cyclesApart(degrees[k], kLineDegree) * perCycle()) {
+      return false;
+    }
+  }
+  return std::all_of(lines.begin(), lines.end(), [&](double line) {
+    return std::fabs(frequency - line) >= cyclesApart(kLineDegree, kLineDegree) * perCycle();
+  });
+}
 
 /// [rad/s], of the highest line that no order and no line so far explains.
 std::optional<double> Fit::lineInTheRest() const {
@@ -93,16 +105,7 @@ std::optional<double> Fit::lineInTheRest() const {
     rest[part.place[i]] = harmonics.rest()[static_cast<Eigen::Index>(i)];
   }
   const auto peak = FullSpectrum(rest, part.period).highest([&](double frequency) {
-    const double w = std::fabs(frequency);
-    for (std::size_t k = 0; k < degrees.size(); ++k) {
-      const double order = static_cast<double>(k) * std::fabs(part.speed);
-      if (std::fabs(w - order) < cyclesApart(degrees[k], kLineDegree) * perCycle()) {
-        return false;
-      }
-    }
-    return std::all_of(lines.begin(), lines.end(), [&](double line) {
-      return std::fabs(w - line) >= cyclesApart(kLineDegree, kLineDegree) * perCycle();
-    });
+    return standsApart(std::fabs(frequency));
   });
   if (!peak || peak->prominence < kProminent) {
     return std::nullopt;
@@ -110,7 +113,8 @@ std::optional<double> Fit::lineInTheRest() const {
   return std::fabs(peak->frequency);
 }
 
-/// Adds a line and fits again. False, and nothing has changed, where there is none.
+/// Adds a line, at the frequency at which its amplitude does not turn, and fits again. False, and
+/// nothing has changed, where there is none.
 bool Fit::findLine() {
   const double before = harmonics.noise();
   std::optional<double> found = lineInTheRest();
@@ -122,11 +126,10 @@ bool Fit::findLine() {
   if (fits) {
     // The amplitude turns by what the frequency was off.
     const double better = *found + changeOf(lines.size() - 1).imag();
-    if (std::fabs(better - *found) < perCycle() && better > 0.0) {
-      removeLine();
-      addLine(better);
-      fits = solve();
-    }
+    removeLine();
+    fits = std::fabs(better - *found) < perCycle() && standsApart(better);
+    addLine(fits ? better : *found);
+    fits = fits && solve();
   }
   if (fits && harmonics.noise() <= kWorthwhile * before) {
     return true;
@@ -136,13 +139,15 @@ bool Fit::findLine() {
   return false;
 }
 
-/// Area swept about the mean, beside what as long a path of steps could sweep.
+/// Area swept about the mean, beside what steps of that length could sweep there.
 double precessionOf(const OrbitPart& part, std::complex<double> mean) {
   double swept = 0.0;
   double most = 0.0;
   for (Eigen::Index i = 0; i + 1 < part.x.size(); ++i) {
-    const double x = part.x[i] - mean.real(), y = part.y[i] - mean.imag();
-    const double dx = part.x[i + 1] - part.x[i], dy = part.y[i + 1] - part.y[i];
+    const double x = 0.5 * (part.x[i] + part.x[i + 1]) - mean.real();
+    const double y = 0.5 * (part.y[i] + part.y[i + 1]) - mean.imag();
+    const double dx = part.x[i + 1] - part.x[i];
+    const double dy = part.y[i + 1] - part.y[i];
     swept += x * dy - y * dx;
     most += std::hypot(x, y) * std::hypot(dx, dy);
   }
@@ -151,7 +156,7 @@ double precessionOf(const OrbitPart& part, std::complex<double> mean) {
 
 }  // namespace
 
-OrbitEstimate OrderFilter::fitted(const Reach& reach, double seconds, double* doubt) const {
+OrbitEstimate OrderFilter::fitted(const Reach& reach, double seconds) const {
   const OrbitPart part = window_.last(seconds, kMostSamples);
   std::vector<int> degrees = {reach.mean_degree};
   Eigen::Index columns = reach.mean_degree + 1;
@@ -183,10 +188,7 @@ OrbitEstimate OrderFilter::fitted(const Reach& reach, double seconds, double* do
   estimate.noise = fit.harmonics.noise();
   for (std::size_t k = 1; k < degrees.size(); ++k) {
     estimate.orders.push_back({static_cast<int>(k), fit.harmonics.forward(k),
-                               fit.harmonics.backward(k), fit.harmonics.deviation(k)});
-  }
-  if (doubt != nullptr && estimate.valid) {
-    *doubt = fit.harmonics.deviation(1) + kTruncation * fit.harmonics.lastTerms(1);
+                               fit.harmonics.backward(k), fit.harmonics.doubt(k)});
   }
   for (std::size_t i = 0; i < fit.lines.size(); ++i) {
     const std::complex<double> change = fit.changeOf(i);
@@ -220,10 +222,9 @@ OrbitEstimate OrderFilter::estimate() const {
     if (seconds == 0.0 || seconds > (last ? kLast : kLongest)) {
       continue;
     }
-    double doubt = 0.0;
-    OrbitEstimate now = fitted(reach, seconds, &doubt);
-    if (now.valid && doubt < least) {
-      least = doubt;
+    OrbitEstimate now = fitted(reach, seconds);
+    if (now.valid && now.orders.front().deviation < least) {
+      least = now.orders.front().deviation;
       best = std::move(now);
     }
   }

@@ -4,9 +4,8 @@
 //
 // Least squares (harmonic_fit.h) over a window that ends now: orders and lines with polynomial
 // amplitudes, read at the middle of the window. Long windows are quiet, short ones follow: that one
-// is taken of which the deviation of the first order and the last terms of its polynomial are
-// smallest. Lines that no order explains are looked for in the full spectrum of what the fit
-// leaves, and fitted along.
+// is taken which leaves the least doubt about the first order. Lines that no order explains are
+// looked for in the full spectrum of what the fit leaves, and fitted along.
 //
 // An amplitude that changes by much within a turn cannot be told from a neighbouring order, by this
 // or any other filter: of a resonance of damping ratio D passed at a rad/s^2, the error is some
@@ -57,8 +56,7 @@ class OrderFilter {
 
  private:
   struct Reach;
-  /// doubt [m]: how far the first order may be off.
-  OrbitEstimate fitted(const Reach& reach, double seconds, double* doubt = nullptr) const;
+  OrbitEstimate fitted(const Reach& reach, double seconds) const;
 
   OrbitWindow window_;
   int highest_;

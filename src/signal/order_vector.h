@@ -17,8 +17,8 @@ struct OrderVector {
   int order = 1;                  ///< k
   std::complex<double> forward;   ///< f [m]
   std::complex<double> backward;  ///< b [m]
-  /// Standard deviation [m] of either part of f and b, from what the fit leaves over: as for white
-  /// noise. What changes faster than can be followed is not in it.
+  /// [m], how far f and b may be off: the standard deviation of either part as for white noise, and
+  /// more where they change faster than the filter follows.
   double deviation = 0.0;
 
   double forwardLag() const { return -std::arg(forward); }                 ///< [rad], -pi..pi

@@ -51,12 +51,17 @@ void Simulation::run(SampleWriter* writer, bool results_on_standard_output) {
     writer->write(observer_);
   }
   const bool every_step = !plan_.sensors.empty() || validity_.watches();
+  const bool followed = writer != nullptr && writer->followsSteps();
   std::int64_t next_look = 1;
   for (std::int64_t i = 1; i <= plan_.steps; ++i) {
     twin_.step();
     const bool shown = writer != nullptr && i % plan_.stride == 0;
-    if (shown || every_step || i >= next_look || i == plan_.steps || stopsNow()) {
+    const bool seen = shown || every_step || i >= next_look || i == plan_.steps || stopsNow() ||
+                      (followed && writer->hasToSee(i));
+    if (seen || followed) {
       twin_.write(record.data());
+    }
+    if (seen) {
       observer_.observe(record.data());
       next_look = i + observer_.mayPass();
       noteStops(bar);
@@ -64,6 +69,9 @@ void Simulation::run(SampleWriter* writer, bool results_on_standard_output) {
     }
     if (shown) {
       writer->write(observer_);
+    }
+    if (followed) {
+      writer->follow(record.data(), observer_);
     }
     for (const state::Measurement& block : measurements_.observe(observer_)) {
       writer->write(block);

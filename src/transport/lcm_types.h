@@ -10,6 +10,7 @@
 #include "whirl_twin/measurement_t.hpp"
 #include "whirl_twin/monitor_status_t.hpp"
 #include "whirl_twin/motor_state_t.hpp"
+#include "whirl_twin/order_state_t.hpp"
 #include "whirl_twin/parameter_change_t.hpp"
 #include "whirl_twin/pendulum_state_t.hpp"
 #include "whirl_twin/stability_margin_t.hpp"
@@ -30,6 +31,7 @@ measurement_t lcmTypeOf(const state::Measurement&);
 input_command_t lcmTypeOf(const state::InputCommand&);
 alert_t lcmTypeOf(const state::Alert&);
 monitor_status_t lcmTypeOf(const state::MonitorStatus&);
+order_state_t lcmTypeOf(const state::OrderState&);
 
 template <class State>
 using LcmType = decltype(lcmTypeOf(std::declval<State>()));

@@ -14,6 +14,7 @@
 #include "whirl_twin/Measurement.h"
 #include "whirl_twin/MonitorStatus.h"
 #include "whirl_twin/MotorState.h"
+#include "whirl_twin/OrderState.h"
 #include "whirl_twin/ParameterChange.h"
 #include "whirl_twin/PendulumState.h"
 #include "whirl_twin/StabilityMargin.h"
@@ -33,6 +34,7 @@ LoopStatistics rosTypeOf(const state::LoopStatistics&);
 Measurement rosTypeOf(const state::Measurement&);
 InputCommand rosTypeOf(const state::InputCommand&);
 MonitorStatus rosTypeOf(const state::MonitorStatus&);
+OrderState rosTypeOf(const state::OrderState&);
 Alert rosTypeOf(const state::Alert&);  // one of an AlertArray
 
 template <class State>

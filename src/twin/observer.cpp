@@ -249,6 +249,25 @@ WhirlMotion Observer::whirlOf(std::size_t system, std::size_t station) const {
   return {at.along_x.dot(q), at.along_y.dot(q), at.along_x.dot(v), at.along_y.dot(v)};
 }
 
+OrbitSample Observer::orbitSample(const double* record, std::size_t system,
+                                  std::size_t station) const {
+  const Track& track = tracks_[system];
+  const Station& at = track.stations[station].at;
+  const SystemView now = twin_.layout().system(record, system);
+  const ShaftView shaft = RecordLayout::shaft(record, twin_.systems()[system]->drive);
+  const Eigen::Map<const Eigen::VectorXd> q(now.q(), at.along_x.size());
+  OrbitSample sample;
+  sample.index = RecordLayout::step(record);
+  sample.time = twin_.seconds(sample.index);
+  sample.turns = shaft.turns();
+  sample.remainder = shaft.remainder() + track.dynamics->phaseMark();
+  sample.speed = shaft.speed();
+  const bool runs = now.status() == StepStatus::kOk;
+  sample.x = runs ? at.along_x.dot(q) : std::numeric_limits<double>::quiet_NaN();
+  sample.y = runs ? at.along_y.dot(q) : std::numeric_limits<double>::quiet_NaN();
+  return sample;
+}
+
 double Observer::whirlRadius(std::size_t system) const {
   return whirlOf(system).radius();
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "messages/states.h"
+#include "signal/orbit_window.h"
 #include "twin/energy_audit.h"
 #include "twin/error_track.h"
 #include "twin/motor_track.h"
@@ -55,6 +56,9 @@ class Observer {
   /// Whirl radius [m] and unwrapped phase lag [rad] of a rotor (NaN while undefined).
   double whirlRadius(std::size_t system) const;
   WhirlMotion whirlOf(std::size_t system, std::size_t station = 0) const;
+  /// What probes there and a keyphasor at the phase mark would know at a record, which need not be
+  /// the newest but has its parameters. Not finite where the system has stopped.
+  OrbitSample orbitSample(const double* record, std::size_t system, std::size_t station) const;
   double whirlPhase(std::size_t system) const;
   const double* coordinates(std::size_t system) const;  ///< q
   const double* rates(std::size_t system) const;        ///< q'

@@ -14,6 +14,7 @@
 #include "messages/message.h"
 #include "scene/station_names.h"
 #include "twin/observer.h"
+#include "twin/order_observer.h"
 
 namespace whirl_twin {
 
@@ -30,6 +31,12 @@ class StepMessages {
       announce(KindOf<decltype(state(std::declval<const Observer&>()))>{}, subject);
     });
     for (const std::size_t system : systems_) {
+      if (built_[system]->dynamics->isRotor()) {
+        for (const std::string& station :
+             publishedStations(nameOf(system), *built_[system]->dynamics)) {
+          announce(KindOf<state::OrderState>{}, station);
+        }
+      }
       announce(KindOf<state::ParameterChange>{}, nameOf(system));
       if (built_[system]->spec.ensemble.count > 0) {
         announce(KindOf<state::EnsembleState>{}, nameOf(system));
@@ -55,6 +62,12 @@ class StepMessages {
         sink(subject, [&observer, state] { return state(observer); });
       }
     });
+  }
+
+  /// Tells `sink` as sink(subject, make) the orders that are due at the observer's step.
+  template <class Sink>
+  void tellOrders(const Observer& observer, const OrderObserver& orders, Sink&& sink) const {
+    orders.tell(observer, systems_, sink);
   }
 
   /// Tells `sink` as sink(subject, make) the spread of those ensembles of which take(system, now,

@@ -46,12 +46,39 @@ TEST(StatusText, WrapsAngles) {
 TEST(StatusText, GivesWhirlInMicrometresAndTheLagOnlyWhereItExists) {
   WhirlState state;
   state.radius = 123.44e-6;
-  state.phase = M_PI / 2;
-  state.phase_valid = true;
-  EXPECT_EQ(whirlText(state), "whirl 123.4 um, lag 90.0 deg");
-  state.phase_valid = false;
-  state.phase = kNan;
   EXPECT_EQ(whirlText(state), "whirl 123.4 um");
+  OrderState orders;
+  orders.valid = true;
+  orders.forward = true;
+  orders.order = {1.0};
+  orders.forward_amplitude = {100.0e-6};
+  orders.backward_amplitude = {20.0e-6};
+  orders.forward_lag = {M_PI / 2};
+  orders.deviation = {1.0e-7};
+  EXPECT_EQ(ordersText(orders), "1X 120.0 um, lag 90.0 deg, forward");
+  orders.deviation = {1.0e-3};
+  EXPECT_EQ(ordersText(orders), "1X 120.0 um, forward");
+  orders.valid = false;
+  orders.forward = false;
+  EXPECT_EQ(ordersText(orders), "backward");
+}
+
+// Oil whip: what the operator has to see is the line, not the lag of a whirl that has none.
+TEST(StatusText, NamesTheLineThatIsLargerThanTheFirstOrder) {
+  OrderState orders;
+  orders.valid = orders.forward = true;
+  orders.order = {1.0};
+  orders.forward_amplitude = {5.0e-6};
+  orders.backward_amplitude = {0.0};
+  orders.forward_lag = {M_PI};
+  orders.deviation = {1.0e-9};
+  orders.line_frequency = {98.65};
+  orders.line_forward = {170.0e-6};
+  orders.line_backward = {14.0e-6};
+  EXPECT_EQ(ordersText(orders), "1X 5.0 um, lag 180.0 deg, forward, 98.7 rad/s 184.0 um");
+  orders.line_forward = {1.0e-6};
+  orders.line_backward = {0.0};
+  EXPECT_EQ(ordersText(orders), "1X 5.0 um, lag 180.0 deg, forward");
 }
 
 TEST(StatusText, SpeedInBothUnits) {

@@ -149,6 +149,18 @@ class StateSamples {
     return s;
   }
 
+  state::OrderState orders() {
+    auto s = sample<state::OrderState>();
+    for (auto* column : {&s.forward_amplitude, &s.forward_lag, &s.backward_amplitude,
+                         &s.backward_lag, &s.deviation}) {
+      *column = numbers(s.order.size());
+    }
+    for (auto* column : {&s.line_ratio, &s.line_forward, &s.line_backward, &s.line_growth}) {
+      *column = numbers(s.line_frequency.size());
+    }
+    return s;
+  }
+
   state::Alert alert() {
     auto s = sample<state::Alert>();
     s.severity = static_cast<state::Severity>(below(3));
@@ -199,6 +211,7 @@ class StateSamples {
   auto of(KindOf<state::InputCommand>) { return command(); }
   auto of(KindOf<state::Alert>) { return alert(); }
   auto of(KindOf<state::MonitorStatus>) { return status(); }
+  auto of(KindOf<state::OrderState>) { return orders(); }
 
   double time() { return static_cast<double>(below(1000000000)) * 1e-3; }
 
