@@ -38,7 +38,7 @@ struct Alert {
   bool latched = false;            ///< its cause has gone, and it waits for a reset of the alarms
   bool first_out = false;          ///< none of its system was there when it was raised
   std::uint32_t repeats = 0;       ///< how often it had been raised before, since the last reset
-  double amplitude = kNone;        ///< [m], whirl radius
+  double amplitude = kNone;        ///< [m], whirl radius, or as the text says
   double amplitude_limit = kNone;  ///< [m], that it is above
 
   template <class Visit>

@@ -7,8 +7,11 @@ inline constexpr char kCriticalSpeedApproach[] = "CRITICAL_SPEED_APPROACH";
 inline constexpr char kInCriticalBand[] = "IN_CRITICAL_BAND";
 inline constexpr char kSommerfeldCapture[] = "SOMMERFELD_CAPTURE";
 inline constexpr char kWhirlAmplitude[] = "WHIRL_AMPLITUDE";
+inline constexpr char kVibrationZone[] = "VIBRATION_ZONE";
+inline constexpr char kSubsynchronousWhirl[] = "SUBSYNCHRONOUS_WHIRL";
 inline constexpr char kUnstable[] = "UNSTABLE";
 inline constexpr char kLowDamping[] = "LOW_DAMPING";
+inline constexpr char kModelMismatch[] = "MODEL_MISMATCH";
 inline constexpr char kEnergyResidual[] = "ENERGY_RESIDUAL";
 inline constexpr char kAccuracyLost[] = "ACCURACY_LOST";
 inline constexpr char kNotFinite[] = "NOT_FINITE";
@@ -21,8 +24,11 @@ inline constexpr const char* kAll[] = {kCriticalSpeedApproach,
                                        kInCriticalBand,
                                        kSommerfeldCapture,
                                        kWhirlAmplitude,
+                                       kVibrationZone,
+                                       kSubsynchronousWhirl,
                                        kUnstable,
                                        kLowDamping,
+                                       kModelMismatch,
                                        kEnergyResidual,
                                        kAccuracyLost,
                                        kNotFinite,

@@ -53,6 +53,10 @@ std::vector<std::string> settingErrors(const AlarmSettings& settings) {
   not_negative("log_decrement_warning", settings.log_decrement_warning, ">= 0 (dimensionless)");
   positive("energy_residual", settings.energy_residual, "> 0 (dimensionless)");
   positive("data_timeout", settings.data_timeout, "> 0 s");
+  check("decay_audit", settings.decay_audit,
+        settings.decay_audit == 0.0 ||
+            (settings.decay_audit >= 5.0 && settings.decay_audit <= 3600.0),
+        "0, or from 5 to 3600 s");
   check("trip_multiply", settings.trip_multiply,
         settings.trip_multiply >= 1.0 && settings.trip_multiply <= 10.0,
         "from 1 to 10 (dimensionless)");

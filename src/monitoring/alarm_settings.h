@@ -30,6 +30,12 @@ struct AmplitudeLevels {
   double levelAt(const std::vector<double>& levels, double shaft_speed) const;
 };
 
+/// Vibration [m], peak to peak, up to which a machine is in zone A, B or C of ISO 20816; D is
+/// above.
+struct VibrationZones {
+  double a = 0.0, b = 0.0, c = 0.0;
+};
+
 /// Of one type of alert [s]: how long its cause has to be there, and to have gone.
 struct AlarmDelays {
   double set = 0.0;
@@ -48,7 +54,11 @@ struct AlarmSettings {
   Latch latch = Latch::kNone;
   std::map<std::string, AlarmDelays> delays;         ///< of types that have their own
   std::map<std::string, AmplitudeLevels> amplitude;  ///< of systems that have some
-  double trip_multiply = 1.0;          ///< [-], of the amplitude levels while a shaft starts up
+  std::map<std::string, VibrationZones> zones;       ///< likewise
+  std::map<std::string, double> subsynchronous;  ///< [m], level of a whirl slower than the shaft
+  double decay_audit = 0.0;  ///< [s], record that decay is measured from; 0: it is not
+  double trip_multiply =
+      1.0;  ///< [-], of the levels of amplitude and zones while a shaft starts up
   double start_up_acceleration = 0.5;  ///< [rad/s^2], it starts up when it gains speed faster
 
   AlarmDelays delaysOf(const std::string& type) const;

@@ -95,6 +95,22 @@ AmplitudeLevels readLevels(const YAML::Node& node, const std::string& key, Compl
   return levels;
 }
 
+VibrationZones readZones(const YAML::Node& node, const std::string& key, Complaints& complaints) {
+  const MapReader map(node, key, {"a", "b", "c"}, "zone", complaints);
+  VibrationZones zones;
+  if (!map.usable()) {
+    return zones;
+  }
+  zones.a = map.number("a", Range::kPositive, "m", std::nullopt);
+  zones.b = map.number("b", Range::kPositive, "m", std::nullopt);
+  zones.c = map.number("c", Range::kPositive, "m", std::nullopt);
+  if (zones.b <= zones.a || zones.c <= zones.b) {
+    complaints.add(key, fmt::format("zones must end one above the other, found {:g}, {:g}, {:g} m",
+                                    zones.a, zones.b, zones.c));
+  }
+  return zones;
+}
+
 }  // namespace
 
 AlarmSettings readAlarmSettings(const YAML::Node& tree, const std::string& source,
@@ -110,9 +126,10 @@ AlarmSettings readAlarmSettings(const YAML::Node& tree, const std::string& sourc
       {"log_decrement_warning", &s.log_decrement_warning},
       {"energy_residual", &s.energy_residual},
       {"data_timeout", &s.data_timeout},
+      {"decay_audit", &s.decay_audit},
       {"trip_multiply", &s.trip_multiply},
       {"start_up_acceleration", &s.start_up_acceleration}};
-  std::vector<std::string> known{"latch", "delays", "amplitude"};
+  std::vector<std::string> known{"latch", "delays", "amplitude", "zones", "subsynchronous"};
   for (const auto& number : numbers) {
     known.emplace_back(number.first);
   }
@@ -143,17 +160,28 @@ AlarmSettings readAlarmSettings(const YAML::Node& tree, const std::string& sourc
       delay.clear = of.numberBetween("clear", 0.0, kLongest, "s", s.clear_delay);
     }
   }
-  if (map.has("amplitude")) {
-    const MapReader amplitude(map.at("amplitude"), "amplitude", rotors, "rotor of the scene",
-                              complaints);
-    for (const std::string& rotor : amplitude.names()) {
+  const auto each_rotor = [&](const char* name, const auto& read) {
+    if (!map.has(name)) {
+      return;
+    }
+    const MapReader of(map.at(name), name, rotors, "rotor of the scene", complaints);
+    for (const std::string& rotor : of.names()) {
       if (rotors.empty()) {
-        complaints.add(amplitude.key(rotor), "the scene has no system with a whirl");
+        complaints.add(of.key(rotor), "the scene has no system with a whirl");
         continue;
       }
-      s.amplitude[rotor] = readLevels(amplitude.at(rotor), amplitude.key(rotor), complaints);
+      read(rotor, of);
     }
-  }
+  };
+  each_rotor("amplitude", [&](const std::string& rotor, const MapReader& of) {
+    s.amplitude[rotor] = readLevels(of.at(rotor), of.key(rotor), complaints);
+  });
+  each_rotor("zones", [&](const std::string& rotor, const MapReader& of) {
+    s.zones[rotor] = readZones(of.at(rotor), of.key(rotor), complaints);
+  });
+  each_rotor("subsynchronous", [&](const std::string& rotor, const MapReader& of) {
+    s.subsynchronous[rotor] = of.number(rotor, Range::kPositive, "m", std::nullopt);
+  });
   if (!complaints.all().empty()) {
     throw SceneError(complaints.all());
   }

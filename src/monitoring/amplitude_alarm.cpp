@@ -11,26 +11,12 @@ namespace whirl_twin {
 AmplitudeAlarm::AmplitudeAlarm(std::string system, const AlarmSettings& settings)
     : system_(std::move(system)),
       hysteresis_(settings.hysteresis),
-      trip_multiply_(settings.trip_multiply),
-      start_up_acceleration_(settings.start_up_acceleration),
-      start_up_tail_(settings.clear_delay),
+      start_up_(settings),
       alarm_(settings.delaysOf(alert_type::kWhirlAmplitude)) {
   const auto levels = settings.amplitude.find(system_);
   if (levels != settings.amplitude.end()) {
     levels_ = levels->second;
   }
-}
-
-bool AmplitudeAlarm::startsUp(double time, double speed, double acceleration) {
-  if (started_up_ && time < *started_up_) {  // time was set back
-    started_up_.reset();
-  }
-  const bool gains = std::copysign(1.0, speed) * acceleration > start_up_acceleration_ ||
-                     (speed == 0.0 && std::abs(acceleration) > start_up_acceleration_);
-  if (gains) {
-    started_up_ = time;
-  }
-  return started_up_ && time - *started_up_ < start_up_tail_;
 }
 
 void AmplitudeAlarm::update(double time, double radius, double speed, double acceleration,
@@ -42,8 +28,7 @@ void AmplitudeAlarm::update(double time, double radius, double speed, double acc
     alarm_.update(time, AlarmCondition::kHold);
     return;
   }
-  const bool multiplied = trip_multiply_ != 1.0 && startsUp(time, speed, acceleration);
-  const double by = multiplied ? trip_multiply_ : 1.0;
+  const double by = start_up_.multiplier(time, speed, acceleration);
   const double alert_level = by * levels_->alertAt(speed);
   const double danger_level = by * levels_->dangerAt(speed);
   AlarmCondition condition = AlarmCondition::kHold;
@@ -72,7 +57,7 @@ void AmplitudeAlarm::update(double time, double radius, double speed, double acc
     alert.text = fmt::format(
         "{}: whirl {:.3g} mm at {:.1f} rad/s, above the {} level {:.3g} mm{}: {}", system_,
         1.0e3 * radius, speed, danger ? "danger" : "alert", 1.0e3 * alert.amplitude_limit,
-        multiplied ? fmt::format(" (times {:g} in start-up)", trip_multiply_) : "",
+        by != 1.0 ? fmt::format(" (times {:g} in start-up)", by) : "",
         danger ? "stop it, or leave this speed" : "look for what has grown, or leave this speed");
     alerts.raise(std::move(alert), danger ? "danger" : "alert");
   }

@@ -10,6 +10,7 @@
 #include "monitoring/alarm_settings.h"
 #include "monitoring/alert_list.h"
 #include "monitoring/condition_alarm.h"
+#include "monitoring/start_up.h"
 
 namespace whirl_twin {
 
@@ -24,16 +25,11 @@ class AmplitudeAlarm {
   void hold() { alarm_.hold(); }
 
  private:
-  bool startsUp(double time, double speed, double acceleration);
-
   std::string system_;
   std::optional<AmplitudeLevels> levels_;
   double hysteresis_;
-  double trip_multiply_;
-  double start_up_acceleration_;
-  double start_up_tail_;  ///< [s], that the multiplied levels stay
+  StartUp start_up_;
   ConditionAlarm alarm_;
-  std::optional<double> started_up_;  ///< [s], when it last gained speed
 };
 
 }  // namespace whirl_twin

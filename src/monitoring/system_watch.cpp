@@ -28,6 +28,8 @@ SystemWatch::SystemWatch(SharedSystem built, JudgedSpeeds first, const AlarmSett
       speed(built->spec.speed.value_or(0.0)),
       quality(built->spec.name, settings),
       amplitude_alarm(built->spec.name, settings),
+      order_alarm(built->spec.name, settings),
+      decay_alarm(built->spec.name, settings),
       critical_speed_alarm(built->spec.name, settings),
       capture_alarm(built->spec.name, settings),
       stability_alarm(built->spec.name, settingsFor(*built->dynamics, settings)),
@@ -73,6 +75,8 @@ state::DriveState SystemWatch::shaftOf(const state::PendulumState& state) {
 void SystemWatch::restart(const AlarmSettings& settings) {
   const std::shared_ptr<const Dynamics>& dynamics = system->dynamics;
   amplitude_alarm = AmplitudeAlarm(name, settings);
+  order_alarm = OrderAlarm(name, settings);
+  decay_alarm = DecayAlarm(name, settings);
   critical_speed_alarm = CriticalSpeedAlarm(name, settings);
   capture_alarm = CaptureAlarm(name, settings);
   seen.reset();
@@ -84,6 +88,8 @@ void SystemWatch::restart(const AlarmSettings& settings) {
 
 void SystemWatch::hold() {
   amplitude_alarm.hold();
+  order_alarm.hold();
+  decay_alarm.hold();
   critical_speed_alarm.hold();
   capture_alarm.hold();
   stability_alarm.hold();

@@ -14,7 +14,9 @@
 #include "monitoring/capture_alarm.h"
 #include "monitoring/critical_speed_alarm.h"
 #include "monitoring/data_quality.h"
+#include "monitoring/decay_alarm.h"
 #include "monitoring/judged_speeds.h"
+#include "monitoring/order_alarm.h"
 #include "monitoring/stability_alarm.h"
 #include "monitoring/state_alarm.h"
 #include "monitoring/validity_alarm.h"
@@ -47,6 +49,8 @@ struct SystemWatch {
   double acceleration = 0.0;              ///< [rad/s^2], newest
   DataQuality quality;
   AmplitudeAlarm amplitude_alarm;
+  OrderAlarm order_alarm;
+  DecayAlarm decay_alarm;
   CriticalSpeedAlarm critical_speed_alarm;
   CaptureAlarm capture_alarm;
   StabilityAlarm stability_alarm;

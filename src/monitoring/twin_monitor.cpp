@@ -10,6 +10,8 @@ namespace whirl_twin {
 namespace {
 
 constexpr double kJudgingPeriod = 0.1;  // s, simulated
+constexpr double kOrdersLate =
+    1.0;  // s, simulated, beside the newest state: others are not believed
 
 std::vector<std::string> namesOf(const std::vector<SharedSystem>& systems) {
   std::vector<std::string> names;
@@ -61,6 +63,7 @@ bool TwinMonitor::take(const state::ParameterChange& change) {
   if (changed->dynamics != watch->system->dynamics) {  // else they are what they were
     watch->system = std::move(changed);
     watch->validity_alarm.setDynamics(watch->system->dynamics);
+    watch->decay_alarm.hold();
   }
   return true;
 }
@@ -178,6 +181,7 @@ void TwinMonitor::takeJudgements() {
     if (judgement.run == run_) {  // else of before a reset
       watch.verdict_of = judgement.arrived_at;
       watch.stability_alarm.update(judgement.margin, alerts_);
+      watch.decay_alarm.update(judgement.margin);
       margins_.push_back(std::move(judgement.margin));
     }
   }
@@ -201,6 +205,7 @@ void TwinMonitor::take(const state::WhirlState& whirl, double wall_time) {
   watch->speed = whirl.speed;
   watch->amplitude_alarm.update(whirl.at.time, whirl.radius, whirl.speed, watch->acceleration,
                                 alerts_);
+  watch->decay_alarm.update(whirl, alerts_);
   watch->state_alarm.updateEnergy(whirl.at.time, whirl.energy_residual, alerts_);
   judge(*watch, whirl.at, watch->coordinates(whirl.x, whirl.y, whirl.shaft_angle),
         watch->coordinates(whirl.x_rate, whirl.y_rate, whirl.speed), wall_time);
@@ -239,6 +244,15 @@ void TwinMonitor::take(const state::DriveState& drive, double wall_time) {
     }
     known = true;
     watchShaft(watch, drive);
+  }
+}
+
+void TwinMonitor::take(const state::OrderState& orders, double wall_time) {
+  SystemWatch* watch = find(orders.system);
+  // By the clock of the states, not one of their own: a gap in orders is no loss of data.
+  if (watch != nullptr && watch->rotor && watch->quality.notOk(wall_time, false).empty() &&
+      std::fabs(orders.at.time - time_) < kOrdersLate) {
+    watch->order_alarm.update(orders, watch->acceleration, alerts_);
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include "messages/loop_statistics.h"
 #include "messages/monitor_status.h"
+#include "messages/order_state.h"
 #include "monitoring/alarm_memory.h"
 #include "monitoring/alarm_settings.h"
 #include "monitoring/alert_list.h"
@@ -36,6 +37,7 @@ class TwinMonitor {
   void take(const state::WhirlState& whirl, double wall_time);
   void take(const state::PendulumState& pendulum, double wall_time);
   void take(const state::DriveState& drive, double wall_time);
+  void take(const state::OrderState& orders, double wall_time);
   /// The parameters of a system are others now; margins follow with the next that is judged. False
   /// for a set that the system does not have, or cannot have.
   bool take(const state::ParameterChange& change);

@@ -37,6 +37,9 @@ TEST(AlarmSettingsReader, TheShippedFileAndNothingAreTheDefaults) {
     EXPECT_EQ(read.trip_multiply, 1.0);
     EXPECT_TRUE(read.delays.empty());
     EXPECT_TRUE(read.amplitude.empty());
+    EXPECT_TRUE(read.zones.empty());
+    EXPECT_TRUE(read.subsynchronous.empty());
+    EXPECT_EQ(read.decay_audit, 0.0);
     EXPECT_EQ(read.delaysOf(alert_type::kUnstable).set, 0.0);
     EXPECT_EQ(read.delaysOf(alert_type::kUnstable).clear, 1.0);
   }
@@ -107,6 +110,23 @@ amplitude:
     all += error + "\n";
   }
   EXPECT_EQ(errors.size(), expected.size()) << all;
+}
+
+TEST(AlarmSettingsReader, ReadsWhatIsSetForTheSignal) {
+  const AlarmSettings read = settingsOf(R"(
+zones: {rotor: {a: 50.0e-6, b: 100.0e-6, c: 150.0e-6}}
+subsynchronous: {rotor: 20.0e-6, pump: 30.0e-6}
+decay_audit: 40
+)");
+  EXPECT_EQ(read.zones.at("rotor").b, 100.0e-6);
+  EXPECT_EQ(read.subsynchronous.at("pump"), 30.0e-6);
+  EXPECT_EQ(read.decay_audit, 40.0);
+  EXPECT_EQ(errorsOf("zones: {rotor: {a: 2.0e-4, b: 1.0e-4, c: 3.0e-4}}").size(), 1u);
+  EXPECT_EQ(errorsOf("zones: {rotor: {a: 2.0e-4, b: 3.0e-4}}").size(), 1u);
+  EXPECT_EQ(errorsOf("subsynchronous: {fan: 1.0e-4, rotor: -1}").size(), 2u);
+  EXPECT_EQ(errorsOf("decay_audit: 1"),
+            std::vector<std::string>{
+                "monitor.yaml: decay_audit: must be 0, or from 5 to 3600 s, found 1"});
 }
 
 }  // namespace

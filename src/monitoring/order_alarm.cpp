@@ -1,0 +1,153 @@
+#include "monitoring/order_alarm.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "messages/alert_types.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kSubsynchronous = 0.95;  // of the speed, below which a line is
+constexpr double kMicrometre = 1.0e6;     // per metre
+
+/// The highest forward line slower than the shaft; -1: none.
+int subsynchronousLine(const state::OrderState& orders) {
+  for (std::size_t i = 0; i < orders.line_frequency.size(); ++i) {  // largest first
+    if (orders.line_ratio[i] < kSubsynchronous &&
+        orders.line_forward[i] > orders.line_backward[i]) {
+      return static_cast<int>(i);
+    }
+  }
+  return -1;
+}
+
+AlarmCondition conditionOf(double value, double warning, double danger, double hysteresis) {
+  if (std::isnan(value)) {
+    return AlarmCondition::kHold;
+  }
+  return value > danger                          ? AlarmCondition::kDanger
+         : value > warning                       ? AlarmCondition::kWarning
+         : value <= warning * (1.0 - hysteresis) ? AlarmCondition::kClear
+                                                 : AlarmCondition::kHold;
+}
+
+const char* nameOf(LineCharacter::Kind kind) {
+  switch (kind) {
+    case LineCharacter::Kind::kKeepsRatio:
+      return "keeps its ratio to the speed: oil whirl; look at the bearings, their load and oil";
+    case LineCharacter::Kind::kKeepsFrequency:
+      return "keeps its frequency: whip; go below the speed at which it began";
+    default:
+      return "lower the speed, and see whether it keeps its ratio (whirl) or its frequency (whip)";
+  }
+}
+
+}  // namespace
+
+OrderAlarm::OrderAlarm(std::string system, const AlarmSettings& settings)
+    : system_(std::move(system)),
+      hysteresis_(settings.hysteresis),
+      line_level_(std::numeric_limits<double>::infinity()),
+      start_up_(settings),
+      zone_alarm_(settings.delaysOf(alert_type::kVibrationZone)),
+      line_alarm_(settings.delaysOf(alert_type::kSubsynchronousWhirl)) {
+  const auto zones = settings.zones.find(system_);
+  if (zones != settings.zones.end()) {
+    zones_ = zones->second;
+  }
+  const auto level = settings.subsynchronous.find(system_);
+  if (level != settings.subsynchronous.end()) {
+    line_level_ = level->second;
+  }
+}
+
+void OrderAlarm::hold() {
+  zone_alarm_.hold();
+  line_alarm_.hold();
+}
+
+void OrderAlarm::update(const state::OrderState& orders, double acceleration, AlertList& alerts) {
+  if (zones_) {
+    updateZone(orders, acceleration, alerts);
+  }
+  if (std::isfinite(line_level_)) {
+    updateLine(orders, alerts);
+  }
+}
+
+void OrderAlarm::updateZone(const state::OrderState& orders, double acceleration,
+                            AlertList& alerts) {
+  const double time = orders.at.time;
+  const double by = start_up_.multiplier(time, orders.speed, acceleration);
+  const double vibration = orders.peak_to_peak;
+  const AlarmCondition condition =
+      conditionOf(vibration, by * zones_->b, by * zones_->c, hysteresis_);
+  if (zone_alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
+    alerts.clear(system_, alert_type::kVibrationZone, time,
+                 fmt::format("{}: vibration back to {:.3g} um peak to peak, zone {}", system_,
+                             kMicrometre * vibration, vibration > zones_->a ? 'B' : 'A'));
+  } else if (zone_alarm_.active() && isRaising(condition)) {
+    const bool danger = condition == AlarmCondition::kDanger;
+    state::Alert alert;
+    alert.system = system_;
+    alert.type = alert_type::kVibrationZone;
+    alert.severity = zone_alarm_.severity();
+    alert.time = time;
+    alert.speed = orders.speed;
+    alert.acceleration = acceleration;
+    alert.amplitude = vibration;
+    alert.amplitude_limit = by * (danger ? zones_->c : zones_->b);
+    alert.text = fmt::format(
+        "{}: vibration {:.3g} um peak to peak at {:.1f} rad/s, zone {}, above {:.3g} um{}: {}",
+        system_, kMicrometre * vibration, orders.speed, danger ? 'D' : 'C',
+        kMicrometre * alert.amplitude_limit,
+        by != 1.0 ? fmt::format(" (times {:g} in start-up)", by) : "",
+        danger ? "stop it, it may do damage" : "not for long; look for what has grown");
+    alerts.raise(std::move(alert), danger ? "D" : "C");
+  }
+}
+
+void OrderAlarm::updateLine(const state::OrderState& orders, AlertList& alerts) {
+  const double time = orders.at.time;
+  const int found = orders.valid ? subsynchronousLine(orders) : -1;
+  const auto line = static_cast<std::size_t>(found);
+  const double height = found < 0 ? 0.0 : orders.line_forward[line] + orders.line_backward[line];
+  if (found < 0) {
+    line_.clear();
+  } else {
+    line_.take(orders.line_frequency[line], orders.speed);
+  }
+  // Without orders nothing can be said of what is slower than the shaft.
+  const AlarmCondition condition =
+      !orders.valid
+          ? AlarmCondition::kHold
+          : conditionOf(height, line_level_, std::numeric_limits<double>::infinity(), hysteresis_);
+  if (line_alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
+    alerts.clear(system_, alert_type::kSubsynchronousWhirl, time,
+                 fmt::format("{}: whirl slower than the shaft back to {:.3g} um", system_,
+                             kMicrometre * height));
+  } else if (line_alarm_.active() && isRaising(condition)) {
+    state::Alert alert;
+    alert.system = system_;
+    alert.type = alert_type::kSubsynchronousWhirl;
+    alert.severity = line_alarm_.severity();
+    alert.time = time;
+    alert.speed = orders.speed;
+    alert.amplitude = height;
+    alert.amplitude_limit = line_level_;
+    alert.decay_rate = -orders.line_growth[line];
+    alert.text = fmt::format(
+        "{}: whirls forward with {:.1f} rad/s, {:.2f} of the speed {:.1f} rad/s, {:.3g} um, above "
+        "{:.3g} um; {}",
+        system_, orders.line_frequency[line], orders.line_ratio[line], orders.speed,
+        kMicrometre * height, kMicrometre * line_level_, nameOf(line_.kind()));
+    alerts.raise(std::move(alert), nameOf(line_.kind()));
+  }
+}
+
+}  // namespace whirl_twin

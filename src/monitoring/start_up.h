@@ -1,0 +1,40 @@
+// Whether a shaft starts up, and amplitudes are allowed to be larger (trip multiply): it gains
+// speed, or did a moment ago.
+#pragma once
+
+#include <cmath>
+#include <optional>
+
+#include "monitoring/alarm_settings.h"
+
+namespace whirl_twin {
+
+class StartUp {
+ public:
+  explicit StartUp(const AlarmSettings& settings)
+      : multiply_(settings.trip_multiply),
+        acceleration_(settings.start_up_acceleration),
+        tail_(settings.clear_delay) {}
+
+  /// What levels are to be multiplied by [-] at time [s, simulated], with the speed [rad/s] and
+  /// acceleration [rad/s^2] of the shaft.
+  double multiplier(double time, double speed, double acceleration) {
+    if (started_up_ && time < *started_up_) {  // time was set back
+      started_up_.reset();
+    }
+    const bool gains = std::copysign(1.0, speed) * acceleration > acceleration_ ||
+                       (speed == 0.0 && std::abs(acceleration) > acceleration_);
+    if (gains) {
+      started_up_ = time;
+    }
+    return started_up_ && time - *started_up_ < tail_ ? multiply_ : 1.0;
+  }
+
+ private:
+  double multiply_;
+  double acceleration_;
+  double tail_;                       ///< [s], that the multiplied levels stay
+  std::optional<double> started_up_;  ///< [s], when it last gained speed
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,161 @@
+// Zones of vibration and whirl slower than the shaft, on what OrderState says.
+#include "monitoring/order_alarm.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "messages/alert_types.h"
+#include "twin/order_observer.h"
+#include "watched_twin.h"
+
+namespace whirl_twin {
+namespace {
+
+AlarmSettings withLevels() {
+  AlarmSettings settings;
+  settings.zones["rotor"] = {50e-6, 100e-6, 200e-6};
+  settings.subsynchronous["rotor"] = 20e-6;
+  return settings;
+}
+
+struct Told {
+  explicit Told(const AlarmSettings& settings = withLevels()) : alarm("rotor", settings) {
+    orders.valid = true;
+    orders.speed = 200.0;
+  }
+  void tell(double duration, double acceleration = 0.0) {
+    for (const double end = orders.at.time + duration; orders.at.time < end - 1e-9;
+         orders.at.time += 0.05) {
+      alarm.update(orders, acceleration, alerts);
+    }
+  }
+  void line(double frequency, double forward, double backward = 0.0) {
+    orders.line_frequency = {frequency};
+    orders.line_ratio = {frequency / orders.speed};
+    orders.line_forward = {forward};
+    orders.line_backward = {backward};
+    orders.line_growth = {0.0};
+  }
+  const state::Alert* zone() const { return alerts.find("rotor", alert_type::kVibrationZone); }
+  const state::Alert* whirl() const {
+    return alerts.find("rotor", alert_type::kSubsynchronousWhirl);
+  }
+
+  OrderAlarm alarm;
+  AlertList alerts;
+  state::OrderState orders;
+};
+
+TEST(VibrationZone, WarnsInCIsDangerInDAndClearsInB) {
+  Told told;
+  told.orders.peak_to_peak = 99e-6;
+  told.tell(1.0);
+  EXPECT_EQ(told.zone(), nullptr);
+  told.orders.peak_to_peak = 120e-6;
+  told.tell(0.1);
+  ASSERT_NE(told.zone(), nullptr);
+  EXPECT_EQ(told.zone()->severity, state::Severity::kWarning);
+  EXPECT_NE(told.zone()->text.find("zone C"), std::string::npos) << told.zone()->text;
+  told.orders.peak_to_peak = 250e-6;
+  told.tell(0.1);
+  EXPECT_EQ(told.zone()->severity, state::Severity::kDanger);
+  EXPECT_NE(told.zone()->text.find("zone D"), std::string::npos) << told.zone()->text;
+  told.orders.peak_to_peak = 90e-6;
+  told.tell(0.9);
+  EXPECT_NE(told.zone(), nullptr);
+  told.tell(0.3);
+  EXPECT_EQ(told.zone(), nullptr);
+}
+
+TEST(VibrationZone, LevelsAreMultipliedInStartUp) {
+  AlarmSettings settings = withLevels();
+  settings.trip_multiply = 3.0;
+  Told told(settings);
+  told.orders.peak_to_peak = 250e-6;
+  told.tell(1.0, 5.0);
+  EXPECT_EQ(told.zone(), nullptr);
+  told.tell(2.0, 0.0);
+  ASSERT_NE(told.zone(), nullptr);
+  EXPECT_EQ(told.zone()->severity, state::Severity::kDanger);
+}
+
+TEST(SubsynchronousWhirl, IsAForwardLineBelowTheSpeedAndAboveItsLevel) {
+  Told told;
+  told.line(96.0, 19e-6);
+  told.tell(1.0);
+  EXPECT_EQ(told.whirl(), nullptr) << "too small";
+  told.line(96.0, 1e-6, 30e-6);
+  told.tell(1.0);
+  EXPECT_EQ(told.whirl(), nullptr) << "backward";
+  told.line(250.0, 30e-6);
+  told.tell(1.0);
+  EXPECT_EQ(told.whirl(), nullptr) << "faster than the shaft";
+  told.line(96.0, 30e-6);
+  told.tell(0.2);
+  ASSERT_NE(told.whirl(), nullptr);
+  EXPECT_NE(told.whirl()->text.find("96.0 rad/s, 0.48 of the speed"), std::string::npos)
+      << told.whirl()->text;
+  told.orders.valid = false;
+  told.line(96.0, 0.0);
+  told.tell(3.0);
+  EXPECT_NE(told.whirl(), nullptr) << "without orders nothing is known";
+  told.orders.valid = true;
+  told.tell(1.2);
+  EXPECT_EQ(told.whirl(), nullptr);
+}
+
+TEST(SubsynchronousWhirl, IsOilWhirlWhereTheRatioStaysAndWhipWhereTheFrequencyStays) {
+  for (const bool whip : {false, true}) {
+    Told told;
+    for (double speed = 200.0; speed < 230.0; speed += 1.0) {
+      told.orders.speed = speed;
+      told.line(whip ? 99.0 : 0.47 * speed, 40e-6);
+      told.tell(0.1);
+    }
+    ASSERT_NE(told.whirl(), nullptr);
+    const char* expected = whip ? "keeps its frequency: whip" : "keeps its ratio to the speed: oil";
+    EXPECT_NE(told.whirl()->text.find(expected), std::string::npos) << told.whirl()->text;
+  }
+}
+
+TEST(OrderAlarm, WithoutLevelsSaysNothing) {
+  Told told(AlarmSettings{});
+  told.orders.peak_to_peak = 1.0;
+  told.line(96.0, 1.0);
+  told.tell(5.0);
+  EXPECT_TRUE(told.alerts.active().empty());
+}
+
+// The shipped scene from its quiet speed into the whip, under the monitor.
+TEST(OrderAlarm, OilWhipIsNamedBeforeItIsWide) {
+  AlarmSettings settings;
+  settings.subsynchronous["rotor"] = 10e-6;
+  WatchedTwin watched(readSceneFile(WHIRL_TWIN_SOURCE "/config/scenes/oil_whip.yaml"), settings);
+  OrderObserver orders(watched.twin);
+  double raised_at = 0.0;
+  while (watched.observer.moment(0).time < 10.6) {
+    watched.run(watched.twin.scene().stepSeconds());
+    orders.take(watched.record.data(), watched.observer);
+    orders.tell(watched.observer, {0},
+                [&](const std::string&, auto make) { watched.monitor.take(make(), watched.wall); });
+    const double time = watched.observer.moment(0).time;
+    const state::Alert* alert =
+        watched.monitor.alerts().find("rotor", alert_type::kSubsynchronousWhirl);
+    if (time < 1.4 || (time > 6.5 && time < 8.0)) {  // else it swings freely after its ramps
+      EXPECT_EQ(alert, nullptr) << time << " " << (alert == nullptr ? "" : alert->text);
+    }
+    if (alert != nullptr && time > 8.0 && raised_at == 0.0) {
+      raised_at = time;
+    }
+  }
+  EXPECT_GT(raised_at, 8.0);
+  const state::Alert* alert =
+      watched.monitor.alerts().find("rotor", alert_type::kSubsynchronousWhirl);
+  ASSERT_NE(alert, nullptr);
+  EXPECT_NE(alert->text.find("whip"), std::string::npos) << alert->text;
+  EXPECT_LT(alert->amplitude, 50e-6);
+}
+
+}  // namespace
+}  // namespace whirl_twin
