@@ -21,6 +21,8 @@ namespace whirl_twin {
 
 namespace {
 
+constexpr double kLongestWindow = 20.0;  // s, of what turns with the shaft
+constexpr double kTurn = 6.283185307179586;
 constexpr double kTick = 0.1;       // s, as the node ticks at least
 constexpr double kSample = 0.1;     // s, simulated, of what is drawn
 constexpr double kSilence = 600.0;  // s: a longer one is a clock that was set, or two recordings
@@ -123,6 +125,32 @@ class Replay {
     if (SystemCourse* course = courseOf(pendulum.system)) {
       sample(*course, pendulum.at.time, speedOf(*course));
     }
+  }
+  void draw(const state::OrderState& told) {
+    SystemCourse* const course = courseOf(told.system);
+    if (course == nullptr) {
+      return;
+    }
+    OrderCourse& orders = course->orders;
+    const double time = told.at.time - told.delay;
+    if (!told.line_frequency.empty()) {
+      orders.line_time.push_back(time);
+      orders.line_frequency.push_back(told.line_frequency.front());
+    }
+    const auto first = std::find(told.order.begin(), told.order.end(), 1.0);
+    if (!told.valid || first == told.order.end()) {
+      return;
+    }
+    if (!orders.time.empty() && time <= orders.time.back() &&
+        time > orders.time.back() - kLongestWindow) {
+      return;  // from a longer window than the one before: it says nothing new
+    }
+    const auto place = static_cast<std::size_t>(first - told.order.begin());
+    const double before = orders.lag.empty() ? 0.0 : orders.lag.back();
+    orders.time.push_back(time);
+    orders.speed.push_back(told.speed);
+    orders.amplitude.push_back(told.forward_amplitude[place]);
+    orders.lag.push_back(before + std::remainder(told.forward_lag[place] - before, kTurn));
   }
   void draw(const state::DriveState& drive) { speeds_[drive.drive] = drive.speed; }
 

@@ -23,10 +23,20 @@ struct AlertCourse {
   std::string why_cleared;
 };
 
+/// What turns once with the shaft of a rotor, and what with no order, as the twin tells it.
+struct OrderCourse {
+  std::vector<double> time;       ///< [s], simulated, that it held at
+  std::vector<double> speed;      ///< [rad/s], of the shaft
+  std::vector<double> amplitude;  ///< [m], 1X, in the direction of rotation
+  std::vector<double> lag;        ///< [rad], behind the phase mark, continued from one to the next
+  std::vector<double> line_time, line_frequency;  ///< [s], [rad/s], of the largest line
+};
+
 /// What is drawn of a system, ten values a second of simulated time, and its margins.
 struct SystemCourse {
   std::string name;
   bool rotor = false;
+  OrderCourse orders;
   std::vector<double> time;         ///< [s], simulated
   std::vector<double> speed;        ///< [rad/s], of its shaft; NaN without one
   std::vector<double> radius;       ///< [m], the largest since the value before; of rotors

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "reports/monitored_log.h"
 
@@ -72,6 +73,15 @@ std::vector<Band> bandsOf(const MonitoredLog& run, const SystemCourse& system) {
   return bands;
 }
 
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+
+std::vector<double> inDegrees(std::vector<double> angles) {
+  for (double& angle : angles) {
+    angle /= kDegree;
+  }
+  return angles;
+}
+
 bool any(const std::vector<double>& values) {
   return std::any_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
 }
@@ -81,6 +91,32 @@ std::string inlined(const Figure& figure) {
   const std::string file = figureImage(figure, ImageFormat::kSvg);
   const std::size_t start = file.find("<svg");
   return start == std::string::npos ? "" : file.substr(start);
+}
+
+Figure bode(const OrderCourse& orders) {
+  Figure figure;
+  figure.title = "what turns once with the shaft (1X)";
+  figure.width = 940;
+  figure.chart_height = 300;
+  figure.columns = 2;
+  Chart amplitude, lag, polar;
+  amplitude.x = lag.x = {"speed of the shaft (rad/s)", false, true};
+  amplitude.y = {"amplitude (m)", false, false};
+  lag.y = {"lag behind the phase mark (deg)", false, false};
+  amplitude.series = {{"", orders.speed, orders.amplitude}};
+  lag.series = {{"", orders.speed, inDegrees(orders.lag)}};
+  Series turned;
+  for (std::size_t i = 0; i < orders.lag.size(); ++i) {
+    turned.x.push_back(orders.amplitude[i] * std::cos(orders.lag[i]));
+    turned.y.push_back(-orders.amplitude[i] * std::sin(orders.lag[i]));
+  }
+  polar.title = "polar";
+  polar.x = {"ahead, at the mark (m)", false, false};
+  polar.y = {"aside, in the direction of rotation (m)", false, false};
+  polar.equal_aspect = true;
+  polar.series = {turned};
+  figure.charts = {amplitude, lag, polar};
+  return figure;
 }
 
 }  // namespace
@@ -98,12 +134,20 @@ Figure figure(const MonitoredLog& run, const SystemCourse& system) {
     Chart chart;
     chart.x = {"time (s)", false, true};
     chart.y = {label, false, false};
-    chart.series = {{"", time, values}};
+    constexpr double kUnseen = std::numeric_limits<double>::quiet_NaN();
+    chart.series = {{"", time, values},
+                    {"", {run.begin, run.end}, {kUnseen, kUnseen}}};  // one time axis for all
     chart.bands = bandsOf(run, system);
     figure.charts.push_back(chart);
   };
   add("speed of the shaft (rad/s)", system.time, system.speed);
   add("whirl radius (m)", system.time, system.radius);
+  add("1X amplitude (m)", system.orders.time, system.orders.amplitude);
+  if (!system.orders.line_time.empty()) {
+    add("largest line of no order (rad/s)", system.orders.line_time, system.orders.line_frequency);
+    figure.charts.back().series.front().line = false;
+    figure.charts.back().series.front().marks = Marks::kDots;
+  }
   add("decay of the slowest motion (1/s)", system.margin_time, system.decay_rate);
   if (!figure.charts.empty() && any(system.decay_rate)) {
     Series edge{"", {run.begin, run.end}, {0.0, 0.0}};  // a curve, so that it is always seen
@@ -155,6 +199,9 @@ std::string page(const MonitoredLog& run) {
     const Figure drawn = figure(run, system);
     if (!drawn.charts.empty()) {
       out += fmt::format("<h2>{}</h2>\n{}\n", escaped(system.name), inlined(drawn));
+      if (!system.orders.speed.empty()) {
+        out += inlined(bode(system.orders)) + "\n";
+      }
     }
   }
   return out + "</body></html>\n";
