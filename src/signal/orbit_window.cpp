@@ -121,6 +121,7 @@ OrbitPart OrbitWindow::last(double seconds, std::size_t most) const {
   const OrbitSample& from = *taken.front();
   part.centre = 0.5 * (from.time + taken.back()->time);
   part.half = 0.5 * (taken.back()->time - from.time);
+  part.turns = from.turns;
   part.period = static_cast<double>(stride) * sampling_;
   part.tau.resize(n);
   part.angle.resize(n);

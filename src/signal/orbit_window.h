@@ -27,7 +27,8 @@ struct OrbitPart {
   double speed = 0.0;               ///< [rad/s], at the centre
   double period = 0.0;              ///< [s], from sample to sample
   Eigen::ArrayXd tau;               ///< of the samples, -1..1
-  Eigen::ArrayXd angle;             ///< [rad], of the shaft, from the first whole turn
+  Eigen::ArrayXd angle;             ///< [rad], of the shaft, from the first whole turn on
+  std::int64_t turns = 0;           ///< whole turns before
   Eigen::ArrayXd x, y;              ///< [m]
   std::vector<std::int64_t> place;  ///< of each sample, in periods from the first
 };

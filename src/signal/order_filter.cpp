@@ -46,15 +46,21 @@ double cyclesApart(int degree, int other) {
 /// The fit of a window, and what is fitted.
 struct Fit {
   const OrbitPart& part;
-  std::vector<int> degrees;  // of the mean and the orders
+  std::vector<double> orders;  // the mean is order 0
+  std::vector<int> degrees;    // of each
   HarmonicFit harmonics;
   std::vector<double> lines;  // [rad/s]
 
-  Fit(const OrbitPart& of, std::vector<int> degrees_of_orders, Eigen::Index columns)
-      : part(of), degrees(std::move(degrees_of_orders)), harmonics(of.tau, columns) {
+  Fit(const OrbitPart& of, std::vector<double> all_orders, std::vector<int> all_degrees,
+      Eigen::Index columns)
+      : part(of),
+        orders(std::move(all_orders)),
+        degrees(std::move(all_degrees)),
+        harmonics(of.tau, columns) {
     harmonics.addMean(degrees.front());
-    for (std::size_t k = 1; k < degrees.size(); ++k) {
-      harmonics.addHarmonic(static_cast<double>(k) * part.angle, degrees[k]);
+    for (std::size_t i = 1; i < orders.size(); ++i) {
+      const double before = std::fmod(orders[i] * static_cast<double>(part.turns), 1.0);
+      harmonics.addHarmonic(kTurn * before + orders[i] * part.angle, degrees[i]);
     }
   }
 
@@ -87,9 +93,9 @@ struct Fit {
 
 /// A line there can be told from the orders, and from the lines so far.
 bool Fit::standsApart(double frequency) const {
-  for (std::size_t k = 0; k < degrees.size(); ++k) {
-    const double order = static_cast<double>(k) * std::fabs(part.speed);
-    if (std::fabs(frequency - order) < cyclesApart(degrees[k], kLineDegree) * perCycle()) {
+  for (std::size_t i = 0; i < orders.size(); ++i) {
+    const double order = orders[i] * std::fabs(part.speed);
+    if (std::fabs(frequency - order) < cyclesApart(degrees[i], kLineDegree) * perCycle()) {
       return false;
     }
   }
@@ -158,17 +164,19 @@ double precessionOf(const OrbitPart& part, std::complex<double> mean) {
 
 OrbitEstimate OrderFilter::fitted(const Reach& reach, double seconds) const {
   const OrbitPart part = window_.last(seconds, kMostSamples);
+  std::vector<double> orders = {0.0};
   std::vector<int> degrees = {reach.mean_degree};
   Eigen::Index columns = reach.mean_degree + 1;
-  for (int k = 1; k <= highest_ && reach.turns > 0.0; ++k) {
-    degrees.push_back(k == 1 ? reach.degree : reach.higher_degree);
+  for (std::size_t i = 0; i < orders_.size() && reach.turns > 0.0; ++i) {
+    orders.push_back(orders_[i]);
+    degrees.push_back(i == 0 ? reach.degree : reach.higher_degree);
     columns += 2 * (degrees.back() + 1);
   }
   OrbitEstimate estimate;
   if (part.tau.size() < 2 * columns) {
     return estimate;
   }
-  Fit fit(part, degrees, columns + 2 * kMostLines * (kLineDegree + 1));
+  Fit fit(part, orders, degrees, columns + 2 * kMostLines * (kLineDegree + 1));
   if (!fit.solve()) {
     return estimate;
   }
@@ -179,16 +187,16 @@ OrbitEstimate OrderFilter::fitted(const Reach& reach, double seconds) const {
       break;
     }
   }
-  estimate.valid = degrees.size() > 1;
+  estimate.valid = orders.size() > 1;
   estimate.time = part.centre;
   estimate.delay = window_.newest().time - part.centre;
   estimate.speed = part.speed;
   estimate.window = 2.0 * part.half;
   estimate.mean = fit.harmonics.mean();
   estimate.noise = fit.harmonics.noise();
-  for (std::size_t k = 1; k < degrees.size(); ++k) {
-    estimate.orders.push_back({static_cast<int>(k), fit.harmonics.forward(k),
-                               fit.harmonics.backward(k), fit.harmonics.doubt(k)});
+  for (std::size_t i = 1; i < orders.size(); ++i) {
+    estimate.orders.push_back(
+        {orders[i], fit.harmonics.forward(i), fit.harmonics.backward(i), fit.harmonics.doubt(i)});
   }
   for (std::size_t i = 0; i < fit.lines.size(); ++i) {
     const std::complex<double> change = fit.changeOf(i);

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <complex>
+#include <utility>
 #include <vector>
 
 #include "signal/orbit_window.h"
@@ -47,8 +48,9 @@ struct OrbitEstimate {
 
 class OrderFilter {
  public:
-  /// Follows orders 1 to `highest`.
-  explicit OrderFilter(int highest = 2) : highest_(highest) {}
+  /// Follows these orders, all > 0; that one is best followed in a run-up which is named first. Of
+  /// fractions the phase is that of whole turns since the shaft began to count them.
+  explicit OrderFilter(std::vector<double> orders = {1.0, 2.0}) : orders_(std::move(orders)) {}
 
   void take(const OrbitSample& sample) { window_.take(sample); }
   void clear() { window_.clear(); }
@@ -59,7 +61,7 @@ class OrderFilter {
   OrbitEstimate fitted(const Reach& reach, double seconds) const;
 
   OrbitWindow window_;
-  int highest_;
+  std::vector<double> orders_;
 };
 
 }  // namespace whirl_twin

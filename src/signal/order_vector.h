@@ -14,7 +14,7 @@
 namespace whirl_twin {
 
 struct OrderVector {
-  int order = 1;                  ///< k
+  double order = 1.0;             ///< k, of any size
   std::complex<double> forward;   ///< f [m]
   std::complex<double> backward;  ///< b [m]
   /// [m], how far f and b may be off: the standard deviation of either part as for white noise, and

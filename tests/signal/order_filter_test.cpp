@@ -180,6 +180,27 @@ TEST(OrderFilter, FreeVibrationAfterAKnockIsNoFirstOrder) {
   }
 }
 
+TEST(OrderFilter, FollowsAnyOrderAskedFor) {
+  KnownMotion motion;
+  motion.acceleration = 5.0;
+  motion.z = [](double, double angle, double) {
+    return std::polar(1e-5, angle) + std::polar(2e-5, 3.0 * angle + 0.3) +
+           std::polar(3e-5, -0.5 * angle - 1.2);
+  };
+  OrderFilter filter({1.0, 3.0, 0.5});
+  for (double t = 0.5; t < 4.0; t += 0.07) {
+    motion.feed(filter, t, t == 0.5 ? 0.0 : t - 0.07 + 1e-3);
+    if (t > 1.0) {
+      const OrbitEstimate e = filter.estimate();
+      ASSERT_EQ(e.orders.size(), 3u);
+      EXPECT_EQ(e.orders[2].order, 0.5);
+      expectVector(e.orders[0].forward, 1e-5, 1e-9, 1e-9);
+      expectVector(e.orders[1].forward, std::polar(2e-5, 0.3), 1e-9, 1e-9);
+      expectVector(e.orders[2].backward, std::polar(3e-5, -1.2), 1e-9, 1e-9);
+    }
+  }
+}
+
 TEST(OrderFilter, LostSamplesAndAResetAreSeen) {
   KnownMotion motion;
   motion.z = [](double t, double angle, double) {
