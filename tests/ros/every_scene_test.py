@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Every shipped scene runs live, loaded as demo.launch loads it: each system publishes finite states
-and a stability margin, with no alert that its model does not hold."""
+"""Every shipped scene runs live, loaded as demo.launch loads it: each system publishes finite states,
+rotors their orders, and a stability margin, with no alert that its model does not hold."""
 import glob
 import math
 import os
@@ -14,7 +14,7 @@ import rospkg
 import rospy
 import rosparam
 import rostest
-from whirl_twin.msg import AlertArray, PendulumState, StabilityMargin, WhirlState
+from whirl_twin.msg import AlertArray, OrderState, PendulumState, StabilityMargin, WhirlState
 
 SCENES = os.path.join(rospkg.RosPack().get_path('whirl_twin'), 'config', 'scenes', '*.yaml')
 ROTORS = ['flexible_rotor', 'jeffcott_rotor', 'rigid_disc_rotor']
@@ -44,6 +44,10 @@ class EveryScene(unittest.TestCase):
                 numbers = [state.x, state.y] if rotor else list(state.angle) + list(state.rate)
                 self.assertTrue(numbers and all(math.isfinite(x) for x in numbers), name)
                 self.assertLess(abs(state.energy_residual), 1e-6, name)
+                if rotor:
+                    orders = rospy.wait_for_message('/twin/%s/orders' % name, OrderState, 10)
+                    self.assertTrue(math.isfinite(orders.mean_x + orders.peak_to_peak), name)
+                    self.assertEqual(len(orders.forward_lag), len(orders.order), name)
                 margin = rospy.wait_for_message('/twin/%s/stability' % name, StabilityMargin, 10)
                 self.assertEqual(margin.model, system['model'])
                 self.assertNotEqual(margin.verdict_name, 'uncertain', name)
