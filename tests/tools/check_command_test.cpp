@@ -32,9 +32,11 @@ TEST(Check, TellsWhatTheDemoModels) {
   EXPECT_EQ(rotor["topics"][1],
             Json({{"topic", "/twin/rotor/joint_states"}, {"type", "sensor_msgs/JointState"}}));
   EXPECT_EQ(rotor["topics"][3],
+            Json({{"topic", "/twin/rotor/orders"}, {"type", "whirl_twin/OrderState"}}));
+  EXPECT_EQ(rotor["topics"][4],
             Json({{"topic", "/twin/rotor/parameters"}, {"type", "whirl_twin/ParameterChange"}}));
-  EXPECT_EQ(rotor["channels"],
-            Json({"TWIN_ROTOR_WHIRL", "TWIN_ROTOR_STABILITY", "TWIN_ROTOR_PARAMETER"}));
+  EXPECT_EQ(rotor["channels"], Json({"TWIN_ROTOR_WHIRL", "TWIN_ROTOR_STABILITY",
+                                     "TWIN_ROTOR_ORDERS", "TWIN_ROTOR_PARAMETER"}));
   EXPECT_GT(rotor["ns_per_step"], 0.0);
 
   const Json& pendulum = check["systems"]["pendulum"];

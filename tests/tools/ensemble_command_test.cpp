@@ -84,9 +84,9 @@ TEST(EnsembleCommands, CheckSaysHowItIsStepped) {
   ASSERT_EQ(end.status, 0) << end.err;
   const nlohmann::json rotor = end.json()["systems"]["rotor"];
   EXPECT_EQ(rotor["ensemble"], "21 members, side by side in vectors");
-  EXPECT_EQ(rotor["topics"][4], nlohmann::json({{"topic", "/twin/rotor/ensemble"},
+  EXPECT_EQ(rotor["topics"][5], nlohmann::json({{"topic", "/twin/rotor/ensemble"},
                                                 {"type", "whirl_twin/EnsembleState"}}));
-  EXPECT_EQ(rotor["channels"][3], "TWIN_ROTOR_ENSEMBLE");
+  EXPECT_EQ(rotor["channels"][4], "TWIN_ROTOR_ENSEMBLE");
   const std::string many = std::string(kScene).replace(std::string(kScene).find("21"), 2, "9021");
   const Ending larger = twin({"check", folder.write("more.yaml", many), "--json"});
   EXPECT_GT(larger.json()["systems"]["rotor"]["memory_bytes"].get<double>() -
