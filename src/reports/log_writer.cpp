@@ -22,12 +22,12 @@ class LogWriter final : public SampleWriter {
         log_(pending_.path()) {}
 
   void write(const Observer& observer) override {
-    messages_.tell(observer, true, Sink{log_});
+    messages_.tell(observer, true, sinkAt(observer));
     const auto take = [this](std::size_t system, const state::Instant& now,
                              state::EnsembleState& ensemble) {
       return takeEnsemble(system, now, ensemble);
     };
-    messages_.tellEnsembles(observer, take, Sink{log_});
+    messages_.tellEnsembles(observer, take, sinkAt(observer));
   }
 
   bool followsSteps() const override { return true; }
@@ -35,7 +35,7 @@ class LogWriter final : public SampleWriter {
   void follow(const double* record, const Observer& observer) override {
     orders_.take(record, observer);
     if (RecordLayout::step(record) == observer.step()) {
-      messages_.tellOrders(observer, orders_, Sink{log_});
+      messages_.tellOrders(observer, orders_, sinkAt(observer));
     }
   }
 
@@ -49,14 +49,17 @@ class LogWriter final : public SampleWriter {
  private:
   struct Sink {
     EventLogWriter& log;
+    double now;  // [s]
 
     template <class Make>
     void operator()(const std::string&, Make make) {
       log.write(make());
     }
     void change(const state::ParameterChange& change) { log.write(change); }
-    void again(const state::ParameterChange& change) { log.write(change); }
+    void again(const state::ParameterChange& change) { log.writeAt(now, change); }
   };
+
+  Sink sinkAt(const Observer& observer) { return {log_, observer.instant().time}; }
 
   /// As often as a live twin has one, at the samples.
   bool takeEnsemble(std::size_t system, const state::Instant& now, state::EnsembleState& out) {

@@ -47,11 +47,15 @@ void Simulation::run(SampleWriter* writer, bool results_on_standard_output) {
   ProgressBar bar(plan_.steps, results_on_standard_output);
   std::vector<double> record(twin_.layout().size);
   warn(bar);
+  const bool every_step = !plan_.sensors.empty() || validity_.watches();
+  const bool followed = writer != nullptr && writer->followsSteps();
   if (writer != nullptr) {
     writer->write(observer_);
   }
-  const bool every_step = !plan_.sensors.empty() || validity_.watches();
-  const bool followed = writer != nullptr && writer->followsSteps();
+  if (followed) {
+    twin_.write(record.data());
+    writer->follow(record.data(), observer_);
+  }
   std::int64_t next_look = 1;
   for (std::int64_t i = 1; i <= plan_.steps; ++i) {
     twin_.step();

@@ -69,8 +69,8 @@ struct LogSummary {
 /// prefix: of the channels of the twin that was recorded.
 LogSummary readEventLog(const std::string& path, const std::string& prefix = kDefaultLcmPrefix);
 
-/// Writes messages as a log whose timestamps are the simulated time [us]; the same messages give
-/// the same bytes.
+/// Writes messages as a log whose timestamps are the simulated time [us], theirs or one that is
+/// given; the same messages give the same bytes.
 class EventLogWriter {
  public:
   /// Creates the file, or empties it. Throws RunFailure if it cannot be written.
@@ -83,6 +83,12 @@ class EventLogWriter {
   void write(const State& state) {
     const std::int64_t utime = encode(state, payload_);
     writeEvent(channelOf(state), utime);
+  }
+  /// The same at another time [s] than the message's own: of what held before, and is told again.
+  template <class State>
+  void writeAt(double time, const State& state) {
+    encode(state, payload_);
+    writeEvent(channelOf(state), utimeOf(time));
   }
 
   /// Hands everything to the file system: only then is a full disk noticed. Throws

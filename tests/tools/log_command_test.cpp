@@ -43,6 +43,20 @@ TEST_F(DemoLog, IsCompleteAndIntact) {
   EXPECT_EQ(directory_.files(), std::vector<std::string>{"demo.lcmlog"});
 }
 
+/// Parameters are told again with the instant of their change, long ago; the log goes forward.
+TEST(Log, LongerThanParametersAreToldOnceForIsIntact) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.file("long.lcmlog");
+  ASSERT_EQ(
+      twin({"simulate", kDemo, "--duration", "21", "--sample", "0.1", "--output", path}).status, 0);
+  const Ending end = twin({"log", path, "--json"});
+  ASSERT_EQ(end.status, 0) << end.err << end.out;
+  const Json log = end.json();
+  EXPECT_EQ(log["corrupt"], 0);
+  EXPECT_DOUBLE_EQ(log["span"], 21.0);
+  EXPECT_EQ(log["channels"]["TWIN_ROTOR_PARAMETER"]["events"], 3);
+}
+
 TEST_F(DemoLog, IsTheSameBytesEachTime) {
   const std::string again = directory_.file("again.lcmlog");
   twin({"simulate", kDemo, "--duration", "1", "--output", again});
