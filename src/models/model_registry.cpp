@@ -28,23 +28,15 @@ const ModelInfo* find(const std::vector<ModelInfo>& list, const std::string& nam
 }
 
 const std::vector<ModelInfo>& builtInModels() {
-  static const std::vector<ModelInfo> built_in{cantileverBeamInfo(),
-                                               cartPendulumInfo(),
-                                               doublePendulumInfo(),
-                                               flexibleRotorInfo(),
-                                               freeRotorInfo(),
-                                               frictionOscillatorInfo(),
-                                               governorInfo(),
-                                               hingedBeamInfo(),
-                                               jeffcottRotorInfo(),
-                                               linearSystemInfo(),
-                                               rigidDiscRotorInfo(),
-                                               rodSliderInfo(),
-                                               rollingDiscInfo(),
-                                               rotatingPendulumInfo(),
-                                               slidingMassFlywheelInfo(),
-                                               spinningPendulumInfo(),
-                                               sprungInvertedPendulumInfo(),
+  static const std::vector<ModelInfo> built_in{cantileverBeamInfo(),   cartPendulumInfo(),
+                                               doublePendulumInfo(),   flexibleRotorInfo(),
+                                               freeRotorInfo(),        frictionOscillatorInfo(),
+                                               governorInfo(),         hingedBeamInfo(),
+                                               jeffcottRotorInfo(),    linearSystemInfo(),
+                                               pendulumInfo(),         rigidDiscRotorInfo(),
+                                               rodSliderInfo(),        rollingDiscInfo(),
+                                               rotatingPendulumInfo(), slidingMassFlywheelInfo(),
+                                               spinningPendulumInfo(), sprungInvertedPendulumInfo(),
                                                twoBarLinkageInfo()};
   return built_in;
 }

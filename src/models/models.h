@@ -16,6 +16,7 @@ ModelInfo governorInfo();
 ModelInfo hingedBeamInfo();
 ModelInfo jeffcottRotorInfo();
 ModelInfo linearSystemInfo();
+ModelInfo pendulumInfo();
 ModelInfo rigidDiscRotorInfo();
 ModelInfo rodSliderInfo();
 ModelInfo rollingDiscInfo();

@@ -28,6 +28,7 @@ void addTradeoffCommand(CLI::App& twin, int& status);
 void addBalanceCommand(CLI::App& twin, int& status);
 void addRouthCommand(CLI::App& twin, int& status);
 void addLogCommand(CLI::App& twin, int& status);
+void addFitCommand(CLI::App& twin, int& status);
 void addMonitorCommand(CLI::App& twin, int& status);
 
 }  // namespace whirl_twin

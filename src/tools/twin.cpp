@@ -107,6 +107,7 @@ int run(int argc, const char* const* argv) {
   addRouthCommand(twin, status);
   addLogCommand(twin, status);
   addMonitorCommand(twin, status);
+  addFitCommand(twin, status);
 
   std::vector<std::string> arguments = orderedArguments(argc, argv);
   if (unknownCommand(twin, arguments)) {

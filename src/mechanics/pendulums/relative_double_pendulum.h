@@ -13,7 +13,7 @@ struct RelativeDoublePendulum : DoublePendulum {
   static constexpr std::array<Coordinate, kDof> kCoordinates{
       {{"theta1", "rad"}, {"theta3", "rad"}}};
 
-  static constexpr std::array<Parameter<RelativeDoublePendulum>, 13> parameters() {
+  static constexpr std::array<Parameter<RelativeDoublePendulum>, 17> parameters() {
     return inherited<RelativeDoublePendulum>(DoublePendulum::parameters());
   }
 

@@ -1,0 +1,377 @@
+#include "estimation/fit_study_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "messages/names.h"
+#include "messages/refusal.h"
+#include "scene/built_scene.h"
+#include "scene/node_reader.h"
+#include "scene/scene_reader.h"
+#include "scene/yaml_file.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr std::size_t kMostRuns = 1000;
+constexpr double kShortestWindow = 0.01;  // s
+constexpr double kLongestWindow = 1.0e5;  // s
+constexpr double kLongestDelay = 1.0;     // s
+
+class StudyReader {
+ public:
+  StudyReader(const std::string& path, bool validate_only)
+      : folder_(std::filesystem::path(path).parent_path()), complaints_(path) {
+    study_.source = path;
+    study_.validate_only = validate_only;
+  }
+
+  FitStudy read(const YAML::Node& tree) {
+    const MapReader map(tree, "", {"scene", "system", "runs", "windows", "fit", "huber"},
+                        "key of a study", complaints_);
+    if (map.usable()) {
+      readSystem(map);
+      readWindows(map);
+      if (built_) {
+        readRuns(map);
+        readFit(map);
+      }
+      if (map.has("huber")) {
+        study_.huber = map.number("huber", Range::kPositive, "deviations", 1.0);
+      }
+    }
+    if (!complaints_.all().empty()) {
+      throw Refusal(fmt::format("{}", fmt::join(complaints_.all(), "\ntwin: ")));
+    }
+    return study_;
+  }
+
+ private:
+  void readSystem(const MapReader& map) {
+    for (const char* key : {"scene", "system"}) {
+      if (!map.has(key)) {
+        complaints_.add(map.key(key),
+                        fmt::format("missing; must be {}", std::string(key) == "scene"
+                                                               ? "the file of a scene"
+                                                               : "the name of one of its systems"));
+      }
+    }
+    const std::string scene = map.text("scene", "");
+    study_.system = map.text("system", "");
+    if (scene.empty()) {
+      return;
+    }
+    study_.scene_path = (folder_ / scene).string();
+    Scene all = readSceneFile(study_.scene_path);  // its errors are all its own
+    std::vector<std::string> names;
+    for (const SystemSpec& system : all.systems) {
+      names.push_back(system.name);
+    }
+    const auto place = std::find(names.begin(), names.end(), study_.system);
+    if (place == names.end()) {
+      if (!study_.system.empty()) {
+        complaints_.add(map.key("system"),
+                        fmt::format("the scene has no {}{}", whirl_twin::quoted(study_.system),
+                                    hint(study_.system, names)));
+      }
+      return;
+    }
+    SystemSpec system = all.systems[static_cast<std::size_t>(place - names.begin())];
+    const std::size_t drive = all.driveOf(system);
+    if (system.ensemble.count > 0) {
+      complaints_.add(map.key("system"), "has an ensemble: fit the system as given, without count");
+      return;
+    }
+    if (drive < all.drives.size() && all.drives[drive].motor) {
+      complaints_.add(map.key("system"),
+                      "is turned by a motor: what a motor turns cannot be "
+                      "fitted yet; a drive or a constant speed can");
+      return;
+    }
+    all.systems = {std::move(system)};
+    study_.scene = std::move(all);
+    built_ = build(study_.scene).systems.front();
+  }
+
+  void readWindows(const MapReader& map) {
+    if (!map.has("windows")) {
+      return;
+    }
+    const MapReader windows(map.at("windows"), map.key("windows"), {"length", "start"},
+                            "key of windows", complaints_);
+    if (!windows.usable()) {
+      return;
+    }
+    study_.start_estimated =
+        windows.choice("start", {"estimated", "measured"}, "where a window's start comes from",
+                       "estimated") == "estimated";
+    if (windows.has("length") && windows.text("length", "") == "all") {
+      study_.window = std::numeric_limits<double>::infinity();
+    } else if (windows.has("length")) {
+      const auto number = parseNumber(windows.text("length", ""));
+      if (!number || *number < kShortestWindow || *number > kLongestWindow) {
+        complaints_.add(windows.key("length"),
+                        fmt::format("must be from {:g} to {:g} s, or `all`, found {}",
+                                    kShortestWindow, kLongestWindow, shown(windows.at("length"))));
+      } else {
+        study_.window = *number;
+      }
+    }
+  }
+
+  void readRuns(const MapReader& map) {
+    const YAML::Node runs = map.at("runs");
+    if (!runs.IsDefined() || !runs.IsSequence() || runs.size() == 0 || runs.size() > kMostRuns) {
+      complaints_.add(
+          map.key("runs"),
+          fmt::format("must be a list of 1 to {} runs, found {}", kMostRuns,
+                      runs.IsDefined() && runs.IsSequence() ? fmt::format("{} entries", runs.size())
+                                                            : shown(runs)));
+      return;
+    }
+    std::set<std::string> files;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      const MapReader run(runs[i], fmt::format("{}[{}]", map.key("runs"), i),
+                          {"file", "use", "time", "measured", "inputs"}, "key of a run",
+                          complaints_);
+      if (run.usable()) {
+        readRun(run, files);
+      }
+    }
+    const bool any = std::any_of(study_.runs.begin(), study_.runs.end(),
+                                 [](const StudyRun& run) { return run.train; });
+    if (!any && !study_.validate_only && study_.runs.size() == runs.size()) {
+      complaints_.add(map.key("runs"),
+                      "must have one with `use: train`, or be asked with --validate-only");
+    }
+  }
+
+  void readRun(const MapReader& map, std::set<std::string>& files) {
+    const std::size_t before = complaints_.all().size();
+    StudyRun run;
+    run.file = map.text("file", "");
+    if (run.file.empty()) {
+      complaints_.add(map.key("file"), "missing; must be a file of comma-separated values");
+    } else if (!files.insert(run.file).second) {
+      complaints_.add(map.key("file"),
+                      fmt::format("{} stands twice", whirl_twin::quoted(run.file)));
+    }
+    run.train =
+        map.choice("use", {"train", "validate"}, "what a run is used for", "train") == "train";
+    std::vector<std::string> columns;
+    readMeasured(map, run, columns);
+    readInputs(map, run, columns);
+    if (complaints_.all().size() != before) {
+      return;
+    }
+    try {
+      run.data = readMeasuredRun((folder_ / run.file).string(), map.text("time", "time"), columns);
+      study_.runs.push_back(std::move(run));
+    } catch (const Refusal& error) {
+      complaints_.add(map.key("file"), fmt::format("{}: {}", printable(run.file), error.what()));
+    }
+  }
+
+  void readMeasured(const MapReader& map, StudyRun& run, std::vector<std::string>& columns) {
+    std::vector<std::string> known;
+    for (const bool rate : {false, true}) {
+      for (const CoordinateInfo& c : built_->dynamics->coordinates()) {
+        known.push_back(rate ? c.name + "_rate" : c.name);
+        units_.push_back(rate ? c.unit + "/s" : c.unit);
+      }
+    }
+    const MapReader measured(map.at("measured"), map.key("measured"), known,
+                             "coordinate or rate of the system", complaints_);
+    if (!measured.usable()) {
+      return;
+    }
+    if (measured.names().empty()) {
+      complaints_.add(measured.key(""), "must name a coordinate with its column");
+    }
+    for (const std::string& name : measured.names()) {
+      const auto place = std::find(known.begin(), known.end(), name);
+      if (place == known.end()) {
+        continue;  // which has been said
+      }
+      MeasuredChannel channel;
+      channel.name = name;
+      channel.state = static_cast<std::size_t>(place - known.begin());
+      channel.unit = units_[channel.state];
+      if (const auto entry =
+              column(measured, name, {"column", "offset", "scale", "deviation"}, channel.column)) {
+        channel.offset = givenOrFitted(*entry, "offset", channel.unit, 0.0);
+        channel.scale = givenOrFitted(*entry, "scale", "-", 1.0);
+        requireScale(*entry, channel.scale);
+        channel.deviation = entry->number("deviation", Range::kPositive, channel.unit, 1.0);
+      }
+      add(columns, channel.column);
+      run.measured.push_back(channel);
+    }
+  }
+
+  void readInputs(const MapReader& map, StudyRun& run, std::vector<std::string>& columns) {
+    if (!map.has("inputs")) {
+      return;
+    }
+    std::vector<std::string> known;
+    for (const InputInfo& input : built_->dynamics->inputs()) {
+      known.push_back(input.name);
+    }
+    const MapReader inputs(map.at("inputs"), map.key("inputs"), known, "input of the system",
+                           complaints_);
+    if (!inputs.usable()) {
+      return;
+    }
+    for (const std::string& name : inputs.names()) {
+      const auto place = std::find(known.begin(), known.end(), name);
+      if (place == known.end()) {
+        if (known.empty()) {
+          complaints_.add(inputs.key(name), "the system has no inputs");
+        }
+        continue;
+      }
+      MeasuredInput input;
+      input.name = name;
+      input.place = static_cast<std::size_t>(place - known.begin());
+      if (const auto entry =
+              column(inputs, name, {"column", "offset", "scale", "delay", "hold"}, input.column)) {
+        const std::string& unit = built_->dynamics->inputs()[input.place].unit;
+        input.offset = givenOrFitted(*entry, "offset", unit, 0.0);
+        input.scale = givenOrFitted(*entry, "scale", "-", 1.0);
+        requireScale(*entry, input.scale);
+        input.delay = givenOrFitted(*entry, "delay", "s", 0.0);
+        if (std::fabs(input.delay.value) > kLongestDelay) {
+          complaints_.add(entry->key("delay"), fmt::format("must be within {:g} s", kLongestDelay));
+        }
+        input.hold =
+            entry->choice("hold", {"true", "false"}, "whether values are held", "false") == "true";
+      }
+      add(columns, input.column);
+      run.inputs.push_back(input);
+    }
+  }
+
+  /// A column by its name, or in a map with more; the map, where there is one.
+  std::optional<MapReader> column(const MapReader& map, const std::string& name,
+                                  const std::vector<std::string>& known, std::string& column) {
+    const YAML::Node node = map.at(name);
+    if (node.IsScalar()) {
+      column = node.Scalar();
+    } else {
+      const MapReader entry(node, map.key(name), known, "key of a column", complaints_);
+      if (!entry.usable()) {
+        return std::nullopt;
+      }
+      column = entry.text("column", "");
+      if (column.empty()) {
+        complaints_.add(entry.key("column"), "missing; must be the name of a column");
+      }
+      return entry;
+    }
+    if (column.empty()) {
+      complaints_.add(map.key(name), "must be the name of a column");
+    }
+    return std::nullopt;
+  }
+
+  GivenOrFitted givenOrFitted(const MapReader& map, const std::string& name,
+                              const std::string& unit, double fallback) {
+    if (!map.has(name)) {
+      return {fallback, false};
+    }
+    if (map.at(name).IsScalar() && map.at(name).Scalar() == "fit") {
+      return {fallback, true};
+    }
+    const auto number = map.at(name).IsScalar() ? parseNumber(map.at(name).Scalar()) : std::nullopt;
+    if (!number) {
+      complaints_.add(map.key(name),
+                      fmt::format("must be a finite number of {}, or `fit`, found {}", unit,
+                                  shown(map.at(name))));
+      return {fallback, false};
+    }
+    return {*number, false};
+  }
+
+  void requireScale(const MapReader& map, const GivenOrFitted& scale) {
+    if (!(scale.value > 0.0)) {
+      complaints_.add(map.key("scale"), "must be > 0");
+    }
+  }
+
+  static void add(std::vector<std::string>& columns, const std::string& column) {
+    if (std::find(columns.begin(), columns.end(), column) == columns.end()) {
+      columns.push_back(column);
+    }
+  }
+
+  void readFit(const MapReader& map) {
+    const state::ParameterChange parameters = built_->parameters();
+    if (!map.has("fit")) {
+      if (!study_.validate_only) {
+        complaints_.add(map.key("fit"), "missing; must name the parameters to be found");
+      }
+      return;
+    }
+    const MapReader fit(map.at("fit"), map.key("fit"), parameters.names, "parameter of the system",
+                        complaints_);
+    if (!fit.usable()) {
+      return;
+    }
+    for (const std::string& path : fit.names()) {
+      const std::optional<double> start = built_->parameter(path);
+      if (!start) {
+        continue;  // which has been said
+      }
+      FittedParameter parameter;
+      parameter.path = path;
+      parameter.start = *start;
+      const YAML::Node node = fit.at(path);
+      if (!node.IsNull()) {
+        const MapReader bounds(node, fit.key(path), {"min", "max", "start"},
+                               "key of a parameter to be found", complaints_);
+        if (!bounds.usable()) {
+          continue;
+        }
+        parameter.least = bounds.number("min", Range::kAny, "", parameter.least);
+        parameter.most = bounds.number("max", Range::kAny, "", parameter.most);
+        parameter.start = bounds.number("start", Range::kAny, "", parameter.start);
+        if (!(parameter.least < parameter.most)) {
+          complaints_.add(fit.key(path), "min must be below max");
+        } else if (parameter.start < parameter.least || parameter.start > parameter.most) {
+          complaints_.add(fit.key(path),
+                          fmt::format("starts at {:g}, outside of its bounds {:g} to {:g}",
+                                      parameter.start, parameter.least, parameter.most));
+        }
+      }
+      study_.fit.push_back(parameter);
+    }
+    const bool sensors = std::any_of(study_.runs.begin(), study_.runs.end(), [](const auto& run) {
+      return std::any_of(run.measured.begin(), run.measured.end(),
+                         [](const auto& c) { return c.offset.fitted || c.scale.fitted; });
+    });
+    if (study_.fit.empty() && !sensors && !study_.validate_only && fit.names().empty()) {
+      complaints_.add(map.key("fit"),
+                      "must name a parameter to be found, or be asked with --validate-only");
+    }
+  }
+
+  std::filesystem::path folder_;
+  Complaints complaints_;
+  FitStudy study_;
+  SharedSystem built_;
+  std::vector<std::string> units_;  // of coordinates and rates
+};
+
+}  // namespace
+
+FitStudy readFitStudy(const std::string& path, bool validate_only) {
+  const YAML::Node tree = readYamlFile(path, "a study", "scene, system, runs and fit");
+  return StudyReader(path, validate_only).read(tree);
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,50 @@
+// What runs tell about the unknowns of a study: deviations, correlations, and the directions in
+// which they tell nothing.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "estimation/shooting.h"
+#include "estimation/unknowns.h"
+
+namespace whirl_twin {
+
+/// The normal equations of a study at its solution, with the windows' starts eliminated.
+struct NormalEquations {
+  Eigen::MatrixXd matrix;  ///< J'J [unknowns x unknowns]
+  double squares = 0.0;    ///< of the residuals, summed
+  Eigen::Index residuals = 0;
+  Eigen::Index starts = 0;  ///< numbers that the starts have taken up
+
+  /// Takes the derivatives of a window.
+  void add(const WindowDerivatives& window);
+  /// Of a residual, from what is left over.
+  double variance() const;
+};
+
+/// A combination of unknowns that runs do not tell: they can change together, each by this part of
+/// its own size.
+struct UntoldDirection {
+  Eigen::VectorXd parts;  ///< the largest is 1 or -1
+  double deviation;       ///< along it, in these parts; infinite: no residual changes at all
+};
+
+/// Whoever takes part in a direction by less is told all the same.
+constexpr double kTakesPart = 0.1;
+
+struct Information {
+  Eigen::VectorXd deviation;    ///< standard deviations; NaN where an unknown is not told
+  Eigen::MatrixXd correlation;  ///< of those that are told; NaN elsewhere
+  std::vector<UntoldDirection> untold;
+
+  bool told(Eigen::Index unknown) const;
+};
+
+/// An unknown is told when it is known better than to its own size (that of its start, where this
+/// is larger); one that is 0, and was so at the start, when it has any effect that others have not.
+/// Residuals that are not white make deviations too small: they stand for more than they tell.
+Information information(const NormalEquations& normal, const std::vector<Unknown>& unknowns,
+                        const Eigen::VectorXd& theta);
+
+}  // namespace whirl_twin

@@ -1,0 +1,173 @@
+#include "estimation/measured_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <stdexcept>
+
+#include "messages/names.h"
+#include "messages/refusal.h"
+#include "scene/csv_columns.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr std::size_t kFewestRows = 5;
+constexpr double kGap = 5.0;            // of the usual step
+constexpr double kUneven = 0.2;         // of the usual step
+constexpr double kStuckSeconds = 0.25;  // at a value while the column moves elsewhere
+constexpr std::size_t kStuckRows = 20;  // likewise
+constexpr double kCoarse = 1.0e-3;      // of the range
+constexpr double kLatest = 8.0e9;       // s: 250 years in nanoseconds
+
+double median(std::vector<double> x) {
+  const auto middle = x.begin() + static_cast<std::ptrdiff_t>(x.size() / 2);
+  std::nth_element(x.begin(), middle, x.end());
+  return *middle;
+}
+
+/// Rows whose instants are later than all before; `rows` are those they stand on.
+void keepAscending(MeasuredRun& run, std::vector<std::size_t>& rows) {
+  std::size_t kept = 0;
+  std::size_t repeated = 0;
+  std::size_t first_repeated = 0;
+  for (std::size_t i = 0; i < run.time.size(); ++i) {
+    if (!(std::fabs(run.time[i]) <= kLatest)) {
+      throw Refusal(fmt::format("row {}: the time must be within {:g} s of 0, found {:g}", rows[i],
+                                kLatest, run.time[i]));
+    }
+    if (kept > 0 && run.time[i] < run.time[kept - 1]) {
+      throw Refusal(fmt::format("row {}: the time must not go back, found {:.9g} s after {:.9g} s",
+                                rows[i], run.time[i], run.time[kept - 1]));
+    }
+    if (kept > 0 && run.time[i] == run.time[kept - 1]) {
+      first_repeated = repeated++ == 0 ? rows[i] : first_repeated;
+      continue;
+    }
+    run.time[kept] = run.time[i];
+    rows[kept] = rows[i];
+    for (MeasuredColumn& column : run.columns) {
+      column.values[kept] = column.values[i];
+    }
+    ++kept;
+  }
+  run.time.resize(kept);
+  rows.resize(kept);
+  for (MeasuredColumn& column : run.columns) {
+    column.values.resize(kept);
+  }
+  if (repeated > 0) {
+    run.remarks.push_back(
+        fmt::format("{} {} with the instant of the one before, left out; the first is row {}",
+                    repeated, repeated == 1 ? "row" : "rows", first_repeated));
+  }
+}
+
+void remarkOnTime(MeasuredRun& run, const std::vector<std::size_t>& rows) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < run.time.size(); ++i) {
+    steps.push_back(run.time[i] - run.time[i - 1]);
+  }
+  const double usual = median(steps);
+  const auto widest = std::max_element(steps.begin(), steps.end());
+  const auto gaps =
+      std::count_if(steps.begin(), steps.end(), [&](double step) { return step > kGap * usual; });
+  if (gaps > 0) {
+    run.remarks.push_back(
+        fmt::format("{} {} of more than {:g} steps of {:.4g} s; the widest, {:.4g} "
+                    "s, before row {}",
+                    gaps, gaps == 1 ? "gap" : "gaps", kGap, usual, *widest,
+                    rows[static_cast<std::size_t>(widest - steps.begin()) + 1]));
+  }
+  const auto [least, most] = std::minmax_element(steps.begin(), steps.end());
+  if (gaps == 0 && *most - *least > kUneven * usual) {
+    run.remarks.push_back(
+        fmt::format("uneven steps, {:.4g} to {:.4g} s: taken as they are", *least, *most));
+  }
+}
+
+/// The longest stretch of rows with one value: first row and count.
+std::pair<std::size_t, std::size_t> longestStretch(const std::vector<double>& values) {
+  std::pair<std::size_t, std::size_t> longest{0, 0};
+  std::size_t from = 0;
+  for (std::size_t i = 1; i <= values.size(); ++i) {
+    if (i == values.size() || values[i] != values[from]) {
+      if (i - from > longest.second) {
+        longest = {from, i - from};
+      }
+      from = i;
+    }
+  }
+  return longest;
+}
+
+void remarkOnColumn(const MeasuredRun& run, const std::vector<std::size_t>& rows,
+                    const MeasuredColumn& column, std::vector<std::string>& remarks) {
+  const std::string name = quoted(column.name);
+  const auto [least, most] = std::minmax_element(column.values.begin(), column.values.end());
+  const double range = *most - *least;
+  if (range == 0.0) {
+    remarks.push_back(fmt::format("{} is {:.9g} in every row", name, *least));
+    return;
+  }
+  const auto [from, count] = longestStretch(column.values);
+  const double value = column.values[from];
+  const std::set<double> distinct(column.values.begin(), column.values.end());
+  double finest = range;
+  for (auto a = distinct.begin(), b = std::next(a); b != distinct.end(); ++a, ++b) {
+    finest = std::min(finest, *b - *a);
+  }
+  if (count >= kStuckRows && run.time[from + count - 1] - run.time[from] > kStuckSeconds) {
+    const bool at_end = value == *least || value == *most;
+    remarks.push_back(fmt::format("{} stays at {:.9g} for {:.3g} s from row {} on{}", name, value,
+                                  run.time[from + count - 1] - run.time[from], rows[from],
+                                  at_end ? ", an end of its range: saturated?" : ": stuck?"));
+  }
+  if (finest > kCoarse * range) {
+    remarks.push_back(fmt::format("{} comes in steps of {:.4g}, {:.2g} % of its range", name,
+                                  finest, 100.0 * finest / range));
+  }
+}
+
+}  // namespace
+
+const std::vector<double>& MeasuredRun::column(const std::string& name) const {
+  const auto found = std::find_if(columns.begin(), columns.end(),
+                                  [&](const MeasuredColumn& c) { return c.name == name; });
+  if (found == columns.end()) {
+    throw std::logic_error("no column " + name + " was read");
+  }
+  return found->values;
+}
+
+MeasuredRun readMeasuredRun(const std::string& path, const std::string& time,
+                            const std::vector<std::string>& columns) {
+  std::vector<std::string> names = {time};
+  names.insert(names.end(), columns.begin(), columns.end());
+  std::vector<std::vector<double>> read = csvColumns(path, names);
+  MeasuredRun run;
+  run.time = std::move(read.front());
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    run.columns.push_back({columns[i], std::move(read[i + 1])});
+  }
+  std::vector<std::size_t> rows(run.time.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i] = i + 1;
+  }
+  keepAscending(run, rows);
+  if (run.time.size() < kFewestRows) {
+    throw Refusal(fmt::format("must have {} rows of different instants, found {}", kFewestRows,
+                              run.time.size()));
+  }
+  remarkOnTime(run, rows);
+  for (const MeasuredColumn& column : run.columns) {
+    remarkOnColumn(run, rows, column, run.remarks);
+  }
+  return run;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,34 @@
+// A run as it was recorded: columns of numbers over time, and what is odd about them.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace whirl_twin {
+
+struct MeasuredColumn {
+  std::string name;
+  std::vector<double> values;  ///< one a row
+};
+
+struct MeasuredRun {
+  std::vector<double> time;  ///< [s], ascending
+  std::vector<MeasuredColumn> columns;
+  /// What a reader should know, with its rows: the first below the names is row 1.
+  std::vector<std::string> remarks;
+
+  /// Throws std::logic_error where there is none of that name.
+  const std::vector<double>& column(const std::string& name) const;
+  double duration() const { return time.back() - time.front(); }
+};
+
+/// Reads columns from a file of comma-separated values with a line of names. Rows that repeat the
+/// instant of the one before are left out, and that is remarked, as are gaps, uneven steps, and
+/// columns that stand still, stay at an end of their range, or come in coarse steps. Throws Refusal
+/// with what is wrong and where: what csvColumns() refuses, a time that goes back,
+/// fewer than five rows.
+MeasuredRun readMeasuredRun(const std::string& path, const std::string& time,
+                            const std::vector<std::string>& columns);
+
+}  // namespace whirl_twin

@@ -1,0 +1,60 @@
+// The numbers that a fit finds, as one vector: parameters of the system first, then zeros, scales
+// and delays of sensors. A zero or a scale of the same coordinate or input is one unknown, in
+// whichever runs it is asked for.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "estimation/fit_study.h"
+#include "scene/built_scene.h"
+
+namespace whirl_twin {
+
+struct Unknown {
+  enum class Kind {
+    kParameter,
+    kChannelOffset,
+    kChannelScale,
+    kInputOffset,
+    kInputScale,
+    kInputDelay
+  };
+
+  Kind kind = Kind::kParameter;
+  std::string subject;  ///< path of a parameter; name of a channel or an input
+  std::string name;     ///< as told: `mass1`, `theta1.offset`, `torque1.delay`
+  std::string unit;     ///< "" where the model's are not known, of a path into a table
+  double start = 0.0;
+  double least = 0.0, most = 0.0;  ///< may be infinite
+};
+
+/// Those of a study, in order. Parameters that must not be negative have 0 as their least value.
+std::vector<Unknown> unknownsOf(const FitStudy& study, const SharedSystem& system);
+
+/// A study at one point: the system with these parameters, and what its runs measured with these
+/// zeros, scales and delays.
+struct Candidate {
+  SharedSystem system;
+  std::vector<StudyRun> runs;                    ///< without `data`
+  std::vector<std::vector<InputSignal>> inputs;  ///< of each run, in the order of the model
+};
+
+class CandidateMaker {
+ public:
+  /// The study outlives it.
+  explicit CandidateMaker(const FitStudy& study);
+
+  const std::vector<Unknown>& unknowns() const { return unknowns_; }
+  const BuiltScene& scene() const { return scene_; }
+  /// Throws Refusal for parameters that the model cannot have.
+  Candidate at(const Eigen::VectorXd& theta) const;
+
+ private:
+  const FitStudy& study_;
+  BuiltScene scene_;
+  std::vector<Unknown> unknowns_;
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,86 @@
+// A measured run beside what the fitted system does.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "reports/fit_report.h"
+#include "signal/full_spectrum.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kTurn = 6.283185307179586;
+
+/// Amplitudes over frequency of what is left, its rows taken for even.
+Series spectrum(const MeasuredRun& data, const Series& rest) {
+  Eigen::ArrayXcd values(static_cast<Eigen::Index>(rest.y.size()));
+  for (std::size_t i = 0; i < rest.y.size(); ++i) {
+    values[static_cast<Eigen::Index>(i)] = std::isfinite(rest.y[i]) ? rest.y[i] : 0.0;
+  }
+  const double period = data.duration() / static_cast<double>(data.time.size() - 1);
+  const FullSpectrum all(values, period);
+  Series series;
+  series.name = rest.name;
+  series.pen = rest.pen;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (all.frequency(k) > 0.0) {  // the other half is the same
+      series.x.push_back(all.frequency(k) / kTurn);
+      series.y.push_back(2.0 * all.amplitude(k));
+    }
+  }
+  return series;
+}
+
+}  // namespace
+
+Figure figure(const FitStudy& study, const ShootingFit& fit, std::size_t run) {
+  const StudyRun& one = study.runs[run];
+  const std::vector<double>& time = one.data.time;
+  const Eigen::MatrixXd& states = fit.runs[run].states;
+  Figure figure;
+  figure.title =
+      fmt::format("{}: {} ({})", study.system, one.file, one.train ? "train" : "validate");
+  figure.width = 940;
+  figure.chart_height = 300;
+  Chart left, lines;
+  left.title = "measured less predicted";
+  left.x = {"time (s)", false, true};
+  left.y = {"difference"};
+  lines.title = "spectrum of the difference";
+  lines.x = {"frequency (Hz)", true, true};
+  lines.y = {"amplitude", true};
+  for (std::size_t i = 0; i < one.measured.size(); ++i) {
+    const MeasuredChannel& c = fit.runs[run].channels[i];
+    const std::vector<double>& column = one.data.column(c.column);
+    Chart both;
+    both.title =
+        fmt::format("{}, rms of the difference {:.3g} {}", c.name, fit.runs[run].rms[i], c.unit);
+    both.x = {"time (s)", false, true};
+    both.y = {fmt::format("{} ({})", c.name, c.unit)};
+    Series measured{"measured", time, column};
+    Series predicted{"predicted", time, {}};
+    Series rest{c.name, time, {}};
+    for (std::size_t k = 0; k < column.size(); ++k) {
+      predicted.y.push_back(
+          c.scale.value * states(static_cast<Eigen::Index>(c.state), static_cast<Eigen::Index>(k)) +
+          c.offset.value);
+      rest.y.push_back(column[k] - predicted.y.back());
+    }
+    measured.pen = Pen{ink::kBlack, 2.2};
+    predicted.pen = Pen{ink::kVermilion, 1.2};
+    both.series = {measured, predicted};
+    figure.charts.push_back(both);
+    left.series.push_back(rest);
+    lines.series.push_back(spectrum(one.data, rest));
+  }
+  left.y.label = fmt::format("difference ({})", one.measured.front().unit);
+  lines.y.label = fmt::format("amplitude ({})", one.measured.front().unit);
+  figure.charts.push_back(left);
+  figure.charts.push_back(lines);
+  return figure;
+}
+
+}  // namespace whirl_twin

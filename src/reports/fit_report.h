@@ -1,0 +1,26 @@
+// What `twin fit` has found, as text, JSON, pictures and a scene.
+#pragma once
+
+#include <string>
+
+#include "estimation/shooting_fit.h"
+#include "plots/chart.h"
+#include "reports/output.h"
+
+namespace whirl_twin {
+
+std::string text(const FitStudy& study, const ShootingFit& fit);
+Json json(const FitStudy& study, const ShootingFit& fit);
+
+/// A run: measured and predicted over time, what is left between them, and its spectrum.
+Figure figure(const FitStudy& study, const ShootingFit& fit, std::size_t run);
+
+/// The study's scene with the values that were found, and what is known of them in comments; paths
+/// of tables count from `folder`, where it is to be.
+std::string fittedScene(const FitStudy& study, const ShootingFit& fit, const std::string& folder);
+
+/// "theta1 and mass2 can change together, by 1 and -0.5 of their values" of a direction that runs
+/// do not tell.
+std::string directionText(const ShootingFit& fit, const UntoldDirection& direction);
+
+}  // namespace whirl_twin

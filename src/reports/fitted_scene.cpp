@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+
+#include "messages/names.h"
+#include "reports/fit_report.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr std::size_t kLongestRemark = 200;
+
+/// The node at `bearings[0].kxx` below a map; made where there is none.
+YAML::Node nodeAt(YAML::Node node, const std::string& path) {
+  std::size_t from = 0;
+  while (from < path.size()) {
+    if (path[from] == '[') {
+      const std::size_t end = path.find(']', from);
+      node.reset(node[std::stoul(path.substr(from + 1, end - from - 1))]);
+      from = end + 1;
+    } else {
+      from += path[from] == '.' ? 1 : 0;
+      const std::size_t end = std::min(path.find_first_of(".[", from), path.size());
+      node.reset(node[path.substr(from, end - from)]);
+      from = end;
+    }
+  }
+  return node;
+}
+
+void moveTables(const YAML::Node& scene, const std::filesystem::path& from,
+                const std::filesystem::path& to) {
+  for (const auto& system : scene["systems"]) {
+    const YAML::Node inputs = system.second["inputs"];
+    if (!inputs || !inputs.IsMap()) {
+      continue;
+    }
+    for (const auto& input : inputs) {
+      if (!input.second.IsMap() || !input.second["table"]) {
+        continue;
+      }
+      const std::filesystem::path table = input.second["table"].as<std::string>();
+      if (table.is_relative()) {
+        YAML::Node place = input.second["table"];
+        place = std::filesystem::absolute(from / table)
+                    .lexically_normal()
+                    .lexically_relative(std::filesystem::absolute(to).lexically_normal())
+                    .string();
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::string fittedScene(const FitStudy& study, const ShootingFit& fit, const std::string& folder) {
+  YAML::Node scene = YAML::LoadFile(study.scene_path);
+  YAML::Node parameters = scene["systems"][study.system]["parameters"];
+  std::string head =
+      fmt::format("# {} of this scene was fitted to measured runs by `twin fit {}`.\n",
+                  study.system, printable(std::filesystem::path(study.source).filename().string()));
+  for (std::size_t i = 0; i < fit.unknowns.size(); ++i) {
+    const Unknown& u = fit.unknowns[i];
+    const auto k = static_cast<Eigen::Index>(i);
+    if (u.kind == Unknown::Kind::kParameter) {
+      YAML::Node place = nodeAt(parameters, u.subject);
+      place = fmt::format("{:.12g}", fit.theta[k]);
+    }
+    const double deviation = fit.information.deviation[k];
+    head += fmt::format("#   {:<24} {:>16.9g}  {}\n", u.name, fit.theta[k],
+                        std::isfinite(deviation)
+                            ? fmt::format("standard deviation {:.3g} {}", deviation, u.unit)
+                            : std::string("not told by the runs: as it was"));
+  }
+  for (const UntoldDirection& direction : fit.information.untold) {
+    head += "# Not told: " + printable(directionText(fit, direction), kLongestRemark) + "\n";
+  }
+  moveTables(scene, std::filesystem::path(study.scene_path).parent_path(), folder);
+  YAML::Emitter out;
+  out << scene;
+  return head + out.c_str() + "\n";
+}
+
+}  // namespace whirl_twin

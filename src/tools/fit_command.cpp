@@ -1,0 +1,115 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+
+#include "estimation/fit_study_reader.h"
+#include "estimation/shooting_fit.h"
+#include "messages/refusal.h"
+#include "reports/fit_report.h"
+#include "reports/picture_file.h"
+#include "scene/scene_reader.h"
+#include "tools/commands.h"
+#include "tools/progress_bar.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr const char* kDescription =
+    "Finds parameters of a system from measured runs: values, how certain they are, what the runs "
+    "do\nnot tell, and how well runs that were left out are predicted.";
+
+constexpr const char* kFooter =
+    "STUDY is YAML; its paths count from its folder:\n"
+    "  scene: double.yaml\n"
+    "  system: pendulum\n"
+    "  runs:                                              comma-separated values, a row of names\n"
+    "    - {file: swing_1.csv, use: train, time: time, measured: {theta1: q1, theta2: q2}}\n"
+    "    - {file: swing_9.csv, use: validate, time: time, measured: {theta1: q1, theta2: q2},\n"
+    "       inputs: {torque1: tau}}                       what acted on an input of the model\n"
+    "  windows: {length: 1.0, start: estimated}           s, or all; start: measured\n"
+    "  fit: {mass1: {min: 0.01, max: 1.0}, coulomb1: {min: 0.0}}\n"
+    "A coordinate, or its rate as theta1_rate, is scale * state + offset:\n"
+    "  measured: {theta1: {column: q1, offset: fit, scale: 1.0, deviation: 0.001}}\n"
+    "  inputs: {torque1: {column: tau, scale: fit, offset: fit, delay: fit, hold: true}}\n"
+    "Values start as in the scene. In directions that the runs do not tell they stay there, and "
+    "that is\nsaid. Exit status: 0 fitted; 1 no fit was found; 2 a study, scene or run that cannot "
+    "be used.";
+
+struct Request {
+  std::string study;
+  std::optional<std::string> output;
+  std::optional<std::string> plot;
+  bool validate_only = false;
+  bool json = false;
+};
+
+std::string pictureOf(const std::string& plot, const FitStudy& study, std::size_t run) {
+  const std::string name = std::filesystem::path(study.runs[run].file).stem().string();
+  return pictureName(plot, name, study.runs.size() > 1);
+}
+
+void writeScene(const FitStudy& study, const ShootingFit& fit, const std::string& path) {
+  PendingFile file(path);
+  std::ofstream out(file.path(), std::ios::binary);
+  out << fittedScene(study, fit, std::filesystem::path(path).parent_path().string()) << std::flush;
+  if (!out) {
+    throw RunFailure(path + ": cannot be written");
+  }
+  out.close();
+  readSceneFile(file.path());
+  file.complete();
+}
+
+#ifndef WHIRL_TWIN_FIT
+ShootingFit fitByShooting(const FitStudy&, const FitProgress&) {
+  throw RunFailure("fit: this twin was built without Ceres: scripts/setup --fit, then build again");
+}
+#endif
+
+int fit(const Request& request) {
+  requirePictureName(request.plot);
+  const FitStudy study = readFitStudy(request.study, request.validate_only);
+  ProgressBar bar(static_cast<std::int64_t>(study.runs.size()), request.json);
+  const ShootingFit fit = fitByShooting(study, [&bar](int done, int) { bar.show(done); });
+  bar.clear();
+  if (request.output) {
+    writeScene(study, fit, *request.output);
+  }
+  for (std::size_t run = 0; request.plot && run < study.runs.size(); ++run) {
+    writePicture(pictureOf(*request.plot, study, run), figure(study, fit, run));
+  }
+  if (request.json) {
+    printJson(json(study, fit));
+  } else {
+    printText(text(study, fit));
+  }
+  return fit.converged ? kDone : kFailed;
+}
+
+}  // namespace
+
+void addFitCommand(CLI::App& twin, int& status) {
+  CLI::App* command = twin.add_subcommand("fit", kDescription);
+  const auto request = std::make_shared<Request>();
+  command->add_option("STUDY", request->study, "what to fit to which runs")
+      ->required()
+      ->type_name("");
+  command->add_option("--output", request->output, "write the scene with the values found")
+      ->type_name("FILE.yaml");
+  command
+      ->add_option("--plot", request->plot,
+                   "draw each run beside what is predicted: FILE.svg or FILE.png, of several runs "
+                   "FILE_RUN")
+      ->type_name("FILE");
+  command->add_flag("--validate-only", request->validate_only,
+                    "find nothing but the starts of windows");
+  command->add_flag("--json", request->json, "print one JSON object");
+  command->footer(kFooter);
+  command->callback([request, &status] { status = fit(*request); });
+}
+
+}  // namespace whirl_twin
