@@ -90,4 +90,14 @@ std::optional<double> crossCouplingMargin(const LinearRotor& rotor,
   return std::nullopt;
 }
 
+std::optional<CrossCouplingMargin> crossCouplingMarginOf(const Dynamics& dynamics, double speed) {
+  if (!dynamics.linear() || !dynamics.hasShaft() || dynamics.stations().empty() ||
+      dynamics.dof() > kMostCoupledCoordinates) {
+    return std::nullopt;
+  }
+  const std::vector<Station> stations = dynamics.stations();
+  return CrossCouplingMargin{stations.front().name,
+                             crossCouplingMargin(dynamics.linearRotor(), stations, 0, speed)};
+}
+
 }  // namespace whirl_twin

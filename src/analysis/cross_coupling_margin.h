@@ -5,9 +5,11 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "analysis/whirl_modes.h"
+#include "mechanics/dynamics.h"
 #include "mechanics/linear_rotor.h"
 
 namespace whirl_twin {
@@ -33,5 +35,16 @@ std::vector<CrossCouplingRow> firstForwardMode(const LinearRotor& rotor,
 std::optional<double> crossCouplingMargin(const LinearRotor& rotor,
                                           const std::vector<Station>& stations, std::size_t station,
                                           double speed);
+
+/// At the published station of a system.
+struct CrossCouplingMargin {
+  std::string station;
+  std::optional<double> stiffness;  ///< Q0 [N/m]; none makes it grow
+};
+
+/// At a shaft speed [rad/s]. Nothing for what is not a linear rotor, or has more than
+/// kMostCoupledCoordinates: each of some fifty steps towards the margin costs all its eigenvalues.
+constexpr int kMostCoupledCoordinates = 64;
+std::optional<CrossCouplingMargin> crossCouplingMarginOf(const Dynamics& dynamics, double speed);
 
 }  // namespace whirl_twin

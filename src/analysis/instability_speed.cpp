@@ -6,11 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "analysis/characteristic_polynomial.h"
 #include "analysis/cyclic_coordinates.h"
 #include "analysis/equilibria.h"
 #include "analysis/equilibrium_branch.h"
-#include "analysis/routh.h"
+#include "analysis/small_motion.h"
 #include "analysis/stability.h"
 
 namespace whirl_twin {
@@ -21,17 +20,6 @@ constexpr double kReach = 1000.0;           // times the lowest natural frequenc
 constexpr double kNearStandstill = 1.0e-2;  // of it
 constexpr int kStrides = 240;
 constexpr int kFewerStrides = 120;  // where each costs milliseconds
-constexpr double kGrowth = 1.0e-9;  // or decay, of the largest eigenvalue: no rounding
-
-constexpr double kRounding = 1.0e-15;  // of the largest eigenvalue: no growth
-
-constexpr double kSearchBudget = 1.0e9;  // products, of all exact tests of a search
-
-/// A small motion, the last `zeros` coordinates of which do not matter.
-struct SmallMotion {
-  Linearization matrices;
-  std::size_t zeros = 0;
-};
 
 /// At a speed, without the rigid-body modes of a linear rotor, whose zeros rounding would scatter.
 SmallMotion motionAt(const Dynamics& dynamics, const Eigen::VectorXd& q, double speed) {
@@ -43,42 +31,6 @@ SmallMotion motionAt(const Dynamics& dynamics, const Eigen::VectorXd& q, double 
   return rigid.any() ? SmallMotion{atFixedMomenta(l, rigid), rigid.driven.size()}
                      : SmallMotion{l, 0};
 }
-
-/// The fastest growth of a deviation, in parts of the largest eigenvalue.
-double growth(const SmallMotion& motion) {
-  const auto roots = eigenvalues(motion.matrices, motion.zeros);
-  const auto fastest = std::max_element(
-      roots.begin(), roots.end(), [](const auto& a, const auto& b) { return a.real() < b.real(); });
-  return roots.back() == 0.0 ? 0.0 : fastest->real() / std::abs(roots.back());
-}
-
-bool surelyUnstable(const SmallMotion& motion) {
-  return !cannotGrow(motion.matrices) && growth(motion) > kGrowth;
-}
-
-/// Tells stable from unstable at the speeds of one search.
-class StabilityTest {
- public:
-  bool unstable(const SmallMotion& motion) {
-    const double fastest = growth(motion);
-    if (std::fabs(fastest) > kGrowth) {
-      return fastest > 0.0;
-    }
-    const Linearization& l = motion.matrices;
-    if (l.mass.rows() <= kMostExactCoordinates && !budget_spent_) {
-      try {
-        return routh(characteristicPolynomial(l), budget_).verdict == Verdict::kUnstable;
-      } catch (const ExactBudgetSpent&) {
-        budget_spent_ = true;
-      }
-    }
-    return !cannotGrow(l) && fastest > kRounding;
-  }
-
- private:
-  ExactBudget budget_{kSearchBudget};
-  bool budget_spent_ = false;
-};
 
 /// Where it rests at a speed, near where it did; a linear rotor is judged anywhere.
 std::optional<Eigen::VectorXd> restNear(const Dynamics& dynamics, const Eigen::VectorXd& q,
@@ -106,7 +58,7 @@ int stridesFor(const Dynamics& dynamics) {
 }
 
 /// Where the verdict changes between two speeds of which one is unstable.
-double thresholdBetween(const Dynamics& dynamics, StabilityTest& test, const RestAt& below,
+double thresholdBetween(const Dynamics& dynamics, GrowthTest& test, const RestAt& below,
                         double high, bool unstable_above) {
   double low = below.speed;
   while (high - low > 1.0e-15 * high) {
@@ -133,7 +85,7 @@ std::optional<double> instabilitySpeed(const Dynamics& dynamics, const Eigen::Ve
   const double first = std::max(from, kNearStandstill * lowest);
   const double last = kReach * lowest;
   std::vector<RestAt> passed{{from, q}};
-  StabilityTest test;
+  GrowthTest test;
   const int strides = stridesFor(dynamics);
   for (int i = 0; i <= strides; ++i) {
     const double high = first * std::pow(last / first, static_cast<double>(i) / strides);
@@ -177,7 +129,7 @@ std::vector<StabilityThreshold> stabilityThresholds(const Dynamics& dynamics,
   points.insert(points.end(), upward.begin() + 1, upward.end());
 
   std::vector<StabilityThreshold> found;
-  StabilityTest test;
+  GrowthTest test;
   bool before = false;  // unstable
   for (std::size_t i = 0; i < points.size(); ++i) {
     const SmallMotion motion = motionAt(dynamics, points[i].q, points[i].speed);

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -23,6 +24,8 @@ namespace {
 /// Real parts below this part of the largest eigenvalue cannot be told from zero.
 constexpr double kRounding = 1.0e-14;
 constexpr Eigen::Index kMostIterations = 400;  // a root
+/// Rounding of a state matrix and of its eigenvalues, in parts of its norm for each row.
+constexpr double kRoundingOfMatrix = 1.0e-13;
 
 void modes(const std::vector<std::complex<double>>& roots, Stability& s) {
   struct Mode {
@@ -106,6 +109,42 @@ void judgeExactly(const Linearization& l, std::size_t zeros, Stability& s) {
   s.routh = last->exact.routh;
 }
 
+struct StateMatrix {
+  Eigen::MatrixXd matrix;
+  double conditioning;  ///< of the mass, 1 / rcond: by which rounding grows
+};
+
+/// Without the zero of each of the last `zeros` coordinates.
+StateMatrix stateMatrix(const Linearization& l, std::size_t zeros) {
+  const Eigen::Index n = l.mass.rows();
+  const Eigen::Index places = n - static_cast<Eigen::Index>(zeros);  // that matter
+  const Eigen::PartialPivLU<Eigen::MatrixXd> mass(l.mass);
+  const Eigen::MatrixXd by_q = mass.solve(l.stiffness + l.circulatory);
+  const Eigen::MatrixXd by_v = mass.solve(l.damping + l.gyroscopic);
+  // Rates in units of the highest frequency, a power of two: balanced and free of rounding.
+  const double stiffest = std::sqrt(by_q.cwiseAbs().maxCoeff());
+  const double scale = stiffest > 0.0 ? std::exp2(std::round(std::log2(stiffest))) : 1.0;
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(places + n, places + n);
+  a.block(0, places, places, places).diagonal().setConstant(scale);
+  a.bottomLeftCorner(n, places) = -by_q.leftCols(places) / scale;
+  a.bottomRightCorner(n, n) = -by_v;
+  return {std::move(a), 1.0 / mass.rcond()};
+}
+
+/// How near the axis is to the eigenvalues of a matrix: an upper bound of the smallest change of
+/// the matrix that brings one of them onto it.
+double distanceToAxis(const Eigen::MatrixXd& a,
+                      const std::vector<std::complex<double>>& eigenvalues) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const std::complex<double>& root : eigenvalues) {
+    Eigen::MatrixXcd shifted = a;
+    shifted.diagonal().array() -= std::complex<double>(0.0, root.imag());
+    const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(shifted);
+    nearest = std::fmin(nearest, svd.singularValues().minCoeff());
+  }
+  return nearest;
+}
+
 bool positiveDefinite(const Eigen::MatrixXd& m) {
   const Eigen::LLT<Eigen::MatrixXd> llt(m);
   return llt.info() == Eigen::Success &&
@@ -169,23 +208,25 @@ bool cannotGrow(const Linearization& l) {
          definiteness(l.damping, "damping") != Definiteness::kIndefinite;
 }
 
+int rightByEigenvalues(const Linearization& l, std::size_t zeros,
+                       const std::vector<std::complex<double>>& eigenvalues, int by_routh) {
+  const auto right = static_cast<int>(std::count_if(eigenvalues.begin(), eigenvalues.end(),
+                                                    [](const auto& s) { return s.real() > 0.0; }));
+  if (right == by_routh) {
+    return right;
+  }
+  const auto [a, conditioning] = stateMatrix(l, zeros);
+  const double rounding =
+      kRoundingOfMatrix * static_cast<double>(a.rows()) * a.norm() * conditioning;
+  return distanceToAxis(a, eigenvalues) > rounding ? right : by_routh;
+}
+
 std::vector<std::complex<double>> eigenvalues(const Linearization& l) {
   return eigenvalues(l, 0);
 }
 
 std::vector<std::complex<double>> eigenvalues(const Linearization& l, std::size_t zeros) {
-  const Eigen::Index n = l.mass.rows();
-  const Eigen::Index places = n - static_cast<Eigen::Index>(zeros);  // that matter
-  const Eigen::PartialPivLU<Eigen::MatrixXd> mass(l.mass);
-  const Eigen::MatrixXd by_q = mass.solve(l.stiffness + l.circulatory);
-  const Eigen::MatrixXd by_v = mass.solve(l.damping + l.gyroscopic);
-  // Rates in units of the highest frequency, a power of two: balanced and free of rounding.
-  const double stiffest = std::sqrt(by_q.cwiseAbs().maxCoeff());
-  const double scale = stiffest > 0.0 ? std::exp2(std::round(std::log2(stiffest))) : 1.0;
-  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(places + n, places + n);
-  a.block(0, places, places, places).diagonal().setConstant(scale);
-  a.bottomLeftCorner(n, places) = -by_q.leftCols(places) / scale;
-  a.bottomRightCorner(n, n) = -by_v;
+  const Eigen::MatrixXd a = stateMatrix(l, zeros).matrix;
   // Overdamped motions beside slow ones keep the iteration busy for longer than Eigen waits.
   Eigen::EigenSolver<Eigen::MatrixXd> solver(a.rows());
   solver.setMaxIterations(kMostIterations * a.rows()).compute(a, false);
@@ -231,6 +272,10 @@ Stability stability(const Linearization& linearization, std::size_t zeros) {
   if (bounded_energy && (!judged || s.routh.right > 0)) {
     judgeByEnergy(linearization, zeros, s);
   }
+
+  s.right_by_eigenvalues =
+      judged ? rightByEigenvalues(linearization, zeros, s.eigenvalues, s.routh.right)
+             : s.routh.right;
 
   double rightmost = -std::numeric_limits<double>::infinity();
   double ratio = std::numeric_limits<double>::quiet_NaN();

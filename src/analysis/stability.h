@@ -18,7 +18,10 @@ struct Stability {
   std::vector<double> damping_ratios;
   /// Characteristic, monic, highest power first; empty beyond kMostExactCoordinates.
   std::vector<double> polynomial;
-  RouthResult routh;           ///< a repeated imaginary root with full eigenvectors is marginal
+  RouthResult routh;  ///< a repeated imaginary root with full eigenvectors is marginal
+  /// Roots right of the axis by the eigenvalues; routh.right where rounding explains the difference
+  /// (rightByEigenvalues), so that another number is a disagreement that nothing explains.
+  int right_by_eigenvalues = 0;
   double decay_rate = 0.0;     ///< [1/s], -max Re s
   double damping_ratio = 0.0;  ///< [-], min of -Re s / |s| over roots that are not zero
   double log_decrement = 0.0;  ///< [-], 2 pi zeta / sqrt(1 - zeta^2); NaN when overdamped
@@ -49,6 +52,13 @@ Stability stability(const Linearization& linearization);
 /// The same with `zeros` roots at 0 set aside: those of the last coordinates, whose position does
 /// not matter (their columns of K + N are exactly zero).
 Stability stability(const Linearization& linearization, std::size_t zeros);
+
+/// How many of the eigenvalues of this system lie right of the axis, where Routh's test counts
+/// `by_routh`. A count of one computation is that of a system next to it, as far off as rounding
+/// goes: where the axis is that near (the smallest singular value of A - i w I at an eigenvalue's
+/// w), neither can be held against the other, and it is by_routh.
+int rightByEigenvalues(const Linearization& linearization, std::size_t zeros,
+                       const std::vector<std::complex<double>>& eigenvalues, int by_routh);
 
 /// Eigenvalues only: fast, for searches. [2 dof]
 std::vector<std::complex<double>> eigenvalues(const Linearization& linearization);

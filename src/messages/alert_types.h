@@ -11,6 +11,7 @@ inline constexpr char kVibrationZone[] = "VIBRATION_ZONE";
 inline constexpr char kSubsynchronousWhirl[] = "SUBSYNCHRONOUS_WHIRL";
 inline constexpr char kUnstable[] = "UNSTABLE";
 inline constexpr char kLowDamping[] = "LOW_DAMPING";
+inline constexpr char kRouthDisagrees[] = "ROUTH_DISAGREES";
 inline constexpr char kModelMismatch[] = "MODEL_MISMATCH";
 inline constexpr char kEnergyResidual[] = "ENERGY_RESIDUAL";
 inline constexpr char kAccuracyLost[] = "ACCURACY_LOST";
@@ -28,6 +29,7 @@ inline constexpr const char* kAll[] = {kCriticalSpeedApproach,
                                        kSubsynchronousWhirl,
                                        kUnstable,
                                        kLowDamping,
+                                       kRouthDisagrees,
                                        kModelMismatch,
                                        kEnergyResidual,
                                        kAccuracyLost,

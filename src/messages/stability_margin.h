@@ -59,6 +59,18 @@ struct StabilityMargin {
   double threshold_below = std::numeric_limits<double>::quiet_NaN();  ///< [rad/s], nearest below
   double threshold_above = std::numeric_limits<double>::quiet_NaN();  ///< [rad/s], nearest above
   double age = std::numeric_limits<double>::quiet_NaN();  ///< [s], wall time; NaN: not told
+  // The number of the system that, changed alone, is nearest to the loss of stability; "": none is
+  // known, within ten times its value, or it is not stable now.
+  std::string nearest_parameter;
+  double nearest_change = std::numeric_limits<double>::quiet_NaN();  ///< [-], of its value
+  double nearest_value = std::numeric_limits<double>::quiet_NaN();   ///< where it is lost
+  std::string nearest_loss;  ///< divergence, whirl, flutter, no_motion
+  double nearest_frequency = std::numeric_limits<double>::quiet_NaN();      ///< [rad/s]
+  double nearest_time = std::numeric_limits<double>::quiet_NaN();           ///< [s], simulated
+  double cross_coupling_margin = std::numeric_limits<double>::quiet_NaN();  ///< [N/m]
+  // The eigenvalues beside Routh's test.
+  std::uint32_t right_by_eigenvalues = 0;
+  bool routh_disagrees = false;  ///< by more than rounding explains
 
   template <class Visit>
   static void fields(Visit& visit) {
@@ -88,6 +100,15 @@ struct StabilityMargin {
     visit.rows(TWIN_FIELD(critical_speeds), TWIN_FIELD(critical_speeds));
     visit.numbers("rad/s", TWIN_FIELD(threshold_below), TWIN_FIELD(threshold_above));
     visit(TWIN_FIELD(age), "s");
+    visit(TWIN_FIELD(nearest_parameter), "", requireText);
+    visit(TWIN_FIELD(nearest_change), "-");
+    visit(TWIN_FIELD(nearest_value), "");
+    visit(TWIN_FIELD(nearest_loss), "", requireText);
+    visit(TWIN_FIELD(nearest_frequency), "rad/s");
+    visit(TWIN_FIELD(nearest_time), "s");
+    visit(TWIN_FIELD(cross_coupling_margin), "N/m");
+    visit(TWIN_FIELD(right_by_eigenvalues), "", roots);
+    visit(TWIN_FIELD(routh_disagrees), "", requireFlag);
   }
 };
 

@@ -1,5 +1,6 @@
 #include "monitoring/judging.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -14,7 +15,7 @@ double now() {
 
 Judging::Judging(const std::vector<SharedSystem>& systems, Mode mode) : waiting_(systems.size()) {
   for (const SharedSystem& system : systems) {
-    seats_.push_back({system, std::make_unique<SystemJudge>(*system)});
+    seats_.push_back({system, std::make_unique<SystemJudge>(system)});
     first_speeds_.push_back(seats_.back().judge->speeds());
   }
   if (mode == Mode::kBeside) {
@@ -37,12 +38,15 @@ void Judging::ask(JudgementRequest request) {
   const std::size_t system = request.system;
   Waiting waiting{std::move(request), now()};
   if (!thread_.joinable()) {
-    done_.push_back(judge(waiting));
+    done_.push_back(judge(waiting, Speeds::kAll));
     busy_ += now() - waiting.since;
     return;
   }
   {
     const std::lock_guard<std::mutex> lock(mutex_);
+    const std::optional<Waiting>& older = waiting_[system];
+    waiting.with_speeds =
+        older && older->with_speeds && older->request.built == waiting.request.built;
     waiting_[system] = std::move(waiting);
   }
   asked_.notify_one();
@@ -53,24 +57,38 @@ std::vector<Judgement> Judging::take() {
   return std::exchange(done_, {});
 }
 
+bool Judging::pending() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return judging_ || !done_.empty() ||
+         std::any_of(waiting_.begin(), waiting_.end(), [](const auto& w) { return w.has_value(); });
+}
+
 double Judging::busy() {
   const std::lock_guard<std::mutex> lock(mutex_);
   return busy_;
 }
 
-Judgement Judging::judge(const Waiting& waiting) {
+Judgement Judging::judge(const Waiting& waiting, Speeds speeds) {
   const JudgementRequest& request = waiting.request;
   Seat& seat = seats_[request.system];
   if (seat.built != request.built) {
-    seat = {request.built, std::make_unique<SystemJudge>(*request.built)};
+    seat = {request.built, std::make_unique<SystemJudge>(request.built)};
   }
   Judgement judgement;
   judgement.system = request.system;
   judgement.run = request.run;
   judgement.arrived_at = request.arrived_at;
+  judgement.built = request.built;
+  judgement.speed = request.speed;
   judgement.margin = seat.judge->judge(request.at, request.q, request.v, request.speed);
+  judgement.motion = seat.judge->motion();
+  if (speeds == Speeds::kAll && seat.judge->lacksSpeeds()) {
+    seat.judge->findSpeeds(request.speed, judgement.margin);
+  }
+  if (!seat.judge->lacksSpeeds()) {
+    judgement.speeds = seat.judge->speeds();
+  }
   judgement.margin.age = now() - waiting.since;
-  judgement.speeds = seat.judge->speeds();
   return judgement;
 }
 
@@ -85,12 +103,19 @@ void Judging::run() {
       asked_.wait(lock);
       continue;
     }
+    judging_ = true;
     lock.unlock();
     const double begun = now();
-    Judgement judgement = judge(*waiting);
+    Judgement judgement = judge(*waiting, waiting->with_speeds ? Speeds::kAll : Speeds::kKnown);
     const double taken = now() - begun;
     lock.lock();
+    judging_ = false;
     busy_ += taken;
+    std::optional<Waiting>& newer = waiting_[judgement.system];
+    if (!judgement.speeds) {  // they come with the next turn, about the newest state
+      newer = newer ? std::move(newer) : std::move(waiting);
+      newer->with_speeds = newer->request.built == judgement.built;
+    }
     done_.push_back(std::move(judgement));
   }
 }

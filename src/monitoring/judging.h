@@ -1,7 +1,9 @@
 // Judges systems when asked: at once, or in a thread of its own beside those who ask, so that no
 // alarm waits behind a judgement that takes long. There the newest question about a system replaces
 // one that still waits, and all systems have their turn: however slow it is, a verdict is about
-// the newest state there was when it was begun.
+// the newest state there was when it was begun. A verdict takes well below a millisecond for a few
+// coordinates, the critical and threshold speeds of new parameters a hundred times that: there it
+// goes first, without them, and comes again with them.
 #pragma once
 
 #include <condition_variable>
@@ -31,8 +33,11 @@ struct Judgement {
   std::size_t system = 0;
   std::uint64_t run = 0;
   double arrived_at = 0.0;
-  state::StabilityMargin margin;  ///< age: wall time since it was asked for
-  JudgedSpeeds speeds;
+  SharedSystem built;
+  state::StabilityMargin margin;       ///< age: wall time since it was asked for
+  std::optional<SteadyMotion> motion;  ///< that it is about
+  double speed = 0.0;                  ///< [rad/s]
+  std::optional<JudgedSpeeds> speeds;  ///< not of a verdict that went before them
 };
 
 class Judging {
@@ -49,6 +54,8 @@ class Judging {
   void ask(JudgementRequest request);
   /// What has been judged since last asked, in order.
   std::vector<Judgement> take();
+  /// Somebody has asked and not been answered yet.
+  bool pending();
   /// [s], wall time that judging has taken so far.
   double busy();
 
@@ -59,10 +66,12 @@ class Judging {
   };
   struct Waiting {
     JudgementRequest request;
-    double since;  ///< [s], of a clock that only goes forward
+    double since;              ///< [s], of a clock that only goes forward
+    bool with_speeds = false;  ///< the verdict alone has been given
   };
+  enum class Speeds { kKnown, kAll };
 
-  Judgement judge(const Waiting& waiting);
+  Judgement judge(const Waiting& waiting, Speeds speeds);
   void run();
   std::optional<Waiting> next();  ///< mutex_ is held
 
@@ -74,6 +83,7 @@ class Judging {
   std::vector<Judgement> done_;
   std::size_t turn_ = 0;
   double busy_ = 0.0;  ///< [s]
+  bool judging_ = false;
   bool ending_ = false;
   std::thread thread_;
 };

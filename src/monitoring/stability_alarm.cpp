@@ -53,11 +53,13 @@ StabilityAlarm::StabilityAlarm(std::string system, const AlarmSettings& settings
     : system_(std::move(system)),
       settings_(settings),
       unstable_alarm_(settings.delaysOf(alert_type::kUnstable)),
-      low_damping_alarm_(settings.delaysOf(alert_type::kLowDamping)) {}
+      low_damping_alarm_(settings.delaysOf(alert_type::kLowDamping)),
+      disagreement_alarm_(settings.delaysOf(alert_type::kRouthDisagrees)) {}
 
 void StabilityAlarm::update(const state::StabilityMargin& margin, AlertList& alerts) {
   updateUnstable(margin, alerts);
   updateLowDamping(margin, alerts);
+  updateDisagreement(margin, alerts);
 }
 
 void StabilityAlarm::updateUnstable(const state::StabilityMargin& margin, AlertList& alerts) {
@@ -99,6 +101,28 @@ void StabilityAlarm::updateLowDamping(const state::StabilityMargin& margin, Aler
                       speedText(margin.speed), margin.decay_rate, settings_.decay_rate_alarm);
     }
     alerts.raise(std::move(alert), "low damping");
+  }
+}
+
+void StabilityAlarm::updateDisagreement(const state::StabilityMargin& margin, AlertList& alerts) {
+  const bool judged = std::isfinite(margin.decay_rate);  // else the numbers were beyond a double
+  const AlarmCondition condition = margin.routh_disagrees ? AlarmCondition::kWarning
+                                   : judged               ? AlarmCondition::kClear
+                                                          : AlarmCondition::kHold;
+  const auto change = disagreement_alarm_.update(margin.at.time, condition);
+  if (change == ConditionAlarm::Change::kCleared) {
+    alerts.clear(system_, alert_type::kRouthDisagrees, margin.at.time,
+                 fmt::format("{}{}: Routh's test and the eigenvalues agree again", system_,
+                             speedText(margin.speed)));
+  } else if (disagreement_alarm_.active() && margin.routh_disagrees) {
+    state::Alert alert = alertAbout(margin);
+    alert.type = alert_type::kRouthDisagrees;
+    alert.severity = disagreement_alarm_.severity();
+    alert.text = fmt::format(
+        "{}{}: Routh's test counts {} roots in the right half-plane, the eigenvalues {}: the "
+        "verdict is not to be trusted",
+        system_, speedText(margin.speed), margin.right, margin.right_by_eigenvalues);
+    alerts.raise(std::move(alert), "disagreement");
   }
 }
 

@@ -6,6 +6,9 @@
 // damping), which stay bounded.
 // LOW_DAMPING: a warning when the log decrement is below the setting (API 617 asks for 0.1), or the
 // slowest decay below its own.
+// ROUTH_DISAGREES: a warning when Routh's test and the eigenvalues count other roots in the right
+// half-plane, and rounding does not explain it: then one of them, and the verdict, is wrong. An
+// uncertain verdict near a threshold is no disagreement (rightByEigenvalues).
 // An uncertain verdict neither raises nor clears: a warning does not go away because the numbers
 // can no longer be judged.
 #pragma once
@@ -30,11 +33,13 @@ class StabilityAlarm {
   void hold() {
     unstable_alarm_.hold();
     low_damping_alarm_.hold();
+    disagreement_alarm_.hold();
   }
 
  private:
   void updateUnstable(const state::StabilityMargin& margin, AlertList& alerts);
   void updateLowDamping(const state::StabilityMargin& margin, AlertList& alerts);
+  void updateDisagreement(const state::StabilityMargin& margin, AlertList& alerts);
   AlarmCondition dampingCondition(const state::StabilityMargin& margin) const;
   state::Alert alertAbout(const state::StabilityMargin& margin) const;
 
@@ -42,6 +47,7 @@ class StabilityAlarm {
   AlarmSettings settings_;
   ConditionAlarm unstable_alarm_;
   ConditionAlarm low_damping_alarm_;
+  ConditionAlarm disagreement_alarm_;
 };
 
 }  // namespace whirl_twin

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <exception>
+#include <limits>
+#include <utility>
 
 #include "analysis/equilibria.h"
 
@@ -15,29 +17,56 @@ constexpr double kSearchPeriod = 1.0;
 
 }  // namespace
 
-SystemJudge::SystemJudge(const BuiltSystem& system)
-    : system_(system.spec.name),
-      model_(system.model->name),
-      dynamics_(system.dynamics),
-      speeds_(JudgedSpeeds::of(system)),
-      steady_motions_(system.dynamics) {}
+SystemJudge::SystemJudge(SharedSystem system)
+    : system_(std::move(system)), steady_motions_(system_->dynamics) {}
 
-void SystemJudge::findThresholds(double time, const Eigen::VectorXd& about, double speed,
-                                 Verdict verdict) {
+const JudgedSpeeds& SystemJudge::speeds() {
+  if (!speeds_) {
+    speeds_ = JudgedSpeeds::of(*system_);
+  }
+  return *speeds_;
+}
+
+void SystemJudge::checkThresholds(double time, double speed, Verdict verdict) {
   // An equilibrium that moves with speed may be another than the one that was followed: then the
   // verdict tells.
-  const bool expected = dynamics_->linear() ||
-                        (verdict == Verdict::kUnstable) == speeds_.thresholds.unstableAt(speed);
-  if (searched_at_ && (expected || std::fabs(time - *searched_at_) < kSearchPeriod)) {
-    return;
+  const bool expected =
+      system_->dynamics->linear() ||
+      (verdict == Verdict::kUnstable) == (speeds_ && speeds_->thresholds.unstableAt(speed));
+  lacks_thresholds_ =
+      !searched_at_ || (!expected && std::fabs(time - *searched_at_) >= kSearchPeriod);
+}
+
+void SystemJudge::findSpeeds(double speed, state::StabilityMargin& margin) {
+  static_cast<void>(speeds());
+  if (lacks_thresholds_) {
+    const std::vector<double>& about = margin.operating_point;
+    const auto n = static_cast<Eigen::Index>(about.size());
+    try {
+      speeds_->thresholds = ThresholdSpeeds(stabilityThresholds(
+          *system_->dynamics, Eigen::Map<const Eigen::VectorXd>(about.data(), n),
+          shaftSpeed(speed)));
+      searched_at_ = margin.at.time;
+    } catch (const std::exception&) {
+      // Numbers beyond the range of double, or a singular mass: it is tried again.
+    }
+    lacks_thresholds_ = false;
   }
-  speeds_.thresholds = ThresholdSpeeds(stabilityThresholds(*dynamics_, about, speed));
-  searched_at_ = time;
+  putSpeeds(speed, margin);
+}
+
+void SystemJudge::putSpeeds(double speed, state::StabilityMargin& margin) const {
+  const JudgedSpeeds known = speeds_.value_or(JudgedSpeeds());
+  margin.instability_speed = known.thresholds.lowest();
+  margin.threshold_below = known.thresholds.below(shaftSpeed(speed));
+  margin.threshold_above = known.thresholds.above(shaftSpeed(speed));
+  margin.critical_speeds = known.marginsAt(speed);
 }
 
 state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::vector<double>& q,
                                           const std::vector<double>& v, double speed) {
-  const double shaft_speed = dynamics_->hasShaft() ? speed : 0.0;
+  const Dynamics& dynamics = *system_->dynamics;
+  const double shaft_speed = shaftSpeed(speed);
   const auto n = static_cast<Eigen::Index>(q.size());
   const Eigen::VectorXd present = Eigen::Map<const Eigen::VectorXd>(q.data(), n);
   const Eigen::VectorXd rates = Eigen::Map<const Eigen::VectorXd>(v.data(), n);
@@ -45,38 +74,41 @@ state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::v
   Stability s;
   s.routh.verdict = Verdict::kUncertain;
   s.decay_rate = s.damping_ratio = s.log_decrement = kNaN;
+  motion_.reset();
+  lacks_thresholds_ = false;
   try {
     const std::optional<Equilibrium> point =
         settled_                  ? settled_
         : steady_motions_.apply() ? steady_motions_.operatingPoint(at.time, present, rates)
-                                  : operatingPoint(*dynamics_, present, rates, shaft_speed);
-    if (dynamics_->linear() && !dynamics_->hasShaft()) {
+                                  : operatingPoint(dynamics, present, rates, shaft_speed);
+    if (dynamics.linear() && !dynamics.hasShaft()) {
       settled_ = point;
     }
     if (point) {
       about = point->q;
-    } else if (dynamics_->linear()) {
+      motion_ = SteadyMotion{point->q, point->v};
+    } else if (dynamics.linear()) {
       about.setZero();
     }
     s = point ? point->stability
-              : reducedStability(linearizationAbout(*dynamics_, about, rates, shaft_speed),
-                                 cyclicCoordinates(*dynamics_, shaft_speed));
-    findThresholds(at.time, about, shaft_speed, s.routh.verdict);
+              : reducedStability(linearizationAbout(dynamics, about, rates, shaft_speed),
+                                 cyclicCoordinates(dynamics, shaft_speed));
+    checkThresholds(at.time, shaft_speed, s.routh.verdict);
   } catch (const std::exception&) {
     // Numbers beyond the range of double, or a singular mass: uncertain. The others are watched on.
   }
 
   state::StabilityMargin m;
   m.at = at;
-  m.system = system_;
-  m.model = model_;
+  m.system = system_->spec.name;
+  m.model = system_->model->name;
   m.verdict = static_cast<std::uint8_t>(s.routh.verdict);
   m.verdict_name = name(s.routh.verdict);
-  for (const CoordinateInfo& c : dynamics_->coordinates()) {
+  for (const CoordinateInfo& c : dynamics.coordinates()) {
     m.coordinate.emplace_back(c.name);
   }
   m.operating_point.assign(about.data(), about.data() + about.size());
-  m.speed = dynamics_->hasShaft() ? speed : kNaN;
+  m.speed = dynamics.hasShaft() ? speed : kNaN;
   m.polynomial = s.polynomial;
   m.first_column = s.routh.first_column;
   m.right = static_cast<std::uint32_t>(s.routh.right);
@@ -85,10 +117,9 @@ state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::v
   m.decay_rate = s.decay_rate;
   m.damping_ratio = s.damping_ratio;
   m.log_decrement = s.log_decrement;
-  m.instability_speed = speeds_.thresholds.lowest();
-  m.threshold_below = speeds_.thresholds.below(shaft_speed);
-  m.threshold_above = speeds_.thresholds.above(shaft_speed);
-  m.critical_speeds = speeds_.marginsAt(speed);
+  m.right_by_eigenvalues = static_cast<std::uint32_t>(s.right_by_eigenvalues);
+  m.routh_disagrees = s.right_by_eigenvalues != s.routh.right;
+  putSpeeds(speed, m);
   return m;
 }
 

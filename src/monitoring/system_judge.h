@@ -4,13 +4,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "analysis/equilibria.h"
 #include "analysis/known_steady_motions.h"
+#include "analysis/steady_motion.h"
 #include "messages/stability_margin.h"
 #include "monitoring/judged_speeds.h"
 #include "scene/built_system.h"
@@ -19,24 +18,34 @@ namespace whirl_twin {
 
 class SystemJudge {
  public:
-  explicit SystemJudge(const BuiltSystem& system);
+  explicit SystemJudge(SharedSystem system);
 
-  const std::string& system() const { return system_; }
   /// The verdict with coordinates q and rates v at shaft speed [rad/s] (ignored without a shaft):
   /// of the equilibrium or steady motion it operates about, its conserved momenta as they are.
+  /// With the speeds that are known; those that are to be looked for take a hundred times as long.
   state::StabilityMargin judge(const state::Instant& at, const std::vector<double>& q,
                                const std::vector<double>& v, double speed);
-  /// Its critical speeds, and its thresholds as of the last judgement.
-  const JudgedSpeeds& speeds() const { return speeds_; }
+  /// Are they: critical speeds before the first time, thresholds where the last verdict was not
+  /// that which they foretold?
+  bool lacksSpeeds() const { return !speeds_ || lacks_thresholds_; }
+  /// Looks for them, about what was judged last at `speed` [rad/s], and puts them into its verdict.
+  void findSpeeds(double speed, state::StabilityMargin& margin);
+  /// Its critical speeds, and its thresholds as of the last search; those that follow from its
+  /// parameters alone are looked for if they have not been.
+  const JudgedSpeeds& speeds();
+  /// The motion that the last verdict is about; nothing where it operates about none.
+  const std::optional<SteadyMotion>& motion() const { return motion_; }
 
  private:
-  void findThresholds(double time, const Eigen::VectorXd& about, double speed, Verdict verdict);
+  void checkThresholds(double time, double speed, Verdict verdict);
+  void putSpeeds(double speed, state::StabilityMargin& margin) const;
+  double shaftSpeed(double speed) const { return system_->dynamics->hasShaft() ? speed : 0.0; }
 
-  std::string system_;
-  std::string model_;
-  std::shared_ptr<const Dynamics> dynamics_;
-  JudgedSpeeds speeds_;
+  SharedSystem system_;
+  std::optional<JudgedSpeeds> speeds_;
   KnownSteadyMotions steady_motions_;
+  std::optional<SteadyMotion> motion_;
+  bool lacks_thresholds_ = false;
   std::optional<double> searched_at_;   ///< [s], simulated: for thresholds
   std::optional<Equilibrium> settled_;  ///< of a linear system without a shaft: once for all
 };

@@ -1,5 +1,6 @@
 #include "monitoring/system_watch.h"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -7,6 +8,10 @@ namespace whirl_twin {
 namespace {
 
 constexpr double kMeanOver = 0.05;  // s, simulated: an acceleration made of speeds
+
+constexpr double kShortBreak = 0.01;     // s, simulated
+constexpr double kLongBreak = 0.05;      // s, simulated
+constexpr double kFewCoordinates = 4.0;  // eigenvalues of more cost as the cube of their number
 
 /// Low damping is a criterion for rotors; a pendulum may swing as long as it likes.
 AlarmSettings settingsFor(const Dynamics& dynamics, AlarmSettings settings) {
@@ -18,6 +23,12 @@ AlarmSettings settingsFor(const Dynamics& dynamics, AlarmSettings settings) {
 }
 
 }  // namespace
+
+double newsBreak(const Dynamics& dynamics) {
+  const double size = std::max(1.0, static_cast<double>(dynamics.dof()) / kFewCoordinates);
+  const double cost = kShortBreak * size * size * size;
+  return dynamics.linear() ? cost : std::max(kLongBreak, cost);
+}
 
 SystemWatch::SystemWatch(SharedSystem built, JudgedSpeeds first, const AlarmSettings& settings)
     : name(built->spec.name),
@@ -35,7 +46,8 @@ SystemWatch::SystemWatch(SharedSystem built, JudgedSpeeds first, const AlarmSett
       stability_alarm(built->spec.name, settingsFor(*built->dynamics, settings)),
       state_alarm(built->spec.name, settings),
       validity_alarm(built->spec.name, built->dynamics, settings),
-      system(std::move(built)) {
+      system(std::move(built)),
+      news_break(newsBreak(*system->dynamics)) {
   if (rotor) {
     station = system->dynamics->stations().front();
   }
@@ -84,6 +96,7 @@ void SystemWatch::restart(const AlarmSettings& settings) {
   state_alarm = StateAlarm(name, settings);
   validity_alarm = ValidityAlarm(name, dynamics, settings);
   judged = false;
+  news_at = -std::numeric_limits<double>::infinity();
 }
 
 void SystemWatch::hold() {

@@ -24,6 +24,11 @@
 
 namespace whirl_twin {
 
+/// [s], simulated, that verdicts on a speed that changes are apart: 10 ms of a linear rotor of up
+/// to four coordinates, as the cube of their number beyond, and half the grid at least where the
+/// steady motion has to be looked for.
+double newsBreak(const Dynamics& dynamics);
+
 struct SystemWatch {
   SystemWatch(SharedSystem system, JudgedSpeeds speeds, const AlarmSettings& settings);
   /// Time begins anew: so do the alarms.
@@ -56,10 +61,18 @@ struct SystemWatch {
   StabilityAlarm stability_alarm;
   StateAlarm state_alarm;
   ValidityAlarm validity_alarm;
-  SharedSystem system;        ///< with its parameters as they are now
+  SharedSystem system;  ///< with its parameters as they are now
+  /// What came last.
+  struct Last {
+    state::Instant at;
+    std::vector<double> q, v;
+    double arrived_at = 0.0;  ///< [s], wall time
+  } last;
   bool judged = false;        ///< or asked to be
   double judged_at = 0.0;     ///< [s], simulated
   double judged_speed = 0.0;  ///< [rad/s]
+  double news_break;          ///< [s], simulated, between verdicts before their turn
+  double news_at = -std::numeric_limits<double>::infinity();     ///< [s], simulated, of the last
   double verdict_of = std::numeric_limits<double>::quiet_NaN();  ///< [s], that of the verdict
 };
 

@@ -10,6 +10,7 @@ namespace whirl_twin {
 namespace {
 
 constexpr double kJudgingPeriod = 0.1;  // s, simulated
+constexpr double kSpeedNews = 0.01;     // of a speed: a change that is judged before its turn
 constexpr double kOrdersLate =
     1.0;  // s, simulated, beside the newest state: others are not believed
 
@@ -26,6 +27,7 @@ std::vector<std::string> namesOf(const std::vector<SharedSystem>& systems) {
 TwinMonitor::TwinMonitor(const BuiltScene& scene, const AlarmSettings& settings, Judging::Mode mode)
     : settings_(settings),
       judging_(scene.systems, mode),
+      margin_search_(scene.systems.size(), mode),
       data_lost_alarm_(namesOf(scene.systems), settings),
       lcm_lost_alarm_(settings),
       alerts_(settings.latch),
@@ -64,6 +66,9 @@ bool TwinMonitor::take(const state::ParameterChange& change) {
     watch->system = std::move(changed);
     watch->validity_alarm.setDynamics(watch->system->dynamics);
     watch->decay_alarm.hold();
+    if (watch->judged) {
+      askFor(*watch);
+    }
   }
   return true;
 }
@@ -163,22 +168,37 @@ void TwinMonitor::judge(SystemWatch& watch, const state::Instant& at, const std:
                         const std::vector<double>& v, double wall_time) {
   const bool passed = watch.speeds.thresholds.between(watch.judged_speed, watch.speed);
   const double since = at.time - watch.judged_at;  // back where a log is played a second time
-  if (watch.judged && !passed && since >= 0.0 && since < kJudgingPeriod * (1.0 - 1.0e-9)) {
+  const bool due = since < 0.0 || since >= kJudgingPeriod * (1.0 - 1.0e-9);
+  const bool news =
+      watch.system->dynamics->hasShaft() &&
+      std::fabs(watch.speed - watch.judged_speed) > kSpeedNews * std::fabs(watch.judged_speed) &&
+      at.time - watch.news_at >= watch.news_break;
+  watch.last = {at, q, v, wall_time};
+  if (watch.judged && !passed && !due && !news) {
     return;
   }
+  watch.news_at = due ? std::fmin(watch.news_at, at.time) : at.time;
+  askFor(watch);
+}
+
+void TwinMonitor::askFor(SystemWatch& watch) {
   watch.judged = true;
-  watch.judged_at = at.time;
+  watch.judged_at = watch.last.at.time;
   watch.judged_speed = watch.speed;
   const auto place = static_cast<std::size_t>(&watch - watches_.data());
-  judging_.ask({place, watch.system, at, q, v, watch.speed, run_, wall_time});
+  judging_.ask({place, watch.system, watch.last.at, watch.last.q, watch.last.v, watch.speed, run_,
+                watch.last.arrived_at});
   takeJudgements();
 }
 
 void TwinMonitor::takeJudgements() {
   for (Judgement& judgement : judging_.take()) {
     SystemWatch& watch = watches_[judgement.system];
-    watch.speeds = std::move(judgement.speeds);
+    if (judgement.speeds) {
+      watch.speeds = std::move(*judgement.speeds);
+    }
     if (judgement.run == run_) {  // else of before a reset
+      margin_search_.take(judgement);
       watch.verdict_of = judgement.arrived_at;
       watch.stability_alarm.update(judgement.margin, alerts_);
       watch.decay_alarm.update(judgement.margin);

@@ -17,6 +17,7 @@
 #include "monitoring/data_lost_alarm.h"
 #include "monitoring/judging.h"
 #include "monitoring/lcm_lost_alarm.h"
+#include "monitoring/margin_search.h"
 #include "monitoring/reset_watch.h"
 #include "monitoring/restored_alerts.h"
 #include "monitoring/source_clock.h"
@@ -38,8 +39,8 @@ class TwinMonitor {
   void take(const state::PendulumState& pendulum, double wall_time);
   void take(const state::DriveState& drive, double wall_time);
   void take(const state::OrderState& orders, double wall_time);
-  /// The parameters of a system are others now; margins follow with the next that is judged. False
-  /// for a set that the system does not have, or cannot have.
+  /// The parameters of a system are others now, and it is judged with them at once, where it was
+  /// last. False for a set that the system does not have, or cannot have.
   bool take(const state::ParameterChange& change);
   /// Wall time passes though nothing may arrive, to be called a few times a second; paused: the
   /// simulation says that it is held.
@@ -49,9 +50,13 @@ class TwinMonitor {
   /// statistics out of step, which are ignored.
   bool take(const state::LoopStatistics& loop, double wall_time);
 
-  /// Margins judged since last asked: ten a second of simulated time for each system, and at once
-  /// where a rotor passes its threshold speed.
+  /// Margins judged since last asked: ten a second of simulated time for each system; at once where
+  /// a rotor passes its threshold speed and where parameters change; and where its speed has
+  /// changed by a hundredth, at once but for a break that goes with what a verdict costs
+  /// (newsBreak).
   std::vector<state::StabilityMargin> takeMargins();
+  /// Something is being judged: it is worth asking soon.
+  bool judging() { return judging_.pending(); }
   AlertList& alerts() { return alerts_; }
   /// It was here before: to be said before anything arrives.
   void remember(const AlarmMemory& memory) { restored_.begin(memory, alerts_); }
@@ -78,10 +83,13 @@ class TwinMonitor {
   void takeJudgements();
   void judge(SystemWatch& watch, const state::Instant& at, const std::vector<double>& q,
              const std::vector<double>& v, double wall_time);
+  /// Where it was last told to be.
+  void askFor(SystemWatch& watch);
   void watchShaft(SystemWatch& watch, state::DriveState shaft);
 
   AlarmSettings settings_;
   Judging judging_;
+  MarginSearch margin_search_;
   std::uint64_t run_ = 0;  ///< of simulated time: resets so far
   std::vector<SystemWatch> watches_;
   DataLostAlarm data_lost_alarm_;

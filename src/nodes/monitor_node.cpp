@@ -97,11 +97,14 @@ class MonitorNode {
   }
 
   void spinOnce() {
+    // A verdict that is being made is not kept waiting for a state.
+    const std::chrono::milliseconds patience(monitor_.judging() ? 1 : 10);
     if (receiver_) {
-      receiver_->receive(std::chrono::milliseconds(10));
+      receiver_->receive(patience);
       ros::getGlobalCallbackQueue()->callAvailable();
     } else {
-      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01));
+      ros::getGlobalCallbackQueue()->callAvailable(
+          ros::WallDuration(1.0e-3 * static_cast<double>(patience.count())));
     }
     monitor_.tick(wallTime(), paused_);
     publish();

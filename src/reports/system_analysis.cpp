@@ -44,7 +44,8 @@ Eigen::VectorXd inputForce(const BuiltScene& scene, const BuiltSystem& system) {
   return force;
 }
 
-SystemAnalysis analyzeSystem(const BuiltScene& scene, const BuiltSystem& system) {
+SystemAnalysis analyzeSystem(const BuiltScene& scene, const BuiltSystem& system,
+                             ParameterSearch search) {
   const Dynamics& dynamics = *system.dynamics;
   const ShaftMotion shaft = scene.driveOf(system).at(0.0);
   SystemAnalysis a;
@@ -77,25 +78,28 @@ SystemAnalysis analyzeSystem(const BuiltScene& scene, const BuiltSystem& system)
     }
   }
   a.instability_speed = instabilitySpeed(dynamics, a.about, shaft.speed);
-  const CriticalSpeedSearch search = searchCriticalSpeeds(*heldDynamics(system));
-  a.critical_speeds_beyond = search.beyond;
-  a.highest_speed = search.highest_speed;
-  for (const CriticalSpeed& critical : search.found) {
+  const CriticalSpeedSearch critical_speeds = searchCriticalSpeeds(*heldDynamics(system));
+  a.critical_speeds_beyond = critical_speeds.beyond;
+  a.highest_speed = critical_speeds.highest_speed;
+  for (const CriticalSpeed& critical : critical_speeds.found) {
     a.critical_speeds.push_back(criticalSpeedMargin(shaft.speed, critical.speed,
                                                     critical.forward ? "forward" : "backward",
                                                     critical.amplification_factor));
   }
   a.cross_coupling = crossCouplingMarginOf(dynamics, shaft.speed);
   a.steady_speeds = steadySpeedsOf(system);
+  if (a.at_equilibrium && (search == ParameterSearch::kOfAll || isQuickToSearch(system))) {
+    a.parameter_margins = parameterMargins(system, {a.about, a.about_v}, shaft.speed);
+  }
   return a;
 }
 
 }  // namespace
 
-SystemAnalysis analyze(const BuiltScene& scene, std::size_t place) {
+SystemAnalysis analyze(const BuiltScene& scene, std::size_t place, ParameterSearch search) {
   const BuiltSystem& system = *scene.systems[place];
   try {
-    return analyzeSystem(scene, system);
+    return analyzeSystem(scene, system, search);
   } catch (const std::exception& error) {  // an overflow: exact numbers refuse infinities
     throw RunFailure(
         fmt::format("{}: cannot be analysed, a number is beyond the range of a double: {}",

@@ -7,12 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "analysis/cross_coupling_margin.h"
 #include "analysis/equilibria.h"
 #include "analysis/stability.h"
 #include "mechanics/dynamics.h"
 #include "messages/stability_margin.h"
+#include "monitoring/parameter_margins.h"
 #include "reports/output.h"
-#include "reports/rotor_margins.h"
+#include "reports/steady_speeds.h"
 #include "scene/built_scene.h"
 
 namespace whirl_twin {
@@ -43,10 +45,16 @@ struct SystemAnalysis {
   double highest_speed = 0.0;              ///< [rad/s], that a reduced rotor holds to
   std::optional<CrossCouplingMargin> cross_coupling;  ///< at the initial speed
   std::vector<SteadySpeed> steady_speeds;             ///< on its motor
+  /// Of a stable motion, the nearest first; nothing where it was not looked for.
+  std::optional<std::vector<ParameterMargin>> parameter_margins;
 };
 
+/// Which systems have the margins of their numbers looked for (isQuickToSearch).
+enum class ParameterSearch { kWhereQuick, kOfAll };
+
 /// Throws RunFailure where the numbers of the scene are too large to be analysed.
-SystemAnalysis analyze(const BuiltScene& scene, std::size_t system);
+SystemAnalysis analyze(const BuiltScene& scene, std::size_t system,
+                       ParameterSearch search = ParameterSearch::kWhereQuick);
 
 Json json(const SystemAnalysis& analysis);
 std::string text(const SystemAnalysis& analysis);

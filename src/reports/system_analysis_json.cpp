@@ -90,6 +90,26 @@ Json crossCouplingJson(const SystemAnalysis& a) {
           {"stiffness", a.cross_coupling->stiffness ? Json(*a.cross_coupling->stiffness) : Json()}};
 }
 
+/// The numbers that, changed alone, lead to the loss of stability; `change` is null from zero. Null
+/// where they were not looked for.
+Json parameterMarginsJson(const SystemAnalysis& a) {
+  if (!a.parameter_margins) {
+    return {};
+  }
+  const MarginResolution resolution = marginResolution(*a.dynamics);
+  Json json{{"resolution", resolution.stride}, {"reach", resolution.reach}};
+  json["parameters"] = Json::array();
+  for (const ParameterMargin& margin : *a.parameter_margins) {
+    json["parameters"].push_back({{"parameter", margin.parameter},
+                                  {"value", margin.value},
+                                  {"lost_at", margin.loss.value},
+                                  {"change", margin.change},
+                                  {"loss", lossName(margin.loss.kind, *a.dynamics)},
+                                  {"frequency", margin.loss.frequency}});
+  }
+  return json;
+}
+
 }  // namespace
 
 Json json(const SystemAnalysis& a) {
@@ -141,6 +161,7 @@ Json json(const SystemAnalysis& a) {
   }
   json["critical_speeds_beyond_reduction"] = a.critical_speeds_beyond;
   json["cross_coupling_margin"] = crossCouplingJson(a);
+  json["parameter_margins"] = parameterMarginsJson(a);
   json["steady_speeds"] = Json::array();
   for (const SteadySpeed& steady : a.steady_speeds) {
     json["steady_speeds"].push_back(

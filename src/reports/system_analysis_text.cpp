@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "reports/matrix_text.h"
 #include "reports/system_analysis.h"
 #include "reports/verdict_text.h"
@@ -9,6 +11,7 @@ namespace whirl_twin {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
+constexpr std::size_t kMostShown = 10;  // numbers that stability is lost by
 
 /// "x = 0 m, y = 1e-05 m": values of the coordinates, or of their `derivative`-th time derivative.
 std::string values(const SystemAnalysis& a, const Eigen::VectorXd& x, int derivative) {
@@ -158,6 +161,56 @@ std::string crossCouplingText(const SystemAnalysis& a) {
                          : std::string("none found, no forward mode grows"));
 }
 
+/// "10 N s/m"; "0.5" of a number without a unit.
+std::string quantity(double value, const std::string& unit) {
+  return fmt::format("{:.6g}{}", value, unit == "-" ? "" : " " + unit);
+}
+
+std::string lossText(const SystemAnalysis& a, const LossOfStability& loss) {
+  switch (loss.kind) {
+    case LossKind::kFlutter:
+      return fmt::format("{} at {:.6g} rad/s", lossName(loss.kind, *a.dynamics), loss.frequency);
+    case LossKind::kNoMotion:
+      return "no motion like it beyond";
+    default:
+      return "divergence";
+  }
+}
+
+std::string parameterMarginsText(const SystemAnalysis& a) {
+  if (!a.parameter_margins) {
+    return a.at_equilibrium
+               ? fmt::format(
+                     "  numbers that stability is lost by: not looked for, of {} coordinates "
+                     "(--parameters)\n",
+                     a.coordinates.size())
+               : "";
+  }
+  const std::vector<ParameterMargin>& margins = *a.parameter_margins;
+  const MarginResolution resolution = marginResolution(*a.dynamics);
+  if (margins.empty()) {
+    return fmt::format(
+        "  no number, changed alone up to {:g} times in strides of {:g} %, loses stability\n",
+        resolution.reach, 100.0 * resolution.stride);
+  }
+  std::string out = fmt::format(
+      "  stability is lost by one number, the nearest first (up to {:g} times, strides of {:g} "
+      "%)\n",
+      resolution.reach, 100.0 * resolution.stride);
+  std::size_t shown = 0;
+  for (const ParameterMargin& margin : margins) {
+    if (++shown > kMostShown) {
+      return out + fmt::format("    and {} more (--json)\n", margins.size() - kMostShown);
+    }
+    out += fmt::format("    {:<24} {:>10}  at {:<18} now {:<18} {}\n", margin.parameter,
+                       std::isnan(margin.change) ? std::string("from 0")
+                                                 : fmt::format("{:+.4g} %", 100.0 * margin.change),
+                       quantity(margin.loss.value, margin.unit),
+                       quantity(margin.value, margin.unit), lossText(a, margin.loss));
+  }
+  return out;
+}
+
 std::string steadySpeedsText(const SystemAnalysis& a) {
   std::string out = a.steady_speeds.empty() ? "" : "  steady speeds on its motor\n";
   for (const SteadySpeed& steady : a.steady_speeds) {
@@ -182,7 +235,7 @@ std::string text(const SystemAnalysis& a) {
          matrixText("stiffness", a.linearization.stiffness) +
          matrixText("circulatory", a.linearization.circulatory);
   return out + modesText(a) + stabilityText(a) + criticalSpeedsText(a) + crossCouplingText(a) +
-         steadySpeedsText(a);
+         parameterMarginsText(a) + steadySpeedsText(a);
 }
 
 }  // namespace whirl_twin

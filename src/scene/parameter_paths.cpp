@@ -207,6 +207,11 @@ std::optional<double> parameterAt(const std::string& path, const ModelInfo& mode
   return number == nullptr ? std::nullopt : std::optional(*number);
 }
 
+std::string unitAt(const std::string& path, const ModelInfo& model, const SystemSpec& spec) {
+  const auto place = Search(path, model, spec).found();
+  return place.number == nullptr ? "" : place.unit;
+}
+
 bool setParameter(const std::string& path, double value, const ModelInfo& model, SystemSpec& spec,
                   Complaints& complaints) {
   const Place<double> place = Search(path, model, spec).found();

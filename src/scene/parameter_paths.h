@@ -24,6 +24,9 @@ state::ParameterChange parametersOf(const ModelInfo& model, const SystemSpec& sp
 std::optional<double> parameterAt(const std::string& path, const ModelInfo& model,
                                   const SystemSpec& spec);
 
+/// The unit of the number at a path, "-" without; "" if there is none of that path.
+std::string unitAt(const std::string& path, const ModelInfo& model, const SystemSpec& spec);
+
 /// Sets a number. Complains in the words of a scene file under the key systems.NAME.parameters, and
 /// changes nothing, if there is none of that path or it is out of range: false.
 bool setParameter(const std::string& path, double value, const ModelInfo& model, SystemSpec& spec,

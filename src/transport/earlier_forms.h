@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -15,12 +16,21 @@ struct EarlierForm {
   std::string_view later;     ///< the fields since: the end of the layout (payload_layout.h)
 };
 
+/// [bytes] that later fields take while nothing has set them: a string is its length and a zero.
+constexpr std::size_t sizeUnset(std::string_view later) {
+  std::size_t size = 0;
+  for (const char field : later) {
+    size += field == 'b' ? 1 : field == 'i' ? 4 : field == 's' ? 5 : 8;
+  }
+  return size;
+}
+
 /// Of a kind, the earliest first; none if nothing is said.
 template <class State>
 inline constexpr std::array<EarlierForm, 0> kEarlierForms{};
 template <>
-inline constexpr std::array<EarlierForm, 1> kEarlierForms<state::StabilityMargin>{
-    {{0x04269617e2cfdbe6, "ddd"}}};
+inline constexpr std::array<EarlierForm, 2> kEarlierForms<state::StabilityMargin>{
+    {{0x04269617e2cfdbe6, "dddsddsdddib"}, {0x6ff93c955afc2f62, "sddsdddib"}}};
 template <>
 inline constexpr std::array<EarlierForm, 2> kEarlierForms<state::LoopStatistics>{
     {{0xe676f1d3c287e44f, "lllldd"}, {0x9af8de11c53ac49c, "dd"}}};

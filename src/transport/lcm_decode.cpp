@@ -44,16 +44,13 @@ std::vector<std::uint8_t> inTodaysForm(const EarlierForm& form, const void* data
                                        std::size_t size) {
   const std::string& today = layoutOf<State>();
   requireLayout(today.substr(0, today.size() - form.later.size()), data, size);
-  std::size_t later = 0;
-  for (const char field : form.later) {
-    later += field == 'b' ? 1 : field == 'i' ? 4 : 8;
-  }
   std::vector<std::uint8_t> unset;
   encode(State{}, unset);
   const auto* bytes = static_cast<const std::uint8_t*>(data);
   std::vector<std::uint8_t> payload(unset.begin(), unset.begin() + kFingerprintSize);
   payload.insert(payload.end(), bytes + kFingerprintSize, bytes + size);
-  payload.insert(payload.end(), unset.end() - static_cast<std::ptrdiff_t>(later), unset.end());
+  payload.insert(payload.end(), unset.end() - static_cast<std::ptrdiff_t>(sizeUnset(form.later)),
+                 unset.end());
   return payload;
 }
 

@@ -132,6 +132,52 @@ TEST(Stability, routhAndEigenvaluesAgreeOnRandomSystems) {
   EXPECT_LT(unstable, 270);
 }
 
+// Unstable above 300 (1 + 20/20) = 600 rad/s: whirl at 300 rad/s, a pair.
+TEST(RightByEigenvalues, isToldWhereNothingExplainsADifference) {
+  const Linearization unstable = rotorAt(700.0, 20.0, 20.0);
+  const auto roots = eigenvalues(unstable);
+  EXPECT_EQ(rightByEigenvalues(unstable, 0, roots, 2), 2);
+  EXPECT_EQ(rightByEigenvalues(unstable, 0, roots, 0), 2) << "a test that counted none is wrong";
+  const Linearization stable = rotorAt(500.0, 20.0, 20.0);
+  EXPECT_EQ(rightByEigenvalues(stable, 0, eigenvalues(stable), 2), 0) << "and one that counts two";
+}
+
+TEST(RightByEigenvalues, isRouthsWhereRoundingLeavesItOpen) {
+  // Beside the threshold by a unit or a thousand in the last place the eigenvalues cannot tell.
+  for (const double ulps : {-1000.0, -10.0, -1.0, 0.0, 1.0, 10.0, 1000.0}) {
+    const Linearization near = rotorAt(600.0 * (1.0 + ulps * 2.2e-16), 20.0, 20.0);
+    const auto roots = eigenvalues(near);
+    EXPECT_EQ(rightByEigenvalues(near, 0, roots, 0), 0) << ulps;
+    EXPECT_EQ(rightByEigenvalues(near, 0, roots, 2), 2) << ulps;
+    const Stability s = stability(near);
+    EXPECT_EQ(s.right_by_eigenvalues, s.routh.right) << ulps;
+  }
+  // Undamped: all on the axis, and rounding scatters them to both sides.
+  const Stability undamped = stability(rotorAt(700.0, 0.0, 0.0));
+  EXPECT_EQ(undamped.right_by_eigenvalues, undamped.routh.right);
+}
+
+// Four equal roots at -1e-3 p, which rounding spreads by its fourth root and over the axis: chains
+// of oscillators that one-sided springs make defective.
+TEST(RightByEigenvalues, isRouthsOfRepeatedRootsThatRoundingSpreads) {
+  for (const double damping : {1.0e-3, 1.0e-5, -1.0e-5, -1.0e-3}) {
+    const Eigen::Index n = 4;
+    Linearization chain;
+    chain.mass = Eigen::MatrixXd::Identity(n, n);
+    chain.damping = 2.0 * damping * Eigen::MatrixXd::Identity(n, n);
+    chain.gyroscopic = Eigen::MatrixXd::Zero(n, n);
+    Eigen::MatrixXd by_q = Eigen::MatrixXd::Identity(n, n);
+    for (Eigen::Index i = 0; i + 1 < n; ++i) {
+      by_q(i, i + 1) = 1.0;
+    }
+    chain.stiffness = 0.5 * (by_q + by_q.transpose());
+    chain.circulatory = 0.5 * (by_q - by_q.transpose());
+    const Stability s = stability(chain);
+    EXPECT_EQ(s.routh.right, damping > 0.0 ? 0 : 8) << damping;
+    EXPECT_EQ(s.right_by_eigenvalues, s.routh.right) << damping;
+  }
+}
+
 }  // namespace
 
 }  // namespace whirl_twin

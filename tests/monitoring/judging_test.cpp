@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <thread>
 
 #include "watched_twin.h"
@@ -25,9 +26,10 @@ systems:
     parameters: {mass: 1.0, stiffness: 1.0e4, damping: 10.0}
 )";
 
-std::vector<Judgement> awaited(Judging& judging, std::size_t count) {
+/// The first with its speeds, and what went before it.
+std::vector<Judgement> awaited(Judging& judging) {
   std::vector<Judgement> all;
-  while (all.size() < count) {
+  while (all.empty() || !all.back().speeds) {
     for (Judgement& judgement : judging.take()) {
       all.push_back(std::move(judgement));
     }
@@ -47,19 +49,43 @@ TEST(Judging, BesideItJudgesAsAtOnce) {
       at_once.ask(request);
       beside.ask(request);
       const std::vector<Judgement> expected = at_once.take();
-      const std::vector<Judgement> found = awaited(beside, 1);
       ASSERT_EQ(expected.size(), 1u);
-      EXPECT_EQ(found[0].system, system);
-      EXPECT_EQ(found[0].run, 3u);
-      EXPECT_EQ(found[0].margin.at.step, 7);
-      EXPECT_EQ(found[0].margin.verdict_name, expected[0].margin.verdict_name);
-      EXPECT_EQ(found[0].margin.decay_rate, expected[0].margin.decay_rate);
-      if (system == 0) {
-        EXPECT_EQ(found[0].speeds.thresholds.lowest(), expected[0].speeds.thresholds.lowest());
+      for (const Judgement& found : awaited(beside)) {
+        EXPECT_EQ(found.system, system);
+        EXPECT_EQ(found.run, 3u);
+        EXPECT_EQ(found.margin.at.step, 7);
+        EXPECT_EQ(found.margin.verdict_name, expected[0].margin.verdict_name);
+        EXPECT_EQ(found.margin.decay_rate, expected[0].margin.decay_rate);
+        if (system == 0 && found.speeds) {
+          EXPECT_EQ(found.speeds->thresholds.lowest(), expected[0].speeds->thresholds.lowest());
+        }
+        EXPECT_GE(found.margin.age, 0.0);
       }
-      EXPECT_GE(found[0].margin.age, 0.0);
     }
   }
+}
+
+// Unstable above 100 (1 + 10/10) rad/s, with twice the internal damping above 150.
+TEST(Judging, TheVerdictOnNewParametersGoesBeforeTheirSpeeds) {
+  const BuiltScene scene = build(sceneOf(kTwoRotors));
+  Judging judging(scene.systems, Judging::Mode::kBeside);
+  const SharedSystem changed = scene.systems[0]->with({"internal_damping"}, {20.0}, "test");
+  judging.ask({0, changed, {7, 0.007, 0}, {0.0, 0.0}, {0.0, 0.0}, 160.0, 0});
+  const std::vector<Judgement> found = awaited(judging);
+  ASSERT_EQ(found.size(), 2u);
+  for (const Judgement& judgement : found) {
+    EXPECT_EQ(judgement.margin.verdict_name, "unstable");
+    EXPECT_EQ(judgement.margin.at.step, 7);
+    EXPECT_EQ(judgement.built, changed);
+  }
+  EXPECT_FALSE(found[0].speeds);
+  EXPECT_TRUE(found[0].margin.critical_speeds.empty());
+  EXPECT_TRUE(std::isnan(found[0].margin.instability_speed)) << "those of before are not told";
+  EXPECT_NEAR(found[1].margin.instability_speed, 150.0, 1.0e-9);
+  EXPECT_EQ(found[1].margin.critical_speeds.size(), 1u);
+  // Known from now on: one verdict, with them.
+  judging.ask({0, changed, {8, 0.008, 0}, {0.0, 0.0}, {0.0, 0.0}, 140.0, 0});
+  EXPECT_EQ(awaited(judging).size(), 1u);
 }
 
 TEST(Judging, AllSystemsHaveTheirTurnAndTheNewestStateIsJudgedLast) {
@@ -73,7 +99,7 @@ TEST(Judging, AllSystemsHaveTheirTurnAndTheNewestStateIsJudgedLast) {
   std::int64_t last[2] = {0, 0};
   while (last[0] < 1000 || last[1] < 1000) {
     for (const Judgement& judgement : judging.take()) {
-      EXPECT_GT(judgement.margin.at.step, last[judgement.system]);
+      EXPECT_GE(judgement.margin.at.step, last[judgement.system]);
       last[judgement.system] = judgement.margin.at.step;
     }
     std::this_thread::yield();
@@ -93,7 +119,7 @@ systems:
     initial: {spin_rate: 2.0}
 )"));
   const BuiltSystem& system = *scene.systems[0];
-  SystemJudge judge(system);
+  SystemJudge judge(scene.systems[0]);
   double time = 0.0;
   for (const double rate : {2.0, 5.0, 9.0, 9.05, 30.0, 80.0, 140.0, 12.0}) {
     time += 2.0;

@@ -60,6 +60,28 @@ TEST_F(StabilityAlarmTest, AnUnstableVerdictIsDangerAtOnceAndClearsAfterTheDelay
   EXPECT_EQ(unstable(), nullptr);
 }
 
+TEST_F(StabilityAlarmTest, RouthAndEigenvaluesThatDisagreeAreAWarning) {
+  const auto disagreement = [&] { return list_.find("rotor", alert_type::kRouthDisagrees); };
+  alarm_.update(marginOf(0.0, kUncertain), list_);
+  EXPECT_EQ(disagreement(), nullptr) << "uncertain is no disagreement";
+  state::StabilityMargin margin = marginOf(0.1, kStable);
+  margin.right_by_eigenvalues = 2;
+  margin.routh_disagrees = true;
+  alarm_.update(margin, list_);
+  ASSERT_NE(disagreement(), nullptr);
+  EXPECT_EQ(disagreement()->severity, state::Severity::kWarning);
+  EXPECT_EQ(disagreement()->text,
+            "rotor at 100.0 rad/s: Routh's test counts 0 roots in the right half-plane, the "
+            "eigenvalues 2: the verdict is not to be trusted");
+  EXPECT_EQ(unstable(), nullptr);
+  alarm_.update(marginOf(0.2, kStable), list_);
+  alarm_.update(marginOf(0.8, kUncertain, kNaN, kNaN), list_);  // beyond a double: nothing is known
+  alarm_.update(marginOf(1.3, kStable), list_);
+  EXPECT_NE(disagreement(), nullptr) << "the clear delay begins anew";
+  alarm_.update(marginOf(2.4, kStable), list_);
+  EXPECT_EQ(disagreement(), nullptr);
+}
+
 TEST_F(StabilityAlarmTest, AnUncertainVerdictNeverClears) {
   alarm_.update(marginOf(0.0, kUncertain), list_);
   EXPECT_TRUE(list_.active().empty()) << "nor does it raise";

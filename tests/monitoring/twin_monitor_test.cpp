@@ -76,7 +76,17 @@ TEST(TwinMonitor, changedParametersAreJudgedFromTheNextMarginOn) {
 }
 
 TEST(TwinMonitor, marginsComeTenASecondAndTellTheThreshold) {
-  WatchedTwin watched(sceneOf(kSelfExcited));
+  WatchedTwin watched(sceneOf(R"(
+name: steady
+step: 0.001
+drives: {shaft: {speed: 150.0}}
+systems:
+  rotor:
+    model: jeffcott_rotor
+    drive: shaft
+    parameters: {mass: 1.0, stiffness: 1.0e4, damping: 10.0, internal_damping: 10.0}
+    initial: {x: 1.0e-6}
+)"));
   watched.run(0.45);
   EXPECT_EQ(watched.margins.size(), 5u);  // at the first step, then every 0.1 s
   for (const auto& margin : watched.margins) {
@@ -86,6 +96,55 @@ TEST(TwinMonitor, marginsComeTenASecondAndTellTheThreshold) {
     EXPECT_EQ(margin.first_column.size(), 5u);
     ASSERT_EQ(margin.critical_speeds.size(), 1u);
   }
+}
+
+// From 150 rad/s at 100 rad/s^2 a hundredth of the speed takes 15 ms and more.
+TEST(TwinMonitor, aSpeedThatChangesIsJudgedWhereItHasChangedByAHundredth) {
+  WatchedTwin watched(sceneOf(kSelfExcited));
+  watched.run(0.45);  // to 195 rad/s
+  ASSERT_GE(watched.margins.size(), 25u);
+  EXPECT_LE(watched.margins.size(), 31u) << "not at every state";
+  for (std::size_t i = 1; i < watched.margins.size(); ++i) {
+    const double before = watched.margins[i - 1].speed;
+    const double step = 100.0 * 0.001;  // rad/s, from one state to the next
+    EXPECT_LE(watched.margins[i].speed, 1.01 * before + 1.01 * step);
+  }
+}
+
+// A run-up from standstill changes by a hundredth at every state: it is judged every 10 ms.
+TEST(TwinMonitor, aFastRunUpIsNotJudgedAtEveryState) {
+  WatchedTwin watched(sceneOf(R"(
+name: run_up
+step: 0.001
+drives: {shaft: {speed: 0.0, profile: [{speed: 100.0, max_acceleration: 1000.0}]}}
+systems:
+  rotor:
+    model: jeffcott_rotor
+    drive: shaft
+    parameters: {mass: 1.0, stiffness: 1.0e4, damping: 10.0, eccentricity: 1.0e-6}
+)"));
+  watched.run(0.1);
+  ASSERT_GE(watched.margins.size(), 9u);
+  EXPECT_LE(watched.margins.size(), 12u);
+}
+
+// The verdict on new parameters does not wait for a state, nor for its turn: it is about the last.
+TEST(TwinMonitor, newParametersAreJudgedAtOnce) {
+  WatchedTwin watched(sceneOf(kSelfExcited));
+  watched.run(0.105);
+  watched.monitor.takeMargins();
+  state::ParameterChange change = watched.observer.parameters(0);
+  for (std::size_t i = 0; i < change.names.size(); ++i) {
+    change.values[i] = change.names[i] == "internal_damping" ? 40.0 : change.values[i];
+  }
+  ASSERT_TRUE(watched.monitor.take(change));
+  const std::vector<state::StabilityMargin> margins = watched.monitor.takeMargins();
+  ASSERT_EQ(margins.size(), 1u);
+  EXPECT_EQ(margins[0].verdict_name, "unstable") << "above 125 rad/s";
+  EXPECT_EQ(margins[0].at.step, 105);
+  EXPECT_NEAR(margins[0].instability_speed, 125.0, 1.0e-9);
+  ASSERT_TRUE(watched.monitor.take(change));
+  EXPECT_TRUE(watched.monitor.takeMargins().empty()) << "told again, they are no others";
 }
 
 // As when a log of one scene is played beside another: no reading past the end of a state.

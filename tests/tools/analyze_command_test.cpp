@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "twin_program.h"
@@ -52,6 +53,7 @@ TEST(Analyze, HasEveryKey) {
                                                    "critical_speeds",
                                                    "critical_speeds_beyond_reduction",
                                                    "cross_coupling_margin",
+                                                   "parameter_margins",
                                                    "steady_speeds",
                                                    "methods"}));
     EXPECT_EQ(keys(system["energy"]), (std::set<std::string>{"kinetic", "potential", "jacobi",
@@ -145,6 +147,34 @@ TEST(Analyze, InternalDampingSetsTheInstabilitySpeed) {
   EXPECT_NEAR(rotor["margins"]["instability_speed"], 50.0 * (1.0 + 10.0 / 5.0), 1e-10);
   // Circulatory: N = [[0, c_i w], [-c_i w, 0]].
   EXPECT_EQ(rotor["linearization"]["circulatory"], Json({{0.0, 200.0}, {-200.0, 0.0}}));
+}
+
+// The same at 75 rad/s, p = 50: lost by damping at c_i (w / p - 1), by stiffness where p = 25.
+TEST(Analyze, TellsTheNumberNearestToTheLossOfStability) {
+  const Json rotor = analyzed(
+      "{model: jeffcott_rotor, parameters: {mass: 2, stiffness: 5000, damping: 10,"
+      " internal_damping: 5, speed: 75}}");
+  const Json& margins = rotor["parameter_margins"];
+  EXPECT_EQ(margins["resolution"], 0.05);
+  EXPECT_EQ(margins["reach"], 10.0);
+  std::map<std::string, Json> of;
+  for (const Json& margin : margins["parameters"]) {
+    of[margin["parameter"]] = margin;
+  }
+  EXPECT_NEAR(of.at("speed")["lost_at"], 150.0, 1.0e-6);
+  EXPECT_NEAR(of.at("speed")["change"], 1.0, 1.0e-8);
+  EXPECT_EQ(of.at("speed")["loss"], "whirl");
+  EXPECT_NEAR(of.at("speed")["frequency"], 50.0, 1.0e-4);
+  EXPECT_NEAR(of.at("damping")["lost_at"], 2.5, 1.0e-7);
+  EXPECT_NEAR(of.at("cross_coupling")["lost_at"], 15.0 * 50.0 - 5.0 * 75.0, 1.0e-5);
+  EXPECT_TRUE(of.at("cross_coupling")["change"].is_null());
+  EXPECT_NEAR(of.at("stiffness")["lost_at"], 5000.0 / 4.0, 1.0e-4);
+  EXPECT_NEAR(of.at("mass")["change"], 3.0, 1.0e-7);
+  EXPECT_NEAR(margins["parameters"][0]["change"], -0.75, 1.0e-8) << "the nearest first";
+  const Json growing = analyzed(
+      "{model: jeffcott_rotor, parameters: {mass: 2, stiffness: 5000, damping: 10,"
+      " internal_damping: 5, speed: 160}}");
+  EXPECT_TRUE(growing["parameter_margins"].is_null()) << "it has lost it already";
 }
 
 TEST(Analyze, UndampedCriticalSpeedHasNoAmplificationFactor) {

@@ -64,7 +64,9 @@ TEST_F(RunUpLog, TheBandIsAnnouncedEnteredAndLeft) {
   EXPECT_LT(in_band["cleared"].get<double>(), 8.148 + 1.5);
   const Json& rotor = run["systems"]["rotor"];
   EXPECT_EQ(rotor["states"], 6001);
-  EXPECT_NEAR(rotor["verdicts"].get<double>(), 120, 2);
+  // Ten a second, and where the speed has changed by a hundredth: below 50 rad/s that takes less.
+  EXPECT_GT(rotor["verdicts"].get<double>(), 118);
+  EXPECT_LT(rotor["verdicts"].get<double>(), 170);
   EXPECT_NEAR(rotor["least_decay_rate"].get<double>(), 12.0 / (2.0 * 2.0), 1e-9);
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "state_samples.h"
+#include "transport/earlier_forms.h"
 #include "transport/lcm_encode.h"
 
 namespace whirl_twin {
@@ -61,6 +62,34 @@ void expectEveryCutRejected(const State& state) {
   auto longer = whole;
   longer.push_back(0);
   EXPECT_THROW(decoded(channelOf(state), longer), RejectedMessage);
+}
+
+// A margin of before its later fields: what is there stays, what is not is said not to be known.
+TEST(LcmDecode, PlaysMarginsInTheirEarlierForms) {
+  StateSamples samples(5);
+  for (const EarlierForm& form : kEarlierForms<state::StabilityMargin>) {
+    for (int i = 0; i < 20; ++i) {
+      state::StabilityMargin margin = samples.margin();
+      const state::StabilityMargin unset;
+      margin.nearest_parameter = margin.nearest_loss = "";
+      margin.nearest_change = margin.nearest_value = margin.nearest_frequency =
+          unset.nearest_change;
+      margin.nearest_time = margin.cross_coupling_margin = unset.nearest_change;
+      margin.right_by_eigenvalues = 0;
+      margin.routh_disagrees = false;
+      if (form.later.size() > 9) {
+        margin.threshold_below = margin.threshold_above = margin.age = unset.age;
+      }
+      Payload then = encoded(margin);
+      then.resize(then.size() - sizeUnset(form.later));
+      for (std::size_t byte = 0; byte < 8; ++byte) {
+        then[byte] = static_cast<std::uint8_t>(form.fingerprint >> (8 * (7 - byte)));
+      }
+      const Message back = decoded(channelOf(margin), then);
+      ASSERT_TRUE(std::holds_alternative<state::StabilityMargin>(back));
+      EXPECT_EQ(bitsOf(std::get<state::StabilityMargin>(back)), bitsOf(margin));
+    }
+  }
 }
 
 TEST(LcmDecode, RejectsAPayloadCutAnywhereOrTooLong) {

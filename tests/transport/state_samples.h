@@ -129,7 +129,7 @@ class StateSamples {
     fill(s);
     s.operating_point = numbers(s.coordinate.size());
     s.verdict = static_cast<std::uint8_t>(below(5));
-    s.right = s.imaginary = s.left = 0;
+    s.right = s.imaginary = s.left = s.right_by_eigenvalues = 0;
     if (!s.polynomial.empty()) {
       s.left = static_cast<std::uint32_t>(s.polynomial.size()) - 1;
     }

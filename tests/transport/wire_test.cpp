@@ -67,13 +67,11 @@ void expectBeginsWith(const Bytes& now, const Bytes& then, std::size_t from,
 /// [bytes] of the fields that a kind has got since.
 template <class State>
 std::size_t laterFieldsOf(const State&) {
-  std::size_t bytes = 0;
-  if constexpr (!kEarlierForms<State>.empty()) {
-    for (const char field : kEarlierForms<State>.front().later) {
-      bytes += field == 'b' ? 1 : field == 'i' ? 4 : 8;
-    }
+  if constexpr (kEarlierForms<State>.empty()) {
+    return 0;
+  } else {
+    return sizeUnset(kEarlierForms<State>.front().later);
   }
-  return bytes;
 }
 
 TEST(Wire, OfLcmIsWhatItWas) {
@@ -102,6 +100,9 @@ TEST(Wire, OfLcmIsWhatItWas) {
     if (const auto* margin = std::get_if<state::StabilityMargin>(&message)) {
       critical_speeds += margin->critical_speeds.size();
       EXPECT_TRUE(std::isnan(margin->age)) << "nobody has set it";
+      EXPECT_EQ(margin->nearest_parameter, "");
+      EXPECT_TRUE(std::isnan(margin->nearest_change));
+      EXPECT_FALSE(margin->routh_disagrees);
     }
   }
   EXPECT_EQ(kinds.size(), 8u);

@@ -1,0 +1,104 @@
+// The margins that are looked for beside the verdicts.
+#include "monitoring/margin_search.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <thread>
+
+#include "watched_twin.h"
+
+namespace whirl_twin {
+namespace {
+
+// Unstable above 100 (1 + 10/10) = 200 rad/s; cross-coupling of 20 * 100 - 10 w brings it there.
+constexpr const char* kSelfExcited = R"(
+name: self_excited
+step: 0.001
+drives: {shaft: {speed: 150.0}}
+systems:
+  rotor:
+    model: jeffcott_rotor
+    drive: shaft
+    parameters: {mass: 1.0, stiffness: 1.0e4, damping: 10.0, internal_damping: 10.0}
+)";
+
+Judgement judged(const SharedSystem& system, double time, double speed) {
+  SystemJudge judge(system);
+  Judgement judgement;
+  judgement.built = system;
+  judgement.speed = speed;
+  judgement.margin = judge.judge({0, time, 0}, {0.0, 0.0}, {0.0, 0.0}, speed);
+  judgement.motion = judge.motion();
+  return judgement;
+}
+
+/// The verdict at a time, judged again until what is looked for beside it is there.
+Judgement found(MarginSearch& search, const SharedSystem& system, double time, double speed) {
+  Judgement judgement = judged(system, time, speed);
+  search.take(judgement);
+  while (judgement.margin.nearest_time != time) {
+    std::this_thread::yield();
+    judgement = judged(system, time, speed);
+    search.take(judgement);
+  }
+  return judgement;
+}
+
+TEST(MarginSearch, BesideTheVerdictsFindsWhatItFindsAtOnce) {
+  const BuiltScene scene = build(sceneOf(kSelfExcited));
+  for (const Judging::Mode mode : {Judging::Mode::kAtOnce, Judging::Mode::kBeside}) {
+    MarginSearch search(1, mode);
+    const state::StabilityMargin margin = found(search, scene.systems[0], 1.0, 150.0).margin;
+    EXPECT_EQ(margin.nearest_parameter, "speed");
+    EXPECT_NEAR(margin.nearest_change, 1.0 / 3.0, 1.0e-8);
+    EXPECT_NEAR(margin.nearest_value, 200.0, 1.0e-6);
+    EXPECT_EQ(margin.nearest_loss, "whirl");
+    EXPECT_NEAR(margin.nearest_frequency, 100.0, 1.0e-4);
+    EXPECT_NEAR(margin.cross_coupling_margin, 500.0, 1.0e-6);
+  }
+}
+
+TEST(MarginSearch, TellsNothingOfOtherParametersThanItHasSearched) {
+  const BuiltScene scene = build(sceneOf(kSelfExcited));
+  MarginSearch search(1, Judging::Mode::kBeside);
+  found(search, scene.systems[0], 1.0, 150.0);
+  // With 6 N s/m along x it is unstable where (6 + 10) (10 + 10) = (10 w / 100)^2.
+  const SharedSystem changed = scene.systems[0]->with({"damping"}, {6.0}, "test");
+  Judgement first = judged(changed, 1.1, 150.0);
+  search.take(first);
+  EXPECT_TRUE(first.margin.nearest_parameter.empty() || first.margin.nearest_time == 1.1);
+  const state::StabilityMargin margin = found(search, changed, 1.1, 150.0).margin;
+  EXPECT_EQ(margin.nearest_parameter, "speed");
+  EXPECT_NEAR(margin.nearest_value, 10.0 * std::sqrt(320.0), 1.0e-6);
+}
+
+TEST(MarginSearch, LooksAnewWhereTheSpeedHasChangedButNotAllTheTime) {
+  const BuiltScene scene = build(sceneOf(kSelfExcited));
+  MarginSearch search(1, Judging::Mode::kAtOnce);
+  const auto at = [&](double time, double speed) {
+    Judgement judgement = judged(scene.systems[0], time, speed);
+    search.take(judgement);
+    return judgement.margin;
+  };
+  EXPECT_EQ(at(0.0, 100.0).nearest_time, 0.0);
+  EXPECT_EQ(at(0.5, 150.0).nearest_time, 0.0) << "within a second";
+  EXPECT_EQ(at(1.0, 150.0).nearest_time, 1.0);
+  EXPECT_EQ(at(9.0, 150.5).nearest_time, 1.0) << "the same speed, but for a hundredth";
+  const state::StabilityMargin unstable = at(10.0, 250.0);
+  EXPECT_EQ(unstable.nearest_parameter, "") << "it has lost it already";
+  EXPECT_TRUE(std::isnan(unstable.nearest_change));
+  EXPECT_EQ(at(0.2, 150.0).nearest_time, 0.2) << "a log that is played a second time";
+}
+
+TEST(MarginSearch, IsPartOfTheMonitor) {
+  WatchedTwin watched(sceneOf(kSelfExcited));
+  watched.run(0.15);
+  ASSERT_FALSE(watched.margins.empty());
+  EXPECT_EQ(watched.margins.back().nearest_parameter, "speed");
+  EXPECT_NEAR(watched.margins.back().cross_coupling_margin, 500.0, 1.0e-6);
+  EXPECT_FALSE(watched.margins.back().routh_disagrees);
+}
+
+}  // namespace
+}  // namespace whirl_twin
