@@ -194,8 +194,11 @@ class VisualizationNode {
     }
     const std::string silence = listener_.monitorSilence();
     const bool held = listener_.monitor() && listener_.monitor()->paused;
-    status.live = liveMargin(readout.margin, ros::WallTime::now().toSec() - readout.margin_heard,
-                             held, silence);
+    // A station has the margin of its rotor.
+    const auto judged = listener_.systems().find(scene_.systemOf(name));
+    const SystemReadout& of = judged == listener_.systems().end() ? readout : judged->second;
+    status.live =
+        liveMargin(of.margin, ros::WallTime::now().toSec() - of.margin_heard, held, silence);
     status.live.least_decrement = settings_.log_decrement_warning;
     status.alerts = listener_.alertsOf(name);
     if (!silence.empty()) {
