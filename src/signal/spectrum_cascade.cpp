@@ -134,8 +134,9 @@ std::optional<WindowSpectrum> SpectrumCascade::latest() const {
   const double period = whole / static_cast<double>(kept_.size() - 1);
   const double rate = std::fabs(kept_.back().speed - kept_.front().speed) / whole;
   const double sharp = std::max(kShortest, std::sqrt(4.0 * kPi / rate));
-  const auto count = std::max(
-      kFewestSamples, static_cast<std::size_t>(std::min(sharp, whole + period) / period + 0.5));
+  const double reach = std::min(sharp, whole + period);
+  const auto count =
+      std::max(kFewestSamples, static_cast<std::size_t>(std::lround(reach / period)));
   const std::size_t begin = kept_.size() - std::min(count, kept_.size());
   const auto samples = static_cast<Eigen::Index>(kept_.size() - begin);
 
