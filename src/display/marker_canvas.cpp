@@ -73,6 +73,20 @@ visualization_msgs::Marker& MarkerCanvas::add(const std::string& part, int type,
   return marker;
 }
 
+MarkerCanvas MarkerCanvas::turned(const Eigen::Vector3d& at,
+                                  const Eigen::Matrix3d& world_axes) const {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.translation() = world_from_system_ * at;
+  pose.linear() = world_axes;
+  return {markers_, system_, pose};
+}
+
+void MarkerCanvas::gone(const std::string& part) {
+  add(part, visualization_msgs::Marker::CUBE, Eigen::Isometry3d::Identity(),
+      Eigen::Vector3d::Ones(), {0.0F, 0.0F, 0.0F})
+      .action = visualization_msgs::Marker::DELETE;
+}
+
 void MarkerCanvas::cylinder(const std::string& part, const Eigen::Vector3d& from,
                             const Eigen::Vector3d& to, double radius, const Color& color) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();

@@ -29,6 +29,12 @@ class MarkerCanvas {
   MarkerCanvas(visualization_msgs::MarkerArray& markers, std::string system,
                const Eigen::Isometry3d& world_from_system);
 
+  /// The same system's, with other axes: at a point in the system's axes, turned in the world.
+  MarkerCanvas turned(const Eigen::Vector3d& at, const Eigen::Matrix3d& world_axes) const;
+
+  /// Takes the next marker of the part away, and keeps its number.
+  void gone(const std::string& part);
+
   /// Round bar between the centres of its two ends; radius [m].
   void cylinder(const std::string& part, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                 double radius, const Color& color);

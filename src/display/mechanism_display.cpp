@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 
 #include "display/sketch_drawing.h"
@@ -20,6 +21,7 @@ constexpr double kNarrowest = 1.0;
 constexpr double kBaseHeight = 0.04;
 constexpr double kBoardThickness = 0.02;
 constexpr double kTextGap = 0.14;  // between the picture and its words
+constexpr double kNoShaft = std::numeric_limits<double>::quiet_NaN();
 constexpr double kFacing = -0.55;  // rad about the vertical, towards who looks at the row
 
 constexpr Color kBase{0.75F, 0.80F, 0.88F};
@@ -163,8 +165,8 @@ std::vector<std::string> MechanismDisplay::lines(const SystemStatus& status) con
     lines.push_back(speedText(shaft_.speed));
   }
   lines.push_back(energyText(state_));
-  if (status.margin) {
-    const auto& margin = *status.margin;
+  if (status.live.margin) {
+    const auto& margin = *status.live.margin;
     if (!margin.coordinate.empty()) {
       lines.push_back("about " +
                       coordinateText(coordinatesOf(margin.coordinate, dynamics_.get()),
@@ -198,7 +200,8 @@ void MechanismDisplay::draw(const SystemStatus& status, MarkerCanvas& canvas) co
     }
   }
   const Eigen::Vector3d foot(middle.x(), 0.0, middle.z() + 0.5 * height() + kTextGap);
-  drawStatus(name_, lines(status), status.alerts, foot, Eigen::Vector3d::UnitZ(), canvas);
+  const bool shaft = dynamics_ && dynamics_->hasShaft();
+  drawStatus(name_, lines(status), shaft ? shaft_.speed : kNoShaft, status, foot, canvas);
 }
 
 }  // namespace whirl_twin

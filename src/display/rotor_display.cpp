@@ -17,7 +17,7 @@ constexpr double kShaftLength = 1.3;
 constexpr double kShaftRadius = 0.022;
 constexpr double kDiscRadius = 0.26;
 constexpr double kDiscThickness = 0.05;
-constexpr double kTextFoot = 0.62;  // above the shaft
+constexpr double kTextFoot = 0.56;  // above the shaft
 
 constexpr Color kSteel{0.66F, 0.69F, 0.73F};
 constexpr Color kIron{0.48F, 0.52F, 0.58F};
@@ -25,6 +25,7 @@ constexpr Color kBase{0.75F, 0.80F, 0.88F};
 constexpr Color kCalmDisc{0.30F, 0.62F, 0.52F};
 constexpr Color kMark{1.0F, 0.93F, 0.45F};
 constexpr Color kTrail{0.35F, 0.85F, 1.0F};
+constexpr Color kCalmLimit{0.35F, 0.80F, 0.45F};
 constexpr Color kThin{0.80F, 0.83F, 0.87F, 0.55F};
 
 Eigen::Isometry3d at(double x, double y, double z) {
@@ -124,25 +125,58 @@ void RotorDisplay::drawOrbit(MarkerCanvas& canvas) const {
   canvas.line("whirl_radius", {{0.0, 0.0, plane}, centre}, 0.006, kTrail);
 }
 
+void RotorDisplay::drawLimits(const SystemStatus& status, MarkerCanvas& canvas) const {
+  constexpr std::size_t kMostLimits = 5;  // three zones, two levels
+  constexpr double kLargest = 0.5;        // m, in the picture
+  constexpr int kSides = 48;
+  const double plane = 0.5 * kDiscThickness + 0.010;
+  for (std::size_t i = 0; i < kMostLimits; ++i) {
+    std::vector<Eigen::Vector3d> circle;
+    Color color{0.0F, 0.0F, 0.0F};
+    if (i < status.limits.size() && scale_.value() * status.limits[i].radius <= kLargest) {
+      const VibrationLimit& limit = status.limits[i];
+      Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+      if (limit.about_mean && status.orders) {
+        centre = scale_.value() * Eigen::Vector2d(status.orders->mean_x, status.orders->mean_y);
+      }
+      for (int k = 0; k <= kSides; ++k) {
+        const double angle = 2.0 * M_PI * k / kSides;
+        const double radius = scale_.value() * limit.radius;
+        circle.emplace_back(centre.x() + radius * std::cos(angle),
+                            centre.y() + radius * std::sin(angle), plane);
+      }
+      color = limit.severity == Alert::INFO ? kCalmLimit : severityColor(limit.severity);
+    }
+    canvas.line("limit", circle, 0.010, color);
+  }
+}
+
 void RotorDisplay::draw(const SystemStatus& status, MarkerCanvas& canvas) const {
   drawStand(canvas);
   drawShaft(canvas);
   drawDisc(severityColor(status.alerts, kCalmDisc), canvas);
   drawOrbit(canvas);
-  canvas.text("scale", {0.0, -0.14, 0.5 * kShaftLength + 0.25}, 0.072,
+  drawLimits(status, canvas);
+  // Beside the shaft; where there is little room, before the base.
+  const Eigen::Vector3d beside = status.compact
+                                     ? Eigen::Vector3d(-0.41, -0.54, 0.43)
+                                     : Eigen::Vector3d(0.0, -0.14, 0.5 * kShaftLength + 0.25);
+  canvas.text("scale", beside, status.compact ? 0.11 : 0.072,
               "whirl x " + scaleNumber(scale_.value()), kTrail);
 
   std::vector<std::string> lines;
-  if (status.margin) {
-    lines = marginLines(*status.margin);
+  if (status.live.margin) {
+    lines = marginLines(*status.live.margin);
   }
   std::string whirl = whirlText(state_);
   if (status.orders) {
     whirl += ", " + ordersText(*status.orders);
   }
   lines.insert(lines.begin(), {speedText(state_.speed), whirl});
-  drawStatus(name_, lines, status.alerts, kTextFoot * Eigen::Vector3d::UnitY(),
-             Eigen::Vector3d::UnitY(), canvas);
+  if (!status.limits.empty()) {
+    lines.push_back(limitsText(status.limits));
+  }
+  drawStatus(name_, lines, state_.speed, status, kTextFoot * Eigen::Vector3d::UnitY(), canvas);
 }
 
 }  // namespace whirl_twin

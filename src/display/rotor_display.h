@@ -1,6 +1,7 @@
 // A rotor as a picture: a shaft between two bearings, bent by the whirl to a half sine, the disc at
-// the whirling centre with the mark of its unbalance, the orbit's trail, margins and alerts in
-// words. The whirl is drawn exaggerated and the factor stands beside the shaft.
+// the whirling centre with the mark of its unbalance, the orbit's trail within the limits that are
+// set for it, margins and alerts in words. The whirl is drawn exaggerated and the factor stands
+// beside the shaft.
 //
 // Rotor axes (z along the shaft, x and y across it, rotation from x to y positive) lie in the world
 // so that the shaft is level: rotor z = world x (REP 103: forward), rotor x = world y, rotor y =
@@ -34,6 +35,7 @@ class RotorDisplay : public SystemDisplay {
   void drawShaft(MarkerCanvas& canvas) const;
   void drawDisc(const Color& color, MarkerCanvas& canvas) const;
   void drawOrbit(MarkerCanvas& canvas) const;
+  void drawLimits(const SystemStatus& status, MarkerCanvas& canvas) const;
 
   std::string name_;
   WhirlState state_;

@@ -2,10 +2,13 @@
 
 #include <ros/ros.h>
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "messages/message_check.h"
 #include "scene/scene_reader.h"
+#include "scene/station_names.h"
 #include "transport/ros_converters.h"
 #include "transport/ros_parameters.h"
 #include "transport/twin_namespace.h"
@@ -54,6 +57,19 @@ bool SceneDynamics::take(const ParameterChange& change) {
 std::shared_ptr<const Dynamics> SceneDynamics::dynamics(const std::string& system) const {
   const auto found = systems_.find(system);
   return found == systems_.end() ? nullptr : found->second->dynamics;
+}
+
+std::string SceneDynamics::systemOf(const std::string& published) const {
+  if (systems_.count(published) > 0) {
+    return published;
+  }
+  for (const auto& [name, system] : systems_) {
+    const std::vector<std::string> stations = publishedStations(name, *system->dynamics);
+    if (std::find(stations.begin(), stations.end(), published) != stations.end()) {
+      return name;
+    }
+  }
+  return published;
 }
 
 std::string SceneDynamics::driveOf(const std::string& system) const {

@@ -24,6 +24,10 @@ class SceneDynamics {
   /// The model of a system; null if it is not known.
   std::shared_ptr<const Dynamics> dynamics(const std::string& system) const;
 
+  /// The system that a whirl of this name is published of: that itself, or of which it is a
+  /// station.
+  std::string systemOf(const std::string& published) const;
+
   /// Name of the drive that turns a system; "" without one.
   std::string driveOf(const std::string& system) const;
 

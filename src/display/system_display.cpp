@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
+#include "display/layout.h"
 #include "display/status_text.h"
 
 namespace whirl_twin {
@@ -13,38 +15,12 @@ namespace {
 constexpr Color kText{0.90F, 0.92F, 0.94F};
 constexpr double kHeadlineHeight = 0.095;  // m
 constexpr double kLineHeight = 0.072;      // m
+constexpr double kCompactHeight = 0.17;    // m
+constexpr double kCompactAlert = 0.13;     // m
 constexpr std::size_t kLineLength = 40;    // characters, about as wide as a place
 constexpr std::size_t kAlertsShown = 3;
 
-// Stacks blocks of text upwards. rviz sets lines a line's height and 0.01 m apart.
-class TextStack {
- public:
-  TextStack(const Eigen::Vector3d& foot, const Eigen::Vector3d& up, MarkerCanvas& canvas)
-      : foot_(foot), up_(up), canvas_(canvas) {}
-
-  void add(const std::string& part, const std::vector<std::string>& lines, double height,
-           const Color& color) {
-    const double block = static_cast<double>(lines.size()) * (height + 0.01);
-    canvas_.text(part, foot_ + 0.5 * block * up_, height, joinedLines(lines), color);
-    foot_ += (lines.empty() ? 0.0 : block + 0.02) * up_;
-  }
-
- private:
-  Eigen::Vector3d foot_;
-  Eigen::Vector3d up_;
-  MarkerCanvas& canvas_;
-};
-
 }  // namespace
-
-std::vector<Eigen::Vector3d> sideBySide(std::size_t places) {
-  std::vector<Eigen::Vector3d> row;
-  for (std::size_t i = 0; i < places; ++i) {
-    const double y = (static_cast<double>(i) - 0.5 * static_cast<double>(places - 1)) * kPlaceWidth;
-    row.emplace_back(kEchelon * y, y, 0.0);
-  }
-  return row;
-}
 
 Color severityColor(int severity) {
   if (severity >= Alert::DANGER) {
@@ -61,19 +37,44 @@ Color severityColor(const std::vector<Alert>& alerts, const Color& calm) {
   return highest == Alert::INFO ? calm : severityColor(highest);
 }
 
-void drawStatus(const std::string& headline, const std::vector<std::string>& lines,
-                const std::vector<Alert>& alerts, const Eigen::Vector3d& foot,
-                const Eigen::Vector3d& up, MarkerCanvas& canvas) {
-  TextStack stack(foot, up, canvas);
+void TextStack::add(const std::string& part, const std::vector<std::string>& lines, double height,
+                    const Color& color) {
+  const double block = static_cast<double>(lines.size()) * (height + 0.01);
+  board_.text(part, foot_ + 0.5 * block * Eigen::Vector3d::UnitY(), height, joinedLines(lines),
+              color);
+  foot_.y() += lines.empty() ? 0.0 : block + 0.35 * height;
+}
+
+void drawStatus(const std::string& headline, const std::vector<std::string>& lines, double speed,
+                const SystemStatus& status, const Eigen::Vector3d& foot, MarkerCanvas& canvas) {
+  MarkerCanvas board = canvas.turned(foot, boardAxes());
+  const double instruments = drawInstruments(status.live, speed, status.compact, board);
+  TextStack stack({0.0, instruments, 0.0}, board);
+  const Color color = severityColor(status.alerts, kText);
+  if (status.compact) {
+    const std::string name =
+        std::isfinite(speed) ? fmt::format("{}  {:.1f} rad/s", headline, speed) : headline;
+    stack.add("text", {name}, kCompactHeight, color);
+    std::vector<std::string> alert;
+    if (!status.alerts.empty()) {
+      const std::size_t more = status.alerts.size() - 1;
+      alert = {status.alerts[0].type + (more > 0 ? fmt::format("  +{}", more) : "")};
+    } else if (!status.live.margin) {
+      alert = {"no live verdict"};
+    }
+    stack.add("alerts", alert, kCompactAlert, color);
+    return;
+  }
   std::vector<std::string> wrapped;
   for (const auto& line : lines) {
     const auto pieces = wrapText(line, kLineLength);
     wrapped.insert(wrapped.end(), pieces.begin(), pieces.end());
   }
   stack.add("text", wrapped, kLineHeight, kText);
-  stack.add("text", {headline}, kHeadlineHeight, severityColor(alerts, kText));
+  stack.add("text", {headline}, kHeadlineHeight, color);
   // The most severe stands on top in full, the others below it by their names. Places without an
   // alert are written empty, which clears them.
+  const std::vector<Alert>& alerts = status.alerts;
   for (std::size_t i = kAlertsShown; i-- > 0;) {
     std::vector<std::string> sentence;
     int severity = Alert::INFO;

@@ -6,18 +6,21 @@
 #include <string>
 #include <vector>
 
+#include "display/instrument_panel.h"
 #include "display/marker_canvas.h"
+#include "display/vibration_limits.h"
 #include "whirl_twin/Alert.h"
 #include "whirl_twin/OrderState.h"
-#include "whirl_twin/StabilityMargin.h"
 
 namespace whirl_twin {
 
 /// What is known of a system at the moment, beside its state.
 struct SystemStatus {
-  StabilityMargin::ConstPtr margin;  ///< null before the first
-  OrderState::ConstPtr orders;       ///< of a rotor, likewise
-  std::vector<Alert> alerts;         ///< active, most severe first
+  LiveMargin live;
+  OrderState::ConstPtr orders;         ///< of a rotor, null before the first
+  std::vector<Alert> alerts;           ///< active, most severe first
+  std::vector<VibrationLimit> limits;  ///< of a rotor
+  bool compact = false;                ///< there is little room: its name, instruments, one alert
 };
 
 class SystemDisplay {
@@ -37,27 +40,34 @@ class SystemDisplay {
   virtual Eigen::Isometry3d bodyPose() const = 0;
 };
 
-/// Distance between neighbouring systems in the world [m], along y.
-constexpr double kPlaceWidth = 1.4;
-
-/// How far each stands before its left neighbour, per distance along y: so the row faces a viewer
-/// who looks at the shafts from the front and somewhat from the side.
-constexpr double kEchelon = 0.9;
-
-/// Where so many systems stand on the ground, from left to right about the origin [m].
-std::vector<Eigen::Vector3d> sideBySide(std::size_t places);
-
 /// Colour of the highest severity among the alerts, `calm` when there is none.
 Color severityColor(const std::vector<Alert>& alerts, const Color& calm);
 
 /// Colour of an alert's severity.
 Color severityColor(int severity);
 
-/// Writes the headline, the lines and, above them, the active alerts.
-/// @param foot [m], lower edge of the writing, in the system's axes
-/// @param up unit vector upwards in the system's axes
-void drawStatus(const std::string& headline, const std::vector<std::string>& lines,
-                const std::vector<Alert>& alerts, const Eigen::Vector3d& foot,
-                const Eigen::Vector3d& up, MarkerCanvas& canvas);
+/// Draws the instruments on a board that faces the viewer and, above them, writes the lines, the
+/// headline and the active alerts; where it is compact, the headline with the speed and the first
+/// alert's type.
+/// @param speed [rad/s], of the shaft; NaN without one
+/// @param foot [m], lower edge of the board, in the system's axes
+void drawStatus(const std::string& headline, const std::vector<std::string>& lines, double speed,
+                const SystemStatus& status, const Eigen::Vector3d& foot, MarkerCanvas& canvas);
+
+/// Stacks blocks of text upwards on a board. rviz sets lines a line's height and 0.01 m apart;
+/// blocks stand a third of a line apart.
+class TextStack {
+ public:
+  /// @param foot [m], lower edge of the first, in the axes of the board
+  TextStack(const Eigen::Vector3d& foot, MarkerCanvas& board) : foot_(foot), board_(board) {}
+
+  /// @param height [m], of a line. No lines take the marker away.
+  void add(const std::string& part, const std::vector<std::string>& lines, double height,
+           const Color& color);
+
+ private:
+  Eigen::Vector3d foot_;
+  MarkerCanvas& board_;
+};
 
 }  // namespace whirl_twin

@@ -33,7 +33,8 @@ std::vector<TwinTopic> twinTopics(const ros::master::V_TopicInfo& all,
     }
     const std::string rest = info.name.substr(prefix.size());
     const std::size_t slash = rest.find('/');
-    if ((isType<AlertArray>(info.datatype) || isType<MonitorStatus>(info.datatype)) &&
+    if ((isType<AlertArray>(info.datatype) || isType<MonitorStatus>(info.datatype) ||
+         isType<LoopStatistics>(info.datatype)) &&
         slash == std::string::npos) {
       topics.push_back({info.name, info.datatype, ""});
     } else if (slash == std::string::npos || rest.find('/', slash + 1) != std::string::npos) {
@@ -106,6 +107,7 @@ ros::Subscriber TwinListener::subscribe(const TwinTopic& topic) {
   if (isType<StabilityMargin>(topic.type)) {
     return listen<StabilityMargin>(topic, [this, subject](const StabilityMargin::ConstPtr& margin) {
       systems_[subject].margin = margin;
+      systems_[subject].margin_heard = ros::WallTime::now().toSec();
     });
   }
   if (isType<ParameterChange>(topic.type)) {
@@ -120,8 +122,16 @@ ros::Subscriber TwinListener::subscribe(const TwinTopic& topic) {
         topic, [this, subject](const DriveState::ConstPtr& drive) { drives_[subject] = drive; });
   }
   if (isType<MonitorStatus>(topic.type)) {
-    return listen<MonitorStatus>(topic, [this](const MonitorStatus::ConstPtr&) {
+    return listen<MonitorStatus>(topic, [this](const MonitorStatus::ConstPtr& status) {
+      monitor_ = status;
       pulse_.beat(ros::WallTime::now().toSec());
+    });
+  }
+  if (isType<LoopStatistics>(topic.type)) {
+    return listen<LoopStatistics>(topic, [this](const LoopStatistics::ConstPtr& loop) {
+      if (loop_handler_) {
+        loop_handler_(*loop);
+      }
     });
   }
   return listen<AlertArray>(topic, [this](const AlertArray::ConstPtr& alerts) {

@@ -13,6 +13,7 @@
 #include "messages/monitor_pulse.h"
 #include "whirl_twin/AlertArray.h"
 #include "whirl_twin/DriveState.h"
+#include "whirl_twin/LoopStatistics.h"
 #include "whirl_twin/MonitorStatus.h"
 #include "whirl_twin/OrderState.h"
 #include "whirl_twin/ParameterChange.h"
@@ -28,13 +29,14 @@ struct SystemReadout {
   OrderState::ConstPtr orders;
   PendulumState::ConstPtr pendulum;
   StabilityMargin::ConstPtr margin;
+  double margin_heard = 0.0;  ///< [s], wall time
 };
 
 /// A topic of the twin: its full name, message type and the system or drive it is about.
 struct TwinTopic {
   std::string topic;
   std::string type;
-  std::string subject;  ///< empty for the alerts
+  std::string subject;  ///< empty for what is about all of the twin
 };
 
 /// The topics of the twin in a namespace, such as /twin, among all that the master knows.
@@ -46,12 +48,14 @@ class TwinListener {
   using WhirlHandler = std::function<void(const std::string& system, const WhirlState&)>;
   using PendulumHandler = std::function<void(const std::string& system, const PendulumState&)>;
   using ParameterHandler = std::function<void(const ParameterChange&)>;
+  using LoopHandler = std::function<void(const LoopStatistics&)>;
   using AlertHandler = std::function<void(const AlertArray&)>;
 
   /// Called with every state, in the spinner's thread; to be set before the first discover().
   void onWhirl(WhirlHandler handler) { whirl_handler_ = std::move(handler); }
   void onPendulum(PendulumHandler handler) { pendulum_handler_ = std::move(handler); }
   void onParameters(ParameterHandler handler) { parameter_handler_ = std::move(handler); }
+  void onLoop(LoopHandler handler) { loop_handler_ = std::move(handler); }
   void onAlerts(AlertHandler handler) { alert_handler_ = std::move(handler); }
 
   /// Asks the master and follows it. What has gone is forgotten once something else is there, so a
@@ -62,6 +66,12 @@ class TwinListener {
 
   /// The latest alerts about a system, most severe first.
   std::vector<Alert> alertsOf(const std::string& system) const;
+
+  /// All of them; null before the first list.
+  const AlertArray::ConstPtr& alerts() const { return alerts_; }
+
+  /// The monitor's latest heartbeat; null before the first.
+  const MonitorStatus::ConstPtr& monitor() const { return monitor_; }
 
   /// The latest state of a drive; null when there is none.
   const DriveState* drive(const std::string& name) const;
@@ -83,6 +93,7 @@ class TwinListener {
   WhirlHandler whirl_handler_;
   PendulumHandler pendulum_handler_;
   ParameterHandler parameter_handler_;
+  LoopHandler loop_handler_;
   AlertHandler alert_handler_;
   struct Subscription {
     TwinTopic topic;
@@ -92,6 +103,7 @@ class TwinListener {
   std::map<std::string, SystemReadout> systems_;
   std::map<std::string, DriveState::ConstPtr> drives_;
   AlertArray::ConstPtr alerts_;
+  MonitorStatus::ConstPtr monitor_;
   MonitorPulse pulse_;
 };
 

@@ -2,10 +2,12 @@
 //
 // Publishes markers (visualization_msgs/MarkerArray, frame `world`) and the tf frames
 // world -> <system> -> <system>_disc or <system>_body, as drawn, of the twin whose namespace it is
-// in. The models are those of its scene, if there is one. Private parameters:
+// in, and world -> twin_view, which the camera of config/rviz/demo.rviz follows. The models are
+// those of its scene, if there is one. Private parameters:
 //   ~rate         [Hz]     frames a second, > 0 (default 30)
 //   ~whirl_scale  [-]      exaggeration of the whirl; 0 (default): a round number chosen to fit
 //   ~trail_turns  [turns]  length of the orbit's trail, > 0 (default 3)
+//   ~monitor               node whose limits are drawn (default monitor_node)
 #include <fmt/format.h>
 #include <ros/ros.h>
 #include <tf2_ros/transform_broadcaster.h>
@@ -15,10 +17,13 @@
 #include <map>
 #include <memory>
 
+#include "display/layout.h"
 #include "display/mechanism_display.h"
 #include "display/rotor_display.h"
 #include "display/scene_dynamics.h"
 #include "display/twin_listener.h"
+#include "display/twin_panel.h"
+#include "display/vibration_limits.h"
 #include "messages/refusal.h"
 #include "nodes/private_parameter.h"
 #include "plugins/plugin_models.h"
@@ -69,7 +74,9 @@ class VisualizationNode {
   VisualizationNode()
       : whirl_scale_(positiveParameter("whirl_scale", "(0: automatic)", 0.0, true)),
         trail_turns_(positiveParameter("trail_turns", "turns", 3.0, false)),
-        rate_(positiveParameter("rate", "Hz", 30.0, false)) {
+        rate_(positiveParameter("rate", "Hz", 30.0, false)),
+        monitor_(ros::names::resolve(
+            privateParameter<std::string>("monitor", "must be a name", "monitor_node"))) {
     ros::NodeHandle node;
     publisher_ = node.advertise<visualization_msgs::MarkerArray>(twinNamespace() + "/markers", 2);
     listener_.onWhirl([this](const std::string& system, const WhirlState& state) {
@@ -79,6 +86,8 @@ class VisualizationNode {
       const DriveState* drive = listener_.drive(scene_.driveOf(system));
       mechanismOf(system).update(state, scene_.shaft(system, state.time, drive));
     });
+    listener_.onLoop(
+        [this](const LoopStatistics& loop) { loop_.take(loop, ros::WallTime::now().toSec()); });
     listener_.onParameters([this](const ParameterChange& change) { takeParameters(change); });
     discover();
     // Wall timers, so that the picture lives on while simulated time stands still.
@@ -122,6 +131,11 @@ class VisualizationNode {
     for (auto it = mechanisms_.begin(); it != mechanisms_.end();) {
       it = gone(*it) ? mechanisms_.erase(it) : std::next(it);
     }
+    std::vector<std::string> rotors;
+    for (const auto& entry : rotors_) {
+      rotors.push_back(entry.first);
+    }
+    settings_ = settingsOfMonitor(monitor_, rotors);
   }
 
   void draw() {
@@ -143,16 +157,25 @@ class VisualizationNode {
     }
     const ros::Time now = ros::Time::now();
     std::vector<geometry_msgs::TransformStamped> transforms;
-    const auto places = sideBySide(displays.size());
+    const Layout layout = layoutOf(displays.size());
     for (std::size_t i = 0; i < displays.size(); ++i) {
       const auto& [name, display] = displays[i];
-      const Eigen::Isometry3d pose = display->placedAt(places[i]);
+      const Eigen::Isometry3d pose = display->placedAt(layout.places[i]);
       MarkerCanvas canvas(markers, name, pose);
-      display->draw(statusOf(name), canvas);
+      SystemStatus status = statusOf(name);
+      status.compact = layout.compact;
+      display->draw(status, canvas);
       transforms.push_back(stampedTransform(MarkerCanvas::kWorldFrame, name, now, pose));
       transforms.push_back(
           stampedTransform(name, name + "_" + display->bodyName(), now, display->bodyPose()));
     }
+    const auto& alerts = listener_.alerts();
+    drawTwin(alerts ? alerts->alerts : std::vector<Alert>(), loop_, listener_.monitor(),
+             listener_.monitorSilence(), ros::WallTime::now().toSec(), layout, markers);
+    Eigen::Isometry3d view = Eigen::Isometry3d::Identity();
+    view.translation() = layout.view;
+    transforms.push_back(
+        stampedTransform(MarkerCanvas::kWorldFrame, ViewedFrom::kFrame, now, view));
     publisher_.publish(markers);
     // With simulated time standing still tf would warn of the same stamp again and again.
     if (now != transformed_) {
@@ -163,22 +186,38 @@ class VisualizationNode {
 
   /// What the monitor says of a system; that it says nothing, where it is silent.
   SystemStatus statusOf(const std::string& name) const {
-    const std::string silence = listener_.monitorSilence();
-    if (silence.empty()) {
-      return {listener_.systems().at(name).margin, listener_.systems().at(name).orders,
-              listener_.alertsOf(name)};
+    const SystemReadout& readout = listener_.systems().at(name);
+    SystemStatus status;
+    status.orders = readout.orders;
+    if (readout.whirl) {
+      status.limits = vibrationLimits(settings_, name, readout.whirl->speed);
     }
-    Alert silent;
-    silent.severity = Alert::WARNING;
-    silent.type = "MONITOR_SILENT";
-    silent.system = name;
-    silent.text = silence;
-    return {nullptr, listener_.systems().at(name).orders, {silent}};
+    const std::string silence = listener_.monitorSilence();
+    const bool held = listener_.monitor() && listener_.monitor()->paused;
+    // A station has the margin of its rotor.
+    const auto judged = listener_.systems().find(scene_.systemOf(name));
+    const SystemReadout& of = judged == listener_.systems().end() ? readout : judged->second;
+    status.live =
+        liveMargin(of.margin, ros::WallTime::now().toSec() - of.margin_heard, held, silence);
+    status.live.least_decrement = settings_.log_decrement_warning;
+    status.alerts = listener_.alertsOf(name);
+    if (!silence.empty()) {
+      Alert silent;
+      silent.severity = Alert::WARNING;
+      silent.type = "MONITOR_SILENT";
+      silent.system = name;
+      silent.text = silence;
+      status.alerts = {silent};
+    }
+    return status;
   }
 
   double whirl_scale_;  // -
   double trail_turns_;
   double rate_;  // Hz
+  std::string monitor_;
+  AlarmSettings settings_;  // of the monitor
+  LoopHealth loop_;
   TwinListener listener_;
   std::map<std::string, RotorDisplay> rotors_;
   SceneDynamics scene_;
@@ -200,7 +239,7 @@ int main(int argc, char** argv) {
   ros::NodeHandle node;  // keeps ROS up while the parameters are read
   try {
     whirl_twin::usePluginModels();
-    whirl_twin::requireKnownParameters({"whirl_scale", "trail_turns", "rate"});
+    whirl_twin::requireKnownParameters({"whirl_scale", "trail_turns", "rate", "monitor"});
     whirl_twin::VisualizationNode visualization;
     const whirl_twin::MasterWatch master;
     ros::spin();

@@ -31,8 +31,9 @@ constexpr int kBelievedAstray = 10;     // events
 
 class Replay {
  public:
-  Replay(const BuiltScene& scene, const AlarmSettings& settings, MonitoredLog& run)
-      : monitor_(scene, settings), run_(run) {
+  Replay(const BuiltScene& scene, const AlarmSettings& settings, std::optional<double> spectrum_at,
+         MonitoredLog& run)
+      : monitor_(scene, settings), spectrum_at_(spectrum_at), run_(run) {
     for (const SharedSystem& system : scene.systems) {
       SystemCourse course;
       course.name = system->spec.name;
@@ -41,6 +42,7 @@ class Replay {
       drives_.push_back(system->spec.drive.value_or(""));
     }
     peaks_.assign(run_.systems.size(), 0.0);
+    cascades_.resize(run_.systems.size());
   }
 
   /// Of the stamp of an event [us].
@@ -77,6 +79,14 @@ class Replay {
   void finish() {
     run_.duration = wall_;
     keep();
+    for (std::size_t i = 0; i < run_.systems.size(); ++i) {
+      SystemCourse& course = run_.systems[i];
+      course.spectra = cascades_[i].spectra();
+      if (!spectrum_at_) {
+        course.spectrum = cascades_[i].latest();
+      }
+      course.resonances = passedResonances(course.orders, course.critical_speeds);
+    }
   }
 
  private:
@@ -113,9 +123,15 @@ class Replay {
 
   void draw(const state::WhirlState& whirl) {
     if (SystemCourse* course = courseOf(whirl.system)) {
-      double& peak = peaks_[static_cast<std::size_t>(course - run_.systems.data())];
+      const auto place = static_cast<std::size_t>(course - run_.systems.data());
+      const double time = whirl.at.time;
+      if (spectrum_at_ && time > *spectrum_at_ && !course->spectrum) {
+        course->spectrum = cascades_[place].latest();
+      }
+      cascades_[place].take({whirl.at.step, time, 0, 0.0, whirl.speed, whirl.x, whirl.y});
+      double& peak = peaks_[place];
       peak = std::max(peak, whirl.radius);
-      if (sample(*course, whirl.at.time, whirl.speed)) {
+      if (sample(*course, time, whirl.speed)) {
         course->radius.push_back(peak);
         peak = 0.0;
       }
@@ -150,6 +166,7 @@ class Replay {
     orders.time.push_back(time);
     orders.speed.push_back(told.speed);
     orders.amplitude.push_back(told.forward_amplitude[place]);
+    orders.deviation.push_back(told.deviation[place]);
     orders.lag.push_back(before + std::remainder(told.forward_lag[place] - before, kTurn));
   }
   void draw(const state::DriveState& drive) { speeds_[drive.drive] = drive.speed; }
@@ -191,6 +208,7 @@ class Replay {
     }
     course->margin_time.push_back(margin.at.time);
     course->decay_rate.push_back(margin.decay_rate);
+    course->critical_speeds = margin.critical_speeds;
     if (!(margin.decay_rate >= course->least_decay_rate)) {
       course->least_decay_rate = margin.decay_rate;
       course->least_at = margin.at.time;
@@ -214,10 +232,12 @@ class Replay {
   }
 
   TwinMonitor monitor_;
+  std::optional<double> spectrum_at_;  ///< [s], simulated
   MonitoredLog& run_;
   std::vector<std::string> drives_;  ///< of each system
   std::map<std::string, double> speeds_;
   std::vector<double> peaks_;  ///< [m], of each system since its last sample
+  std::vector<SpectrumCascade> cascades_;
   bool started_ = false, spanned_ = false, paused_ = false;
   double newest_stamp_ = 0.0;  ///< [s]
   double stray_stamp_ = 0.0;   ///< [s], of the last event that was out of order
@@ -230,12 +250,13 @@ class Replay {
 
 MonitoredLog monitorLog(const BuiltScene& scene, const AlarmSettings& settings,
                         const std::string& log, const std::string& prefix,
+                        std::optional<double> spectrum_at,
                         const std::function<void(std::uint64_t, std::uint64_t)>& advanced) {
   EventScan scan(log);
   MonitoredLog run;
   run.scene = scene.scene.name;
   run.log = log;
-  Replay replay(scene, settings, run);
+  Replay replay(scene, settings, spectrum_at, run);
   RawEvent event;
   std::uint64_t events = 0;
   for (auto found = scan.next(event); found != EventScan::Found::kEnd; found = scan.next(event)) {
@@ -264,6 +285,12 @@ MonitoredLog monitorLog(const BuiltScene& scene, const AlarmSettings& settings,
         fmt::format("{}: expected states of the systems of '{}' on channels that begin "
                     "with {} (--lcm-prefix), found none in {} bytes",
                     log, scene.scene.name, prefix, scan.size()));
+  }
+  if (spectrum_at && !(*spectrum_at >= run.begin && *spectrum_at <= run.end)) {
+    throw Refusal(
+        fmt::format("--spectrum-at: expected a time within the log, {:g} to {:g} s, "
+                    "found {:g} s",
+                    run.begin, run.end, *spectrum_at));
   }
   return run;
 }

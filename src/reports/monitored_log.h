@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,9 @@
 #include "monitoring/alarm_settings.h"
 #include "plots/chart.h"
 #include "reports/output.h"
+#include "reports/passed_resonance.h"
 #include "scene/built_scene.h"
+#include "signal/spectrum_cascade.h"
 
 namespace whirl_twin {
 
@@ -23,21 +26,16 @@ struct AlertCourse {
   std::string why_cleared;
 };
 
-/// What turns once with the shaft of a rotor, and what with no order, as the twin tells it.
-struct OrderCourse {
-  std::vector<double> time;       ///< [s], simulated, that it held at
-  std::vector<double> speed;      ///< [rad/s], of the shaft
-  std::vector<double> amplitude;  ///< [m], 1X, in the direction of rotation
-  std::vector<double> lag;        ///< [rad], behind the phase mark, continued from one to the next
-  std::vector<double> line_time, line_frequency;  ///< [s], [rad/s], of the largest line
-};
-
 /// What is drawn of a system, ten values a second of simulated time, and its margins.
 struct SystemCourse {
   std::string name;
   bool rotor = false;
   OrderCourse orders;
-  std::vector<double> time;         ///< [s], simulated
+  std::vector<PassedResonance> resonances;  ///< that its run-ups and run-downs have passed
+  std::vector<WindowSpectrum> spectra;      ///< as time went on
+  std::optional<WindowSpectrum> spectrum;   ///< at the end, or where it was asked for
+  std::vector<state::CriticalSpeedMargin> critical_speeds;  ///< by the model, as told last
+  std::vector<double> time;                                 ///< [s], simulated
   std::vector<double> speed;        ///< [rad/s], of its shaft; NaN without one
   std::vector<double> radius;       ///< [m], the largest since the value before; of rotors
   std::vector<double> margin_time;  ///< [s]
@@ -63,10 +61,13 @@ struct MonitoredLog {
 };
 
 /// Replays the log of a twin whose channels begin with `prefix`; the monitor's wall time is that of
-/// the log's stamps. advanced(bytes, of_bytes) is called now and then. Throws Refusal for a file
-/// that cannot be read, or holds no states of the scene's systems.
+/// the log's stamps. advanced(bytes, of_bytes) is called now and then.
+/// @param spectrum_at [s], simulated, where the window of the full spectrum ends; none: at the end
+/// Throws Refusal for a file that cannot be read, or holds no states of the scene's systems, or
+/// none at that time.
 MonitoredLog monitorLog(const BuiltScene& scene, const AlarmSettings& settings,
                         const std::string& log, const std::string& prefix,
+                        std::optional<double> spectrum_at,
                         const std::function<void(std::uint64_t, std::uint64_t)>& advanced);
 
 std::string text(const MonitoredLog& run);

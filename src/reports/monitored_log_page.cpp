@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "reports/monitored_log.h"
+#include "reports/spectrum_figures.h"
 
 namespace whirl_twin {
 
@@ -91,6 +92,58 @@ std::string inlined(const Figure& figure) {
   const std::string file = figureImage(figure, ImageFormat::kSvg);
   const std::size_t start = file.find("<svg");
   return start == std::string::npos ? "" : file.substr(start);
+}
+
+/// A table of what the run-ups have passed; "" without.
+std::string resonancesPart(const SystemCourse& system) {
+  if (system.resonances.empty()) {
+    return "";
+  }
+  std::string out =
+      "<h3>Resonances passed</h3>\n<table><tr><th>at, s</th><th>speed, rad/s</th><th>1X, m</th>"
+      "<th>amplification factor</th><th>model: speed, rad/s</th><th>model: factor</th></tr>\n";
+  for (const PassedResonance& resonance : system.resonances) {
+    const ResponsePeak& peak = resonance.peak;
+    const std::string factor =
+        !peak.amplification_factor ? "– (half power is not reached on both sides)"
+        : peak.slow                ? number(*peak.amplification_factor)
+                    : number(*peak.amplification_factor) + " (passed too fast: too small)";
+    out += fmt::format(
+        "<tr><td class=\"n\">{:.3f}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
+        "<td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
+        peak.time, number(peak.speed), number(peak.amplitude), factor,
+        number(resonance.model_speed), number(resonance.model_factor));
+  }
+  return out + "</table>\n";
+}
+
+/// Cascade and full spectrum, and what their lines are; "" where the states are too few.
+std::string spectraPart(const SystemCourse& system) {
+  Figure figure;
+  figure.width = 940;
+  figure.chart_height = 460;
+  if (system.spectra.size() > 1) {
+    figure.charts.push_back(cascadeChart(system.spectra));
+  }
+  if (system.spectrum) {
+    figure.charts.push_back(spectrumChart(*system.spectrum));
+  }
+  if (figure.charts.empty()) {
+    return "";
+  }
+  std::string out = inlined(figure) + "\n";
+  std::string said = subsynchronousText(system.spectra);
+  if (system.spectrum && !system.spectrum->lines.empty()) {
+    std::string lines;
+    for (const SpectrumLine& line : system.spectrum->lines) {
+      lines += (lines.empty() ? "" : "; ") + lineText(line);
+    }
+    said =
+        "Lines of the full spectrum: " + lines + "." + (said.empty() ? "" : " And " + said + ".");
+  } else if (!said.empty()) {
+    said = "Note: " + said + ".";
+  }
+  return out + (said.empty() ? "" : fmt::format("<p>{}</p>\n", escaped(said)));
 }
 
 Figure bode(const OrderCourse& orders) {
@@ -202,6 +255,7 @@ std::string page(const MonitoredLog& run) {
       if (!system.orders.speed.empty()) {
         out += inlined(bode(system.orders)) + "\n";
       }
+      out += resonancesPart(system) + spectraPart(system);
     }
   }
   return out + "</body></html>\n";

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "reports/monitored_log.h"
+#include "reports/spectrum_figures.h"
 
 namespace whirl_twin {
 
@@ -14,6 +15,74 @@ std::string number(double x, const char* unit) {
 
 std::string plural(std::uint64_t count, const char* one, const char* many) {
   return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
+/// What its run-ups have passed, and what its motion consisted of.
+std::string motionText(const SystemCourse& system) {
+  std::string out;
+  for (const PassedResonance& resonance : system.resonances) {
+    const ResponsePeak& peak = resonance.peak;
+    out += fmt::format("  {}: resonance passed at {:.6g} rad/s, t = {:.4g} s, 1X {:.4g} um, {}",
+                       system.name, peak.speed, peak.time, 1.0e6 * peak.amplitude,
+                       peak.amplification_factor
+                           ? fmt::format("amplification factor {:.4g}", *peak.amplification_factor)
+                           : "no amplification factor: half power is not reached on both sides");
+    if (peak.amplification_factor && !peak.slow) {
+      out += " (passed too fast for it to be the rotor's)";
+    }
+    if (std::isfinite(resonance.model_speed)) {
+      out += fmt::format("; model {:.6g} rad/s", resonance.model_speed);
+      out += std::isfinite(resonance.model_factor) ? fmt::format(", {:.4g}", resonance.model_factor)
+                                                   : "";
+    }
+    out += "\n";
+  }
+  if (system.spectrum && !system.spectrum->lines.empty()) {
+    out += fmt::format("  {}: full spectrum, t = {:.4g} to {:.4g} s, {:.4g} rad/s:", system.name,
+                       system.spectrum->begin, system.spectrum->end, system.spectrum->speed);
+    for (const SpectrumLine& line : system.spectrum->lines) {
+      out += fmt::format("\n    {}", lineText(line));
+    }
+    out += "\n";
+  }
+  if (const std::string what = subsynchronousText(system.spectra); !what.empty()) {
+    out += fmt::format("  {}: {}\n", system.name, what);
+  }
+  return out;
+}
+
+Json optionalJson(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json resonanceJson(const PassedResonance& resonance) {
+  const ResponsePeak& peak = resonance.peak;
+  return {{"time", peak.time},
+          {"speed", peak.speed},
+          {"amplitude", peak.amplitude},
+          {"half_power_below", optionalJson(peak.lower)},
+          {"half_power_above", optionalJson(peak.upper)},
+          {"amplification_factor", optionalJson(peak.amplification_factor)},
+          {"acceleration", peak.acceleration},
+          {"slow", peak.slow},
+          {"model_critical_speed", resonance.model_speed},
+          {"model_amplification_factor", resonance.model_factor}};
+}
+
+Json spectrumJson(const WindowSpectrum& spectrum) {
+  Json json = {{"begin", spectrum.begin},
+               {"end", spectrum.end},
+               {"speed", spectrum.speed},
+               {"resolution", spectrum.resolution}};
+  json["lines"] = Json::array();
+  for (const SpectrumLine& line : spectrum.lines) {
+    json["lines"].push_back({{"name", lineName(line)},
+                             {"frequency", line.frequency},
+                             {"amplitude", line.amplitude},
+                             {"ratio", line.ratio},
+                             {"subsynchronous", line.subsynchronous()}});
+  }
+  return json;
 }
 
 const char* severityName(state::Severity severity) {
@@ -49,6 +118,11 @@ std::string text(const MonitoredLog& run) {
                        number(system.least_at_speed, "rad/s"),
                        system.least_verdict.empty() ? "not judged" : system.least_verdict);
   }
+  std::string motion;
+  for (const SystemCourse& system : run.systems) {
+    motion += motionText(system);
+  }
+  out += motion.empty() ? "" : "\n" + motion;
   if (run.alerts.empty()) {
     return out + "\n  no alerts\n";
   }
@@ -82,6 +156,14 @@ Json json(const MonitoredLog& run) {
                                     {"time", system.least_at},
                                     {"speed", system.least_at_speed},
                                     {"verdict", system.least_verdict}};
+    Json& of_it = json["systems"][system.name];
+    if (system.rotor) {
+      of_it["resonances"] = Json::array();
+      for (const PassedResonance& resonance : system.resonances) {
+        of_it["resonances"].push_back(resonanceJson(resonance));
+      }
+      of_it["spectrum"] = system.spectrum ? spectrumJson(*system.spectrum) : Json(nullptr);
+    }
   }
   json["alerts"] = Json::array();
   for (const AlertCourse& alert : run.alerts) {

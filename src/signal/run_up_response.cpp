@@ -15,6 +15,15 @@ constexpr std::size_t kMost = 20000;
 
 }  // namespace
 
+bool RunUpResponse::turnsBack(double speed) const {
+  if (run_.empty()) {
+    return false;
+  }
+  const double span = run_.back().speed - run_.front().speed;
+  const double gone = speed - run_.back().speed;
+  return span * gone < 0.0 && std::fabs(gone) > kBack * std::fabs(span);
+}
+
 void RunUpResponse::take(double time, double speed, double amplitude) {
   if (!std::isfinite(time) || !std::isfinite(speed) || !std::isfinite(amplitude)) {
     return;
@@ -22,7 +31,7 @@ void RunUpResponse::take(double time, double speed, double amplitude) {
   if (!run_.empty()) {
     const double span = run_.back().speed - run_.front().speed;
     const double gone = speed - run_.back().speed;
-    if (span * gone < 0.0 && std::fabs(gone) > kBack * std::fabs(span)) {
+    if (turnsBack(speed)) {
       run_.clear();
     } else if (gone == 0.0 || span * gone < 0.0 || time <= run_.back().time) {
       return;  // it dwells or ripples, or the window of the filter has become longer
@@ -70,6 +79,7 @@ std::vector<ResponsePeak> RunUpResponse::peaks() const {
     const double curvature = (fall - rise) / (right - left);
     const double slope = rise - curvature * left;
     ResponsePeak peak;
+    peak.time = here.time;
     peak.speed = here.speed - 0.5 * slope / curvature;
     peak.amplitude = here.amplitude - 0.25 * slope * slope / curvature;
     const double level = kHalfPower * peak.amplitude;

@@ -14,6 +14,7 @@
 namespace whirl_twin {
 
 struct ResponsePeak {
+  double time = 0.0;                           ///< [s], of the highest amplitude that was given
   double speed = 0.0;                          ///< Nc [rad/s], of the peak
   double amplitude = 0.0;                      ///< as given
   std::optional<double> lower, upper;          ///< N1, N2 [rad/s]; none: not within the run
@@ -25,8 +26,10 @@ struct ResponsePeak {
 class RunUpResponse {
  public:
   /// The next amplitude, of an order (order_vector.h), at a time [s] and a speed [rad/s]. A speed
-  /// that goes back by more than a fiftieth of the span begins another run.
+  /// that turns back begins another run, and the one before is gone.
   void take(double time, double speed, double amplitude);
+  /// This speed goes back by more than a fiftieth of the span.
+  bool turnsBack(double speed) const;
 
   /// The peaks of the run, as it went: those that are 1/0.707 times the lowest amplitude on either
   /// side at least, as far as the next higher peak.

@@ -18,7 +18,9 @@ namespace {
 
 constexpr const char* kDescription =
     "Replays an LCM log through the monitor, faster than real time: which alerts it raises and\n"
-    "when, and where the margins are least.";
+    "when, and where the margins are least; which resonances the run-ups passed, and the lines of "
+    "the\n"
+    "full spectrum.";
 
 constexpr const char* kFooter =
     "The monitor's clock is that of the log's stamps; it judges with the settings of --settings, "
@@ -35,6 +37,7 @@ struct Request {
   std::optional<std::string> settings;
   std::optional<std::string> output;
   std::string lcm_prefix = kDefaultLcmPrefix;
+  std::optional<double> spectrum_at;  // s
   bool json = false;
 };
 
@@ -70,7 +73,7 @@ int monitor(const Request& request) {
   constexpr std::int64_t kParts = 1000;
   ProgressBar progress(kParts, false);
   const MonitoredLog run = monitorLog(
-      scene, settings, request.log, request.lcm_prefix,
+      scene, settings, request.log, request.lcm_prefix, request.spectrum_at,
       [&](std::uint64_t bytes, std::uint64_t all) {
         progress.show(static_cast<std::int64_t>(
             static_cast<double>(kParts) * static_cast<double>(bytes) / static_cast<double>(all)));
@@ -104,6 +107,10 @@ void addMonitorCommand(CLI::App& twin, int& status) {
       ->add_option("--lcm-prefix", request->lcm_prefix,
                    "what the channels of the recorded twin begin with; default: TWIN_")
       ->type_name("PREFIX");
+  command
+      ->add_option("--spectrum-at", request->spectrum_at,
+                   "where the window of the full spectrum ends, simulated; default: at the end")
+      ->type_name("S");
   command->add_flag("--json", request->json, "print one JSON object");
   command->footer(kFooter);
   command->callback([request, &status] { status = monitor(*request); });

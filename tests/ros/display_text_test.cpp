@@ -171,6 +171,7 @@ TEST(TwinTopics, AreKnownByTheirTypeAndName) {
                                   {"/twin/rotor/stability", "whirl_twin/StabilityMargin"},
                                   {"/twin/drives/shaft", "whirl_twin/DriveState"},
                                   {"/twin/alerts", "whirl_twin/AlertArray"},
+                                  {"/twin/loop", "whirl_twin/LoopStatistics"},
                                   {"/twin/rotor/joint_states", "sensor_msgs/JointState"},
                                   {"/other/rotor/whirl", "whirl_twin/WhirlState"},
                                   {"/rosout", "rosgraph_msgs/Log"}},
@@ -179,7 +180,7 @@ TEST(TwinTopics, AreKnownByTheirTypeAndName) {
   for (const auto& topic : topics) {
     subjects.push_back(topic.subject);
   }
-  EXPECT_EQ(subjects, (std::vector<std::string>{"rotor", "arm", "rotor", "shaft", ""}));
+  EXPECT_EQ(subjects, (std::vector<std::string>{"rotor", "arm", "rotor", "shaft", "", ""}));
 }
 
 }  // namespace

@@ -225,12 +225,5 @@ TEST_P(EveryScene, IsDrawnWithinItsPlaceByMarkersThatStay) {
 INSTANTIATE_TEST_SUITE_P(Shipped, EveryScene, testing::ValuesIn(shippedScenes()),
                          [](const auto& scene) { return scene.param; });
 
-TEST(SideBySide, PlacesAreEvenAndCentred) {
-  EXPECT_TRUE(sideBySide(1)[0].isZero());
-  const auto row = sideBySide(3);
-  EXPECT_LT((row[0] + row[2]).norm(), kRounding);
-  EXPECT_NEAR(row[1].y() - row[0].y(), kPlaceWidth, kRounding);
-}
-
 }  // namespace
 }  // namespace whirl_twin

@@ -33,6 +33,7 @@ TEST(RunUpResponse, HasTheExactFactorsOfAJeffcottRotor) {
       ASSERT_EQ(peaks.size(), 1u);
       const double d = exact.damping_ratio;
       EXPECT_NEAR(peaks[0].speed, kCritical / std::sqrt(1.0 - 2.0 * d * d), 0.01);
+      EXPECT_NEAR(peaks[0].time, up ? peaks[0].speed - 20.0 : 320.0 - peaks[0].speed, 0.1);
       ASSERT_TRUE(peaks[0].amplification_factor);
       EXPECT_NEAR(*peaks[0].amplification_factor, exact.factor, 2e-3 * exact.factor);
       EXPECT_LT(*peaks[0].lower, *peaks[0].upper);
@@ -59,6 +60,17 @@ TEST(RunUpResponse, SaysWhenThePassageIsTooFastForTheFactorToBeTheRotors) {
     EXPECT_EQ(run.peaks()[0].slow, acceleration == 1.0);  // N2 - N1 = 10 rad/s
     EXPECT_NEAR(run.peaks()[0].acceleration, acceleration, 1e-6);
   }
+}
+
+TEST(RunUpResponse, ASpeedTurnsBackByMoreThanAFiftiethOfTheSpan) {
+  RunUpResponse run;
+  EXPECT_FALSE(run.turnsBack(10.0)) << "there is none yet";
+  for (int i = 0; i <= 100; ++i) {
+    run.take(0.1 * i, 20.0 + i, 1.0 + std::fabs(i - 40.0));
+  }
+  EXPECT_FALSE(run.turnsBack(118.5));
+  EXPECT_TRUE(run.turnsBack(117.5));
+  EXPECT_FALSE(run.turnsBack(150.0));
 }
 
 TEST(RunUpResponse, TwoPeaksAreTwoAndARippleOnOneIsNone) {

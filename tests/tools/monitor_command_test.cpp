@@ -105,6 +105,53 @@ TEST_F(RunUpLog, ThePageHoldsItsPicturesAndStandsAlone) {
   EXPECT_EQ(html.substr(html.size() - 8), "</html>\n");
 }
 
+/// Damping ratio 0.05: the peak of 1X at 60.15 rad/s, amplification factor 9.90; 5 rad/s^2 is just
+/// slow enough for them, 0.15 (N2 - N1)^2 = 5.5.
+TEST_F(RunUpLog, TellsTheResonanceThatWasPassedBesideTheModels) {
+  const Ending end = twin({"monitor", scene_, log_, "--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  const Json resonances = end.json()["systems"]["rotor"]["resonances"];
+  ASSERT_EQ(resonances.size(), 1u) << resonances.dump();
+  const Json& passed = resonances[0];
+  // The whirl answers late, by some 1/3 s, the time constant of its decay.
+  EXPECT_GT(passed["speed"].get<double>(), 60.15);
+  EXPECT_LT(passed["speed"].get<double>(), 60.15 + 2.0 * 5.0 / 3.0);
+  EXPECT_NEAR(passed["time"].get<double>(), (passed["speed"].get<double>() - 30.0) / 5.0, 0.1);
+  EXPECT_NEAR(passed["amplitude"].get<double>(), 1.0e-3, 0.05e-3);
+  EXPECT_NEAR(passed["amplification_factor"].get<double>(), 9.9, 1.0);
+  EXPECT_NEAR(passed["acceleration"].get<double>(), 5.0, 0.1);
+  EXPECT_NEAR(passed["model_critical_speed"].get<double>(), 60.15, 0.01);
+  EXPECT_NEAR(passed["model_amplification_factor"].get<double>(), 9.9, 0.01);
+  const std::string text = twin({"monitor", scene_, log_}).out;
+  EXPECT_NE(text.find("resonance passed at"), std::string::npos) << text;
+}
+
+TEST_F(RunUpLog, NamesTheLinesOfTheFullSpectrumAtTheEndOrWhereAsked) {
+  const Json at_end =
+      twin({"monitor", scene_, log_, "--json"}).json()["systems"]["rotor"]["spectrum"];
+  EXPECT_NEAR(at_end["end"].get<double>(), 12.0, 1e-9);
+  EXPECT_NEAR(at_end["speed"].get<double>(), 87.0, 3.1) << "at the middle of the window";
+  ASSERT_FALSE(at_end["lines"].empty());
+  EXPECT_EQ(at_end["lines"][0]["name"], "1X");
+  EXPECT_GT(at_end["lines"][0]["frequency"], 0.0) << "forward";
+  const Ending asked = twin({"monitor", scene_, log_, "--spectrum-at", "5", "--json"});
+  ASSERT_EQ(asked.status, 0) << asked.err;
+  EXPECT_NEAR(asked.json()["systems"]["rotor"]["spectrum"]["end"].get<double>(), 5.0, 1e-9);
+  const Ending beyond = twin({"monitor", scene_, log_, "--spectrum-at", "13"});
+  EXPECT_EQ(beyond.status, 2);
+  EXPECT_NE(beyond.err.find("0 to 12 s, found 13 s"), std::string::npos) << beyond.err;
+}
+
+TEST_F(RunUpLog, ThePageHasTheCascadeOverTheSpeedAndTheOrders) {
+  const std::string page = directory_.file("cascade.html");
+  ASSERT_EQ(twin({"monitor", scene_, log_, "--output", page}).status, 0);
+  const std::string html = contentsOf(page);
+  EXPECT_NE(html.find("cascade of full spectra"), std::string::npos);
+  EXPECT_NE(html.find("speed of the shaft (rad/s) over backward"), std::string::npos);
+  EXPECT_NE(html.find("Resonances passed"), std::string::npos);
+  EXPECT_NE(html.find("1X forward"), std::string::npos);
+}
+
 TEST_F(RunUpLog, SettingsAreThoseOfTheNodeAndCheckedAsThere) {
   const std::string late = directory_.write("late.yaml", "approach_time: 1.0\n");
   const Ending end = twin({"monitor", scene_, log_, "--settings", late, "--json"});

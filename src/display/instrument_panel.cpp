@@ -1,0 +1,268 @@
+#include "display/instrument_panel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace whirl_twin {
+namespace {
+
+constexpr double kWidth = 1.3;                // m, of a scale
+constexpr double kLive = 3.0;                 // s, that a verdict may be old
+constexpr double kLeast = -0.2, kMost = 0.6;  // log decrements at the ends of the scale
+constexpr std::size_t kRanges = 4;            // of either kind that are drawn at most
+
+constexpr Color kTrack{0.34F, 0.38F, 0.43F};
+constexpr Color kGrey{0.55F, 0.58F, 0.62F};
+constexpr Color kRed{0.80F, 0.20F, 0.17F};
+constexpr Color kOrange{0.90F, 0.60F, 0.10F};
+constexpr Color kGreen{0.22F, 0.55F, 0.42F};
+constexpr Color kPointer{1.0F, 1.0F, 1.0F};
+constexpr Color kWords{0.90F, 0.92F, 0.94F};
+
+/// The next of 1, 1.2, 1.5, 2, 3, 4, 5, 6, 8, 10 times a power of ten.
+double roundUp(double number) {
+  const double decade = std::pow(10.0, std::floor(std::log10(number)));
+  for (const double digit : {1.0, 1.2, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0}) {
+    if (digit * decade >= number * (1.0 - 1.0e-12)) {
+      return digit * decade;
+    }
+  }
+  return 10.0 * decade;
+}
+
+/// A bar of a scale, between places 0 to 1 of its length.
+class Scale {
+ public:
+  Scale(std::string part, double middle, double height, MarkerCanvas& board)
+      : part_(std::move(part)), middle_(middle), height_(height), board_(board) {}
+
+  void range(const std::string& name, double from, double to, const Color& color, int layer) {
+    from = std::clamp(from, 0.0, 1.0);
+    to = std::clamp(to, 0.0, 1.0);
+    if (!(to > from)) {
+      board_.gone(part_ + "_" + name);
+      return;
+    }
+    board_.box(part_ + "_" + name, at(0.5 * (from + to), layer),
+               {(to - from) * kWidth, height_, kThick}, color);
+  }
+  void pointer(double place) {
+    board_.box(part_ + "_pointer", at(std::clamp(place, 0.0, 1.0), 4),
+               {0.024, 1.6 * height_, kThick}, kPointer);
+  }
+  void noPointer() { board_.gone(part_ + "_pointer"); }
+
+ private:
+  static constexpr double kThick = 0.004;
+
+  Eigen::Isometry3d at(double place, int layer) const {
+    return Eigen::Isometry3d(Eigen::Translation3d((place - 0.5) * kWidth, middle_, 0.006 * layer));
+  }
+
+  std::string part_;
+  double middle_;
+  double height_;
+  MarkerCanvas& board_;
+};
+
+bool stable(const StabilityMargin& margin) {
+  return margin.verdict != StabilityMargin::UNSTABLE &&
+         margin.verdict != StabilityMargin::REPEATED_IMAGINARY;
+}
+
+/// Ranges where the verdict is the other one than now, or is now: between the thresholds that are
+/// nearest.
+std::vector<SpeedRange> unstableRanges(const StabilityMargin& margin, double end) {
+  const double below = margin.threshold_below;
+  const double above = margin.threshold_above;
+  if (!stable(margin)) {
+    return {{std::isfinite(below) ? std::fabs(below) : 0.0,
+             std::isfinite(above) ? std::fabs(above) : end}};
+  }
+  std::vector<SpeedRange> ranges;
+  if (std::isfinite(below)) {
+    ranges.emplace_back(0.0, std::fabs(below));
+  }
+  if (std::isfinite(above)) {
+    ranges.emplace_back(std::fabs(above), end);
+  }
+  return ranges;
+}
+
+void drawSpeed(double speed, const LiveMargin& live, double middle, double height,
+               MarkerCanvas& board) {
+  Scale bar("speed", middle, height, board);
+  const SpeedScale scale = speedScale(speed, live.margin.get());
+  const bool shaft = std::isfinite(speed);
+  bar.range("track", 0.0, shaft ? 1.0 : 0.0, live.margin ? kGreen : kTrack, 0);
+  for (std::size_t i = 0; i < kRanges; ++i) {
+    const auto range = [&](const std::vector<SpeedRange>& ranges) {
+      return shaft && i < ranges.size() ? ranges[i] : SpeedRange{0.0, 0.0};
+    };
+    const auto [from, to] = range(scale.avoid);
+    bar.range("avoid", from / scale.end, to / scale.end, kOrange, 1);
+    const auto [begin, end] = range(scale.unstable);
+    bar.range("unstable", begin / scale.end, end / scale.end, kRed, 2);
+  }
+  if (shaft) {
+    bar.pointer(std::fabs(speed) / scale.end);
+  } else {
+    bar.noPointer();
+  }
+}
+
+void drawMargin(const LiveMargin& live, double middle, double height, MarkerCanvas& board) {
+  Scale bar("margin", middle, height, board);
+  const auto place = live.margin ? marginPlace(*live.margin) : std::nullopt;
+  const double asked = decrementPlace(live.least_decrement);
+  bar.range("track", 0.0, 1.0, kTrack, 0);
+  bar.range("unstable", 0.0, place ? kEdge : 0.0, kRed, 1);
+  bar.range("low", kEdge, place ? asked : 0.0, kOrange, 1);
+  bar.range("enough", asked, place ? 1.0 : 0.0, kGreen, 1);
+  if (place) {
+    bar.pointer(*place);
+  } else {
+    bar.noPointer();
+  }
+}
+
+}  // namespace
+
+LiveMargin liveMargin(const StabilityMargin::ConstPtr& margin, double since_heard, bool held,
+                      const std::string& silence) {
+  LiveMargin live;
+  if (!silence.empty()) {
+    live.why_not = "the monitor is silent";
+    return live;
+  }
+  if (!margin) {
+    return live;
+  }
+  const double age = since_heard + (std::isfinite(margin->age) ? margin->age : 0.0);
+  if (!held && age > kLive) {
+    live.why_not = fmt::format("the last verdict is {:.0f} s old", age);
+    return live;
+  }
+  live.margin = margin;
+  if (!held) {
+    live.age = age;
+  }
+  return live;
+}
+
+SpeedScale speedScale(double speed, const StabilityMargin* margin) {
+  constexpr double kRoom = 1.15;
+  const double now = std::isfinite(speed) ? std::fabs(speed) : 0.0;
+  double reach = kRoom * now;
+  if (margin != nullptr) {
+    const auto next = std::find_if(margin->band_high.begin(), margin->band_high.end(),
+                                   [&](double high) { return high > now; });
+    if (next != margin->band_high.end()) {
+      reach = std::max(reach, kRoom * *next);
+    } else if (!margin->band_high.empty()) {
+      reach = std::max(reach, kRoom * margin->band_high.back());
+    }
+    if (std::isfinite(margin->threshold_above)) {
+      reach = std::max(reach, kRoom * std::fabs(margin->threshold_above));
+    }
+  }
+  SpeedScale scale;
+  scale.end = reach > 0.0 ? roundUp(reach) : 1.0;
+  if (margin == nullptr) {
+    return scale;
+  }
+  const std::size_t bands = std::min(margin->band_low.size(), margin->band_high.size());
+  for (std::size_t i = 0; i < bands; ++i) {
+    if (margin->band_low[i] < scale.end) {
+      scale.avoid.emplace_back(margin->band_low[i], std::min(margin->band_high[i], scale.end));
+    }
+  }
+  if (scale.avoid.size() > kRanges) {  // those about the speed
+    const auto above = std::find_if(scale.avoid.begin(), scale.avoid.end(),
+                                    [&](const SpeedRange& band) { return band.second > now; });
+    const auto last = std::min<std::ptrdiff_t>(above - scale.avoid.begin() + 2,
+                                               static_cast<std::ptrdiff_t>(scale.avoid.size()));
+    const auto first = std::max<std::ptrdiff_t>(0, last - static_cast<std::ptrdiff_t>(kRanges));
+    scale.avoid = {scale.avoid.begin() + first,
+                   scale.avoid.begin() +
+                       std::min<std::ptrdiff_t>(first + static_cast<std::ptrdiff_t>(kRanges),
+                                                static_cast<std::ptrdiff_t>(scale.avoid.size()))};
+  }
+  scale.unstable = unstableRanges(*margin, scale.end);
+  return scale;
+}
+
+std::string scaleText(const SpeedScale& scale) {
+  std::vector<std::string> parts;
+  for (const auto& [from, to] : scale.avoid) {
+    parts.push_back(fmt::format("{}{:.1f} to {:.1f}", parts.empty() ? "avoid " : "", from, to));
+  }
+  for (const auto& [from, to] : scale.unstable) {
+    parts.push_back(from == 0.0 && to == scale.end ? "unstable"
+                    : from == 0.0                  ? fmt::format("unstable below {:.1f}", to)
+                    : to == scale.end              ? fmt::format("unstable above {:.1f}", from)
+                                      : fmt::format("unstable {:.1f} to {:.1f}", from, to));
+  }
+  return fmt::format("0 to {:g} rad/s{}{}", scale.end, parts.empty() ? "" : ": ",
+                     fmt::join(parts, ", "));
+}
+
+double decrementPlace(double log_decrement) {
+  return std::clamp((log_decrement - kLeast) / (kMost - kLeast), 0.0, 1.0);
+}
+
+std::optional<double> marginPlace(const StabilityMargin& margin) {
+  if (std::isfinite(margin.log_decrement)) {
+    return decrementPlace(margin.log_decrement);
+  }
+  if (std::isfinite(margin.decay_rate)) {  // it does not swing: overdamped, or falls over
+    return margin.decay_rate > 0.0 ? 1.0 : margin.decay_rate < 0.0 ? 0.0 : kEdge;
+  }
+  return std::nullopt;
+}
+
+std::string marginText(const LiveMargin& live) {
+  if (!live.margin) {
+    return live.why_not.empty() ? "not judged yet" : live.why_not;
+  }
+  const StabilityMargin& margin = *live.margin;
+  std::string text;
+  if (std::isfinite(margin.log_decrement)) {
+    text = fmt::format("log decrement {:.3g}", margin.log_decrement);
+    if (live.least_decrement > 0.0) {
+      text += fmt::format(" ({:g} asked for)", live.least_decrement);
+    }
+  } else if (std::isfinite(margin.decay_rate)) {
+    text = margin.decay_rate > 0.0 ? "does not swing, decays" : "does not swing, grows";
+  } else {
+    text = "no margin";
+  }
+  return std::isfinite(live.age) ? text + fmt::format(", {:.1f} s old", live.age) : text;
+}
+
+double drawInstruments(const LiveMargin& live, double speed, bool compact, MarkerCanvas& board) {
+  const bool shaft = std::isfinite(speed);
+  const double bar = compact ? 0.10 : 0.05;    // m
+  const double words = compact ? 0.0 : 0.066;  // m, of a line of them
+  const double room = compact ? 0.06 : 0.05;   // m, between
+  double y = 0.5 * bar + 0.5 * room;
+  const auto caption = [&](const std::string& part, const std::string& text, const Color& color) {
+    y += 0.5 * bar + 0.95 * words;
+    board.text(part, {0.0, y, 0.03}, words, compact ? "" : text, color);
+    y += 0.4 * words + room;
+  };
+  drawMargin(live, y, bar, board);
+  caption("margin_caption", "margin: " + marginText(live), live.margin ? kWords : kGrey);
+  y += 0.5 * bar;
+  drawSpeed(speed, live, y, bar, board);
+  if (!shaft) {
+    board.gone("speed_caption");
+    return y - 0.5 * bar;
+  }
+  caption("speed_caption", scaleText(speedScale(speed, live.margin.get())), kWords);
+  return y;
+}
+
+}  // namespace whirl_twin
