@@ -72,6 +72,18 @@ state::DriveState SystemWatch::shaftOf(const state::PendulumState& state) {
   return shaft;
 }
 
+void SystemWatch::set(const AlarmSettings& settings) {
+  quality.set(settings);
+  amplitude_alarm.set(settings);
+  order_alarm.set(settings);
+  decay_alarm.set(settings);
+  critical_speed_alarm.set(settings);
+  capture_alarm.set(settings);
+  stability_alarm.set(settingsFor(*system->dynamics, settings));
+  state_alarm.set(settings);
+  validity_alarm.set(settings);
+}
+
 void SystemWatch::restart(const AlarmSettings& settings) {
   const std::shared_ptr<const Dynamics>& dynamics = system->dynamics;
   amplitude_alarm = AmplitudeAlarm(name, settings);

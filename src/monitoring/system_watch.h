@@ -26,6 +26,8 @@ namespace whirl_twin {
 
 struct SystemWatch {
   SystemWatch(SharedSystem system, JudgedSpeeds speeds, const AlarmSettings& settings);
+  /// Other settings from now on; what the alarms know stays.
+  void set(const AlarmSettings& settings);
   /// Time begins anew: so do the alarms.
   void restart(const AlarmSettings& settings);
   /// What comes cannot be judged: no alarm clears by it, or counts it as time without its cause.

@@ -54,6 +54,17 @@ void TwinMonitor::restart(double time, double wall_time) {
   restored_.restart();
 }
 
+void TwinMonitor::set(const AlarmSettings& settings) {
+  settings_ = settings;
+  for (SystemWatch& watch : watches_) {
+    watch.set(settings_);
+  }
+  data_lost_alarm_.set(settings_);
+  lcm_lost_alarm_.set(settings_);
+  restored_.set(settings_);
+  alerts_.setLatch(settings_.latch);
+}
+
 bool TwinMonitor::take(const state::ParameterChange& change) {
   SystemWatch* watch = find(change.system);
   SharedSystem changed = watch == nullptr ? nullptr : watch->system->with(change);

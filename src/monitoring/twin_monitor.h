@@ -53,6 +53,11 @@ class TwinMonitor {
   /// where a rotor passes its threshold speed.
   std::vector<state::StabilityMargin> takeMargins();
   AlertList& alerts() { return alerts_; }
+  /// Other settings from now on. Alarms go on with what they know: what has been latched stays,
+  /// delays that run are measured anew, and an alert whose level was taken away clears after its
+  /// delay.
+  void set(const AlarmSettings& settings);
+  const AlarmSettings& settings() const { return settings_; }
   /// It was here before: to be said before anything arrives.
   void remember(const AlarmMemory& memory) { restored_.begin(memory, alerts_); }
   /// The run of simulated time; none before the simulation has told.
