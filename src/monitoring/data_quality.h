@@ -15,9 +15,15 @@ namespace whirl_twin {
 class DataQuality {
  public:
   DataQuality(std::string system, const AlarmSettings& settings);
+  /// timeout [s, wall], range [m].
+  DataQuality(double timeout, double range) : timeout_(timeout), range_(range) {}
 
   /// Other settings from now on; they judge the next state.
   void set(const AlarmSettings& settings);
+  void set(double timeout, double range) {
+    timeout_ = timeout;
+    range_ = range;
+  }
   /// A state came at wall_time [s]; returns whether it can be judged.
   bool take(const state::WhirlState& whirl, double wall_time);
   bool take(const state::PendulumState& pendulum, double wall_time);

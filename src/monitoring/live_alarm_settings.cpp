@@ -38,8 +38,8 @@ void put(const MapReader& change, YAML::Node present, bool outermost, Complaints
   for (const std::string& name : change.names()) {
     const YAML::Node value = change.at(name);
     const YAML::Node before = std::as_const(present)[name];
-    const bool has_entries =
-        name == "delays" || name == "amplitude" || name == "zones" || name == "subsynchronous";
+    const bool has_entries = name == "delays" || name == "amplitude" || name == "voting" ||
+                             name == "zones" || name == "subsynchronous";
     if (value.IsNull()) {
       if (!before.IsDefined()) {
         complaints.add(change.key(name), "is not set: there is nothing to take away");
@@ -60,9 +60,11 @@ void put(const MapReader& change, YAML::Node present, bool outermost, Complaints
 
 LiveAlarmSettings::LiveAlarmSettings(const YAML::Node& tree, const std::string& source,
                                      std::vector<std::string> rotors,
-                                     const std::vector<std::string>& besides)
+                                     const std::vector<std::string>& besides,
+                                     std::vector<std::string> stations)
     : rotors_(std::move(rotors)),
-      settings_(readAlarmSettings(tree, source, rotors_, besides)),
+      stations_(std::move(stations)),
+      settings_(readAlarmSettings(tree, source, rotors_, besides, stations_)),
       tree_(YAML::Clone(tree)) {
   for (const std::string& name : besides) {
     tree_.remove(name);
@@ -86,7 +88,7 @@ void LiveAlarmSettings::change(const std::string& text) {
   std::vector<std::string> errors = complaints.all();
   AlarmSettings settings;
   try {
-    settings = readAlarmSettings(changed, kSource, rotors_, {});
+    settings = readAlarmSettings(changed, kSource, rotors_, {}, stations_);
   } catch (const SceneError& wrong) {
     errors.insert(errors.end(), wrong.errors().begin(), wrong.errors().end());
   }

@@ -15,12 +15,13 @@ class LiveAlarmSettings {
  public:
   /// As readAlarmSettings().
   LiveAlarmSettings(const YAML::Node& tree, const std::string& source,
-                    std::vector<std::string> rotors, const std::vector<std::string>& besides = {});
+                    std::vector<std::string> rotors, const std::vector<std::string>& besides = {},
+                    std::vector<std::string> stations = {});
 
   /// What `text`, YAML, says takes the place of what was set; what it leaves out stays. delays,
-  /// amplitude, zones and subsynchronous are maps: each of their entries is one such setting.
-  /// Nothing (~) as a value takes a setting away, to its default. Throws Refusal with all that is
-  /// wrong, and then nothing has changed.
+  /// amplitude, voting, zones and subsynchronous are maps: each of their entries is one such
+  /// setting. Nothing (~) as a value takes a setting away, to its default. Throws Refusal with all
+  /// that is wrong, and then nothing has changed.
   void change(const std::string& text);
 
   const AlarmSettings& settings() const { return settings_; }
@@ -31,6 +32,7 @@ class LiveAlarmSettings {
 
  private:
   std::vector<std::string> rotors_;
+  std::vector<std::string> stations_;
   AlarmSettings settings_;
   YAML::Node tree_;
 };

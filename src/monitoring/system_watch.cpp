@@ -28,6 +28,7 @@ SystemWatch::SystemWatch(SharedSystem built, JudgedSpeeds first, const AlarmSett
       speed(built->spec.speed.value_or(0.0)),
       quality(built->spec.name, settings),
       amplitude_alarm(built->spec.name, settings),
+      voted_alarm(built->spec.name, settings),
       order_alarm(built->spec.name, settings),
       decay_alarm(built->spec.name, settings),
       critical_speed_alarm(built->spec.name, settings),
@@ -75,6 +76,7 @@ state::DriveState SystemWatch::shaftOf(const state::PendulumState& state) {
 void SystemWatch::set(const AlarmSettings& settings) {
   quality.set(settings);
   amplitude_alarm.set(settings);
+  voted_alarm.set(settings);
   order_alarm.set(settings);
   decay_alarm.set(settings);
   critical_speed_alarm.set(settings);
@@ -87,6 +89,7 @@ void SystemWatch::set(const AlarmSettings& settings) {
 void SystemWatch::restart(const AlarmSettings& settings) {
   const std::shared_ptr<const Dynamics>& dynamics = system->dynamics;
   amplitude_alarm = AmplitudeAlarm(name, settings);
+  voted_alarm = VotedAlarm(name, settings);
   order_alarm = OrderAlarm(name, settings);
   decay_alarm = DecayAlarm(name, settings);
   critical_speed_alarm = CriticalSpeedAlarm(name, settings);

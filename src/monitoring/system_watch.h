@@ -20,6 +20,7 @@
 #include "monitoring/stability_alarm.h"
 #include "monitoring/state_alarm.h"
 #include "monitoring/validity_alarm.h"
+#include "monitoring/voted_alarm.h"
 #include "scene/built_scene.h"
 
 namespace whirl_twin {
@@ -51,6 +52,7 @@ struct SystemWatch {
   double acceleration = 0.0;              ///< [rad/s^2], newest
   DataQuality quality;
   AmplitudeAlarm amplitude_alarm;
+  VotedAlarm voted_alarm;
   OrderAlarm order_alarm;
   DecayAlarm decay_alarm;
   CriticalSpeedAlarm critical_speed_alarm;

@@ -85,6 +85,11 @@ SystemWatch* TwinMonitor::find(const std::string& system) {
   return found == watches_.end() ? nullptr : &*found;
 }
 
+bool TwinMonitor::votes(const std::string& source) const {
+  return std::any_of(watches_.begin(), watches_.end(),
+                     [&](const SystemWatch& watch) { return watch.voted_alarm.listensTo(source); });
+}
+
 bool TwinMonitor::arrived(const std::string& source, const state::Instant& at, double wall_time) {
   // Each source against itself: one may be seconds ahead of another when the monitor was held up.
   const auto [known, first] = clocks_.try_emplace(source);
@@ -129,7 +134,8 @@ bool TwinMonitor::isFit(SystemWatch& watch, bool fit, double time) {
 std::vector<std::string> TwinMonitor::notOk(double wall_time, bool paused) const {
   std::vector<std::string> why;
   for (const SystemWatch& watch : watches_) {
-    why.push_back(watch.quality.notOk(wall_time, paused));
+    const std::string own = watch.quality.notOk(wall_time, paused);
+    why.push_back(own.empty() ? watch.voted_alarm.notOk(wall_time, paused) : own);
   }
   return why;
 }
@@ -137,7 +143,11 @@ std::vector<std::string> TwinMonitor::notOk(double wall_time, bool paused) const
 void TwinMonitor::tick(double wall_time, bool paused) {
   takeJudgements();
   for (SystemWatch& watch : watches_) {
-    if (watch.quality.isStale(wall_time) && !paused) {
+    if (paused) {
+      continue;
+    }
+    watch.voted_alarm.tick(wall_time);
+    if (watch.quality.isStale(wall_time)) {
       isFit(watch, false, time_);
     }
   }
@@ -200,11 +210,16 @@ void TwinMonitor::takeJudgements() {
 
 void TwinMonitor::take(const state::WhirlState& whirl, double wall_time) {
   SystemWatch* watch = find(whirl.system);
-  if (watch == nullptr || !watch->rotor) {
+  const bool watched = watch != nullptr && watch->rotor;
+  if ((!watched && !votes(whirl.system)) || !arrived(whirl.system, whirl.at, wall_time)) {
     return;
   }
-  if (!arrived(whirl.system, whirl.at, wall_time) ||
-      !isFit(*watch, watch->quality.take(whirl, wall_time), whirl.at.time)) {
+  for (SystemWatch& asking : watches_) {
+    if (asking.voted_alarm.listensTo(whirl.system)) {
+      asking.voted_alarm.take(whirl, asking.acceleration, wall_time, alerts_);
+    }
+  }
+  if (!watched || !isFit(*watch, watch->quality.take(whirl, wall_time), whirl.at.time)) {
     return;
   }
   if (watch->drive.empty()) {

@@ -75,6 +75,8 @@ class TwinMonitor {
  private:
   void restart(double time, double wall_time);
   SystemWatch* find(const std::string& system);
+  /// A system asks this source, which may be a station of one.
+  bool votes(const std::string& source) const;
   /// False for a state that is not to be believed.
   bool arrived(const std::string& source, const state::Instant& at, double wall_time);
   void liftInhibitions(double wall_time);

@@ -20,6 +20,7 @@
 #include "nodes/run_node.h"
 #include "plugins/plugin_models.h"
 #include "scene/scene_reader.h"
+#include "scene/station_names.h"
 #include "transport/lcm_connection.h"
 #include "transport/lcm_publisher.h"
 #include "transport/lcm_receiver.h"
@@ -43,9 +44,12 @@ double wallTime() {
 /// Throws Refusal for parameters of the node that are unknown, or out of range.
 LiveAlarmSettings alarmSettings(const BuiltScene& scene) {
   std::vector<std::string> rotors;
+  std::vector<std::string> stations;
   for (const SharedSystem& system : scene.systems) {
     if (system->dynamics->isRotor()) {
       rotors.push_back(system->spec.name);
+      const auto names = publishedStations(system->spec.name, *system->dynamics);
+      stations.insert(stations.end(), names.begin() + 1, names.end());
     }
   }
   std::vector<std::string> others{"lcm_url", "lcm_prefix", "source", "history"};
@@ -53,8 +57,8 @@ LiveAlarmSettings alarmSettings(const BuiltScene& scene) {
   XmlRpc::XmlRpcValue all;
   const std::string node = ros::this_node::getName();
   const bool any = ros::param::get(node, all) && all.getType() == XmlRpc::XmlRpcValue::TypeStruct;
-  return LiveAlarmSettings(any ? toYaml(all) : YAML::Node(YAML::NodeType::Map), node, rotors,
-                           others);
+  return LiveAlarmSettings(any ? toYaml(all) : YAML::Node(YAML::NodeType::Map), node,
+                           std::move(rotors), others, std::move(stations));
 }
 
 BuiltScene sceneOf(const ParameterTree& given) {
