@@ -7,6 +7,7 @@ inline constexpr char kCriticalSpeedApproach[] = "CRITICAL_SPEED_APPROACH";
 inline constexpr char kInCriticalBand[] = "IN_CRITICAL_BAND";
 inline constexpr char kSommerfeldCapture[] = "SOMMERFELD_CAPTURE";
 inline constexpr char kWhirlAmplitude[] = "WHIRL_AMPLITUDE";
+inline constexpr char kVotedAmplitude[] = "VOTED_AMPLITUDE";
 inline constexpr char kVibrationZone[] = "VIBRATION_ZONE";
 inline constexpr char kSubsynchronousWhirl[] = "SUBSYNCHRONOUS_WHIRL";
 inline constexpr char kUnstable[] = "UNSTABLE";
@@ -25,6 +26,7 @@ inline constexpr const char* kAll[] = {kCriticalSpeedApproach,
                                        kInCriticalBand,
                                        kSommerfeldCapture,
                                        kWhirlAmplitude,
+                                       kVotedAmplitude,
                                        kVibrationZone,
                                        kSubsynchronousWhirl,
                                        kUnstable,

@@ -3,6 +3,7 @@
 
 #include <variant>
 
+#include "messages/alarm_command.h"
 #include "messages/alert.h"
 #include "messages/input_command.h"
 #include "messages/loop_statistics.h"
@@ -19,7 +20,7 @@ using Message =
     std::variant<state::WhirlState, state::PendulumState, state::DriveState, state::MotorState,
                  state::EnsembleState, state::StabilityMargin, state::ParameterChange,
                  state::LoopStatistics, state::Measurement, state::InputCommand, state::Alert,
-                 state::MonitorStatus, state::OrderState>;
+                 state::MonitorStatus, state::OrderState, state::AlarmCommand>;
 
 /// A kind as a value: typename decltype(kind)::State.
 template <class T>

@@ -171,6 +171,10 @@ void AlarmHistory::writeRun(const TwinRun& run) {
       fmt::format(R"({{"event": "run", "started": {}, "epoch": {}}})", run.first, run.second));
 }
 
+void AlarmHistory::writeSettings(const std::string& text) {
+  writeLine(fmt::format(R"({{"event": "settings", "text": {}}})", quotedJson(text)));
+}
+
 void AlarmHistory::writeLine(const std::string& line) {
   if (!problem_.empty()) {
     return;

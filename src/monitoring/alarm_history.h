@@ -1,9 +1,9 @@
 // The history of the alarms in a file: one JSON object a line, an event a line, always appended, so
 // that it says after a death of the monitor what it said before. Event is "alert" (all fields of
 // the alert, but for numbers that are not meant), "reset" of the alarms, "run" of simulated time,
-// and at the head of a file that was begun anew "raised", how often a kind was before, and "id",
-// the last that was given. A line that cannot be read, the last one of a monitor that was killed
-// while it wrote, is left out.
+// "settings" as they were changed live, and at the head of a file that was begun anew "raised", how
+// often a kind was before, and "id", the last that was given. A line that cannot be read, the last
+// one of a monitor that was killed while it wrote, is left out.
 #pragma once
 
 #include <cstddef>
@@ -31,6 +31,8 @@ class AlarmHistory {
   void write(const state::Alert& event);
   void writeReset();
   void writeRun(const TwinRun& run);
+  /// For who reads it: a monitor that comes back has its parameters.
+  void writeSettings(const std::string& text);
 
  private:
   void read(const std::string& line);

@@ -30,6 +30,16 @@ struct AmplitudeLevels {
   double levelAt(const std::vector<double>& levels, double shaft_speed) const;
 };
 
+/// Levels of whirl radii [m], that so many of a machine's sources have to agree on.
+struct Voting {
+  std::vector<std::string> of;  ///< rotors and stations, by the names their whirl is published with
+  int agree = 0;                ///< 1 to as many as there are
+  // Infinite: none.
+  double alert = std::numeric_limits<double>::infinity();
+  double danger = std::numeric_limits<double>::infinity();
+  double range = std::numeric_limits<double>::infinity();  ///< as AmplitudeLevels::range
+};
+
 /// Vibration [m], peak to peak, up to which a machine is in zone A, B or C of ISO 20816; D is
 /// above.
 struct VibrationZones {
@@ -54,6 +64,7 @@ struct AlarmSettings {
   Latch latch = Latch::kNone;
   std::map<std::string, AlarmDelays> delays;         ///< of types that have their own
   std::map<std::string, AmplitudeLevels> amplitude;  ///< of systems that have some
+  std::map<std::string, Voting> voting;              ///< likewise
   std::map<std::string, VibrationZones> zones;       ///< likewise
   std::map<std::string, double> subsynchronous;  ///< [m], level of a whirl slower than the shaft
   double decay_audit = 0.0;  ///< [s], record that decay is measured from; 0: it is not

@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 #include <limits>
 #include <optional>
 #include <utility>
 
 #include "messages/alert_types.h"
+#include "messages/names.h"
 #include "scene/node_reader.h"
 #include "scene/scene_error.h"
 
@@ -95,6 +97,59 @@ AmplitudeLevels readLevels(const YAML::Node& node, const std::string& key, Compl
   return levels;
 }
 
+Voting readVoting(const YAML::Node& node, const std::string& key,
+                  const std::vector<std::string>& sources, Complaints& complaints) {
+  const MapReader map(node, key, {"of", "agree", "alert", "danger", "range"}, "key of voting",
+                      complaints);
+  Voting voting;
+  if (!map.usable()) {
+    return voting;
+  }
+  const YAML::Node of = map.at("of");
+  if (!map.has("of") || !of.IsSequence() || of.size() < 2) {
+    complaints.add(map.key("of"), fmt::format("must be a list of two sources or more, found {}",
+                                              map.has("of") ? shown(of) : "nothing"));
+    return voting;
+  }
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    const std::string name = of[i].IsScalar() ? of[i].Scalar() : shown(of[i]);
+    const std::string at = fmt::format("{}[{}]", map.key("of"), i);
+    if (std::find(sources.begin(), sources.end(), name) == sources.end()) {
+      complaints.add(at, fmt::format("must be a rotor of the scene or one of its stations, found "
+                                     "{}{}",
+                                     quoted(name), hint(name, sources)));
+    } else if (std::find(voting.of.begin(), voting.of.end(), name) != voting.of.end()) {
+      complaints.add(at, fmt::format("{} stands twice: nobody votes twice", name));
+    }
+    voting.of.push_back(name);
+  }
+  const auto all = static_cast<int>(voting.of.size());
+  if (!map.has("agree")) {
+    complaints.add(map.key("agree"), fmt::format("missing; must be from 1 to {}", all));
+  }
+  voting.agree = map.integer("agree", 1, all, all);
+  if (!map.has("alert") && !map.has("danger")) {
+    complaints.add(key, "must have a level: alert or danger [m]; found none");
+  }
+  for (const auto& [name, level] :
+       {std::pair("alert", &voting.alert), std::pair("danger", &voting.danger),
+        std::pair("range", &voting.range)}) {
+    if (map.has(name)) {
+      *level = map.number(name, Range::kPositive, "m", std::nullopt);
+    }
+  }
+  if (map.has("alert") && map.has("danger") && voting.danger <= voting.alert) {
+    complaints.add(map.key("danger"), fmt::format("must be above alert, {:g} m, found {:g}",
+                                                  voting.alert, voting.danger));
+  }
+  const double highest = map.has("danger") ? voting.danger : voting.alert;
+  if (map.has("range") && voting.range <= highest) {
+    complaints.add(map.key("range"), fmt::format("must be above the levels, {:g} m, found {:g}",
+                                                 highest, voting.range));
+  }
+  return voting;
+}
+
 VibrationZones readZones(const YAML::Node& node, const std::string& key, Complaints& complaints) {
   const MapReader map(node, key, {"a", "b", "c"}, "zone", complaints);
   VibrationZones zones;
@@ -116,7 +171,8 @@ VibrationZones readZones(const YAML::Node& node, const std::string& key, Complai
 
 AlarmSettings readAlarmSettings(const YAML::Node& tree, const std::string& source,
                                 const std::vector<std::string>& rotors,
-                                const std::vector<std::string>& besides) {
+                                const std::vector<std::string>& besides,
+                                const std::vector<std::string>& stations) {
   AlarmSettings s;
   const std::vector<std::pair<const char*, double*>> numbers{
       {"approach_time", &s.approach_time},
@@ -130,7 +186,8 @@ AlarmSettings readAlarmSettings(const YAML::Node& tree, const std::string& sourc
       {"decay_audit", &s.decay_audit},
       {"trip_multiply", &s.trip_multiply},
       {"start_up_acceleration", &s.start_up_acceleration}};
-  std::vector<std::string> known{"latch", "delays", "amplitude", "zones", "subsynchronous"};
+  std::vector<std::string> known{"latch",  "delays", "amplitude",
+                                 "voting", "zones",  "subsynchronous"};
   for (const auto& number : numbers) {
     known.emplace_back(number.first);
   }
@@ -176,6 +233,11 @@ AlarmSettings readAlarmSettings(const YAML::Node& tree, const std::string& sourc
   };
   each_rotor("amplitude", [&](const std::string& rotor, const MapReader& of) {
     s.amplitude[rotor] = readLevels(of.at(rotor), of.key(rotor), complaints);
+  });
+  std::vector<std::string> sources = rotors;
+  sources.insert(sources.end(), stations.begin(), stations.end());
+  each_rotor("voting", [&](const std::string& rotor, const MapReader& of) {
+    s.voting[rotor] = readVoting(of.at(rotor), of.key(rotor), sources, complaints);
   });
   each_rotor("zones", [&](const std::string& rotor, const MapReader& of) {
     s.zones[rotor] = readZones(of.at(rotor), of.key(rotor), complaints);

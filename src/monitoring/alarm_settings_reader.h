@@ -11,10 +11,11 @@
 namespace whirl_twin {
 
 /// source: names the tree in messages. rotors: the systems of the scene that have a whirl. besides:
-/// keys that stand there for others, and are left to them. What is not said has its default. Throws
-/// SceneError.
+/// keys that stand there for others, and are left to them. stations: further names that a whirl of
+/// the scene is published with. What is not said has its default. Throws SceneError.
 AlarmSettings readAlarmSettings(const YAML::Node& tree, const std::string& source,
                                 const std::vector<std::string>& rotors,
-                                const std::vector<std::string>& besides);
+                                const std::vector<std::string>& besides,
+                                const std::vector<std::string>& stations = {});
 
 }  // namespace whirl_twin

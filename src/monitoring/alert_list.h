@@ -26,6 +26,9 @@ class AlertList {
  public:
   explicit AlertList(Latch latch = Latch::kNone) : latch_(latch) {}
 
+  /// For alerts whose cause goes from now on; what is latched stays.
+  void setLatch(Latch latch) { latch_ = latch; }
+
   /// Raises the alert, or brings an active one of the same system and type up to date. Its id and
   /// raised_time are set here (raised_time: its time when it was raised), first_out and repeats,
   /// too. Nothing happens while the system is inhibited and the alert is not there.

@@ -10,18 +10,23 @@
 namespace whirl_twin {
 AmplitudeAlarm::AmplitudeAlarm(std::string system, const AlarmSettings& settings)
     : system_(std::move(system)),
-      hysteresis_(settings.hysteresis),
       start_up_(settings),
       alarm_(settings.delaysOf(alert_type::kWhirlAmplitude)) {
+  set(settings);
+}
+
+void AmplitudeAlarm::set(const AlarmSettings& settings) {
+  hysteresis_ = settings.hysteresis;
+  start_up_.set(settings);
+  alarm_.setDelays(settings.delaysOf(alert_type::kWhirlAmplitude));
   const auto levels = settings.amplitude.find(system_);
-  if (levels != settings.amplitude.end()) {
-    levels_ = levels->second;
-  }
+  levels_ = levels != settings.amplitude.end() ? levels->second : AmplitudeLevels();
+  has_levels_ = levels != settings.amplitude.end();
 }
 
 void AmplitudeAlarm::update(double time, double radius, double speed, double acceleration,
                             AlertList& alerts) {
-  if (!levels_) {
+  if (!has_levels_ && !alarm_.active()) {  // without levels it can only clear
     return;
   }
   if (!std::isfinite(radius) || !std::isfinite(speed) || !std::isfinite(time)) {
@@ -29,8 +34,8 @@ void AmplitudeAlarm::update(double time, double radius, double speed, double acc
     return;
   }
   const double by = start_up_.multiplier(time, speed, acceleration);
-  const double alert_level = by * levels_->alertAt(speed);
-  const double danger_level = by * levels_->dangerAt(speed);
+  const double alert_level = by * levels_.alertAt(speed);
+  const double danger_level = by * levels_.dangerAt(speed);
   AlarmCondition condition = AlarmCondition::kHold;
   if (radius > danger_level) {
     condition = AlarmCondition::kDanger;

@@ -4,7 +4,6 @@
 // does not go blind meanwhile.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "monitoring/alarm_settings.h"
@@ -18,6 +17,8 @@ class AmplitudeAlarm {
  public:
   AmplitudeAlarm(std::string system, const AlarmSettings& settings);
 
+  /// Other settings from now on; what it knows of its cause, and for how long, stays.
+  void set(const AlarmSettings& settings);
   /// radius [m] at time [s, simulated], with the speed [rad/s] and acceleration [rad/s^2] of the
   /// shaft. A NaN neither raises nor clears.
   void update(double time, double radius, double speed, double acceleration, AlertList& alerts);
@@ -26,8 +27,9 @@ class AmplitudeAlarm {
 
  private:
   std::string system_;
-  std::optional<AmplitudeLevels> levels_;
-  double hysteresis_;
+  AmplitudeLevels levels_;
+  bool has_levels_ = false;
+  double hysteresis_ = 0.0;
   StartUp start_up_;
   ConditionAlarm alarm_;
 };

@@ -23,6 +23,11 @@ CaptureAlarm::CaptureAlarm(std::string system, const AlarmSettings& settings)
       settings_(settings),
       alarm_(settings.delaysOf(alert_type::kSommerfeldCapture)) {}
 
+void CaptureAlarm::set(const AlarmSettings& settings) {
+  settings_ = settings;
+  alarm_.setDelays(settings.delaysOf(alert_type::kSommerfeldCapture));
+}
+
 bool CaptureAlarm::standsStill(double time, double speed, double scale) {
   if (!stands_ || time < stood_since_ || std::abs(speed - stood_at_) > kStill * scale) {
     stands_ = true;

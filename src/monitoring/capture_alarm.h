@@ -18,6 +18,8 @@ class CaptureAlarm {
  public:
   CaptureAlarm(std::string system, const AlarmSettings& settings);
 
+  /// Other settings from now on; what it knows of its cause, and for how long, stays.
+  void set(const AlarmSettings& settings);
   /// shaft: at.time [s] and speed [rad/s]; one that is not finite neither raises nor clears.
   void update(const state::DriveState& shaft, const std::vector<CaptureSpeed>& captures,
               AlertList& alerts);

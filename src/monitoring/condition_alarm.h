@@ -39,6 +39,16 @@ class ConditionAlarm {
   ConditionAlarm(double clear_delay, double raise_delay, Repeats repeats)
       : clear_delay_(clear_delay), raise_delay_(raise_delay), repeats_(repeats) {}
 
+  /// Other delays from now on: what runs goes on, and is measured by them.
+  void setDelays(AlarmDelays delays) {
+    clear_delay_ = delays.clear;
+    raise_delay_ = delays.set;
+  }
+  void setDelays(AlarmDelays delays, Repeats repeats) {
+    setDelays(delays);
+    repeats_ = repeats;
+  }
+
   /// Steps to time [s]. A clock that was set back restarts the delays; a time that is not finite
   /// changes nothing.
   Change update(double time, AlarmCondition condition);

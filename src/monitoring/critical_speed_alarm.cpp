@@ -55,6 +55,13 @@ CriticalSpeedAlarm::CriticalSpeedAlarm(std::string system, const AlarmSettings& 
       band_alarm_(settings.delaysOf(alert_type::kInCriticalBand), repeatsOf(settings)),
       approach_alarm_(settings.delaysOf(alert_type::kCriticalSpeedApproach), repeatsOf(settings)) {}
 
+void CriticalSpeedAlarm::set(const AlarmSettings& settings) {
+  settings_ = settings;
+  band_alarm_.setDelays(settings.delaysOf(alert_type::kInCriticalBand), repeatsOf(settings));
+  approach_alarm_.setDelays(settings.delaysOf(alert_type::kCriticalSpeedApproach),
+                            repeatsOf(settings));
+}
+
 void CriticalSpeedAlarm::update(const state::DriveState& shaft,
                                 const CriticalSpeeds& critical_speeds, AlertList& alerts) {
   if (!std::isfinite(shaft.speed) || !std::isfinite(shaft.at.time)) {

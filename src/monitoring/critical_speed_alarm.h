@@ -27,6 +27,8 @@ class CriticalSpeedAlarm {
  public:
   CriticalSpeedAlarm(std::string system, const AlarmSettings& settings);
 
+  /// Other settings from now on; what it knows of its cause, and for how long, stays.
+  void set(const AlarmSettings& settings);
   /// Judges one instant and brings the list up to date.
   ///
   /// CRITICAL_SPEED_APPROACH (warning): the present move enters a band within approach_time, or

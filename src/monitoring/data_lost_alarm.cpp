@@ -25,6 +25,15 @@ DataLostAlarm::DataLostAlarm(const std::vector<std::string>& systems, const Alar
   }
 }
 
+void DataLostAlarm::set(const AlarmSettings& settings) {
+  timeout_ = settings.data_timeout;
+  const AlarmDelays delays = settings.delaysOf(alert_type::kDataLost);
+  everybody_.setDelays(delays);
+  for (Watch& watch : watches_) {
+    watch.alarm.setDelays(delays);
+  }
+}
+
 void DataLostAlarm::received(const std::string& source, double wall_time, double time,
                              AlertList& alerts) {
   if (wall_time - last_arrival_ > timeout_) {

@@ -20,6 +20,8 @@ class DataLostAlarm {
   /// systems: those that are watched, whether or not they were ever heard.
   DataLostAlarm(const std::vector<std::string>& systems, const AlarmSettings& settings);
 
+  /// Other settings from now on; what it knows of its cause, and for how long, stays.
+  void set(const AlarmSettings& settings);
   /// A state of source arrived at wall_time [s, a clock that only goes forward], valid at
   /// time [s, simulated]. A source that is not watched (a drive) only shows that others go on.
   void received(const std::string& source, double wall_time, double time, AlertList& alerts);

@@ -7,12 +7,15 @@
 
 namespace whirl_twin {
 
-DataQuality::DataQuality(const std::string& system, const AlarmSettings& settings)
-    : timeout_(settings.data_timeout) {
-  const auto levels = settings.amplitude.find(system);
-  if (levels != settings.amplitude.end()) {
-    range_ = levels->second.range;
-  }
+DataQuality::DataQuality(std::string system, const AlarmSettings& settings)
+    : system_(std::move(system)) {
+  set(settings);
+}
+
+void DataQuality::set(const AlarmSettings& settings) {
+  timeout_ = settings.data_timeout;
+  const auto levels = settings.amplitude.find(system_);
+  range_ = (levels != settings.amplitude.end() ? levels->second : AmplitudeLevels()).range;
 }
 
 bool DataQuality::take(std::string unfit, double wall_time) {

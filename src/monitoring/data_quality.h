@@ -14,8 +14,16 @@ namespace whirl_twin {
 
 class DataQuality {
  public:
-  DataQuality(const std::string& system, const AlarmSettings& settings);
+  DataQuality(std::string system, const AlarmSettings& settings);
+  /// timeout [s, wall], range [m].
+  DataQuality(double timeout, double range) : timeout_(timeout), range_(range) {}
 
+  /// Other settings from now on; they judge the next state.
+  void set(const AlarmSettings& settings);
+  void set(double timeout, double range) {
+    timeout_ = timeout;
+    range_ = range;
+  }
   /// A state came at wall_time [s]; returns whether it can be judged.
   bool take(const state::WhirlState& whirl, double wall_time);
   bool take(const state::PendulumState& pendulum, double wall_time);
@@ -27,7 +35,8 @@ class DataQuality {
  private:
   bool take(std::string unfit, double wall_time);
 
-  double timeout_;                                              ///< [s, wall]
+  std::string system_;
+  double timeout_ = 0.0;                                        ///< [s, wall]
   double range_ = std::numeric_limits<double>::infinity();      ///< [m]
   double heard_at_ = -std::numeric_limits<double>::infinity();  ///< [s, wall]
   std::string unfit_;                                           ///< why the newest state is

@@ -27,10 +27,18 @@ constexpr double kMatters = 0.25;
 
 DecayAlarm::DecayAlarm(std::string system, const AlarmSettings& settings)
     : system_(std::move(system)),
-      on_(settings.decay_audit > 0.0),
+      record_(settings.decay_audit),
       audit_(settings.decay_audit),
       alarm_(settings.delaysOf(alert_type::kModelMismatch)),
       model_(kNaN) {}
+
+void DecayAlarm::set(const AlarmSettings& settings) {
+  alarm_.setDelays(settings.delaysOf(alert_type::kModelMismatch));
+  if (settings.decay_audit != record_) {
+    record_ = settings.decay_audit;
+    audit_ = DecayAudit(record_);
+  }
+}
 
 void DecayAlarm::hold() {
   audit_.clear();
@@ -43,7 +51,12 @@ void DecayAlarm::update(const state::StabilityMargin& margin) {
 }
 
 void DecayAlarm::update(const state::WhirlState& whirl, AlertList& alerts) {
-  if (!on_) {
+  if (record_ <= 0.0) {
+    if (alarm_.active()) {
+      alarm_.clearNow();
+      alerts.clear(system_, alert_type::kModelMismatch, whirl.at.time,
+                   fmt::format("{}: its decay is no longer measured", system_));
+    }
     return;
   }
   const std::int64_t passed = whirl.at.step - last_;

@@ -20,6 +20,8 @@ class DecayAlarm {
  public:
   DecayAlarm(std::string system, const AlarmSettings& settings);
 
+  /// Other settings from now on; what it knows of its cause, and for how long, stays.
+  void set(const AlarmSettings& settings);
   /// The next state; its parameters are those of the last margin.
   void update(const state::WhirlState& whirl, AlertList& alerts);
   void update(const state::StabilityMargin& margin);
@@ -30,7 +32,7 @@ class DecayAlarm {
   void judge(const AuditedDecay& measured, double speed, AlertList& alerts);
 
   std::string system_;
-  bool on_;
+  double record_;  // [s], that is judged; 0: none
   DecayAudit audit_;
   ConditionAlarm alarm_;
   double model_;             // [1/s]; NaN: nothing to compare with

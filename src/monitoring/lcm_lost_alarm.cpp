@@ -11,6 +11,10 @@ namespace whirl_twin {
 LcmLostAlarm::LcmLostAlarm(const AlarmSettings& settings)
     : alarm_(settings.delaysOf(alert_type::kLcmLost)) {}
 
+void LcmLostAlarm::set(const AlarmSettings& settings) {
+  alarm_.setDelays(settings.delaysOf(alert_type::kLcmLost));
+}
+
 void LcmLostAlarm::update(double wall_time, double time, std::uint64_t failed, AlertList& alerts) {
   const bool losing = before_ && failed > *before_;
   const std::uint64_t lost = losing ? failed - *before_ : 0;

@@ -15,6 +15,8 @@ class LcmLostAlarm {
  public:
   explicit LcmLostAlarm(const AlarmSettings& settings);
 
+  /// Other settings from now on.
+  void set(const AlarmSettings& settings);
   /// failed: messages that could not be sent since the simulation was started, as it says at
   /// wall_time [s, a clock that only goes forward] and time [s, simulated]. The first that is heard
   /// is only what later ones are compared with: it may be of long ago.

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kSubsynchronous = 0.95;  // of the speed, below which a line is
 constexpr double kMicrometre = 1.0e6;     // per metre
+constexpr double kNone = std::numeric_limits<double>::infinity();  // no level
 
 /// The highest forward line slower than the shaft; -1: none.
 int subsynchronousLine(const state::OrderState& orders) {
@@ -51,19 +52,22 @@ const char* nameOf(LineCharacter::Kind kind) {
 
 OrderAlarm::OrderAlarm(std::string system, const AlarmSettings& settings)
     : system_(std::move(system)),
-      hysteresis_(settings.hysteresis),
-      line_level_(std::numeric_limits<double>::infinity()),
       start_up_(settings),
       zone_alarm_(settings.delaysOf(alert_type::kVibrationZone)),
       line_alarm_(settings.delaysOf(alert_type::kSubsynchronousWhirl)) {
+  set(settings);
+}
+
+void OrderAlarm::set(const AlarmSettings& settings) {
+  hysteresis_ = settings.hysteresis;
+  start_up_.set(settings);
+  zone_alarm_.setDelays(settings.delaysOf(alert_type::kVibrationZone));
+  line_alarm_.setDelays(settings.delaysOf(alert_type::kSubsynchronousWhirl));
   const auto zones = settings.zones.find(system_);
-  if (zones != settings.zones.end()) {
-    zones_ = zones->second;
-  }
+  has_zones_ = zones != settings.zones.end();
+  zones_ = has_zones_ ? zones->second : VibrationZones{kNone, kNone, kNone};
   const auto level = settings.subsynchronous.find(system_);
-  if (level != settings.subsynchronous.end()) {
-    line_level_ = level->second;
-  }
+  line_level_ = level != settings.subsynchronous.end() ? level->second : kNone;
 }
 
 void OrderAlarm::hold() {
@@ -72,10 +76,11 @@ void OrderAlarm::hold() {
 }
 
 void OrderAlarm::update(const state::OrderState& orders, double acceleration, AlertList& alerts) {
-  if (zones_) {
+  // Without levels an alarm can only clear.
+  if (has_zones_ || zone_alarm_.active()) {
     updateZone(orders, acceleration, alerts);
   }
-  if (std::isfinite(line_level_)) {
+  if (std::isfinite(line_level_) || line_alarm_.active()) {
     updateLine(orders, alerts);
   }
 }
@@ -86,11 +91,14 @@ void OrderAlarm::updateZone(const state::OrderState& orders, double acceleration
   const double by = start_up_.multiplier(time, orders.speed, acceleration);
   const double vibration = orders.peak_to_peak;
   const AlarmCondition condition =
-      conditionOf(vibration, by * zones_->b, by * zones_->c, hysteresis_);
+      conditionOf(vibration, by * zones_.b, by * zones_.c, hysteresis_);
   if (zone_alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
     alerts.clear(system_, alert_type::kVibrationZone, time,
-                 fmt::format("{}: vibration back to {:.3g} um peak to peak, zone {}", system_,
-                             kMicrometre * vibration, vibration > zones_->a ? 'B' : 'A'));
+                 fmt::format("{}: vibration back to {:.3g} um peak to peak, {}", system_,
+                             kMicrometre * vibration,
+                             !has_zones_            ? "its zones are no longer set"
+                             : vibration > zones_.a ? "zone B"
+                                                    : "zone A"));
   } else if (zone_alarm_.active() && isRaising(condition)) {
     const bool danger = condition == AlarmCondition::kDanger;
     state::Alert alert;
@@ -101,7 +109,7 @@ void OrderAlarm::updateZone(const state::OrderState& orders, double acceleration
     alert.speed = orders.speed;
     alert.acceleration = acceleration;
     alert.amplitude = vibration;
-    alert.amplitude_limit = by * (danger ? zones_->c : zones_->b);
+    alert.amplitude_limit = by * (danger ? zones_.c : zones_.b);
     alert.text = fmt::format(
         "{}: vibration {:.3g} um peak to peak at {:.1f} rad/s, zone {}, above {:.3g} um{}: {}",
         system_, kMicrometre * vibration, orders.speed, danger ? 'D' : 'C',
@@ -124,9 +132,7 @@ void OrderAlarm::updateLine(const state::OrderState& orders, AlertList& alerts) 
   }
   // Without orders nothing can be said of what is slower than the shaft.
   const AlarmCondition condition =
-      !orders.valid
-          ? AlarmCondition::kHold
-          : conditionOf(height, line_level_, std::numeric_limits<double>::infinity(), hysteresis_);
+      !orders.valid ? AlarmCondition::kHold : conditionOf(height, line_level_, kNone, hysteresis_);
   if (line_alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
     alerts.clear(system_, alert_type::kSubsynchronousWhirl, time,
                  fmt::format("{}: whirl slower than the shaft back to {:.3g} um", system_,

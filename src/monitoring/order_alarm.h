@@ -11,7 +11,6 @@
 //                          (signal/line_character.h)
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "messages/order_state.h"
@@ -27,6 +26,8 @@ class OrderAlarm {
  public:
   OrderAlarm(std::string system, const AlarmSettings& settings);
 
+  /// Other settings from now on; what it knows of its cause, and for how long, stays.
+  void set(const AlarmSettings& settings);
   /// acceleration [rad/s^2] of the shaft.
   void update(const state::OrderState& orders, double acceleration, AlertList& alerts);
   /// What comes cannot be judged: delays are broken, and nothing is raised or cleared.
@@ -37,9 +38,10 @@ class OrderAlarm {
   void updateLine(const state::OrderState& orders, AlertList& alerts);
 
   std::string system_;
-  double hysteresis_;
-  std::optional<VibrationZones> zones_;
-  double line_level_;  // [m]; infinite: none
+  double hysteresis_ = 0.0;
+  VibrationZones zones_;  // infinite: none
+  bool has_zones_ = false;
+  double line_level_ = 0.0;  // [m]; infinite: none
   StartUp start_up_;
   ConditionAlarm zone_alarm_;
   ConditionAlarm line_alarm_;

@@ -20,8 +20,12 @@ bool isToldByLoop(const std::string& type) {
 
 }  // namespace
 
-RestoredAlerts::RestoredAlerts(const AlarmSettings& settings)
-    : patience_(kSlowest + settings.clear_delay) {
+RestoredAlerts::RestoredAlerts(const AlarmSettings& settings) {
+  set(settings);
+}
+
+void RestoredAlerts::set(const AlarmSettings& settings) {
+  patience_ = kSlowest + settings.clear_delay;
   for (const auto& [type, delays] : settings.delays) {
     patience_ = std::max(patience_, kSlowest + delays.set + delays.clear);
   }

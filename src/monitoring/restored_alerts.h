@@ -20,6 +20,8 @@ class RestoredAlerts {
  public:
   explicit RestoredAlerts(const AlarmSettings& settings);
 
+  /// Other settings from now on.
+  void set(const AlarmSettings& settings);
   /// The list is to know what was known.
   void begin(const AlarmMemory& memory, AlertList& alerts);
   /// A state of a source came, at time [s, simulated].
@@ -34,7 +36,7 @@ class RestoredAlerts {
  private:
   bool longEnough(const std::string& source, double time);
 
-  double patience_;  ///< [s], simulated
+  double patience_ = 0.0;  ///< [s], simulated
   std::optional<TwinRun> run_;
   std::optional<TwinRun> other_run_;  ///< as said once
   std::map<std::string, double> heard_since_;

@@ -56,6 +56,12 @@ StabilityAlarm::StabilityAlarm(std::string system, const AlarmSettings& settings
       low_damping_alarm_(settings.delaysOf(alert_type::kLowDamping)),
       disagreement_alarm_(settings.delaysOf(alert_type::kRouthDisagrees)) {}
 
+void StabilityAlarm::set(const AlarmSettings& settings) {
+  settings_ = settings;
+  unstable_alarm_.setDelays(settings.delaysOf(alert_type::kUnstable));
+  low_damping_alarm_.setDelays(settings.delaysOf(alert_type::kLowDamping));
+}
+
 void StabilityAlarm::update(const state::StabilityMargin& margin, AlertList& alerts) {
   updateUnstable(margin, alerts);
   updateLowDamping(margin, alerts);

@@ -26,6 +26,8 @@ class StabilityAlarm {
  public:
   StabilityAlarm(std::string system, const AlarmSettings& settings);
 
+  /// Other settings from now on; what it knows of its cause, and for how long, stays.
+  void set(const AlarmSettings& settings);
   /// Judges one margin and brings the list up to date. LOW_DAMPING is a rotor criterion: a system
   /// without a shaft (speed NaN) does not raise it, nor does a system that is unstable already.
   void update(const state::StabilityMargin& margin, AlertList& alerts);

@@ -11,10 +11,14 @@ namespace whirl_twin {
 
 class StartUp {
  public:
-  explicit StartUp(const AlarmSettings& settings)
-      : multiply_(settings.trip_multiply),
-        acceleration_(settings.start_up_acceleration),
-        tail_(settings.clear_delay) {}
+  explicit StartUp(const AlarmSettings& settings) { set(settings); }
+
+  /// Other settings from now on; a start-up goes on.
+  void set(const AlarmSettings& settings) {
+    multiply_ = settings.trip_multiply;
+    acceleration_ = settings.start_up_acceleration;
+    tail_ = settings.clear_delay;
+  }
 
   /// What levels are to be multiplied by [-] at time [s, simulated], with the speed [rad/s] and
   /// acceleration [rad/s^2] of the shaft.
@@ -31,9 +35,9 @@ class StartUp {
   }
 
  private:
-  double multiply_;
-  double acceleration_;
-  double tail_;                       ///< [s], that the multiplied levels stay
+  double multiply_ = 1.0;
+  double acceleration_ = 0.0;
+  double tail_ = 0.0;                 ///< [s], that the multiplied levels stay
   std::optional<double> started_up_;  ///< [s], when it last gained speed
 };
 

@@ -16,6 +16,13 @@ StateAlarm::StateAlarm(std::string system, const AlarmSettings& settings)
       accuracy_alarm_(settings.delaysOf(alert_type::kAccuracyLost)),
       stopped_alarm_(settings.delaysOf(alert_type::kStopped)) {}
 
+void StateAlarm::set(const AlarmSettings& settings) {
+  settings_ = settings;
+  energy_alarm_.setDelays(settings.delaysOf(alert_type::kEnergyResidual));
+  accuracy_alarm_.setDelays(settings.delaysOf(alert_type::kAccuracyLost));
+  stopped_alarm_.setDelays(settings.delaysOf(alert_type::kStopped));
+}
+
 void StateAlarm::updateEnergy(double time, double residual, AlertList& alerts) {
   const double limit = settings_.energy_residual;
   AlarmCondition condition = AlarmCondition::kHold;

@@ -25,6 +25,8 @@ class StateAlarm {
  public:
   StateAlarm(std::string system, const AlarmSettings& settings);
 
+  /// Other settings from now on; what it knows of its cause, and for how long, stays.
+  void set(const AlarmSettings& settings);
   /// residual [-] at time [s, simulated]; its sign does not matter. A NaN neither raises nor
   /// clears.
   void updateEnergy(double time, double residual, AlertList& alerts);

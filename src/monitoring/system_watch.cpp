@@ -39,6 +39,7 @@ SystemWatch::SystemWatch(SharedSystem built, JudgedSpeeds first, const AlarmSett
       speed(built->spec.speed.value_or(0.0)),
       quality(built->spec.name, settings),
       amplitude_alarm(built->spec.name, settings),
+      voted_alarm(built->spec.name, settings),
       order_alarm(built->spec.name, settings),
       decay_alarm(built->spec.name, settings),
       critical_speed_alarm(built->spec.name, settings),
@@ -84,9 +85,23 @@ state::DriveState SystemWatch::shaftOf(const state::PendulumState& state) {
   return shaft;
 }
 
+void SystemWatch::set(const AlarmSettings& settings) {
+  quality.set(settings);
+  amplitude_alarm.set(settings);
+  voted_alarm.set(settings);
+  order_alarm.set(settings);
+  decay_alarm.set(settings);
+  critical_speed_alarm.set(settings);
+  capture_alarm.set(settings);
+  stability_alarm.set(settingsFor(*system->dynamics, settings));
+  state_alarm.set(settings);
+  validity_alarm.set(settings);
+}
+
 void SystemWatch::restart(const AlarmSettings& settings) {
   const std::shared_ptr<const Dynamics>& dynamics = system->dynamics;
   amplitude_alarm = AmplitudeAlarm(name, settings);
+  voted_alarm = VotedAlarm(name, settings);
   order_alarm = OrderAlarm(name, settings);
   decay_alarm = DecayAlarm(name, settings);
   critical_speed_alarm = CriticalSpeedAlarm(name, settings);

@@ -20,6 +20,7 @@
 #include "monitoring/stability_alarm.h"
 #include "monitoring/state_alarm.h"
 #include "monitoring/validity_alarm.h"
+#include "monitoring/voted_alarm.h"
 #include "scene/built_scene.h"
 
 namespace whirl_twin {
@@ -31,6 +32,8 @@ double newsBreak(const Dynamics& dynamics);
 
 struct SystemWatch {
   SystemWatch(SharedSystem system, JudgedSpeeds speeds, const AlarmSettings& settings);
+  /// Other settings from now on; what the alarms know stays.
+  void set(const AlarmSettings& settings);
   /// Time begins anew: so do the alarms.
   void restart(const AlarmSettings& settings);
   /// What comes cannot be judged: no alarm clears by it, or counts it as time without its cause.
@@ -54,6 +57,7 @@ struct SystemWatch {
   double acceleration = 0.0;              ///< [rad/s^2], newest
   DataQuality quality;
   AmplitudeAlarm amplitude_alarm;
+  VotedAlarm voted_alarm;
   OrderAlarm order_alarm;
   DecayAlarm decay_alarm;
   CriticalSpeedAlarm critical_speed_alarm;

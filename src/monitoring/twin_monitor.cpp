@@ -56,6 +56,17 @@ void TwinMonitor::restart(double time, double wall_time) {
   restored_.restart();
 }
 
+void TwinMonitor::set(const AlarmSettings& settings) {
+  settings_ = settings;
+  for (SystemWatch& watch : watches_) {
+    watch.set(settings_);
+  }
+  data_lost_alarm_.set(settings_);
+  lcm_lost_alarm_.set(settings_);
+  restored_.set(settings_);
+  alerts_.setLatch(settings_.latch);
+}
+
 bool TwinMonitor::take(const state::ParameterChange& change) {
   SystemWatch* watch = find(change.system);
   SharedSystem changed = watch == nullptr ? nullptr : watch->system->with(change);
@@ -77,6 +88,11 @@ SystemWatch* TwinMonitor::find(const std::string& system) {
   const auto found = std::find_if(watches_.begin(), watches_.end(),
                                   [&](const SystemWatch& watch) { return watch.name == system; });
   return found == watches_.end() ? nullptr : &*found;
+}
+
+bool TwinMonitor::votes(const std::string& source) const {
+  return std::any_of(watches_.begin(), watches_.end(),
+                     [&](const SystemWatch& watch) { return watch.voted_alarm.listensTo(source); });
 }
 
 bool TwinMonitor::arrived(const std::string& source, const state::Instant& at, double wall_time) {
@@ -123,7 +139,8 @@ bool TwinMonitor::isFit(SystemWatch& watch, bool fit, double time) {
 std::vector<std::string> TwinMonitor::notOk(double wall_time, bool paused) const {
   std::vector<std::string> why;
   for (const SystemWatch& watch : watches_) {
-    why.push_back(watch.quality.notOk(wall_time, paused));
+    const std::string own = watch.quality.notOk(wall_time, paused);
+    why.push_back(own.empty() ? watch.voted_alarm.notOk(wall_time, paused) : own);
   }
   return why;
 }
@@ -131,7 +148,11 @@ std::vector<std::string> TwinMonitor::notOk(double wall_time, bool paused) const
 void TwinMonitor::tick(double wall_time, bool paused) {
   takeJudgements();
   for (SystemWatch& watch : watches_) {
-    if (watch.quality.isStale(wall_time) && !paused) {
+    if (paused) {
+      continue;
+    }
+    watch.voted_alarm.tick(wall_time);
+    if (watch.quality.isStale(wall_time)) {
       isFit(watch, false, time_);
     }
   }
@@ -209,11 +230,16 @@ void TwinMonitor::takeJudgements() {
 
 void TwinMonitor::take(const state::WhirlState& whirl, double wall_time) {
   SystemWatch* watch = find(whirl.system);
-  if (watch == nullptr || !watch->rotor) {
+  const bool watched = watch != nullptr && watch->rotor;
+  if ((!watched && !votes(whirl.system)) || !arrived(whirl.system, whirl.at, wall_time)) {
     return;
   }
-  if (!arrived(whirl.system, whirl.at, wall_time) ||
-      !isFit(*watch, watch->quality.take(whirl, wall_time), whirl.at.time)) {
+  for (SystemWatch& asking : watches_) {
+    if (asking.voted_alarm.listensTo(whirl.system)) {
+      asking.voted_alarm.take(whirl, asking.acceleration, wall_time, alerts_);
+    }
+  }
+  if (!watched || !isFit(*watch, watch->quality.take(whirl, wall_time), whirl.at.time)) {
     return;
   }
   if (watch->drive.empty()) {

@@ -58,6 +58,11 @@ class TwinMonitor {
   /// Something is being judged: it is worth asking soon.
   bool judging() { return judging_.pending(); }
   AlertList& alerts() { return alerts_; }
+  /// Other settings from now on. Alarms go on with what they know: what has been latched stays,
+  /// delays that run are measured anew, and an alert whose level was taken away clears after its
+  /// delay.
+  void set(const AlarmSettings& settings);
+  const AlarmSettings& settings() const { return settings_; }
   /// It was here before: to be said before anything arrives.
   void remember(const AlarmMemory& memory) { restored_.begin(memory, alerts_); }
   /// The run of simulated time; none before the simulation has told.
@@ -75,6 +80,8 @@ class TwinMonitor {
  private:
   void restart(double time, double wall_time);
   SystemWatch* find(const std::string& system);
+  /// A system asks this source, which may be a station of one.
+  bool votes(const std::string& source) const;
   /// False for a state that is not to be believed.
   bool arrived(const std::string& source, const state::Instant& at, double wall_time);
   void liftInhibitions(double wall_time);

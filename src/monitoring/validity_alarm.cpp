@@ -15,6 +15,10 @@ ValidityAlarm::ValidityAlarm(std::string system, std::shared_ptr<const Dynamics>
       has_conditions_(hasConditions(*dynamics_)),
       alarm_(settings.delaysOf(alert_type::kModelInvalid)) {}
 
+void ValidityAlarm::set(const AlarmSettings& settings) {
+  alarm_.setDelays(settings.delaysOf(alert_type::kModelInvalid));
+}
+
 void ValidityAlarm::setDynamics(std::shared_ptr<const Dynamics> dynamics) {
   dynamics_ = std::move(dynamics);
   has_conditions_ = hasConditions(*dynamics_);

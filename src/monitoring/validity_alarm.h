@@ -17,6 +17,8 @@ class ValidityAlarm {
   ValidityAlarm(std::string system, std::shared_ptr<const Dynamics> dynamics,
                 const AlarmSettings& settings);
 
+  /// Other settings from now on.
+  void set(const AlarmSettings& settings);
   /// The parameters of the system have changed.
   void setDynamics(std::shared_ptr<const Dynamics> dynamics);
   /// The state at at.time [s, simulated].

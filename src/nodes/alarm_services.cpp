@@ -1,80 +1,113 @@
 #include "nodes/alarm_services.h"
 
-#include <fmt/format.h>
-
-#include <string>
+#include <chrono>
 #include <utility>
+#include <variant>
 
-#include "messages/names.h"
+#include "transport/channels.h"
+#include "transport/lcm_connection.h"
+#include "transport/ros_converters.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kLongest = 3600.0;  // s: an inhibition that is forgotten ends
-
-std::string nameOf(const std::string& system) {
-  return system.empty() ? "every system" : printable(system);
-}
+constexpr std::uint32_t kQueue = 100;  // commands of a sender that is ahead
 
 }  // namespace
 
-AlarmServices::AlarmServices(TwinMonitor& monitor, ros::NodeHandle node,
+AlarmServices::AlarmServices(TwinMonitor& monitor, const ros::NodeHandle& own, ros::NodeHandle twin,
                              std::function<double()> wall_time, std::function<void()> was_reset)
-    : monitor_(monitor),
-      wall_time_(std::move(wall_time)),
-      was_reset_(std::move(was_reset)),
-      servers_{node.advertiseService("acknowledge", &AlarmServices::acknowledge, this),
-               node.advertiseService("reset_alarms", &AlarmServices::reset, this),
-               node.advertiseService("inhibit", &AlarmServices::inhibit, this)} {}
+    : monitor_(monitor), wall_time_(std::move(wall_time)), was_reset_(std::move(was_reset)) {
+  ros::NodeHandle node = own;
+  servers_ = {node.advertiseService("acknowledge", &AlarmServices::acknowledge, this),
+              node.advertiseService("reset_alarms", &AlarmServices::reset, this),
+              node.advertiseService("inhibit", &AlarmServices::inhibit, this)};
+  const boost::function<void(const boost::shared_ptr<const AlarmCommand>&)> callback =
+      [this](const boost::shared_ptr<const AlarmCommand>& message) {
+        try {
+          take(fromRos(*message));
+        } catch (const RejectedMessage& why) {
+          refuse(why.what());
+        }
+      };
+  subscriber_ =
+      twin.subscribe<AlarmCommand>(topicName(state::AlarmCommand::kKind), kQueue, callback);
+}
+
+void AlarmServices::listen(const std::string& lcm_url, const std::string& lcm_prefix) {
+  try {
+    receiver_ = std::make_unique<LcmReceiver>(
+        openLcm(lcm_url), Kinds{&state::AlarmCommand::kKind},
+        [this](const Message& message) { take(std::get<state::AlarmCommand>(message)); },
+        lcm_prefix);
+  } catch (const LcmNotAvailable& problem) {
+    ROS_WARN("%s; commands about alarms are taken on ROS only", problem.what());
+  }
+}
+
+void AlarmServices::receive() {
+  if (receiver_) {
+    receiver_->receive(std::chrono::milliseconds(0));
+  }
+}
+
+std::uint64_t AlarmServices::refused() const {
+  return refused_ + (receiver_ ? receiver_->rejected() : 0);
+}
+
+CommandAnswer AlarmServices::answer(const state::AlarmCommand& command) {
+  CommandAnswer answer = carryOut(command, monitor_, wall_time_());
+  if (answer.done && command.command == state::AlarmCommand::kReset) {
+    was_reset_();
+  }
+  if (answer.done && command.command == state::AlarmCommand::kInhibit && command.duration > 0.0) {
+    ROS_WARN("%s", answer.text.c_str());
+  }
+  return answer;
+}
+
+void AlarmServices::take(const state::AlarmCommand& command) {
+  const CommandAnswer given = answer(command);
+  if (!given.done) {
+    return refuse(given.text);
+  }
+  ++taken_;
+}
+
+void AlarmServices::refuse(const std::string& why) {
+  ++refused_;
+  ROS_WARN_THROTTLE(5.0, "a command about alarms is refused: %s", why.c_str());
+}
 
 bool AlarmServices::acknowledge(Acknowledge::Request& request, Acknowledge::Response& response) {
-  AlertList& alerts = monitor_.alerts();
-  bool any = false;
-  for (const state::Alert& alert : alerts.active()) {
-    any = any || ((request.system.empty() || request.system == alert.system) &&
-                  (request.type.empty() || request.type == alert.type));
-  }
-  const std::size_t count = alerts.acknowledge(request.system, request.type);
-  const bool nothing_asked = request.system.empty() && request.type.empty();
-  response.success = any || nothing_asked;
-  response.message = response.success ? fmt::format("{} acknowledged", count)
-                                      : fmt::format("no alert {} of {}", printable(request.type),
-                                                    nameOf(request.system));
+  state::AlarmCommand command;
+  command.command = state::AlarmCommand::kAcknowledge;
+  command.system = request.system;
+  command.type = request.type;
+  const CommandAnswer given = answer(command);
+  response.success = given.done;
+  response.message = given.text;
   return true;
 }
 
 bool AlarmServices::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  AlertList& alerts = monitor_.alerts();
-  const std::size_t cleared = alerts.reset(monitor_.time());
-  was_reset_();
-  response.success = true;
-  response.message =
-      fmt::format("{} cleared, {} have their cause still", cleared, alerts.active().size());
+  state::AlarmCommand command;
+  command.command = state::AlarmCommand::kReset;
+  const CommandAnswer given = answer(command);
+  response.success = given.done;
+  response.message = given.text;
   return true;
 }
 
 bool AlarmServices::inhibit(Inhibit::Request& request, Inhibit::Response& response) {
-  response.success = false;
-  if (!(request.duration >= 0.0 && request.duration <= kLongest)) {
-    response.message =
-        fmt::format("duration: must be from 0 to {:g} s, found {:g}", kLongest, request.duration);
-    return true;
-  }
-  if (!monitor_.inhibit(request.system, request.duration, wall_time_())) {
-    response.message = fmt::format("system: must be a system of the scene, found {}{}",
-                                   whirl_twin::quoted(request.system),
-                                   hint(request.system, monitor_.systemNames()));
-    return true;
-  }
-  response.success = true;
-  response.message = request.duration > 0.0
-                         ? fmt::format("alerts of {} are held back for {:g} s",
-                                       nameOf(request.system), request.duration)
-                         : fmt::format("alerts of {} are raised", nameOf(request.system));
-  if (request.duration > 0.0) {
-    ROS_WARN("%s", response.message.c_str());
-  }
+  state::AlarmCommand command;
+  command.command = state::AlarmCommand::kInhibit;
+  command.system = request.system;
+  command.duration = request.duration;
+  const CommandAnswer given = answer(command);
+  response.success = given.done;
+  response.message = given.text;
   return true;
 }
 

@@ -11,14 +11,16 @@
 #include <utility>
 
 #include "monitoring/alarm_history.h"
-#include "monitoring/alarm_settings_reader.h"
+#include "monitoring/live_alarm_settings.h"
 #include "monitoring/twin_monitor.h"
 #include "monitoring/watched_kinds.h"
 #include "nodes/alarm_services.h"
+#include "nodes/alarm_settings_service.h"
 #include "nodes/private_parameter.h"
 #include "nodes/run_node.h"
 #include "plugins/plugin_models.h"
 #include "scene/scene_reader.h"
+#include "scene/station_names.h"
 #include "transport/lcm_connection.h"
 #include "transport/lcm_publisher.h"
 #include "transport/lcm_receiver.h"
@@ -40,11 +42,14 @@ double wallTime() {
 }
 
 /// Throws Refusal for parameters of the node that are unknown, or out of range.
-AlarmSettings alarmSettings(const BuiltScene& scene) {
+LiveAlarmSettings alarmSettings(const BuiltScene& scene) {
   std::vector<std::string> rotors;
+  std::vector<std::string> stations;
   for (const SharedSystem& system : scene.systems) {
     if (system->dynamics->isRotor()) {
       rotors.push_back(system->spec.name);
+      const auto names = publishedStations(system->spec.name, *system->dynamics);
+      stations.insert(stations.end(), names.begin() + 1, names.end());
     }
   }
   std::vector<std::string> others{"lcm_url", "lcm_prefix", "source", "history"};
@@ -52,8 +57,8 @@ AlarmSettings alarmSettings(const BuiltScene& scene) {
   XmlRpc::XmlRpcValue all;
   const std::string node = ros::this_node::getName();
   const bool any = ros::param::get(node, all) && all.getType() == XmlRpc::XmlRpcValue::TypeStruct;
-  return readAlarmSettings(any ? toYaml(all) : YAML::Node(YAML::NodeType::Map), node, rotors,
-                           others);
+  return LiveAlarmSettings(any ? toYaml(all) : YAML::Node(YAML::NodeType::Map), node,
+                           std::move(rotors), others, std::move(stations));
 }
 
 BuiltScene sceneOf(const ParameterTree& given) {
@@ -66,14 +71,18 @@ class MonitorNode {
       : node_(node),
         scene_(sceneOf(parameterTree(node, "scene"))),
         settings_(alarmSettings(scene_)),
-        monitor_(scene_, settings_, Judging::Mode::kBeside),
+        monitor_(scene_, settings_.settings(), Judging::Mode::kBeside),
         url_(privateParameter<std::string>("lcm_url", "an LCM url, or nothing", kDefaultLcmUrl)),
         lcm_(url_, lcmPrefixParameter()),
         topics_(node, kPublishQueue),
-        services_(monitor_, ros::NodeHandle("~"), wallTime, [this] { wasReset(); }) {
+        services_(monitor_, ros::NodeHandle("~"), node, wallTime, [this] { wasReset(); }),
+        settings_service_(monitor_, settings_, ros::NodeHandle("~"),
+                          [this](const std::string& text) { keepSettings(text); }) {
     openHistory();
     if (!lcm_.warning().empty()) {
       ROS_WARN("%s", lcm_.warning().c_str());
+    } else if (lcm_.on()) {
+      services_.listen(url_, lcm_.prefix());
     }
     for (const SharedSystem& system : scene_.systems) {
       topics_.advertise<state::StabilityMargin>(system->spec.name);
@@ -106,6 +115,7 @@ class MonitorNode {
       ros::getGlobalCallbackQueue()->callAvailable(
           ros::WallDuration(1.0e-3 * static_cast<double>(patience.count())));
     }
+    services_.receive();
     monitor_.tick(wallTime(), paused_);
     publish();
     // Wall time: simulated time stands still in a pause and goes back in a reset.
@@ -212,6 +222,13 @@ class MonitorNode {
     }
   }
 
+  void keepSettings(const std::string& text) {
+    keepEvents();
+    if (history_) {
+      history_->writeSettings(text);
+    }
+  }
+
   void keepEvents() {
     for (const state::Alert& event : monitor_.alerts().takeEvents()) {
       if (history_) {
@@ -267,7 +284,7 @@ class MonitorNode {
                                                                          : DiagnosticStatus::WARN,
                      active.front().text);
     }
-    if (!paused_ && wallTime() - newest_arrival_ > settings_.data_timeout) {
+    if (!paused_ && wallTime() - newest_arrival_ > monitor_.settings().data_timeout) {
       status.mergeSummary(DiagnosticStatus::WARN, "no states arrive: nothing is being watched");
     }
     const std::vector<std::string> not_ok = monitor_.notOk(wallTime(), paused_);
@@ -279,12 +296,14 @@ class MonitorNode {
     }
     status.add("active alerts", active.size());
     status.add("simulated time [s]", monitor_.time());
+    status.add("commands about alarms", services_.taken());
+    status.add("refused commands about alarms", services_.refused());
     status.add("rejected messages", rejected_ + (receiver_ ? receiver_->rejected() : 0));
   }
 
   ros::NodeHandle node_;
   BuiltScene scene_;
-  AlarmSettings settings_;
+  LiveAlarmSettings settings_;
   TwinMonitor monitor_;
   std::string url_;
   LcmPublisher lcm_;
@@ -292,6 +311,7 @@ class MonitorNode {
   std::optional<AlarmHistory> history_;
   std::optional<TwinRun> run_;  ///< as the history knows it
   AlarmServices services_;
+  AlarmSettingsService settings_service_;
   std::vector<ros::Subscriber> subscribers_;
   std::unique_ptr<LcmReceiver> receiver_;
   diagnostic_updater::Updater diagnostics_;

@@ -38,6 +38,14 @@ YAML::Node readYamlFile(const std::string& path, const std::string& what,
   if (!file.good() && !file.eof()) {
     throw refusal("cannot be read");
   }
+  return readYamlText(text, path, what, contents);
+}
+
+YAML::Node readYamlText(const std::string& text, const std::string& source, const std::string& what,
+                        const std::string& contents) {
+  const auto refusal = [&](const std::string& why) {
+    return Refusal(fmt::format("{}: {}", source, why));
+  };
   if (text.find('\0') != std::string::npos) {
     throw refusal(fmt::format("a binary file, not {} in YAML", what));
   }

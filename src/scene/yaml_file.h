@@ -13,4 +13,8 @@ namespace whirl_twin {
 YAML::Node readYamlFile(const std::string& path, const std::string& what,
                         const std::string& contents);
 
+/// The same of a text from elsewhere, which `source` names in messages.
+YAML::Node readYamlText(const std::string& text, const std::string& source, const std::string& what,
+                        const std::string& contents);
+
 }  // namespace whirl_twin

@@ -5,6 +5,7 @@
 #include "monitoring/alarm_settings_reader.h"
 #include "reports/monitored_log.h"
 #include "scene/scene_reader.h"
+#include "scene/station_names.h"
 #include "scene/yaml_file.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
@@ -46,13 +47,16 @@ AlarmSettings settingsOf(const BuiltScene& scene, const std::optional<std::strin
     return {};
   }
   std::vector<std::string> rotors;
+  std::vector<std::string> stations;
   for (const SharedSystem& system : scene.systems) {
     if (system->dynamics->isRotor()) {
       rotors.push_back(system->spec.name);
+      const auto names = publishedStations(system->spec.name, *system->dynamics);
+      stations.insert(stations.end(), names.begin() + 1, names.end());
     }
   }
   return readAlarmSettings(readYamlFile(*path, "settings of the monitor", "alarms"), *path, rotors,
-                           {});
+                           {}, stations);
 }
 
 void writePage(const MonitoredLog& run, const std::string& path) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "messages/message.h"
+#include "whirl_twin/alarm_command_t.hpp"
 #include "whirl_twin/alert_t.hpp"
 #include "whirl_twin/drive_state_t.hpp"
 #include "whirl_twin/ensemble_state_t.hpp"
@@ -32,6 +33,7 @@ input_command_t lcmTypeOf(const state::InputCommand&);
 alert_t lcmTypeOf(const state::Alert&);
 monitor_status_t lcmTypeOf(const state::MonitorStatus&);
 order_state_t lcmTypeOf(const state::OrderState&);
+alarm_command_t lcmTypeOf(const state::AlarmCommand&);
 
 template <class State>
 using LcmType = decltype(lcmTypeOf(std::declval<State>()));

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "messages/message.h"
+#include "whirl_twin/AlarmCommand.h"
 #include "whirl_twin/AlertArray.h"
 #include "whirl_twin/DriveState.h"
 #include "whirl_twin/EnsembleState.h"
@@ -35,6 +36,7 @@ Measurement rosTypeOf(const state::Measurement&);
 InputCommand rosTypeOf(const state::InputCommand&);
 MonitorStatus rosTypeOf(const state::MonitorStatus&);
 OrderState rosTypeOf(const state::OrderState&);
+AlarmCommand rosTypeOf(const state::AlarmCommand&);
 Alert rosTypeOf(const state::Alert&);  // one of an AlertArray
 
 template <class State>

@@ -308,6 +308,20 @@ TEST(LcmConverters, RejectCommandsThatCannotBeMeant) {
                 [](auto& m) { m.duration = std::nan(""); }, [](auto& m) { m.inputs = 3; }});
 }
 
+TEST(LcmConverters, RejectCommandsToTheMonitorThatCannotBeMeant) {
+  state::AlarmCommand command;
+  command.command = state::AlarmCommand::kInhibit;
+  command.duration = 60.0;  // of every system
+  const auto message = toLcm(command);
+  EXPECT_EQ(bitsOf(fromLcm<state::AlarmCommand>(message)), bitsOf(command));
+  expectRejected(message, instantSpoilers<alarm_command_t>());
+  expectRejected<alarm_command_t>(
+      message, {[](auto& m) { m.command = 0; }, [](auto& m) { m.command = 4; },
+                [](auto& m) { m.command = -1; }, [](auto& m) { m.system = "a b"; },
+                [](auto& m) { m.type = "UN STABLE"; }, [](auto& m) { m.duration = -1.0; },
+                [](auto& m) { m.duration = 3601.0; }, [](auto& m) { m.duration = std::nan(""); }});
+}
+
 TEST(LcmConverters, RejectImpossibleAlerts) {
   const auto alert = toLcm(StateSamples(5).alert());
   expectRejected<alert_t>(

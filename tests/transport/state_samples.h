@@ -123,6 +123,13 @@ class StateSamples {
     return s;
   }
 
+  state::AlarmCommand alarmCommand() {
+    auto s = sample<state::AlarmCommand>();
+    s.command = static_cast<std::uint8_t>(1 + below(3));
+    s.duration = 1e-3 * static_cast<double>(below(3600001));
+    return s;
+  }
+
   state::StabilityMargin margin() {
     state::StabilityMargin s;
     s.critical_speeds.resize(below(4));
@@ -209,6 +216,7 @@ class StateSamples {
   auto of(KindOf<state::LoopStatistics>) { return loop(); }
   auto of(KindOf<state::Measurement>) { return measurement(); }
   auto of(KindOf<state::InputCommand>) { return command(); }
+  auto of(KindOf<state::AlarmCommand>) { return alarmCommand(); }
   auto of(KindOf<state::Alert>) { return alert(); }
   auto of(KindOf<state::MonitorStatus>) { return status(); }
   auto of(KindOf<state::OrderState>) { return orders(); }

@@ -1,0 +1,112 @@
+#include "monitoring/alarm_commands.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include "messages/alert_types.h"
+#include "messages/names.h"
+
+namespace whirl_twin {
+
+namespace {
+
+using state::AlarmCommand;
+
+CommandAnswer refused(std::string why) {
+  return {false, std::move(why)};
+}
+
+bool isIn(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::string nameOf(const std::string& system) {
+  return system.empty() ? "every system" : system;
+}
+
+/// "", or that a system or type is none.
+std::string unknown(const AlarmCommand& command, const TwinMonitor& monitor) {
+  std::vector<std::string> systems = monitor.systemNames();
+  if (command.command == AlarmCommand::kAcknowledge) {
+    systems.emplace_back(alert_type::kEverybody);  // alerts can be about all of the twin
+  }
+  if (!command.system.empty() && !isIn(systems, command.system)) {
+    return fmt::format("system: must be a system of the scene, found {}{}", quoted(command.system),
+                       hint(command.system, monitor.systemNames()));
+  }
+  const std::vector<std::string> types(std::begin(alert_type::kAll), std::end(alert_type::kAll));
+  if (!command.type.empty() && !isIn(types, command.type)) {
+    return fmt::format("type: must be a type of alert, found {}{}", quoted(command.type),
+                       hint(command.type, types));
+  }
+  return "";
+}
+
+CommandAnswer acknowledge(const AlarmCommand& command, AlertList& alerts) {
+  const std::vector<state::Alert> active = alerts.active();
+  const bool any = std::any_of(active.begin(), active.end(), [&](const state::Alert& alert) {
+    return (command.system.empty() || command.system == alert.system) &&
+           (command.type.empty() || command.type == alert.type);
+  });
+  const bool all = command.system.empty() && command.type.empty();
+  if (!any && !all) {
+    return refused(fmt::format("no alert {} of {}", command.type, nameOf(command.system)));
+  }
+  return {true, fmt::format("{} acknowledged", alerts.acknowledge(command.system, command.type))};
+}
+
+CommandAnswer reset(TwinMonitor& monitor) {
+  AlertList& alerts = monitor.alerts();
+  const std::size_t cleared = alerts.reset(monitor.time());
+  return {true,
+          fmt::format("{} cleared, {} have their cause still", cleared, alerts.active().size())};
+}
+
+CommandAnswer inhibit(const AlarmCommand& command, TwinMonitor& monitor, double wall_time) {
+  if (!(command.duration >= 0.0 && command.duration <= AlarmCommand::kLongest)) {
+    return refused(fmt::format("duration: must be from 0 to {:g} s, found {:g}",
+                               AlarmCommand::kLongest, command.duration));
+  }
+  monitor.inhibit(command.system, command.duration, wall_time);
+  return {true, command.duration > 0.0
+                    ? fmt::format("alerts of {} are held back for {:g} s", nameOf(command.system),
+                                  command.duration)
+                    : fmt::format("alerts of {} are raised", nameOf(command.system))};
+}
+
+}  // namespace
+
+CommandAnswer carryOut(const AlarmCommand& command, TwinMonitor& monitor, double wall_time) {
+  const std::string wrong = unknown(command, monitor);
+  if (!wrong.empty()) {
+    return refused(wrong);
+  }
+  // Who names what a command does not speak of means another one.
+  if (command.command != AlarmCommand::kInhibit && command.duration != 0.0) {
+    return refused(
+        fmt::format("duration: must be 0 but for an inhibition, found {:g}", command.duration));
+  }
+  if (command.command != AlarmCommand::kAcknowledge && !command.type.empty()) {
+    return refused(fmt::format("type: must be empty but to acknowledge, found {}", command.type));
+  }
+  switch (command.command) {
+    case AlarmCommand::kAcknowledge:
+      return acknowledge(command, monitor.alerts());
+    case AlarmCommand::kReset:
+      return command.system.empty()
+                 ? reset(monitor)
+                 : refused(fmt::format("system: must be empty, a reset is one of all alarms, "
+                                       "found {}",
+                                       command.system));
+    case AlarmCommand::kInhibit:
+      return inhibit(command, monitor, wall_time);
+    default:
+      return refused(fmt::format("command: must be 1, 2 or 3, found {}", command.command));
+  }
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,20 @@
+// What people tell the monitor about its alarms, whichever way it comes: acknowledge, reset,
+// inhibit. A command that cannot be meant is refused whole, with a sentence.
+#pragma once
+
+#include <string>
+
+#include "messages/alarm_command.h"
+#include "monitoring/twin_monitor.h"
+
+namespace whirl_twin {
+
+struct CommandAnswer {
+  bool done = false;
+  std::string text;  ///< what was done, or why it was not
+};
+
+/// wall_time [s]: now, of the clock the monitor is told.
+CommandAnswer carryOut(const state::AlarmCommand& command, TwinMonitor& monitor, double wall_time);
+
+}  // namespace whirl_twin

@@ -1,0 +1,75 @@
+#include "nodes/alarm_settings_service.h"
+
+#include <utility>
+
+#include "messages/names.h"
+#include "messages/refusal.h"
+#include "scene/node_reader.h"
+
+namespace whirl_twin {
+
+namespace {
+
+/// What rosparam makes of a file.
+XmlRpc::XmlRpcValue toParameter(const YAML::Node& node) {
+  XmlRpc::XmlRpcValue value;
+  if (node.IsMap()) {
+    for (const auto& entry : node) {
+      value[entry.first.Scalar()] = toParameter(entry.second);
+    }
+  } else if (node.IsSequence()) {
+    value.setSize(static_cast<int>(node.size()));
+    for (std::size_t i = 0; i < node.size(); ++i) {
+      value[static_cast<int>(i)] = toParameter(node[i]);
+    }
+  } else if (const std::optional<double> number = parseNumber(node.Scalar())) {
+    value = *number;
+  } else {
+    value = node.Scalar();
+  }
+  return value;
+}
+
+}  // namespace
+
+AlarmSettingsService::AlarmSettingsService(TwinMonitor& monitor, LiveAlarmSettings& settings,
+                                           ros::NodeHandle own,
+                                           std::function<void(const std::string&)> was_changed)
+    : monitor_(monitor),
+      settings_(settings),
+      own_(std::move(own)),
+      was_changed_(std::move(was_changed)),
+      server_(own_.advertiseService("set_alarm_settings", &AlarmSettingsService::set, this)) {}
+
+bool AlarmSettingsService::set(SetAlarmSettings::Request& request,
+                               SetAlarmSettings::Response& response) {
+  response.success = true;
+  if (!request.settings.empty()) {
+    const YAML::Node before = YAML::Clone(settings_.tree());
+    try {
+      settings_.change(request.settings);
+      monitor_.set(settings_.settings());
+      tellParameters(before);
+      was_changed_(request.settings);
+      ROS_WARN("the settings of the alarms were changed: %s", settings_.text().c_str());
+    } catch (const Refusal& wrong) {
+      response.success = false;
+      response.message = wrong.what();
+    }
+  }
+  response.in_force = settings_.text();
+  return true;
+}
+
+void AlarmSettingsService::tellParameters(const YAML::Node& before) {
+  for (const auto& entry : before) {
+    if (!settings_.tree()[entry.first.Scalar()].IsDefined()) {
+      own_.deleteParam(entry.first.Scalar());
+    }
+  }
+  for (const auto& entry : settings_.tree()) {
+    own_.setParam(entry.first.Scalar(), toParameter(entry.second));
+  }
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,33 @@
+// ~set_alarm_settings: the settings of the monitor, changed while it runs. The parameters of the
+// node follow, so that a monitor that comes back has what was set last.
+#pragma once
+
+#include <ros/ros.h>
+#include <whirl_twin/SetAlarmSettings.h>
+
+#include <functional>
+#include <string>
+
+#include "monitoring/live_alarm_settings.h"
+#include "monitoring/twin_monitor.h"
+
+namespace whirl_twin {
+
+class AlarmSettingsService {
+ public:
+  /// Advertises under `own`, the node itself. was_changed: called with the text of a change.
+  AlarmSettingsService(TwinMonitor& monitor, LiveAlarmSettings& settings, ros::NodeHandle own,
+                       std::function<void(const std::string&)> was_changed);
+
+ private:
+  bool set(SetAlarmSettings::Request& request, SetAlarmSettings::Response& response);
+  void tellParameters(const YAML::Node& before);
+
+  TwinMonitor& monitor_;
+  LiveAlarmSettings& settings_;
+  ros::NodeHandle own_;
+  std::function<void(const std::string&)> was_changed_;
+  ros::ServiceServer server_;
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,133 @@
+// What people tell the monitor about its alarms: done as asked, or refused whole and said why.
+#include "monitoring/alarm_commands.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "messages/alert_types.h"
+#include "watched_twin.h"
+
+namespace whirl_twin {
+namespace {
+
+constexpr char kTwo[] = R"(
+name: two
+step: 0.001
+systems:
+  rotor:
+    model: jeffcott_rotor
+    parameters: {mass: 1.0, stiffness: 1.0e4, damping: 30.0, speed: 50.0}
+  pump:
+    model: jeffcott_rotor
+    parameters: {mass: 1.0, stiffness: 1.0e4, damping: 30.0, speed: 50.0}
+)";
+
+struct Commanded {
+  Commanded() : monitor(build(sceneOf(kTwo)), settings()) {}
+  static AlarmSettings settings() {
+    AlarmSettings settings;
+    settings.latch = Latch::kAll;
+    settings.amplitude["rotor"].alert = settings.amplitude["pump"].alert = {1.0e-3};
+    return settings;
+  }
+  /// Both whirl so wide [m] for a while [s].
+  void tell(double radius, double duration) {
+    for (const double end = time + duration; time < end - 1.0e-9; time += 0.01) {
+      for (const char* system : {"rotor", "pump"}) {
+        state::WhirlState whirl;
+        whirl.system = system;
+        whirl.at.time = time;
+        whirl.x = whirl.radius = radius;
+        whirl.speed = 50.0;
+        monitor.take(whirl, time);
+      }
+      monitor.tick(time, false);
+    }
+  }
+  CommandAnswer command(int command, const std::string& system = "", const std::string& type = "",
+                        double duration = 0.0) {
+    state::AlarmCommand order;
+    order.command = static_cast<std::uint8_t>(command);
+    order.system = system;
+    order.type = type;
+    order.duration = duration;
+    return carryOut(order, monitor, time);
+  }
+  const state::Alert* alertOf(const std::string& system) {
+    return monitor.alerts().find(system, alert_type::kWhirlAmplitude);
+  }
+
+  TwinMonitor monitor;
+  double time = 0.0;  ///< [s], simulated and wall
+};
+
+constexpr int kAcknowledge = state::AlarmCommand::kAcknowledge;
+constexpr int kReset = state::AlarmCommand::kReset;
+constexpr int kInhibit = state::AlarmCommand::kInhibit;
+
+TEST(AlarmCommands, AcknowledgeTheAlertsOfOneSystemAndLeaveTheOthers) {
+  Commanded twin;
+  twin.tell(2.0e-3, 0.1);
+  const CommandAnswer answer = twin.command(kAcknowledge, "rotor", "WHIRL_AMPLITUDE");
+  EXPECT_TRUE(answer.done);
+  EXPECT_EQ(answer.text, "1 acknowledged");
+  EXPECT_TRUE(twin.alertOf("rotor")->acknowledged);
+  EXPECT_FALSE(twin.alertOf("pump")->acknowledged);
+  EXPECT_TRUE(twin.command(kAcknowledge).done) << "all of them";
+  EXPECT_TRUE(twin.alertOf("pump")->acknowledged);
+}
+
+TEST(AlarmCommands, AResetTakesOffWhatIsLatchedAndOnlyThat) {
+  Commanded twin;
+  twin.tell(2.0e-3, 0.1);
+  EXPECT_EQ(twin.command(kReset).text, "0 cleared, 2 have their cause still");
+  twin.tell(0.1e-3, 2.0);
+  ASSERT_TRUE(twin.alertOf("rotor")->latched);
+  EXPECT_EQ(twin.command(kReset).text, "2 cleared, 0 have their cause still");
+  EXPECT_EQ(twin.alertOf("rotor"), nullptr);
+}
+
+TEST(AlarmCommands, AnInhibitionHoldsBackOneSystemUntilItIsEnded) {
+  Commanded twin;
+  twin.tell(0.1e-3, 0.1);
+  EXPECT_TRUE(twin.command(kInhibit, "rotor", "", 100.0).done);
+  twin.tell(2.0e-3, 1.0);
+  EXPECT_EQ(twin.alertOf("rotor"), nullptr);
+  EXPECT_NE(twin.alertOf("pump"), nullptr);
+  EXPECT_TRUE(twin.command(kInhibit, "rotor").done);
+  twin.tell(2.0e-3, 0.1);
+  EXPECT_NE(twin.alertOf("rotor"), nullptr);
+}
+
+TEST(AlarmCommands, RefuseWhatCannotBeMeantAndDoNothingOfIt) {
+  Commanded twin;
+  twin.tell(2.0e-3, 0.1);
+  const auto refusal = [&](const CommandAnswer& answer) {
+    EXPECT_FALSE(answer.done);
+    return answer.text;
+  };
+  EXPECT_EQ(refusal(twin.command(kAcknowledge, "roter")),
+            "system: must be a system of the scene, found 'roter'; did you mean 'rotor'?");
+  EXPECT_EQ(refusal(twin.command(kAcknowledge, "rotor", "UNSTABEL")),
+            "type: must be a type of alert, found 'UNSTABEL'; did you mean 'UNSTABLE'?");
+  EXPECT_EQ(refusal(twin.command(kAcknowledge, "rotor", "UNSTABLE")), "no alert UNSTABLE of rotor");
+  EXPECT_EQ(refusal(twin.command(kAcknowledge, "", "", 5.0)),
+            "duration: must be 0 but for an inhibition, found 5");
+  EXPECT_EQ(refusal(twin.command(kReset, "rotor")),
+            "system: must be empty, a reset is one of all alarms, found rotor");
+  EXPECT_EQ(refusal(twin.command(kInhibit, "rotor", "UNSTABLE", 5.0)),
+            "type: must be empty but to acknowledge, found UNSTABLE");
+  EXPECT_EQ(refusal(twin.command(kInhibit, "", "", 3601.0)),
+            "duration: must be from 0 to 3600 s, found 3601");
+  EXPECT_EQ(refusal(twin.command(kInhibit, "", "", std::numeric_limits<double>::quiet_NaN())),
+            "duration: must be from 0 to 3600 s, found nan");
+  EXPECT_EQ(refusal(twin.command(0)), "command: must be 1, 2 or 3, found 0");
+  EXPECT_FALSE(twin.alertOf("rotor")->acknowledged);
+  EXPECT_EQ(twin.monitor.status(twin.time, false).inhibited, (std::vector<double>{0.0, 0.0}));
+}
+
+}  // namespace
+}  // namespace whirl_twin
