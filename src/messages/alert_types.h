@@ -22,24 +22,12 @@ inline constexpr char kModelInvalid[] = "MODEL_INVALID";
 inline constexpr char kDataLost[] = "DATA_LOST";
 inline constexpr char kLcmLost[] = "LCM_LOST";
 
-inline constexpr const char* kAll[] = {kCriticalSpeedApproach,
-                                       kInCriticalBand,
-                                       kSommerfeldCapture,
-                                       kWhirlAmplitude,
-                                       kVotedAmplitude,
-                                       kVibrationZone,
-                                       kSubsynchronousWhirl,
-                                       kUnstable,
-                                       kLowDamping,
-                                       kRouthDisagrees,
-                                       kModelMismatch,
-                                       kEnergyResidual,
-                                       kAccuracyLost,
-                                       kNotFinite,
-                                       kStopped,
-                                       kModelInvalid,
-                                       kDataLost,
-                                       kLcmLost};
+inline constexpr const char* kAll[] = {kCriticalSpeedApproach, kInCriticalBand, kSommerfeldCapture,
+                                       kWhirlAmplitude,        kVotedAmplitude, kVibrationZone,
+                                       kSubsynchronousWhirl,   kUnstable,       kLowDamping,
+                                       kRouthDisagrees,        kModelMismatch,  kEnergyResidual,
+                                       kAccuracyLost,          kNotFinite,      kStopped,
+                                       kModelInvalid,          kDataLost,       kLcmLost};
 
 /// The system of an alert about all of the twin.
 inline constexpr char kEverybody[] = "twin";
