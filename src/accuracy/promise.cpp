@@ -105,10 +105,15 @@ double StepJudge::excess(const StepSetting& setting) {
   return excessOf(setting, interval_);
 }
 
-double StepJudge::excessAtTwiceTheStep(const StepSetting& setting) {
-  StepSetting twice = setting;
-  twice.step *= 2;
-  return excessOf(twice, std::max(interval_, twice.step));
+double StepJudge::excessAtLongerSteps(const StepSetting& setting, int times) {
+  StepSetting longer = setting;
+  longer.step *= times;
+  return excessOf(longer, std::max(interval_, longer.step));
+}
+
+double StepJudge::knownSteps(const StepSetting& setting) const {
+  return static_cast<double>(known_) * static_cast<double>(interval_) /
+         static_cast<double>(setting.step) * setting.substeps;
 }
 
 Promise StepJudge::promise(const StepSetting& setting) {

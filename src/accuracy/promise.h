@@ -44,8 +44,10 @@ class StepJudge {
   /// where it will do. Where the reference knows no better than that, what is as good as it will
   /// do, too. Infinite where the budget is spent.
   double excess(const StepSetting& setting);
-  /// The same, at times that a step of twice the length reaches.
-  double excessAtTwiceTheStep(const StepSetting& setting);
+  /// The same at so many times the step, at times that such steps reach.
+  double excessAtLongerSteps(const StepSetting& setting, int times);
+  /// Steps of a method over the time that the reference knows.
+  double knownSteps(const StepSetting& setting) const;
   Promise promise(const StepSetting& setting);
 
  private:

@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "accuracy/past_margin.h"
 #include "integration/step_methods.h"
 #include "models/model_registry.h"
 #include "realtime/denormals.h"
@@ -37,6 +38,9 @@ constexpr double kGain = 0.7;
 constexpr double kMostDoublings = 16.0;
 /// A step of twice the length may be wrong by so much more.
 constexpr double kRoundingExcess = 1.0e-3;
+/// Of a method with a past: so many times its past, and so many times the step.
+constexpr double kOwnSteps = 50.0;
+constexpr int kPastMargin = 4;
 constexpr double kFastRate = 1.0e3;  // [m/s] or [rad/s]
 const char* const kReference = "gauss_legendre_6";
 const char* const kExact = "exponential";
@@ -140,11 +144,11 @@ StepChoice lasting(const Scene& one, const ModelSetup& setup, StepChoice choice)
   return choice;
 }
 
-/// An explicit method near its limit of stability is no choice: it must be sound at twice the step.
-bool soundAtTwiceTheStep(StepJudge& judge, const StepSetting& setting, const StepMethod& method,
-                         double excess) {
-  return judge.excessAtTwiceTheStep(setting) <=
-         std::pow(2.0, method.order + 3) * std::max(excess, kRoundingExcess);
+/// An explicit method near its limit of stability is no choice: it must be sound at longer steps.
+bool soundAtLongerSteps(StepJudge& judge, const StepSetting& setting, int times,
+                        const StepMethod& method, double excess) {
+  return judge.excessAtLongerSteps(setting, times) <=
+         std::pow(times, method.order + 3) * std::max(excess, kRoundingExcess);
 }
 
 /// Finds the cheapest of the ways to step that are good enough, and the best if none is.
@@ -165,13 +169,14 @@ class Search {
         (method.symplectic || method.order == 0 || cost(choice) < kWorthwhile * implicit_cost_)) {
       const StepSetting setting = settingOf(one_, choice);
       const double excess = judge_.excess(setting);
-      if (excess < best_excess_) {
+      if (excess < best_excess_ && method.past == 0) {
         best_excess_ = excess;
         best_ = choice;
       }
       if (excess <= 1.0) {
         if (method.implicit || method.order == 0 ||
-            soundAtTwiceTheStep(judge_, setting, method, excess)) {
+            (soundAtLongerSteps(judge_, setting, 2, method, excess) &&
+             (method.past == 0 || isProvenWithAPast(setting, method, excess)))) {
           found_ = choice;
           if (method.name == kReference) {
             implicit_cost_ = cost(choice);
@@ -200,6 +205,16 @@ class Search {
   }
 
  private:
+  /// A method with a past does not lose digits beyond its limit but the motion, and the limit is
+  /// low where much is damped: it has to have shown many steps of its own, on its own, and to be
+  /// sound at four times the step, by its errors and by its growth of any small deviation.
+  bool isProvenWithAPast(const StepSetting& setting, const StepMethod& method, double excess) {
+    return one_.systems.front().inputs.empty() &&
+           judge_.knownSteps(setting) >= kOwnSteps * static_cast<double>(method.past) &&
+           soundAtLongerSteps(judge_, setting, kPastMargin, method, excess) &&
+           growsNothing(one_, setup_, judge_.reference().trajectory, setting, kPastMargin);
+  }
+
   const Scene& one_;
   const ModelSetup& setup_;
   StepJudge& judge_;
@@ -209,27 +224,37 @@ class Search {
   double implicit_cost_ = kInfinity;
 };
 
-StepChoice searched(const Scene& one, const ModelSetup& setup, StepJudge& judge) {
+struct Searched {
+  StepChoice best;
+  StepChoice without_past;  ///< the best of the methods whose steps rest on nothing but the state
+};
+
+Searched searched(const Scene& one, const ModelSetup& setup, StepJudge& judge) {
   const SystemSpec& spec = one.systems.front();
   const bool on_drive = spec.drive.has_value();
   const IntegratorChoice structural = chooseIntegrator(setup, on_drive);
   Search search(one, setup, judge);
   if (structural.integrator == kExact || setup.integrators.size() == 1) {
     search.tryMethod(stepMethod(structural.integrator));
-    return search.best();
+    return {search.best(), search.best()};
   }
   const bool rate_forces = hasRateForces(setup, spec);
   search.tryMethod(stepMethod(kReference));
   if (search.found() && !judge.knowsMuch()) {
-    return search.best();  // what is robust, where nobody knows what comes
+    return {search.best(), search.best()};  // what is robust, where nobody knows what comes
   }
-  for (const StepMethod& method : stepMethods()) {
-    if (method.order != 0 && method.name != kReference && !(method.predicts_rates && rate_forces) &&
-        canStepWith(setup, on_drive, method.name)) {
-      search.tryMethod(method);
+  const auto tryThose = [&](bool with_past) {
+    for (const StepMethod& method : stepMethods()) {
+      if ((method.past > 0) == with_past && method.order != 0 && method.name != kReference &&
+          !(method.predicts_rates && rate_forces) && canStepWith(setup, on_drive, method.name)) {
+        search.tryMethod(method);
+      }
     }
-  }
-  return search.best();
+  };
+  tryThose(false);
+  const StepChoice without_past = search.best();
+  tryThose(true);
+  return {search.best(), without_past};
 }
 
 }  // namespace
@@ -249,14 +274,21 @@ StepChoice chooseStep(const Scene& given, double evaluations) {
     return plain;
   }
   StepJudge judge(one, setup, budget);
-  StepChoice choice = searched(one, setup, judge);
-  choice.promise = judge.promise(settingOf(one, choice));
-  if (choice.promise.kept) {
-    const StepChoice longer = lasting(one, setup, choice);
-    if (longer.raised) {
-      choice = longer;
-      choice.promise = judge.promise(settingOf(one, choice));
+  const Searched found = searched(one, setup, judge);
+  const auto withPromise = [&](StepChoice of) {
+    of.promise = judge.promise(settingOf(one, of));
+    if (of.promise.kept) {
+      const StepChoice longer = lasting(one, setup, of);
+      if (longer.raised) {
+        of = longer;
+        of.promise = judge.promise(settingOf(one, of));
+      }
     }
+    return of;
+  };
+  StepChoice choice = withPromise(found.best);
+  if (stepMethod(choice.integrator).past > 0 && (choice.raised || !choice.promise.kept)) {
+    choice = withPromise(found.without_past);  // what comes is not what it was proven on
   }
   choice.reason = reasonFor(choice, spec);
   if (choice.integrator == kExact && stepsAreExact(one, setup)) {

@@ -8,6 +8,7 @@
 // system but the energy audit and, in the end, a state that is not finite.
 #pragma once
 
+#include "integration/lanes.h"
 #include "integration/motion_state.h"
 
 namespace whirl_twin {
@@ -75,37 +76,6 @@ inline constexpr Row kWeights{5.42937341165687622380535766363e-2,
                               2.01365400804030348374776537501e-1,
                               4.47106157277725905176885569043e-2};
 
-/// The values of n coordinates. Two are a vector register: stored one by one and loaded as a pair,
-/// as compilers do with an array, they would be late by as much as the equations take.
-template <std::size_t n>
-class Lanes {
- public:
-  Lanes() = default;
-  WHIRL_TWIN_INLINE explicit Lanes(const std::array<double, n>& x) : x_(x) {}
-  WHIRL_TWIN_INLINE const std::array<double, n>& array() const { return x_; }
-  WHIRL_TWIN_INLINE void add(double factor, const Lanes& other) {
-    for (std::size_t i = 0; i < n; ++i) {
-      x_[i] += factor * other.x_[i];
-    }
-  }
-
- private:
-  std::array<double, n> x_;
-};
-
-template <>
-class Lanes<2> {
- public:
-  Lanes() = default;
-  WHIRL_TWIN_INLINE explicit Lanes(const std::array<double, 2>& x) : x_{x[0], x[1]} {}
-  WHIRL_TWIN_INLINE std::array<double, 2> array() const { return {x_[0], x_[1]}; }
-  WHIRL_TWIN_INLINE void add(double factor, const Lanes& other) { x_ += factor * other.x_; }
-
- private:
-  using Pair = double __attribute__((vector_size(16)));
-  Pair x_;
-};
-
 }  // namespace dormand_prince
 
 struct DormandPrince8 {
@@ -121,7 +91,7 @@ struct DormandPrince8 {
     using dormand_prince::kNodes;
     using dormand_prince::kStages;
     using dormand_prince::kWeights;
-    using Lanes = dormand_prince::Lanes<n>;
+    using Lanes = whirl_twin::Lanes<n>;
     const Lanes q0(state.q);
     const Lanes v0(state.v);
     std::array<Lanes, kStages> rates;

@@ -8,6 +8,7 @@
 #include "integration/gauss_legendre.h"
 #include "integration/runge_kutta_4.h"
 #include "integration/semi_implicit_euler.h"
+#include "integration/stoermer_weights.h"
 #include "integration/velocity_verlet.h"
 
 namespace whirl_twin {
@@ -20,7 +21,9 @@ const std::vector<StepMethod>& stepMethods() {
       {RungeKutta4::kName, 4, false, false, false, false, 4.0},
       {GaussLegendre4<1>::kName, 4, true, true, true, false, 10.0},
       {GaussLegendre6<1>::kName, 6, true, true, true, false, 15.0},
+      {kStoermerSchemes[0].name, 6, false, false, false, false, 1.8, kStoermerSchemes[0].terms - 1},
       {DormandPrince8::kName, 8, false, false, false, false, 13.0},
+      {kStoermerSchemes[1].name, 9, false, false, false, false, 3.2, kStoermerSchemes[1].terms - 1},
       {Exponential<1>::kName, 0, false, true, true, false, 1.0}};
   return methods;
 }

@@ -6,7 +6,8 @@
 //     ----------------------------------------------------------------------------------------
 //     energies, nonlinear: pendulums, free_rotor,     any but          SteppedSystem<Model, Method>
 //     a rotor with film, hysteresis, rub or motor     exponential
-//         Method and energies are one function after compiling. `auto` calibrates.
+//         Method and energies are one function after compiling. `auto` calibrates. What rests on
+//         earlier steps (stoermer) drops them at corners, commands and changes.
 //
 //     energies, linear, of two coordinates:           exponential      LateralRotorStepper
 //     jeffcott_rotor
@@ -40,8 +41,8 @@
 //     flexible_rotor                                  no other         (RotorStep)
 //         Fixed sizes at compile time end at a few coordinates. linearRotorSetup().
 //
-//     matrices and harmonic forces: linear_system,    any              LinearStepper
-//     cantilever_beam, hinged_beam (geometry: small)                   (LinearStep)
+//     matrices and harmonic forces: linear_system,    any but          LinearStepper
+//     cantilever_beam, hinged_beam (geometry: small)  stoermer         (LinearStep)
 //         Every method is linear here: one matrix, made once (linear_methods.h). linearSetup().
 //
 //     an ensemble of isotropic rotors, constant       exponential      IsotropicRotors
@@ -52,6 +53,7 @@
 //     any other ensemble                              its system's     its system's, one by one
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -67,8 +69,11 @@ struct StepMethod {
   /// gyroscopic and rotating-damping terms can then make the motion grow.
   bool predicts_rates;
   /// Evaluations of the accelerations in a step; of an implicit method, that of its usual number of
-  /// iterations.
+  /// iterations. Where they are not what a step takes, as many as take its time (a stage of
+  /// runge_kutta_4 being one).
   double evaluations;
+  /// Steps that it has to have taken before it is the method that it says.
+  std::size_t past = 0;
 };
 
 /// All of them, from the lowest order to the exact step.

@@ -37,6 +37,12 @@ struct HasSpin : std::false_type {};
 template <class Model>
 struct HasSpin<Model, std::void_t<decltype(Model::kSpin)>> : std::true_type {};
 
+/// A method whose steps rest on those before: its past is dropped where the motion is not smooth.
+template <class Method, class = void>
+struct HasHistory : std::false_type {};
+template <class Method>
+struct HasHistory<Method, std::void_t<decltype(Method::kHasHistory)>> : std::true_type {};
+
 template <class Model, class Method>
 class SteppedSystem final : public Stepper {
  public:
@@ -44,15 +50,21 @@ class SteppedSystem final : public Stepper {
 
   /// step [s] of the twin, made of `substeps` steps of the method. The drive outlives the system.
   SteppedSystem(const Model& model, const Drive& drive, const InputForce& inputs, double step,
-                int substeps)
+                int substeps, const Method& method = Method())
       : model_(model),
         drive_(drive),
         substep_(step / substeps),
         substeps_(substeps),
+        method_(method),
+        finer_method_(method),
         inputs_(inputs) {}
 
   StepStatus step(double time) noexcept override {
     const DrivenEquation<Model> equation{model_, drive_, time};
+    if constexpr (kHasHistory && Model::kHasShaft) {
+      const ShaftMotion shaft = drive_.at(0.0);  // a command may have changed its course
+      method_.follow(shaft.jerk, shaft.acceleration);
+    }
     MotionState<n> next = state_;
     for (int i = 0; i < substeps_; ++i) {
       const StepStatus status = advance(method_, equation, i * substep_, substep_, next);
@@ -61,9 +73,11 @@ class SteppedSystem final : public Stepper {
       }
     }
     if (!finite(next)) {
+      forget();
       return StepStatus::kNotFinite;
     }
     if (!hasPhase(next)) {
+      forget();
       return StepStatus::kOutOfRange;
     }
     if (errors_.countStep()) {
@@ -120,6 +134,14 @@ class SteppedSystem final : public Stepper {
   }
 
  private:
+  static constexpr bool kHasHistory = HasHistory<Method>::value;
+  /// The state stays what it was: the past that the method has is another's.
+  WHIRL_TWIN_INLINE void forget() noexcept {
+    if constexpr (kHasHistory) {
+      method_.restart();
+    }
+  }
+
   static WHIRL_TWIN_INLINE bool finite(const MotionState<n>& state) noexcept {
     bool all = isFinite(state.work.high);
     for (std::size_t i = 0; i < n; ++i) {
@@ -211,8 +233,14 @@ class SteppedSystem final : public Stepper {
     }
     if constexpr (Model::kHasShaft) {
       const double end = offset + h;
-      if (drive_.nextCorner(offset) < end - kSliver * h) {
+      const double corner = drive_.nextCorner(offset);
+      if (corner < end - kSliver * h) {
         return advanceInParts(method, equation, offset, end, state);
+      }
+      if constexpr (kHasHistory) {
+        const StepStatus status = method_step_(method, equation, offset, h, state);
+        endAtCorner(method, corner, end, h);
+        return status;
       }
     }
     return method_step_(method, equation, offset, h, state);
@@ -221,14 +249,31 @@ class SteppedSystem final : public Stepper {
                                                             const DrivenEquation<Model>& equation,
                                                             double offset, double h,
                                                             MotionState<n>& state) noexcept {
-    return nextCorner(offset) < offset + h - kSliver * h
-               ? advanceInParts(method, equation, offset, offset + h, state)
-               : partWithInputs(method, equation, offset, h, state);
+    const double corner = nextCorner(offset);
+    if (corner < offset + h - kSliver * h) {
+      return advanceInParts(method, equation, offset, offset + h, state);
+    }
+    const StepStatus status = partWithInputs(method, equation, offset, h, state);
+    endAtCorner(method, corner, offset + h, h);
+    return status;
+  }
+  /// Beyond a corner a step begins anew, also where the corner is between two steps.
+  WHIRL_TWIN_INLINE void endAtCorner([[maybe_unused]] Method& method,
+                                     [[maybe_unused]] double corner, [[maybe_unused]] double end,
+                                     [[maybe_unused]] double h) noexcept {
+    if constexpr (kHasHistory) {
+      if (corner <= end + kSliver * h) {
+        method.restart();
+      }
+    }
   }
   StepStatus partWithInputs(Method& method, const DrivenEquation<Model>& equation, double offset,
                             double h, MotionState<n>& state) noexcept {
     const MotionState<n> from = state;
     inputs_.enter(offset + 0.5 * h);
+    if constexpr (kHasHistory) {
+      method.hold(inputs_.held());
+    }
     const EquationOf<Model> own(equation);
     const StepStatus status =
         calledStep(method, CalledEquation<n>{own, &inputs_}, offset, h, state);
@@ -271,9 +316,25 @@ class SteppedSystem final : public Stepper {
     return status;
   }
 
-  /// Takes the step from state_ to `end` once more, in halves.
+  /// Takes the step from state_ to `end` once more, in halves. A method with a past knows its error
+  /// without, once it has one.
   void estimateError(const DrivenEquation<Model>& equation, const MotionState<n>& end) noexcept {
     MotionState<n> finer = state_;
+    const auto add = [&] {
+      errors_.add(n, end.q, end.v, finer.q, finer.v,
+                  [](std::size_t i) { return Model::kCoordinates[i].unit[0] == 'r'; });
+    };
+    if constexpr (kHasHistory) {
+      if (method_.hasPast()) {
+        const std::array<double, n> error = method_.lastError();
+        for (std::size_t i = 0; i < n; ++i) {
+          finer.q[i] = end.q[i] + substeps_ * error[i];
+          finer.v[i] = end.v[i] + substeps_ / substep_ * error[i];
+        }
+        add();
+        return;
+      }
+    }
     const double h = 0.5 * substep_;
     finer_method_.restart();
     for (int i = 0; i < 2 * substeps_; ++i) {
@@ -282,8 +343,7 @@ class SteppedSystem final : public Stepper {
         return;
       }
     }
-    errors_.add(n, end.q, end.v, finer.q, finer.v,
-                [](std::size_t i) { return Model::kCoordinates[i].unit[0] == 'r'; });
+    add();
   }
 
   /// Parts shorter than this share of a substep are not worth a step: they are rounding.
@@ -298,8 +358,8 @@ class SteppedSystem final : public Stepper {
   double substep_;  ///< [s]
   int substeps_;
   MethodStep method_step_ = methodStepHere();
-  Method method_{};
-  Method finer_method_{};
+  Method method_;
+  Method finer_method_;
   MotionState<n> state_{};
   StepErrorSum errors_;
   std::int64_t turns_ = 0;  ///< of a spin, beyond its coordinate

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "integration/linear_methods.h"
 #include "mechanics/oscillators/small_hinged_beam.h"
 #include "models/linear_setup.h"
 #include "models/model_entry.h"
@@ -41,6 +42,7 @@ ModelSetup smallSetup(const ParameterValues& values, double gravity) {
 ModelInfo hingedBeamInfo() {
   ModelInfo info = modelInfo<HingedBeam>();
   info.variants.push_back(variant<SmallHingedBeam>("geometry: small"));
+  info.variants.back().integrators = linearMethodNames();
   info.settings.push_back({"geometry",
                            SettingKind::kChoice,
                            "",

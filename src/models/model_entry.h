@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "integration/runge_kutta_4.h"
 #include "integration/semi_implicit_euler.h"
 #include "integration/stepped_system.h"
+#include "integration/stoermer.h"
 #include "integration/velocity_verlet.h"
 #include "models/exact_stepper.h"
 #include "models/model_info.h"
@@ -31,8 +33,35 @@ struct Extended<MethodList<Methods...>, Method> {
 };
 
 template <std::size_t n>
-using AnyModelsMethods = MethodList<SemiImplicitEuler, VelocityVerlet, RungeKutta4, DormandPrince8,
-                                    ImplicitMidpoint<n>, GaussLegendre4<n>, GaussLegendre6<n>>;
+using AnyModelsMethods =
+    MethodList<SemiImplicitEuler, VelocityVerlet, RungeKutta4, DormandPrince8, Stoermer<n>,
+               ImplicitMidpoint<n>, GaussLegendre4<n>, GaussLegendre6<n>>;
+
+/// The integrators that a class of steps is, by their names in scene files: one, or one for each of
+/// its schemes, compiled once.
+template <class Method, class = void>
+struct Integrators {
+  static void addNames(std::vector<std::string>& names) { names.push_back(Method::kName); }
+  static std::optional<Method> find(const std::string& name) {
+    return name == Method::kName ? std::optional<Method>(Method()) : std::nullopt;
+  }
+};
+template <class Method>
+struct Integrators<Method, std::void_t<decltype(Method::kSchemes)>> {
+  static void addNames(std::vector<std::string>& names) {
+    for (const auto& scheme : Method::kSchemes) {
+      names.push_back(scheme.name);
+    }
+  }
+  static std::optional<Method> find(const std::string& name) {
+    for (const auto& scheme : Method::kSchemes) {
+      if (name == scheme.name) {
+        return Method(scheme);
+      }
+    }
+    return std::nullopt;
+  }
+};
 
 template <class Model>
 using MethodsFor = std::conditional_t<
@@ -57,15 +86,23 @@ Model makeModel(const ParameterValues& values, double gravity) {
   return model;
 }
 
+/// With that method if it is of the name asked for.
+template <class Model, class Method>
+void makeStepperOf(const Model& model, const std::string& integrator, const Drive& drive,
+                   const InputForce& inputs, double step, int substeps,
+                   std::unique_ptr<Stepper>& system) {
+  if (const std::optional<Method> method = Integrators<Method>::find(integrator)) {
+    system = std::make_unique<SteppedSystem<Model, Method>>(model, drive, inputs, step, substeps,
+                                                            *method);
+  }
+}
+
 template <class Model, class... Methods>
 std::unique_ptr<Stepper> makeStepper(MethodList<Methods...>, const Model& model,
                                      const std::string& integrator, const Drive& drive,
                                      const InputForce& inputs, double step, int substeps) {
   std::unique_ptr<Stepper> system;
-  ((integrator == Methods::kName ? void(system = std::make_unique<SteppedSystem<Model, Methods>>(
-                                            model, drive, inputs, step, substeps))
-                                 : void()),
-   ...);
+  (makeStepperOf<Model, Methods>(model, integrator, drive, inputs, step, substeps, system), ...);
   if (!system) {
     throw std::logic_error(std::string(Model::kName) + " has no integrator " + integrator);
   }
@@ -74,7 +111,9 @@ std::unique_ptr<Stepper> makeStepper(MethodList<Methods...>, const Model& model,
 
 template <class... Methods>
 std::vector<std::string> methodNames(MethodList<Methods...>) {
-  return {Methods::kName...};
+  std::vector<std::string> names;
+  (Integrators<Methods>::addNames(names), ...);
+  return names;
 }
 
 /// Do the matrices of a model tell all of it, so that with inputs its exact step can go by them?

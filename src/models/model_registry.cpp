@@ -5,6 +5,7 @@
 
 #include "integration/lateral_rotor.h"
 #include "integration/step_methods.h"
+#include "integration/stoermer_weights.h"
 #include "models/models.h"
 
 namespace whirl_twin {
@@ -142,11 +143,18 @@ IntegratorChoice chooseIntegrator(const ModelSetup& setup, bool speed_changes) {
 
 std::string integratorObjection(const ModelSetup& setup, bool on_drive,
                                 const std::string& integrator) {
+  const auto& suited = setup.integrators;
+  const bool suits = std::find(suited.begin(), suited.end(), integrator) != suited.end();
+  const auto& multistep = kStoermerSchemes;
+  if (!suits && std::any_of(multistep.begin(), multistep.end(),
+                            [&](const StoermerScheme& s) { return integrator == s.name; })) {
+    return integrator + " is for models from energies; " + setup.dynamics->model() +
+           " is given by its matrices: exponential steps it exactly";
+  }
   if (integrator != "exponential") {
     return "";
   }
-  const auto& suited = setup.integrators;
-  if (std::find(suited.begin(), suited.end(), integrator) == suited.end()) {
+  if (!suits) {
     return "exponential is for linear systems; " + setup.dynamics->model() + " is not linear";
   }
   if (on_drive && setup.dynamics->speedDependent() && !setup.exact_run_ups) {

@@ -22,6 +22,7 @@ struct Case {
   const char* system;  // YAML, without its integrator
   const char* integrator;
   const char* step;  // [s]
+  double most = 20.0;
 };
 
 void PrintTo(const Case& c, std::ostream* out) {
@@ -65,9 +66,10 @@ TEST_P(ErrorEstimate, IsThatOfTheHorizonWithinItsSize) {
       ErrorCurve(motion(one, kInterval, samples), truth.trajectory).position(samples - 1);
   ASSERT_GT(error, 1e-11) << "rounding: a coarser step is wanted";
   // Errors of single steps partly cancel, so that their sum is more than what is left; the
-  // sum over a time constant of one horizon is 1 - 1/e of that over the horizon.
+  // sum over a time constant of one horizon is 1 - 1/e of that over the horizon. Those of a long
+  // past are high derivatives, mostly of overtones, which cancel better.
   EXPECT_GT(observer.errorEstimate(0), 0.5 * error) << error;
-  EXPECT_LT(observer.errorEstimate(0), 20.0 * error) << error;
+  EXPECT_LT(observer.errorEstimate(0), GetParam().most * error) << error;
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -77,6 +79,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"SwingByMidpoint", kSwing, "implicit_midpoint", "0.004"},
                     Case{"SwingByRungeKutta", kSwing, "runge_kutta_4", "0.004"},
                     Case{"SwingByGaussLegendre", kSwing, "gauss_legendre_6", "0.02"},
+                    Case{"SwingByStoermer6", kSwing, "stoermer_6", "0.01", 200.0},
+                    Case{"SpinByStoermer6", kSpin, "stoermer_6", "0.01", 200.0},
+                    Case{"SpinByStoermer", kSpin, "stoermer", "0.02", 200.0},
                     Case{"SpinByVerlet", kSpin, "velocity_verlet", "0.004"},
                     Case{"SpinByRungeKutta", kSpin, "runge_kutta_4", "0.004"},
                     Case{"SpinByGaussLegendre4", kSpin, "gauss_legendre_4", "0.004"},

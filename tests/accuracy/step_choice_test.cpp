@@ -13,6 +13,7 @@
 
 #include "../scene/scenes.h"
 #include "independent_motion.h"
+#include "integration/step_methods.h"
 #include "scene/scene_reader.h"
 #include "twin/twin.h"
 
@@ -137,6 +138,56 @@ systems:
   const StepChoice choice = chooseStep(scene);
   EXPECT_NE(choice.integrator, "velocity_verlet");
   EXPECT_NE(choice.integrator, "semi_implicit_euler");
+}
+
+bool hasPast(const StepChoice& choice) {
+  return stepMethod(choice.integrator).past > 0;
+}
+
+// A method with a past at a millisecond, thousands of steps and a hundredth of its limit.
+TEST(StepChoice, TakesAMethodWithAPastWhereItIsProven) {
+  const StepChoice choice = chooseStep(swing("1.0e-6", "0.3", "10.0"));
+  EXPECT_EQ(choice.integrator, "stoermer_6") << choice.reason;
+  EXPECT_TRUE(choice.promise.kept) << choice.reason;
+}
+
+TEST(StepChoice, TakesNoMethodWithAPastThatHasNotShownMoreThanItsStart) {
+  EXPECT_FALSE(hasPast(chooseStep(swing("1.0e-6", "0.3", "0.1"))));
+}
+
+// A pendulum creeps away from where it stands upright, longer than is looked at, and falls.
+TEST(StepChoice, TakesNoMethodWithAPastForAMotionThatIsYetToQuicken) {
+  const StepChoice choice = chooseStep(sceneOf(R"(
+gravity: 1.0
+step: 0.05
+systems:
+  falls: {model: spinning_pendulum, tolerance: 1.0e-8, horizon: 13,
+    parameters: {mass: 1, length: 1, speed: 0}, initial: {theta: 3.14159255}}
+)"));
+  EXPECT_FALSE(hasPast(choice)) << choice.integrator << ": " << choice.reason;
+}
+
+// p h = 0.1; at a damping ratio of a half stoermer_6 is stable up to 0.05, stoermer up to 0.16.
+TEST(StepChoice, TakesNoMethodWithAPastWhereItsLimitIsNear) {
+  for (const double damping : {0.0, 10.0}) {
+    Scene scene = sceneOf(R"(
+step: 0.01
+systems:
+  swing: {model: spinning_pendulum, parameters: {mass: 1, length: 1, speed: 0}, initial: {theta: 0.5}}
+)");
+    scene.gravity = 100.0;
+    scene.systems.front().parameters["damping"] = damping;
+    scene.systems.front().tolerance = 1.0e-3;
+    const StepChoice choice = chooseStep(scene);
+    EXPECT_EQ(hasPast(choice), damping == 0.0) << choice.integrator << ": " << choice.reason;
+  }
+}
+
+// A command may change a held input as often as once a step.
+TEST(StepChoice, TakesNoMethodWithAPastUnderInputs) {
+  Scene scene = swing("1.0e-6", "0.3", "10.0");
+  scene.systems.front().inputs["torque1"] = InputSignal::constant(0.1);
+  EXPECT_FALSE(hasPast(chooseStep(scene)));
 }
 
 TEST(StepChoice, IsWhatTheTwinStepsWith) {

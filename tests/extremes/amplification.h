@@ -1,7 +1,8 @@
 // What one step of a method makes of a linear system at rest speed or turning, M q'' + B q' + K q =
 // 0 (B = C + G, K with the circulatory part): the largest growth a step, predicted from the
 // spectrum of the system and the method's stability function (Hairer & Wanner, Solving Ordinary
-// Differential Equations II, IV.2-3), independently of the step's own code.
+// Differential Equations II, IV.2-3), independently of the step's own code; of a method with a past
+// from its recurrence, as `auto` does.
 #pragma once
 
 #include <Eigen/Eigenvalues>
@@ -11,6 +12,7 @@
 #include <optional>
 #include <string>
 
+#include "integration/stoermer_growth.h"
 #include "mechanics/linearization.h"
 
 namespace whirl_twin {
@@ -82,6 +84,11 @@ inline std::optional<double> growth(const std::string& method, const FreeMotion&
     map << q_from_q, q_from_v, 0.5 * h * (motion.by_q + a_from_q),
         one + 0.5 * h * (motion.by_v + a_from_v);
     return spectralRadius(map);
+  }
+  for (const StoermerScheme& scheme : kStoermerSchemes) {
+    if (method == scheme.name) {
+      return growthInAStep(scheme, motion.by_q, motion.by_v, h);
+    }
   }
   double largest = 0.0;
   for (const std::complex<double>& root : motion.spectrum()) {

@@ -51,10 +51,18 @@ inline int orderOf(const std::string& integrator) {
 
 /// At most this part of a frequency p is a method's own frequency off, z = p h well below 1: z^2/24
 /// (semi-implicit Euler, Verlet), z^2/12 (implicit midpoint), z^4/120 (Runge-Kutta 4), z^4/720
-/// (Gauss-Legendre 4), z^6/100800 (Gauss-Legendre 6), less for those of a higher order.
+/// (Gauss-Legendre 4), z^6/100800 (Gauss-Legendre 6), 863 z^6/24192 (Stoermer 6: half of the first
+/// term that its sum leaves out), less for those of a higher order.
 inline double detuning(const std::string& integrator, double z) {
   const int order = orderOf(integrator);
-  return order <= 2 ? z * z / 12.0 : std::pow(z, order) / (order == 4 ? 120.0 : 1e5);
+  return order <= 2                   ? z * z / 12.0
+         : integrator == "stoermer_6" ? std::pow(z, 6) / 28.0
+                                      : std::pow(z, order) / (order == 4 ? 120.0 : 1e5);
+}
+
+/// A method that makes a step of the accelerations of those before, in sums.
+inline bool hasPast(const std::string& integrator) {
+  return integrator.rfind("stoermer", 0) == 0;
 }
 
 }  // namespace whirl_twin

@@ -1,6 +1,6 @@
 // The explicit methods are stable on an undamped whirl up to h p = 2 (semi-implicit Euler, Verlet),
 // 2 sqrt(2) (Runge-Kutta 4) and 5.96 (Dormand-Prince 8); the implicit ones and the exact one at any
-// step.
+// step. What rests on earlier steps is stable for less, and the less the more a motion is damped.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,11 +15,11 @@ namespace {
 constexpr std::int64_t kStep = 1000000;  // [ns]
 
 /// Largest of x, x'/p and y, y'/p after 3000 steps at h p, from 1: infinity once not finite.
-double amplitudeAfter(const char* method, double frequency_times_step) {
+double amplitudeAfter(const char* method, double frequency_times_step, double damping = 0.0) {
   const double p = frequency_times_step / (static_cast<double>(kStep) * 1e-9);
   RunningSystem::Setup s;
   s.model = "jeffcott_rotor";
-  s.parameters = {{"mass", 1.0}, {"stiffness", p * p}};
+  s.parameters = {{"mass", 1.0}, {"stiffness", p * p}, {"damping", 2.0 * damping * p}};
   s.q = {1.0, 0.0};
   s.v = {0.0, p};
   RunningSystem rotor(s, method, kStep);
@@ -57,6 +57,42 @@ INSTANTIATE_TEST_SUITE_P(Explicit, StabilityLimit,
                                          Limit{"runge_kutta_4", 2.0 * M_SQRT2},
                                          Limit{"dormand_prince_8", 5.96}),
                          [](const auto& test) { return test.param.method; });
+
+struct DampedLimit {
+  const char* name;
+  const char* method;
+  double damping;  ///< of the critical
+  double expected;
+};
+
+void PrintTo(const DampedLimit& limit, std::ostream* out) {
+  *out << limit.name;
+}
+
+class StabilityLimitOfRates : public testing::TestWithParam<DampedLimit> {};
+
+// Where the largest root of the recurrence leaves the unit circle, by so much that 3000 steps tell.
+TEST_P(StabilityLimitOfRates, IsWhereADampedWhirlBeginsToGrow) {
+  const DampedLimit& limit = GetParam();
+  double stable = 0.5 * limit.expected;
+  double unstable = 1.5 * limit.expected;
+  EXPECT_LT(amplitudeAfter(limit.method, stable, limit.damping), 2.0);
+  for (int i = 0; i < 12; ++i) {
+    const double middle = 0.5 * (stable + unstable);
+    (amplitudeAfter(limit.method, middle, limit.damping) > 1e4 ? unstable : stable) = middle;
+  }
+  EXPECT_NEAR(stable, limit.expected, 0.03 * limit.expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    WithAPast, StabilityLimitOfRates,
+    testing::Values(DampedLimit{"OfOrder6Undamped", "stoermer_6", 0.0, 0.713},
+                    DampedLimit{"OfOrder6Damped", "stoermer_6", 0.05, 0.405},
+                    DampedLimit{"OfOrder6DampedMore", "stoermer_6", 0.2, 0.129},
+                    DampedLimit{"CorrectedUndamped", "stoermer", 0.0, 1.08},
+                    DampedLimit{"CorrectedDamped", "stoermer", 0.05, 0.78},
+                    DampedLimit{"CorrectedDampedMore", "stoermer", 0.2, 0.366}),
+    [](const auto& test) { return test.param.name; });
 
 class Unlimited : public testing::TestWithParam<const char*> {};
 

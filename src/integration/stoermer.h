@@ -1,0 +1,267 @@
+// Stoermer-Cowell steps in sums (Stoermer 1907, Cowell & Crommelin 1910; Hairer, Norsett & Wanner,
+// Solving Ordinary Differential Equations I, III.10), on (q, v, work): the accelerations of the
+// last steps make the next, so that a step costs one evaluation, or two. With d the last increment
+// of q and the weights of stoermer_weights.h
+//
+//   d' = d + h^2 sum b_k a(n - k),  q' = q + d',  v' = d'/h + h sum g_k a(n - k),  a' = a(q', v')
+//
+// explicitly: `stoermer_6`, one evaluation a step. `stoermer` corrects d' and v' by the polynomial
+// that has a' as well, and evaluates a' again there (PECE, 10 terms). q and d are compensated sums;
+// the work is that of the polynomial through the powers.
+//
+// Order 6 and 11; what the start is off by falls with the ninth power. Rates are extrapolated, so
+// damping is the limit. Largest h omega that grows by less than 1e-3 a radian, by damping ratio:
+//
+//                  0      0.01   0.05   0.2    0.5
+//   stoermer_6     0.56   0.71   0.40   0.13   0.05
+//   stoermer       0.99   1.02   0.77   0.36   0.16
+//
+// (More explicit terms only pay where next to nothing is damped: eleven are stable up to 0.17, and
+// up to 0.02 at a damping ratio of 0.05.)
+//
+// Not symplectic. The past belongs to one motion under one law: at a corner of the drive or of an
+// input, a change of a held input, of a parameter or of the state it is dropped. The first steps
+// (terms - 1 of them) are then taken by dormand_prince_8, while accelerations are gathered.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "integration/called_equation.h"
+#include "integration/dormand_prince_8.h"
+#include "integration/lanes.h"
+#include "integration/motion_state.h"
+#include "integration/stoermer_weights.h"
+
+namespace whirl_twin {
+
+template <std::size_t n>
+class Stoermer {
+ public:
+  static constexpr const auto& kSchemes = kStoermerSchemes;
+  /// Its steps rest on those before: what they were taken under must not have changed.
+  static constexpr bool kHasHistory = true;
+  using Array = std::array<double, n>;
+
+  explicit Stoermer(const StoermerScheme& scheme) : scheme_(&scheme) {}
+
+  /// Drops the past.
+  void restart() {
+    ready_for_ = 0.0;
+    gathered_ = 0;
+  }
+
+  /// Was the last step one of its own, and not one of dormand_prince_8?
+  bool hasPast() const { return ready_for_ != 0.0; }
+
+  /// What the last step has got wrong of d, to the first order: by the polynomial with one node
+  /// more (Milne's device). (v has an error of its own besides, which does not add up.)
+  Array lastError() const {
+    Lanes<n> error{};
+    for (std::size_t k = 0; k <= scheme_->terms; ++k) {
+      error.add(ready_for_ * ready_for_ * scheme_->error[k], past_[newest_ + k]);
+    }
+    return error.array();
+  }
+
+  /// Drops the past if the shaft's motion [rad/s^3, rad/s^2] is another polynomial in time than
+  /// that of the last call.
+  void follow(double jerk, double acceleration) {
+    if (jerk != jerk_ || (jerk == 0.0 && acceleration != acceleration_)) {
+      restart();
+    }
+    jerk_ = jerk;
+    acceleration_ = acceleration;
+  }
+  /// Drops the past if the held part of the force is another than in the last call.
+  void hold(const double* force) {
+    for (std::size_t i = 0; i < n; ++i) {
+      if (force[i] != held_[i]) {
+        restart();
+      }
+      held_[i] = force[i];
+    }
+  }
+
+  /// Advances by h [s] from offset [s] after the start of the twin's step.
+  template <class Equation>
+  WHIRL_TWIN_INLINE StepStatus step(const Equation& equation, double offset, double h,
+                                    MotionState<n>& state) {
+    if (__builtin_expect(h != ready_for_, 0)) {
+      const StepStatus status = start(equation, offset, h, state);
+      if (h != ready_for_) {
+        return status;
+      }
+    }
+    const Lanes<n> q0(state.q);
+    const Lanes<n> last = past_[newest_];
+    Lanes<n> increment = known_increment_;
+    increment.add(position_[0], last);
+    // What waits for the last acceleration comes by one multiplication: the rest was known before.
+    Lanes<n> q = q0 + known_advance_;
+    Lanes<n> v = known_rate_;
+    q.add(position_[0], last);
+    v.add(rate_[0], last);
+    Lanes<n> corrected_increment{};
+    Lanes<n> corrected_rate{};
+    if (scheme_->corrected) {
+      sumOfPast<kMostTerms>(corrected_position_, corrected_rate_, corrected_increment,
+                            corrected_rate);
+      corrected_rate.add(per_step_, increment_);
+    }
+    double work = scheme_->corrected ? prepare<kMostTerms>() : prepare<kFewTerms>();
+    bool last_evaluation = !scheme_->corrected;
+    if (last_evaluation) {
+      advance(increment, v, state);
+    }
+    while (true) {
+      const auto found = equation(q.array(), v.array(), offset + h);
+      const Lanes<n> acceleration(found.acceleration);
+      if (last_evaluation) {
+        work += work_[0] * found.power;
+        keep(acceleration, found.power);
+        break;
+      }
+      corrected_increment.add(corrected_position_[0], acceleration);
+      corrected_rate.add(corrected_rate_[0], acceleration);
+      q = q0 + (increment_ + corrected_increment);
+      v = corrected_rate;
+      advance(corrected_increment, v, state);
+      last_evaluation = true;
+    }
+    state.work.add(work);
+    return StepStatus::kOk;
+  }
+
+ private:
+  using Weights = stoermer::Weights;
+
+  static constexpr std::size_t kFewTerms = kSchemes[0].terms;
+  static constexpr std::size_t kMostTerms = kSchemes[1].terms;
+  static_assert(!kSchemes[0].corrected && kSchemes[1].corrected && kFewTerms < kMostTerms);
+  static constexpr std::size_t kLength = stoermer::kMostNodes;
+
+  static WHIRL_TWIN_INLINE void addTo(Lanes<n>& high, Lanes<n>& low, const Lanes<n>& increment) {
+    const Lanes<n> corrected = increment + low;
+    const Lanes<n> sum = high + corrected;
+    low = corrected - (sum - high);
+    high = sum;
+  }
+
+  WHIRL_TWIN_INLINE void advance(const Lanes<n>& increment, const Lanes<n>& v,
+                                 MotionState<n>& state) {
+    addTo(increment_, increment_low_, increment);
+    Lanes<n> q(state.q);
+    Lanes<n> q_low(state.q_low);
+    addTo(q, q_low, increment_);
+    state.q = q.array();
+    state.q_low = (q_low + increment_low_).array();
+    state.v = v.array();
+    state.v_low = {};
+    known_advance_ = increment_ + known_increment_;
+    known_rate_ = known_of_rate_;
+    known_rate_.add(per_step_, increment_);
+  }
+
+  /// The sums over all but the node that is yet to be evaluated.
+  template <std::size_t terms>
+  WHIRL_TWIN_INLINE void sumOfPast(const Weights& position, const Weights& rate,
+                                   Lanes<n>& of_position, Lanes<n>& of_rate) const {
+    const Lanes<n>* const past = &past_[newest_];
+    unrolled<terms - 1>([&](auto from_last) WHIRL_TWIN_FLAT {
+      constexpr std::size_t k = terms - 1 - decltype(from_last)::value;
+      of_position.add(position[k], past[k - 1]);
+      of_rate.add(rate[k], past[k - 1]);
+    });
+  }
+  /// What the next step knows before this one's acceleration; and the work [J] of this one, but for
+  /// the power that is yet to be evaluated.
+  template <std::size_t terms>
+  WHIRL_TWIN_INLINE double prepare() {
+    known_increment_ = {};
+    known_of_rate_ = {};
+    sumOfPast<terms>(position_, rate_, known_increment_, known_of_rate_);
+    const double* const powers = &powers_[newest_];
+    double work = 0.0;
+    unrolled<terms - 1>([&](auto from_last) WHIRL_TWIN_FLAT {
+      constexpr std::size_t k = terms - 1 - decltype(from_last)::value;
+      work += work_[k] * powers[k - 1];
+    });
+    return work;
+  }
+  /// In two places, so that the past is in a row wherever it begins.
+  WHIRL_TWIN_INLINE void keep(const Lanes<n>& acceleration, double power) {
+    newest_ = newest_ == 0 ? kLength - 1 : newest_ - 1;
+    past_[newest_] = past_[newest_ + kLength] = acceleration;
+    powers_[newest_] = powers_[newest_ + kLength] = power;
+  }
+
+  /// One step of dormand_prince_8, or, with all accelerations gathered, what the first of its own
+  /// steps needs.
+  template <class Equation>
+  [[gnu::noinline, gnu::cold]] StepStatus start(const Equation& equation, double offset, double h,
+                                                MotionState<n>& state) {
+    return withCalls(equation, [&](const CalledEquation<n>& called) {
+      ready_for_ = 0.0;
+      if (gathered_ == 0 || h != gathered_at_) {
+        past_ = {};
+        powers_ = {};
+        gathered_ = 0;
+        gathered_at_ = h;
+      }
+      const Derivative<n> now = called(state.q, state.v, offset);
+      keep(Lanes<n>(now.acceleration), now.power);
+      if (++gathered_ == scheme_->terms) {
+        begin(h, state);
+        return StepStatus::kOk;
+      }
+      DormandPrince8 alone;
+      return calledStep(alone, called, offset, h, state);
+    });
+  }
+  void begin(double h, const MotionState<n>& state) {
+    per_step_ = 1.0 / h;
+    Lanes<n> behind{};
+    for (std::size_t k = 0; k < kMostTerms; ++k) {
+      const StoermerScheme& s = *scheme_;
+      position_[k] = h * h * s.position[k];
+      rate_[k] = h * (s.position[k] + s.rate[k]);
+      corrected_position_[k] = h * h * s.corrected_position[k];
+      corrected_rate_[k] = h * (s.corrected_position[k] + s.corrected_rate[k]);
+      work_[k] = h * s.work[k];
+      behind.add(-h * h * s.backwards[k], past_[newest_ + k]);
+    }
+    behind.add(h, Lanes<n>(state.v));
+    increment_ = behind;
+    increment_low_ = {};
+    // Of the step that begins now, whose last acceleration is there already.
+    const std::size_t now = newest_;
+    newest_ = now + 1;
+    prepare<kMostTerms>();
+    newest_ = now;
+    known_advance_ = increment_ + known_increment_;
+    known_rate_ = known_of_rate_;
+    known_rate_.add(per_step_, increment_);
+    ready_for_ = h;
+  }
+
+  const StoermerScheme* scheme_;
+  double ready_for_ = 0.0;  ///< [s], step; 0: the past is not complete
+  std::size_t newest_ = 0;
+  Lanes<n> increment_{}, increment_low_{};           ///< d
+  Lanes<n> known_increment_{}, known_advance_{};     ///< of d' - d, of q' - q
+  Lanes<n> known_of_rate_{}, known_rate_{};          ///< of v' - d/h, of v'
+  double per_step_ = 0.0;                            ///< [1/s]
+  Weights position_{}, rate_{};                      ///< times h^2, h
+  Weights work_{};                                   ///< times h
+  Weights corrected_position_{}, corrected_rate_{};  ///< times h^2, h
+  std::array<Lanes<n>, 2 * kLength> past_{};         ///< accelerations
+  std::array<double, 2 * kLength> powers_{};         ///< [W]
+  std::size_t gathered_ = 0;
+  double gathered_at_ = 0.0;  ///< [s], step
+  double jerk_ = 0.0;
+  double acceleration_ = 0.0;
+  Array held_{};
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,121 @@
+// The weights of Stoermer-Cowell steps (stoermer.h): with p(s) the polynomial through accelerations
+// at equidistant nodes, s in steps from the last state and d(n) = q(n) - q(n - 1),
+//
+//   position    d(n + 1) = d(n) + h^2 int_0^1 (1 - s) (p(s) + p(-s)) ds
+//   rate        v(n + 1) = d(n + 1) / h + h int_0^1 s p(s) ds
+//   work        int_0^1 p(s) ds h, of powers
+//   backwards   d(n) = h v(n) - h^2 int_0^1 (1 - s) p(-s) ds
+//
+// Each integral is a sum over the nodes (Hairer, Norsett & Wanner, Solving Ordinary Differential
+// Equations I, III.10; the rates as of Adams, ibid. III.1). A predictor's nodes are 0, -1, -2 ...,
+// a corrector's 1, 0, -1 ...
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace whirl_twin {
+
+namespace stoermer {
+
+/// Accelerations that a step is made of at most, and those that its error is told by.
+inline constexpr std::size_t kMostTerms = 10;
+inline constexpr std::size_t kMostNodes = kMostTerms + 1;
+
+/// One for each node, the latest first; 0 beyond the terms of a scheme.
+using Weights = std::array<double, kMostNodes>;
+
+/// Of the integral over s^i, i = 0, 1, 2 ...
+using Moments = std::array<long double, kMostNodes>;
+
+/// Weights at the nodes first, first - 1, ... with these moments: integrals of their Lagrange
+/// polynomials.
+constexpr Weights weights(std::size_t terms, int first, const Moments& moments) {
+  Weights result{};
+  for (std::size_t j = 0; j < terms; ++j) {
+    std::array<long double, kMostNodes + 1> coefficients{1.0L};  // whole numbers below 2^53
+    long double denominator = 1.0L;
+    for (std::size_t k = 0; k < terms; ++k) {
+      if (k == j) {
+        continue;
+      }
+      const long double node = first - static_cast<long double>(k);
+      for (std::size_t i = terms; i > 0; --i) {
+        coefficients[i] = coefficients[i - 1] - node * coefficients[i];
+      }
+      coefficients[0] *= -node;
+      denominator *= static_cast<long double>(k) - static_cast<long double>(j);
+    }
+    long double integral = 0.0L;
+    for (std::size_t i = 0; i < terms; ++i) {
+      integral += coefficients[i] * moments[i];
+    }
+    result[j] = static_cast<double>(integral / denominator);
+  }
+  return result;
+}
+
+constexpr Moments positionMoments() {
+  Moments m{};
+  for (std::size_t i = 0; i < kMostNodes; i += 2) {
+    m[i] = 2.0L / static_cast<long double>((i + 1) * (i + 2));
+  }
+  return m;
+}
+constexpr Moments backwardsMoments() {
+  Moments m{};
+  for (std::size_t i = 0; i < kMostNodes; ++i) {
+    m[i] = (i % 2 == 0 ? 1.0L : -1.0L) / static_cast<long double>((i + 1) * (i + 2));
+  }
+  return m;
+}
+/// Of s^power p(s) over the step.
+constexpr Moments stepMoments(std::size_t power) {
+  Moments m{};
+  for (std::size_t i = 0; i < kMostNodes; ++i) {
+    m[i] = 1.0L / static_cast<long double>(i + power + 1);
+  }
+  return m;
+}
+
+/// Of the polynomial with one node more, less those of a scheme of so many terms.
+constexpr Weights errorWeights(std::size_t terms, bool corrected) {
+  Weights error = weights(terms + 1, 1, positionMoments());
+  const Weights own = weights(terms, corrected ? 1 : 0, positionMoments());
+  for (std::size_t k = 0; k < terms; ++k) {
+    error[corrected ? k : k + 1] -= own[k];
+  }
+  return error;
+}
+
+}  // namespace stoermer
+
+/// A method of the family.
+struct StoermerScheme {
+  const char* name;   ///< as in scene files
+  std::size_t terms;  ///< accelerations in its history
+  bool corrected;     ///< and evaluated again where the correction leads
+  stoermer::Weights position, rate;
+  stoermer::Weights corrected_position, corrected_rate;
+  stoermer::Weights work, backwards;
+  stoermer::Weights error;  ///< of a position, at the nodes 1, 0, -1 ...
+};
+
+constexpr StoermerScheme stoermerScheme(const char* name, std::size_t terms, bool corrected) {
+  using namespace stoermer;
+  return {name,
+          terms,
+          corrected,
+          weights(terms, 0, positionMoments()),
+          weights(terms, 0, stepMoments(1)),
+          weights(terms, 1, positionMoments()),
+          weights(terms, 1, stepMoments(1)),
+          weights(terms, 1, stepMoments(0)),
+          weights(terms, 0, backwardsMoments()),
+          errorWeights(terms, corrected)};
+}
+
+inline constexpr std::array<StoermerScheme, 2> kStoermerSchemes{
+    stoermerScheme("stoermer_6", 6, false), stoermerScheme("stoermer", 10, true)};
+
+}  // namespace whirl_twin
