@@ -178,11 +178,11 @@ class StudyReader {
   }
 
   void readMeasured(const MapReader& map, StudyRun& run, std::vector<std::string>& columns) {
-    std::vector<std::string> known;
+    std::vector<std::string> known, units;
     for (const bool rate : {false, true}) {
       for (const CoordinateInfo& c : built_->dynamics->coordinates()) {
         known.push_back(rate ? c.name + "_rate" : c.name);
-        units_.push_back(rate ? c.unit + "/s" : c.unit);
+        units.push_back(rate ? c.unit + "/s" : c.unit);
       }
     }
     const MapReader measured(map.at("measured"), map.key("measured"), known,
@@ -191,7 +191,7 @@ class StudyReader {
       return;
     }
     if (measured.names().empty()) {
-      complaints_.add(measured.key(""), "must name a coordinate with its column");
+      complaints_.add(map.key("measured"), "must name a coordinate with its column");
     }
     for (const std::string& name : measured.names()) {
       const auto place = std::find(known.begin(), known.end(), name);
@@ -201,7 +201,7 @@ class StudyReader {
       MeasuredChannel channel;
       channel.name = name;
       channel.state = static_cast<std::size_t>(place - known.begin());
-      channel.unit = units_[channel.state];
+      channel.unit = units[channel.state];
       if (const auto entry =
               column(measured, name, {"column", "offset", "scale", "deviation"}, channel.column)) {
         channel.offset = givenOrFitted(*entry, "offset", channel.unit, 0.0);
@@ -364,7 +364,6 @@ class StudyReader {
   Complaints complaints_;
   FitStudy study_;
   SharedSystem built_;
-  std::vector<std::string> units_;  // of coordinates and rates
 };
 
 }  // namespace

@@ -20,9 +20,10 @@ constexpr double kLonger = 3.0;       // from one stage to the next
 constexpr int kIterations = 100;
 constexpr int kStageIterations = 20;
 constexpr int kStartIterations = 30;
-constexpr double kTolerance = 1.0e-8;
+constexpr double kTolerance = 1.0e-7;  // of the squares, in an iteration
+constexpr double kParameterTolerance = 1.0e-10;
 constexpr double kRoughly = 1.0e-6;
-constexpr double kHeldTo = 1.0e-6;  // deviations along an untold direction, of its parts
+constexpr double kHeldTo = 1.0e-2;  // deviations along an untold direction, of its parts
 constexpr int kMostThreads = 8;
 constexpr double kAtBound = 1.0e-9;
 constexpr double kUnusualEquation = 0.2;  // of usual accelerations
@@ -180,7 +181,7 @@ ceres::Solver::Options quiet(int iterations) {
   options.logging_type = ceres::SILENT;
   options.max_num_iterations = iterations;
   options.function_tolerance = kTolerance;
-  options.parameter_tolerance = kTolerance;
+  options.parameter_tolerance = kParameterTolerance;
   options.gradient_tolerance = 0.0;
   return options;
 }
@@ -194,6 +195,7 @@ class Solver final : public ceres::EvaluationCallback {
       theta_[i] = std::clamp(u.start, u.least, u.most);
     }
     begin_ = theta_;
+    maker_.at(theta_);  // refused in words, where the model cannot have them
   }
 
   const CandidateMaker& maker() const { return maker_; }
@@ -479,11 +481,16 @@ ShootingFit fitByShooting(const FitStudy& study, const FitProgress& progress) {
     }
     NormalEquations normal = solver.normalEquations(stage);
     fit.information = information(normal, fit.unknowns, solver.theta());
-    if (!fit.information.untold.empty()) {
+    // Twice: directions turn a little on the way.
+    for (int pass = 0; pass < 2 && !fit.information.untold.empty(); ++pass) {
       solver.solve(stage, kIterations,
                    heldDirections(fit.information, fit.unknowns, solver.theta(),
                                   std::sqrt(normal.variance())));
       normal = solver.normalEquations(stage);
+      Information there = information(normal, fit.unknowns, solver.theta());
+      if (there.untold.size() >= fit.information.untold.size()) {
+        fit.information = std::move(there);  // of where they are held now
+      }
     }
     fit.theta = solver.theta();
     fit.rms = std::sqrt(normal.squares / static_cast<double>(normal.residuals));

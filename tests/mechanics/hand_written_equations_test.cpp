@@ -17,7 +17,9 @@ constexpr int kStates = 1000;
 // (m1 c1^2 + I1 + m2 l1^2) th1'' + m2 l1 c2 (cos D th2'' + sin D th2'^2)
 //     + (m1 c1 + m2 l1) g sin th1 = t2 - t1
 // (m2 c2^2 + I2) th2'' + m2 l1 c2 (cos D th1'' - sin D th1'^2) + m2 g c2 sin th2 = -t2,
-// D = th1 - th2
+// D = th1 - th2; and of the motors' rotors, at G1 th1' and at (1 - G2) th1' + G2 th2':
+// J1 G1^2 th1'' + J2 (1 - G2) ((1 - G2) th1'' + G2 th2'') in the first line,
+// J2 G2 ((1 - G2) th1'' + G2 th2'') in the second
 TEST(HandWritten, DoublePendulum) {
   std::mt19937_64 random(1738);
   for (int i = 0; i < kStates; ++i) {
@@ -35,16 +37,19 @@ TEST(HandWritten, DoublePendulum) {
     const double upper = torque("1", s.v[0]);
     const double lower = torque("2", s.v[1] - s.v[0]);
     const double d = std::sin(s.q[0] - s.q[1]);
-    const double m11 = second + m2 * l1 * l1;
-    const double m12 = m2 * l1 * c2 * std::cos(s.q[0] - s.q[1]);
-    const double m22 = m2 * c2 * c2 + given("inertia2");
+    const double rotor2 = given("motor_inertia2");
+    const double gear2 = given("gear_ratio2");
+    const double m11 = second + m2 * l1 * l1 +
+                       given("motor_inertia1") * given("gear_ratio1") * given("gear_ratio1") +
+                       rotor2 * (1.0 - gear2) * (1.0 - gear2);
+    const double m12 = m2 * l1 * c2 * std::cos(s.q[0] - s.q[1]) + rotor2 * (1.0 - gear2) * gear2;
+    const double m22 = m2 * c2 * c2 + given("inertia2") + rotor2 * gear2 * gear2;
     const double f1 = -m2 * l1 * c2 * d * s.v[1] * s.v[1] -
                       (first + m2 * l1) * s.gravity * std::sin(s.q[0]) - upper + lower;
     const double f2 =
         m2 * l1 * c2 * d * s.v[0] * s.v[0] - m2 * s.gravity * c2 * std::sin(s.q[1]) - lower;
-    // The determinant without the cancellation of m11 m22 - m12^2.
-    const double determinant =
-        second * m22 + m2 * l1 * l1 * given("inertia2") + m2 * l1 * l1 * m2 * c2 * c2 * d * d;
+    const auto determinant = static_cast<double>(static_cast<long double>(m11) * m22 -
+                                                 static_cast<long double>(m12) * m12);
     const Eigen::Vector2d a((m22 * f1 - m12 * f2) / determinant,
                             (m11 * f2 - m12 * f1) / determinant);
     const Vector found = s.dynamics->acceleration(s.q, s.v, s.at);

@@ -60,16 +60,16 @@ INSTANTIATE_TEST_SUITE_P(
             {},
             "twin: expected a command; there are: check, scenes, models, simulate, plot, analyze, "
             "campbell, response, orbit, balance, tradeoff, routh, log, "
-            "monitor"},
+            "monitor, fit"},
         Misuse{{"analyse", kDemo}, "twin: unknown command 'analyse'; did you mean 'analyze'?"},
         Misuse{{"bode", kDemo},
                "twin: unknown command 'bode'; there are: check, scenes, models, simulate, plot, "
                "analyze, campbell, response, orbit, balance, tradeoff, routh, log, "
-               "monitor"},
+               "monitor, fit"},
         Misuse{{""},
                "twin: unknown command ''; there are: check, scenes, models, simulate, plot, "
                "analyze, campbell, response, orbit, balance, tradeoff, routh, log, "
-               "monitor"},
+               "monitor, fit"},
         Misuse{{"check"}, "twin check: SCENE is required"},
         Misuse{{"routh"}, "twin routh: COEFFICIENTS is required"},
         Misuse{{"log"}, "twin log: FILE is required"},

@@ -1,0 +1,115 @@
+// `twin fit`: a study as a user writes it, its report, its mistakes.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "twin_program.h"
+
+namespace whirl_twin {
+namespace {
+
+using testing::HasSubstr;
+
+std::string scene(double inertia, double damping, double coulomb, double theta) {
+  const auto text = [](double x) { return std::to_string(x); };
+  return "name: rig\nstep: 0.001\nsystems:\n  arm:\n    model: pendulum\n    integrator: "
+         "runge_kutta_4\n    parameters: {mass: 0.7, length: 0.5, inertia: " +
+         text(inertia) + ", damping: " + text(damping) + ", coulomb: " + text(coulomb) +
+         "}\n    initial: {theta: " + text(theta) + "}\n";
+}
+
+constexpr const char* kRuns =
+    "scene: guess.yaml\nsystem: arm\nruns:\n"
+    "  - {file: swing_1.csv, use: train, time: time, measured: {theta: arm.theta}}\n"
+    "  - {file: swing_2.csv, use: validate, time: time, measured: {theta: arm.theta}}\n";
+
+/// Two swings of one pendulum, as tables of `twin simulate`, and a scene with a wrong guess.
+class Fit : public testing::Test {
+ protected:
+  Fit() {
+    for (const auto& [name, theta] : {std::pair("1", 1.0), std::pair("2", -0.6)}) {
+      const std::string truth = directory_.write("truth.yaml", scene(0.02, 0.03, 0.05, theta));
+      const Ending end = twin({"simulate", truth, "--duration", "4", "--sample", "0.005",
+                               "--output", directory_.file(std::string("swing_") + name + ".csv")});
+      EXPECT_EQ(end.status, 0) << end.err;
+    }
+    directory_.write("guess.yaml", scene(0.03, 0.01, 0.01, 0.1));
+  }
+  Ending fit(const std::string& text, std::vector<std::string> options = {"--json"}) const {
+    std::vector<std::string> arguments = {"fit", directory_.write("study.yaml", text)};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    return twin(arguments);
+  }
+  const TemporaryDirectory directory_;
+};
+
+TEST_F(Fit, FindsWhatTheRunsWereMadeWith) {
+  const std::string study =
+      std::string(kRuns) + "fit: {inertia: {min: 0.0}, damping: , coulomb: {min: 0.0}}\n";
+  const Ending end = fit(study, {"--json", "--output", directory_.file("fitted.yaml"), "--plot",
+                                 directory_.file("fit.svg")});
+  ASSERT_EQ(end.status, 0) << end.err;
+  const nlohmann::json json = end.json();
+  EXPECT_NEAR(json["parameters"]["inertia"]["value"], 0.02, 1e-6);
+  EXPECT_NEAR(json["parameters"]["damping"]["value"], 0.03, 1e-6);
+  EXPECT_NEAR(json["parameters"]["coulomb"]["value"], 0.05, 1e-6);
+  EXPECT_LT(json["parameters"]["inertia"]["standard_deviation"], 1e-5);
+  EXPECT_EQ(json["runs"]["swing_1.csv"]["use"], "train");
+  EXPECT_LT(json["runs"]["swing_2.csv"]["rms"]["theta"], 1e-6);
+  EXPECT_TRUE(json["undetermined"].empty());
+  // The scene that was written is one, with these values, and predicts without any fit.
+  EXPECT_EQ(twin({"check", directory_.file("fitted.yaml")}).status, 0);
+  const Ending again =
+      fit("scene: fitted.yaml" +
+              std::string(kRuns).substr(std::string("scene: guess.yaml").size()) + "fit: {}\n",
+          {"--json", "--validate-only"});
+  ASSERT_EQ(again.status, 0) << again.err;
+  EXPECT_LT(again.json()["runs"]["swing_1.csv"]["rms"]["theta"], 1e-6);
+  EXPECT_THAT(contentsOf(directory_.file("fit_swing_2.svg")), HasSubstr("validate"));
+}
+
+TEST_F(Fit, ValidateOnlyFindsStartsAlone) {
+  const Ending end = fit(std::string(kRuns) + "fit: {}\n", {"--json", "--validate-only"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  EXPECT_TRUE(end.json()["parameters"].empty());
+  EXPECT_GT(end.json()["runs"]["swing_1.csv"]["rms"]["theta"], 1e-3);  // a wrong guess
+}
+
+TEST_F(Fit, SaysWhatIsNotTold) {
+  const Ending end = fit(std::string(kRuns) + "fit: {mass: , inertia: , damping: , coulomb: }\n");
+  ASSERT_EQ(end.status, 0) << end.err;
+  const nlohmann::json json = end.json();
+  EXPECT_THAT(json["undetermined"], testing::SizeIs(4));
+  EXPECT_TRUE(json["parameters"]["mass"]["standard_deviation"].is_null());
+  EXPECT_THAT(json["directions"][0], HasSubstr("change together"));
+  EXPECT_THAT(fit(std::string(kRuns) + "fit: {mass: , inertia: , damping: , coulomb: }\n", {}).out,
+              HasSubstr("not told"));
+}
+
+TEST_F(Fit, TellsAllMistakesOfAStudyAtOnce) {
+  const Ending end =
+      fit("scene: guess.yaml\nsystem: arm\nruns:\n"
+          "  - {file: swing_1.csv, use: trian, measured: {thet: arm.theta}}\n"
+          "  - {file: nowhere.csv, measured: {theta: arm.theta}}\n"
+          "  - {file: swing_2.csv, measured: {theta: arm.teta}, inputs: {force: f}}\n"
+          "windows: {length: -1}\nfit: {mas: , damping: {min: 1, max: 0}}\nhubr: 1\n");
+  EXPECT_EQ(end.status, 2);
+  EXPECT_EQ(end.out, "");
+  for (const char* said :
+       {"runs[0].use: ",
+        "runs[0].measured.thet: unknown coordinate or rate of the system; did you "
+        "mean 'theta'?",
+        "nowhere.csv: no such file", "runs[2].inputs.force: ", "windows.length: must be from 0.01",
+        "fit.mas: ", "fit.damping: min must be below max", "hubr: "}) {
+    EXPECT_THAT(end.err, HasSubstr(said));
+  }
+  EXPECT_THAT(fit("scene: none.yaml\nsystem: arm\nruns: []\nfit: {}\n").err,
+              HasSubstr("none.yaml"));
+  EXPECT_THAT(fit("scene: guess.yaml\nsystem: am\nruns: []\nfit: {}\n").err,
+              HasSubstr("the scene has no 'am'; did you mean 'arm'?"));
+  EXPECT_EQ(fit(std::string(kRuns) + "fit: {}\n").status, 2);
+}
+
+}  // namespace
+}  // namespace whirl_twin
