@@ -113,7 +113,9 @@ void Judging::run() {
     busy_ += taken;
     std::optional<Waiting>& newer = waiting_[judgement.system];
     if (!judgement.speeds) {  // they come with the next turn, about the newest state
-      newer = newer ? std::move(newer) : std::move(waiting);
+      if (!newer) {
+        newer = std::move(waiting);
+      }
       newer->with_speeds = newer->request.built == judgement.built;
     }
     done_.push_back(std::move(judgement));

@@ -16,6 +16,12 @@
 
 namespace whirl_twin {
 
+#ifndef WHIRL_TWIN_FIT
+ShootingFit fitByShooting(const FitStudy&, const FitProgress&) {
+  throw RunFailure("fit: this twin was built without Ceres: scripts/setup --fit, then build again");
+}
+#endif
+
 namespace {
 
 constexpr const char* kDescription =
@@ -63,12 +69,6 @@ void writeScene(const FitStudy& study, const ShootingFit& fit, const std::string
   readSceneFile(file.path());
   file.complete();
 }
-
-#ifndef WHIRL_TWIN_FIT
-ShootingFit fitByShooting(const FitStudy&, const FitProgress&) {
-  throw RunFailure("fit: this twin was built without Ceres: scripts/setup --fit, then build again");
-}
-#endif
 
 int fit(const Request& request) {
   requirePictureName(request.plot);
