@@ -1,15 +1,39 @@
 #include "mechanics/pendulums/double_pendulum.h"
 
+#include "mechanics/pendulums/motor_double_pendulum.h"
 #include "mechanics/pendulums/relative_double_pendulum.h"
 #include "models/model_entry.h"
 #include "models/models.h"
 
 namespace whirl_twin {
 
+namespace {
+
+bool hasMotors(const ParameterValues& values, const Settings&) {
+  return values.at("motor_inertia1") != 0.0 || values.at("motor_inertia2") != 0.0;
+}
+
+void requireRelative(const Settings& settings) {
+  const auto found = settings.choices.find("coordinates");
+  if (found == settings.choices.end() || found->second != "relative") {
+    throw SetupError("motor_inertia1", "motors at the joints need coordinates: relative");
+  }
+}
+
+}  // namespace
+
 ModelInfo doublePendulumInfo() {
   ModelInfo info = modelInfo<DoublePendulum>();
   addVariant<RelativeDoublePendulum>(info, "coordinates", "absolute", "relative",
                                      "the lower angle from the vertical, or from the upper rod");
+  addVariant<MotorDoublePendulum>(info, "motor_inertia1 or motor_inertia2 > 0", hasMotors);
+  info.setUp = [plain = info.setUp](const ParameterValues& values, const Settings& settings,
+                                    const Surroundings& around) {
+    if (hasMotors(values, settings)) {
+      requireRelative(settings);
+    }
+    return plain(values, settings, around);
+  };
   return info;
 }
 

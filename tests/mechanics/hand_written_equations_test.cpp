@@ -17,9 +17,7 @@ constexpr int kStates = 1000;
 // (m1 c1^2 + I1 + m2 l1^2) th1'' + m2 l1 c2 (cos D th2'' + sin D th2'^2)
 //     + (m1 c1 + m2 l1) g sin th1 = t2 - t1
 // (m2 c2^2 + I2) th2'' + m2 l1 c2 (cos D th1'' - sin D th1'^2) + m2 g c2 sin th2 = -t2,
-// D = th1 - th2; and of the motors' rotors, at G1 th1' and at (1 - G2) th1' + G2 th2':
-// J1 G1^2 th1'' + J2 (1 - G2) ((1 - G2) th1'' + G2 th2'') in the first line,
-// J2 G2 ((1 - G2) th1'' + G2 th2'') in the second
+// D = th1 - th2
 TEST(HandWritten, DoublePendulum) {
   std::mt19937_64 random(1738);
   for (int i = 0; i < kStates; ++i) {
@@ -37,19 +35,16 @@ TEST(HandWritten, DoublePendulum) {
     const double upper = torque("1", s.v[0]);
     const double lower = torque("2", s.v[1] - s.v[0]);
     const double d = std::sin(s.q[0] - s.q[1]);
-    const double rotor2 = given("motor_inertia2");
-    const double gear2 = given("gear_ratio2");
-    const double m11 = second + m2 * l1 * l1 +
-                       given("motor_inertia1") * given("gear_ratio1") * given("gear_ratio1") +
-                       rotor2 * (1.0 - gear2) * (1.0 - gear2);
-    const double m12 = m2 * l1 * c2 * std::cos(s.q[0] - s.q[1]) + rotor2 * (1.0 - gear2) * gear2;
-    const double m22 = m2 * c2 * c2 + given("inertia2") + rotor2 * gear2 * gear2;
+    const double m11 = second + m2 * l1 * l1;
+    const double m12 = m2 * l1 * c2 * std::cos(s.q[0] - s.q[1]);
+    const double m22 = m2 * c2 * c2 + given("inertia2");
     const double f1 = -m2 * l1 * c2 * d * s.v[1] * s.v[1] -
                       (first + m2 * l1) * s.gravity * std::sin(s.q[0]) - upper + lower;
     const double f2 =
         m2 * l1 * c2 * d * s.v[0] * s.v[0] - m2 * s.gravity * c2 * std::sin(s.q[1]) - lower;
-    const auto determinant = static_cast<double>(static_cast<long double>(m11) * m22 -
-                                                 static_cast<long double>(m12) * m12);
+    // The determinant without the cancellation of m11 m22 - m12^2.
+    const double determinant =
+        second * m22 + m2 * l1 * l1 * given("inertia2") + m2 * l1 * l1 * m2 * c2 * c2 * d * d;
     const Eigen::Vector2d a((m22 * f1 - m12 * f2) / determinant,
                             (m11 * f2 - m12 * f1) / determinant);
     const Vector found = s.dynamics->acceleration(s.q, s.v, s.at);
@@ -58,6 +53,32 @@ TEST(HandWritten, DoublePendulum) {
       ASSERT_NEAR(found[k], a[k], 1e-12 * cancelled * std::abs(a[k]))
           << "state " << i << ", coordinate " << k;
     }
+  }
+}
+
+// A motor on each joint with a gear of ratio G that reverses: (G^2 + 1) J in 11, -G J in 12, G^2 J
+// in 22 of the mass matrix in relative coordinates.
+TEST(HandWritten, MotorsOfADoublePendulum) {
+  std::mt19937_64 random(1750);
+  const double j = 0.02;
+  const double g = 6.0;
+  VariantUnderTest driven{"double_pendulum", "", {}, {}, {}};
+  driven.settings.choices["coordinates"] = "relative";
+  driven.parameters = {
+      {"motor_inertia1", j}, {"motor_inertia2", j}, {"gear_ratio1", g}, {"gear_ratio2", -g}};
+  for (int i = 0; i < kStates; ++i) {
+    const RandomState with = randomState(driven, random);
+    ParameterValues parameters = with.parameters;
+    parameters["motor_inertia1"] = parameters["motor_inertia2"] = 0.0;
+    const auto without = findModel("double_pendulum")
+                             ->setUp(parameters, driven.settings, Surroundings(with.gravity))
+                             .dynamics;
+    const Eigen::MatrixXd added = with.dynamics->massMatrix(with.q, with.v, with.at) -
+                                  without->massMatrix(with.q, with.v, with.at);
+    const double rounding = 1e-14 * with.dynamics->massMatrix(with.q, with.v, with.at).norm();
+    ASSERT_NEAR(added(0, 0), (g * g + 1.0) * j, rounding);
+    ASSERT_NEAR(added(0, 1), -g * j, rounding);
+    ASSERT_NEAR(added(1, 1), g * g * j, rounding);
   }
 }
 

@@ -29,6 +29,10 @@ inline RandomState anyRandomState(const VariantUnderTest& variant, std::mt19937_
   const ModelInfo& model = *findModel(variant.model);
   RandomState s;
   for (const ParameterInfo& p : model.parameters) {
+    if (p.name.rfind("motor_", 0) == 0 || p.name.rfind("gear_", 0) == 0) {
+      s.parameters[p.name] = 0.0;  // unless the form says otherwise
+      continue;
+    }
     // Positive ones over two decades; one in three that may be 0 is.
     const double size = std::pow(10.0, between(-1.0, 1.0));
     s.parameters[p.name] = p.range == Range::kAny          ? between(-3.0, 3.0)

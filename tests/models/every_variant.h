@@ -29,7 +29,7 @@ struct VariantUnderTest {
 /// A number that chooses a form of its model, or belongs to one: 0 in all others.
 inline bool choosesForm(const std::string& parameter) {
   for (const char* start : {"regularization", "loss_factor", "rub_", "rotor_radius", "bearing_",
-                            "journal_", "stiffness_asymmetry"}) {
+                            "journal_", "stiffness_asymmetry", "motor_", "gear_"}) {
     if (parameter.rfind(start, 0) == 0) {
       return true;
     }
@@ -49,6 +49,12 @@ inline void addCompanions(VariantUnderTest& v) {
       v.parameters[name] = 0.3;
     }
     v.parameters["bearing_clearance"] = 10.0;  // beyond every state of these tests
+  }
+  if (v.parameters.count("motor_inertia1") != 0) {
+    v.settings.choices["coordinates"] = "relative";
+    v.parameters["gear_ratio1"] = 3.0;
+    v.parameters["motor_inertia2"] = 0.1;
+    v.parameters["gear_ratio2"] = -2.0;
   }
   if (v.motor) {
     v.parameters["polar_inertia"] = 0.3;

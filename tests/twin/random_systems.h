@@ -195,9 +195,9 @@ class RandomSystems {
                        {"coulomb2", friction * between(0.0, 1.0)},
                        {"coulomb_rate", between(2.0, 5.0)},  // wide enough for steps to follow it
                        {"motor_inertia1", 0.0},
-                       {"motor_inertia2", bodies ? l1 * l1 * between(0.0, 0.01) : 0.0},
+                       {"motor_inertia2", 0.0},
                        {"gear_ratio1", 1.0},
-                       {"gear_ratio2", between(-5.0, 5.0)}};
+                       {"gear_ratio2", 1.0}};
     spec.q = {between(-2.0, 2.0), between(-2.0, 2.0)};
     spec.v = {between(-2.0, 2.0), between(-2.0, 2.0)};
     return 25.0;  // the lower arm whips round, faster than it swings

@@ -12,13 +12,6 @@
 // (l1 theta1')^2 + (lc2 theta2')^2 + 2 l1 lc2 theta1' theta2' cos(theta1 - theta2), the last cosine
 // from the sines and cosines that the weights need anyway.
 //
-// A motor at a joint adds the inertia of its rotor J, which a gear of ratio G turns at G times the
-// joint's rate on top of what carries it: the frame at the upper joint, the upper arm at the lower,
-//
-//   T += J1 (G1 theta1')^2 / 2 + J2 (theta1' + G2 w)^2 / 2
-//
-// (a gear that reverses has G < 0; with B. Siciliano et al., Robotics, 2009, sec. 7.1.2).
-//
 // Coulomb friction in the joints is regularised: s(w) = sqrt(w^2 + w0^2) makes of the jump at w = 0
 // a moment Mc w / sqrt(w^2 + w0^2), short of Mc by the share (w0 / w)^2 / 2; w0 is `coulomb_rate`.
 // A joint that would stick creeps, at w0 M / sqrt(Mc^2 - M^2) under a moment M < Mc, so in the long
@@ -52,19 +45,20 @@ struct DoublePendulum {
   static constexpr std::array<Coordinate, kDof> kCoordinates{
       {{"theta1", "rad"}, {"theta2", "rad"}}};
 
-  double mass1 = 0.0;           ///< [kg]
-  double mass2 = 0.0;           ///< [kg]
-  double length1 = 0.0;         ///< [m], joint to joint
-  double length2 = 0.0;         ///< [m]
-  double center1 = 0.0;         ///< [m], upper joint to the upper mass centre
-  double center2 = 0.0;         ///< [m], lower joint to the lower mass centre
-  double inertia1 = 0.0;        ///< [kg m^2], about the mass centre
-  double inertia2 = 0.0;        ///< [kg m^2], about the mass centre
-  double damping1 = 0.0;        ///< [N m s/rad], at the upper joint
-  double damping2 = 0.0;        ///< [N m s/rad], at the lower joint
-  double coulomb1 = 0.0;        ///< [N m], at the upper joint
-  double coulomb2 = 0.0;        ///< [N m], at the lower joint
-  double coulomb_rate = 0.0;    ///< [rad/s], w0: below it Coulomb friction is regularised
+  double mass1 = 0.0;         ///< [kg]
+  double mass2 = 0.0;         ///< [kg]
+  double length1 = 0.0;       ///< [m], joint to joint
+  double length2 = 0.0;       ///< [m]
+  double center1 = 0.0;       ///< [m], upper joint to the upper mass centre
+  double center2 = 0.0;       ///< [m], lower joint to the lower mass centre
+  double inertia1 = 0.0;      ///< [kg m^2], about the mass centre
+  double inertia2 = 0.0;      ///< [kg m^2], about the mass centre
+  double damping1 = 0.0;      ///< [N m s/rad], at the upper joint
+  double damping2 = 0.0;      ///< [N m s/rad], at the lower joint
+  double coulomb1 = 0.0;      ///< [N m], at the upper joint
+  double coulomb2 = 0.0;      ///< [N m], at the lower joint
+  double coulomb_rate = 0.0;  ///< [rad/s], w0: below it Coulomb friction is regularised
+  // Of motors at the joints, which are a form of their own (motor_double_pendulum.h).
   double motor_inertia1 = 0.0;  ///< [kg m^2], J1, of the rotor at the upper joint
   double motor_inertia2 = 0.0;  ///< [kg m^2], J2
   double gear_ratio1 = 0.0;     ///< [-], G1
@@ -127,18 +121,10 @@ struct DoublePendulum {
   template <class S>
   WHIRL_TWIN_INLINE S kinetic(const std::array<S, 2>& q, const std::array<S, 2>& v,
                               const Moment<S>&) const {
-    const double carried = (1.0 - gear_ratio2) * motor_inertia2;
-    S t = (0.5 * (mass1 * center1 * center1 + inertia1 + mass2 * length1 * length1 +
-                  motor_inertia1 * gear_ratio1 * gear_ratio1 + carried * (1.0 - gear_ratio2))) *
-              (v[0] * v[0]) +
-          (0.5 *
-           (inertia2 + mass2 * center2 * center2 + motor_inertia2 * gear_ratio2 * gear_ratio2)) *
-              (v[1] * v[1]) +
-          (mass2 * length1 * center2) * (cosOfDifference(q[0], q[1]) * (v[0] * v[1]));
-    if (carried != 0.0) {
-      t = t + (carried * gear_ratio2) * (v[0] * v[1]);
-    }
-    return t;
+    return (0.5 * (mass1 * center1 * center1 + inertia1 + mass2 * length1 * length1)) *
+               (v[0] * v[0]) +
+           (0.5 * (inertia2 + mass2 * center2 * center2)) * (v[1] * v[1]) +
+           (mass2 * length1 * center2) * (cosOfDifference(q[0], q[1]) * (v[0] * v[1]));
   }
   template <class S>
   WHIRL_TWIN_INLINE S potential(const std::array<S, 2>& q, const Moment<S>&) const {
