@@ -15,6 +15,7 @@
 
 #include <cmath>
 
+#include "integration/lanes.h"
 #include "integration/motion_state.h"
 #include "integration/stage_solver.h"
 
@@ -112,7 +113,7 @@ class GaussLegendre {
     if (warm_) {
       a = extrapolated();
     } else {
-      a.fill(equation(state.q, state.v, offset).acceleration);
+      a.fill(Lanes<n>(equation(state.q, state.v, offset).acceleration));
     }
     Powers power;
     if (!fixedPoint(equation, offset, h, state, a, power)) {
@@ -126,16 +127,16 @@ class GaussLegendre {
 
  private:
   using Tableau = gauss_legendre::Tableau<stages>;
-  using Stages = std::array<std::array<double, n>, stages>;
+  using Stages = std::array<Lanes<n>, stages>;
   using Powers = std::array<double, stages>;
 
   /// A step by Newton's method; where that does not converge, two of half the length.
   template <class Equation>
-  StepStatus stiffStep(const Equation& equation, double offset, double h, int halvings,
-                       MotionState<n>& state) {
+  [[gnu::noinline, gnu::cold]] StepStatus stiffStep(const Equation& equation, double offset,
+                                                    double h, int halvings, MotionState<n>& state) {
     const std::array<double, n> start = equation(state.q, state.v, offset).acceleration;
     Stages a;
-    a.fill(start);
+    a.fill(Lanes<n>(start));
     Powers power;
     if (newton(equation, offset, h, state, a, power) && plausible(h, state, start, a)) {
       last_ = a;
@@ -168,7 +169,7 @@ class GaussLegendre {
       suggested = std::fmax(suggested, std::fabs(state.q[i]) + h * std::fabs(state.v[i]) +
                                            h * h * std::fabs(start[i]));
       for (std::size_t k = 0; k < stages; ++k) {
-        found = std::fmax(found, h * h * std::fabs(a[k][i]));
+        found = std::fmax(found, h * h * std::fabs(a[k].array()[i]));
       }
     }
     return found <= 10.0 * suggested;
@@ -177,23 +178,23 @@ class GaussLegendre {
   /// From the stages to the end of the step.
   static WHIRL_TWIN_INLINE void finish(double h, const Stages& a, const Powers& power,
                                        MotionState<n>& state) {
-    std::array<double, n> dq;
-    std::array<double, n> dv;
-    for (std::size_t i = 0; i < n; ++i) {
-      double rate = 0.0;
-      double position = 0.0;
-      for (std::size_t k = 0; k < stages; ++k) {
-        rate += Tableau::kWeights[k] * a[k][i];
-        position += Tableau::kWeights[k] * (1.0 - Tableau::kNodes[k]) * a[k][i];
-      }
-      dv[i] = h * rate;
-      dq[i] = h * (state.v[i] + h * position);
+    Lanes<n> rate{};
+    Lanes<n> position{};
+    for (std::size_t k = 0; k < stages; ++k) {
+      rate.add(Tableau::kWeights[k], a[k]);
+      position.add(Tableau::kWeights[k] * (1.0 - Tableau::kNodes[k]), a[k]);
     }
+    Lanes<n> mean(state.v);
+    mean.add(h, position);
+    Lanes<n> dq{};
+    Lanes<n> dv{};
+    dq.add(h, mean);
+    dv.add(h, rate);
     double mean_power = 0.0;
     for (std::size_t k = 0; k < stages; ++k) {
       mean_power += Tableau::kWeights[k] * power[k];
     }
-    state.advance(dq, dv, h * mean_power);
+    state.advance(dq.array(), dv.array(), h * mean_power);
   }
 
   static constexpr std::size_t kMiddle = stages / 2;  ///< a stage in or near the middle
@@ -221,9 +222,7 @@ class GaussLegendre {
     Stages a{};
     for (std::size_t k = 0; k < stages; ++k) {
       for (std::size_t j = 0; j < stages; ++j) {
-        for (std::size_t i = 0; i < n; ++i) {
-          a[k][i] += gauss_legendre::kContinued<stages>[k][j] * last_[j][i];
-        }
+        a[k].add(gauss_legendre::kContinued<stages>[k][j], last_[j]);
       }
     }
     return a;
@@ -233,28 +232,36 @@ class GaussLegendre {
   static WHIRL_TWIN_INLINE void stage(std::size_t k, double h, const MotionState<n>& state,
                                       const Stages& a, std::array<double, n>& q,
                                       std::array<double, n>& v) {
-    for (std::size_t i = 0; i < n; ++i) {
-      double rate = 0.0;
-      double position = 0.0;
-      for (std::size_t j = 0; j < stages; ++j) {
-        rate += Tableau::kA[k][j] * a[j][i];
-        position += gauss_legendre::kAA<stages>[k][j] * a[j][i];
-      }
-      v[i] = state.v[i] + h * rate;
-      q[i] = state.q[i] + h * (Tableau::kNodes[k] * state.v[i] + h * position);
+    Lanes<n> rate{};
+    Lanes<n> position{};
+    for (std::size_t j = 0; j < stages; ++j) {
+      rate.add(Tableau::kA[k][j], a[j]);
+      position.add(gauss_legendre::kAA<stages>[k][j], a[j]);
     }
+    const Lanes<n> v0(state.v);
+    Lanes<n> mean{};
+    mean.add(Tableau::kNodes[k], v0);
+    mean.add(h, position);
+    Lanes<n> at_stage(state.q);
+    at_stage.add(h, mean);
+    q = at_stage.array();
+    at_stage = v0;
+    at_stage.add(h, rate);
+    v = at_stage.array();
   }
 
   template <class Equation>
   WHIRL_TWIN_INLINE void evaluate(const Equation& equation, double offset, double h,
                                   const MotionState<n>& state, const Stages& a, Stages& result,
                                   Powers& power) const {
+    // One copy of the equations: what they make of the parameters alone is then computed once.
+#pragma GCC unroll 1
     for (std::size_t k = 0; k < stages; ++k) {
       std::array<double, n> q;
       std::array<double, n> v;
       stage(k, h, state, a, q, v);
       const auto d = equation(q, v, offset + Tableau::kNodes[k] * h);
-      result[k] = d.acceleration;
+      result[k] = Lanes<n>(d.acceleration);
       power[k] = d.power;
     }
   }
@@ -265,9 +272,11 @@ class GaussLegendre {
     change = 0.0;
     size = 0.0;
     for (std::size_t k = 0; k < stages; ++k) {
+      const std::array<double, n> changes = (now[k] - before[k]).array();
+      const std::array<double, n> sizes = now[k].array();
       for (std::size_t i = 0; i < n; ++i) {
-        const double c = std::fabs(now[k][i] - before[k][i]);
-        const double s = std::fabs(now[k][i]);
+        const double c = std::fabs(changes[i]);
+        const double s = std::fabs(sizes[i]);
         change = c > change ? c : change;
         size = s > size ? s : size;
       }
@@ -324,25 +333,25 @@ class GaussLegendre {
     for (int iteration = 0; iteration < kMaxNewton; ++iteration) {
       Stages next;
       evaluate(equation, offset, h, state, a, next, power);
-      Stages residual;
+      std::array<std::array<double, n>, stages> residual;
       for (std::size_t k = 0; k < stages; ++k) {
-        for (std::size_t i = 0; i < n; ++i) {
-          residual[k][i] = next[k][i] - a[k][i];
-        }
+        residual[k] = (next[k] - a[k]).array();
       }
-      const Stages correction = solver.solve(residual);
+      const auto correction = solver.solve(residual);
       double size = 0.0;
       double change = 0.0;
       bool small = true;
       for (std::size_t k = 0; k < stages; ++k) {
+        a[k] = a[k] + Lanes<n>(correction[k]);
+        const std::array<double, n> sizes = a[k].array();
+        const std::array<double, n> next_sizes = next[k].array();
         for (std::size_t i = 0; i < n; ++i) {
           const double c = correction[k][i];
-          a[k][i] += c;
           change = std::fmax(change, std::fabs(c));
           small = small &&
                   h * h * std::fabs(c) <=
                       kRoundingsOfPosition * (std::fabs(state.q[i]) + h * std::fabs(state.v[i]));
-          size = std::fmax(size, std::fmax(std::fabs(a[k][i]), std::fabs(next[k][i])));
+          size = std::fmax(size, std::fmax(std::fabs(sizes[i]), std::fabs(next_sizes[i])));
         }
       }
       if (change <= kTolerance * size + kNothing) {

@@ -7,6 +7,7 @@
 // Stable for h |lambda| < 2 on an undamped oscillator.
 #pragma once
 
+#include "integration/lanes.h"
 #include "integration/motion_state.h"
 
 namespace whirl_twin {
@@ -21,13 +22,11 @@ struct SemiImplicitEuler {
   WHIRL_TWIN_INLINE StepStatus step(const Equation& equation, double offset, double h,
                                     MotionState<n>& state) {
     const auto start = equation(state.q, state.v, offset);
-    std::array<double, n> dq;
-    std::array<double, n> dv;
-    for (std::size_t i = 0; i < n; ++i) {
-      dv[i] = h * start.acceleration[i];
-      dq[i] = h * (state.v[i] + dv[i]);
-    }
-    state.advance(dq, dv, h * start.power);
+    Lanes<n> dv{};
+    dv.add(h, Lanes<n>(start.acceleration));
+    Lanes<n> dq{};
+    dq.add(h, Lanes<n>(state.v) + dv);
+    state.advance(dq.array(), dv.array(), h * start.power);
     return StepStatus::kOk;
   }
 };

@@ -1,6 +1,8 @@
 // Inlining is what makes derived equations of motion as fast as hand-written ones: with every dual
 // operation visible the compiler deletes the terms whose seeds are literal zeros. Loops over the
-// directions hide them from it until too late: they are written out instead.
+// directions hide them from it until too late: they are written out instead. Components of duals
+// are plain arrays: the subscripts of std::array are calls, thousands in a step, and the compiler
+// weighs for each whether to inline it, which takes longer than all else.
 // Where the equations are long and their terms all alive (a bearing's film, a spin that is a state)
 // that would take minutes and gigabytes to compile and bring nothing: their translation units
 // define WHIRL_TWIN_LONG_EQUATIONS and leave inlining to the compiler.

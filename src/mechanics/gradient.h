@@ -4,7 +4,6 @@
 // (by the rates), and as the base of LagrangianDual where a linearization is wanted.
 #pragma once
 
-#include <array>
 #include <cstddef>
 
 #include "mechanics/elementary.h"
@@ -15,7 +14,7 @@ namespace whirl_twin {
 template <class B, std::size_t N>
 struct Gradient {
   B value{};
-  std::array<B, N> slope{};
+  B slope[N]{};  ///< plain: force_inline.h
 
   Gradient() = default;
   WHIRL_TWIN_INLINE Gradient(double constant) : value(constant) {}  // NOLINT: a constant is a dual

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -179,7 +180,10 @@ template <class Model, std::size_t n>
 std::array<double, n> momenta(const Model& model, const std::array<double, n>& q,
                               const std::array<double, n>& v, const Moment<double>& at) {
   const ByRates<n> by_rates(q, v, at);
-  return model.kinetic(by_rates.q, by_rates.v, by_rates.at).slope;
+  const auto t = model.kinetic(by_rates.q, by_rates.v, by_rates.at);
+  std::array<double, n> momenta;
+  std::copy_n(t.slope, n, momenta.begin());
+  return momenta;
 }
 
 /// Energies and powers at a state.

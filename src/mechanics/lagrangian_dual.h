@@ -6,10 +6,10 @@
 //
 // q is seeded with dq_j = 1 and rate v_j, v with dv_j = 1 and rate 0, time with rate 1. Second
 // derivatives by q alone, which a general second-order dual would carry, are never needed.
-// The base B is double in a step, Gradient<double, 2n> for a linearization.
+// The base B is double in a step, Gradient<double, 2n> for a linearization. Plain arrays:
+// force_inline.h.
 #pragma once
 
-#include <array>
 #include <cstddef>
 
 #include "mechanics/elementary.h"
@@ -22,12 +22,12 @@ struct LagrangianDual {
   static constexpr std::size_t kPairs = n * (n + 1) / 2;
 
   B value{};
-  std::array<B, n> by_q{};
-  std::array<B, n> by_v{};
-  std::array<B, kPairs> by_vv{};  ///< packed lower triangle: (j, k), k <= j, at j (j + 1) / 2 + k
-  B rate{};                       ///< along q' = v, t' = 1
-  B by_t{};                       ///< df/dt, with q and v held
-  std::array<B, n> by_v_rate{};   ///< (d2/dv_j dq) v + d2/dv_j dt
+  B by_q[n]{};
+  B by_v[n]{};
+  B by_vv[kPairs]{};  ///< packed lower triangle: (j, k), k <= j, at j (j + 1) / 2 + k
+  B rate{};           ///< along q' = v, t' = 1
+  B by_t{};           ///< df/dt, with q and v held
+  B by_v_rate[n]{};   ///< (d2/dv_j dq) v + d2/dv_j dt
 
   LagrangianDual() = default;
   WHIRL_TWIN_INLINE LagrangianDual(double constant) : value(constant) {}  // NOLINT: a constant
