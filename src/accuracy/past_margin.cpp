@@ -1,11 +1,11 @@
 #include "accuracy/past_margin.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "algebra/eigenvalues.h"
+#include "algebra/lu.h"
 #include "integration/stoermer_growth.h"
 
 namespace whirl_twin {

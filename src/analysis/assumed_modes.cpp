@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
-
+#include "algebra/qr.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <cmath>
 #include <limits>
 
+#include "algebra/qr.h"
+#include "algebra/svd.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {

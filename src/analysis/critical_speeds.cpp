@@ -1,6 +1,5 @@
 #include "analysis/critical_speeds.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -8,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "algebra/lu.h"
 #include "analysis/bracketed_root.h"
 #include "analysis/cyclic_coordinates.h"
 #include "analysis/equilibrium_branch.h"

@@ -1,13 +1,13 @@
 #include "analysis/cyclic_coordinates.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "algebra/cholesky.h"
+#include "algebra/lu.h"
+#include "algebra/svd.h"
 #include "analysis/quadratic_form.h"
 #include "analysis/stability_margins.h"
 

@@ -1,11 +1,12 @@
 #include "analysis/eigenvalue_refinement.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
+
+#include "algebra/cholesky.h"
+#include "algebra/eigenvalues.h"
 
 namespace whirl_twin {
 

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <cmath>
 
+#include "algebra/lu.h"
+#include "algebra/svd.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {

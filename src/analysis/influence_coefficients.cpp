@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
-
+#include "algebra/cholesky.h"
 #include "analysis/rigid_body_modes.h"
 #include "messages/refusal.h"
 

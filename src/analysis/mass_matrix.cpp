@@ -1,6 +1,6 @@
 #include "analysis/mass_matrix.h"
 
-#include <Eigen/Eigenvalues>
+#include "algebra/eigenvalues.h"
 
 namespace whirl_twin {
 

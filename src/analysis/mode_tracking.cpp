@@ -1,12 +1,13 @@
 #include "analysis/mode_tracking.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <tuple>
 #include <utility>
+
+#include "algebra/cholesky.h"
+#include "algebra/qr.h"
 
 namespace whirl_twin {
 

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <stdexcept>
 
+#include "algebra/cholesky.h"
+#include "algebra/qr.h"
+#include "algebra/svd.h"
 #include "analysis/rigid_body_modes.h"
 
 namespace whirl_twin {

@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
-
+#include "algebra/eigenvalues.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {

@@ -1,8 +1,7 @@
 #include "analysis/rigid_body_modes.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-
+#include "algebra/eigenvalues.h"
+#include "algebra/qr.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {

@@ -1,15 +1,15 @@
 #include "analysis/stability.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
 
+#include "algebra/cholesky.h"
+#include "algebra/eigenvalues.h"
+#include "algebra/lu.h"
+#include "algebra/svd.h"
 #include "analysis/characteristic_polynomial.h"
 #include "analysis/quadratic_form.h"
 #include "analysis/rigid_body_modes.h"

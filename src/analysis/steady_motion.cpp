@@ -1,11 +1,11 @@
 #include "analysis/steady_motion.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/cholesky.h"
+#include "algebra/lu.h"
+#include "algebra/qr.h"
 #include "analysis/mass_matrix.h"
 
 namespace whirl_twin {

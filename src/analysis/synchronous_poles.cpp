@@ -1,10 +1,11 @@
 #include "analysis/synchronous_poles.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "algebra/eigenvalues.h"
+#include "algebra/lu.h"
 
 namespace whirl_twin {
 

@@ -1,10 +1,10 @@
 #include "analysis/synchronous_response.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 
+#include "algebra/lu.h"
 #include "analysis/synchronous_poles.h"
 #include "analysis/whirl_modes.h"
 

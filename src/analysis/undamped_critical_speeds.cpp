@@ -1,10 +1,10 @@
 #include "analysis/undamped_critical_speeds.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/cholesky.h"
+#include "algebra/eigenvalues.h"
 #include "analysis/bracketed_root.h"
 #include "analysis/whirl_modes.h"
 #include "messages/refusal.h"

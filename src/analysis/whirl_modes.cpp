@@ -1,12 +1,12 @@
 #include "analysis/whirl_modes.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
+#include "algebra/eigenvalues.h"
+#include "algebra/lu.h"
+#include "algebra/qr.h"
 #include "analysis/cyclic_coordinates.h"
 #include "analysis/stability_margins.h"
 #include "messages/refusal.h"

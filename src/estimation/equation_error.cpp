@@ -1,9 +1,10 @@
 #include "estimation/equation_error.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+
+#include "algebra/cholesky.h"
+#include "algebra/qr.h"
 
 namespace whirl_twin {
 

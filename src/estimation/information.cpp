@@ -1,11 +1,12 @@
 #include "estimation/information.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "algebra/cholesky.h"
+#include "algebra/eigenvalues.h"
+#include "algebra/qr.h"
 
 namespace whirl_twin {
 
@@ -63,7 +64,7 @@ Information information(const NormalEquations& normal, const std::vector<Unknown
   std::vector<bool> sized(static_cast<std::size_t>(n));
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    size[i] = std::max(std::fabs(theta[i]), std::fabs(unknowns[k].start));
+    size[i] = unknowns[k].size(theta[i]);
     sized[k] = size[i] > 0.0;
     if (!sized[k]) {
       const double alone = normal.matrix(i, i);

@@ -120,8 +120,7 @@ void Shooting::chooseDifferences(const std::vector<Window>& windows,
         continue;  // without effect
       }
       const double by = kMoved * measured / std::sqrt(square / count);
-      const double start = std::fabs(maker_.unknowns()[static_cast<std::size_t>(i)].start);
-      const double about = std::max(start, std::fabs(theta_[i]));
+      const double about = maker_.unknowns()[static_cast<std::size_t>(i)].size(theta_[i]);
       change_[i] *= std::clamp(by, 1.0e-4, 1.0e4);
       if (about > 0.0) {
         change_[i] = std::min(change_[i], kMostOfUnknown * about);

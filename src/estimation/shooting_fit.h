@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 #include <functional>
-#include <string>
 #include <vector>
 
 #include "estimation/fit_study.h"
@@ -15,8 +14,7 @@ namespace whirl_twin {
 
 /// A run beside what is predicted of it.
 struct FittedRun {
-  std::vector<MeasuredChannel> channels;    ///< with the zeros and scales that were found
-  std::vector<Eigen::Index> window_starts;  ///< rows
+  std::vector<MeasuredChannel> channels;  ///< with the zeros and scales that were found
   Eigen::MatrixXd states;   ///< predicted coordinates and rates [2n x rows]; NaN where it stops
   std::vector<double> rms;  ///< of each channel [its unit], over all windows
   /// Of each channel, correlation of a residual with the next one: 0 for white ones.
@@ -26,21 +24,19 @@ struct FittedRun {
 struct ShootingFit {
   std::vector<Unknown> unknowns;
   Eigen::VectorXd theta;  ///< in their order
-  SharedSystem system;    ///< with them
   Information information;
   std::vector<bool> at_bound;  ///< of each unknown
   std::vector<FittedRun> runs;
-  double rms = 0.0;  ///< of all training residuals, in deviations
   int iterations = 0;
   bool converged = true;
 };
 
-/// told(done, of) now and then.
+/// told(done, of) after each stage and each run.
 using FitProgress = std::function<void(int done, int of)>;
 
-/// In directions that the runs do
-/// not tell the unknowns stay where they start. Throws Refusal for start values that the model
-/// cannot have, and RunFailure where the motion does not get through a training run from them.
+/// In directions that the runs do not tell the unknowns stay where they start. Throws Refusal for
+/// start values that the model cannot have, and RunFailure where the motion does not get through a
+/// training run from them.
 ShootingFit fitByShooting(const FitStudy& study, const FitProgress& progress);
 
 }  // namespace whirl_twin

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,9 @@ struct Unknown {
   std::string unit;     ///< "" where the model's are not known, of a path into a table
   double start = 0.0;
   double least = 0.0, most = 0.0;  ///< may be infinite
+
+  /// What its changes are measured by where it has this value; 0 where it has none.
+  double size(double value) const { return std::fmax(std::fabs(value), std::fabs(start)); }
 };
 
 /// Those of a study, in order. Parameters that must not be negative have 0 as their least value.

@@ -1,9 +1,9 @@
 #include "estimation/window_motion.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/qr.h"
 #include "realtime/denormals.h"
 
 namespace whirl_twin {

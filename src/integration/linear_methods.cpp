@@ -1,7 +1,5 @@
 #include "integration/linear_methods.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "algebra/cholesky.h"
+#include "algebra/lu.h"
 #include "integration/dormand_prince_8.h"
 #include "integration/exponential.h"
 #include "integration/gauss_legendre.h"

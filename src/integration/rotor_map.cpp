@@ -1,9 +1,9 @@
 #include "integration/rotor_map.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/cholesky.h"
 #include "integration/matrix_exponential.h"
 
 namespace whirl_twin {

@@ -1,13 +1,13 @@
 #include "integration/rotor_step.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
 #include <limits>
 
+#include "algebra/cholesky.h"
+#include "algebra/lu.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {

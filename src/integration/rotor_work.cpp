@@ -1,11 +1,12 @@
 #include "integration/rotor_work.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <complex>
+
+#include "algebra/cholesky.h"
+#include "algebra/lu.h"
+#include "algebra/qr.h"
 
 namespace whirl_twin {
 

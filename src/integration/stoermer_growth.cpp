@@ -1,6 +1,6 @@
 #include "integration/stoermer_growth.h"
 
-#include <Eigen/Eigenvalues>
+#include "algebra/eigenvalues.h"
 
 namespace whirl_twin {
 

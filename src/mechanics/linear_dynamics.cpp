@@ -1,11 +1,11 @@
 #include "mechanics/linear_dynamics.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
+#include "algebra/qr.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {

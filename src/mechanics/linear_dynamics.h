@@ -9,13 +9,13 @@
 // The matrices are used as they are: duals of n coordinates would cost n^4.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "algebra/cholesky.h"
 #include "mechanics/dynamics.h"
 
 namespace whirl_twin {

@@ -5,11 +5,11 @@
 // the last term where a bearing's stiffness follows the speed.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "algebra/cholesky.h"
 #include "mechanics/dynamics.h"
 #include "mechanics/linear_rotor.h"
 

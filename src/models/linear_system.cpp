@@ -1,13 +1,13 @@
 // A linear system that a scene gives by its matrices and forces, or by assumed modes of them.
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
 #include <utility>
 
+#include "algebra/cholesky.h"
 #include "analysis/assumed_modes.h"
 #include "integration/linear_methods.h"
 #include "messages/names.h"

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "algebra/eigenvalues.h"
 #include "models/model_info.h"
 
 namespace whirl_twin {

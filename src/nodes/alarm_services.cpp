@@ -14,6 +14,13 @@ namespace {
 
 constexpr std::uint32_t kQueue = 100;  // commands of a sender that is ahead
 
+template <class Response>
+bool tell(const CommandAnswer& given, Response& response) {
+  response.success = given.done;
+  response.message = given.text;
+  return true;
+}
+
 }  // namespace
 
 AlarmServices::AlarmServices(TwinMonitor& monitor, const ros::NodeHandle& own, ros::NodeHandle twin,
@@ -85,19 +92,13 @@ bool AlarmServices::acknowledge(Acknowledge::Request& request, Acknowledge::Resp
   command.command = state::AlarmCommand::kAcknowledge;
   command.system = request.system;
   command.type = request.type;
-  const CommandAnswer given = answer(command);
-  response.success = given.done;
-  response.message = given.text;
-  return true;
+  return tell(answer(command), response);
 }
 
 bool AlarmServices::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   state::AlarmCommand command;
   command.command = state::AlarmCommand::kReset;
-  const CommandAnswer given = answer(command);
-  response.success = given.done;
-  response.message = given.text;
-  return true;
+  return tell(answer(command), response);
 }
 
 bool AlarmServices::inhibit(Inhibit::Request& request, Inhibit::Response& response) {
@@ -105,10 +106,7 @@ bool AlarmServices::inhibit(Inhibit::Request& request, Inhibit::Response& respon
   command.command = state::AlarmCommand::kInhibit;
   command.system = request.system;
   command.duration = request.duration;
-  const CommandAnswer given = answer(command);
-  response.success = given.done;
-  response.message = given.text;
-  return true;
+  return tell(answer(command), response);
 }
 
 }  // namespace whirl_twin

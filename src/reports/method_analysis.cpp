@@ -1,10 +1,10 @@
 #include "reports/method_analysis.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <exception>
 
+#include "algebra/qr.h"
 #include "analysis/assumed_modes.h"
 #include "analysis/dunkerley.h"
 #include "analysis/frequency_response.h"

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
 
+#include "algebra/cholesky.h"
 #include "analysis/critical_speeds.h"
 #include "analysis/instability_speed.h"
 #include "messages/refusal.h"

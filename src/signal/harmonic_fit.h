@@ -9,10 +9,11 @@
 // SAE 931288.)
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <complex>
 #include <vector>
+
+#include "algebra/cholesky.h"
 
 namespace whirl_twin {
 

@@ -1,10 +1,11 @@
 #include "signal/subspace_identification.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+
+#include "algebra/eigenvalues.h"
+#include "algebra/qr.h"
+#include "algebra/svd.h"
 
 namespace whirl_twin {
 

@@ -73,9 +73,14 @@ void writeScene(const FitStudy& study, const ShootingFit& fit, const std::string
 int fit(const Request& request) {
   requirePictureName(request.plot);
   const FitStudy study = readFitStudy(request.study, request.validate_only);
-  ProgressBar bar(static_cast<std::int64_t>(study.runs.size()), request.json);
-  const ShootingFit fit = fitByShooting(study, [&bar](int done, int) { bar.show(done); });
-  bar.clear();
+  std::optional<ProgressBar> bar;
+  const ShootingFit fit = fitByShooting(study, [&](int done, int of) {
+    if (!bar) {
+      bar.emplace(of, request.json);
+    }
+    bar->show(done);
+  });
+  bar->clear();
   if (request.output) {
     writeScene(study, fit, *request.output);
   }

@@ -1,0 +1,3 @@
+#include "algebra/cholesky.h"
+
+WHIRL_TWIN_CHOLESKY()

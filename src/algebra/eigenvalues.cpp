@@ -1,0 +1,3 @@
+#include "algebra/eigenvalues.h"
+
+WHIRL_TWIN_EIGENVALUES()

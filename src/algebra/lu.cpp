@@ -1,0 +1,3 @@
+#include "algebra/lu.h"
+
+WHIRL_TWIN_LU()

@@ -1,0 +1,3 @@
+#include "algebra/qr.h"
+
+WHIRL_TWIN_QR()

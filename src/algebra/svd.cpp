@@ -1,0 +1,3 @@
+#include "algebra/svd.h"
+
+WHIRL_TWIN_SVD()

@@ -1,0 +1,11 @@
+// Eigen's singular value decompositions, those of dense matrices of any size compiled once, in
+// svd.cpp: compiling them takes longer than all that most files that use them have to say.
+#pragma once
+
+#include <Eigen/SVD>
+
+// NOLINTNEXTLINE(bugprone-macro-parentheses): a word of the language
+#define WHIRL_TWIN_SVD(storage)                             \
+  storage template class Eigen::JacobiSVD<Eigen::MatrixXd>; \
+  storage template class Eigen::JacobiSVD<Eigen::MatrixXcd>;
+WHIRL_TWIN_SVD(extern)

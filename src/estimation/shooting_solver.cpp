@@ -1,0 +1,208 @@
+#include "estimation/shooting_solver.h"
+
+#include <ceres/ceres.h>
+#include <ceres/normal_prior.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <thread>
+
+#include "estimation/shooting_costs.h"
+#include "messages/refusal.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr int kIterations = 100;
+constexpr int kStageIterations = 20;
+constexpr int kStartIterations = 30;
+constexpr double kTolerance = 1.0e-7;  // of the squares, in an iteration
+constexpr double kParameterTolerance = 1.0e-10;
+constexpr double kRoughly = 1.0e-6;
+constexpr int kMostThreads = 8;
+
+ceres::Solver::Options quiet(int iterations) {
+  ceres::Solver::Options options;
+  options.logging_type = ceres::SILENT;
+  options.max_num_iterations = iterations;
+  options.function_tolerance = kTolerance;
+  options.parameter_tolerance = kParameterTolerance;
+  options.gradient_tolerance = 0.0;
+  return options;
+}
+
+}  // namespace
+
+ShootingSolver::ShootingSolver(const FitStudy& study)
+    : study_(study), maker_(study), shooting_(study, maker_) {
+  theta_.resize(shooting_.unknowns());
+  for (Eigen::Index i = 0; i < theta_.size(); ++i) {
+    const Unknown& u = unknown(i);
+    theta_[i] = std::clamp(u.start, u.least, u.most);
+  }
+  begin_ = theta_;
+  maker_.at(theta_);  // refused in words, where the model cannot have them
+}
+
+void ShootingSolver::regress() {
+  const EquationError equations(study_, maker_);
+  if (equations.empty()) {
+    return;
+  }
+  ceres::Problem problem;
+  problem.AddResidualBlock(new EquationCost(equations, maker_), nullptr, theta_.data());
+  setBounds(problem);
+  ceres::Solver::Options options = quiet(kIterations);
+  options.function_tolerance = kRoughly;
+  options.linear_solver_type = ceres::DENSE_QR;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  iterations_ += static_cast<int>(summary.iterations.size());
+}
+
+ShootingStage ShootingSolver::stageOf(double length, std::optional<std::size_t> run) {
+  ShootingStage stage;
+  shooting_.setPoint(theta_, false);
+  for (std::size_t r = 0; r < study_.runs.size(); ++r) {
+    if (run ? r == *run : study_.runs[r].train) {
+      for (const Window& window : windowsOf(study_, r, length)) {
+        stage.windows.push_back(window);
+      }
+    }
+  }
+  for (const Window& window : stage.windows) {
+    stage.starts.push_back(measuredStart(study_, shooting_.candidate(), window));
+  }
+  return stage;
+}
+
+std::vector<bool> ShootingSolver::findStarts(ShootingStage& stage) {
+  shooting_.setPoint(theta_, false);
+  std::vector<bool> arrived(stage.windows.size(), true);
+  for (std::size_t w = 0; w < stage.windows.size(); ++w) {
+    for (const Window& part : growing(stage.windows[w])) {
+      arrived[w] = !study_.start_estimated || findStart(part, stage.starts[w]);
+    }
+    Eigen::VectorXd residuals;
+    arrived[w] = arrived[w] && shooting_.residuals(stage.windows[w], stage.starts[w], residuals);
+  }
+  return arrived;
+}
+
+void ShootingSolver::solve(ShootingStage& stage, bool thorough, const Eigen::MatrixXd& held) {
+  shooting_.setPoint(theta_, false);
+  shooting_.chooseDifferences(stage.windows, stage.starts);
+  ceres::Problem::Options problem_options;
+  problem_options.evaluation_callback = this;
+  ceres::Problem problem(problem_options);
+  const auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
+  for (std::size_t w = 0; w < stage.windows.size(); ++w) {
+    auto* cost = new WindowCost(shooting_, stage.windows[w], stage.starts[w], true);
+    if (study_.start_estimated) {
+      problem.AddResidualBlock(cost, nullptr, theta_.data(), stage.starts[w].data());
+      ordering->AddElementToGroup(stage.starts[w].data(), 0);
+    } else {
+      problem.AddResidualBlock(cost, nullptr, theta_.data());
+    }
+  }
+  if (held.rows() > 0) {
+    problem.AddResidualBlock(new ceres::NormalPrior(held, begin_), nullptr, theta_.data());
+  }
+  ordering->AddElementToGroup(theta_.data(), 1);
+  setBounds(problem);
+  ceres::Solver::Options options = quiet(thorough ? kIterations : kStageIterations);
+  options.num_threads =
+      std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, kMostThreads);
+  if (study_.start_estimated) {
+    options.linear_solver_type = ceres::DENSE_SCHUR;
+    options.linear_solver_ordering = ordering;
+  } else {
+    options.linear_solver_type = ceres::DENSE_QR;
+  }
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  iterations_ += static_cast<int>(summary.iterations.size());
+  converged_ = summary.termination_type == ceres::CONVERGENCE;
+  if (summary.termination_type == ceres::FAILURE) {
+    throw RunFailure(fmt::format("{}: the fit failed: {}", study_.source, summary.message));
+  }
+}
+
+NormalEquations ShootingSolver::normalEquations(const ShootingStage& stage) {
+  NormalEquations normal;
+  shooting_.setPoint(theta_, true);
+  for (std::size_t w = 0; w < stage.windows.size(); ++w) {
+    WindowDerivatives d;
+    if (shooting_.derivatives(stage.windows[w], stage.starts[w], true, d)) {
+      if (study_.huber) {
+        Eigen::VectorXd slope;
+        makeRobust(*study_.huber, d.residuals, slope);
+        d.by_unknowns = slope.asDiagonal() * d.by_unknowns;
+        d.by_start = slope.asDiagonal() * d.by_start;
+      }
+      normal.add(d);
+    }
+  }
+  return normal;
+}
+
+Eigen::MatrixXd ShootingSolver::states(const ShootingStage& stage, std::size_t w) {
+  Eigen::MatrixXd states;
+  const Window& window = stage.windows[w];
+  const Eigen::VectorXd start = study_.start_estimated
+                                    ? stage.starts[w]
+                                    : measuredStart(study_, shooting_.candidate(), window);
+  if (!predict(study_, maker_.scene(), shooting_.candidate(), window, start, states)) {
+    states.setConstant(shooting_.startSize(), static_cast<Eigen::Index>(window.count),
+                       std::numeric_limits<double>::quiet_NaN());
+  }
+  return states;
+}
+
+void ShootingSolver::PrepareForEvaluation(bool derivatives, bool new_point) {
+  // Where the model cannot have such parameters, no window is got through.
+  if (new_point || derivatives) {
+    shooting_.setPoint(theta_, derivatives);
+  }
+}
+
+void ShootingSolver::setBounds(ceres::Problem& problem) {
+  for (Eigen::Index i = 0; i < theta_.size(); ++i) {
+    if (std::isfinite(unknown(i).least)) {
+      problem.SetParameterLowerBound(theta_.data(), static_cast<int>(i), unknown(i).least);
+    }
+    if (std::isfinite(unknown(i).most)) {
+      problem.SetParameterUpperBound(theta_.data(), static_cast<int>(i), unknown(i).most);
+    }
+  }
+}
+
+std::vector<Window> ShootingSolver::growing(const Window& window) const {
+  const std::vector<double>& time = study_.runs[window.run].data.time;
+  std::vector<Window> parts;
+  double length = kFirstWindow;
+  for (std::size_t count = 2; count < window.count; ++count) {
+    if (time[window.first + count] - time[window.first] > length) {
+      parts.push_back({window.run, window.first, count});
+      length *= kLonger;
+    }
+  }
+  parts.push_back(window);
+  return parts;
+}
+
+bool ShootingSolver::findStart(const Window& window, Eigen::VectorXd& start) {
+  ceres::Problem problem;
+  problem.AddResidualBlock(new WindowCost(shooting_, window, start, false), nullptr, start.data());
+  ceres::Solver::Options options = quiet(kStartIterations);
+  options.linear_solver_type = ceres::DENSE_QR;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  return summary.IsSolutionUsable();
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,71 @@
+// Solves for the unknowns of a study and the starts of its windows, by Ceres: the parts that
+// fitByShooting() is made of.
+#pragma once
+
+#include <ceres/evaluation_callback.h>
+#include <ceres/problem.h>
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "estimation/information.h"
+#include "estimation/shooting.h"
+
+namespace whirl_twin {
+
+/// Windows, each with the start that was found for it.
+struct ShootingStage {
+  std::vector<Window> windows;
+  std::vector<Eigen::VectorXd> starts;
+};
+
+class ShootingSolver final : public ceres::EvaluationCallback {
+ public:
+  /// A first part of a window: a model that is far off follows for so long [s].
+  static constexpr double kFirstWindow = 0.5;
+  static constexpr double kLonger = 3.0;  ///< from one part, or one stage, to the next
+
+  /// At the start values of the study, which outlives it. Throws Refusal for those that the model
+  /// cannot have.
+  explicit ShootingSolver(const FitStudy& study);
+
+  const CandidateMaker& maker() const { return maker_; }
+  const Eigen::VectorXd& theta() const { return theta_; }
+  const Candidate& candidate() const { return shooting_.candidate(); }
+  int iterations() const { return iterations_; }
+  bool converged() const { return converged_; }
+
+  /// Brings the unknowns to where the equations of motion hold along the runs, roughly.
+  void regress();
+  /// The windows [s] of the runs that are trained on, or of one run, with measured starts.
+  ShootingStage stageOf(double length, std::optional<std::size_t> run);
+  /// The starts alone, over longer and longer parts of their windows. False for a window that is
+  /// not got through.
+  std::vector<bool> findStarts(ShootingStage& stage);
+  /// Unknowns and starts together; `thorough` for the last stage. `held` [held x unknowns]: that
+  /// much of (unknowns - start values) is held to zero. Throws RunFailure.
+  void solve(ShootingStage& stage, bool thorough, const Eigen::MatrixXd& held);
+  NormalEquations normalEquations(const ShootingStage& stage);
+  /// Predicted states of a stage's window [2n x rows]; NaN where it is not got through.
+  Eigen::MatrixXd states(const ShootingStage& stage, std::size_t window);
+
+  void PrepareForEvaluation(bool derivatives, bool new_point) override;
+
+ private:
+  const Unknown& unknown(Eigen::Index i) const {
+    return maker_.unknowns()[static_cast<std::size_t>(i)];
+  }
+  void setBounds(ceres::Problem& problem);
+  std::vector<Window> growing(const Window& window) const;
+  bool findStart(const Window& window, Eigen::VectorXd& start);
+
+  const FitStudy& study_;
+  CandidateMaker maker_;
+  Shooting shooting_;
+  Eigen::VectorXd theta_, begin_;
+  int iterations_ = 0;
+  bool converged_ = true;
+};
+
+}  // namespace whirl_twin
