@@ -13,6 +13,7 @@ inline constexpr char kSubsynchronousWhirl[] = "SUBSYNCHRONOUS_WHIRL";
 inline constexpr char kUnstable[] = "UNSTABLE";
 inline constexpr char kLowDamping[] = "LOW_DAMPING";
 inline constexpr char kRouthDisagrees[] = "ROUTH_DISAGREES";
+inline constexpr char kUnstableWithinSpread[] = "UNSTABLE_WITHIN_SPREAD";
 inline constexpr char kModelMismatch[] = "MODEL_MISMATCH";
 inline constexpr char kEnergyResidual[] = "ENERGY_RESIDUAL";
 inline constexpr char kAccuracyLost[] = "ACCURACY_LOST";
@@ -22,12 +23,25 @@ inline constexpr char kModelInvalid[] = "MODEL_INVALID";
 inline constexpr char kDataLost[] = "DATA_LOST";
 inline constexpr char kLcmLost[] = "LCM_LOST";
 
-inline constexpr const char* kAll[] = {kCriticalSpeedApproach, kInCriticalBand, kSommerfeldCapture,
-                                       kWhirlAmplitude,        kVotedAmplitude, kVibrationZone,
-                                       kSubsynchronousWhirl,   kUnstable,       kLowDamping,
-                                       kRouthDisagrees,        kModelMismatch,  kEnergyResidual,
-                                       kAccuracyLost,          kNotFinite,      kStopped,
-                                       kModelInvalid,          kDataLost,       kLcmLost};
+inline constexpr const char* kAll[] = {kCriticalSpeedApproach,
+                                       kInCriticalBand,
+                                       kSommerfeldCapture,
+                                       kWhirlAmplitude,
+                                       kVotedAmplitude,
+                                       kVibrationZone,
+                                       kSubsynchronousWhirl,
+                                       kUnstable,
+                                       kLowDamping,
+                                       kRouthDisagrees,
+                                       kUnstableWithinSpread,
+                                       kModelMismatch,
+                                       kEnergyResidual,
+                                       kAccuracyLost,
+                                       kNotFinite,
+                                       kStopped,
+                                       kModelInvalid,
+                                       kDataLost,
+                                       kLcmLost};
 
 /// The system of an alert about all of the twin.
 inline constexpr char kEverybody[] = "twin";

@@ -71,6 +71,11 @@ struct StabilityMargin {
   // The eigenvalues beside Routh's test.
   std::uint32_t right_by_eigenvalues = 0;
   bool routh_disagrees = false;  ///< by more than rounding explains
+  // Of a system whose scene says how well its numbers are known (`spread` without a count).
+  std::uint32_t members = 0;         ///< drawn within the spread and judged; 0: none
+  std::uint32_t members_beyond = 0;  ///< of them decay slower than the setting, or grow
+  double lowest_decay_rate = std::numeric_limits<double>::quiet_NaN();  ///< [1/s], found within it
+  bool stable_throughout = false;  ///< by Kharitonov's theorem; false: it does not tell
 
   template <class Visit>
   static void fields(Visit& visit) {
@@ -109,6 +114,13 @@ struct StabilityMargin {
     visit(TWIN_FIELD(cross_coupling_margin), "N/m");
     visit(TWIN_FIELD(right_by_eigenvalues), "", roots);
     visit(TWIN_FIELD(routh_disagrees), "", requireFlag);
+    visit(TWIN_FIELD(members), "");
+    visit(TWIN_FIELD(members_beyond), "",
+          [](const char* name, std::int64_t value, const auto& message) {
+            requireRange(name, value, 0, static_cast<std::int64_t>(message.members));
+          });
+    visit(TWIN_FIELD(lowest_decay_rate), "1/s");
+    visit(TWIN_FIELD(stable_throughout), "", requireFlag);
   }
 };
 

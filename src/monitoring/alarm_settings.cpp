@@ -51,6 +51,10 @@ std::vector<std::string> settingErrors(const AlarmSettings& settings) {
   positive("dwell_limit", settings.dwell_limit, "> 0 s");
   not_negative("decay_rate_alarm", settings.decay_rate_alarm, ">= 0 1/s");
   not_negative("log_decrement_warning", settings.log_decrement_warning, ">= 0 (dimensionless)");
+  check("members_beyond", settings.members_beyond,
+        settings.members_beyond >= 0.0 && settings.members_beyond <= 1.0, "from 0 to 1 (a part)");
+  check("lowest_decay_rate", settings.lowest_decay_rate, std::isfinite(settings.lowest_decay_rate),
+        "a number of 1/s");
   positive("energy_residual", settings.energy_residual, "> 0 (dimensionless)");
   positive("data_timeout", settings.data_timeout, "> 0 s");
   check("decay_audit", settings.decay_audit,

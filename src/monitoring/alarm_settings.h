@@ -59,8 +59,11 @@ struct AlarmSettings {
   double dwell_limit = 3.0;            ///< [s], in a critical band before it is danger
   double decay_rate_alarm = 0.0;       ///< [1/s], warn when decay is slower; 0: do not
   double log_decrement_warning = 0.1;  ///< [-], warn below (API 617 stability); 0: do not
-  double energy_residual = 1.0e-6;     ///< [-], warn when the energy balance is off by more
-  double data_timeout = 1.0;           ///< [s] wall time, silence of one system among others
+  // Of a system with a `spread` and no count:
+  double members_beyond = 0.0;      ///< [-], warn when a larger part of its members is beyond
+  double lowest_decay_rate = 0.0;   ///< [1/s], warn when the slowest decay within it is slower
+  double energy_residual = 1.0e-6;  ///< [-], warn when the energy balance is off by more
+  double data_timeout = 1.0;        ///< [s] wall time, silence of one system among others
   Latch latch = Latch::kNone;
   std::map<std::string, AlarmDelays> delays;         ///< of types that have their own
   std::map<std::string, AmplitudeLevels> amplitude;  ///< of systems that have some

@@ -49,7 +49,7 @@ bool MarginSearch::isNews(const std::optional<Question>& asked, const Question& 
   return faster && since >= kShortestBreak;
 }
 
-void MarginSearch::take(Judgement& judgement) {
+void MarginSearch::take(Judgement& judgement, double slowest) {
   state::StabilityMargin& margin = judgement.margin;
   const auto verdict = static_cast<Verdict>(margin.verdict);
   const bool stable = verdict == Verdict::kAsymptoticallyStable || verdict == Verdict::kMarginal;
@@ -74,6 +74,12 @@ void MarginSearch::take(Judgement& judgement) {
   const Answer& found = *seat.answer;
   margin.nearest_time = found.of.time;
   margin.cross_coupling_margin = found.cross_coupling.value_or(margin.cross_coupling_margin);
+  if (found.spread) {
+    margin.members = static_cast<std::uint32_t>(found.spread->decay_rates.size());
+    margin.members_beyond = static_cast<std::uint32_t>(found.spread->beyond(slowest));
+    margin.lowest_decay_rate = found.spread->lowest_decay_rate;
+    margin.stable_throughout = found.spread->stable_throughout;
+  }
   if (found.nearest) {
     margin.nearest_parameter = found.nearest->parameter;
     margin.nearest_change = found.nearest->change;
@@ -84,11 +90,14 @@ void MarginSearch::take(Judgement& judgement) {
 }
 
 std::optional<MarginSearch::Answer> MarginSearch::search(const Question& question) const {
-  Answer answer{question, std::nullopt, std::nullopt};
+  Answer answer{question, std::nullopt, std::nullopt, std::nullopt};
+  const auto given_up = [this] { return ending_.load(); };
   try {
     if (isQuickToSearch(*question.built)) {
-      answer.nearest = nearestLoss(*question.built, question.motion, question.speed,
-                                   [this] { return ending_.load(); });
+      answer.nearest = nearestLoss(*question.built, question.motion, question.speed, given_up);
+    }
+    if (question.built->spec.ensemble.count == 0) {
+      answer.spread = spreadMargin(*question.built, question.motion, question.speed, given_up);
     }
     const auto margin = crossCouplingMarginOf(*question.built->dynamics, question.speed);
     answer.cross_coupling = margin ? margin->stiffness : std::nullopt;

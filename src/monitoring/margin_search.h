@@ -1,7 +1,7 @@
 // Looks for what takes long and no verdict waits for: the parameter nearest to the loss of
-// stability, for systems that are quick to search (isQuickToSearch), and the cross-coupling that a
-// rotor bears. Beside the verdicts in a thread of its own that gives way to every other; or, where
-// judgements are made at once, at once.
+// stability, for systems that are quick to search (isQuickToSearch), the cross-coupling that a
+// rotor bears, and what a spread of its numbers does. Beside the verdicts in a thread of its own
+// that gives way to every other; or, where judgements are made at once, at once.
 #pragma once
 
 #include <atomic>
@@ -14,6 +14,7 @@
 
 #include "monitoring/judging.h"
 #include "monitoring/parameter_margins.h"
+#include "monitoring/spread_margin.h"
 
 namespace whirl_twin {
 
@@ -27,7 +28,8 @@ class MarginSearch {
   /// A judgement passes by: what was found of its system, with its parameters, is put into it. It
   /// is looked for anew where the parameters have changed; of a linear system where its speed has
   /// by a hundredth, a second [simulated] apart at least; of any other every ten seconds.
-  void take(Judgement& judgement);
+  /// Members are beyond that decay slower than `slowest` [1/s].
+  void take(Judgement& judgement, double slowest);
 
  private:
   struct Question {
@@ -40,6 +42,7 @@ class MarginSearch {
     Question of;
     std::optional<ParameterMargin> nearest;
     std::optional<double> cross_coupling;  ///< [N/m]
+    std::optional<SpreadMargin> spread;
   };
   struct Seat {
     std::optional<Question> asked;  ///< last

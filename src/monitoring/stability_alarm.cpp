@@ -54,18 +54,22 @@ StabilityAlarm::StabilityAlarm(std::string system, const AlarmSettings& settings
       settings_(settings),
       unstable_alarm_(settings.delaysOf(alert_type::kUnstable)),
       low_damping_alarm_(settings.delaysOf(alert_type::kLowDamping)),
-      disagreement_alarm_(settings.delaysOf(alert_type::kRouthDisagrees)) {}
+      disagreement_alarm_(settings.delaysOf(alert_type::kRouthDisagrees)),
+      spread_alarm_(settings.delaysOf(alert_type::kUnstableWithinSpread)) {}
 
 void StabilityAlarm::set(const AlarmSettings& settings) {
   settings_ = settings;
   unstable_alarm_.setDelays(settings.delaysOf(alert_type::kUnstable));
   low_damping_alarm_.setDelays(settings.delaysOf(alert_type::kLowDamping));
+  disagreement_alarm_.setDelays(settings.delaysOf(alert_type::kRouthDisagrees));
+  spread_alarm_.setDelays(settings.delaysOf(alert_type::kUnstableWithinSpread));
 }
 
 void StabilityAlarm::update(const state::StabilityMargin& margin, AlertList& alerts) {
   updateUnstable(margin, alerts);
   updateLowDamping(margin, alerts);
   updateDisagreement(margin, alerts);
+  updateSpread(margin, alerts);
 }
 
 void StabilityAlarm::updateUnstable(const state::StabilityMargin& margin, AlertList& alerts) {
@@ -129,6 +133,33 @@ void StabilityAlarm::updateDisagreement(const state::StabilityMargin& margin, Al
         "verdict is not to be trusted",
         system_, speedText(margin.speed), margin.right, margin.right_by_eigenvalues);
     alerts.raise(std::move(alert), "disagreement");
+  }
+}
+
+void StabilityAlarm::updateSpread(const state::StabilityMargin& margin, AlertList& alerts) {
+  const double part = margin.members == 0 ? 0.0
+                                          : static_cast<double>(margin.members_beyond) /
+                                                static_cast<double>(margin.members);
+  const bool slow = margin.lowest_decay_rate < settings_.lowest_decay_rate;
+  const AlarmCondition condition = margin.members == 0 ? AlarmCondition::kHold
+                                   : slow || part > settings_.members_beyond
+                                       ? AlarmCondition::kWarning
+                                       : AlarmCondition::kClear;
+  const auto change = spread_alarm_.update(margin.at.time, condition);
+  if (change == ConditionAlarm::Change::kCleared) {
+    alerts.clear(system_, alert_type::kUnstableWithinSpread, margin.at.time,
+                 fmt::format("{}{}: stable within its spread again, slowest decay {:.3g} 1/s",
+                             system_, speedText(margin.speed), margin.lowest_decay_rate));
+  } else if (spread_alarm_.active() && isRaising(condition)) {
+    state::Alert alert = alertAbout(margin);
+    alert.type = alert_type::kUnstableWithinSpread;
+    alert.severity = spread_alarm_.severity();
+    alert.text = fmt::format(
+        "{}{}: {} of {} members of its spread decay slower than {:g} 1/s or grow, the slowest "
+        "decay found within it is {:.3g} 1/s: know its numbers better, or keep further away",
+        system_, speedText(margin.speed), margin.members_beyond, margin.members,
+        settings_.decay_rate_alarm, margin.lowest_decay_rate);
+    alerts.raise(std::move(alert), "within its spread");
   }
 }
 

@@ -9,6 +9,8 @@
 // ROUTH_DISAGREES: a warning when Routh's test and the eigenvalues count other roots in the right
 // half-plane, and rounding does not explain it: then one of them, and the verdict, is wrong. An
 // uncertain verdict near a threshold is no disagreement (rightByEigenvalues).
+// UNSTABLE_WITHIN_SPREAD: a warning when more members of a system's spread than the setting says
+// decay too slowly or grow, or the slowest decay found within the spread is slower than its own.
 // An uncertain verdict neither raises nor clears: a warning does not go away because the numbers
 // can no longer be judged.
 #pragma once
@@ -31,17 +33,21 @@ class StabilityAlarm {
   /// Judges one margin and brings the list up to date. LOW_DAMPING is a rotor criterion: a system
   /// without a shaft (speed NaN) does not raise it, nor does a system that is unstable already.
   void update(const state::StabilityMargin& margin, AlertList& alerts);
+  /// [1/s]: what decays slower is beyond the setting.
+  double slowestDecay() const { return settings_.decay_rate_alarm; }
   /// What comes cannot be judged: delays are broken, and nothing is raised or cleared.
   void hold() {
     unstable_alarm_.hold();
     low_damping_alarm_.hold();
     disagreement_alarm_.hold();
+    spread_alarm_.hold();
   }
 
  private:
   void updateUnstable(const state::StabilityMargin& margin, AlertList& alerts);
   void updateLowDamping(const state::StabilityMargin& margin, AlertList& alerts);
   void updateDisagreement(const state::StabilityMargin& margin, AlertList& alerts);
+  void updateSpread(const state::StabilityMargin& margin, AlertList& alerts);
   AlarmCondition dampingCondition(const state::StabilityMargin& margin) const;
   state::Alert alertAbout(const state::StabilityMargin& margin) const;
 
@@ -50,6 +56,7 @@ class StabilityAlarm {
   ConditionAlarm unstable_alarm_;
   ConditionAlarm low_damping_alarm_;
   ConditionAlarm disagreement_alarm_;
+  ConditionAlarm spread_alarm_;
 };
 
 }  // namespace whirl_twin

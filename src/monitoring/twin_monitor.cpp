@@ -219,7 +219,7 @@ void TwinMonitor::takeJudgements() {
       watch.speeds = std::move(*judgement.speeds);
     }
     if (judgement.run == run_) {  // else of before a reset
-      margin_search_.take(judgement);
+      margin_search_.take(judgement, watch.stability_alarm.slowestDecay());
       watch.verdict_of = judgement.arrived_at;
       watch.stability_alarm.update(judgement.margin, alerts_);
       watch.decay_alarm.update(judgement.margin);

@@ -30,21 +30,38 @@ bool isSpread(const SystemSpec& spec, const std::string& path) {
                      [&](const Spread& s) { return s.path == path; });
 }
 
-/// Draws one number into `member`; false: it is out of range.
-bool draw(const Spread& spread, const ModelInfo& model, std::mt19937_64& random, SystemSpec& member,
-          double& value) {
-  const double away = deviation(spread, random);
+/// Puts one number into `member`; false: it is out of range.
+bool put(const Spread& spread, double value, const ModelInfo& model, SystemSpec& member) {
   if (spread.kind != Spread::Kind::kParameter) {
-    std::vector<double>& start = spread.kind == Spread::Kind::kRate ? member.v : member.q;
-    value = start[spread.coordinate] += away;
+    (spread.kind == Spread::Kind::kRate ? member.v : member.q)[spread.coordinate] = value;
     return std::isfinite(value);
   }
-  value = parameterAt(spread.path, model, member).value() + away;
   Complaints complaints("");
   return setParameter(spread.path, value, model, member, complaints);
 }
 
+void putWhatGoesAlong(const SystemSpec& spec, const ModelInfo& model, SystemSpec& member) {
+  for (const ParameterInfo& p : model.parameters) {
+    const std::string& source = p.fallback_parameter;
+    if (!source.empty() && !isSpread(spec, p.name) &&
+        spec.parameters.at(p.name) == spec.parameters.at(source)) {
+      member.parameters[p.name] = member.parameters.at(source);
+    }
+  }
+}
+
 }  // namespace
+
+double centreOf(const Spread& spread, const SystemSpec& spec, const ModelInfo& model) {
+  switch (spread.kind) {
+    case Spread::Kind::kCoordinate:
+      return spec.q[spread.coordinate];
+    case Spread::Kind::kRate:
+      return spec.v[spread.coordinate];
+    default:
+      return parameterAt(spread.path, model, spec).value();
+  }
+}
 
 DrawnMember drawnMember(const SystemSpec& spec, const ModelInfo& model, std::size_t index) {
   DrawnMember member{spec, {}};
@@ -52,23 +69,32 @@ DrawnMember drawnMember(const SystemSpec& spec, const ModelInfo& model, std::siz
   std::seed_seq seed{spec.ensemble.seed, static_cast<std::uint32_t>(index)};
   std::mt19937_64 random(seed);
   for (const Spread& spread : spec.ensemble.spread) {
-    double value = 0.0;
+    const double about = centreOf(spread, spec, model);
+    double value = about + deviation(spread, random);
     int draws = 1;
-    while (!draw(spread, model, random, member.spec, value)) {
+    while (!put(spread, value, model, member.spec)) {
       if (++draws > kMostDraws) {
         throw Refusal(fmt::format("{}: not one of {} draws is in the number's range", spread.path,
                                   kMostDraws));
       }
+      value = about + deviation(spread, random);
     }
     member.values.push_back(value);
   }
-  for (const ParameterInfo& p : model.parameters) {
-    const std::string& source = p.fallback_parameter;
-    if (!source.empty() && !isSpread(spec, p.name) &&
-        spec.parameters.at(p.name) == spec.parameters.at(source)) {
-      member.spec.parameters[p.name] = member.spec.parameters.at(source);
+  putWhatGoesAlong(spec, model, member.spec);
+  return member;
+}
+
+std::optional<SystemSpec> memberAt(const SystemSpec& spec, const ModelInfo& model,
+                                   const std::vector<double>& values) {
+  SystemSpec member = spec;
+  member.ensemble = {};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!put(spec.ensemble.spread[i], values[i], model, member)) {
+      return std::nullopt;
     }
   }
+  putWhatGoesAlong(spec, model, member);
   return member;
 }
 

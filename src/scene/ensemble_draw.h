@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,14 @@ struct DrawnMember {
 /// a parameter that by default is another's (stiffness_y), and has that one's value in the scene,
 /// goes with it. Throws Refusal where hardly a draw is in range.
 DrawnMember drawnMember(const SystemSpec& spec, const ModelInfo& model, std::size_t index);
+
+/// What a number is spread about.
+double centreOf(const Spread& spread, const SystemSpec& spec, const ModelInfo& model);
+
+/// The system with these numbers, in the order of spec.ensemble.spread, and those that go with
+/// them; nothing where one is out of its range.
+std::optional<SystemSpec> memberAt(const SystemSpec& spec, const ModelInfo& model,
+                                   const std::vector<double>& values);
 
 /// Why an ensemble cannot be drawn; "" if it can.
 std::string spreadObjection(const SystemSpec& spec, const ModelInfo& model);

@@ -141,16 +141,16 @@ void readSpread(const MapReader& map, const ModelInfo& model,
 void readEnsemble(const MapReader& system, const ModelInfo& model,
                   const std::vector<CoordinateInfo>& coordinates, SystemSpec& spec,
                   Complaints& complaints) {
-  if (!system.has("count")) {
-    for (const char* key : {"spread", "seed"}) {
-      if (system.has(key)) {
-        complaints.add(system.key(key), "needs a count, the number of members");
-      }
+  if (!system.has("count") && !system.has("spread")) {
+    if (system.has("seed")) {
+      complaints.add(system.key("seed"), "needs a spread, that members are drawn of");
     }
     return;
   }
   const std::size_t before = complaints.all().size();
-  spec.ensemble.count = static_cast<std::size_t>(system.integer("count", 1, kMostMembers, 1));
+  if (system.has("count")) {
+    spec.ensemble.count = static_cast<std::size_t>(system.integer("count", 1, kMostMembers, 1));
+  }
   spec.ensemble.seed = static_cast<std::uint32_t>(system.integer("seed", 0, kLargestSeed, 1));
   if (!system.has("spread")) {
     complaints.add(system.key("spread"), "missing; must say what differs from member to member");

@@ -1,4 +1,5 @@
-// Reads a system's `count`, `seed` and `spread`: the ensemble it stands for.
+// Reads a system's `count`, `seed` and `spread`: the ensemble it stands for, or, without
+// a count, how well its numbers are known.
 #pragma once
 
 #include "models/model_info.h"

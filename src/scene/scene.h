@@ -30,7 +30,8 @@ struct DriveSpec {
   std::optional<Motor> motor = std::nullopt;
 };
 
-/// How one number differs from member to member of an ensemble, about what the scene gives.
+/// How one number differs from member to member of an ensemble, about what the scene gives; or,
+/// without a count of members, how well it is known.
 struct Spread {
   enum class Kind { kParameter, kCoordinate, kRate };
   std::string path;  ///< `stiffness`, `bearings[0].kxx`, `initial.x`, `initial.x_rate`
@@ -42,7 +43,7 @@ struct Spread {
 
 /// A system many times over. The system itself, as the scene gives it, runs beside them.
 struct EnsembleSpec {
-  std::size_t count = 0;  ///< members; 0: no ensemble
+  std::size_t count = 0;  ///< members that run; 0: no ensemble
   std::uint32_t seed = 1;
   std::vector<Spread> spread;
 };

@@ -29,8 +29,10 @@ constexpr std::size_t sizeUnset(std::string_view later) {
 template <class State>
 inline constexpr std::array<EarlierForm, 0> kEarlierForms{};
 template <>
-inline constexpr std::array<EarlierForm, 2> kEarlierForms<state::StabilityMargin>{
-    {{0x04269617e2cfdbe6, "dddsddsdddib"}, {0x6ff93c955afc2f62, "sddsdddib"}}};
+inline constexpr std::array<EarlierForm, 3> kEarlierForms<state::StabilityMargin>{
+    {{0x04269617e2cfdbe6, "dddsddsdddibiidb"},
+     {0x6ff93c955afc2f62, "sddsdddibiidb"},
+     {0x4058c40523023a98, "iidb"}}};
 template <>
 inline constexpr std::array<EarlierForm, 2> kEarlierForms<state::LoopStatistics>{
     {{0xe676f1d3c287e44f, "lllldd"}, {0x9af8de11c53ac49c, "dd"}}};

@@ -36,11 +36,11 @@ Judgement judged(const SharedSystem& system, double time, double speed) {
 /// The verdict at a time, judged again until what is looked for beside it is there.
 Judgement found(MarginSearch& search, const SharedSystem& system, double time, double speed) {
   Judgement judgement = judged(system, time, speed);
-  search.take(judgement);
+  search.take(judgement, 0.0);
   while (judgement.margin.nearest_time != time) {
     std::this_thread::yield();
     judgement = judged(system, time, speed);
-    search.take(judgement);
+    search.take(judgement, 0.0);
   }
   return judgement;
 }
@@ -66,7 +66,7 @@ TEST(MarginSearch, TellsNothingOfOtherParametersThanItHasSearched) {
   // With 6 N s/m along x it is unstable where (6 + 10) (10 + 10) = (10 w / 100)^2.
   const SharedSystem changed = scene.systems[0]->with({"damping"}, {6.0}, "test");
   Judgement first = judged(changed, 1.1, 150.0);
-  search.take(first);
+  search.take(first, 0.0);
   EXPECT_TRUE(first.margin.nearest_parameter.empty() || first.margin.nearest_time == 1.1);
   const state::StabilityMargin margin = found(search, changed, 1.1, 150.0).margin;
   EXPECT_EQ(margin.nearest_parameter, "speed");
@@ -78,7 +78,7 @@ TEST(MarginSearch, LooksAnewWhereTheSpeedHasChangedButNotAllTheTime) {
   MarginSearch search(1, Judging::Mode::kAtOnce);
   const auto at = [&](double time, double speed) {
     Judgement judgement = judged(scene.systems[0], time, speed);
-    search.take(judgement);
+    search.take(judgement, 0.0);
     return judgement.margin;
   };
   EXPECT_EQ(at(0.0, 100.0).nearest_time, 0.0);

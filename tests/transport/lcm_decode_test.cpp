@@ -71,13 +71,18 @@ TEST(LcmDecode, PlaysMarginsInTheirEarlierForms) {
     for (int i = 0; i < 20; ++i) {
       state::StabilityMargin margin = samples.margin();
       const state::StabilityMargin unset;
-      margin.nearest_parameter = margin.nearest_loss = "";
-      margin.nearest_change = margin.nearest_value = margin.nearest_frequency =
-          unset.nearest_change;
-      margin.nearest_time = margin.cross_coupling_margin = unset.nearest_change;
-      margin.right_by_eigenvalues = 0;
-      margin.routh_disagrees = false;
-      if (form.later.size() > 9) {
+      margin.members = margin.members_beyond = 0;
+      margin.lowest_decay_rate = unset.lowest_decay_rate;
+      margin.stable_throughout = false;
+      if (form.later.size() > 4) {
+        margin.nearest_parameter = margin.nearest_loss = "";
+        margin.nearest_change = margin.nearest_value = margin.nearest_frequency =
+            unset.nearest_change;
+        margin.nearest_time = margin.cross_coupling_margin = unset.nearest_change;
+        margin.right_by_eigenvalues = 0;
+        margin.routh_disagrees = false;
+      }
+      if (form.later.size() > 13) {
         margin.threshold_below = margin.threshold_above = margin.age = unset.age;
       }
       Payload then = encoded(margin);

@@ -137,6 +137,8 @@ class StateSamples {
     s.operating_point = numbers(s.coordinate.size());
     s.verdict = static_cast<std::uint8_t>(below(5));
     s.right = s.imaginary = s.left = s.right_by_eigenvalues = 0;
+    s.members = static_cast<std::uint32_t>(below(100001));
+    s.members_beyond = static_cast<std::uint32_t>(below(s.members + 1));
     if (!s.polynomial.empty()) {
       s.left = static_cast<std::uint32_t>(s.polynomial.size()) - 1;
     }

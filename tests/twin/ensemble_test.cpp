@@ -91,8 +91,8 @@ TEST(EnsembleReader, SaysWhatIsWrong) {
   EXPECT_EQ(
       errorOf(rotorScene("    count: 10\n")),
       "test.yaml: systems.rotor.spread: missing; must say what differs from member to member");
-  EXPECT_EQ(errorOf(rotorScene("    spread: {mass: {half_width: 0.1}}\n")),
-            "test.yaml: systems.rotor.spread: needs a count, the number of members");
+  EXPECT_EQ(errorOf(rotorScene("    seed: 3\n")),
+            "test.yaml: systems.rotor.seed: needs a spread, that members are drawn of");
   EXPECT_EQ(errorOf(rotorScene("    count: 10\n    spread: {stifness: {half_width: 0.1}}\n")),
             "test.yaml: systems.rotor.spread.stifness: unknown number of jeffcott_rotor; did you "
             "mean 'stiffness'?");

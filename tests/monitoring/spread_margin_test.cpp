@@ -1,0 +1,212 @@
+// What a spread of a system's numbers does to its stability, beside closed forms.
+#include "monitoring/spread_margin.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "analysis/equilibria.h"
+#include "watched_twin.h"
+
+namespace whirl_twin {
+namespace {
+
+/// A rotor of 1 kg and 1e4 N/m at 150 rad/s, damped by 10 N s/m from outside: stable up to an
+/// internal damping of 20 N s/m.
+std::string selfExcited(double internal_damping, const std::string& spread) {
+  return R"(
+step: 0.001
+drives: {shaft: {speed: 150.0}}
+systems:
+  rotor:
+    model: jeffcott_rotor
+    drive: shaft
+    parameters: {mass: 1.0, stiffness: 1.0e4, damping: 10.0, internal_damping: )" +
+         std::to_string(internal_damping) + "}\n" + spread;
+}
+
+struct Known {
+  explicit Known(const std::string& yaml) : scene(build(sceneOf(yaml))) {
+    const BuiltSystem& system = *scene.systems[0];
+    speed = scene.driveOf(system).at(0.0).speed;
+    const auto n = static_cast<Eigen::Index>(system.spec.q.size());
+    const auto point =
+        operatingPoint(*system.dynamics, Eigen::Map<const Eigen::VectorXd>(system.spec.q.data(), n),
+                       Eigen::VectorXd::Zero(n), speed);
+    motion = {point.value().q, point.value().v};
+    margin = spreadMargin(system, motion, speed);
+  }
+  /// [1/s], with these numbers, by eigenvalues of their own.
+  double decayAt(const std::vector<std::string>& names, const std::vector<double>& values) const {
+    const SharedSystem changed = scene.systems[0]->with(names, values, "test");
+    const auto roots =
+        eigenvalues(linearizationAbout(*changed->dynamics, motion.q, motion.v, speed));
+    double fastest = -1.0e300;
+    for (const auto& root : roots) {
+      fastest = std::max(fastest, root.real());
+    }
+    return -fastest;
+  }
+
+  BuiltScene scene;
+  double speed = 0.0;
+  SteadyMotion motion;
+  std::optional<SpreadMargin> margin;
+};
+
+TEST(SpreadMargin, CountsTheMembersBeyondTheThresholdAndFindsTheWorstEndOfTheBox) {
+  const Known uniform(selfExcited(18.0, "    spread: {internal_damping: {half_width: 4.0}}\n"));
+  ASSERT_TRUE(uniform.margin);
+  EXPECT_EQ(uniform.margin->decay_rates.size(), 1000u);
+  // From 14 to 22, beyond 20 a quarter, to within four deviations.
+  EXPECT_NEAR(static_cast<double>(uniform.margin->beyond(0.0)), 250.0, 55.0);
+  EXPECT_NEAR(uniform.margin->lowest_decay_rate, uniform.decayAt({"internal_damping"}, {22.0}),
+              1.0e-9);
+  EXPECT_LT(uniform.margin->lowest_decay_rate, 0.0);
+  EXPECT_FALSE(uniform.margin->stable_throughout);
+
+  const Known normal(
+      selfExcited(18.0, "    spread: {internal_damping: {standard_deviation: 2.0}}\n"));
+  ASSERT_TRUE(normal.margin);
+  const double part = 0.5 * std::erfc(1.0 / std::sqrt(2.0));  // beyond one deviation
+  EXPECT_NEAR(static_cast<double>(normal.margin->beyond(0.0)), 1000.0 * part, 47.0);
+  EXPECT_LE(normal.margin->lowest_decay_rate, normal.decayAt({"internal_damping"}, {24.0}) + 1e-9);
+}
+
+TEST(SpreadMargin, CountsAgainstADecayRateTheUserAsksFor) {
+  const Known known(selfExcited(10.0, "    spread: {internal_damping: {half_width: 4.0}}\n"));
+  ASSERT_TRUE(known.margin);
+  EXPECT_EQ(known.margin->beyond(0.0), 0u);
+  const double middle = known.decayAt({"internal_damping"}, {10.0});
+  EXPECT_NEAR(static_cast<double>(known.margin->beyond(middle)), 500.0, 64.0);
+  EXPECT_EQ(known.margin->beyond(2.0 * known.margin->decay_rates.back()), 1000u);
+}
+
+// The decay of an oscillator with this damper is slowest where damping is least and mass largest.
+TEST(SpreadMargin, OfOneCoordinateKharitonovTellsOfTheWholeBox) {
+  const auto oscillator = [](double half_width) {
+    return Known(R"(
+step: 0.001
+systems:
+  swing:
+    model: linear_system
+    parameters: {mass: [[1.0]], damping: [[0.4]], stiffness: [[100.0]]}
+    spread:
+      damping[0][0]: {half_width: )" +
+                 std::to_string(half_width) + R"(}
+      stiffness[0][0]: {relative_half_width: 0.2}
+)");
+  };
+  const Known known = oscillator(0.1);
+  ASSERT_TRUE(known.margin);
+  EXPECT_TRUE(known.margin->stable_throughout);
+  EXPECT_NEAR(known.margin->lowest_decay_rate, 0.15, 1.0e-9);
+  const Known wider = oscillator(0.5);
+  ASSERT_TRUE(wider.margin);
+  EXPECT_FALSE(wider.margin->stable_throughout);
+  EXPECT_NEAR(wider.margin->lowest_decay_rate, -0.05, 1.0e-9);
+}
+
+// Of more coordinates the four polynomials are of no rotor: where they grow, they tell nothing.
+// Where they decay, so does every member.
+TEST(SpreadMargin, ABoxThatKharitonovCallsStableHasNoMemberThatGrows) {
+  for (const double width : {0.001, 0.01, 0.05, 0.2, 0.5}) {
+    const Known known(selfExcited(
+        10.0, "    spread: {internal_damping: {relative_half_width: " + std::to_string(width) +
+                  "}, stiffness: {relative_half_width: " + std::to_string(width) +
+                  "}, damping: {relative_half_width: " + std::to_string(width) + "}}\n"));
+    ASSERT_TRUE(known.margin) << width;
+    if (known.margin->stable_throughout) {
+      EXPECT_EQ(known.margin->beyond(0.0), 0u) << width;
+      EXPECT_GT(known.margin->lowest_decay_rate, 0.0) << width;
+    }
+    if (width == 0.001) {
+      EXPECT_TRUE(known.margin->stable_throughout);
+    }
+    if (width == 0.5) {
+      EXPECT_FALSE(known.margin->stable_throughout);
+      EXPECT_LT(known.margin->lowest_decay_rate, 0.0) << "twice its share of the outer damping";
+    }
+  }
+}
+
+// Between the corners: where two modes of one frequency meet, their slowest decay has a kink.
+TEST(SpreadMargin, TheSlowestDecayIsNoFasterThanThatOfAnyPlaceOnAGrid) {
+  const Known known(R"(
+step: 0.001
+systems:
+  two:
+    model: linear_system
+    parameters:
+      mass: [[1.0, 0.0], [0.0, 1.0]]
+      damping: [[0.02, 0.0], [0.0, 1.0]]
+      stiffness: [[100.0, 4.0], [4.0, 90.0]]
+    spread: {"stiffness[0][0]": {half_width: 25.0}}
+)");
+  ASSERT_TRUE(known.margin);
+  double slowest = 1.0e300;
+  for (double k = 75.0; k <= 125.0; k += 0.25) {
+    slowest = std::min(slowest, known.decayAt({"stiffness[0][0]"}, {k}));
+  }
+  EXPECT_LE(known.margin->lowest_decay_rate, slowest * (1.0 + 1.0e-6));
+  EXPECT_GT(known.margin->lowest_decay_rate, 0.9 * slowest);
+}
+
+TEST(SpreadMargin, WithoutANumberOfTheModelThereIsNothingToTell) {
+  EXPECT_FALSE(Known(selfExcited(10.0, "    spread: {initial.x: {half_width: 1.0e-4}}\n")).margin);
+  EXPECT_FALSE(Known(selfExcited(10.0, "")).margin);
+}
+
+TEST(SpreadMargin, TheMonitorWarnsOfAThresholdWithinTheSpreadUntilTheNumbersLeaveIt) {
+  WatchedTwin watched(
+      sceneOf(selfExcited(18.0, "    spread: {internal_damping: {half_width: 4.0}}\n")));
+  watched.run(0.15);
+  const state::StabilityMargin& margin = watched.margins.back();
+  EXPECT_EQ(margin.verdict_name, "asymptotically_stable");
+  EXPECT_EQ(margin.members, 1000u);
+  EXPECT_GT(margin.members_beyond, 100u);
+  EXPECT_LT(margin.lowest_decay_rate, 0.0);
+  EXPECT_EQ(watched.count("UNSTABLE_WITHIN_SPREAD", true), 1u);
+  EXPECT_EQ(watched.count("UNSTABLE", true), 0u);
+
+  state::ParameterChange change = watched.observer.parameters(0);
+  const auto place = std::find(change.names.begin(), change.names.end(), "internal_damping");
+  change.values[static_cast<std::size_t>(place - change.names.begin())] = 10.0;
+  ASSERT_TRUE(watched.monitor.take(change));
+  watched.run(1.5);
+  EXPECT_EQ(watched.margins.back().members_beyond, 0u);
+  EXPECT_GT(watched.margins.back().lowest_decay_rate, 0.0);
+  EXPECT_EQ(watched.count("UNSTABLE_WITHIN_SPREAD", false), 1u);
+}
+
+TEST(SpreadMargin, TheAlarmActsOnTheBoundOrOnTheMembersAsItIsSet) {
+  const std::string yaml = selfExcited(18.0, "    spread: {internal_damping: {half_width: 4.0}}\n");
+  AlarmSettings settings;
+  settings.members_beyond = 0.5;
+  settings.lowest_decay_rate = -1.0e3;
+  WatchedTwin lenient(sceneOf(yaml), settings);
+  lenient.run(0.15);
+  EXPECT_EQ(lenient.count("UNSTABLE_WITHIN_SPREAD", true), 0u);
+  settings.decay_rate_alarm = 1.0;  // slower than that decay some more
+  WatchedTwin slow(sceneOf(yaml), settings);
+  slow.run(0.15);
+  EXPECT_GT(slow.margins.back().members_beyond, lenient.margins.back().members_beyond);
+  settings.decay_rate_alarm = 0.0;
+  settings.lowest_decay_rate = 0.0;
+  WatchedTwin bound(sceneOf(yaml), settings);
+  bound.run(0.15);
+  EXPECT_EQ(bound.count("UNSTABLE_WITHIN_SPREAD", true), 1u);
+}
+
+TEST(SpreadMargin, AnEnsembleIsJudgedByItsMembersThatRun) {
+  WatchedTwin watched(sceneOf(
+      selfExcited(18.0, "    count: 5\n    spread: {internal_damping: {half_width: 4.0}}\n")));
+  watched.run(0.15);
+  EXPECT_EQ(watched.margins.back().members, 0u);
+  EXPECT_EQ(watched.count("UNSTABLE_WITHIN_SPREAD", true), 0u);
+}
+
+}  // namespace
+}  // namespace whirl_twin
