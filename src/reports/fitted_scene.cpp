@@ -59,7 +59,8 @@ void moveTables(const YAML::Node& scene, const std::filesystem::path& from,
 
 std::string fittedScene(const FitStudy& study, const ShootingFit& fit, const std::string& folder) {
   YAML::Node scene = YAML::LoadFile(study.scene_path);
-  YAML::Node parameters = scene["systems"][study.system]["parameters"];
+  YAML::Node system = scene["systems"][study.system];
+  YAML::Node parameters = system["parameters"];
   std::string head =
       fmt::format("# {} of this scene was fitted to measured runs by `twin fit {}`.\n",
                   study.system, printable(std::filesystem::path(study.source).filename().string()));
@@ -71,6 +72,11 @@ std::string fittedScene(const FitStudy& study, const ShootingFit& fit, const std
       place = fmt::format("{:.12g}", fit.theta[k]);
     }
     const double deviation = fit.information.deviation[k];
+    if (u.kind == Unknown::Kind::kParameter && deviation > 0.0 && std::isfinite(deviation)) {
+      YAML::Node spread(YAML::NodeType::Map);  // the monitor judges the system within it
+      spread["standard_deviation"] = fmt::format("{:.3g}", deviation);
+      system["spread"][u.subject] = spread;
+    }
     head += fmt::format("#   {:<24} {:>16.9g}  {}\n", u.name, fit.theta[k],
                         std::isfinite(deviation)
                             ? fmt::format("standard deviation {:.3g} {}", deviation, u.unit)

@@ -13,6 +13,7 @@
 #include "mechanics/dynamics.h"
 #include "messages/stability_margin.h"
 #include "monitoring/parameter_margins.h"
+#include "monitoring/spread_margin.h"
 #include "reports/output.h"
 #include "reports/steady_speeds.h"
 #include "scene/built_scene.h"
@@ -47,6 +48,7 @@ struct SystemAnalysis {
   std::vector<SteadySpeed> steady_speeds;             ///< on its motor
   /// Of a stable motion, the nearest first; nothing where it was not looked for.
   std::optional<std::vector<ParameterMargin>> parameter_margins;
+  std::optional<SpreadMargin> spread_margin;  ///< of a stable motion, where its numbers are spread
 };
 
 /// Which systems have the margins of their numbers looked for (isQuickToSearch).

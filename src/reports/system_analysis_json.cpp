@@ -110,6 +110,17 @@ Json parameterMarginsJson(const SystemAnalysis& a) {
   return json;
 }
 
+/// What a spread of its numbers does; null without one.
+Json spreadMarginJson(const SystemAnalysis& a) {
+  if (!a.spread_margin) {
+    return {};
+  }
+  return {{"members", a.spread_margin->decay_rates.size()},
+          {"growing", a.spread_margin->beyond(0.0)},
+          {"lowest_decay_rate", a.spread_margin->lowest_decay_rate},
+          {"stable_throughout", a.spread_margin->stable_throughout}};
+}
+
 }  // namespace
 
 Json json(const SystemAnalysis& a) {
@@ -162,6 +173,7 @@ Json json(const SystemAnalysis& a) {
   json["critical_speeds_beyond_reduction"] = a.critical_speeds_beyond;
   json["cross_coupling_margin"] = crossCouplingJson(a);
   json["parameter_margins"] = parameterMarginsJson(a);
+  json["spread_margin"] = spreadMarginJson(a);
   json["steady_speeds"] = Json::array();
   for (const SteadySpeed& steady : a.steady_speeds) {
     json["steady_speeds"].push_back(

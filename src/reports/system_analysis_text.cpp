@@ -211,6 +211,17 @@ std::string parameterMarginsText(const SystemAnalysis& a) {
   return out;
 }
 
+std::string spreadMarginText(const SystemAnalysis& a) {
+  if (!a.spread_margin) {
+    return "";
+  }
+  const SpreadMargin& margin = *a.spread_margin;
+  return fmt::format(
+      "  within its spread {} of {} members grow, the slowest decay found is {:.4g} 1/s{}\n",
+      margin.beyond(0.0), margin.decay_rates.size(), margin.lowest_decay_rate,
+      margin.stable_throughout ? "; stable throughout (Kharitonov)" : "");
+}
+
 std::string steadySpeedsText(const SystemAnalysis& a) {
   std::string out = a.steady_speeds.empty() ? "" : "  steady speeds on its motor\n";
   for (const SteadySpeed& steady : a.steady_speeds) {
@@ -235,7 +246,7 @@ std::string text(const SystemAnalysis& a) {
          matrixText("stiffness", a.linearization.stiffness) +
          matrixText("circulatory", a.linearization.circulatory);
   return out + modesText(a) + stabilityText(a) + criticalSpeedsText(a) + crossCouplingText(a) +
-         parameterMarginsText(a) + steadySpeedsText(a);
+         parameterMarginsText(a) + spreadMarginText(a) + steadySpeedsText(a);
 }
 
 }  // namespace whirl_twin

@@ -54,6 +54,7 @@ TEST(Analyze, HasEveryKey) {
                                                    "critical_speeds_beyond_reduction",
                                                    "cross_coupling_margin",
                                                    "parameter_margins",
+                                                   "spread_margin",
                                                    "steady_speeds",
                                                    "methods"}));
     EXPECT_EQ(keys(system["energy"]), (std::set<std::string>{"kinetic", "potential", "jacobi",
@@ -175,6 +176,21 @@ TEST(Analyze, TellsTheNumberNearestToTheLossOfStability) {
       "{model: jeffcott_rotor, parameters: {mass: 2, stiffness: 5000, damping: 10,"
       " internal_damping: 5, speed: 160}}");
   EXPECT_TRUE(growing["parameter_margins"].is_null()) << "it has lost it already";
+}
+
+// Lost at 20 N s/m of internal damping: by a quarter of those from 14 to 22.
+TEST(Analyze, TellsWhatASpreadOfItsNumbersDoes) {
+  const Json rotor = analyzed(
+      "{model: jeffcott_rotor, parameters: {mass: 1, stiffness: 10000, damping: 10,"
+      " internal_damping: 18, speed: 150}, spread: {internal_damping: {half_width: 4}}}");
+  EXPECT_EQ(rotor["spread_margin"]["members"], 1000);
+  EXPECT_NEAR(rotor["spread_margin"]["growing"].get<double>(), 250.0, 55.0);
+  EXPECT_LT(rotor["spread_margin"]["lowest_decay_rate"].get<double>(), 0.0);
+  EXPECT_EQ(rotor["spread_margin"]["stable_throughout"], false);
+  EXPECT_TRUE(
+      analyzed("{model: jeffcott_rotor, parameters: {mass: 1, stiffness: 10000, damping: 10,"
+               " internal_damping: 18, speed: 150}}")["spread_margin"]
+          .is_null());
 }
 
 TEST(Analyze, UndampedCriticalSpeedHasNoAmplificationFactor) {

@@ -58,6 +58,16 @@ TEST_F(Fit, FindsWhatTheRunsWereMadeWith) {
   EXPECT_EQ(json["runs"]["swing_1.csv"]["use"], "train");
   EXPECT_LT(json["runs"]["swing_2.csv"]["rms"]["theta"], 1e-6);
   EXPECT_TRUE(json["undetermined"].empty());
+  const YAML::Node system = YAML::LoadFile(directory_.file("fitted.yaml"))["systems"]["arm"];
+  for (const auto& parameter : json["parameters"].items()) {
+    EXPECT_NEAR(system["spread"][parameter.key()]["standard_deviation"].as<double>(),
+                parameter.value()["standard_deviation"].get<double>(),
+                0.01 * parameter.value()["standard_deviation"].get<double>())
+        << parameter.key();
+  }
+  EXPECT_EQ(twin({"analyze", directory_.file("fitted.yaml"), "--json"})
+                .json()["systems"]["arm"]["spread_margin"]["members"],
+            1000);
   // The scene that was written is one, with these values, and predicts without any fit.
   EXPECT_EQ(twin({"check", directory_.file("fitted.yaml")}).status, 0);
   const Ending again =
