@@ -39,11 +39,7 @@ class TwoTwins : public testing::Test {
           heard.speeds.insert(m->speed);
         };
     const boost::function<void(const StabilityMargin::ConstPtr&)> on_margin =
-        [&heard](const StabilityMargin::ConstPtr& m) {
-          if (m->system == kRotor) {
-            heard.margin_speeds.insert(m->speed);
-          }
-        };
+        [&heard](const StabilityMargin::ConstPtr& m) { heard.margin_speeds.insert(m->speed); };
     subscribers_.push_back(node_.subscribe<WhirlState>(twin + "/rotor/whirl", 10000, on_whirl));
     subscribers_.push_back(
         node_.subscribe<StabilityMargin>(twin + "/rotor/stability", 1000, on_margin));

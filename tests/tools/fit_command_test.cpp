@@ -1,6 +1,7 @@
 // `twin fit`: a study as a user writes it, its report, its mistakes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
 
 #include <cmath>
 
