@@ -48,7 +48,7 @@ struct SystemAnalysis {
   std::vector<SteadySpeed> steady_speeds;             ///< on its motor
   /// Of a stable motion, the nearest first; nothing where it was not looked for.
   std::optional<std::vector<ParameterMargin>> parameter_margins;
-  std::optional<SpreadMargin> spread_margin;  ///< of a stable motion, where its numbers are spread
+  std::optional<SpreadMargin> spread_margin;  ///< of a steady motion, where its numbers are spread
 };
 
 /// Which systems have the margins of their numbers looked for (isQuickToSearch).
