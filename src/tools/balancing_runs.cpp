@@ -66,8 +66,8 @@ class RunsReader {
       if (one.empty()) {
         complaints_.add(key, fmt::format("must be a name, found {}", shown(nodes[i])));
       } else if (std::find(all.begin(), all.end(), one) != all.end()) {
-        complaints_.add(key,
-                        fmt::format("must be a name of its own; {} stands twice", quoted(one)));
+        complaints_.add(key, fmt::format("must be a name of its own; {} stands twice",
+                                         whirl_twin::quoted(one)));
       }
       all.push_back(one);
     }
@@ -147,7 +147,7 @@ class RunsReader {
       if (!tried[plane]) {
         complaints_.add(map.key("trials"),
                         fmt::format("must have a run with a mass in every plane, found none in {}",
-                                    quoted(runs_.planes[plane])));
+                                    whirl_twin::quoted(runs_.planes[plane])));
       }
     }
   }
@@ -176,7 +176,7 @@ class RunsReader {
     if (read && std::fabs(size) < kLeastMass && run.has("mass_radius")) {
       complaints_.add(run.key("mass_radius"),
                       fmt::format("must be {:g} kg m at least, found {} in plane {}", kLeastMass,
-                                  shown(run.at("mass_radius")), quoted(*place)));
+                                  shown(run.at("mass_radius")), whirl_twin::quoted(*place)));
     }
     runs_.trials.push_back(trial);
   }
