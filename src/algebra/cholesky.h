@@ -4,10 +4,11 @@
 
 #include <Eigen/Cholesky>
 
-// NOLINTNEXTLINE(bugprone-macro-parentheses): a word of the language
+// NOLINTBEGIN(bugprone-macro-parentheses): a word of the language
 #define WHIRL_TWIN_CHOLESKY(storage)                                                    \
   storage template Eigen::LLT<Eigen::MatrixXd>& Eigen::LLT<Eigen::MatrixXd>::compute(   \
       const Eigen::EigenBase<Eigen::MatrixXd>&);                                        \
   storage template Eigen::LDLT<Eigen::MatrixXd>& Eigen::LDLT<Eigen::MatrixXd>::compute( \
       const Eigen::EigenBase<Eigen::MatrixXd>&);
+// NOLINTEND(bugprone-macro-parentheses)
 WHIRL_TWIN_CHOLESKY(extern)

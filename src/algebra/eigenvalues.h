@@ -4,7 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 
-// NOLINTNEXTLINE(bugprone-macro-parentheses): a word of the language
+// NOLINTBEGIN(bugprone-macro-parentheses): a word of the language
 #define WHIRL_TWIN_EIGENVALUES(storage)                                                           \
   storage template Eigen::EigenSolver<Eigen::MatrixXd>&                                           \
   Eigen::EigenSolver<Eigen::MatrixXd>::compute(const Eigen::EigenBase<Eigen::MatrixXd>&, bool);   \
@@ -17,4 +17,5 @@
   storage template Eigen::ComplexEigenSolver<Eigen::MatrixXcd>&                                   \
   Eigen::ComplexEigenSolver<Eigen::MatrixXcd>::compute(const Eigen::EigenBase<Eigen::MatrixXcd>&, \
                                                        bool);
+// NOLINTEND(bugprone-macro-parentheses)
 WHIRL_TWIN_EIGENVALUES(extern)

@@ -4,9 +4,10 @@
 
 #include <Eigen/LU>
 
-// NOLINTNEXTLINE(bugprone-macro-parentheses): a word of the language
+// NOLINTBEGIN(bugprone-macro-parentheses): a word of the language
 #define WHIRL_TWIN_LU(storage)                                  \
   storage template class Eigen::PartialPivLU<Eigen::MatrixXd>;  \
   storage template class Eigen::PartialPivLU<Eigen::MatrixXcd>; \
   storage template class Eigen::FullPivLU<Eigen::MatrixXd>;
+// NOLINTEND(bugprone-macro-parentheses)
 WHIRL_TWIN_LU(extern)

@@ -4,9 +4,10 @@
 
 #include <Eigen/QR>
 
-// NOLINTNEXTLINE(bugprone-macro-parentheses): a word of the language
+// NOLINTBEGIN(bugprone-macro-parentheses): a word of the language
 #define WHIRL_TWIN_QR(storage)                                   \
   storage template class Eigen::HouseholderQR<Eigen::MatrixXd>;  \
   storage template class Eigen::HouseholderQR<Eigen::MatrixXcd>; \
   storage template class Eigen::ColPivHouseholderQR<Eigen::MatrixXd>;
+// NOLINTEND(bugprone-macro-parentheses)
 WHIRL_TWIN_QR(extern)

@@ -4,8 +4,9 @@
 
 #include <Eigen/SVD>
 
-// NOLINTNEXTLINE(bugprone-macro-parentheses): a word of the language
+// NOLINTBEGIN(bugprone-macro-parentheses): a word of the language
 #define WHIRL_TWIN_SVD(storage)                             \
   storage template class Eigen::JacobiSVD<Eigen::MatrixXd>; \
   storage template class Eigen::JacobiSVD<Eigen::MatrixXcd>;
+// NOLINTEND(bugprone-macro-parentheses)
 WHIRL_TWIN_SVD(extern)
