@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
+#include "algebra/cholesky.h"
+#include "algebra/eigenvalues.h"
 #include "analysis/natural_modes.h"
 #include "messages/refusal.h"
 

@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <random>
 
+#include "algebra/qr.h"
 #include "analysis/cyclic_coordinates.h"
 #include "analysis/instability_speed.h"
 #include "analysis/whirl_modes.h"

@@ -3,9 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <complex>
 
+#include "algebra/lu.h"
 #include "analysis/influence_coefficients.h"
 #include "analysis/natural_modes.h"
 #include "messages/refusal.h"

@@ -3,8 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
+#include "algebra/qr.h"
 #include "analysis/natural_modes.h"
 #include "messages/refusal.h"
 #include "random_systems.h"

@@ -4,11 +4,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <cmath>
 #include <complex>
 
+#include "algebra/eigenvalues.h"
+#include "algebra/lu.h"
 #include "mechanics/rotors/rotor_assembly.h"
 
 namespace whirl_twin {

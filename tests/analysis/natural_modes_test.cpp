@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include "analysis/assumed_modes.h"
 #include "analysis/dunkerley.h"

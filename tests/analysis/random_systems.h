@@ -2,9 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/QR>
 #include <cmath>
 #include <random>
+
+#include "algebra/qr.h"
 
 namespace whirl_twin {
 

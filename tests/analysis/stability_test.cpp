@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <cmath>
 #include <random>
 
+#include "algebra/lu.h"
 #include "analysis/characteristic_polynomial.h"
 #include "analysis/equilibria.h"
 #include "messages/refusal.h"

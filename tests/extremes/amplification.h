@@ -5,13 +5,13 @@
 // from its recurrence, as `auto` does.
 #pragma once
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <cmath>
 #include <complex>
 #include <optional>
 #include <string>
 
+#include "algebra/eigenvalues.h"
+#include "algebra/lu.h"
 #include "integration/stoermer_growth.h"
 #include "mechanics/linearization.h"
 

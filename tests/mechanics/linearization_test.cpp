@@ -2,11 +2,11 @@
 // to differences of the acceleration, and to the notes' closed forms.
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <cstdlib>
 
 #include "../analysis/models_under_test.h"
+#include "algebra/eigenvalues.h"
 #include "random_state.h"
 
 namespace whirl_twin {

@@ -1,9 +1,11 @@
 // What the Jeffcott rotor answers to the lecture notes' reference numbers.
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <complex>
 
 #include "../integration/running_system.h"
+#include "algebra/eigenvalues.h"
+#include "algebra/lu.h"
 #include "note_case.h"
 
 namespace whirl_twin {

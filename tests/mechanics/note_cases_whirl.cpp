@@ -1,6 +1,6 @@
 // What the models answer to the lecture notes' reference numbers on the causes of whirl: a free
 // spin, fluid friction, hysteresis, gyroscopic tilt.
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <complex>
 #include <map>

@@ -2,7 +2,7 @@
 // every system ask: accelerations, energies, trajectories, small motion.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "../integration/running_system.h"
+#include "algebra/eigenvalues.h"
 #include "note_case.h"
 
 namespace whirl_twin {

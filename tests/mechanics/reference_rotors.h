@@ -1,7 +1,6 @@
 // Rotors of tests/reference/rotor_cases.json as flexible shafts.
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <complex>
 #include <fstream>
@@ -10,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "algebra/eigenvalues.h"
 #include "mechanics/rotors/rotor_assembly.h"
 
 namespace whirl_twin {

@@ -3,9 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <cmath>
 
+#include "algebra/cholesky.h"
+#include "algebra/lu.h"
 #include "reference_rotors.h"
 
 namespace whirl_twin {

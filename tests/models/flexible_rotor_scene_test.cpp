@@ -1,13 +1,13 @@
 // Flexible rotors from scene files: what is refused and in what words, and what is built.
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <ostream>
 
 #include "../scene/scenes.h"
+#include "algebra/lu.h"
 #include "models/model_registry.h"
 #include "twin/observer.h"
 #include "twin/twin.h"
