@@ -1,0 +1,121 @@
+// What a step costs who runs `twin simulate` with few samples, beside the step alone: CPU time of a
+// long run less that of a short one, so that start, calibration and printing are left out.
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "realtime/denormals.h"
+#include "scene/scene_reader.h"
+#include "step_costs.h"
+#include "twin/twin.h"
+
+namespace whirl_twin {
+namespace {
+
+struct Case {
+  std::string name;
+  std::string scene;
+};
+
+const std::vector<Case> kCases{
+    {"Jeffcott rotor, constant speed",
+     "{gravity: 9.81, step: 0.001, systems: {rotor: {model: jeffcott_rotor, parameters: "
+     "{mass: 2, stiffness: 2.0e4, damping: 10, eccentricity: 1.0e-4, speed: 80}}}}"},
+    {"the same with internal damping",
+     "{gravity: 9.81, step: 0.001, systems: {rotor: {model: jeffcott_rotor, parameters: "
+     "{mass: 2, stiffness: 2.0e4, damping: 10, internal_damping: 2, eccentricity: 1.0e-4, "
+     "speed: 80}}}}"},
+    {"double pendulum, stoermer_6",
+     "{gravity: 9.81, step: 0.001, systems: {pendulum: {model: double_pendulum, parameters: "
+     "{mass1: 1, mass2: 1, length1: 1, length2: 1}, initial: {theta1: 0.2, theta2: 0.3}, "
+     "integrator: stoermer_6}}}"},
+    {"double pendulum, dormand_prince_8",
+     "{gravity: 9.81, step: 0.001, systems: {pendulum: {model: double_pendulum, parameters: "
+     "{mass1: 1, mass2: 1, length1: 1, length2: 1}, initial: {theta1: 0.2, theta2: 0.3}, "
+     "integrator: dormand_prince_8}}}"}};
+
+/// User and system time [s] of a command that must succeed; what it prints is thrown away.
+double cpuTime(const std::vector<std::string>& command) {
+  std::vector<char*> words;
+  for (const std::string& word : command) {
+    words.push_back(const_cast<char*>(word.c_str()));
+  }
+  words.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  pid_t process = 0;
+  const int refused = posix_spawn(&process, words[0], &actions, nullptr, words.data(), ::environ);
+  posix_spawn_file_actions_destroy(&actions);
+  int status = 0;
+  rusage used{};
+  if (refused != 0 || wait4(process, &status, 0, &used) != process || status != 0) {
+    throw std::runtime_error(command[0] + " simulate failed");
+  }
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1.0e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(used.ru_utime) + seconds(used.ru_stime);
+}
+
+/// [ns] a step of a millisecond.
+double commandCost(const std::string& twin, const std::string& scene, int seconds) {
+  const auto run = [&](int duration) {
+    return cpuTime({twin, "simulate", scene, "--duration", std::to_string(duration), "--sample",
+                    std::to_string(seconds / 4)});
+  };
+  return (run(3 * seconds) - run(seconds)) / (2.0e3 * seconds) * 1.0e9;
+}
+
+double median(std::vector<double> all) {
+  std::nth_element(all.begin(), all.begin() + all.size() / 2, all.end());
+  return all[all.size() / 2];
+}
+
+void compare(const std::string& twin, bool quick) {
+  const int rounds = quick ? 1 : 9;
+  const int seconds = quick ? 40 : 4000;
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / fmt::format("twin_simulate_{}.yaml", ::getpid());
+  fmt::print("| scene | the step, ns | `twin simulate`, ns a step | times |\n|---|---|---|---|\n");
+  for (const Case& it : kCases) {
+    std::ofstream(file) << it.scene;
+    Twin alone(readScene(YAML::Load(it.scene), "benchmark"));
+    std::vector<double> steps;
+    std::vector<double> commands;
+    for (int round = 0; round < rounds; ++round) {
+      const Stepped step{it.name, [&](int count) { advance(alone, count); }};
+      steps.push_back(stepCosts({step}, quick ? Effort{1, 1.0} : Effort{3, 30.0})[0].median);
+      commands.push_back(commandCost(twin, file.string(), seconds));
+    }
+    fmt::print("| {} | {:.1f} | {:.1f} | {:.2f} |\n", it.name, median(steps), median(commands),
+               median(commands) / median(steps));
+  }
+  std::filesystem::remove(file);
+}
+
+}  // namespace
+}  // namespace whirl_twin
+
+int main(int argc, char** argv) {
+  const bool quick = argc == 3 && std::string(argv[2]) == "--quick";
+  if (argc != 2 && !quick) {
+    std::cerr << "usage: simulate_command_benchmark TWIN [--quick]\n";
+    return 2;
+  }
+  const whirl_twin::DenormalsToZero denormals_to_zero;
+  whirl_twin::compare(argv[1], quick);
+  return 0;
+}
