@@ -50,6 +50,11 @@
 //         One complex number a rotor, side by side in vectors; the shaft's forces are evaluated
 //         once for all. Not where a step has very many parts (ensemble_members.cpp).
 //
+//     an ensemble of 12 or more pendulums or          runge_kutta_4,   MemberSteps
+//     mechanisms, without inputs                      dormand_prince_8
+//         Energies, parameters and states of 32 members in one loop, which compilers make vectors
+//         of (side_by_side.cpp).
+//
 //     any other ensemble                              its system's     its system's, one by one
 #pragma once
 
