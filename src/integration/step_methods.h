@@ -12,9 +12,9 @@
 //     energies, linear, of two coordinates:           exponential      LateralRotorStepper
 //     jeffcott_rotor
 //         Two oscillators that the shaft drives and couples. At constant speed the plain exact
-//         step, of an isotropic rotor in z = x + i y; in a run-up 4, 8 or 12 Gauss nodes at the
-//         drive's exact angle, as many as the step needs, side by side in vectors. Very stiff
-//         ones (more than 640 rad a step) go by LinearRotorStepper.
+//         step, the forces turned from step to step with the shaft; in a run-up 4, 8 or 12 Gauss
+//         nodes at the drive's exact angle, as many as the step needs, side by side in vectors.
+//         Very stiff ones (more than 640 rad a step) go by LinearRotorStepper.
 //
 //     energies, linear, without a shaft:              exponential      SteppedSystem<Model,
 //     friction_oscillator                                                           Exponential>
