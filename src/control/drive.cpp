@@ -12,7 +12,6 @@ namespace whirl_twin {
 namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
-constexpr std::int64_t kLatest = std::numeric_limits<std::int64_t>::max();
 
 }  // namespace
 
@@ -105,32 +104,32 @@ std::vector<double> Drive::constantSpeeds() const {
   return speeds;
 }
 
-void Drive::begin(std::int64_t time_nanoseconds) noexcept {
-  if (time_nanoseconds < first_tick_ || time_nanoseconds >= until_) {
-    enter(time_nanoseconds);
+void Drive::beginInProfile() noexcept {
+  if (time_ < first_tick_ || time_ >= until_) {
+    enter(time_);
   }
-  time_ = time_nanoseconds;
   if (until_ != kLatest) {
     // Unsigned: times further apart than 292 years are no overflow.
     const std::uint64_t ticks =
-        static_cast<std::uint64_t>(until_) - static_cast<std::uint64_t>(time_nanoseconds);
+        static_cast<std::uint64_t>(until_) - static_cast<std::uint64_t>(time_);
     remaining_ = static_cast<double>(ticks) / 1e9 - next_lead_;
   }
   if (steady_) {
-    angle_ = turn_.at(time_nanoseconds - first_tick_);
-  } else {
-    beginChanging();
+    within_ = kAngleUnknown;
+    return;
   }
-}
-
-// The motion at time_ in a piece whose speed changes.
-void Drive::beginChanging() noexcept {
   const Segment& segment = segments()[cursor_];
   const SpeedSegment& motion = segment.motion;
   const SplitTime tau = later(splitTime(time_ - segment.first_tick), segment.lead);
   angle_ = advance(segment.angle, motion.speed, motion.acceleration, motion.jerk, tau);
+  within_ = remaining_;
   speed_ = motion.speed + tau.high * (motion.acceleration + 0.5 * tau.high * motion.jerk);
   acceleration_ = motion.acceleration + tau.high * motion.jerk;
+}
+
+void Drive::findAngle() const noexcept {
+  angle_ = turn_.at(time_ - first_tick_);
+  within_ = remaining_;
 }
 
 // Steps onto the segment that holds this time, and keeps what begin() needs of it.
@@ -145,6 +144,7 @@ void Drive::enter(std::int64_t time_nanoseconds) noexcept {
   }
   const Segment& segment = all[cursor_];
   const SpeedSegment& motion = segment.motion;
+  ++piece_;
   first_tick_ = segment.first_tick;
   steady_ = motion.constant();
   if (steady_) {
@@ -163,6 +163,12 @@ void Drive::enter(std::int64_t time_nanoseconds) noexcept {
 }
 
 ShaftMotion Drive::beyond(double offset) const noexcept {
+  if (within_ == kAngleUnknown) {
+    findAngle();
+    if (offset <= within_) {
+      return at(offset);
+    }
+  }
   const Segment* segment = segments() + cursor_ + 1;
   double tau = offset - remaining_;
   for (; tau > segment->motion.duration; ++segment) {
@@ -196,13 +202,13 @@ bool Drive::setSpeed(double speed, double max_acceleration, double max_jerk) noe
     return false;
   }
 
-  // time_ and angle_ are those of begin(), so the new pieces start from the present state.
-  const auto piece = [&](std::size_t i) {
+  // time_ and angle() are those of begin(), so the new pieces start from the present state.
+  const auto moved = [&](std::size_t i) {
     return i < change.count ? change.segments[i] : SpeedSegment{kForever, speed, 0.0, 0.0};
   };
-  live_[0] = {piece(0), speed, time_, 0.0, angle_};
+  live_[0] = {moved(0), speed, time_, 0.0, angle()};
   for (std::size_t i = 1; i <= change.count; ++i) {
-    live_[i] = following(live_[i - 1], piece(i), speed);
+    live_[i] = following(live_[i - 1], moved(i), speed);
   }
   live_count_ = change.count + 1;
   cursor_ = 0;

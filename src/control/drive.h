@@ -13,6 +13,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -29,7 +30,8 @@ struct ShaftMotion {
   double jerk;          ///< [rad/s^3]
 };
 
-/// A shaft whose motion is prescribed. Copies are independent of each other.
+/// A shaft whose motion is prescribed. Copies are independent of each other. It belongs to one
+/// thread, also to be read: the angle of a constant speed is worked out when it is asked for.
 class Drive {
  public:
   // Not real-time safe.
@@ -52,11 +54,18 @@ class Drive {
   /// Starts the step at this simulated time. Time increases from call to call; it may go back too,
   /// but after setSpeed() only a reset() brings back what was before it. Before its first instant
   /// the motion is continued backwards with the jerk it starts with. |time| <= 8e18 ns, 250 years.
-  void begin(std::int64_t time_nanoseconds) noexcept;
+  void begin(std::int64_t time_nanoseconds) noexcept {
+    time_ = time_nanoseconds;
+    if (__builtin_expect(steady_ && until_ == kLatest && time_nanoseconds >= first_tick_, 1)) {
+      within_ = kAngleUnknown;
+    } else {
+      beginInProfile();
+    }
+  }
 
   /// Motion at offset [s] >= 0 after begin(), of any size.
   ShaftMotion at(double offset) const noexcept {
-    if (offset > remaining_) {
+    if (__builtin_expect(offset > within_, 0)) {
       return beyond(offset);
     }
     return {angle_.remainder +
@@ -66,7 +75,18 @@ class Drive {
   }
 
   /// Angle at begin().
-  ShaftAngle angle() const noexcept { return angle_; }
+  ShaftAngle angle() const noexcept {
+    if (within_ == kAngleUnknown) {
+      findAngle();
+    }
+    return angle_;
+  }
+
+  /// Of begin().
+  std::int64_t nanoseconds() const noexcept { return time_; }
+  /// Another number whenever another piece of constant jerk is entered: from one time to another
+  /// with the same number the shaft has turned as that piece says.
+  std::uint64_t piece() const noexcept { return piece_; }
 
   /// The speed is constant from begin() for a duration [s].
   bool constantFor(double duration) const noexcept {
@@ -114,10 +134,14 @@ class Drive {
   std::size_t segmentCount() const noexcept {
     return live_count_ > 0 ? live_count_ : profile_.size();
   }
-  void beginChanging() noexcept;
+  void beginInProfile() noexcept;
   void enter(std::int64_t time_nanoseconds) noexcept;
+  void findAngle() const noexcept;
   ShaftMotion beyond(double offset) const noexcept;
   double cornerBeyond(double offset) const noexcept;
+
+  static constexpr std::int64_t kLatest = std::numeric_limits<std::int64_t>::max();
+  static constexpr double kAngleUnknown = -1.0;  // [s], less than any offset
 
   std::vector<Segment> profile_;
   std::array<Segment, 4> live_{};  // the last setSpeed() move and what follows it
@@ -126,6 +150,7 @@ class Drive {
   double move_duration_ = 0.0;
 
   // Of the segment at the cursor.
+  std::uint64_t piece_ = 0;
   std::int64_t first_tick_ = 0;
   std::int64_t until_ = 0;  // [ns], first tick of the next; of the last the latest time there is
   double next_lead_ = 0.0;  // [s], from the end to until_
@@ -134,7 +159,8 @@ class Drive {
 
   // At begin().
   std::int64_t time_ = 0;
-  ShaftAngle angle_;
+  mutable ShaftAngle angle_;
+  mutable double within_ = kAngleUnknown;  // [s]: remaining_, if the angle is known
   double speed_ = 0.0;
   double acceleration_ = 0.0;
   double jerk_ = 0.0;

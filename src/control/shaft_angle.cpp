@@ -103,14 +103,38 @@ ShaftAngle shaftAngle(double angle) noexcept {
   return add({}, {angle, 0.0});
 }
 
+namespace {
+
+__extension__ typedef __int128 Int128;
+
+// Turns in a nanosecond at a speed [rad/s], times 2^128.
+Int128 turnRate(const DoubleDouble& turns) {
+  return static_cast<Int128>(turns.high * 0x1p128) + static_cast<Int128>(turns.low * 0x1p128);
+}
+
+}  // namespace
+
 SteadyTurn::SteadyTurn(const ShaftAngle& angle, double speed, double lead) noexcept
     : start_(angle) {
   const DoubleDouble turns = times({kTurnRate, kTurnRateLow}, speed);
-  const Int128 rate =
-      static_cast<Int128>(turns.high * 0x1p128) + static_cast<Int128>(turns.low * 0x1p128);
+  const Int128 rate = turnRate(turns);
   rate_high_ = static_cast<std::int64_t>(rate >> 64);
   rate_low_ = static_cast<std::uint64_t>(rate);
   lead_ = static_cast<std::int64_t>(turns.high * (lead * 1e9) * 0x1p64) + (1 << 10);
+}
+
+SplitAngle turnIn(double speed, std::int64_t nanoseconds) noexcept {
+  __extension__ typedef unsigned __int128 Whole;
+  // Modulo one turn, by overflow; as a signed number from half a turn back to half a turn on.
+  const Int128 rate = turnRate(times({kTurnRate, kTurnRateLow}, speed));
+  const auto part = static_cast<Int128>(static_cast<Whole>(rate) * static_cast<Whole>(nanoseconds));
+  constexpr int kRest = 128 - 53;  // bits
+  const Int128 head = part >> kRest;
+  const Int128 rest = part - head * (Int128{1} << kRest);
+  const DoubleDouble angle =
+      times({kTwoPi, kTwoPiLow},
+            orderedSum(static_cast<double>(head) * 0x1p-53, static_cast<double>(rest) * 0x1p-128));
+  return {angle.high, angle.low};
 }
 
 ShaftAngle advance(const ShaftAngle& angle, double speed, std::int64_t nanoseconds) noexcept {

@@ -40,6 +40,12 @@ struct SplitTime {
   double low = 0.0;
 };
 
+/// An angle [rad] less whole turns, in [-pi, pi], as the unevaluated sum of two doubles.
+struct SplitAngle {
+  double high = 0.0;
+  double low = 0.0;
+};
+
 /// Whole nanoseconds in seconds, to a relative 2^-104.
 SplitTime splitTime(std::int64_t nanoseconds) noexcept;
 
@@ -81,6 +87,10 @@ class SteadyTurn {
   std::uint64_t rate_low_ = 0;
   std::int64_t lead_ = 0;  // [2^-64 turns], turned in the lead, and 2^-54 turns to round with
 };
+
+/// What a constant speed [rad/s] turns in whole nanoseconds, less whole turns: within 2^-103 of all
+/// that is turned, 2^-103 rad and 2^-124 rad for each nanosecond.
+SplitAngle turnIn(double speed, std::int64_t nanoseconds) noexcept;
 
 /// The angle advanced at a constant speed [rad/s] for whole nanoseconds; |theta| <= 1e15 rad, which
 /// covers 1e5 rad/s for 300 years.

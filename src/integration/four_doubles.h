@@ -1,4 +1,4 @@
-// Four doubles side by side, two complex numbers: in one vector or in two, as the processor has it.
+// Four doubles side by side: in one vector or in two, as the processor has it.
 #pragma once
 
 #include "mechanics/force_inline.h"
@@ -33,35 +33,15 @@ struct FourDoubles {
     }
     return x;
   }
-  /// One complex number twice.
-  static WHIRL_TWIN_INLINE FourDoubles twice(double real, double imaginary) {
-    FourDoubles x;
-    for (Part& part : x.part) {
-      if constexpr (lanes == 4) {
-        part = Part{real, imaginary, real, imaginary};
-      } else {
-        part = Part{real, imaginary};
-      }
-    }
-    return x;
-  }
-  WHIRL_TWIN_INLINE void store(double* to) const {
-    for (int i = 0; i < kParts; ++i) {
-      reinterpret_cast<InMemory*>(to)[i] = part[i];
+  /// The first two and the last two in each other's place.
+  WHIRL_TWIN_INLINE FourDoubles halvesSwapped() const {
+    if constexpr (lanes == 4) {
+      return {{Part{part[0][2], part[0][3], part[0][0], part[0][1]}}};
+    } else {
+      return {{part[1], part[0]}};
     }
   }
-
-  static WHIRL_TWIN_INLINE FourDoubles all(double value) {
-    FourDoubles x;
-    for (Part& part : x.part) {
-      part = Part{} + value;
-    }
-    return x;
-  }
-  /// Of one complex number in memory, twice.
-  static WHIRL_TWIN_INLINE FourDoubles twice(const double* from) { return twice(from[0], from[1]); }
-
-  /// Real and imaginary parts in each other's place.
+  /// The first and the second in each other's place, the third and the fourth.
   WHIRL_TWIN_INLINE FourDoubles across() const {
     FourDoubles x;
     for (int i = 0; i < kParts; ++i) {
@@ -72,6 +52,11 @@ struct FourDoubles {
       }
     }
     return x;
+  }
+  WHIRL_TWIN_INLINE void store(double* to) const {
+    for (int i = 0; i < kParts; ++i) {
+      reinterpret_cast<InMemory*>(to)[i] = part[i];
+    }
   }
   WHIRL_TWIN_INLINE double sum() const {
     if constexpr (lanes == 4) {

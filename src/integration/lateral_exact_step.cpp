@@ -5,10 +5,29 @@
 #include <cmath>
 #include <complex>
 
-#include "integration/finite.h"
 #include "integration/matrix_exponential.h"
+#include "mechanics/sine_cosine.h"
 
 namespace whirl_twin {
+
+namespace {
+
+/// x, y and x', y' (over a frequency); cos, sin; 1.
+constexpr int kAll = 7;
+using All = Eigen::Matrix<double, kAll, 1>;
+using Square = Eigen::Matrix<double, kAll, kAll>;
+using Increment = Eigen::Matrix<double, 4, kAll>;
+
+constexpr double kRounding = 1.0e-14;
+
+}  // namespace
+
+LateralExactStep::LateralExactStep(const LateralRotor& rotor, double h)
+    : nanoseconds_(std::llround(h * 1e9)), rotor_(rotor), h_(h) {
+  if (std::fabs(static_cast<double>(nanoseconds_) - h * 1e9) > 1e-9) {
+    nanoseconds_ = 0;
+  }
+}
 
 void LateralExactStep::prepare(double speed) noexcept {
   using Complex = LateralRotor::Complex;
@@ -49,78 +68,50 @@ void LateralExactStep::prepare(double speed) noexcept {
 
   const Square e = exponentialLessIdentity<kAll>(Square(h_ * a));
   const All unscale = scale.cwiseInverse();
-  increment_ = unscale.head<4>().asDiagonal() * e.topRows<4>() * scale.asDiagonal();
+  const Increment increment = unscale.head<4>().asDiagonal() * e.topRows<4>() * scale.asDiagonal();
   const Square w =
       r.mass * (scale.asDiagonal() * quadraticIntegral<kAll>(a, power, h_) * scale.asDiagonal());
   speed_ = speed;
-  turn_ = std::remainder(speed * h_, kTwoPi);
-  const double cosine = std::cos(turn_);
-  const double sine = std::sin(turn_);
-  turning_ = {{cosine, cosine, cosine, cosine}, {-sine, sine, -sine, sine}};
-  turning_across_ = {{-sine, -sine, -sine, -sine}, {-cosine, cosine, -cosine, cosine}};
-  work_ = w;
+  const SplitAngle turn = turnIn(speed, nanoseconds_);
+  const long double angle = static_cast<long double>(turn.high) + turn.low;
+  const long double cosine = std::cos(angle);
+  const long double sine = std::sin(angle);
+  turn_.set(static_cast<double>(cosine), static_cast<double>(sine));
+  turn_low_.set(static_cast<double>(cosine - static_cast<double>(cosine)),
+                static_cast<double>(sine - static_cast<double>(sine)));
+  const auto column = [](const auto& m, int j, double times) {
+    return Numbers{{times * m(0, j), times * m(1, j), times * m(2, j), times * m(3, j)}};
+  };
+  const auto columns = [](const auto& m) {
+    return Columns{{{m(0, 0), m(1, 1), m(2, 2), m(3, 3)}},
+                   {{m(0, 2), m(1, 3), m(2, 0), m(3, 1)}},
+                   {{m(0, 1), m(1, 0), m(2, 3), m(3, 2)}},
+                   {{m(0, 3), m(1, 2), m(2, 1), m(3, 0)}}};
+  };
   coupled_ = coupling != 0.0;
-  loaded_ = r.load[0] != 0.0 || r.load[1] != 0.0;
-  // A number of the complex form is the first column of its block of the real one: of the lines of
-  // z and of w.
-  const auto factors = [](const auto& m, int column, double times) {
-    Factors f;
-    for (std::size_t line = 0; line < 2; ++line) {
-      const auto row = static_cast<Eigen::Index>(2 * line);
-      f.real[2 * line] = f.real[2 * line + 1] = times * m(row, column);
-      f.imaginary[2 * line + 1] = times * m(row + 1, column);
-      f.imaginary[2 * line] = -f.imaginary[2 * line + 1];
-    }
-    return f;
-  };
-  moves_ = {factors(increment_, 0, 1.0), factors(increment_, 2, 1.0)};
-  powers_ = {factors(w, 0, 1.0), factors(w, 2, 1.0)};
-  force_ = {Complex(increment_(0, 4), increment_(1, 4)),
-            Complex(increment_(2, 4), increment_(3, 4))};
-  force_power_ = {2.0 * Complex(w(0, 4), w(1, 4)), 2.0 * Complex(w(2, 4), w(3, 4))};
-  load_power_ = 2.0 * Complex(w(4, 6), -w(5, 6));
-  for (std::size_t i = 0; i < 4; ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    sag_[i] = increment_(row, 6);
-    sag_power_[i] = 2.0 * w(row, 6);
-  }
-  constant_ = w(4, 4) + w(6, 6);
+  moves_ = columns(increment);
+  powers_ = columns(w);
+  force_ = {column(increment, 4, 1.0), column(increment, 5, 1.0), column(increment, 6, 1.0)};
+  force_power_ = {column(w, 4, 2.0), column(w, 5, 2.0), column(w, 6, 2.0)};
+  steady_at_rest_ = 0.5 * (w(4, 4) + w(5, 5)) + w(6, 6);
+  at_rest_ = {2.0 * w(4, 6), 2.0 * w(5, 6), 0.5 * (w(4, 4) - w(5, 5)), w(4, 5)};
+  turns_at_rest_ = std::any_of(at_rest_.begin(), at_rest_.end(), [&](double part) {
+    return std::fabs(part) > kRounding * std::fabs(steady_at_rest_);
+  });
 }
 
-StepStatus LateralExactStep::advance(double angle, double speed, LateralMotion& motion) noexcept {
+StepStatus LateralExactStep::advance(const Drive& drive, LateralMotion& motion) noexcept {
   constexpr int kTurns = 32;  // until the phasor is made anew
-  if (!(speed == speed_)) {
-    prepare(speed);
+  const ShaftMotion shaft = drive.at(0.0);
+  if (!(shaft.speed == speed_)) {
+    prepare(shaft.speed);
   }
-  const SineCosine both = sineCosine(angle);
-  if (!rotor_.isotropic) {
-    return general(both, motion);
-  }
-  const LateralRotor::Complex turn(both.cosine, both.sine);
-  const auto turned = [&](const std::array<LateralRotor::Complex, 2>& numbers) {
-    const LateralRotor::Complex first = numbers[0] * turn;
-    const LateralRotor::Complex second = numbers[1] * turn;
-    return std::array<double, 4>{first.real(), first.imag(), second.real(), second.imag()};
-  };
-  forced_ = turned(force_);
-  forced_power_ = turned(force_power_);
-  loaded_power_ = turned({load_power_, 0.0});
-  angle_ = angle;
-  turns_left_ = kTurns;
-  return whirl<FourDoubles<2>>(motion);
-}
-
-StepStatus LateralExactStep::general(const SineCosine& turn, LateralMotion& motion) noexcept {
-  All y;
-  y << motion.y[0], motion.y[1], motion.y[2], motion.y[3], turn.cosine, turn.sine, 1.0;
-  const Eigen::Matrix<double, 4, 1> increment = increment_ * y;
-  LateralMotion next = motion;
-  next.advance({increment[0], increment[1], increment[2], increment[3]}, y.dot(work_ * y));
-  if (!isFinite(next)) {
-    return StepStatus::kNotFinite;
-  }
-  motion = next;
-  return StepStatus::kOk;
+  const SineCosine both = sineCosine(shaft.angle);
+  phasor_.set(both.cosine, both.sine);
+  next_ = drive.nanoseconds();
+  piece_ = drive.piece();
+  turns_left_ = nanoseconds_ > 0 && drive.constantFor((kTurns + 1) * h_) ? kTurns : 0;
+  return take<FourDoubles<2>>(motion);
 }
 
 }  // namespace whirl_twin

@@ -7,10 +7,7 @@ namespace whirl_twin {
 
 namespace {
 
-using Complex = LateralRotor::Complex;
-
 constexpr double kRounding = 1.0e-13;
-constexpr double kPhasorRounding = 1.0e-12;  // of forces known by their values at right angles
 
 bool isDiagonal(const Eigen::MatrixXd& m) {
   return m(0, 1) == 0.0 && m(1, 0) == 0.0;
@@ -25,16 +22,6 @@ bool fits(const LateralRotor& found, const Linearization& rest, const Linearizat
          l.gyroscopic.isZero(0.0) && l.circulatory(0, 1) == -l.circulatory(1, 0) &&
          l.circulatory(0, 0) == 0.0 && l.circulatory(1, 1) == 0.0 &&
          std::fabs(l.circulatory(0, 1) - coupling) <= kRounding * largest;
-}
-
-/// Along y as along x, a quarter of a turn later.
-bool turnsRound(std::array<Complex, 2>& force) {
-  const Complex aside = Complex(0.0, -1.0) * force[0];
-  if (std::abs(force[1] - aside) > kPhasorRounding * std::abs(force[0])) {
-    return false;
-  }
-  force[1] = aside;
-  return true;
 }
 
 }  // namespace
@@ -87,9 +74,6 @@ std::optional<LateralRotor> lateralRotor(const LinearRotor& rotor) {
       return std::nullopt;
     }
   }
-  found.isotropic = found.damping[0] == found.damping[1] &&
-                    found.stiffness[0] == found.stiffness[1] && turnsRound(found.eccentricity) &&
-                    turnsRound(found.bow_force);
   return found;
 }
 

@@ -5,8 +5,7 @@
 //   f = Re[(w^2 - i a) E e^(i theta)] + Re[B e^(i theta)] + g
 //
 // n: what rotates with the shaft or around it (internal damping, a fluid, cross-coupled stiffness),
-// linear in the speed w. All linear forms of the Jeffcott rotor are of this kind. Where the axes
-// are alike the rotor is isotropic and whirls as one complex number z = x + i y (lecture notes,
+// linear in the speed w. All linear forms of the Jeffcott rotor are of this kind (lecture notes,
 // "whirling of shafts").
 #pragma once
 
@@ -30,7 +29,6 @@ struct LateralRotor {
   std::array<Complex, 2> eccentricity{};  ///< E [m]
   std::array<Complex, 2> bow_force{};     ///< B [m/s^2]
   std::array<double, 2> load{};           ///< g [m/s^2]
-  bool isotropic = false;                 ///< c, k alike; E_y = -i E_x, B_y = -i B_x
 
   double couplingAt(double speed) const noexcept { return coupling + coupling_slope * speed; }
   /// [1/s]: no free motion without coupling turns or decays faster.

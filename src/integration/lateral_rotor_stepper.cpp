@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+
+#include "mechanics/sine_cosine.h"
 
 namespace whirl_twin {
 
@@ -30,37 +31,44 @@ class ByFours final : public LateralRotorStepper {
 };
 #endif
 
+/// Is energy of the unbalance and the bow another at another angle?
+bool energyTurns(const LateralRotor& rotor) {
+  constexpr double kRounding = 1.0e-9;  // of forces known by their values at right angles
+  const auto& e = rotor.eccentricity;
+  return rotor.bow_force[0] != 0.0 || rotor.bow_force[1] != 0.0 ||
+         std::abs(e[1] + LateralRotor::Complex(0.0, 1.0) * e[0]) > kRounding * std::abs(e[0]);
+}
+
 }  // namespace
 
-std::unique_ptr<Stepper> LateralRotorStepper::of(const LinearRotor& rotor, JacobiIntegral jacobi,
-                                                 const Drive& drive, double step, int substeps) {
+std::unique_ptr<Stepper> LateralRotorStepper::of(const LinearRotor& rotor, const Drive& drive,
+                                                 double step, int substeps) {
   const std::optional<LateralRotor> lateral = lateralRotor(rotor);
   if (!lateral || !(lateral->fastest() * step < kLongest * substeps)) {
     return nullptr;
   }
 #ifdef WHIRL_TWIN_FOUR_WIDE
   if (__builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0) {
-    return std::make_unique<ByFours>(*lateral, std::move(jacobi), drive, step, substeps);
+    return std::make_unique<ByFours>(*lateral, drive, step, substeps);
   }
 #endif
-  return std::make_unique<ByTwos>(*lateral, std::move(jacobi), drive, step, substeps);
+  return std::make_unique<ByTwos>(*lateral, drive, step, substeps);
 }
 
-LateralRotorStepper::LateralRotorStepper(const LateralRotor& rotor, JacobiIntegral jacobi,
-                                         const Drive& drive, double step, int substeps)
+LateralRotorStepper::LateralRotorStepper(const LateralRotor& rotor, const Drive& drive, double step,
+                                         int substeps)
     : drive_(drive),
       step_(step),
       exact_(rotor, step),
       run_up_(rotor, step / substeps),
       rotor_(rotor),
-      jacobi_(std::move(jacobi)),
+      energy_turns_(energyTurns(rotor)),
       substeps_(substeps) {}
 
 StepStatus LateralRotorStepper::otherStep() noexcept {
   StepStatus status;
   if (drive_.constantFor(step_)) {
-    const ShaftMotion shaft = drive_.at(0.0);
-    status = exact_.advance(shaft.angle, shaft.speed, motion_);
+    status = exact_.advance(drive_, motion_);
   } else {
     status = changingStep();
   }
@@ -135,21 +143,23 @@ void LateralRotorStepper::estimateError(const LateralMotion& end) noexcept {
   error_sum_ += kEstimateEvery * std::fmax(places, rates);
 }
 
-/// The Jacobi integral less T + V of the matrices. Both have the same in the rates: those are left
-/// out, for they would only cancel.
+/// In T the motion of the unbalance, d/dt Re[E e^(i theta)], with the sign that it has in h; in V
+/// the bow that is B / k.
 double LateralRotorStepper::furtherEnergy() const noexcept {
-  if (!jacobi_) {
-    return 0.0;
+  const double speed = drive_.at(0.0).speed;
+  if (!energy_turns_) {
+    return -0.5 * rotor_.mass * speed * speed * std::norm(rotor_.eccentricity[0]);
   }
-  constexpr std::array<double, 2> kAtRest{};
-  const ShaftMotion shaft = drive_.at(0.0);
-  const std::array<double, 4>& y = motion_.y;
-  double energy =
-      jacobi_(y.data(), kAtRest.data(), {0.0, shaft.angle, shaft.speed, shaft.acceleration});
+  const SineCosine turn = sineCosine(drive_.angle().remainder);
+  double energy = 0.0;
   for (std::size_t i = 0; i < 2; ++i) {
-    energy -= rotor_.mass * y[i] * (0.5 * rotor_.stiffness[i] * y[i] - rotor_.load[i]);
+    const LateralRotor::Complex e = rotor_.eccentricity[i];
+    const LateralRotor::Complex b = rotor_.bow_force[i];
+    const double rate = speed * (e.real() * turn.sine + e.imag() * turn.cosine);
+    const double pull = b.real() * turn.cosine - b.imag() * turn.sine;
+    energy += pull * (0.5 * pull / rotor_.stiffness[i] - motion_.y[i]) - 0.5 * rate * rate;
   }
-  return isFinite(energy) ? energy : further_energy_;  // lost beside energies beyond all range
+  return rotor_.mass * energy;
 }
 
 void LateralRotorStepper::write(double* out) const noexcept {

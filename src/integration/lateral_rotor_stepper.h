@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "integration/excitation.h"
-#include "integration/jacobi_integral.h"
 #include "integration/lateral_exact_step.h"
 #include "integration/lateral_motion.h"
 #include "integration/lateral_rotor.h"
@@ -20,13 +19,12 @@ class LateralRotorStepper : public Stepper {
  public:
   /// A stepper of this kind for step [s] of the twin in `substeps` parts, or nullptr: the rotor is
   /// of another kind, or so stiff that a run-up would take very many parts of a step. The step
-  /// audits h = T + V of the matrices; what `jacobi`, if there is one, changes by besides is added
-  /// to the work.
-  static std::unique_ptr<Stepper> of(const LinearRotor& rotor, JacobiIntegral jacobi,
-                                     const Drive& drive, double step, int substeps);
+  /// audits h = T + V of the matrices; what the Jacobi integral has besides, of the unbalance that
+  /// moves and the bow that turns, is added to the work when it is asked for.
+  static std::unique_ptr<Stepper> of(const LinearRotor& rotor, const Drive& drive, double step,
+                                     int substeps);
 
-  LateralRotorStepper(const LateralRotor& rotor, JacobiIntegral jacobi, const Drive& drive,
-                      double step, int substeps);
+  LateralRotorStepper(const LateralRotor& rotor, const Drive& drive, double step, int substeps);
 
   std::size_t dof() const noexcept override { return 2; }
   void write(double* out) const noexcept override;
@@ -38,8 +36,7 @@ class LateralRotorStepper : public Stepper {
   template <int lanes>
   WHIRL_TWIN_INLINE StepStatus take() noexcept {
     StepStatus status;
-    if (__builtin_expect(drive_.constantFor(step_), 1) &&
-        __builtin_expect(exact_.goesOn<lanes>(drive_.angle().remainder, motion_, status), 1)) {
+    if (__builtin_expect(exact_.goesOn<lanes>(drive_, motion_, status), 1)) {
       return __builtin_expect(status == StepStatus::kOk, 1) ? status : stopped(status);
     }
     return otherStep();
@@ -60,7 +57,7 @@ class LateralRotorStepper : public Stepper {
   LateralExactStep exact_;
   LateralRunUp run_up_;
   LateralRotor rotor_;
-  JacobiIntegral jacobi_;
+  bool energy_turns_;
   int substeps_;
   double further_energy_ = 0.0;             ///< [J], at the start
   std::optional<double> last_energy_ = {};  ///< [J], of one that has stopped

@@ -12,9 +12,9 @@
 //     energies, linear, of two coordinates:           exponential      LateralRotorStepper
 //     jeffcott_rotor
 //         Two oscillators that the shaft drives and couples. At constant speed the plain exact
-//         step, of an isotropic rotor in z = x + i y; in a run-up 4, 8 or 12 Gauss nodes at the
-//         drive's exact angle, as many as the step needs, side by side in vectors. Very stiff
-//         ones (more than 640 rad a step) go by LinearRotorStepper.
+//         step, the forces turned from step to step with the shaft; in a run-up 4, 8 or 12 Gauss
+//         nodes at the drive's exact angle, as many as the step needs, side by side in vectors.
+//         Very stiff ones (more than 640 rad a step) go by LinearRotorStepper.
 //
 //     energies, linear, without a shaft:              exponential      SteppedSystem<Model,
 //     friction_oscillator                                                           Exponential>
@@ -49,6 +49,11 @@
 //     matrices, on a drive or at constant speed
 //         One complex number a rotor, side by side in vectors; the shaft's forces are evaluated
 //         once for all. Not where a step has very many parts (ensemble_members.cpp).
+//
+//     an ensemble of 12 or more pendulums or          runge_kutta_4,   MemberSteps
+//     mechanisms, without inputs                      dormand_prince_8
+//         Energies, parameters and states of 32 members in one loop, which compilers make vectors
+//         of (side_by_side.cpp).
 //
 //     any other ensemble                              its system's     its system's, one by one
 #pragma once

@@ -201,6 +201,9 @@ class LagrangianDynamics final : public Dynamics {
     }
   }
 
+  /// The energies, with their parameters.
+  const Model& energyModel() const { return model_; }
+
   std::string model() const override { return Model::kName; }
   int dof() const override { return static_cast<int>(n); }
   std::vector<CoordinateInfo> coordinates() const override {

@@ -44,8 +44,8 @@ ModelSetup withExactRunUps(ModelSetup setup, JacobiIntegral jacobi) {
       return plain(integrator, excitation, step, substeps);
     }
     if (excitation.inputs == nullptr) {
-      if (auto lateral = LateralRotorStepper::of(dynamics->linearRotor(), jacobi, excitation.drive,
-                                                 step, substeps)) {
+      if (auto lateral =
+              LateralRotorStepper::of(dynamics->linearRotor(), excitation.drive, step, substeps)) {
         return lateral;
       }
     }

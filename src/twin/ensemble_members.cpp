@@ -12,6 +12,7 @@
 #include "integration/finite.h"
 #include "integration/isotropic_rotors.h"
 #include "integration/step_error_sum.h"
+#include "twin/members_side_by_side.h"
 #include "twin/record.h"
 
 namespace whirl_twin {
@@ -276,6 +277,9 @@ std::unique_ptr<EnsembleSteps> ensembleSteps(const std::vector<EnsembleMember>& 
         return together;
       }
     }
+  }
+  if (auto together = membersSideBySide(members, integrator, excitation, step)) {
+    return together;
   }
   return std::make_unique<OneByOne>(members, integrator, excitation, step);
 }

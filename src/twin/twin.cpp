@@ -25,6 +25,12 @@ Twin::Twin(BuiltScene built)
   for (const SharedSystem& system : systems()) {
     inputs_.push_back(built_.inputsOf(*system));
   }
+  for (Inputs& inputs : inputs_) {
+    if (inputs.count() > 0) {
+      begun_inputs_.push_back(&inputs);
+      accompanied_ = true;
+    }
+  }
   for (std::size_t i = 0; i < systems().size(); ++i) {
     const BuiltSystem& system = *systems()[i];
     if (system.drive < scene().drives.size() && scene().drives[system.drive].motor) {
@@ -50,6 +56,7 @@ RecordLayout layoutOf(const BuiltScene& scene) {
 }
 
 void Twin::buildEnsembles() {
+  stepped_ensembles_.clear();
   for (std::size_t i = 0; i < systems().size(); ++i) {
     const BuiltSystem& system = *systems()[i];
     if (system.spec.ensemble.count == 0) {
@@ -67,6 +74,8 @@ void Twin::buildEnsembles() {
     } catch (const RunFailure& error) {  // its steps cannot be prepared
       throw refused(error);
     }
+    stepped_ensembles_.push_back(ensembles_[i].get());
+    accompanied_ = true;
   }
   reset();
 }
@@ -84,36 +93,48 @@ double Twin::seconds(std::int64_t steps) const noexcept {
   return static_cast<double>(scene().time + steps * scene().step) / 1.0e9;
 }
 
+// A rotor's own step takes so little that what is around it counts: what a scene may do without is
+// out of the way.
 void Twin::step() noexcept {
   const double time = this->time();
-  for (std::size_t i = 0; i < steppers_.size(); ++i) {
-    if (status_[i] == StepStatus::kOk) {
-      status_[i] = running_[i]->step(time);
+  Stepper* const* const running = running_.data();
+  StepStatus* const status = status_.data();
+  for (std::size_t i = 0, count = running_.size(); i < count; ++i) {
+    if (status[i] == StepStatus::kOk) {
+      status[i] = running[i]->step(time);
     }
   }
-  for (const std::unique_ptr<Ensemble>& ensemble : ensembles_) {
-    if (ensemble) {
-      ensemble->step(time);
-    }
+  if (accompanied_) {
+    goOnAccompanied(time);
+  } else {
+    ++steps_;
+    beginDrives();
+  }
+}
+
+void Twin::goOnAccompanied(double time) noexcept {
+  for (Ensemble* const ensemble : stepped_ensembles_) {
+    ensemble->step(time);
   }
   ++steps_;
   beginStep();
-  for (const std::unique_ptr<Ensemble>& ensemble : ensembles_) {
-    if (ensemble) {
-      ensemble->publish(steps_);
-    }
+  for (Ensemble* const ensemble : stepped_ensembles_) {
+    ensemble->publish(steps_);
   }
 }
 
 void Twin::beginStep() noexcept {
-  const std::int64_t time = scene().time + steps_ * scene().step;
-  for (Drive& drive : drives_) {
-    drive.begin(time);
+  beginDrives();
+  for (Inputs* const inputs : begun_inputs_) {
+    inputs->begin(now());
   }
-  for (Inputs& inputs : inputs_) {
-    if (inputs.count() > 0) {
-      inputs.begin(time);
-    }
+}
+
+inline void Twin::beginDrives() noexcept {
+  const std::int64_t time = now();
+  Drive* drive = drives_.data();
+  for (Drive* const end = drive + drives_.size(); drive != end; ++drive) {
+    drive->begin(time);
   }
 }
 
@@ -180,7 +201,7 @@ bool Twin::setSpeed(std::size_t drive, double speed, double max_acceleration,
 
 bool Twin::setInput(std::size_t system, std::size_t input, double value,
                     std::int64_t duration) noexcept {
-  const std::int64_t time = scene().time + steps_ * scene().step;
+  const std::int64_t time = now();
   if (system >= inputs_.size() || duration <= 0 || duration > Inputs::kNever - time ||
       !inputs_[system].set(input, value, time + duration)) {
     return false;

@@ -77,7 +77,11 @@ class Twin {
   const Stepper& running(std::size_t system) const noexcept { return *running_[system]; }
 
  private:
+  /// [ns], simulated.
+  std::int64_t now() const noexcept { return scene().time + steps_ * scene().step; }
   void beginStep() noexcept;
+  void beginDrives() noexcept;
+  void goOnAccompanied(double time) noexcept;
 
   BuiltScene built_;
   std::vector<Drive> drives_;                           // steppers keep references to them
@@ -88,6 +92,9 @@ class Twin {
   std::vector<Stepper*> running_;                       // of steppers_ or replacements_
   std::vector<std::int64_t> generation_;                // of running_; 0: the scene's
   std::vector<std::unique_ptr<Ensemble>> ensembles_;    // of each system; null: none
+  std::vector<Ensemble*> stepped_ensembles_;            // those that there are
+  std::vector<Inputs*> begun_inputs_;                   // of inputs_, of systems that have any
+  bool accompanied_ = false;                            // by ensembles or inputs
   std::vector<double> state_;                           // room for q, v and work of the largest
   std::vector<StepStatus> status_;
   RecordLayout layout_;

@@ -105,6 +105,24 @@ TEST(Drive, StartsItsProfileAtTheTimeGiven) {
   }
 }
 
+TEST(Drive, TellsAnotherPieceFromTheSame) {
+  Drive drive(0.0, 0.0, {{30.0, 20.0, 0.0, 2.0}, {60.0, 20.0, 0.0, 0.0}});
+  drive.begin(2 * kSecond);
+  const std::uint64_t steady = drive.piece();
+  drive.begin(3 * kSecond);
+  EXPECT_EQ(drive.nanoseconds(), 3 * kSecond);
+  EXPECT_EQ(drive.piece(), steady) << "30 rad/s from 1.5 s to 3.5 s";
+  drive.begin(6 * kSecond);
+  const std::uint64_t last = drive.piece();
+  EXPECT_NE(last, steady);
+  drive.begin(2 * kSecond);
+  EXPECT_NE(drive.piece(), last);
+  drive.begin(6 * kSecond);
+  const std::uint64_t before = drive.piece();
+  ASSERT_TRUE(drive.setSpeed(60.0, 1.0, 0.0));
+  EXPECT_NE(drive.piece(), before) << "a new order, though to the same speed";
+}
+
 TEST(Drive, GoesBackToTheStartWhenTimeDoes) {
   Drive drive(0.0, 1.0, kUpAndDown);
   drive.begin(100 * kSecond);

@@ -51,6 +51,25 @@ TEST(ShaftAngle, ConstantSpeedIsExactForSpeedsAndDurationsOfAnySize) {
 // 250 years, the largest time a drive accepts.
 constexpr std::int64_t kLongest = 8000000000000000000;
 
+TEST(SplitAngle, HoldsATurnToTwiceTheDigitsOfADouble) {
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> exponent(-3.0, 5.0);
+  std::uniform_real_distribution<double> digits(0.0, 12.0);
+  for (int i = 0; i < 20000; ++i) {
+    const double speed = (i % 2 == 0 ? 1.0 : -1.0) * std::pow(10.0, exponent(random));
+    const auto nanoseconds = static_cast<std::int64_t>(std::pow(10.0, digits(random)));
+    const SplitAngle turn = turnIn(speed, nanoseconds);
+    const Exact turned = Exact(speed) * Exact(nanoseconds) / Exact(1000000000);
+    const Exact off = Exact(turn.high) + Exact(turn.low) - turned;
+    const Exact error = off - kTwoPi * boost::multiprecision::round(off / kTwoPi);
+    const double bound = 0x1p-103 * (std::fabs(static_cast<double>(turned)) + 1.0) +
+                         0x1p-124 * static_cast<double>(nanoseconds);
+    ASSERT_LT(std::fabs(static_cast<double>(error)), bound) << speed << ", " << nanoseconds;
+    ASSERT_LE(std::fabs(turn.high), M_PI);
+    ASSERT_LE(std::fabs(turn.low), 0x1p-53 * std::fabs(turn.high));
+  }
+}
+
 TEST(SteadyTurn, IsExactFor250YearsForwardsAndBackwards) {
   std::mt19937_64 random(8);
   std::uniform_real_distribution<double> digits(0.0, 18.9);

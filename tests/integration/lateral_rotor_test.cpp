@@ -182,7 +182,7 @@ TEST(LateralRotor, FollowsANewSpeedWithoutBeingPreparedForIt) {
                               {});
   RunningSystem like(setup, "exponential", kMillisecond);
   Drive drive(0.0, 0.0);
-  const auto stepper = LateralRotorStepper::of(like.dynamics().linearRotor(), {}, drive, 1e-3, 1);
+  const auto stepper = LateralRotorStepper::of(like.dynamics().linearRotor(), drive, 1e-3, 1);
   ASSERT_NE(stepper, nullptr);
   EXPECT_EQ(stepper->readyFor(-1000.0, 1000.0), nullptr);
   const std::array<double, 2> rest{};
@@ -202,13 +202,75 @@ TEST(LateralRotor, FollowsANewSpeedWithoutBeingPreparedForIt) {
   EXPECT_NEAR(state[1], planned.q(1), 1e-16);
 }
 
+// A step that goes on takes the shaft's phase from the one before. Where the shaft has been put
+// elsewhere, or the rotor, it must not.
+TEST(LateralRotor, SeesWhenTheShaftIsElsewhere) {
+  const auto setup = jeffcott(
+      {{"mass", 2.0}, {"stiffness", 2.0e4}, {"damping", 10.0}, {"eccentricity", 2.0e-4}}, {});
+  RunningSystem like(setup, "exponential", kMillisecond);
+  const auto rotor = like.dynamics().linearRotor();
+  const auto stateOf = [](const Stepper& stepper) {
+    std::array<double, 5> state;
+    stepper.write(state.data());
+    return state;
+  };
+  Drive drive(90.0, 0.3);
+  const auto stepper = LateralRotorStepper::of(rotor, drive, 1e-3, 1);
+  stepper->set(std::array<double, 2>{}.data(), std::array<double, 2>{}.data());
+  std::int64_t time = 0;
+  for (int i = 0; i < 100; ++i) {
+    drive.begin(time);
+    if (i % 10 == 7) {
+      time += 123 * kMillisecond;  // later
+      drive.begin(time);
+    } else if (i % 10 == 4) {
+      time = 0;
+      drive.reset();
+    } else if (i % 10 == 2) {
+      ASSERT_TRUE(drive.setSpeed(90.0, 1.0, 0.0));  // to the speed that it has
+    } else if (i % 10 == 9) {
+      ASSERT_TRUE(drive.setSpeed(i % 20 == 9 ? 95.0 : 90.0, 1e9, 0.0));  // in a step
+    }
+    const std::array<double, 5> before = stateOf(*stepper);
+    const auto anew = LateralRotorStepper::of(rotor, drive, 1e-3, 1);
+    anew->set(before.data(), before.data() + 2);
+    ASSERT_EQ(stepper->step(0.0), StepStatus::kOk);
+    ASSERT_EQ(anew->step(0.0), StepStatus::kOk);
+    const std::array<double, 5> after = stateOf(*stepper);
+    const std::array<double, 5> expected = stateOf(*anew);
+    for (std::size_t k = 0; k < 4; ++k) {
+      EXPECT_NEAR(after[k], expected[k], k < 2 ? 1e-17 : 1e-15) << i;
+    }
+    time += kMillisecond;
+  }
+}
+
+// The phase is that of the shaft at any speed, however large a part of a turn a step takes: what
+// forces of e w^2 leave beside a mass centre that hardly moves shows every digit of it.
+TEST(LateralRotor, TurnsAboutItsMassCentreAtAnySpeedFarAboveTheCriticalOne) {
+  double largest = 0.0;
+  for (double speed = 5.0e4; speed < 2.0e5; speed *= 1.0123) {
+    RunningSystem::Setup setup = jeffcott(
+        {{"mass", 1.0}, {"stiffness", 100.0}, {"damping", 10.0}, {"eccentricity", 1.0e-3}}, {});
+    setup.speed = speed;
+    RunningSystem rotor(setup, "exponential", kMillisecond);
+    ASSERT_EQ(rotor.run(10000), StepStatus::kOk);  // 50 times its decay
+    const double angle = rotor.drive().at(0.0).angle;
+    const double x = rotor.q(0) + 1.0e-3 * std::cos(angle);
+    const double y = rotor.q(1) + 1.0e-3 * std::sin(angle);
+    largest =
+        std::fmax(largest, std::fabs(std::hypot(x, y) / 1.0e-3 - 10.0 / speed) * 10.0 / speed);
+  }
+  EXPECT_LT(largest, 3.0e-14);
+}
+
 TEST(LateralRotor, EstimatesItsErrorInARunUp) {
   const auto setup =
       jeffcott({{"mass", 2.0}, {"stiffness", 2.0e4}, {"damping", 10.0}, {"eccentricity", 2.0e-4}},
                {{250.0, 50.0, 0.0, 0.0}});
   RunningSystem like(setup, "exponential", kMillisecond);
   Drive drive(0.0, 0.0, setup.profile);
-  const auto stepper = LateralRotorStepper::of(like.dynamics().linearRotor(), {}, drive, 0.012, 1);
+  const auto stepper = LateralRotorStepper::of(like.dynamics().linearRotor(), drive, 0.012, 1);
   const std::array<double, 2> rest{};
   stepper->set(rest.data(), rest.data());
   for (int i = 1; i <= 400; ++i) {
@@ -223,7 +285,7 @@ TEST(LateralRotor, LeavesOtherRotorsToTheTable) {
   const auto is_lateral = [](const ParameterValues& parameters, double step) {
     RunningSystem like(jeffcott(parameters, {}), "exponential", kMillisecond);
     const Drive drive(0.0, 0.0);
-    return LateralRotorStepper::of(like.dynamics().linearRotor(), {}, drive, step, 1) != nullptr;
+    return LateralRotorStepper::of(like.dynamics().linearRotor(), drive, step, 1) != nullptr;
   };
   EXPECT_TRUE(is_lateral({{"mass", 2.0}, {"stiffness", 2.0e4}}, 1.0));
   EXPECT_FALSE(is_lateral({{"mass", 2.0}, {"stiffness", 2.0e12}}, 1.0)) << "100 000 turns a step";

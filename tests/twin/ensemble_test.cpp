@@ -31,13 +31,15 @@ systems:
 )" + more;
 }
 
-std::string pendulumScene(const std::string& more) {
+std::string pendulumScene(const std::string& more,
+                          const std::string& integrator = "gauss_legendre_6") {
   return R"(
 step: 0.001
 systems:
   arms:
     model: double_pendulum
-    integrator: gauss_legendre_6
+    integrator: )" +
+         integrator + R"(
     parameters: {mass1: 1, mass2: 2, length1: 1, length2: 0.5}
     initial: {theta1: 1.0, theta2: -0.5}
 )" + more;
@@ -183,8 +185,8 @@ TEST(EnsembleDraw, StaysInRange) {
   }
 }
 
-// The rotors go side by side in vectors, the pendulums one by one; a member of either is what it is
-// as a system of its own.
+// The rotors, and the pendulums by an explicit method, go side by side in vectors, the pendulums by
+// an implicit one one by one; a member of either is what it is as a system of its own.
 TEST(Ensemble, MembersAreTheSystemsTheyWouldBeAlone) {
   const Scene rotors = sceneOf(rotorScene(R"(
     count: 13
@@ -192,10 +194,16 @@ TEST(Ensemble, MembersAreTheSystemsTheyWouldBeAlone) {
   const Scene pendulums = sceneOf(pendulumScene(R"(
     count: 3
     spread: {mass1: {relative_standard_deviation: 0.2}, initial.theta2_rate: {half_width: 1}})"));
-  for (const Scene& scene : {rotors, pendulums}) {
+  const Scene many_pendulums = sceneOf(pendulumScene(R"(
+    count: 13
+    spread: {mass1: {relative_standard_deviation: 0.2}, initial.theta2_rate: {half_width: 1}})",
+                                                     "runge_kutta_4"));
+  for (const Scene& scene : {rotors, pendulums, many_pendulums}) {
     Twin twin(scene);
     twin.buildEnsembles();
     const std::size_t count = twin.ensemble(0)->count();
+    EXPECT_STREQ(twin.ensemble(0)->steps().description(),
+                 count == 13 ? "side by side in vectors" : "one by one");
     const std::size_t quantities = twin.ensemble(0)->quantities().size();
     for (int i = 0; i < 700; ++i) {
       twin.step();

@@ -1,0 +1,99 @@
+// Many members of one model on one shaft, stepped side by side by an explicit Runge-Kutta method,
+// without the audit of their energy.
+//
+// Every member takes the same operations in the same order as any other, wherever it stands among
+// them. Coordinates and rates are compensated sums, as they are of a system by itself
+// (motion_state.h), from which a member differs by the rounding of its equations.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "control/drive.h"
+#include "integration/member_equations.h"
+
+namespace whirl_twin {
+
+/// An explicit Runge-Kutta method.
+struct RungeKuttaTable {
+  static constexpr std::size_t kMostStages = 12;
+  using Row = std::array<double, kMostStages>;
+
+  std::size_t stages;
+  Row nodes;
+  std::array<Row, kMostStages> a;
+  Row weights;
+};
+
+/// By its name in scenes; nullptr: it is none, or not for members side by side.
+const RungeKuttaTable* rungeKuttaTable(const std::string& integrator);
+
+class MemberSteps {
+ public:
+  /// Steps of `step` [s] in `substeps` parts. The table outlives it.
+  MemberSteps(std::unique_ptr<MemberEquations> equations, const RungeKuttaTable& method,
+              double step, int substeps);
+
+  const MemberEquations& equations() const noexcept { return *equations_; }
+  std::size_t count() const noexcept { return equations_->count(); }
+  std::size_t dof() const noexcept { return n_; }
+
+  // Real-time safe.
+
+  /// Starts a member, and forgets its past.
+  void set(std::size_t member, const double* q, const double* v) noexcept;
+  /// One step from simulated time [s]; the drive stands at its start.
+  void step(const Drive& drive, double time) noexcept;
+
+  /// It has no finite motion any more; its coordinates mean nothing.
+  bool stopped(std::size_t member) const noexcept { return stopped_[member] != 0; }
+  double q(std::size_t member, std::size_t i) const noexcept { return of(member, kQ, i); }
+  double v(std::size_t member, std::size_t i) const noexcept { return of(member, kV, i); }
+  /// The largest magnitude of a coordinate at the start and after any step since.
+  double peak(std::size_t member, std::size_t i) const noexcept { return of(member, kPeak, i); }
+
+ private:
+  static constexpr std::size_t kBlock = MemberEquations::kBlock;
+  /// What is kept of a coordinate of each member.
+  enum Kind : std::size_t { kQ, kV, kQLow, kVLow, kPeak, kKinds };
+
+  /// The sums of a stage: from + h (factors . terms), of which there are `count`.
+  struct Terms {
+    std::size_t count = 0;
+    std::array<double, RungeKuttaTable::kMostStages> factor{};
+    std::array<std::size_t, RungeKuttaTable::kMostStages> stage{};
+  };
+
+  std::size_t blocks() const noexcept { return (count() + kBlock - 1) / kBlock; }
+  std::size_t width() const noexcept { return n_ * kBlock; }
+  double* block(std::size_t number) noexcept { return state_.data() + number * kKinds * width(); }
+  double of(std::size_t member, Kind kind, std::size_t i) const noexcept {
+    return state_[(member / kBlock) * kKinds * width() + kind * width() + i * kBlock +
+                  member % kBlock];
+  }
+  void put(std::size_t number, std::size_t lane, const double* q, const double* v) noexcept;
+  void advance(std::size_t number, const Drive& drive, double time, double offset,
+               double h) noexcept;
+  void methodStep(std::size_t number, const Drive& drive, double time, double offset,
+                  double h) noexcept;
+  void look(std::size_t number) noexcept;
+
+  std::unique_ptr<MemberEquations> equations_;
+  std::size_t n_;
+  std::size_t stages_;
+  std::array<double, RungeKuttaTable::kMostStages> nodes_;
+  std::array<Terms, RungeKuttaTable::kMostStages + 1> terms_;  ///< the last: of the whole step
+  double substep_;                                             ///< [s]
+  int substeps_;
+  std::vector<double> start_;           ///< q, v of each member
+  std::vector<double> state_;           ///< of each block
+  std::vector<unsigned char> stopped_;  ///< of each member
+  // Of the block that is stepped.
+  std::vector<double> rates_, accelerations_;  ///< at each stage
+  std::vector<double> sum_;
+};
+
+}  // namespace whirl_twin

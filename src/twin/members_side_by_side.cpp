@@ -1,0 +1,165 @@
+#include "twin/members_side_by_side.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "integration/member_steps.h"
+#include "integration/step_error_sum.h"
+#include "models/side_by_side.h"
+
+namespace whirl_twin {
+
+namespace {
+
+/// As many take their systems' own steps as long as a block of members.
+constexpr std::size_t kFewest = 12;
+constexpr std::size_t kMostSampled = 8;  // members, whose errors are measured
+constexpr double kStopped = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<const Dynamics*> dynamicsOf(const std::vector<EnsembleMember>& members) {
+  std::vector<const Dynamics*> all;
+  for (const EnsembleMember& member : members) {
+    all.push_back(member.setup.dynamics.get());
+  }
+  return all;
+}
+
+class MembersSideBySide final : public EnsembleSteps {
+ public:
+  MembersSideBySide(const std::vector<EnsembleMember>& members,
+                    std::unique_ptr<MemberEquations> equations, const RungeKuttaTable& method,
+                    const Drive& drive, double step)
+      : drive_(drive),
+        steps_(std::move(equations), method, step, members.front().spec.substeps),
+        sampled_(sampleOf(members.size())),
+        halves_(memberEquations(chosen(dynamicsOf(members), sampled_)), method, step,
+                2 * members.front().spec.substeps),
+        errors_(sampled_.size()),
+        q_(steps_.dof()),
+        v_(steps_.dof()),
+        finer_q_(steps_.dof()),
+        finer_v_(steps_.dof()) {
+    for (const EnsembleMember& member : members) {
+      starts_.push_back({member.spec.q, member.spec.v});
+    }
+  }
+
+  const char* description() const override { return "side by side in vectors"; }
+  std::pair<double, double> speeds() const override {
+    return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  }
+  void reset() noexcept override {
+    for (std::size_t i = 0; i < steps_.count(); ++i) {
+      steps_.set(i, starts_[i].q.data(), starts_[i].v.data());
+    }
+    for (StepErrorSum& errors : errors_) {
+      errors.restart();
+    }
+  }
+  void step(double time) noexcept override {
+    bool due = false;
+    for (StepErrorSum& errors : errors_) {
+      due = errors.countStep();  // of all at once
+    }
+    for (std::size_t k = 0; due && k < sampled_.size(); ++k) {
+      look(steps_, sampled_[k], q_, v_);
+      halves_.set(k, q_.data(), v_.data());
+    }
+    steps_.step(drive_, time);
+    if (due) {
+      halves_.step(drive_, time);
+      for (std::size_t k = 0; k < sampled_.size(); ++k) {
+        estimateError(k);
+      }
+    }
+  }
+  void write(double* values, double* peaks) const noexcept override {
+    const std::size_t n = steps_.dof();
+    for (std::size_t i = 0; i < steps_.count(); ++i) {
+      const bool stopped = steps_.stopped(i);
+      for (std::size_t k = 0; k < n; ++k) {
+        values[i * n + k] = stopped ? kStopped : steps_.q(i, k);
+        peaks[i * n + k] = stopped ? kStopped : steps_.peak(i, k);
+      }
+    }
+  }
+  double errorSum() const noexcept override {
+    double largest = 0.0;
+    for (std::size_t k = 0; k < sampled_.size(); ++k) {
+      if (!steps_.stopped(sampled_[k])) {
+        largest = std::fmax(largest, errors_[k].sum());
+      }
+    }
+    return largest;
+  }
+
+ private:
+  struct Start {
+    std::vector<double> q, v;
+  };
+
+  /// Members evenly spread.
+  static std::vector<std::size_t> sampleOf(std::size_t count) {
+    const std::size_t sampled = std::min(count, kMostSampled);
+    std::vector<std::size_t> members;
+    for (std::size_t k = 0; k < sampled; ++k) {
+      members.push_back(k * count / sampled);
+    }
+    return members;
+  }
+  static std::vector<const Dynamics*> chosen(const std::vector<const Dynamics*>& all,
+                                             const std::vector<std::size_t>& members) {
+    std::vector<const Dynamics*> some;
+    for (const std::size_t member : members) {
+      some.push_back(all[member]);
+    }
+    return some;
+  }
+  static void look(const MemberSteps& steps, std::size_t member, std::vector<double>& q,
+                   std::vector<double>& v) noexcept {
+    for (std::size_t i = 0; i < steps.dof(); ++i) {
+      q[i] = steps.q(member, i);
+      v[i] = steps.v(member, i);
+    }
+  }
+  /// What the last step and its two halves differ by.
+  void estimateError(std::size_t k) noexcept {
+    if (steps_.stopped(sampled_[k]) || halves_.stopped(k)) {
+      errors_[k].passOver();
+      return;
+    }
+    look(steps_, sampled_[k], q_, v_);
+    look(halves_, k, finer_q_, finer_v_);
+    errors_[k].add(steps_.dof(), q_, v_, finer_q_, finer_v_,
+                   [this](std::size_t i) { return steps_.equations().angular(i); });
+  }
+
+  const Drive& drive_;
+  MemberSteps steps_;
+  std::vector<std::size_t> sampled_;  // members
+  MemberSteps halves_;                // of these, by steps of half the length
+  std::vector<StepErrorSum> errors_;  // likewise
+  std::vector<Start> starts_;
+  std::vector<double> q_, v_, finer_q_, finer_v_;  // room for those of one member
+};
+
+}  // namespace
+
+std::unique_ptr<EnsembleSteps> membersSideBySide(const std::vector<EnsembleMember>& members,
+                                                 const std::string& integrator,
+                                                 const Excitation& excitation, double step) {
+  const RungeKuttaTable* const method = rungeKuttaTable(integrator);
+  if (method == nullptr || excitation.inputs != nullptr || members.size() < kFewest) {
+    return nullptr;
+  }
+  auto equations = memberEquations(dynamicsOf(members));
+  if (!equations) {
+    return nullptr;
+  }
+  return std::make_unique<MembersSideBySide>(members, std::move(equations), *method,
+                                             excitation.drive, step);
+}
+
+}  // namespace whirl_twin
