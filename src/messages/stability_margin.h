@@ -76,6 +76,10 @@ struct StabilityMargin {
   std::uint32_t members_beyond = 0;  ///< of them decay slower than the setting, or grow
   double lowest_decay_rate = std::numeric_limits<double>::quiet_NaN();  ///< [1/s], found within it
   bool stable_throughout = false;  ///< by Kharitonov's theorem; false: it does not tell
+  // Up to which amplitude log_decrement is within a tenth of that of small motions.
+  std::string log_decrement_coordinate;  ///< whose; "whirl": a rotor's radius; "": not known
+  double log_decrement_amplitude =
+      std::numeric_limits<double>::quiet_NaN();  ///< [rad] or [m]; infinite: as far as was looked
 
   template <class Visit>
   static void fields(Visit& visit) {
@@ -121,6 +125,8 @@ struct StabilityMargin {
           });
     visit(TWIN_FIELD(lowest_decay_rate), "1/s");
     visit(TWIN_FIELD(stable_throughout), "", requireFlag);
+    visit(TWIN_FIELD(log_decrement_coordinate), "", requireText);
+    visit(TWIN_FIELD(log_decrement_amplitude), "");
   }
 };
 

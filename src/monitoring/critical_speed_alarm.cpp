@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -14,7 +15,9 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kRepeatWindow = 2.0;       // s, after an alarm has cleared
 constexpr double kTurningHorizon = 5.0;     // approach times, that a speed may take to turn back
-constexpr double kPassageLimit = 3.0;       // dwell limits, that a passage may take
+constexpr double kSlowHalf = 0.5;           // dwell limits, that a ripple may hold a passage back
+constexpr double kTrail = 2.0 / 3.0;        // dwell limits, that a mean acceleration is taken over
+constexpr double kTrailStep = 0.1;          // s, between the speeds that a mean is made of
 constexpr double kLongestCountdown = 60.0;  // s: what is further away is no countdown
 
 bool isEmpty(const state::CriticalSpeedMargin& critical) {
@@ -104,7 +107,8 @@ void CriticalSpeedAlarm::updateBand(const state::DriveState& shaft,
   // The time in the band runs on through excursions within the hysteresis, or too short to clear,
   // so that a speed that wavers about the edge still counts as dwelling.
   if (occupied && ((!passing_ && !band_alarm_.active()) || time < entered_at_)) {
-    entered_at_ = time;
+    entered_at_ = in_time_at_ = time;
+    trail_.clear();
   }
   if (occupied) {
     const Place now{*occupied, reverse};
@@ -121,8 +125,8 @@ void CriticalSpeedAlarm::updateBand(const state::DriveState& shaft,
   AlarmCondition condition =
       near || turnsBack(shaft, critical_speeds) ? AlarmCondition::kHold : AlarmCondition::kClear;
   if (occupied) {
-    const bool dwells =
-        time - entered_at_ >= settings_.dwell_limit && !passesInTime(shaft, critical_speeds);
+    const bool passing = passes(shaft, critical_speeds);
+    const bool dwells = time - entered_at_ >= settings_.dwell_limit && !passing;
     condition = dwells ? AlarmCondition::kDanger : AlarmCondition::kWarning;
   }
   if (band_alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
@@ -246,27 +250,57 @@ bool CriticalSpeedAlarm::turnsBack(const state::DriveState& shaft,
   return entry && entry->time < kTurningHorizon * settings_.approach_time;
 }
 
-bool CriticalSpeedAlarm::passesInTime(const state::DriveState& shaft,
+bool CriticalSpeedAlarm::leavesInTime(const state::DriveState& shaft, double acceleration,
                                       const CriticalSpeeds& critical_speeds) const {
   const double sense = shaft.speed < 0.0 ? -1.0 : 1.0;
   const double speed = std::abs(shaft.speed);
-  const double acceleration = sense * shaft.acceleration;
-  const bool upward = acceleration > 0.0;
-  // Bands that overlap are one to be passed.
-  double edge = speed;
-  for (std::size_t pass = 0; pass < critical_speeds.size(); ++pass) {
-    for (const state::CriticalSpeedMargin& critical : critical_speeds) {
-      if (!isEmpty(critical) && edge >= critical.band_low && edge <= critical.band_high) {
-        edge = upward ? critical.band_high : critical.band_low;
+  // Bands that overlap are one to be passed, and each may take its time.
+  double low = speed;
+  double high = speed;
+  std::vector<bool> joined(critical_speeds.size(), false);
+  int bands = 0;
+  for (bool grows = true; grows;) {
+    grows = false;
+    for (std::size_t i = 0; i < critical_speeds.size(); ++i) {
+      const state::CriticalSpeedMargin& critical = critical_speeds[i];
+      if (!joined[i] && !isEmpty(critical) && critical.band_low <= high &&
+          critical.band_high >= low) {
+        joined[i] = grows = true;
+        ++bands;
+        low = std::min(low, critical.band_low);
+        high = std::max(high, critical.band_high);
       }
     }
   }
+  const double outward = sense * acceleration;
+  const bool upward = outward > 0.0;
+  const double edge = upward ? high : low;
   const double target = sense * shaft.target_speed;
-  if (acceleration == 0.0 || (upward ? target <= edge : target >= edge)) {
+  if (!(std::abs(outward) > 0.0) || (upward ? target <= edge : target >= edge)) {
     return false;  // it stays, or means to
   }
-  const double left = (edge - speed) / acceleration;
-  return shaft.at.time + left <= entered_at_ + kPassageLimit * settings_.dwell_limit;
+  const double left = (edge - speed) / outward;
+  return shaft.at.time + left <= entered_at_ + (1 + bands) * settings_.dwell_limit;
+}
+
+bool CriticalSpeedAlarm::passes(const state::DriveState& shaft,
+                                const CriticalSpeeds& critical_speeds) {
+  const double time = shaft.at.time;
+  if (trail_.empty() || time >= trail_.back().time + kTrailStep) {
+    trail_.push_back({time, shaft.speed});
+  }
+  while (trail_.size() > 1 && trail_[1].time <= time - kTrail * settings_.dwell_limit) {
+    trail_.pop_front();
+  }
+  if (leavesInTime(shaft, shaft.acceleration, critical_speeds)) {
+    in_time_at_ = time;
+  }
+  const double since = time - trail_.front().time;
+  const double mean =
+      since > 0.0 ? (shaft.speed - trail_.front().speed) / since : shaft.acceleration;
+  // A ripple has moments that promise everything, and others that promise nothing.
+  return shaft.acceleration != 0.0 && time - in_time_at_ <= kSlowHalf * settings_.dwell_limit &&
+         leavesInTime(shaft, mean, critical_speeds);
 }
 
 state::Alert CriticalSpeedAlarm::alertAbout(const state::DriveState& shaft,

@@ -6,11 +6,15 @@
 // run-down and negative rotation are alike: the band mirrored at zero is watched as well.
 //
 // A shaft that stays in a band longer than the dwell limit is in danger, unless it passes: its
-// present acceleration takes it out within three times that limit since it entered, and its target
-// lies beyond.
+// present acceleration takes it out before it has been there twice as long (for bands that overlap,
+// once more for each), its target lies beyond, and it has indeed moved like that: what it has
+// gained over two thirds of that limit would take it out in time as well. So a ripple of the speed
+// makes no passage of a dwell, and no dwell of a passage: its slow half may last half the dwell
+// limit.
 #pragma once
 
 #include <cstddef>
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -78,7 +82,10 @@ class CriticalSpeedAlarm {
   std::optional<Entry> nextEntry(const state::DriveState& shaft,
                                  const CriticalSpeeds& critical_speeds) const;
   bool turnsBack(const state::DriveState& shaft, const CriticalSpeeds& critical_speeds) const;
-  bool passesInTime(const state::DriveState& shaft, const CriticalSpeeds& critical_speeds) const;
+  /// Would this acceleration [rad/s^2] take it out of the bands that it is in, in time?
+  bool leavesInTime(const state::DriveState& shaft, double acceleration,
+                    const CriticalSpeeds& critical_speeds) const;
+  bool passes(const state::DriveState& shaft, const CriticalSpeeds& critical_speeds);
   state::Alert alertAbout(const state::DriveState& shaft,
                           const state::CriticalSpeedMargin& critical) const;
 
@@ -88,8 +95,14 @@ class CriticalSpeedAlarm {
   ConditionAlarm approach_alarm_;
   bool passing_ = false;     ///< has entered a band and not yet left it by the hysteresis
   double entered_at_ = 0.0;  ///< [s], while passing_ or the band alarm is active
-  Place stay_;               ///< the band that it passes, or that it was in last
-  Place approached_;         ///< which band the active approach is about
+  struct Sample {
+    double time;   ///< [s]
+    double speed;  ///< [rad/s]
+  };
+  std::deque<Sample> trail_;  ///< since it entered, at most two thirds of the dwell limit
+  double in_time_at_ = 0.0;   ///< [s], its acceleration then would have taken it out in time
+  Place stay_;                ///< the band that it passes, or that it was in last
+  Place approached_;          ///< which band the active approach is about
 };
 
 }  // namespace whirl_twin

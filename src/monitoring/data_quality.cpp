@@ -7,6 +7,12 @@
 
 namespace whirl_twin {
 
+namespace {
+
+constexpr double kGap = 10.0;  // periods of sampling: what moved before it may be at rest after it
+
+}  // namespace
+
 DataQuality::DataQuality(std::string system, const AlarmSettings& settings)
     : system_(std::move(system)) {
   set(settings);
@@ -38,7 +44,27 @@ bool DataQuality::take(const state::WhirlState& whirl, double wall_time) {
                             1.0e3 * range_),
                 wall_time);
   }
-  return take("", wall_time);
+  return take(stuck(whirl), wall_time);
+}
+
+std::string DataQuality::stuck(const state::WhirlState& whirl) {
+  const double since = whirl.at.time - sampled_at_;
+  if (since == 0.0) {  // told again
+    return unfit_;
+  }
+  if (!(since > 0.0) || (period_ > 0.0 && since > kGap * period_)) {
+    x_ = y_ = StuckChannel();
+    period_ = 0.0;
+  } else {
+    period_ = since;
+  }
+  sampled_at_ = whirl.at.time;
+  x_.take(whirl.x);
+  y_.take(whirl.y);
+  if (!x_.stuck() && !y_.stuck()) {
+    return "";
+  }
+  return fmt::format("stuck: {}", x_.stuck() ? (y_.stuck() ? "x, y" : "x") : "y");
 }
 
 bool DataQuality::take(const state::PendulumState& pendulum, double wall_time) {

@@ -80,6 +80,10 @@ void MarginSearch::take(Judgement& judgement, double slowest) {
     margin.lowest_decay_rate = found.spread->lowest_decay_rate;
     margin.stable_throughout = found.spread->stable_throughout;
   }
+  if (found.decrement) {
+    margin.log_decrement_coordinate = found.decrement->coordinate;
+    margin.log_decrement_amplitude = found.decrement->amplitude;
+  }
   if (found.nearest) {
     margin.nearest_parameter = found.nearest->parameter;
     margin.nearest_change = found.nearest->change;
@@ -90,7 +94,7 @@ void MarginSearch::take(Judgement& judgement, double slowest) {
 }
 
 std::optional<MarginSearch::Answer> MarginSearch::search(const Question& question) const {
-  Answer answer{question, std::nullopt, std::nullopt, std::nullopt};
+  Answer answer{question, std::nullopt, std::nullopt, std::nullopt, std::nullopt};
   const auto given_up = [this] { return ending_.load(); };
   try {
     if (isQuickToSearch(*question.built)) {
@@ -98,6 +102,10 @@ std::optional<MarginSearch::Answer> MarginSearch::search(const Question& questio
     }
     if (question.built->spec.ensemble.count == 0) {
       answer.spread = spreadMargin(*question.built, question.motion, question.speed, given_up);
+    }
+    if (isQuickToSearch(*question.built)) {
+      answer.decrement =
+          decrementAmplitude(*question.built->dynamics, question.motion, question.speed);
     }
     const auto margin = crossCouplingMarginOf(*question.built->dynamics, question.speed);
     answer.cross_coupling = margin ? margin->stiffness : std::nullopt;

@@ -1,7 +1,8 @@
 // Looks for what takes long and no verdict waits for: the parameter nearest to the loss of
 // stability, for systems that are quick to search (isQuickToSearch), the cross-coupling that a
-// rotor bears, and what a spread of its numbers does. Beside the verdicts in a thread of its own
-// that gives way to every other; or, where judgements are made at once, at once.
+// rotor bears, what a spread of its numbers does, and up to which amplitude the decrement holds.
+// Beside the verdicts in a thread of its own that gives way to every other; or, where judgements
+// are made at once, at once.
 #pragma once
 
 #include <atomic>
@@ -12,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "analysis/decrement_amplitude.h"
 #include "monitoring/judging.h"
 #include "monitoring/parameter_margins.h"
 #include "monitoring/spread_margin.h"
@@ -43,6 +45,7 @@ class MarginSearch {
     std::optional<ParameterMargin> nearest;
     std::optional<double> cross_coupling;  ///< [N/m]
     std::optional<SpreadMargin> spread;
+    std::optional<DecrementAmplitude> decrement;
   };
   struct Seat {
     std::optional<Question> asked;  ///< last

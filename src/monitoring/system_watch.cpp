@@ -100,6 +100,7 @@ void SystemWatch::set(const AlarmSettings& settings) {
 
 void SystemWatch::restart(const AlarmSettings& settings) {
   const std::shared_ptr<const Dynamics>& dynamics = system->dynamics;
+  quality.restart();
   amplitude_alarm = AmplitudeAlarm(name, settings);
   voted_alarm = VotedAlarm(name, settings);
   order_alarm = OrderAlarm(name, settings);

@@ -107,13 +107,12 @@ class MonitorNode {
 
   void spinOnce() {
     // A verdict that is being made is not kept waiting for a state.
-    const std::chrono::milliseconds patience(monitor_.judging() ? 1 : 10);
+    const bool soon = monitor_.judging();
     if (receiver_) {
-      receiver_->receive(patience);
+      receiver_->receive(std::chrono::milliseconds(soon ? 1 : 10));
       ros::getGlobalCallbackQueue()->callAvailable();
     } else {
-      ros::getGlobalCallbackQueue()->callAvailable(
-          ros::WallDuration(1.0e-3 * static_cast<double>(patience.count())));
+      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(soon ? 2.0e-4 : 1.0e-2));
     }
     services_.receive();
     monitor_.tick(wallTime(), paused_);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <type_traits>
@@ -67,6 +68,7 @@ class Replay {
     while (until - ticked_ >= kTick) {
       ticked_ += kTick;
       monitor_.tick(ticked_, paused_);
+      keepNotOk();
       keep();
     }
     wall_ = until;
@@ -200,6 +202,32 @@ class Replay {
       run_.resets = std::max(run_.resets, run->second);
     }
   }
+
+  /// A reason goes on while it is of the same kind: how long nothing has come changes.
+  void keepNotOk() {
+    const std::vector<std::string> why = monitor_.notOk(ticked_, paused_);
+    for (std::size_t i = 0; i < why.size(); ++i) {
+      SystemCourse& course = run_.systems[i];
+      if (course.states == 0) {
+        continue;  // it has not begun
+      }
+      NotOkCourse* const last = course.not_ok.empty() || std::isfinite(course.not_ok.back().end)
+                                    ? nullptr
+                                    : &course.not_ok.back();
+      if (last != nullptr && kindOf(last->why) == kindOf(why[i])) {
+        last->why = why[i];
+        continue;
+      }
+      if (last != nullptr) {
+        last->end = monitor_.time();
+      }
+      if (!why[i].empty()) {
+        course.not_ok.push_back(
+            {why[i], monitor_.time(), std::numeric_limits<double>::quiet_NaN()});
+      }
+    }
+  }
+  static std::string kindOf(const std::string& why) { return why.substr(0, why.find(':')); }
 
   void keepMargin(const state::StabilityMargin& margin) {
     SystemCourse* course = courseOf(margin.system);

@@ -26,11 +26,20 @@ struct AlertCourse {
   std::string why_cleared;
 };
 
+/// For how long what came from a system could not be judged.
+struct NotOkCourse {
+  std::string why;  ///< as told last
+  double begin =
+      0.0;  ///< [s], simulated, of the newest state when it was told: to a tenth of a second
+  double end = std::numeric_limits<double>::quiet_NaN();  ///< [s]; NaN: so it was at the end
+};
+
 /// What is drawn of a system, ten values a second of simulated time, and its margins.
 struct SystemCourse {
   std::string name;
   bool rotor = false;
   OrderCourse orders;
+  std::vector<NotOkCourse> not_ok;
   std::vector<PassedResonance> resonances;  ///< that its run-ups and run-downs have passed
   std::vector<WindowSpectrum> spectra;      ///< as time went on
   std::optional<WindowSpectrum> spectrum;   ///< at the end, or where it was asked for

@@ -211,6 +211,22 @@ Figure figure(const MonitoredLog& run, const SystemCourse& system) {
   return figure;
 }
 
+std::string notOkPart(const MonitoredLog& run) {
+  std::string rows;
+  for (const SystemCourse& system : run.systems) {
+    for (const NotOkCourse& course : system.not_ok) {
+      rows += fmt::format(
+          "<tr><td class=\"n\">{}</td><td class=\"n\">{}</td><td>{}</td><td>{}</td></tr>\n",
+          number(course.begin), number(course.end), escaped(system.name), escaped(course.why));
+    }
+  }
+  return rows.empty()
+             ? ""
+             : "<h2>What could not be judged</h2>\n<table><tr><th>from, s</th><th>to, s</th>"
+               "<th>system</th><th>why</th></tr>\n" +
+                   rows + "</table>\n";
+}
+
 std::string page(const MonitoredLog& run) {
   std::string out = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
@@ -236,6 +252,7 @@ std::string page(const MonitoredLog& run) {
     }
     out += "</table>\n";
   }
+  out += notOkPart(run);
   out +=
       "<h2>Margins</h2>\n<table><tr><th>system</th><th>least decay, 1/s</th><th>at, s</th>"
       "<th>at speed, rad/s</th><th>verdict there</th></tr>\n";

@@ -51,6 +51,23 @@ std::string motionText(const SystemCourse& system) {
   return out;
 }
 
+std::string notOkText(const SystemCourse& system) {
+  std::string out;
+  for (const NotOkCourse& course : system.not_ok) {
+    out += fmt::format("  {}: not OK, t = {:.4g} to {}: {}\n", system.name, course.begin,
+                       number(course.end, "s"), course.why);
+  }
+  return out;
+}
+
+Json notOkJson(const SystemCourse& system) {
+  Json all = Json::array();
+  for (const NotOkCourse& course : system.not_ok) {
+    all.push_back({{"why", course.why}, {"begin", course.begin}, {"end", course.end}});
+  }
+  return all;
+}
+
 Json optionalJson(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
@@ -120,7 +137,7 @@ std::string text(const MonitoredLog& run) {
   }
   std::string motion;
   for (const SystemCourse& system : run.systems) {
-    motion += motionText(system);
+    motion += notOkText(system) + motionText(system);
   }
   out += motion.empty() ? "" : "\n" + motion;
   if (run.alerts.empty()) {
@@ -155,7 +172,8 @@ Json json(const MonitoredLog& run) {
                                     {"least_decay_rate", system.least_decay_rate},
                                     {"time", system.least_at},
                                     {"speed", system.least_at_speed},
-                                    {"verdict", system.least_verdict}};
+                                    {"verdict", system.least_verdict},
+                                    {"not_ok", notOkJson(system)}};
     Json& of_it = json["systems"][system.name];
     if (system.rotor) {
       of_it["resonances"] = Json::array();

@@ -29,10 +29,11 @@ constexpr std::size_t sizeUnset(std::string_view later) {
 template <class State>
 inline constexpr std::array<EarlierForm, 0> kEarlierForms{};
 template <>
-inline constexpr std::array<EarlierForm, 3> kEarlierForms<state::StabilityMargin>{
-    {{0x04269617e2cfdbe6, "dddsddsdddibiidb"},
-     {0x6ff93c955afc2f62, "sddsdddibiidb"},
-     {0x4058c40523023a98, "iidb"}}};
+inline constexpr std::array<EarlierForm, 4> kEarlierForms<state::StabilityMargin>{
+    {{0x04269617e2cfdbe6, "dddsddsdddibiidbsd"},
+     {0x6ff93c955afc2f62, "sddsdddibiidbsd"},
+     {0x4058c40523023a98, "iidbsd"},
+     {0x2dc55037686885d0, "sd"}}};
 template <>
 inline constexpr std::array<EarlierForm, 2> kEarlierForms<state::LoopStatistics>{
     {{0xe676f1d3c287e44f, "lllldd"}, {0x9af8de11c53ac49c, "dd"}}};

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <string>
 
@@ -35,12 +36,17 @@ AlarmSettings levels() {
 struct Told {
   Told() : monitor(build(sceneOf(kCalm)), levels()) {}
   void tell(double x, double duration) {
+    tell([x](double) { return x; }, [](double) { return 0.0; }, duration);
+  }
+  void tell(const std::function<double(double)>& x, const std::function<double(double)>& y,
+            double duration) {
     for (const double end = time + duration; time < end - 1.0e-9; time += 0.01) {
       state::WhirlState whirl;
       whirl.system = "rotor";
       whirl.at.time = time;
-      whirl.x = x;
-      whirl.radius = std::abs(x);
+      whirl.x = x(time);
+      whirl.y = y(time);
+      whirl.radius = std::hypot(whirl.x, whirl.y);
       whirl.speed = 50.0;
       monitor.take(whirl, time);
       monitor.tick(time, false);
@@ -96,6 +102,69 @@ TEST(DataQuality, AGapIsNoTimeWithoutTheCause) {
   EXPECT_TRUE(told.raised());
   told.tell(0.1e-3, 0.2);
   EXPECT_FALSE(told.raised());
+}
+
+double whirlX(double time) {
+  return 0.2e-3 * std::cos(50.0 * time);
+}
+double whirlY(double time) {
+  return 0.2e-3 * std::sin(50.0 * time);
+}
+
+TEST(StuckChannel, IsNotOkRaisesAndClearsNothingAndComesBack) {
+  Told told;
+  told.tell([](double t) { return 7.0 * whirlX(t); }, whirlY, 1.0);
+  ASSERT_TRUE(told.raised());
+  const double held = 0.3e-3;  // below the level
+  told.tell([=](double) { return held; }, whirlY, 0.2);
+  EXPECT_EQ(told.notOk(), "") << "not yet known";
+  told.tell([=](double) { return held; }, whirlY, 5.0);
+  EXPECT_EQ(told.notOk(), "stuck: x");
+  EXPECT_TRUE(told.raised());
+  told.tell(whirlX, whirlY, 0.9);
+  EXPECT_EQ(told.notOk(), "");
+  EXPECT_TRUE(told.raised()) << "its delay begins anew";
+  told.tell(whirlX, whirlY, 0.2);
+  EXPECT_FALSE(told.raised());
+  told.tell(whirlX(told.time), 1.0);
+  EXPECT_EQ(told.notOk(), "stuck: x, y") << "y reads nothing, x the same again and again";
+}
+
+// Each of these stands still at last, or often, and none is stuck.
+TEST(StuckChannel, IsNotWhatComesToRestOrIsCoarse) {
+  struct Trial {
+    const char* what;
+    std::function<double(double)> x;
+  };
+  const auto coarse = [](double x) { return 20.0e-6 * std::round(x / 20.0e-6); };
+  for (const Trial& trial : {
+           Trial{"never moved", [](double) { return 0.1e-3; }},
+           Trial{
+               "dies away about a sag",
+               [](double t) { return -0.3e-3 + 1.0e-3 * std::exp(-5.0 * t) * whirlX(t) / 0.2e-3; }},
+           Trial{"dies away at once, for such samples",
+                 [](double t) { return -0.3e-3 + 1.0e-3 * std::exp(-600.0 * t); }},
+           Trial{"sampled once a turn, at last",
+                 [](double t) { return 0.2e-3 * std::cos(3.0 * std::exp(-20.0 * t)); }},
+           Trial{"coarse", [=](double t) { return coarse(0.3 * whirlX(t)); }},
+           Trial{"coarse, and dies away",
+                 [=](double t) { return coarse(4.0 * std::exp(-2.0 * t) * whirlX(t)); }},
+           Trial{"moves in jumps", [](double t) { return 1.0e-4 * std::floor(2.0 * t); }},
+       }) {
+    Told told;
+    for (int i = 0; i < 400; ++i) {
+      told.tell(trial.x, whirlY, 0.05);
+      ASSERT_EQ(told.notOk(), "") << trial.what << ", t = " << told.time;
+    }
+  }
+}
+
+TEST(StuckChannel, IsNotWhatStandsStillSinceAGapOrAReset) {
+  Told told;
+  told.tell(whirlX, whirlY, 1.0);
+  told.time += 0.5;  // nothing came meanwhile, and the machine has come to rest
+  told.tell(0.05e-3, 2.0);
+  EXPECT_EQ(told.notOk(), "");
 }
 
 }  // namespace

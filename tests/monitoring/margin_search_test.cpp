@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 #include <thread>
 
 #include "watched_twin.h"
@@ -57,6 +58,21 @@ TEST(MarginSearch, BesideTheVerdictsFindsWhatItFindsAtOnce) {
     EXPECT_NEAR(margin.nearest_frequency, 100.0, 1.0e-4);
     EXPECT_NEAR(margin.cross_coupling_margin, 500.0, 1.0e-6);
   }
+}
+
+TEST(MarginSearch, SaysUpToWhichAmplitudeTheDecrementHolds) {
+  const BuiltScene linear = build(sceneOf(kSelfExcited));
+  MarginSearch search(1, Judging::Mode::kAtOnce);
+  const state::StabilityMargin any = found(search, linear.systems[0], 1.0, 150.0).margin;
+  EXPECT_EQ(any.log_decrement_coordinate, "whirl");
+  EXPECT_TRUE(std::isinf(any.log_decrement_amplitude));
+  std::string stator = kSelfExcited;
+  stator.insert(stator.rfind('}'), ", rub_stiffness: 4.0e+5, rub_clearance: 2.0e-4");
+  const BuiltScene rub = build(sceneOf(stator.c_str()));
+  MarginSearch other(1, Judging::Mode::kAtOnce);
+  const state::StabilityMargin narrow = found(other, rub.systems[0], 1.0, 150.0).margin;
+  EXPECT_GE(narrow.log_decrement_amplitude, 2.0e-4 * (1.0 - 1.0e-9));
+  EXPECT_LT(narrow.log_decrement_amplitude, 2.2e-4);
 }
 
 TEST(MarginSearch, TellsNothingOfOtherParametersThanItHasSearched) {
