@@ -9,6 +9,7 @@
 
 #include "algebra/eigenvalues.h"
 #include "algebra/lu.h"
+#include "algebra/svd.h"
 #include "analysis/equilibria.h"
 
 namespace whirl_twin {
