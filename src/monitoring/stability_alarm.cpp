@@ -31,16 +31,50 @@ std::string speedText(double speed) {
   return std::isnan(speed) ? std::string() : fmt::format(" at {:.1f} rad/s", speed);
 }
 
+/// Damping within a shaft drives it where it turns fast.
+const char* goodDamping(const state::StabilityMargin& margin) {
+  return std::isnan(margin.speed) ? "add damping" : "add damping outside the shaft";
+}
+
+/// What to do about a motion that grows.
+std::string wayOut(const state::StabilityMargin& margin) {
+  const bool below = std::isfinite(margin.threshold_below);
+  const bool above = std::isfinite(margin.threshold_above);
+  if (below && above) {
+    return fmt::format("go below {:.1f} or above {:.1f} rad/s", margin.threshold_below,
+                       margin.threshold_above);
+  }
+  if (below || above) {
+    return fmt::format("go {} {:.1f} rad/s", below ? "below" : "above",
+                       below ? margin.threshold_below : margin.threshold_above);
+  }
+  return fmt::format("{}, or take away what drives it", goodDamping(margin));
+}
+
+/// What to do about one that hardly decays.
+std::string wayToStay(const state::StabilityMargin& margin) {
+  if (std::isfinite(margin.threshold_above)) {
+    return fmt::format("stay away from {:.1f} rad/s, or {}", margin.threshold_above,
+                       goodDamping(margin));
+  }
+  if (!margin.nearest_parameter.empty()) {
+    return fmt::format("{}; {} changed by {:+.2g} % would lose it", goodDamping(margin),
+                       margin.nearest_parameter, 100.0 * margin.nearest_change);
+  }
+  return goodDamping(margin);
+}
+
 std::string unstableText(const std::string& system, const state::StabilityMargin& margin,
                          AlarmCondition condition) {
   const std::string where = system + speedText(margin.speed);
   switch (condition) {
     case AlarmCondition::kDanger:
-      return fmt::format("{}: unstable, {} {} in the right half-plane, growth rate {:.3g} 1/s",
+      return fmt::format("{}: unstable, {} {} in the right half-plane, growth rate {:.3g} 1/s: {}",
                          where, margin.right, margin.right == 1 ? "root" : "roots",
-                         -margin.decay_rate);
+                         -margin.decay_rate, wayOut(margin));
     case AlarmCondition::kWarning:
-      return fmt::format("{}: repeated imaginary roots, the motion may grow with time", where);
+      return fmt::format("{}: repeated imaginary roots, the motion may grow with time: {}", where,
+                         wayOut(margin));
     default:
       return fmt::format("{}: verdict uncertain, the alert stays until stability is certain",
                          where);
@@ -102,13 +136,13 @@ void StabilityAlarm::updateLowDamping(const state::StabilityMargin& margin, Aler
     alert.type = alert_type::kLowDamping;
     alert.severity = low_damping_alarm_.severity();
     if (margin.log_decrement < settings_.log_decrement_warning) {
-      alert.text =
-          fmt::format("{}{}: log decrement {:.3g}, below {:g}", system_, speedText(margin.speed),
-                      margin.log_decrement, settings_.log_decrement_warning);
+      alert.text = fmt::format("{}{}: log decrement {:.3g}, below {:g}: {}", system_,
+                               speedText(margin.speed), margin.log_decrement,
+                               settings_.log_decrement_warning, wayToStay(margin));
     } else {
-      alert.text =
-          fmt::format("{}{}: decay rate {:.3g} 1/s, below {:g} 1/s", system_,
-                      speedText(margin.speed), margin.decay_rate, settings_.decay_rate_alarm);
+      alert.text = fmt::format("{}{}: decay rate {:.3g} 1/s, below {:g} 1/s: {}", system_,
+                               speedText(margin.speed), margin.decay_rate,
+                               settings_.decay_rate_alarm, wayToStay(margin));
     }
     alerts.raise(std::move(alert), "low damping");
   }

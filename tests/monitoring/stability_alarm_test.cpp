@@ -52,7 +52,8 @@ TEST_F(StabilityAlarmTest, AnUnstableVerdictIsDangerAtOnceAndClearsAfterTheDelay
   EXPECT_EQ(unstable()->severity, state::Severity::kDanger);
   EXPECT_EQ(unstable()->decay_rate, -2.5);
   EXPECT_EQ(unstable()->text,
-            "rotor at 100.0 rad/s: unstable, 2 roots in the right half-plane, growth rate 2.5 1/s");
+            "rotor at 100.0 rad/s: unstable, 2 roots in the right half-plane, growth rate 2.5 1/s: "
+            "add damping outside the shaft, or take away what drives it");
   alarm_.update(marginOf(0.2, kStable), list_);
   alarm_.update(marginOf(1.0, kStable), list_);
   EXPECT_NE(unstable(), nullptr);
@@ -112,6 +113,33 @@ TEST_F(StabilityAlarmTest, RepeatedImaginaryRootsWarnAndUpgradeWhenTheyMoveToThe
   EXPECT_EQ(unstable()->severity, state::Severity::kDanger) << "until cleared";
 }
 
+TEST_F(StabilityAlarmTest, SaysWhatToDoAboutIt) {
+  state::StabilityMargin growing = marginOf(0.0, kUnstable, -0.05, -2.5);
+  growing.threshold_below = 80.0;
+  alarm_.update(growing, list_);
+  ASSERT_NE(unstable(), nullptr);
+  EXPECT_NE(unstable()->text.find(": go below 80.0 rad/s"), std::string::npos);
+
+  AlertList both;
+  growing.threshold_above = 130.0;
+  StabilityAlarm between("rotor", AlarmSettings());
+  between.update(growing, both);
+  ASSERT_NE(both.find("rotor", alert_type::kUnstable), nullptr);
+  EXPECT_NE(
+      both.find("rotor", alert_type::kUnstable)->text.find(": go below 80.0 or above 130.0 rad/s"),
+      std::string::npos);
+
+  AlertList slow;
+  StabilityAlarm decaying("rotor", AlarmSettings());
+  state::StabilityMargin margin = marginOf(0.0, kStable, 0.05);
+  margin.threshold_above = 110.0;
+  decaying.update(margin, slow);
+  ASSERT_NE(slow.find("rotor", alert_type::kLowDamping), nullptr);
+  EXPECT_NE(slow.find("rotor", alert_type::kLowDamping)
+                ->text.find(": stay away from 110.0 rad/s, or add damping outside the shaft"),
+            std::string::npos);
+}
+
 TEST_F(StabilityAlarmTest, AMarginalSystemIsNotUnstable) {
   alarm_.update(marginOf(0.0, kMarginal, 0.0, 0.0), list_);
   EXPECT_EQ(unstable(), nullptr);
@@ -124,7 +152,9 @@ TEST_F(StabilityAlarmTest, LowDampingWarnsBelowTheLimitAndClearsBeyondTheHystere
   alarm_.update(marginOf(1.0, kStable, 0.099), list_);
   ASSERT_NE(lowDamping(), nullptr);
   EXPECT_EQ(lowDamping()->severity, state::Severity::kWarning);
-  EXPECT_EQ(lowDamping()->text, "rotor at 100.0 rad/s: log decrement 0.099, below 0.1");
+  EXPECT_EQ(lowDamping()->text,
+            "rotor at 100.0 rad/s: log decrement 0.099, below 0.1: "
+            "add damping outside the shaft");
   for (int step = 0; step < 20; ++step) {
     alarm_.update(marginOf(2.0 + step, kStable, 0.101), list_);
   }
