@@ -23,8 +23,7 @@ const std::vector<StepMethod>& stepMethods() {
       {GaussLegendre6<1>::kName, 6, true, true, true, false, 15.0},
       {kStoermerSchemes[0].name, 6, false, false, false, false, 1.8, kStoermerSchemes[0].terms - 1},
       {DormandPrince8::kName, 8, false, false, false, false, 13.0},
-      {kStoermerSchemes[1].name, 9, false, false, false, false, 2.0, kStoermerSchemes[1].terms - 1},
-      {kStoermerSchemes[2].name, 9, false, false, false, false, 3.2, kStoermerSchemes[2].terms - 1},
+      {kStoermerSchemes[1].name, 9, false, false, false, false, 3.2, kStoermerSchemes[1].terms - 1},
       {Exponential<1>::kName, 0, false, true, true, false, 1.0}};
   return methods;
 }

@@ -19,7 +19,7 @@ namespace whirl_twin {
 namespace stoermer {
 
 /// Accelerations that a step is made of at most, and those that its error is told by.
-inline constexpr std::size_t kMostTerms = 11;
+inline constexpr std::size_t kMostTerms = 10;
 inline constexpr std::size_t kMostNodes = kMostTerms + 1;
 
 /// One for each node, the latest first; 0 beyond the terms of a scheme.
@@ -115,8 +115,7 @@ constexpr StoermerScheme stoermerScheme(const char* name, std::size_t terms, boo
           errorWeights(terms, corrected)};
 }
 
-inline constexpr std::array<StoermerScheme, 3> kStoermerSchemes{
-    stoermerScheme("stoermer_6", 6, false), stoermerScheme("stoermer_11", 11, false),
-    stoermerScheme("stoermer", 10, true)};
+inline constexpr std::array<StoermerScheme, 2> kStoermerSchemes{
+    stoermerScheme("stoermer_6", 6, false), stoermerScheme("stoermer", 10, true)};
 
 }  // namespace whirl_twin

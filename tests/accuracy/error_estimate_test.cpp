@@ -81,7 +81,6 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"SwingByGaussLegendre", kSwing, "gauss_legendre_6", "0.02"},
                     Case{"SwingByStoermer6", kSwing, "stoermer_6", "0.01", 200.0},
                     Case{"SpinByStoermer6", kSpin, "stoermer_6", "0.01", 200.0},
-                    Case{"SpinByStoermer11", kSpin, "stoermer_11", "0.02", 200.0},
                     Case{"SpinByStoermer", kSpin, "stoermer", "0.02", 200.0},
                     Case{"SpinByVerlet", kSpin, "velocity_verlet", "0.004"},
                     Case{"SpinByRungeKutta", kSpin, "runge_kutta_4", "0.004"},

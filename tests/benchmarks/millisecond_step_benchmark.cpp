@@ -28,7 +28,7 @@ constexpr std::int64_t kInterval = 240 * kMillisecond;
 constexpr int kRuns = 60;  // for the dearest step
 constexpr int kSteps = 3000;
 const std::vector<std::string> kMethods{"runge_kutta_4", "dormand_prince_8", "stoermer_6",
-                                        "stoermer_11", "stoermer"};
+                                        "stoermer"};
 
 Scene pendulum(const std::string& system, const std::string& integrator) {
   return readScene(YAML::Load("{gravity: 9.81, step: 0.001, systems: {pendulum: {" + system +

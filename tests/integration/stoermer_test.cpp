@@ -230,7 +230,6 @@ TEST_P(Stoermer, ClosesTheAuditOfADampedRunUp) {
 
 INSTANTIATE_TEST_SUITE_P(Steps, Stoermer,
                          testing::Values(Named{"stoermer_6", kMillisecond},
-                                         Named{"stoermer_11", kMillisecond},
                                          Named{"stoermer", 2 * kMillisecond}),
                          [](const auto& test) { return test.param.method; });
 

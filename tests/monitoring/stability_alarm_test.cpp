@@ -210,7 +210,9 @@ TEST(StabilityAlarm, ADecayRateLimitIsWatchedWhenSetAndOffAtZero) {
   EXPECT_TRUE(list.active().empty());
   on.update(marginOf(0.1, kStable, 0.01, 0.4), list);
   ASSERT_EQ(list.active().size(), 1u);
-  EXPECT_EQ(list.active()[0].text, "rotor at 100.0 rad/s: decay rate 0.4 1/s, below 0.5 1/s");
+  EXPECT_EQ(list.active()[0].text,
+            "rotor at 100.0 rad/s: decay rate 0.4 1/s, below 0.5 1/s: "
+            "add damping outside the shaft");
   on.update(marginOf(1.0, kStable, 0.01, 0.6), list);
   on.update(marginOf(2.0, kStable, 0.01, 0.6), list);
   EXPECT_TRUE(list.active().empty());
