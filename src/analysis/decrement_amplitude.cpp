@@ -50,7 +50,7 @@ std::optional<Mode> leastDamped(const Dynamics& mean, const SteadyMotion& motion
     return std::nullopt;
   }
   const Eigen::EigenSolver<MatrixXd> solver(state);
-  const VectorXcd roots = solver.eigenvalues();
+  const VectorXcd& roots = solver.eigenvalues();
   const double fastest = roots.cwiseAbs().maxCoeff();
   Index least = -1;
   const auto damping = [&](Index i) { return -roots[i].real() / std::abs(roots[i]); };
