@@ -4,13 +4,13 @@
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <utility>
+#include <string>
 #include <vector>
 
 #include "algebra/eigenvalues.h"
 #include "algebra/lu.h"
-#include "algebra/svd.h"
 #include "analysis/equilibria.h"
+#include "analysis/orbit.h"
 
 namespace whirl_twin {
 
@@ -29,7 +29,7 @@ constexpr double kSmallest = 1.0e-7;   // of the widest
 constexpr double kStride = 1.25;       // from one amplitude to the next
 constexpr int kHalvings = 20;          // of the last stride
 constexpr double kVibrates = 1.0e-9;   // of the fastest motion: what turns more slowly is at rest
-constexpr double kParted = 1.0e-10;    // modes are two, of shapes that are known
+constexpr double kParted = 1.0e-10;    // of the shapes, as a matrix: beyond it two modes are one
 constexpr double kNoDecrement = 1e-6;  // differences below it are none
 
 /// A mode about a steady motion.
@@ -64,42 +64,38 @@ std::optional<Mode> leastDamped(const Dynamics& mean, const SteadyMotion& motion
   }
   // To the left, orthogonal to every other mode's shape.
   const VectorXcd shape = solver.eigenvectors().col(least);
-  const Eigen::JacobiSVD<MatrixXcd> shapes(solver.eigenvectors());
-  const auto& values = shapes.singularValues();
-  if (!(values.minCoeff() > kParted * values.maxCoeff())) {
+  const Eigen::PartialPivLU<MatrixXcd> shapes(solver.eigenvectors().transpose());
+  if (!(shapes.rcond() > kParted)) {
     return std::nullopt;
   }
-  const VectorXcd unit = VectorXcd::Unit(2 * n, least);
-  const VectorXcd adjoint =
-      Eigen::FullPivLU<MatrixXcd>(solver.eigenvectors().transpose()).solve(unit);
+  const VectorXcd adjoint = shapes.solve(VectorXcd::Unit(2 * n, least));
   return Mode{roots[least], shape, adjoint};
 }
 
-/// How wide the shape is, and in what.
-DecrementAmplitude widthOf(const Dynamics& dynamics, const VectorXcd& shape) {
-  const Index n = dynamics.dof();
-  DecrementAmplitude width;
+/// How wide the shape is.
+struct Width {
+  std::string coordinate;  ///< in which
+  double of_shape = 0.0;
+  double widest = 0.0;  ///< [rad] or [m], that is looked at
+};
+
+Width widthOf(const Dynamics& dynamics, const VectorXcd& shape) {
+  const VectorXcd q = shape.head(dynamics.dof());
+  const double length = dynamics.naturalLength();
   if (dynamics.isRotor()) {
     const Station station = dynamics.stations().front();
-    const Complex x = station.along_x.dot(shape.head(n).real()) +
-                      Complex(0.0, 1.0) * station.along_x.dot(shape.head(n).imag());
-    const Complex y = station.along_y.dot(shape.head(n).real()) +
-                      Complex(0.0, 1.0) * station.along_y.dot(shape.head(n).imag());
-    const Complex forward = x + Complex(0.0, 1.0) * y;
-    const Complex backward = std::conj(x) + Complex(0.0, 1.0) * std::conj(y);
-    width.coordinate = "whirl";
-    width.amplitude = 0.5 * (std::abs(forward) + std::abs(backward));
-    return width;
+    const auto along = [&](const VectorXd& axis) { return (axis.transpose() * q).value(); };
+    return {"whirl", Orbit(along(station.along_x), along(station.along_y)).major(), length};
   }
   const std::vector<CoordinateInfo> all = dynamics.coordinates();
+  Width width;
   double most = -1.0;
-  for (Index i = 0; i < n; ++i) {
-    const auto& coordinate = all[static_cast<std::size_t>(i)];
-    const double part =
-        std::abs(shape[i]) / (coordinate.isAngle() ? 1.0 : dynamics.naturalLength());
-    if (part > most) {
-      most = part;
-      width = {std::abs(shape[i]), coordinate.name};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const double unit = all[i].isAngle() ? 1.0 : length;
+    const double size = std::abs(q[static_cast<Index>(i)]);
+    if (size / unit > most) {
+      most = size / unit;
+      width = {all[i].name, size, all[i].isAngle() ? kPi : length};
     }
   }
   return width;
@@ -114,9 +110,9 @@ std::optional<DecrementAmplitude> decrementAmplitude(const Dynamics& dynamics,
   if (!mode) {
     return std::nullopt;
   }
-  DecrementAmplitude found = widthOf(dynamics, mode->shape);
-  const double width = std::exchange(found.amplitude, std::numeric_limits<double>::infinity());
-  if (dynamics.linear() || !(width > 0.0)) {
+  const Width width = widthOf(dynamics, mode->shape);
+  DecrementAmplitude found{std::numeric_limits<double>::infinity(), width.coordinate};
+  if (dynamics.linear() || !(width.of_shape > 0.0)) {
     return found;
   }
   const Index n = mean.dof();
@@ -126,14 +122,14 @@ std::optional<DecrementAmplitude> decrementAmplitude(const Dynamics& dynamics,
     Complex sum = 0.0;
     for (int k = 0; k < kPlaces; ++k) {
       const Complex turned = std::polar(1.0, 2.0 * kPi * k / kPlaces);
-      const VectorXd x = (amplitude / width * turned * mode->shape).real();
+      const VectorXd x = (amplitude / width.of_shape * turned * mode->shape).real();
       const VectorXd v = motion.v + x.tail(n);
       const VectorXd a = mean.acceleration(motion.q + x.head(n), v, at) - rest;
       sum += std::conj(turned) * (mode->adjoint.head(n).transpose() * x.tail(n).cast<Complex>() +
                                   mode->adjoint.tail(n).transpose() * a.cast<Complex>())
                                      .value();
     }
-    const Complex root = 2.0 / kPlaces * width / amplitude * sum;
+    const Complex root = 2.0 / kPlaces * width.of_shape / amplitude * sum;
     return -2.0 * kPi * root.real() / root.imag();
   };
   const double small = -2.0 * kPi * mode->root.real() / mode->root.imag();
@@ -141,15 +137,9 @@ std::optional<DecrementAmplitude> decrementAmplitude(const Dynamics& dynamics,
     return std::fabs(decrementAt(amplitude) - small) <=
            std::max(kSameDecrement * std::fabs(small), kNoDecrement);
   };
-  const bool angle = !dynamics.isRotor() && [&] {
-    const std::vector<CoordinateInfo> all = dynamics.coordinates();
-    return std::any_of(all.begin(), all.end(), [&](const CoordinateInfo& c) {
-      return c.name == found.coordinate && c.isAngle();
-    });
-  }();
-  const double widest = angle ? kPi : dynamics.naturalLength();
   double holds = 0.0;
-  for (double amplitude = kSmallest * widest; amplitude <= widest; amplitude *= kStride) {
+  for (double amplitude = kSmallest * width.widest; amplitude <= width.widest;
+       amplitude *= kStride) {
     if (holdsAt(amplitude)) {
       holds = amplitude;
       continue;

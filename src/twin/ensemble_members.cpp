@@ -20,7 +20,6 @@ namespace whirl_twin {
 namespace {
 
 constexpr int kMostParts = 64;
-constexpr std::size_t kMostSampled = 8;  // members, whose errors are measured
 constexpr double kStopped = std::numeric_limits<double>::quiet_NaN();
 
 /// The member as one complex number, if it is isotropic, linear and free of what turns with the
@@ -70,7 +69,7 @@ class SideBySide final : public EnsembleSteps {
   SideBySide(const std::vector<IsotropicRotor>& rotors, const Drive& drive, double step)
       : drive_(drive),
         rotors_(rotors, step, highestSpeed(drive)),
-        sampled_(sampleOf(rotors.size())),
+        sampled_(sampledMembers(rotors.size())),
         halves_(of(sampled_, rotors), step, highestSpeed(drive), 2),
         errors_(sampled_.size(), StepErrorSum(kLinearErrorEvery)) {}
   int parts() const { return rotors_.parts(); }
@@ -117,15 +116,6 @@ class SideBySide final : public EnsembleSteps {
   static double highestSpeed(const Drive& drive) {
     const auto [low, high] = drive.speedRange();
     return std::fmax(std::fabs(low), std::fabs(high));
-  }
-  /// Members evenly spread.
-  static std::vector<std::size_t> sampleOf(std::size_t count) {
-    const std::size_t sampled = std::min(count, kMostSampled);
-    std::vector<std::size_t> members;
-    for (std::size_t k = 0; k < sampled; ++k) {
-      members.push_back(k * count / sampled);
-    }
-    return members;
   }
   static std::vector<IsotropicRotor> of(const std::vector<std::size_t>& members,
                                         const std::vector<IsotropicRotor>& rotors) {
@@ -259,6 +249,15 @@ class OneByOne final : public EnsembleSteps {
 };
 
 }  // namespace
+
+std::vector<std::size_t> sampledMembers(std::size_t count) {
+  const std::size_t sampled = std::min(count, kMostSampled);
+  std::vector<std::size_t> members;
+  for (std::size_t k = 0; k < sampled; ++k) {
+    members.push_back(k * count / sampled);
+  }
+  return members;
+}
 
 std::unique_ptr<EnsembleSteps> ensembleSteps(const std::vector<EnsembleMember>& members,
                                              const std::string& integrator,

@@ -2,6 +2,7 @@
 // it, else one by one.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,6 +17,11 @@ struct EnsembleMember {
   SystemSpec spec;
   ModelSetup setup;
 };
+
+constexpr std::size_t kMostSampled = 8;  ///< members, whose errors are measured
+
+/// These, evenly spread over so many.
+std::vector<std::size_t> sampledMembers(std::size_t count);
 
 /// Of at least one member, with the scene's step [s]. The excitation outlives it.
 std::unique_ptr<EnsembleSteps> ensembleSteps(const std::vector<EnsembleMember>& members,

@@ -15,7 +15,6 @@ namespace {
 
 /// As many take their systems' own steps as long as a block of members.
 constexpr std::size_t kFewest = 12;
-constexpr std::size_t kMostSampled = 8;  // members, whose errors are measured
 constexpr double kStopped = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<const Dynamics*> dynamicsOf(const std::vector<EnsembleMember>& members) {
@@ -33,7 +32,7 @@ class MembersSideBySide final : public EnsembleSteps {
                     const Drive& drive, double step)
       : drive_(drive),
         steps_(std::move(equations), method, step, members.front().spec.substeps),
-        sampled_(sampleOf(members.size())),
+        sampled_(sampledMembers(members.size())),
         halves_(memberEquations(chosen(dynamicsOf(members), sampled_)), method, step,
                 2 * members.front().spec.substeps),
         errors_(sampled_.size()),
@@ -100,15 +99,6 @@ class MembersSideBySide final : public EnsembleSteps {
     std::vector<double> q, v;
   };
 
-  /// Members evenly spread.
-  static std::vector<std::size_t> sampleOf(std::size_t count) {
-    const std::size_t sampled = std::min(count, kMostSampled);
-    std::vector<std::size_t> members;
-    for (std::size_t k = 0; k < sampled; ++k) {
-      members.push_back(k * count / sampled);
-    }
-    return members;
-  }
   static std::vector<const Dynamics*> chosen(const std::vector<const Dynamics*>& all,
                                              const std::vector<std::size_t>& members) {
     std::vector<const Dynamics*> some;

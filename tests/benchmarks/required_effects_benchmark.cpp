@@ -64,32 +64,21 @@ class HandWrittenRotor {
     prepareAudit(n, p_squared, damped, whirl, rate);
   }
 
+  /// audited: with the work done on it summed up.
+  template <bool audited>
   void advance(int steps) {
-    Complex z = z_;
-    Complex w = w_;
-    Complex phasor = phasor_;
-    for (int i = 0; i < steps; ++i) {
-      const Complex next = zz_ * z + (zw_ * w + product(to_z_, phasor));
-      w = wz_ * z + (ww_ * w + product(to_w_, phasor));
-      z = next;
-      phasor = product(turn_, phasor);
-    }
-    z_ = z;
-    w_ = w;
-    phasor_ = phasor;
-  }
-  /// The same, with the work done on it summed up.
-  void advanceWithAudit(int steps) {
     Complex z = z_;
     Complex w = w_;
     Complex phasor = phasor_;
     double work = work_;
     for (int i = 0; i < steps; ++i) {
-      const Complex by_z = audit_zz_ * z + (audit_zw_ * w + product(audit_z_, phasor));
-      const Complex by_w = audit_ww_ * w + product(audit_w_, phasor);
-      work += ((z.real() * by_z.real() + z.imag() * by_z.imag()) +
-               (w.real() * by_w.real() + w.imag() * by_w.imag())) +
-              audit_;
+      if constexpr (audited) {
+        const Complex by_z = audit_zz_ * z + (audit_zw_ * w + product(audit_z_, phasor));
+        const Complex by_w = audit_ww_ * w + product(audit_w_, phasor);
+        work += ((z.real() * by_z.real() + z.imag() * by_z.imag()) +
+                 (w.real() * by_w.real() + w.imag() * by_w.imag())) +
+                audit_;
+      }
       const Complex next = zz_ * z + (zw_ * w + product(to_z_, phasor));
       w = wz_ * z + (ww_ * w + product(to_w_, phasor));
       z = next;
@@ -171,7 +160,7 @@ Stepped stepped(const Rotor& rotor) {
 double disagreement() {
   constexpr int kSteps = 1000;
   HandWrittenRotor by_hand;
-  by_hand.advanceWithAudit(kSteps);
+  by_hand.advance<true>(kSteps);
   const std::shared_ptr<Twin> twin = twinOf({"bare"});
   advance(*twin, kSteps);
   std::vector<double> record(twin->layout().size);
@@ -222,8 +211,8 @@ void writeBare(const Effort& effort) {
   const auto by_hand = std::make_shared<HandWrittenRotor>();
   const auto audited = std::make_shared<HandWrittenRotor>();
   const std::vector<StepCost> costs =
-      stepCosts({{"", [by_hand](int steps) { by_hand->advance(steps); }},
-                 {"", [audited](int steps) { audited->advanceWithAudit(steps); }},
+      stepCosts({{"", [by_hand](int steps) { by_hand->advance<false>(steps); }},
+                 {"", [audited](int steps) { audited->advance<true>(steps); }},
                  stepped({"bare"}),
                  driveAlone(),
                  sideBySide()},

@@ -138,6 +138,25 @@ TEST_F(StabilityAlarmTest, SaysWhatToDoAboutIt) {
   EXPECT_NE(slow.find("rotor", alert_type::kLowDamping)
                 ->text.find(": stay away from 110.0 rad/s, or add damping outside the shaft"),
             std::string::npos);
+
+  AlertList near;
+  StabilityAlarm without_threshold("rotor", AlarmSettings());
+  margin = marginOf(0.0, kStable, 0.05);
+  margin.nearest_parameter = "damping";
+  margin.nearest_change = -0.25;
+  without_threshold.update(margin, near);
+  ASSERT_NE(near.find("rotor", alert_type::kLowDamping), nullptr);
+  EXPECT_NE(near.find("rotor", alert_type::kLowDamping)->text.find("; damping changed by -25 %"),
+            std::string::npos);
+
+  AlertList falling;
+  StabilityAlarm without_shaft("pendulum", AlarmSettings());
+  growing = marginOf(0.0, kUnstable, -0.05, -2.5);
+  growing.speed = std::numeric_limits<double>::quiet_NaN();
+  without_shaft.update(growing, falling);
+  ASSERT_NE(falling.find("pendulum", alert_type::kUnstable), nullptr);
+  EXPECT_NE(falling.find("pendulum", alert_type::kUnstable)->text.find(": add damping, or"),
+            std::string::npos);
 }
 
 TEST_F(StabilityAlarmTest, AMarginalSystemIsNotUnstable) {
