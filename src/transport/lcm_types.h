@@ -6,6 +6,7 @@
 #include "whirl_twin/alert_t.hpp"
 #include "whirl_twin/drive_state_t.hpp"
 #include "whirl_twin/ensemble_state_t.hpp"
+#include "whirl_twin/follow_state_t.hpp"
 #include "whirl_twin/input_command_t.hpp"
 #include "whirl_twin/loop_statistics_t.hpp"
 #include "whirl_twin/measurement_t.hpp"
@@ -34,6 +35,7 @@ alert_t lcmTypeOf(const state::Alert&);
 monitor_status_t lcmTypeOf(const state::MonitorStatus&);
 order_state_t lcmTypeOf(const state::OrderState&);
 alarm_command_t lcmTypeOf(const state::AlarmCommand&);
+follow_state_t lcmTypeOf(const state::FollowState&);
 
 template <class State>
 using LcmType = decltype(lcmTypeOf(std::declval<State>()));

@@ -10,6 +10,7 @@
 #include "whirl_twin/AlertArray.h"
 #include "whirl_twin/DriveState.h"
 #include "whirl_twin/EnsembleState.h"
+#include "whirl_twin/FollowState.h"
 #include "whirl_twin/InputCommand.h"
 #include "whirl_twin/LoopStatistics.h"
 #include "whirl_twin/Measurement.h"
@@ -37,6 +38,7 @@ InputCommand rosTypeOf(const state::InputCommand&);
 MonitorStatus rosTypeOf(const state::MonitorStatus&);
 OrderState rosTypeOf(const state::OrderState&);
 AlarmCommand rosTypeOf(const state::AlarmCommand&);
+FollowState rosTypeOf(const state::FollowState&);
 Alert rosTypeOf(const state::Alert&);  // one of an AlertArray
 
 template <class State>

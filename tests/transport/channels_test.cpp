@@ -15,6 +15,7 @@ TEST(Channels, AreNamedAsTheInterfaceSays) {
   EXPECT_EQ(channelName(state::EnsembleState::kKind, "rotor"), "TWIN_ROTOR_ENSEMBLE");
   EXPECT_EQ(channelName(state::DriveState::kKind, "shaft"), "TWIN_SHAFT_DRIVE");
   EXPECT_EQ(channelName(state::MotorState::kKind, "shaft"), "TWIN_SHAFT_MOTOR");
+  EXPECT_EQ(channelName(state::FollowState::kKind, "rotor"), "TWIN_ROTOR_FOLLOW");
   EXPECT_EQ(channelName(state::Alert::kKind), "TWIN_ALERTS");
   EXPECT_EQ(channelName(state::LoopStatistics::kKind), "TWIN_LOOP");
 }

@@ -274,6 +274,40 @@ TEST(LcmConverters, RejectMeasurementsThatCannotBeMeant) {
                 [](auto& m) { m.values = 5; }, [](auto& m) { m.channels = 1; }});
 }
 
+TEST(LcmConverters, RejectWhatNoFollowerCanMean) {
+  state::FollowState follow;
+  follow.system = "rotor";
+  follow.parameter = {"bearings[0].kxx", "mass"};
+  follow.parameter_unit = {"N/m", "kg"};
+  follow.value = {1e7, 2.0};
+  follow.deviation = {1e4, std::nan("")};
+  follow.channel = {"probes/probe_x", "probes/probe_y"};
+  follow.channel_unit = {"m", "m"};
+  follow.residual = {1e-6, std::nan("")};
+  follow.residual_deviation = {2e-6, std::nan("")};
+  follow.offset = {0.0, std::nan("")};
+  follow.channel_status = {0, 1};
+  follow.drift_parameter = "mass";
+  follow.bearing = {"bearings[0]"};
+  follow.force_x = {10.0};
+  follow.force_y = {-2.0};
+  follow.force_deviation = {1.0};
+  const auto message = toLcm(follow);
+  EXPECT_EQ(bitsOf(fromLcm<state::FollowState>(message)), bitsOf(follow));
+  expectRejected(message, instantSpoilers<follow_state_t>());
+  expectRejected<follow_state_t>(
+      message,
+      {[](auto& m) { m.system = "a/b"; }, [](auto& m) { m.parameter[0] = "k xx"; },
+       [](auto& m) { m.parameter_unit.pop_back(); }, [](auto& m) { m.value.push_back(0.0); },
+       [](auto& m) { m.deviation[0] = -1.0; }, [](auto& m) { m.channel[0] = "probe_x"; },
+       [](auto& m) { m.channel[0] = "probes/"; }, [](auto& m) { m.channel[0] = "a/b/c"; },
+       [](auto& m) { m.channel_status[0] = 4; }, [](auto& m) { m.channel_status[0] = -1; },
+       [](auto& m) { m.residual_deviation[0] = -1e-9; }, [](auto& m) { m.mismatch = -1.0; },
+       [](auto& m) { m.drift_parameter = "stiffness"; }, [](auto& m) { m.bearings = 2; },
+       [](auto& m) { m.force_y.clear(); }, [](auto& m) { m.late = -1; },
+       [](auto& m) { m.clock_offset_deviation = -1.0; }, [](auto& m) { m.shaft_known = 2; }});
+}
+
 TEST(LcmConverters, RejectPulsesThatAreNotInOrder) {
   state::Measurement pulses;
   pulses.source = "sensors";

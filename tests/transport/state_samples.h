@@ -170,6 +170,34 @@ class StateSamples {
     return s;
   }
 
+  state::FollowState follow() {
+    auto s = sample<state::FollowState>();
+    s.parameter.emplace_back("bearings[0].kxx");
+    s.parameter_unit.assign(s.parameter.size(), "N/m");
+    s.value = numbers(s.parameter.size());
+    s.deviation.assign(s.parameter.size(), below(2) == 0 ? 1e3 : std::nan(""));
+    s.channel = {"probes/probe_x", "probes/probe_y", "torque/torque"};
+    s.channel.resize(below(4));
+    s.channel_unit.assign(s.channel.size(), "m");
+    s.residual = numbers(s.channel.size());
+    s.residual_deviation.assign(s.channel.size(), std::numeric_limits<double>::infinity());
+    s.offset = numbers(s.channel.size());
+    s.channel_status.assign(s.channel.size(), static_cast<std::uint8_t>(below(4)));
+    for (double* limit :
+         {&s.mismatch, &s.mismatch_least, &s.mismatch_limit, &s.whiteness_limit, &s.drift,
+          &s.drift_limit, &s.clock_offset_deviation, &s.shaft_angle_deviation}) {
+      *limit = std::fabs(*limit);
+    }
+    s.drift_parameter = below(2) == 0 ? s.parameter.back() : "";
+    s.force_x = numbers(s.bearing.size());
+    s.force_y = numbers(s.bearing.size());
+    s.force_deviation.assign(s.bearing.size(), 0.5);
+    for (std::int64_t* count : {&s.used, &s.late, &s.lost, &s.repeated, &s.invalid, &s.refused}) {
+      *count = static_cast<std::int64_t>(below(std::uint64_t{1} << 62));
+    }
+    return s;
+  }
+
   state::Alert alert() {
     auto s = sample<state::Alert>();
     s.severity = static_cast<state::Severity>(below(3));
@@ -222,6 +250,7 @@ class StateSamples {
   auto of(KindOf<state::Alert>) { return alert(); }
   auto of(KindOf<state::MonitorStatus>) { return status(); }
   auto of(KindOf<state::OrderState>) { return orders(); }
+  auto of(KindOf<state::FollowState>) { return follow(); }
 
   double time() { return static_cast<double>(below(1000000000)) * 1e-3; }
 
