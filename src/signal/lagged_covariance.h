@@ -1,0 +1,54 @@
+// Covariances of a motion with itself some samples later,
+//
+//   R_k = sum over t: z(t + k) z(t)^H,   the same t for every lag k,
+//
+// so that a motion that grows or dies is told as such. The record is kept as 10 to 19 parts of one
+// length whatever its own: leaving them out one by one says how far what follows from the sums may
+// be off (the jackknife; B. Efron, C. Stein, Ann. Stat. 9 (1981)). Memory does not grow.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace whirl_twin {
+
+class LaggedCovariance {
+ public:
+  using Sums = std::vector<Eigen::MatrixXcd>;  ///< a lag each
+
+  /// Of so many stations, for the lags first_lag, first_lag + 1, ...
+  LaggedCovariance(Eigen::Index stations, int first_lag, int lags);
+
+  void take(const Eigen::VectorXcd& z);
+  /// The next sample does not follow the last one.
+  void interrupt() { kept_ = 0; }
+
+  std::int64_t samples() const { return samples_; }  ///< that stand in the sums, as t
+  double meanSquare() const;                         ///< E|z|^2, of all stations together
+  std::size_t parts() const { return parts_.size(); }
+  Sums all() const { return without(parts_.size()); }
+  /// The sums without one part.
+  Sums without(std::size_t part) const;
+
+ private:
+  struct Part {
+    Sums sums;
+    std::int64_t samples = 0;
+  };
+
+  void beginPart();
+
+  int first_lag_;
+  Sums nothing_;
+  std::vector<Eigen::VectorXcd> ring_;  // the newest samples
+  std::size_t newest_ = 0;
+  std::size_t kept_ = 0;
+  std::vector<Part> parts_;
+  std::int64_t part_samples_;
+  std::int64_t samples_ = 0;
+  double squares_ = 0.0;
+};
+
+}  // namespace whirl_twin
