@@ -33,7 +33,7 @@ std::int64_t wallClockAtZero() {
 }  // namespace
 
 RecordPublisher::RecordPublisher(LiveTwin& live, const FixedRateLoop& loop, StatePublisher states,
-                                 std::int64_t every, bool clock)
+                                 std::int64_t every, bool clock, bool measure)
     : live_(live),
       loop_(loop),
       observer_(live.twin(), live.generations()),
@@ -45,9 +45,16 @@ RecordPublisher::RecordPublisher(LiveTwin& live, const FixedRateLoop& loop, Stat
       started_(wallClock()),
       clock_zero_(wallClockAtZero()),
       stopped_(live.twin().systems().size()),
-      inaccurate_(live.twin().systems().size()) {
+      inaccurate_(live.twin().systems().size()),
+      measuring_(measure) {
   if (!states_.lcm().warning().empty()) {
     ROS_WARN("%s", states_.lcm().warning().c_str());
+  }
+  if (measuring_) {
+    for (const SensorSpec& sensor : live.twin().scene().sensors) {
+      states_.advertise<state::Measurement>(sensor.name);
+    }
+    measureAnew();
   }
 }
 
@@ -116,7 +123,7 @@ bool RecordPublisher::take(const double* record) {
   const bool shown = due && step / every_ % thinning_.every() == 0;
   left_out_ += due && !shown ? 1 : 0;
   const bool orders_due = orders_.dueAt(step);
-  if (!shown && !orders_due && !observer_.mustSee(record)) {
+  if (!shown && !orders_due && !measuring_ && !observer_.mustSee(record)) {
     orders_.take(record, observer_);
     return false;
   }
@@ -130,6 +137,9 @@ bool RecordPublisher::take(const double* record) {
     publishReport();  // the new epoch, ahead of its states
   }
   states_.publish(observer_, shown && !observer_.tellsOnlyChange());
+  if (measuring_) {
+    measure(reset);
+  }
   if (orders_due && !observer_.tellsOnlyChange()) {
     states_.publishOrders(observer_, orders_);
   }
@@ -143,6 +153,21 @@ bool RecordPublisher::take(const double* record) {
     stopped_[i] = stopped;
   }
   return stopped_now;
+}
+
+/// Blocks of what the scene's sensors have seen, as they are complete.
+void RecordPublisher::measure(bool reset) {
+  if (reset) {
+    return measureAnew();
+  }
+  for (state::Measurement& block : measurements_->observe(observer_)) {
+    block.at.stamp = observer_.instant().stamp;
+    states_.tell(block);
+  }
+}
+
+void RecordPublisher::measureAnew() {
+  measurements_.emplace(live_.twin().scene().sensors, live_.twin().built(), observer_);
 }
 
 void RecordPublisher::publishReport() {
@@ -161,7 +186,7 @@ void RecordPublisher::publishReport() {
              static_cast<unsigned long>(report.lcm_failed));
   }
   lcm_failed_told_ = report.lcm_failed;
-  states_.publish(report);
+  states_.tell(report);
   for (std::size_t i = 0; i < inaccurate_.size(); ++i) {
     const bool lost = report.error_estimate[i] > report.tolerance[i];
     if (lost && !inaccurate_[i]) {

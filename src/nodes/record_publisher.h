@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "realtime/even_thinning.h"
 #include "realtime/fixed_rate_loop.h"
 #include "twin/live_twin.h"
+#include "twin/measurements.h"
 #include "twin/observer.h"
 #include "twin/order_observer.h"
 
@@ -25,9 +27,9 @@ namespace whirl_twin {
 class RecordPublisher {
  public:
   /// What is referred to outlives it. every: steps from one publication to the next; clock: stamps
-  /// are simulated time, else wall time.
+  /// are simulated time, else wall time; measure: also what the scene's sensors see.
   RecordPublisher(LiveTwin& live, const FixedRateLoop& loop, StatePublisher states,
-                  std::int64_t every, bool clock);
+                  std::int64_t every, bool clock, bool measure);
   ~RecordPublisher();
 
   void start();
@@ -42,6 +44,8 @@ class RecordPublisher {
  private:
   void run();
   bool take(const double* record);
+  void measure(bool reset);
+  void measureAnew();
   void publishReport();
   double achievedFactor(const state::LoopStatistics& report);
   void followWallClock();
@@ -61,6 +65,8 @@ class RecordPublisher {
   std::int64_t clock_zero_;  // [ns], wall clock at zero of CLOCK_MONOTONIC
   std::vector<bool> stopped_;
   std::vector<bool> inaccurate_;
+  bool measuring_;
+  std::optional<Measurements> measurements_;
   std::uint64_t left_out_ = 0;  // steps that were due
   std::uint64_t dropped_before_ = 0;
   std::uint64_t lcm_failed_before_ = 0;

@@ -46,13 +46,14 @@ struct Settings {
   std::string lcm_url;
   std::string lcm_prefix;
   bool clock;
+  bool measure;  ///< publish what the scene's sensors see
   double real_time_factor;
   FixedRateLoop::Options loop;
 };
 
 Settings readSettings(const Scene& scene) {
   requireKnownParameters({"publish_rate", "lcm_url", "lcm_prefix", "clock", "realtime", "priority",
-                          "overrun", "real_time_factor"});
+                          "overrun", "real_time_factor", "measure"});
   Settings s;
   const auto rate = privateParameter("publish_rate", "a number in Hz", 0.0);
   if (!(rate == 0.0 || (rate >= kSlowestRate && std::isfinite(rate)))) {
@@ -66,6 +67,10 @@ Settings readSettings(const Scene& scene) {
   s.clock = privateParameter("clock", "true or false", false);
   if (s.clock && scene.time < 0) {
     throw Refusal("clock: needs a scene whose time is >= 0 s");
+  }
+  s.measure = privateParameter("measure", "true or false", false);
+  if (s.measure && scene.sensors.empty()) {
+    throw Refusal("measure: the scene has no sensors");
   }
   s.real_time_factor = privateParameter("real_time_factor", "a number", 1.0);
   if (const std::string fault = factorFault(s.real_time_factor); !fault.empty()) {
@@ -102,7 +107,7 @@ void run() {
       live, loop,
       StatePublisher(live.twin(), live.ensembles(), node,
                      LcmPublisher(settings.lcm_url, settings.lcm_prefix), settings.clock),
-      settings.every, settings.clock);
+      settings.every, settings.clock, settings.measure);
   TwinServices services(live, private_node,
                         [&] { return !stopRequested() && ros::ok() && loop.running(); });
   const ros::ServiceServer reset_statistics =

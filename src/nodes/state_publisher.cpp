@@ -80,11 +80,6 @@ void StatePublisher::publishOrders(const Observer& observer, const OrderObserver
   messages_.tellOrders(observer, orders, StepSink{topics_, lcm_});
 }
 
-void StatePublisher::publish(const state::LoopStatistics& loop) {
-  topics_.publish(loop);
-  lcm_.publish(loop);
-}
-
 std::int64_t StatePublisher::clockTime(const Observer& observer) const {
   return twin_.scene().time + observer.step() * twin_.scene().step;
 }

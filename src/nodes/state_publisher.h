@@ -30,7 +30,17 @@ class StatePublisher {
   void publishEnsembles(const Observer& observer);
   /// Publishes the orders that are due at the observer's step.
   void publishOrders(const Observer& observer, const OrderObserver& orders);
-  void publish(const state::LoopStatistics& loop);
+  /// Publishes what does not come from a record: the loop's statistics, what sensors measure, what
+  /// a follower has learned.
+  template <class State>
+  void tell(const State& state) {
+    topics_.publish(state);
+    lcm_.publish(state);
+  }
+  template <class State>
+  void advertise(const std::string& subject) {
+    topics_.advertise<State>(subject);
+  }
   /// The clock alone, for those who join while the twin is paused; only with clock.
   void publishClock(const Observer& observer);
 

@@ -41,6 +41,8 @@ class LogWriter final : public SampleWriter {
 
   void write(const state::Measurement& measurement) override { log_.write(measurement); }
 
+  void write(const state::FollowState& told) override { log_.write(told); }
+
   void finish() override {
     log_.finish();
     pending_.complete();

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "messages/follow_state.h"
 #include "messages/measurement.h"
 #include "twin/observer.h"
 
@@ -24,6 +25,8 @@ class SampleWriter {
   virtual void follow(const double* /*record*/, const Observer& /*observer*/) {}
   /// A block of what the scene's sensors have measured; a table has no place for it.
   virtual void write(const state::Measurement& /*measurement*/) {}
+  /// What a follower tells; likewise.
+  virtual void write(const state::FollowState& /*told*/) {}
   /// Completes the file. A writer destroyed without leaves no file behind.
   virtual void finish() = 0;
 };

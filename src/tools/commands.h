@@ -29,6 +29,7 @@ void addBalanceCommand(CLI::App& twin, int& status);
 void addRouthCommand(CLI::App& twin, int& status);
 void addLogCommand(CLI::App& twin, int& status);
 void addFitCommand(CLI::App& twin, int& status);
+void addFollowCommand(CLI::App& twin, int& status);
 void addMonitorCommand(CLI::App& twin, int& status);
 
 }  // namespace whirl_twin

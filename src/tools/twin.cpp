@@ -108,6 +108,7 @@ int run(int argc, const char* const* argv) {
   addLogCommand(twin, status);
   addMonitorCommand(twin, status);
   addFitCommand(twin, status);
+  addFollowCommand(twin, status);
 
   std::vector<std::string> arguments = orderedArguments(argc, argv);
   if (unknownCommand(twin, arguments)) {

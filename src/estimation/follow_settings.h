@@ -1,0 +1,45 @@
+// What a follower is told beside its scene: which parameters to follow, how far the machine may
+// depart from its model, how often a false alarm may be.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace whirl_twin {
+
+/// A number of which more is found out on the way.
+struct FollowedNumber {
+  double deviation = 0.0;  ///< standard deviation at the start; 0: known, not followed
+  double walk = 0.0;       ///< its own change in a time t has the standard deviation walk sqrt(t)
+};
+
+struct ParameterSettings {
+  std::string path;
+  /// Of a parameter that is positive in parts of its value, of any other in its unit.
+  FollowedNumber number;
+};
+
+struct SystemFollowing {
+  std::vector<ParameterSettings> parameters;
+  /// Accelerations that the model has not, white: [rad/s^2/sqrt(Hz)] or [m/s^2/sqrt(Hz)].
+  double disturbance = 0.0;
+  FollowedNumber unbalance;  ///< [kg m], at each station, beside the model's own
+  std::map<std::string, double>
+      offset;            ///< deviation of a channel's, "source/channel", in its unit
+  double run_out = 0.0;  ///< [m], deviation of that under each displacement probe
+};
+
+struct FollowSettings {
+  std::map<std::string, SystemFollowing> systems;  ///< by their names; others: as by default
+  double false_alarms = 0.02;                      ///< an hour, of each kind
+  double patience = 0.25;  ///< [s], that a sample waits for those of slower sources
+
+  const SystemFollowing& of(const std::string& system) const {
+    static const SystemFollowing kPlain;
+    const auto found = systems.find(system);
+    return found == systems.end() ? kPlain : found->second;
+  }
+};
+
+}  // namespace whirl_twin

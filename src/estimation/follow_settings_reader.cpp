@@ -1,0 +1,135 @@
+#include "estimation/follow_settings_reader.h"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "messages/refusal.h"
+#include "scene/node_reader.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kMostFalseAlarms = 3600.0;  // 1/h
+constexpr double kLongestPatience = 10.0;    // s
+
+FollowedNumber followedNumber(const MapReader& map, const std::string& name,
+                              const std::string& unit, Complaints& complaints) {
+  FollowedNumber number;
+  if (!map.at(name).IsMap()) {
+    number.deviation = map.number(name, Range::kPositive, unit, 0.0);
+    return number;
+  }
+  const MapReader entry(map.at(name), map.key(name), {"deviation", "walk"},
+                        "key of a number to be followed", complaints);
+  if (entry.usable()) {
+    number.deviation = entry.number("deviation", Range::kPositive, unit, std::nullopt);
+    number.walk = entry.number("walk", Range::kNotNegative, unit + "/sqrt(s)", 0.0);
+  }
+  return number;
+}
+
+/// "source/channel" of what is measured of a system, of displacements alone or of all.
+std::vector<std::string> channelsOf(const Scene& scene, const std::string& system,
+                                    bool displacements) {
+  std::vector<std::string> all;
+  for (const SensorSpec& sensor : scene.sensors) {
+    for (const SensorChannelSpec& channel : sensor.channels) {
+      if (scene.systems[channel.signal.system].name == system &&
+          (!displacements || channel.signal.kind == SignalSpec::Kind::kDisplacement)) {
+        all.push_back(sensor.name + "/" + channel.name);
+      }
+    }
+  }
+  return all;
+}
+
+SystemFollowing readSystem(const MapReader& map, const BuiltSystem& system, const Scene& scene,
+                           Complaints& complaints) {
+  SystemFollowing of;
+  const bool rotor = system.dynamics->isRotor();
+  const std::string coordinate = system.dynamics->coordinates().front().unit;
+  of.disturbance =
+      map.number("disturbance", Range::kNotNegative, coordinate + "/s^2/sqrt(Hz)", 0.0);
+  if (map.has("parameters")) {
+    const MapReader parameters(map.at("parameters"), map.key("parameters"),
+                               system.parameters().names, "parameter of the system", complaints);
+    for (const std::string& path :
+         parameters.usable() ? parameters.names() : std::vector<std::string>{}) {
+      const std::optional<double> value = system.parameter(path);
+      if (!value) {
+        continue;  // which has been said
+      }
+      if (*value == 0.0) {
+        complaints.add(parameters.key(path),
+                       "is 0 in the scene: give it a value to start from, however small");
+      }
+      of.parameters.push_back(
+          {path,
+           followedNumber(parameters, path, *value > 0.0 ? "its value" : "its unit", complaints)});
+    }
+  }
+  for (const char* key : {"unbalance", "run_out"}) {
+    if (map.has(key) && !rotor) {
+      complaints.add(map.key(key), "is of rotors");
+    }
+  }
+  if (map.has("unbalance")) {
+    of.unbalance = followedNumber(map, "unbalance", "kg m", complaints);
+  }
+  of.run_out = map.number("run_out", Range::kNotNegative, "m", 0.0);
+  if (map.has("offsets")) {
+    const MapReader offsets(
+        map.at("offsets"), map.key("offsets"), channelsOf(scene, system.spec.name, false),
+        "channel of the scene's sensors, SOURCE/CHANNEL, of the system", complaints);
+    for (const std::string& name :
+         offsets.usable() ? offsets.names() : std::vector<std::string>{}) {
+      of.offset[name] = offsets.number(name, Range::kPositive, "the channel's unit", 0.0);
+    }
+  }
+  if (of.run_out > 0.0 && channelsOf(scene, system.spec.name, true).empty()) {
+    complaints.add(map.key("run_out"), "needs displacement probes among the scene's sensors");
+  }
+  return of;
+}
+
+}  // namespace
+
+FollowSettings readFollowSettings(const YAML::Node& tree, const std::string& source,
+                                  const BuiltScene& scene) {
+  Complaints complaints(source);
+  FollowSettings settings;
+  const MapReader map(tree, "", {"systems", "false_alarms", "patience"},
+                      "key of a follower's settings", complaints);
+  if (map.usable()) {
+    settings.false_alarms =
+        map.numberBetween("false_alarms", 1.0e-9, kMostFalseAlarms, "an hour", 0.02);
+    settings.patience = map.numberBetween("patience", 0.0, kLongestPatience, "s", 0.25);
+    if (map.has("systems")) {
+      std::vector<std::string> names;
+      for (const SharedSystem& system : scene.systems) {
+        names.push_back(system->spec.name);
+      }
+      const MapReader systems(map.at("systems"), map.key("systems"), names, "system of the scene",
+                              complaints);
+      for (const SharedSystem& system : scene.systems) {
+        if (!systems.usable() || !systems.has(system->spec.name)) {
+          continue;
+        }
+        const MapReader one(systems.at(system->spec.name), systems.key(system->spec.name),
+                            {"disturbance", "parameters", "unbalance", "offsets", "run_out"},
+                            "key of a system to be followed", complaints);
+        if (one.usable()) {
+          settings.systems[system->spec.name] = readSystem(one, *system, scene.scene, complaints);
+        }
+      }
+    }
+  }
+  if (!complaints.all().empty()) {
+    throw Refusal(fmt::format("{}", fmt::join(complaints.all(), "\ntwin: ")));
+  }
+  return settings;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,141 @@
+#include "estimation/followed_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "algebra/cholesky.h"
+#include "messages/refusal.h"
+
+namespace whirl_twin {
+
+namespace {
+
+/// Between numbers, for derivatives: the square of it is what they are off by.
+constexpr double kDifference = 1.0e-3;
+/// Numbers further than this from those of the set-up are set up anew: what is neglected is the
+/// square of it.
+constexpr double kNear = 5.0e-4;
+
+}  // namespace
+
+double FollowedParameter::value(double number) const {
+  return logarithmic ? start * std::exp(number) : start + scale * number;
+}
+
+double FollowedParameter::deviation(double number, double deviation) const {
+  return deviation * (logarithmic ? std::fabs(value(number)) : scale);
+}
+
+FollowedModel::FollowedModel(SharedSystem system, std::vector<FollowedParameter> parameters)
+    : scene_system_(std::move(system)),
+      parameters_(std::move(parameters)),
+      dof_(scene_system_->dynamics->dof()),
+      now_(scene_system_) {
+  const std::vector<InputInfo> inputs = scene_system_->dynamics->inputs();
+  inputs_.resize(dof_, static_cast<Eigen::Index>(inputs.size()));
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    inputs_.col(static_cast<Eigen::Index>(i)) = inputs[i].direction;
+  }
+  along_.resize(parameters_.size());
+  for (const ParameterInfo& p : scene_system_->model->parameters) {
+    const auto is = [](const std::string& path) {
+      return [&path](const FollowedParameter& followed) { return followed.path == path; };
+    };
+    const auto source =
+        std::find_if(parameters_.begin(), parameters_.end(), is(p.fallback_parameter));
+    if (source != parameters_.end() &&
+        std::none_of(parameters_.begin(), parameters_.end(), is(p.name)) &&
+        scene_system_->parameter(p.name) == source->start) {
+      along_[static_cast<std::size_t>(source - parameters_.begin())].push_back(p.name);
+    }
+  }
+  numbers_ = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(parameters_.size()),
+                                       std::numeric_limits<double>::infinity());
+  if (!parameters_.empty() && !follow(Eigen::VectorXd::Zero(numbers_.size()))) {
+    throw Refusal(scene_system_->spec.name +
+                  ": its parameters cannot be followed: a little more or less of one of them would "
+                  "make it another kind of system");
+  }
+}
+
+SharedSystem FollowedModel::at(const Eigen::VectorXd& numbers) const {
+  std::vector<std::string> paths;
+  std::vector<double> values;
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    paths.push_back(parameters_[i].path);
+    values.push_back(parameters_[i].value(numbers[static_cast<Eigen::Index>(i)]));
+    for (const std::string& path : along_[i]) {
+      paths.push_back(path);
+      values.push_back(values.back());
+    }
+  }
+  return scene_system_->with(paths, values, scene_system_->spec.name);
+}
+
+bool FollowedModel::follow(const Eigen::VectorXd& numbers) {
+  if (numbers.size() == 0 || (numbers - numbers_).cwiseAbs().maxCoeff() <= kNear) {
+    return true;
+  }
+  try {
+    SharedSystem now = at(numbers);
+    std::vector<SharedSystem> more, less;
+    for (Eigen::Index i = 0; i < numbers.size(); ++i) {
+      const Eigen::VectorXd unit = kDifference * Eigen::VectorXd::Unit(numbers.size(), i);
+      more.push_back(at(numbers + unit));
+      less.push_back(at(numbers - unit));
+    }
+    now_ = std::move(now);
+    more_ = std::move(more);
+    less_ = std::move(less);
+    numbers_ = numbers;
+  } catch (const Refusal&) {
+    return false;
+  }
+  return true;
+}
+
+Eigen::VectorXd FollowedModel::acceleration(const Dynamics& dynamics, const Eigen::VectorXd& q,
+                                            const Eigen::VectorXd& v, const Moment<double>& at,
+                                            const Eigen::VectorXd& u) const {
+  Eigen::VectorXd a = dynamics.acceleration(q, v, at);
+  if (u.size() > 0 && !u.isZero(0.0)) {
+    a += Eigen::LDLT<Eigen::MatrixXd>(dynamics.massMatrix(q, v, at)).solve(inputs_ * u);
+  }
+  return a;
+}
+
+Eigen::VectorXd FollowedModel::acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                            const Moment<double>& at,
+                                            const Eigen::VectorXd& numbers,
+                                            const Eigen::VectorXd& u,
+                                            const Eigen::MatrixXd& by_parameter) const {
+  Eigen::VectorXd a = acceleration(*now_->dynamics, q, v, at, u);
+  if (numbers.size() > 0) {
+    a.noalias() += by_parameter * (numbers - numbers_);
+  }
+  return a;
+}
+
+LocalMotion FollowedModel::about(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                 const Moment<double>& at, const Eigen::VectorXd& numbers,
+                                 const Eigen::VectorXd& u) const {
+  LocalMotion local;
+  local.by_parameter.resize(dof_, numbers.size());
+  for (Eigen::Index i = 0; i < numbers.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    local.by_parameter.col(i) = (acceleration(*more_[k]->dynamics, q, v, at, u) -
+                                 acceleration(*less_[k]->dynamics, q, v, at, u)) /
+                                (2.0 * kDifference);
+  }
+  local.acceleration = acceleration(q, v, at, numbers, u, local.by_parameter);
+  const Linearization l = now_->dynamics->linearization(q, v, local.acceleration, at);
+  const Eigen::LDLT<Eigen::MatrixXd> mass(l.mass);
+  local.by_state.resize(dof_, 2 * dof_);
+  local.by_state.leftCols(dof_) = -mass.solve(l.stiffness + l.circulatory);
+  local.by_state.rightCols(dof_) = -mass.solve(l.damping + l.gyroscopic);
+  return local;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,71 @@
+// A system as a filter needs it: its accelerations, and how they change with the state and with the
+// parameters that are followed along.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "scene/built_system.h"
+
+namespace whirl_twin {
+
+/// A parameter as a filter keeps it, as one number that is 0 at the scene's value: of a parameter
+/// that is positive the logarithm of its ratio to that, so that it stays positive; of any other
+/// its difference in parts of `scale`.
+struct FollowedParameter {
+  std::string path;    ///< `stiffness`, `bearings[0].kxx`
+  double start = 0.0;  ///< as the scene says
+  bool logarithmic = false;
+  double scale = 1.0;  ///< in the parameter's unit
+
+  double value(double number) const;
+  /// Standard deviation in the parameter's unit of one of the number, there.
+  double deviation(double number, double deviation) const;
+};
+
+/// How a system of n coordinates with m parameters accelerates about a state.
+struct LocalMotion {
+  Eigen::VectorXd acceleration;  ///< [n]
+  Eigen::MatrixXd by_state;      ///< [n x 2n], by coordinates and rates
+  Eigen::MatrixXd by_parameter;  ///< [n x m], by the numbers of FollowedParameter
+};
+
+class FollowedModel {
+ public:
+  FollowedModel(SharedSystem system, std::vector<FollowedParameter> parameters);
+
+  Eigen::Index dof() const { return dof_; }
+  const std::vector<FollowedParameter>& parameters() const { return parameters_; }
+  /// The system with the parameters as they were when it was last set up for them.
+  const SharedSystem& system() const { return now_; }
+  /// Sets it up for these numbers of its parameters, if they are far enough from those that it has.
+  /// Numbers that a system cannot have leave it as it was: false.
+  bool follow(const Eigen::VectorXd& numbers);
+
+  /// Of q and v [n] with numbers [m] near those that it is set up for, under u [inputs].
+  LocalMotion about(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Moment<double>& at,
+                    const Eigen::VectorXd& numbers, const Eigen::VectorXd& u) const;
+  /// The acceleration alone; `by_parameter` from a state nearby.
+  Eigen::VectorXd acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                               const Moment<double>& at, const Eigen::VectorXd& numbers,
+                               const Eigen::VectorXd& u, const Eigen::MatrixXd& by_parameter) const;
+
+ private:
+  SharedSystem at(const Eigen::VectorXd& numbers) const;
+  Eigen::VectorXd acceleration(const Dynamics& dynamics, const Eigen::VectorXd& q,
+                               const Eigen::VectorXd& v, const Moment<double>& at,
+                               const Eigen::VectorXd& u) const;
+
+  SharedSystem scene_system_;
+  std::vector<FollowedParameter> parameters_;
+  /// Of each: parameters whose default it is, and that have its value (`stiffness_y`).
+  std::vector<std::vector<std::string>> along_;
+  Eigen::Index dof_;
+  Eigen::MatrixXd inputs_;  // directions [n x inputs]
+  SharedSystem now_;
+  Eigen::VectorXd numbers_;                // that it is set up for
+  std::vector<SharedSystem> more_, less_;  // each parameter by kDifference
+};
+
+}  // namespace whirl_twin

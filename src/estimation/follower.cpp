@@ -1,0 +1,429 @@
+#include "estimation/follower.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "messages/refusal.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kNanosecond = 1.0e-9;                  // s
+constexpr std::int64_t kLongestGap = 1'000'000'000;     // ns, that a motion is believed through
+constexpr std::int64_t kTelling = 100'000'000;          // ns, from one FollowState to the next
+constexpr std::int64_t kLost = 250'000'000;             // ns, of nothing but refused samples
+constexpr std::int64_t kNewParameters = 1'000'000'000;  // ns, from one generation to the next
+constexpr double kSettled = 0.2;                        // s, until residuals are judged
+
+ShaftInstant instantOf(std::int64_t instant, const ShaftEstimate& at) {
+  return {instant, at.angle, at.speed};
+}
+
+std::int64_t nanoseconds(double seconds) {
+  return std::llround(seconds / kNanosecond);
+}
+
+double noiseOf(const SensorSettings& sensor) {
+  return std::hypot(sensor.noise, sensor.resolution / std::sqrt(12.0));
+}
+
+}  // namespace
+
+struct Follower::Followed {
+  Followed(const Twin& twin, std::size_t system, const SystemFollowing& settings,
+           std::vector<FollowedChannel> channels, double false_alarms)
+      : index(system),
+        filter(twin.built(), system, settings, std::move(channels)),
+        drive(twin.systems()[system]->drive),
+        residuals(filter.channels().size(), {1.0, false_alarms}),
+        drift(settings.parameters.size(), {1.0, 120.0, 0.02, false_alarms}),
+        innovations(filter.channels().size(), std::numeric_limits<double>::quiet_NaN()) {
+    told.system = twin.systems()[system]->spec.name;
+    for (const FollowedParameter& p : filter.model().parameters()) {
+      told.parameter.push_back(p.path);
+      told.parameter_unit.push_back("");
+    }
+    for (const FollowedChannel& c : filter.channels()) {
+      told.channel.push_back(c.name);
+      told.channel_unit.push_back(c.signal.unit);
+    }
+    const std::size_t n = filter.channels().size();
+    told.residual.assign(n, state::FollowState::kNone);
+    told.residual_deviation = told.offset = told.residual;
+    told.channel_status.assign(n, static_cast<std::uint8_t>(state::ChannelStatus::kSilent));
+    heard.assign(n, std::numeric_limits<std::int64_t>::min());
+    model = filter.model().system();
+  }
+
+  void endInstant(double seconds) {
+    if (seconds - began * kNanosecond > kSettled) {
+      residuals.take(seconds, innovations.data(), innovations.size());
+    }
+    std::fill(innovations.begin(), innovations.end(), std::numeric_limits<double>::quiet_NaN());
+  }
+
+  std::size_t index;
+  SystemFilter filter;
+  std::size_t drive;
+  bool runs = false;
+  double began = 0.0;          // [ns]
+  std::int64_t at = 0;         // [ns], of the instant whose innovations are gathered
+  std::int64_t last_used = 0;  // [ns]
+  ResidualWatch residuals;
+  DriftWatch drift;
+  std::vector<double> innovations;  // of that instant
+  std::vector<std::int64_t> heard;  // [ns], of each channel: its newest sample
+  state::FollowState told;
+  std::int64_t next_telling = 0;  // [ns]
+  SharedSystem model;             // of the generation
+  std::int64_t generation = 0;
+  std::int64_t next_generation = 0;  // [ns]
+};
+
+Follower::Follower(const Twin& twin, std::shared_ptr<SystemGenerations> generations,
+                   const FollowSettings& settings, std::int64_t every, FollowerListener listener)
+    : twin_(twin),
+      generations_(std::move(generations)),
+      listener_(std::move(listener)),
+      every_(every),
+      queue_(settings.patience),
+      record_(twin.layout().size) {
+  for (std::size_t i = 0; i < twin.driveCount(); ++i) {
+    shafts_.push_back({std::nullopt, 0, twin.drive(i)});
+  }
+  systems_.resize(twin.systems().size());
+  addSensors(settings);
+  twin.write(record_.data());
+  RecordLayout::setScheduled(record_.data(), 0);
+}
+
+Follower::~Follower() = default;
+
+void Follower::addSensors(const FollowSettings& settings) {
+  const Scene& scene = twin_.scene();
+  std::map<std::size_t, std::vector<FollowedChannel>> followed;
+  for (const SensorSpec& sensor : scene.sensors) {
+    std::vector<std::string> names;
+    channels_.emplace_back();
+    pulses_.emplace_back();
+    if (sensor.keyphasor) {
+      pulses_.back() = sensor.drive;
+      ShaftTrackerSettings shaft;
+      shaft.mark = sensor.keyphasor->mark;
+      shaft.jitter = std::max(
+          shaft.jitter, std::hypot(sensor.keyphasor->jitter, sensor.keyphasor->resolution / 3.5));
+      shafts_[sensor.drive].tracker.emplace(shaft);
+      shafts_[sensor.drive].source = queue_.addSource(sensor.name, {"keyphasor"});
+      channels_.back().emplace_back();
+      continue;
+    }
+    for (const SensorChannelSpec& c : sensor.channels) {
+      const SystemFollowing& of = settings.of(scene.systems[c.signal.system].name);
+      FollowedChannel channel;
+      channel.name = sensor.name + "/" + c.name;
+      channel.signal = c.signal;
+      channel.deviation = noiseOf(c.sensor);
+      if (!(channel.deviation > 0.0)) {
+        throw Refusal(
+            fmt::format("{}: sensors.{}.{}: needs noise or resolution: how far it can be trusted",
+                        scene.source, sensor.name, c.name));
+      }
+      const auto offset = of.offset.find(channel.name);
+      channel.offset = offset == of.offset.end() ? 0.0 : offset->second;
+      channel.run_out = c.signal.kind == SignalSpec::Kind::kDisplacement ? of.run_out : 0.0;
+      channels_.back().push_back(
+          {c.signal.system, followed[c.signal.system].size(), nanoseconds(c.sensor.delay)});
+      longest_delay_ = std::max(longest_delay_, channels_.back().back().delay);
+      followed[c.signal.system].push_back(channel);
+      names.push_back(c.name);
+    }
+    queue_.addSource(sensor.name, names);
+  }
+  if (followed.empty()) {
+    throw Refusal(scene.source +
+                  ": sensors: must name what is measured of a system to be followed");
+  }
+  for (auto& [system, channels] : followed) {
+    const std::size_t drive = twin_.systems()[system]->drive;
+    if (drive < twin_.driveCount() && twin_.isMotor(drive)) {
+      throw Refusal(
+          fmt::format("{}: systems.{}: is turned by a motor, whose torque nobody "
+                      "measures: give it a drive, and a keyphasor",
+                      scene.source, scene.systems[system].name));
+    }
+    systems_[system] =
+        std::make_unique<Followed>(twin_, system, settings.of(scene.systems[system].name),
+                                   std::move(channels), settings.false_alarms);
+  }
+}
+
+const SystemFilter* Follower::filter(std::size_t system) const {
+  return systems_[system] ? &systems_[system]->filter : nullptr;
+}
+
+std::int64_t Follower::machineInstant(std::int64_t step) const {
+  return origin_ + step * twin_.scene().step;
+}
+
+void Follower::take(const state::Measurement& message) {
+  if (!queue_.take(message)) {
+    began_ = false;
+    ++restarts_;
+  }
+  process();
+}
+
+void Follower::finish() {
+  queue_.finish();
+  process();
+  for (const auto& system : systems_) {
+    if (system && system->runs) {
+      system->endInstant(static_cast<double>(system->at) * kNanosecond);
+    }
+  }
+}
+
+void Follower::process() {
+  while (const std::optional<MeasuredSample> sample = queue_.next()) {
+    if (!began_) {
+      begin(sample->time);
+    }
+    if (const auto drive = pulses_[sample->source]) {
+      shafts_[*drive].tracker->take(sample->time);
+      continue;
+    }
+    stepUntil(sample->time - longest_delay_ - 1);
+    takeSample(*sample);
+  }
+  if (began_) {
+    stepUntil(queue_.completeUntil() - longest_delay_);
+  }
+}
+
+/// The twin's next step is the first at or after this instant of the machine.
+void Follower::begin(std::int64_t instant) {
+  began_ = true;
+  origin_ = instant - next_step_ * twin_.scene().step;
+  for (Shaft& shaft : shafts_) {
+    if (shaft.tracker) {
+      shaft.tracker->clear();
+    }
+  }
+  for (const auto& system : systems_) {
+    if (system) {
+      system->runs = false;
+      system->residuals.restart();
+      std::fill(system->heard.begin(), system->heard.end(),
+                std::numeric_limits<std::int64_t>::min());
+      system->next_telling = instant;
+      system->next_generation = instant + kNewParameters;
+    }
+  }
+}
+
+ShaftEstimate Follower::shaftAt(std::size_t drive, std::int64_t instant) {
+  Shaft& shaft = shafts_[drive];
+  if (!shaft.tracker) {
+    shaft.drive.begin(twin_.scene().time + instant - origin_);
+    const ShaftMotion motion = shaft.drive.at(0.0);
+    return {true, shaft.drive.angle(), motion.speed, motion.acceleration, 0.0};
+  }
+  while (const MeasuredSample* pulse = queue_.front(shaft.source)) {
+    if (shaft.tracker->locked() && shaft.tracker->newest() > instant) {
+      break;
+    }
+    shaft.tracker->take(pulse->time);
+    queue_.pop(shaft.source);
+  }
+  return shaft.tracker->at(instant);
+}
+
+void Follower::takeSample(const MeasuredSample& sample) {
+  const Channel& channel = channels_[sample.source][sample.channel];
+  Followed& system = *systems_[channel.system];
+  const std::int64_t instant = sample.time - channel.delay;
+  state::FollowState& told = system.told;
+  const auto set_status = [&](state::ChannelStatus status) {
+    told.channel_status[channel.place] = static_cast<std::uint8_t>(status);
+  };
+  system.heard[channel.place] = sample.time;
+  if (!sample.valid) {
+    ++told.invalid;
+    set_status(state::ChannelStatus::kInvalid);
+    return;
+  }
+  const bool has_shaft = twin_.systems()[channel.system]->dynamics->hasShaft();
+  ShaftEstimate shaft;
+  shaft.known = !has_shaft;
+  if (has_shaft) {
+    shaft = shaftAt(system.drive, instant);
+  }
+  told.shaft_known = has_shaft && shaft.known;
+  told.shaft_angle_deviation =
+      has_shaft && shaft.known ? shaft.deviation : state::FollowState::kNone;
+  if (!shaft.known && !system.runs) {
+    return;
+  }
+  const ShaftInstant there = instantOf(instant, shaft);
+  const std::int64_t now = system.filter.shaft().time;
+  if (!system.runs || instant - now > kLongestGap) {
+    restarts_ += system.runs ? 1 : 0;
+    system.filter.begin(there);
+    system.runs = true;
+    system.began = static_cast<double>(instant);
+    system.at = instant;
+    system.last_used = instant;
+    system.residuals.restart();
+  }
+  if (instant < system.filter.shaft().time) {
+    ++told.late;  // its delay is longer than that of a channel that was faster
+    return;
+  }
+  if (instant != system.at) {
+    system.endInstant(static_cast<double>(system.at) * kNanosecond);
+    system.at = instant;
+  }
+  system.filter.goTo(there);
+  const Innovation innovation = system.filter.take(channel.place, sample.value);
+  told.residual[channel.place] = innovation.value;
+  told.residual_deviation[channel.place] = innovation.deviation;
+  if (innovation.used) {
+    ++told.used;
+    set_status(state::ChannelStatus::kUsed);
+    system.innovations[channel.place] = innovation.normalized();
+    system.last_used = instant;
+    return;
+  }
+  ++told.refused;
+  set_status(state::ChannelStatus::kRefused);
+  if (instant - system.last_used > kLost) {
+    // Nothing agrees with the motion any more: it is the motion that is wrong.
+    system.filter.forgetMotion();
+    system.began = static_cast<double>(instant);
+    system.last_used = instant;
+    system.residuals.restart();
+    ++restarts_;
+  }
+}
+
+void Follower::stepUntil(std::int64_t instant) {
+  for (; machineInstant(next_step_) <= instant; ++next_step_) {
+    if (next_step_ % every_ == 0) {
+      writeRecord(next_step_);
+    }
+  }
+}
+
+void Follower::writeRecord(std::int64_t step) {
+  const std::int64_t instant = machineInstant(step);
+  RecordLayout::setStep(record_.data(), step);
+  for (std::size_t i = 0; i < shafts_.size(); ++i) {
+    const ShaftEstimate at = shaftAt(i, instant);
+    const auto place = RecordLayout::shaft(record_.data(), i);
+    if (at.known) {
+      place.setAngle(at.angle);
+      place.setMotion(at.speed, at.acceleration, 0.0, at.speed);
+    }
+  }
+  for (const auto& system : systems_) {
+    if (!system) {
+      continue;
+    }
+    Followed& followed = *system;
+    SystemFilter& filter = followed.filter;
+    if (followed.runs && instant > filter.shaft().time &&
+        instant - filter.shaft().time <= kLongestGap) {
+      const ShaftEstimate at = shaftAt(followed.drive, instant);
+      filter.goTo(instantOf(instant, at));
+    }
+    if (followed.runs && filter.model().system() != followed.model &&
+        instant >= followed.next_generation) {
+      followed.model = filter.model().system();
+      followed.next_generation = instant + kNewParameters;
+      followed.generation = generations_->add(
+          followed.index, {followed.model->dynamics, followed.model->parameters()});
+    }
+    const auto place = twin_.layout().system(record_.data(), followed.index);
+    place.setGeneration(followed.generation);
+    if (followed.runs) {
+      const auto n = static_cast<Eigen::Index>(place.dof());
+      Eigen::Map<Eigen::VectorXd>(place.q(), n) = filter.q();
+      Eigen::Map<Eigen::VectorXd>(place.v(), n) = filter.v();
+      // A correction by a measurement is no work of the model: none is left over.
+      place.motion()[2 * n] = twin_.systems()[followed.index]
+                                  ->dynamics->energies(filter.q(), filter.v(), filter.moment())
+                                  .jacobi;
+    }
+  }
+  if (listener_.record) {
+    listener_.record(record_.data());
+  }
+  for (const auto& system : systems_) {
+    if (system && instant >= system->next_telling) {
+      tellState(*system);
+      system->next_telling = instant + kTelling;
+    }
+  }
+}
+
+void Follower::tellState(Followed& system) {
+  state::FollowState& told = system.told;
+  const SystemFilter& filter = system.filter;
+  const std::int64_t step = RecordLayout::step(record_.data());
+  const double time = twin_.seconds(step);
+  const std::int64_t instant = machineInstant(step);
+  told.at = {step, time, 0};
+  told.value.clear();
+  told.deviation.clear();
+  for (std::size_t i = 0; i < told.parameter.size(); ++i) {
+    told.value.push_back(filter.parameter(i));
+    told.deviation.push_back(filter.parameterDeviation(i));
+  }
+  told.late = told.lost = told.repeated = 0;
+  for (std::size_t s = 0; s < channels_.size(); ++s) {
+    for (std::size_t c = 0; c < channels_[s].size(); ++c) {
+      const Channel& channel = channels_[s][c];
+      if (pulses_[s] || channel.system != system.index) {
+        continue;
+      }
+      told.late += queue_.counts(s).late;
+      told.lost += queue_.counts(s).lost;
+      told.repeated += queue_.counts(s).repeated;
+      if (instant - system.heard[channel.place] > kLost) {
+        told.channel_status[channel.place] =
+            static_cast<std::uint8_t>(state::ChannelStatus::kSilent);
+      }
+    }
+  }
+  for (std::size_t c = 0; c < told.channel.size(); ++c) {
+    told.offset[c] = filter.hasOffset(c) ? filter.offset(c) : state::FollowState::kNone;
+  }
+  const ResidualWatch::Verdict& verdict = system.residuals.verdict();
+  told.mismatch = verdict.mismatch;
+  told.mismatch_least = verdict.mismatch_least;
+  told.mismatch_limit = verdict.mismatch_limit;
+  told.whiteness = verdict.whiteness;
+  told.whiteness_limit = verdict.whiteness_limit;
+  if (!told.parameter.empty() && system.runs) {
+    system.drift.take(time, told.value.data(), told.deviation.data());
+    const DriftWatch::Drift& drift = system.drift.drift();
+    told.drift_parameter =
+        drift.parameter < 0 ? "" : told.parameter[static_cast<std::size_t>(drift.parameter)];
+    told.drift_from = drift.from;
+    told.drift_to = drift.to;
+    told.drift_since = drift.since;
+    told.drift = drift.statistic;
+    told.drift_limit = drift.limit;
+  }
+  if (listener_.follow) {
+    listener_.follow(told);
+  }
+}
+
+}  // namespace whirl_twin

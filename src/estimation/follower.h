@@ -1,0 +1,96 @@
+// A twin that follows its machine: measurements go in, records of a twin come out, as if it had
+// been stepped, and beside them what has been learned of the machine.
+//
+// Instants are the machine's. The first sample is the scene's start; from there on the twin's steps
+// count along the machine's clock. A system without a sample yet, or on a shaft whose angle is not
+// known yet, stands as the scene says. Where samples cease for a second, or the machine's clock is
+// set, the motion is found anew and what was learned is kept; the twin's time goes on.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "control/drive.h"
+#include "estimation/drift_watch.h"
+#include "estimation/follow_settings.h"
+#include "estimation/measured_queue.h"
+#include "estimation/residual_watch.h"
+#include "estimation/system_filter.h"
+#include "messages/follow_state.h"
+#include "messages/measurement.h"
+#include "signal/shaft_tracker.h"
+#include "twin/system_generations.h"
+#include "twin/twin.h"
+
+namespace whirl_twin {
+
+/// Who is told of what a follower finds, in the order of the twin's steps.
+struct FollowerListener {
+  std::function<void(const double* record)> record;
+  std::function<void(const state::FollowState&)> follow;
+};
+
+class Follower {
+ public:
+  /// Of a twin whose scene says by its sensors what is measured; it is not stepped. every: steps
+  /// from one record to the next. Throws Refusal for a scene of which nothing is measured.
+  Follower(const Twin& twin, std::shared_ptr<SystemGenerations> generations,
+           const FollowSettings& settings, std::int64_t every, FollowerListener listener);
+  ~Follower();
+
+  /// The next message; those of sources that the scene has not are left alone.
+  void take(const state::Measurement& message);
+  /// No more messages will come.
+  void finish();
+
+  /// Of a system that is measured; nullptr: it is not.
+  const SystemFilter* filter(std::size_t system) const;
+  /// [ns], of the machine's clock.
+  std::int64_t machineInstant(std::int64_t step) const;
+  /// How often the machine's clock was set, or a motion had to be found anew.
+  std::int64_t restarts() const { return restarts_; }
+
+ private:
+  struct Channel {
+    std::size_t system = 0;
+    std::size_t place = 0;   // in its filter
+    std::int64_t delay = 0;  // [ns], that it shows the machine late by
+  };
+  struct Shaft {
+    std::optional<ShaftTracker> tracker;  // of a drive with a keyphasor
+    std::size_t source = 0;               // then
+    Drive drive;                          // else
+  };
+  struct Followed;  // a system that is measured
+
+  void addSensors(const FollowSettings& settings);
+  void process();
+  void takeSample(const MeasuredSample& sample);
+  void stepUntil(std::int64_t instant);
+  void writeRecord(std::int64_t step);
+  void tellState(Followed& system);
+  void begin(std::int64_t instant);
+  ShaftEstimate shaftAt(std::size_t drive, std::int64_t instant);
+
+  const Twin& twin_;
+  std::shared_ptr<SystemGenerations> generations_;
+  FollowerListener listener_;
+  std::int64_t every_;
+  MeasuredQueue queue_;
+  std::vector<std::vector<Channel>> channels_;  // of each source
+  std::vector<std::optional<std::size_t>>
+      pulses_;                 // of each source: the drive it is a keyphasor of
+  std::vector<Shaft> shafts_;  // of each drive
+  std::vector<std::unique_ptr<Followed>> systems_;  // of the scene's; nullptr: not measured
+  bool began_ = false;
+  std::int64_t longest_delay_ = 0;  // [ns], of all channels
+  std::int64_t origin_ = 0;         // [ns], the machine's instant of step 0
+  std::int64_t next_step_ = 0;      // to be recorded
+  std::int64_t restarts_ = 0;
+  std::vector<double> record_;
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,414 @@
+#include "estimation/system_filter.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "algebra/cholesky.h"
+#include "control/sensor.h"
+#include "integration/matrix_exponential.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kNanosecond = 1.0e-9;  // s
+// Gauss's three nodes on 0..1, and their weights.
+constexpr std::array<double, 3> kNode = {0.11270166537925831, 0.5, 0.88729833462074169};
+constexpr std::array<double, 3> kWeight = {5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0};
+/// The shaft turns by no more in a step of a linear system: 1^6/2e6 of its force is lost.
+constexpr double kLongestTurn = 1.0;  // rad
+/// Speeds that differ by less share a step: of matrices that change with speed.
+constexpr double kSameSpeed = 1.0e-3;
+/// Values further from what is expected, in its deviations, are not of this motion.
+constexpr double kGate = 6.0;
+/// Before, a motion is not known well enough to tell of parameters.
+constexpr double kSettling = 0.05;  // s
+
+// What is known at the start, of coordinates and rates.
+constexpr double kStartAngle = 1.0;      // rad
+constexpr double kStartPlace = 1.0;      // natural lengths
+constexpr double kStartWhirl = 1.0e-3;   // m
+constexpr double kStartRate = 10.0;      // of the coordinate's, /s
+constexpr double kStartWhirlRate = 1.0;  // m/s
+
+double seconds(std::int64_t nanoseconds) {
+  return static_cast<double>(nanoseconds) * kNanosecond;
+}
+
+/// x + i y turned by an angle.
+void turn(Eigen::VectorXd& state, Eigen::Index at, double cosine, double sine) {
+  const double x = state[at], y = state[at + 1];
+  state[at] = cosine * x - sine * y;
+  state[at + 1] = sine * x + cosine * y;
+}
+
+std::vector<FollowedParameter> parametersOf(const BuiltSystem& system,
+                                            const SystemFollowing& settings) {
+  std::vector<FollowedParameter> all;
+  for (const ParameterSettings& p : settings.parameters) {
+    FollowedParameter followed;
+    followed.path = p.path;
+    followed.start = *system.parameter(p.path);
+    followed.logarithmic = followed.start > 0.0;
+    all.push_back(followed);
+  }
+  return all;
+}
+
+}  // namespace
+
+SystemFilter::SystemFilter(const BuiltScene& scene, std::size_t system,
+                           const SystemFollowing& settings, std::vector<FollowedChannel> channels)
+    : channels_(std::move(channels)),
+      settings_(settings),
+      model_(scene.systems[system], parametersOf(*scene.systems[system], settings)),
+      spec_(scene.systems[system]->spec),
+      longest_(scene.scene.step),
+      n_(model_.dof()),
+      m_(static_cast<Eigen::Index>(settings.parameters.size())),
+      unbalance_(2 * n_ + m_),
+      u_(Eigen::VectorXd::Zero(
+          static_cast<Eigen::Index>(scene.systems[system]->dynamics->inputs().size()))) {
+  const Dynamics& dynamics = *scene.systems[system]->dynamics;
+  if (settings.unbalance.deviation > 0.0) {
+    stations_ = dynamics.stations();
+  }
+  run_out_ = unbalance_ + 2 * static_cast<Eigen::Index>(stations_.size());
+  Eigen::Index next = run_out_;
+  for (const FollowedChannel& channel : channels_) {
+    run_out_of_.push_back(channel.run_out > 0.0 ? std::exchange(next, next + 2) : -1);
+  }
+  offset_ = next;
+  for (const FollowedChannel& channel : channels_) {
+    offset_of_.push_back(channel.offset > 0.0 ? next++ : -1);
+  }
+
+  Eigen::VectorXd start = Eigen::VectorXd::Zero(next);
+  Eigen::VectorXd deviation = Eigen::VectorXd::Zero(next);
+  for (Eigen::Index i = 0; i < m_; ++i) {
+    deviation[2 * n_ + i] = settings.parameters[static_cast<std::size_t>(i)].number.deviation;
+  }
+  deviation.segment(unbalance_, run_out_ - unbalance_).setConstant(settings.unbalance.deviation);
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    if (run_out_of_[i] >= 0) {
+      deviation.segment(run_out_of_[i], 2).setConstant(channels_[i].run_out);
+    }
+    if (offset_of_[i] >= 0) {
+      deviation[offset_of_[i]] = channels_[i].offset;
+    }
+  }
+  filter_ = KalmanFilter(std::move(start), deviation);
+  by_parameter_ = Eigen::MatrixXd::Zero(n_, m_);
+}
+
+void SystemFilter::begin(const ShaftInstant& at) {
+  const double turned = at.angle.remainder - now_.angle.remainder;
+  for (Eigen::Index i = unbalance_; i < offset_; i += 2) {
+    turn(filter_.state(), i, std::cos(turned), std::sin(turned));
+  }
+  now_ = at;
+  for (Eigen::Index i = 0; i < n_; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    filter_.state()[i] = spec_.q[k];
+    filter_.state()[n_ + i] = spec_.v[k];
+  }
+  forgetMotion();
+}
+
+void SystemFilter::forgetMotion() {
+  const Dynamics& dynamics = *model_.system()->dynamics;
+  const std::vector<CoordinateInfo> coordinates = dynamics.coordinates();
+  for (Eigen::Index i = 0; i < n_; ++i) {
+    const bool angle = coordinates[static_cast<std::size_t>(i)].isAngle();
+    const double place = angle                ? kStartAngle
+                         : dynamics.isRotor() ? kStartWhirl
+                                              : kStartPlace * dynamics.naturalLength();
+    filter_.forget(i, place);
+    filter_.forget(n_ + i, dynamics.isRotor() && !angle ? kStartWhirlRate : kStartRate * place);
+  }
+  began_ = now_.time;
+}
+
+Moment<double> SystemFilter::ShaftPath::at(double part) const {
+  const double t = part * duration;
+  constexpr double kSmall = 1.0e-3;  // of the duration, for the acceleration by differences
+  const double h = kSmall * duration;
+  const double low = std::clamp(t, h, duration - h);
+  const double here = turn.at(low), before = turn.at(low - h), after = turn.at(low + h);
+  Moment<double> moment;
+  moment.time = start + t;
+  moment.angle = angle + turn.at(t);
+  moment.acceleration = (after - 2.0 * here + before) / (h * h);
+  moment.speed = (after - before) / (2.0 * h) + (t - low) * moment.acceleration;
+  return moment;
+}
+
+Moment<double> SystemFilter::moment() const {
+  return {seconds(now_.time), now_.angle.remainder, now_.speed, 0.0};
+}
+
+void SystemFilter::goTo(const ShaftInstant& there) {
+  const std::int64_t all = there.time - now_.time;
+  if (all <= 0) {
+    return;
+  }
+  const double turned =
+      there.angle.remainder - now_.angle.remainder +
+      ShaftAngle::kTurn * static_cast<double>(there.angle.turns - now_.angle.turns);
+  std::int64_t parts = model_.system()->dynamics->linear()
+                           ? static_cast<std::int64_t>(std::fabs(turned) / kLongestTurn) + 1
+                           : (all + longest_ - 1) / longest_;
+  const ShaftInstant from = now_;
+  const CubicPiece path{seconds(all), 0.0, turned, from.speed, there.speed};
+  for (std::int64_t k = 1; k < parts; ++k) {
+    const std::int64_t time = all / parts * k;
+    const double t = seconds(time);
+    constexpr double kSmall = 1.0e-3;
+    const double h = kSmall * seconds(all / parts);
+    const double a = from.angle.remainder + path.at(t);
+    const double whole = std::floor(a / ShaftAngle::kTurn);
+    goOn({from.time + time,
+          {from.angle.turns + static_cast<std::int64_t>(whole), a - whole * ShaftAngle::kTurn},
+          (path.at(t + h) - path.at(t - h)) / (2.0 * h)});
+  }
+  goOn(there);
+}
+
+void SystemFilter::goOn(const ShaftInstant& there) {
+  const std::int64_t duration = there.time - now_.time;
+  ShaftPath path;
+  path.start = seconds(now_.time);
+  path.duration = seconds(duration);
+  path.angle = now_.angle.remainder;
+  path.turn = {path.duration, 0.0,
+               there.angle.remainder - now_.angle.remainder +
+                   ShaftAngle::kTurn * static_cast<double>(there.angle.turns - now_.angle.turns),
+               now_.speed, there.speed};
+  model_.follow(numbers());
+  if (!stations_.empty()) {
+    const Eigen::LDLT<Eigen::MatrixXd> mass(
+        model_.system()->dynamics->massMatrix(q(), v(), path.at(0.0)));
+    station_directions_.resize(n_, 2 * static_cast<Eigen::Index>(stations_.size()));
+    for (std::size_t i = 0; i < stations_.size(); ++i) {
+      const auto k = static_cast<Eigen::Index>(2 * i);
+      station_directions_.col(k) = mass.solve(stations_[i].along_x);
+      station_directions_.col(k + 1) = mass.solve(stations_[i].along_y);
+    }
+  }
+  if (model_.system()->dynamics->linear()) {
+    moveLinear(path, duration);
+  } else {
+    moveNonlinear(path, duration);
+  }
+  const double turned = path.turn.to;
+  for (Eigen::Index i = unbalance_; i < offset_; i += 2) {
+    turn(filter_.state(), i, std::cos(turned), std::sin(turned));
+  }
+  now_ = there;
+}
+
+const SystemFilter::Step& SystemFilter::linearStep(const LocalMotion& local, std::int64_t duration,
+                                                   double speed) {
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * n_, 2 * n_);
+  A.topRightCorner(n_, n_).setIdentity();
+  A.bottomRows(n_) = local.by_state;
+  const double h = seconds(duration);
+  const auto power = [&](double part) {
+    Eigen::MatrixXd e = exponentialLessIdentity<Eigen::Dynamic>(part * h * A);
+    e.diagonal().array() += 1.0;
+    return e;
+  };
+  step_.states = power(1.0);
+  step_.forced = Eigen::MatrixXd::Zero(2 * n_, n_);
+  step_.noise = Eigen::MatrixXd::Zero(2 * n_, 2 * n_);
+  for (std::size_t k = 0; k < kNode.size(); ++k) {
+    const Eigen::MatrixXd rates = power(1.0 - kNode[k]).rightCols(n_);
+    step_.node[k] = kWeight[k] * h * rates;
+    step_.forced += step_.node[k];
+    step_.noise.noalias() += kWeight[k] * h * rates * rates.transpose();
+  }
+  step_.duration = duration;
+  step_.speed = speed;
+  step_.system = model_.system().get();
+  return step_;
+}
+
+Eigen::MatrixXd SystemFilter::unbalanceColumns(const ShaftPath& path, double part) const {
+  const Moment<double> moment = path.at(part);
+  const double cosine = std::cos(moment.angle - path.angle);
+  const double sine = std::sin(moment.angle - path.angle);
+  // (w^2 - i a) e^(i turn) of x + i y
+  const double w2 = moment.speed * moment.speed, a = moment.acceleration;
+  Eigen::Matrix2d load;
+  load(0, 0) = w2 * cosine + a * sine;
+  load(1, 0) = w2 * sine - a * cosine;
+  load(0, 1) = -load(1, 0);
+  load(1, 1) = load(0, 0);
+  Eigen::MatrixXd columns(n_, station_directions_.cols());
+  for (Eigen::Index i = 0; i < columns.cols(); i += 2) {
+    columns.middleCols<2>(i).noalias() = station_directions_.middleCols<2>(i) * load;
+  }
+  return columns;
+}
+
+Eigen::VectorXd SystemFilter::unbalanceAcceleration(const ShaftPath& path, double part) const {
+  return unbalanceColumns(path, part) * filter_.state().segment(unbalance_, run_out_ - unbalance_);
+}
+
+void SystemFilter::moveLinear(const ShaftPath& path, std::int64_t duration) {
+  const Moment<double> middle = path.at(0.5);
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n_);
+  const bool same = step_.duration == duration && step_.system == model_.system().get() &&
+                    std::fabs(middle.speed - step_.speed) <= kSameSpeed * std::fabs(step_.speed);
+  if (!same) {
+    linearStep(model_.about(zero, zero, middle, numbers(), u_), duration, middle.speed);
+  }
+  const Eigen::VectorXd s = filter_.state().head(2 * n_);
+  Eigen::VectorXd next = step_.states * s;
+  for (std::size_t k = 0; k < kNode.size(); ++k) {
+    Eigen::VectorXd load =
+        model_.acceleration(zero, zero, path.at(kNode[k]), numbers(), u_, by_parameter_);
+    if (!stations_.empty()) {
+      load += unbalanceAcceleration(path, kNode[k]);
+    }
+    next.noalias() += step_.node[k] * load;
+  }
+  if (m_ > 0) {
+    const Eigen::VectorXd mean = 0.5 * (s + next);
+    by_parameter_ = model_.about(mean.head(n_), mean.tail(n_), middle, numbers(), u_).by_parameter;
+  }
+  filter_.state().head(2 * n_) = next;
+  spread(step_, path);
+}
+
+void SystemFilter::moveNonlinear(const ShaftPath& path, std::int64_t duration) {
+  const double h = path.duration;
+  const Eigen::VectorXd now = numbers();
+  const auto rate = [&](double part, const Eigen::VectorXd& y) {
+    Eigen::VectorXd f(2 * n_);
+    f.head(n_) = y.tail(n_);
+    f.tail(n_) = model_.acceleration(y.head(n_), y.tail(n_), path.at(part), now, u_, by_parameter_);
+    if (!stations_.empty()) {
+      f.tail(n_) += unbalanceAcceleration(path, part);
+    }
+    return f;
+  };
+  const Eigen::VectorXd y = filter_.state().head(2 * n_);
+  const Eigen::VectorXd k1 = rate(0.0, y);
+  const Eigen::VectorXd k2 = rate(0.5, y + 0.5 * h * k1);
+  const Eigen::VectorXd k3 = rate(0.5, y + 0.5 * h * k2);
+  const Eigen::VectorXd k4 = rate(1.0, y + h * k3);
+  const Eigen::VectorXd next = y + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+  const Eigen::VectorXd mean = 0.5 * (y + next);
+  const LocalMotion local = model_.about(mean.head(n_), mean.tail(n_), path.at(0.5), now, u_);
+  by_parameter_ = local.by_parameter;
+  filter_.state().head(2 * n_) = next;
+  spread(linearStep(local, duration, path.at(0.5).speed), path);
+}
+
+void SystemFilter::spread(const Step& step, const ShaftPath& path) {
+  const Eigen::Index all = filter_.size(), s = 2 * n_;
+  const double h = path.duration;
+  transition_.setIdentity(all, all);
+  transition_.topLeftCorner(s, s) = step.states;
+  transition_.block(0, s, s, m_).noalias() = step.forced * by_parameter_;
+  for (std::size_t k = 0; k < kNode.size() && !stations_.empty(); ++k) {
+    transition_.block(0, unbalance_, s, run_out_ - unbalance_).noalias() +=
+        step.node[k] * unbalanceColumns(path, kNode[k]);
+  }
+  const double cosine = std::cos(path.turn.to), sine = std::sin(path.turn.to);
+  for (Eigen::Index i = unbalance_; i < offset_; i += 2) {
+    transition_.block<2, 2>(i, i) << cosine, -sine, sine, cosine;
+  }
+  noise_.setZero(all, all);
+  noise_.topLeftCorner(s, s) = settings_.disturbance * settings_.disturbance * step.noise;
+  for (Eigen::Index i = 0; i < m_; ++i) {
+    const FollowedNumber& number = settings_.parameters[static_cast<std::size_t>(i)].number;
+    // Nothing is forgotten beyond what was known at the start: where nothing tells of a parameter
+    // its uncertainty does not wind up.
+    if (filter_.deviation(s + i) < number.deviation) {
+      noise_(s + i, s + i) = number.walk * number.walk * h;
+    }
+  }
+  const double walk = settings_.unbalance.walk;
+  for (Eigen::Index i = unbalance_; i < run_out_; ++i) {
+    noise_(i, i) = walk * walk * h;
+  }
+  filter_.propagate(transition_, noise_);
+}
+
+Eigen::VectorXd SystemFilter::rowOf(std::size_t channel) const {
+  const FollowedChannel& c = channels_[channel];
+  Eigen::VectorXd h = Eigen::VectorXd::Zero(filter_.size());
+  const auto coordinate = static_cast<Eigen::Index>(c.signal.coordinate);
+  switch (c.signal.kind) {
+    case SignalSpec::Kind::kCoordinate:
+      h[coordinate] = 1.0;
+      break;
+    case SignalSpec::Kind::kRate:
+      h[n_ + coordinate] = 1.0;
+      break;
+    case SignalSpec::Kind::kDisplacement: {
+      const Station at = model_.system()->dynamics->stations()[c.signal.station];
+      const double cosine = std::cos(c.signal.direction), sine = std::sin(c.signal.direction);
+      h.head(n_) = cosine * at.along_x + sine * at.along_y;
+      if (run_out_of_[channel] >= 0) {
+        h[run_out_of_[channel]] = cosine;
+        h[run_out_of_[channel] + 1] = sine;
+      }
+      break;
+    }
+  }
+  if (offset_of_[channel] >= 0) {
+    h[offset_of_[channel]] = 1.0;
+  }
+  return h;
+}
+
+Innovation SystemFilter::take(std::size_t channel, double value) {
+  const Eigen::VectorXd h = rowOf(channel);
+  const double noise = channels_[channel].deviation;
+  const KalmanFilter::Expected expected = filter_.expect(h, noise);
+  Innovation innovation{value - expected.value, expected.deviation, false};
+  if (!(std::fabs(innovation.value) <= kGate * innovation.deviation)) {
+    return innovation;
+  }
+  innovation.used = true;
+  const bool settled = now_.time - began_ > std::llround(kSettling / kNanosecond);
+  filter_.take(h, value, noise, settled ? filter_.size() : 2 * n_);
+  return innovation;
+}
+
+double SystemFilter::parameter(std::size_t index) const {
+  return model_.parameters()[index].value(numbers()[static_cast<Eigen::Index>(index)]);
+}
+
+double SystemFilter::parameterDeviation(std::size_t index) const {
+  const Eigen::Index i = static_cast<Eigen::Index>(index);
+  return model_.parameters()[index].deviation(numbers()[i], filter_.deviation(2 * n_ + i));
+}
+
+Eigen::Vector2d SystemFilter::unbalance(std::size_t station) const {
+  const Eigen::Vector2d turned =
+      filter_.state().segment<2>(unbalance_ + 2 * static_cast<Eigen::Index>(station));
+  return Eigen::Rotation2Dd(-now_.angle.remainder) * turned;
+}
+
+Eigen::Matrix2d SystemFilter::unbalanceCovariance(std::size_t station) const {
+  const Eigen::Index i = unbalance_ + 2 * static_cast<Eigen::Index>(station);
+  const Eigen::Rotation2Dd back(-now_.angle.remainder);
+  return back.toRotationMatrix() * filter_.covariance().block<2, 2>(i, i) *
+         back.toRotationMatrix().transpose();
+}
+
+double SystemFilter::offset(std::size_t channel) const {
+  return offset_of_[channel] < 0 ? 0.0 : filter_.state()[offset_of_[channel]];
+}
+
+double SystemFilter::offsetDeviation(std::size_t channel) const {
+  return offset_of_[channel] < 0 ? 0.0 : filter_.deviation(offset_of_[channel]);
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,134 @@
+// What is known of one system of a running machine: its coordinates and rates, and beside them what
+// nobody has told, its parameters, an unbalance, zeros of sensors, run-out under probes. An
+// extended Kalman filter about the model's own equations; of a linear system it is exact.
+//
+// The state: coordinates, rates, the numbers of the parameters (followed_model.h), for each station
+// an unbalance and for each displacement probe a run-out as they lie in space, which turn with the
+// shaft (x + i y turned by its angle), and a zero for each channel that has one. A step goes by the
+// matrix exponential of the linearized equations, of a nonlinear system about the middle of the
+// step, whose motion Runge-Kutta's method of order four follows; noise by the series of van Loan
+// (IEEE Trans. Automatic Control 23, 1978).
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "control/keyphasor.h"
+#include "estimation/follow_settings.h"
+#include "estimation/followed_model.h"
+#include "estimation/kalman_filter.h"
+#include "scene/built_scene.h"
+#include "scene/sensor_spec.h"
+
+namespace whirl_twin {
+
+/// A channel as a filter takes it.
+struct FollowedChannel {
+  std::string name;  ///< "source/channel"
+  SignalSpec signal;
+  double deviation = 0.0;  ///< of its noise, in its unit
+  double offset = 0.0;     ///< deviation of its zero; 0: its zero is known
+  double run_out = 0.0;    ///< [m], deviation; 0: none
+};
+
+/// What a measured value did.
+struct Innovation {
+  double value = 0.0;      ///< measured less expected, in the channel's unit
+  double deviation = 0.0;  ///< that it was expected to have
+  bool used = false;       ///< false: too far off to be of this motion
+  double normalized() const { return value / deviation; }
+};
+
+class SystemFilter {
+ public:
+  SystemFilter(const BuiltScene& scene, std::size_t system, const SystemFollowing& settings,
+               std::vector<FollowedChannel> channels);
+
+  /// Begins anew at an instant, knowing nothing of the motion, and of all else what is known.
+  void begin(const ShaftInstant& at);
+  /// Goes on, the shaft's motion being the cubic between here and there.
+  void goTo(const ShaftInstant& there);
+  /// Takes what a channel shows now; a value too far off is refused.
+  Innovation take(std::size_t channel, double value);
+  /// The motion, not the rest, is as at the beginning again: what was believed of it is wrong.
+  void forgetMotion();
+  /// What acts on the inputs from now on.
+  void setInputs(const Eigen::VectorXd& u) { u_ = u; }
+
+  const std::vector<FollowedChannel>& channels() const { return channels_; }
+  const FollowedModel& model() const { return model_; }
+  const KalmanFilter& filter() const { return filter_; }
+  const ShaftInstant& shaft() const { return now_; }
+  Eigen::VectorXd q() const { return filter_.state().head(n_); }
+  Eigen::VectorXd v() const { return filter_.state().segment(n_, n_); }
+  Moment<double> moment() const;
+
+  double parameter(std::size_t index) const;
+  double parameterDeviation(std::size_t index) const;  ///< in its unit
+  std::size_t unbalances() const { return stations_.size(); }
+  /// At a station, from the shaft's phase mark: amount along x and y [kg m].
+  Eigen::Vector2d unbalance(std::size_t station) const;
+  Eigen::Matrix2d unbalanceCovariance(std::size_t station) const;
+  double offset(std::size_t channel) const;
+  double offsetDeviation(std::size_t channel) const;
+  bool hasOffset(std::size_t channel) const { return offset_of_[channel] >= 0; }
+
+ private:
+  /// A step of a linear system y' = A y + (0, f), y its coordinates and rates, by Gauss's three
+  /// nodes.
+  struct Step {
+    Eigen::MatrixXd states;               // e^(A h) [2n x 2n]
+    std::array<Eigen::MatrixXd, 3> node;  // what f at a node comes to [2n x n]
+    Eigen::MatrixXd forced;               // their sum: what an f that stays comes to
+    Eigen::MatrixXd noise;                // of white accelerations, of density 1 [2n x 2n]
+    // What it was made for
+    std::int64_t duration = 0;  // [ns]
+    double speed = 0.0;         // [rad/s]
+    const BuiltSystem* system = nullptr;
+  };
+  /// The shaft on its way: at a part of the way there, from 0 to 1.
+  struct ShaftPath {
+    double start = 0.0;     // [s], simulated
+    double duration = 0.0;  // [s]
+    double angle = 0.0;     // [rad], at the start, without whole turns
+    CubicPiece turn;        // [rad], since the start
+    Moment<double> at(double part) const;
+  };
+
+  void goOn(const ShaftInstant& there);
+  const Step& linearStep(const LocalMotion& local, std::int64_t duration, double speed);
+  void moveLinear(const ShaftPath& path, std::int64_t duration);
+  void moveNonlinear(const ShaftPath& path, std::int64_t duration);
+  /// The covariance goes through a step; unbalances and run-outs turn by the path's angle.
+  void spread(const Step& step, const ShaftPath& path);
+  /// Accelerations by unbalances, on the way.
+  Eigen::VectorXd unbalanceAcceleration(const ShaftPath& path, double part) const;
+  Eigen::MatrixXd unbalanceColumns(const ShaftPath& path, double part) const;
+  Eigen::VectorXd rowOf(std::size_t channel) const;
+  Eigen::VectorXd numbers() const { return filter_.state().segment(2 * n_, m_); }
+
+  std::vector<FollowedChannel> channels_;
+  SystemFollowing settings_;
+  FollowedModel model_;
+  SystemSpec spec_;
+  std::vector<Station> stations_;  // with an unbalance to be found
+  std::int64_t longest_;           // [ns], step
+  Eigen::Index n_, m_;
+  Eigen::Index unbalance_, run_out_, offset_;         // where they begin in the state
+  std::vector<Eigen::Index> run_out_of_, offset_of_;  // of each channel; -1: none
+  Eigen::VectorXd u_;
+  KalmanFilter filter_;
+  ShaftInstant now_;
+  std::int64_t began_ = 0;              // [ns]
+  Eigen::MatrixXd by_parameter_;        // of the last step, in its middle [n x m]
+  Eigen::MatrixXd station_directions_;  // M^-1 of them, now [n x 2 stations]
+  Step step_;
+  Eigen::MatrixXd transition_, noise_;
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,258 @@
+#include "reports/followed_log.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <set>
+#include <variant>
+
+#include "estimation/follower.h"
+#include "messages/refusal.h"
+#include "transport/event_scan.h"
+#include "transport/lcm_decode.h"
+#include "twin/observer.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr std::uint64_t kTell = 256;  // events from one look at the progress to the next
+
+/// What a follower tells of one system, put together.
+class Course {
+ public:
+  explicit Course(FollowedSystem& system) : system_(system) {}
+
+  void take(const state::FollowState& told) {
+    squares_.resize(told.channel.size());
+    counts_.resize(told.channel.size());
+    for (std::size_t c = 0; c < told.channel.size(); ++c) {
+      if (told.channel_status[c] == static_cast<std::uint8_t>(state::ChannelStatus::kUsed)) {
+        squares_[c] += told.residual[c] * told.residual[c];
+        ++counts_[c];
+      }
+    }
+    if (!std::isnan(told.mismatch) && told.mismatch != system_.last.mismatch) {
+      ++system_.windows;
+      system_.mismatched += told.mismatch > told.mismatch_limit ||
+                            told.mismatch < told.mismatch_least ||
+                            std::fabs(told.whiteness) > told.whiteness_limit;
+    }
+    if (!told.drift_parameter.empty() && system_.drift_parameter.empty()) {
+      system_.drift_parameter = told.drift_parameter;
+      system_.drift_from = told.drift_from;
+      system_.drift_to = told.drift_to;
+      system_.drift_since = told.drift_since;
+      system_.drift_told = told.at.time;
+    }
+    system_.found = system_.found || told.used > 0;
+    system_.last = told;
+  }
+
+  void finish(const SystemFilter& filter, const BuiltSystem& built) {
+    for (std::size_t c = 0; c < squares_.size(); ++c) {
+      system_.rms.push_back(counts_[c] > 0
+                                ? std::sqrt(squares_[c] / static_cast<double>(counts_[c]))
+                                : std::numeric_limits<double>::quiet_NaN());
+    }
+    for (const FollowedParameter& p : filter.model().parameters()) {
+      system_.start.push_back(p.start);
+    }
+    const std::vector<Station> stations = built.dynamics->stations();
+    for (std::size_t i = 0; i < filter.unbalances(); ++i) {
+      const Eigen::Vector2d u = filter.unbalance(i);
+      system_.unbalances.push_back({stations[i].name, u.norm(), std::atan2(u.y(), u.x()),
+                                    std::sqrt(0.5 * filter.unbalanceCovariance(i).trace())});
+    }
+  }
+
+ private:
+  FollowedSystem& system_;
+  std::vector<double> squares_;
+  std::vector<std::uint64_t> counts_;
+};
+
+std::string plusMinus(double value, double deviation) {
+  return std::isfinite(deviation) ? fmt::format("{:.6g} +- {:.2g}", value, deviation)
+                                  : fmt::format("{:.6g}, not known", value);
+}
+
+std::string systemText(const FollowedSystem& system) {
+  std::string out = fmt::format("{}\n", system.name);
+  if (!system.found) {
+    return out + "  its motion was not found: no sample of it, or no shaft angle\n";
+  }
+  for (std::size_t i = 0; i < system.last.parameter.size(); ++i) {
+    out += fmt::format("  {:<24} {}   (scene: {:.6g})\n", system.last.parameter[i],
+                       plusMinus(system.last.value[i], system.last.deviation[i]), system.start[i]);
+  }
+  for (const FoundUnbalance& u : system.unbalances) {
+    out +=
+        fmt::format("  unbalance {:<14} {} kg m at {:.2f} deg of the shaft, beside the scene's\n",
+                    u.station, plusMinus(u.amount, u.deviation), u.angle * 57.29577951308232);
+  }
+  for (std::size_t c = 0; c < system.last.channel.size(); ++c) {
+    out +=
+        fmt::format("  {:<24} residual {:.3g} {} rms, expected {:.3g}", system.last.channel[c],
+                    system.rms[c], system.last.channel_unit[c], system.last.residual_deviation[c]);
+    if (!std::isnan(system.last.offset[c])) {
+      out += fmt::format("; zero at {:.4g} {}", system.last.offset[c], system.last.channel_unit[c]);
+    }
+    out += "\n";
+  }
+  const state::FollowState& last = system.last;
+  out += fmt::format("  samples: {} used, {} refused, {} invalid, {} late, {} lost, {} repeated\n",
+                     last.used, last.refused, last.invalid, last.late, last.lost, last.repeated);
+  out += fmt::format("  windows of residuals that are not those of the model: {} of {}\n",
+                     system.mismatched, system.windows);
+  if (!system.drift_parameter.empty()) {
+    out += fmt::format("  drift: {} from {:.6g} to {:.6g}, since {:.1f} s, told at {:.1f} s\n",
+                       system.drift_parameter, system.drift_from, system.drift_to,
+                       system.drift_since, system.drift_told);
+  }
+  return out;
+}
+
+}  // namespace
+
+FollowedLog followLog(const Twin& twin, const FollowSettings& settings, const std::string& log,
+                      const std::string& prefix, SampleWriter* writer, std::int64_t every,
+                      const std::function<void(std::uint64_t, std::uint64_t)>& advanced) {
+  FollowedLog run;
+  run.scene = twin.scene().name;
+  run.log = log;
+  EventScan scan(log);
+  const auto generations = std::make_shared<SystemGenerations>(twin);
+  Observer observer(twin, generations);
+  std::vector<std::unique_ptr<Course>> courses(twin.systems().size());
+  std::vector<FollowedSystem> systems(twin.systems().size());
+  FollowerListener listener;
+  listener.record = [&](const double* record) {
+    observer.observe(record);
+    run.duration = observer.instant().time - twin.seconds(0);
+    if (writer != nullptr) {
+      writer->follow(record, observer);
+      writer->write(observer);
+    }
+  };
+  listener.follow = [&](const state::FollowState& told) {
+    for (std::size_t i = 0; i < systems.size(); ++i) {
+      if (twin.systems()[i]->spec.name == told.system) {
+        courses[i]->take(told);
+      }
+    }
+    if (writer != nullptr) {
+      writer->write(told);
+    }
+  };
+  Follower follower(twin, generations, settings, every, listener);
+  for (std::size_t i = 0; i < systems.size(); ++i) {
+    systems[i].name = twin.systems()[i]->spec.name;
+    courses[i] = std::make_unique<Course>(systems[i]);
+  }
+  std::set<std::string> sources;
+  for (const SensorSpec& sensor : twin.scene().sensors) {
+    sources.insert(sensor.name);
+  }
+
+  RawEvent event;
+  std::uint64_t events = 0;
+  for (auto found = scan.next(event); found != EventScan::Found::kEnd; found = scan.next(event)) {
+    if (++events % kTell == 0) {
+      advanced(scan.offset(), scan.size());
+    }
+    if (found != EventScan::Found::kEvent) {
+      ++run.damaged;
+      continue;
+    }
+    const auto channel = parseChannel(event.channel, prefix);
+    if (event.data == nullptr || !channel || channel->kind != &state::Measurement::kKind) {
+      continue;
+    }
+    try {
+      const Message message = decodeEvent(event.channel, event.data, event.size, prefix);
+      const auto& measurement = std::get<state::Measurement>(message);
+      if (sources.count(measurement.source) == 0) {
+        continue;
+      }
+      ++run.messages;
+      if (writer != nullptr) {
+        writer->write(measurement);
+      }
+      follower.take(measurement);
+    } catch (const RejectedMessage&) {
+      ++run.rejected;
+    }
+  }
+  follower.finish();
+  if (run.messages == 0) {
+    throw Refusal(
+        fmt::format("{}: expected measurements of the sensors of '{}' on channels that "
+                    "begin with {} (--lcm-prefix), found none in {} bytes",
+                    log, run.scene, prefix, scan.size()));
+  }
+  run.restarts = follower.restarts();
+  for (std::size_t i = 0; i < systems.size(); ++i) {
+    if (const SystemFilter* filter = follower.filter(i)) {
+      courses[i]->finish(*filter, *twin.systems()[i]);
+      run.systems.push_back(systems[i]);
+    }
+  }
+  return run;
+}
+
+std::string text(const FollowedLog& run) {
+  std::string out = fmt::format("{} followed for {:.1f} s by {}: {} messages", run.log,
+                                run.duration, run.scene, run.messages);
+  out += run.rejected + run.damaged > 0
+             ? fmt::format(", {} refused, {} damaged\n", run.rejected, run.damaged)
+             : "\n";
+  if (run.restarts > 0) {
+    out += fmt::format("The motion was found anew {} times.\n", run.restarts);
+  }
+  for (const FollowedSystem& system : run.systems) {
+    out += systemText(system);
+  }
+  return out;
+}
+
+Json json(const FollowedLog& run) {
+  Json out = {{"scene", run.scene},       {"log", run.log},           {"duration", run.duration},
+              {"messages", run.messages}, {"rejected", run.rejected}, {"damaged", run.damaged},
+              {"restarts", run.restarts}, {"systems", Json::object()}};
+  for (const FollowedSystem& s : run.systems) {
+    Json system = {
+        {"found", s.found}, {"parameters", Json::object()}, {"channels", Json::object()}};
+    for (std::size_t i = 0; i < s.last.parameter.size(); ++i) {
+      system["parameters"][s.last.parameter[i]] = {{"value", s.last.value[i]},
+                                                   {"standard_deviation", s.last.deviation[i]}};
+    }
+    for (std::size_t c = 0; s.found && c < s.last.channel.size(); ++c) {
+      system["channels"][s.last.channel[c]] = {{"residual_rms", s.rms[c]},
+                                               {"expected", s.last.residual_deviation[c]},
+                                               {"offset", s.last.offset[c]}};
+    }
+    system["unbalances"] = Json::object();
+    for (const FoundUnbalance& u : s.unbalances) {
+      system["unbalances"][u.station] = {
+          {"amount", u.amount}, {"angle", u.angle}, {"standard_deviation", u.deviation}};
+    }
+    system["samples"] = {{"used", s.last.used},       {"refused", s.last.refused},
+                         {"invalid", s.last.invalid}, {"late", s.last.late},
+                         {"lost", s.last.lost},       {"repeated", s.last.repeated}};
+    system["windows"] = s.windows;
+    system["windows_mismatched"] = s.mismatched;
+    system["drift"] = s.drift_parameter.empty() ? Json()
+                                                : Json{{"parameter", s.drift_parameter},
+                                                       {"from", s.drift_from},
+                                                       {"to", s.drift_to},
+                                                       {"since", s.drift_since},
+                                                       {"told", s.drift_told}};
+    out["systems"][s.name] = system;
+  }
+  return out;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,62 @@
+// A log of measurements, followed: what a follower has learned of the machine from it, and, sample
+// by sample, the motion of its twin.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "estimation/follow_settings.h"
+#include "messages/follow_state.h"
+#include "reports/output.h"
+#include "reports/sample_writer.h"
+#include "twin/twin.h"
+
+namespace whirl_twin {
+
+/// An unbalance beside the scene's own.
+struct FoundUnbalance {
+  std::string station;
+  double amount = 0.0;     ///< [kg m]
+  double angle = 0.0;      ///< [rad], of the shaft's angle 0
+  double deviation = 0.0;  ///< [kg m], of either component
+};
+
+struct FollowedSystem {
+  std::string name;
+  bool found = false;         ///< its motion was found
+  state::FollowState last;    ///< as told at the end
+  std::vector<double> start;  ///< of its parameters, as the scene says
+  std::vector<double> rms;    ///< of each channel: of the residuals told [its unit]; NaN: none
+  std::vector<FoundUnbalance> unbalances;
+  std::uint64_t windows = 0;     ///< that were judged
+  std::uint64_t mismatched = 0;  ///< of them: too large, too small, or not white
+  // The first drift of a parameter that was told; "": none.
+  std::string drift_parameter;
+  double drift_from = std::numeric_limits<double>::quiet_NaN();
+  double drift_to = std::numeric_limits<double>::quiet_NaN();
+  double drift_since = std::numeric_limits<double>::quiet_NaN();  ///< [s]
+  double drift_told = std::numeric_limits<double>::quiet_NaN();   ///< [s]
+};
+
+struct FollowedLog {
+  std::string scene, log;
+  double duration = 0.0;  ///< [s]
+  std::uint64_t messages = 0, rejected = 0, damaged = 0;
+  std::int64_t restarts = 0;
+  std::vector<FollowedSystem> systems;
+};
+
+/// Follows the measurements of a log, on channels that begin with `prefix`. writer may be null; it
+/// is given a sample every so many steps, and what was measured, and is not finished. Throws
+/// Refusal for a log without measurements of the scene's sensors.
+FollowedLog followLog(const Twin& twin, const FollowSettings& settings, const std::string& log,
+                      const std::string& prefix, SampleWriter* writer, std::int64_t every,
+                      const std::function<void(std::uint64_t, std::uint64_t)>& advanced);
+
+std::string text(const FollowedLog& run);
+Json json(const FollowedLog& run);
+
+}  // namespace whirl_twin

@@ -1,0 +1,133 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "estimation/follow_settings_reader.h"
+#include "reports/followed_log.h"
+#include "scene/scene_reader.h"
+#include "scene/yaml_file.h"
+#include "tools/arguments.h"
+#include "tools/commands.h"
+#include "tools/progress_bar.h"
+#include "tools/shipped_scenes.h"
+#include "transport/channels.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr const char* kDescription =
+    "Follows a machine through the measurements in an LCM log, faster than real time: estimates "
+    "what\n"
+    "is not measured, and the parameters that --settings name, and says where machine and model "
+    "part.";
+
+constexpr const char* kFooter =
+    "The scene's sensors say what is measured, where, and with how much noise. What the follower "
+    "does\nlive (follow_node) it does here, to the bit.\n"
+    "\n"
+    "Examples:\n"
+    "  twin simulate rig.yaml --measure sensors --output rig.lcmlog && twin follow rig.yaml "
+    "rig.lcmlog\n"
+    "  twin follow rig.yaml monday.lcmlog --settings follow.yaml --output twin.lcmlog";
+
+struct Request {
+  std::string scene;
+  std::string log;
+  std::optional<std::string> settings;
+  std::optional<std::string> output;
+  std::optional<std::string> sample;  // s
+  std::string lcm_prefix = kDefaultLcmPrefix;
+  bool json = false;
+};
+
+std::int64_t strideOf(const Request& request, const Scene& scene) {
+  if (!request.sample) {
+    return 1;
+  }
+  constexpr std::int64_t kLongest = 3'600'000'000'000;  // ns
+  return parseNanoseconds("--sample", *request.sample, scene.step, kLongest, scene.step) /
+         scene.step;
+}
+
+std::unique_ptr<SampleWriter> writerOf(const Request& request, const Twin& twin) {
+  if (!request.output) {
+    return nullptr;
+  }
+  std::vector<std::size_t> systems;
+  for (std::size_t i = 0; i < twin.systems().size(); ++i) {
+    systems.push_back(i);
+  }
+  const std::string extension = std::filesystem::path(*request.output).extension();
+  if (extension == ".csv") {
+    return makeTableWriter(twin, systems, *request.output);
+  }
+  if (extension == ".lcmlog") {
+    return makeLogWriter(twin, systems, *request.output);
+  }
+  throw Refusal(fmt::format("--output: must end in .csv or .lcmlog, found '{}'", *request.output));
+}
+
+int follow(const Request& request) {
+  requireLcmPrefix(request.lcm_prefix);
+  const Twin twin(readSceneFile(scenePath(request.scene)));
+  const FollowSettings settings =
+      request.settings
+          ? readFollowSettings(readYamlFile(*request.settings, "settings of a follower", "systems"),
+                               *request.settings, twin.built())
+          : FollowSettings{};
+  const std::int64_t every = strideOf(request, twin.scene());
+  const auto writer = writerOf(request, twin);
+  constexpr std::int64_t kParts = 1000;
+  ProgressBar progress(kParts, false);
+  const FollowedLog run = followLog(
+      twin, settings, request.log, request.lcm_prefix, writer.get(), every,
+      [&](std::uint64_t bytes, std::uint64_t all) {
+        progress.show(static_cast<std::int64_t>(
+            static_cast<double>(kParts) * static_cast<double>(bytes) / static_cast<double>(all)));
+      });
+  progress.clear();
+  if (writer) {
+    writer->finish();
+  }
+  if (request.json) {
+    printJson(json(run));
+  } else {
+    printText(text(run));
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void addFollowCommand(CLI::App& twin, int& status) {
+  CLI::App* command = twin.add_subcommand("follow", kDescription);
+  const auto request = std::make_shared<Request>();
+  addSceneOption(command, request->scene);
+  command->add_option("LOG", request->log, "LCM log with measurements, such as rig.lcmlog")
+      ->required()
+      ->type_name("");
+  command
+      ->add_option("--settings", request->settings,
+                   "what to follow beside the motion: parameters, unbalance, zeros of sensors")
+      ->type_name("FILE");
+  command
+      ->add_option("--output", request->output, "write the twin's motion, FILE.csv or FILE.lcmlog")
+      ->type_name("FILE");
+  command
+      ->add_option(
+          "--sample", request->sample,
+          "from one sample of the motion to the next, to the nearest step; default: a step")
+      ->type_name("S");
+  command
+      ->add_option("--lcm-prefix", request->lcm_prefix,
+                   "what the channels of the machine begin with; default: TWIN_")
+      ->type_name("PREFIX");
+  command->add_flag("--json", request->json, "print one JSON object");
+  command->footer(kFooter);
+  command->callback([request, &status] { status = follow(*request); });
+}
+
+}  // namespace whirl_twin
