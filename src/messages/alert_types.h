@@ -15,6 +15,8 @@ inline constexpr char kLowDamping[] = "LOW_DAMPING";
 inline constexpr char kRouthDisagrees[] = "ROUTH_DISAGREES";
 inline constexpr char kUnstableWithinSpread[] = "UNSTABLE_WITHIN_SPREAD";
 inline constexpr char kModelMismatch[] = "MODEL_MISMATCH";
+inline constexpr char kDrift[] = "DRIFT";
+inline constexpr char kSensor[] = "SENSOR";
 inline constexpr char kEnergyResidual[] = "ENERGY_RESIDUAL";
 inline constexpr char kAccuracyLost[] = "ACCURACY_LOST";
 inline constexpr char kNotFinite[] = "NOT_FINITE";
@@ -35,6 +37,8 @@ inline constexpr const char* kAll[] = {kCriticalSpeedApproach,
                                        kRouthDisagrees,
                                        kUnstableWithinSpread,
                                        kModelMismatch,
+                                       kDrift,
+                                       kSensor,
                                        kEnergyResidual,
                                        kAccuracyLost,
                                        kNotFinite,

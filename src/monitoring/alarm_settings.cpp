@@ -61,6 +61,9 @@ std::vector<std::string> settingErrors(const AlarmSettings& settings) {
         settings.decay_audit == 0.0 ||
             (settings.decay_audit >= 5.0 && settings.decay_audit <= 3600.0),
         "0, or from 5 to 3600 s");
+  not_negative("sensor_delay", settings.sensor_delay, ">= 0 s");
+  not_negative("clock_offset", settings.clock_offset, ">= 0 s");
+  not_negative("clock_drift", settings.clock_drift, ">= 0 (dimensionless)");
   check("trip_multiply", settings.trip_multiply,
         settings.trip_multiply >= 1.0 && settings.trip_multiply <= 10.0,
         "from 1 to 10 (dimensionless)");

@@ -71,6 +71,10 @@ struct AlarmSettings {
   std::map<std::string, VibrationZones> zones;       ///< likewise
   std::map<std::string, double> subsynchronous;  ///< [m], level of a whirl slower than the shaft
   double decay_audit = 0.0;  ///< [s], record that decay is measured from; 0: it is not
+  // Of a system that follows its machine:
+  double sensor_delay = 2.0;    ///< [s], a channel or the shaft unknown this long is an alert
+  double clock_offset = 1.0;    ///< [s], warn when the machine's clock is further off; 0: do not
+  double clock_drift = 5.0e-4;  ///< [-], warn when it gains or loses more in a second; 0: do not
   double trip_multiply =
       1.0;  ///< [-], of the levels of amplitude and zones while a shaft starts up
   double start_up_acceleration = 0.5;  ///< [rad/s^2], it starts up when it gains speed faster

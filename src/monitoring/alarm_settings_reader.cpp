@@ -186,6 +186,9 @@ AlarmSettings readAlarmSettings(const YAML::Node& tree, const std::string& sourc
       {"energy_residual", &s.energy_residual},
       {"data_timeout", &s.data_timeout},
       {"decay_audit", &s.decay_audit},
+      {"sensor_delay", &s.sensor_delay},
+      {"clock_offset", &s.clock_offset},
+      {"clock_drift", &s.clock_drift},
       {"trip_multiply", &s.trip_multiply},
       {"start_up_acceleration", &s.start_up_acceleration}};
   std::vector<std::string> known{"latch",  "delays", "amplitude",

@@ -27,6 +27,7 @@ class DecayAlarm {
   void update(const state::StabilityMargin& margin);
   /// What comes cannot be judged, or the parameters are others: the record begins anew.
   void hold();
+  bool active() const { return alarm_.active(); }
 
  private:
   void judge(const AuditedDecay& measured, double speed, AlertList& alerts);

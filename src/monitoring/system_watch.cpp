@@ -42,6 +42,7 @@ SystemWatch::SystemWatch(SharedSystem built, JudgedSpeeds first, const AlarmSett
       voted_alarm(built->spec.name, settings),
       order_alarm(built->spec.name, settings),
       decay_alarm(built->spec.name, settings),
+      following_alarm(built->spec.name, built->dynamics->hasShaft(), settings),
       critical_speed_alarm(built->spec.name, settings),
       capture_alarm(built->spec.name, settings),
       stability_alarm(built->spec.name, settingsFor(*built->dynamics, settings)),
@@ -91,6 +92,7 @@ void SystemWatch::set(const AlarmSettings& settings) {
   voted_alarm.set(settings);
   order_alarm.set(settings);
   decay_alarm.set(settings);
+  following_alarm.set(settings);
   critical_speed_alarm.set(settings);
   capture_alarm.set(settings);
   stability_alarm.set(settingsFor(*system->dynamics, settings));
@@ -105,6 +107,7 @@ void SystemWatch::restart(const AlarmSettings& settings) {
   voted_alarm = VotedAlarm(name, settings);
   order_alarm = OrderAlarm(name, settings);
   decay_alarm = DecayAlarm(name, settings);
+  following_alarm = FollowingAlarm(name, dynamics->hasShaft(), settings);
   critical_speed_alarm = CriticalSpeedAlarm(name, settings);
   capture_alarm = CaptureAlarm(name, settings);
   seen.reset();

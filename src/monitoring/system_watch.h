@@ -15,6 +15,7 @@
 #include "monitoring/critical_speed_alarm.h"
 #include "monitoring/data_quality.h"
 #include "monitoring/decay_alarm.h"
+#include "monitoring/following_alarm.h"
 #include "monitoring/judged_speeds.h"
 #include "monitoring/order_alarm.h"
 #include "monitoring/stability_alarm.h"
@@ -60,6 +61,7 @@ struct SystemWatch {
   VotedAlarm voted_alarm;
   OrderAlarm order_alarm;
   DecayAlarm decay_alarm;
+  FollowingAlarm following_alarm;
   CriticalSpeedAlarm critical_speed_alarm;
   CaptureAlarm capture_alarm;
   StabilityAlarm stability_alarm;

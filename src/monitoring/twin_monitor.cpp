@@ -302,6 +302,14 @@ void TwinMonitor::take(const state::OrderState& orders, double wall_time) {
   }
 }
 
+void TwinMonitor::take(const state::FollowState& follow, double wall_time) {
+  SystemWatch* watch = find(follow.system);
+  // By a clock of its own: where no states come any more it says why.
+  if (watch != nullptr && arrived("follow/" + follow.system, follow.at, wall_time)) {
+    watch->following_alarm.update(follow, watch->decay_alarm.active(), alerts_);
+  }
+}
+
 bool TwinMonitor::take(const state::LoopStatistics& loop, double wall_time) {
   if (resets_.take(loop, wall_time)) {
     restart(loop.at.time, wall_time);

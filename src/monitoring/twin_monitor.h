@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "messages/follow_state.h"
 #include "messages/loop_statistics.h"
 #include "messages/monitor_status.h"
 #include "messages/order_state.h"
@@ -39,6 +40,7 @@ class TwinMonitor {
   void take(const state::PendulumState& pendulum, double wall_time);
   void take(const state::DriveState& drive, double wall_time);
   void take(const state::OrderState& orders, double wall_time);
+  void take(const state::FollowState& follow, double wall_time);
   /// The parameters of a system are others now, and it is judged with them at once, where it was
   /// last. False for a set that the system does not have, or cannot have.
   bool take(const state::ParameterChange& change);

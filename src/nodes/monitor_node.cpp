@@ -154,6 +154,9 @@ class MonitorNode {
         subscribeTo<State>(subject);
       }
     });
+    for (const SharedSystem& system : scene_.systems) {
+      subscribeTo<state::FollowState>(system->spec.name);  // of a follower, if it is one
+    }
     subscribeTo<state::LoopStatistics>();
   }
 

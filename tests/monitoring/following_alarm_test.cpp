@@ -1,0 +1,256 @@
+// What a follower says of its machine becomes alerts that name the cause, and go with it.
+#include "monitoring/following_alarm.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "messages/alert_types.h"
+#include "watched_twin.h"
+
+namespace whirl_twin {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+/// A rotor that is followed well: two probes, one parameter, ten messages a second.
+state::FollowState wellFollowed() {
+  state::FollowState follow;
+  follow.system = "rotor";
+  follow.parameter = {"stiffness"};
+  follow.parameter_unit = {"N/m"};
+  follow.value = {1.7e7};
+  follow.deviation = {5.0e4};
+  follow.channel = {"probes/probe_x", "probes/probe_y"};
+  follow.channel_unit = {"m", "m"};
+  follow.residual = {1.0e-6, -1.0e-6};
+  follow.residual_deviation = {3.0e-6, 3.0e-6};
+  follow.offset = {0.0, 0.0};
+  follow.channel_status = {0, 0};
+  follow.mismatch = 1.01;
+  follow.mismatch_least = 0.9;
+  follow.mismatch_limit = 1.1;
+  follow.whiteness = 0.01;
+  follow.whiteness_limit = 0.1;
+  follow.drift = 0.2;
+  follow.drift_limit = 5.0;
+  follow.clock_offset = 0.002;
+  follow.clock_drift = 2.0e-5;
+  follow.shaft_known = true;
+  follow.shaft_angle_deviation = 1.0e-3;
+  return follow;
+}
+
+struct Told {
+  explicit Told(bool has_shaft = true, const AlarmSettings& settings = {})
+      : alarm("rotor", has_shaft, settings) {}
+  void tell(double duration, bool mismatch_told = false) {
+    for (const double end = follow.at.time + duration; follow.at.time < end - 1e-9;
+         follow.at.time += 0.1) {
+      alarm.update(follow, mismatch_told, alerts);
+    }
+  }
+  const state::Alert* find(const char* type) const { return alerts.find("rotor", type); }
+  std::string text(const char* type) const {
+    const state::Alert* alert = find(type);
+    return alert == nullptr ? "" : alert->text;
+  }
+
+  FollowingAlarm alarm;
+  AlertList alerts;
+  state::FollowState follow = wellFollowed();
+};
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(FollowingAlarm, IsSilentOfAMachineThatIsItsModel) {
+  Told told;
+  told.tell(60.0);
+  EXPECT_TRUE(told.alerts.active().empty());
+}
+
+TEST(FollowingAlarm, ResidualsBeyondEitherLimitAreAMismatch) {
+  for (const double mismatch : {1.2, 0.8}) {
+    Told told;
+    told.follow.mismatch = mismatch;
+    told.tell(0.1);
+    ASSERT_NE(told.find(alert_type::kModelMismatch), nullptr) << mismatch;
+    EXPECT_EQ(told.find(alert_type::kModelMismatch)->severity, state::Severity::kWarning);
+    const std::string text = told.text(alert_type::kModelMismatch);
+    EXPECT_TRUE(has(text, mismatch > 1.0 ? "1.2 of what the model says, above 1.1"
+                                         : "0.8 of what the model says, below 0.9"))
+        << text;
+    // Within the limits, but not together with the model yet.
+    told.follow.mismatch = mismatch > 1.0 ? 1.08 : 0.92;
+    told.tell(5.0);
+    EXPECT_NE(told.find(alert_type::kModelMismatch), nullptr);
+    told.follow.mismatch = 1.0;
+    told.tell(0.9);
+    EXPECT_NE(told.find(alert_type::kModelMismatch), nullptr);
+    told.tell(0.3);
+    EXPECT_EQ(told.find(alert_type::kModelMismatch), nullptr);
+  }
+}
+
+TEST(FollowingAlarm, ResidualsThatLastAreAMismatchOfEitherSign) {
+  for (const double whiteness : {0.3, -0.3}) {
+    Told told;
+    told.follow.whiteness = whiteness;
+    told.tell(0.1);
+    EXPECT_TRUE(has(told.text(alert_type::kModelMismatch), "last from sample to sample"));
+  }
+}
+
+TEST(FollowingAlarm, BeforeAWindowHasEndedThereIsNoMismatch) {
+  Told told;
+  told.follow.mismatch = 3.0;
+  told.follow.mismatch_least = told.follow.mismatch_limit = kNone;
+  told.follow.whiteness_limit = kNone;
+  told.tell(5.0);
+  EXPECT_EQ(told.find(alert_type::kModelMismatch), nullptr);
+}
+
+TEST(FollowingAlarm, WhileTheAuditOfTheDecaySpeaksItDoesNot) {
+  Told told;
+  told.follow.mismatch = 1.2;
+  told.tell(1.0, true);
+  EXPECT_EQ(told.find(alert_type::kModelMismatch), nullptr);
+  told.tell(0.1, false);  // and goes on where that has ended
+  EXPECT_NE(told.find(alert_type::kModelMismatch), nullptr);
+  told.follow.mismatch = 1.0;
+  told.tell(3.0, true);
+  EXPECT_NE(told.find(alert_type::kModelMismatch), nullptr);  // the audit's by now
+}
+
+TEST(FollowingAlarm, ADriftTellsWhichFromWhereToWhereAndSinceWhen) {
+  Told told;
+  told.tell(10.0);
+  told.follow.drift_parameter = "stiffness";
+  told.follow.drift_from = 1.7e7;
+  told.follow.drift_to = 1.649e7;
+  told.follow.drift_since = 3.5;
+  told.follow.drift = 6.0;
+  told.tell(0.1);
+  const std::string text = told.text(alert_type::kDrift);
+  for (const char* part : {"stiffness", "from 1.7e+07 to 1.649e+07 N/m", "(-3 %)", "since 3.5 s"}) {
+    EXPECT_TRUE(has(text, part)) << part << " in: " << text;
+  }
+  // Numbers that go on are no news; another sense is.
+  told.alerts.takeChanged();
+  told.follow.drift_to = 1.64e7;
+  told.tell(0.1);
+  EXPECT_FALSE(told.alerts.takeChanged());
+  told.follow.drift_to = 1.75e7;
+  told.tell(0.1);
+  EXPECT_TRUE(told.alerts.takeChanged());
+  told.follow.drift_parameter.clear();
+  told.follow.drift_limit = kNone;  // a reference is being learned anew: nothing is known
+  told.tell(5.0);
+  EXPECT_NE(told.find(alert_type::kDrift), nullptr);
+  told.follow.drift_limit = 5.0;
+  told.tell(1.2);
+  EXPECT_EQ(told.find(alert_type::kDrift), nullptr);
+}
+
+TEST(FollowingAlarm, AChannelThatIsNotUsedForLongIsNamed) {
+  for (const auto& [status, how] :
+       {std::pair(1, "is silent"), std::pair(2, "is refused"), std::pair(3, "is invalid")}) {
+    Told told;
+    told.follow.channel_status[1] = static_cast<std::uint8_t>(status);
+    told.tell(1.9);
+    EXPECT_EQ(told.find(alert_type::kSensor), nullptr);
+    told.tell(0.3);
+    const std::string text = told.text(alert_type::kSensor);
+    EXPECT_TRUE(has(text, std::string("probes/probe_y ") + how)) << text;
+    EXPECT_FALSE(has(text, "probe_x")) << text;
+    told.follow.channel_status[1] = 0;
+    told.tell(1.2);
+    EXPECT_EQ(told.find(alert_type::kSensor), nullptr);
+  }
+}
+
+TEST(FollowingAlarm, AChannelThatComesAndGoesIsNone) {
+  Told told;
+  for (int i = 0; i < 30; ++i) {
+    told.follow.channel_status[0] = static_cast<std::uint8_t>(i % 2);
+    told.tell(1.5);
+  }
+  EXPECT_EQ(told.find(alert_type::kSensor), nullptr);
+}
+
+TEST(FollowingAlarm, ShaftAndClockAreSensorsToo) {
+  Told told;
+  told.follow.shaft_known = false;
+  told.follow.clock_offset = -3600.0;  // somebody has set it by an hour
+  told.tell(2.2);
+  const std::string text = told.text(alert_type::kSensor);
+  EXPECT_TRUE(has(text, "the shaft's angle is not known")) << text;
+  EXPECT_TRUE(has(text, "the machine's clock is off by -3.6e+03 s")) << text;
+  told.follow.shaft_known = true;
+  told.follow.clock_offset = 0.0;
+  told.follow.clock_drift = 1.0e-3;
+  told.tell(4.0);
+  EXPECT_TRUE(has(told.text(alert_type::kSensor), "gains +0.001 s in a second"));
+}
+
+TEST(FollowingAlarm, WhatIsNotThereIsNotMissed) {
+  // A pendulum has no keyphasor, and its clocks are the same; or nobody asks.
+  Told pendulum(false);
+  pendulum.follow.shaft_known = false;
+  pendulum.follow.clock_offset = kNone;
+  pendulum.follow.clock_drift = kNone;
+  pendulum.tell(10.0);
+  EXPECT_TRUE(pendulum.alerts.active().empty());
+  AlarmSettings settings;
+  settings.clock_offset = settings.clock_drift = 0.0;
+  Told unasked(true, settings);
+  unasked.follow.clock_offset = unasked.follow.clock_drift = 1.0e9;
+  unasked.tell(10.0);
+  EXPECT_TRUE(unasked.alerts.active().empty());
+}
+
+TEST(FollowingAlarm, AHundredDeadChannelsFitATextThatAMessageCarries) {
+  Told told;
+  for (int i = 0; i < 100; ++i) {
+    told.follow.channel.push_back("probes/channel_" + std::to_string(i));
+    told.follow.channel_status.push_back(1);
+  }
+  told.tell(2.2);
+  EXPECT_NO_THROW(requireText("text", told.text(alert_type::kSensor)));
+  EXPECT_TRUE(has(told.text(alert_type::kSensor), "..."));
+}
+
+TEST(FollowingAlarm, IsInTheMonitor) {
+  WatchedTwin watched(sceneOf(kThreeSystems));
+  watched.run(1.0);
+  state::FollowState follow = wellFollowed();
+  follow.drift_parameter = "stiffness";
+  const auto tell = [&](double duration) {
+    for (const double end = follow.at.time + duration; follow.at.time < end - 1e-9;) {
+      follow.at.time += 0.1;
+      watched.wall += 0.1;
+      watched.monitor.take(follow, watched.wall);
+    }
+  };
+  follow.at.time = 1.0;
+  tell(0.5);
+  const AlertList& alerts = watched.monitor.alerts();
+  EXPECT_NE(alerts.find("rotor", alert_type::kDrift), nullptr);
+  follow.drift_parameter.clear();
+  tell(2.0);
+  EXPECT_EQ(alerts.find("rotor", alert_type::kDrift), nullptr);
+  follow.system = "nobody";
+  tell(1.0);  // is ignored
+  follow.system = "rotor";
+  // States have ceased for seconds by now: a dead probe is said all the same.
+  follow.channel_status[0] = 1;
+  tell(4.0);
+  EXPECT_NE(alerts.find("rotor", alert_type::kSensor), nullptr);
+}
+
+}  // namespace
+}  // namespace whirl_twin
