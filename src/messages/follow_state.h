@@ -57,8 +57,8 @@ struct FollowState {
   double drift_from = kNone;    ///< the reference, in its unit
   double drift_to = kNone;      ///< in its unit
   double drift_since = kNone;   ///< [s], `time` when it began
-  double drift = kNone;         ///< [-], the largest cumulative sum of all parameters
-  double drift_limit = kNone;   ///< [-]
+  double drift = kNone;         ///< [-], of all parameters, what is nearest to its limit
+  double drift_limit = kNone;   ///< [-]; NaN: no reference has been learned
 
   // What the bearings bear.
   std::vector<std::string> bearing;
