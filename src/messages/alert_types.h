@@ -10,6 +10,7 @@ inline constexpr char kWhirlAmplitude[] = "WHIRL_AMPLITUDE";
 inline constexpr char kVotedAmplitude[] = "VOTED_AMPLITUDE";
 inline constexpr char kVibrationZone[] = "VIBRATION_ZONE";
 inline constexpr char kSubsynchronousWhirl[] = "SUBSYNCHRONOUS_WHIRL";
+inline constexpr char kRub[] = "RUB";
 inline constexpr char kUnstable[] = "UNSTABLE";
 inline constexpr char kLowDamping[] = "LOW_DAMPING";
 inline constexpr char kRouthDisagrees[] = "ROUTH_DISAGREES";
@@ -32,6 +33,7 @@ inline constexpr const char* kAll[] = {kCriticalSpeedApproach,
                                        kVotedAmplitude,
                                        kVibrationZone,
                                        kSubsynchronousWhirl,
+                                       kRub,
                                        kUnstable,
                                        kLowDamping,
                                        kRouthDisagrees,

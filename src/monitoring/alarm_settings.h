@@ -46,6 +46,12 @@ struct VibrationZones {
   double a = 0.0, b = 0.0, c = 0.0;
 };
 
+/// Levels [m] of what tells a rub; infinite: none.
+struct RubLevels {
+  double backward = std::numeric_limits<double>::infinity();     ///< of what whirls backward
+  double subharmonic = std::numeric_limits<double>::infinity();  ///< of a half and a third order
+};
+
 /// Of one type of alert [s]: how long its cause has to be there, and to have gone.
 struct AlarmDelays {
   double set = 0.0;
@@ -70,6 +76,7 @@ struct AlarmSettings {
   std::map<std::string, Voting> voting;              ///< likewise
   std::map<std::string, VibrationZones> zones;       ///< likewise
   std::map<std::string, double> subsynchronous;  ///< [m], level of a whirl slower than the shaft
+  std::map<std::string, RubLevels> rub;          ///< of systems that have some
   double decay_audit = 0.0;  ///< [s], record that decay is measured from; 0: it is not
   // Of a system that follows its machine:
   double sensor_delay = 2.0;    ///< [s], a channel or the shaft unknown this long is an alert

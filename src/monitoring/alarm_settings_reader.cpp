@@ -167,6 +167,24 @@ VibrationZones readZones(const YAML::Node& node, const std::string& key, Complai
   return zones;
 }
 
+RubLevels readRub(const YAML::Node& node, const std::string& key, Complaints& complaints) {
+  const MapReader map(node, key, {"backward", "subharmonic"}, "key of rub levels", complaints);
+  RubLevels levels;
+  if (!map.usable()) {
+    return levels;
+  }
+  if (!map.has("backward") && !map.has("subharmonic")) {
+    complaints.add(key, "must have a level: backward or subharmonic [m]; found none");
+  }
+  for (const auto& [name, level] :
+       {std::pair("backward", &levels.backward), std::pair("subharmonic", &levels.subharmonic)}) {
+    if (map.has(name)) {
+      *level = map.number(name, Range::kPositive, "m", std::nullopt);
+    }
+  }
+  return levels;
+}
+
 }  // namespace
 
 AlarmSettings readAlarmSettings(const YAML::Node& tree, const std::string& source,
@@ -191,8 +209,8 @@ AlarmSettings readAlarmSettings(const YAML::Node& tree, const std::string& sourc
       {"clock_drift", &s.clock_drift},
       {"trip_multiply", &s.trip_multiply},
       {"start_up_acceleration", &s.start_up_acceleration}};
-  std::vector<std::string> known{"latch",  "delays", "amplitude",
-                                 "voting", "zones",  "subsynchronous"};
+  std::vector<std::string> known{"latch", "delays",         "amplitude", "voting",
+                                 "zones", "subsynchronous", "rub"};
   for (const auto& number : numbers) {
     known.emplace_back(number.first);
   }
@@ -249,6 +267,9 @@ AlarmSettings readAlarmSettings(const YAML::Node& tree, const std::string& sourc
   });
   each_rotor("subsynchronous", [&](const std::string& rotor, const MapReader& of) {
     s.subsynchronous[rotor] = of.number(rotor, Range::kPositive, "m", std::nullopt);
+  });
+  each_rotor("rub", [&](const std::string& rotor, const MapReader& of) {
+    s.rub[rotor] = readRub(of.at(rotor), of.key(rotor), complaints);
   });
   if (!complaints.all().empty()) {
     throw SceneError(complaints.all());

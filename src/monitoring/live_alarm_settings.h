@@ -19,7 +19,7 @@ class LiveAlarmSettings {
                     std::vector<std::string> stations = {});
 
   /// What `text`, YAML, says takes the place of what was set; what it leaves out stays. delays,
-  /// amplitude, voting, zones and subsynchronous are maps: each of their entries is one such
+  /// amplitude, voting, zones, subsynchronous and rub are maps: each of their entries is one such
   /// setting. Nothing (~) as a value takes a setting away, to its default. Throws Refusal with all
   /// that is wrong, and then nothing has changed.
   void change(const std::string& text);

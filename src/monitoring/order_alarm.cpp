@@ -13,6 +13,7 @@ namespace whirl_twin {
 namespace {
 
 constexpr double kSubsynchronous = 0.95;  // of the speed, below which a line is
+constexpr double kBeside = 0.01;          // of the speed, that a subharmonic may be off
 constexpr double kMicrometre = 1.0e6;     // per metre
 constexpr double kNone = std::numeric_limits<double>::infinity();  // no level
 
@@ -37,6 +38,26 @@ AlarmCondition conditionOf(double value, double warning, double danger, double h
                                                  : AlarmCondition::kHold;
 }
 
+/// Amplitude [m] of what turns against the rotation. Of a motion f e^(iwt) + b e^(-iwt) half the
+/// peak to peak is f + b, and the precession 1 - (b/f)^2 or (f/b)^2 - 1, short of b^4 / (4 f^4).
+double backwardPart(const state::OrderState& orders) {
+  const double smaller = std::sqrt(std::fmax(0.0, 1.0 - std::fabs(orders.precession)));
+  const double larger_part = 0.5 * orders.peak_to_peak / (1.0 + smaller);
+  return orders.precession < 0.0 ? larger_part : smaller * larger_part;
+}
+
+/// The highest line at a half or a third of the speed; -1: none.
+int subharmonicLine(const state::OrderState& orders) {
+  for (std::size_t i = 0; i < orders.line_frequency.size(); ++i) {  // largest first
+    for (const double part : {1.0 / 2.0, 1.0 / 3.0}) {
+      if (std::fabs(orders.line_ratio[i] - part) < kBeside) {
+        return static_cast<int>(i);
+      }
+    }
+  }
+  return -1;
+}
+
 const char* nameOf(LineCharacter::Kind kind) {
   switch (kind) {
     case LineCharacter::Kind::kKeepsRatio:
@@ -54,7 +75,8 @@ OrderAlarm::OrderAlarm(std::string system, const AlarmSettings& settings)
     : system_(std::move(system)),
       start_up_(settings),
       zone_alarm_(settings.delaysOf(alert_type::kVibrationZone)),
-      line_alarm_(settings.delaysOf(alert_type::kSubsynchronousWhirl)) {
+      line_alarm_(settings.delaysOf(alert_type::kSubsynchronousWhirl)),
+      rub_alarm_(settings.delaysOf(alert_type::kRub)) {
   set(settings);
 }
 
@@ -68,11 +90,15 @@ void OrderAlarm::set(const AlarmSettings& settings) {
   zones_ = has_zones_ ? zones->second : VibrationZones{kNone, kNone, kNone};
   const auto level = settings.subsynchronous.find(system_);
   line_level_ = level != settings.subsynchronous.end() ? level->second : kNone;
+  rub_alarm_.setDelays(settings.delaysOf(alert_type::kRub));
+  const auto rub = settings.rub.find(system_);
+  rub_levels_ = rub != settings.rub.end() ? rub->second : RubLevels();
 }
 
 void OrderAlarm::hold() {
   zone_alarm_.hold();
   line_alarm_.hold();
+  rub_alarm_.hold();
 }
 
 void OrderAlarm::update(const state::OrderState& orders, double acceleration, AlertList& alerts) {
@@ -82,6 +108,10 @@ void OrderAlarm::update(const state::OrderState& orders, double acceleration, Al
   }
   if (std::isfinite(line_level_) || line_alarm_.active()) {
     updateLine(orders, alerts);
+  }
+  if (std::isfinite(rub_levels_.backward) || std::isfinite(rub_levels_.subharmonic) ||
+      rub_alarm_.active()) {
+    updateRub(orders, alerts);
   }
 }
 
@@ -154,6 +184,50 @@ void OrderAlarm::updateLine(const state::OrderState& orders, AlertList& alerts) 
         kMicrometre * height, kMicrometre * line_level_, nameOf(line_.kind()));
     alerts.raise(std::move(alert), nameOf(line_.kind()));
   }
+}
+
+void OrderAlarm::updateRub(const state::OrderState& orders, AlertList& alerts) {
+  const double time = orders.at.time;
+  const double backward = backwardPart(orders);
+  const int found = orders.valid ? subharmonicLine(orders) : -1;
+  const auto line = static_cast<std::size_t>(found);
+  const double subharmonic =
+      found < 0 ? 0.0 : orders.line_forward[line] + orders.line_backward[line];
+  const double backward_part = backward / rub_levels_.backward;
+  const double subharmonic_part = subharmonic / rub_levels_.subharmonic;
+  const bool reversed = orders.precession < 0.0 && backward_part > 1.0;
+  // A motion that cannot be told (not a number) holds.
+  const AlarmCondition condition = std::isnan(backward)
+                                       ? AlarmCondition::kHold
+                                       : conditionOf(std::fmax(backward_part, subharmonic_part),
+                                                     1.0, reversed ? 1.0 : kNone, hysteresis_);
+  if (rub_alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
+    alerts.clear(system_, alert_type::kRub, time,
+                 fmt::format("{}: whirls backward by {:.3g} um, no sign of a rub", system_,
+                             kMicrometre * backward));
+    return;
+  }
+  if (!rub_alarm_.active() || !isRaising(condition)) {
+    return;
+  }
+  const bool by_backward = backward_part >= subharmonic_part;
+  state::Alert alert;
+  alert.system = system_;
+  alert.type = alert_type::kRub;
+  alert.severity = rub_alarm_.severity();
+  alert.time = time;
+  alert.speed = orders.speed;
+  alert.amplitude = by_backward ? backward : subharmonic;
+  alert.amplitude_limit = by_backward ? rub_levels_.backward : rub_levels_.subharmonic;
+  const std::string what = by_backward
+                               ? fmt::format("whirls backward by {:.3g} um", kMicrometre * backward)
+                               : fmt::format("whirls with {:.3f} of the speed by {:.3g} um",
+                                             orders.line_ratio[line], kMicrometre * subharmonic);
+  alert.text = fmt::format(
+      "{}: {} at {:.1f} rad/s, precession {:.2f}, above {:.3g} um: {}", system_, what, orders.speed,
+      orders.precession, kMicrometre * alert.amplitude_limit,
+      reversed ? "it rolls on its stator, stop it" : "it may rub; look at seals and clearances");
+  alerts.raise(std::move(alert), reversed ? "reversed" : by_backward ? "backward" : "subharmonic");
 }
 
 }  // namespace whirl_twin

@@ -6,9 +6,12 @@
 //                          limited in C, damage in D. The levels are the machine's, and are
 //                          multiplied while it starts up (start_up.h).
 //   SUBSYNCHRONOUS_WHIRL   a forward line slower than the shaft is higher than its level: oil
-//   whirl,
-//                          which keeps its ratio to the speed, or whip, which keeps its frequency
-//                          (signal/line_character.h)
+//                          whirl, which keeps its ratio to the speed, or whip, which keeps its
+//                          frequency (signal/line_character.h)
+//   RUB                    what whirls backward is wider than its level, or a line of a half or a
+//                          third of the speed is: friction at the stator drives a shaft backward,
+//                          and a contact once in two or three turns is seen at those. Danger where
+//                          the motion as a whole has turned backward.
 #pragma once
 
 #include <string>
@@ -36,15 +39,18 @@ class OrderAlarm {
  private:
   void updateZone(const state::OrderState& orders, double acceleration, AlertList& alerts);
   void updateLine(const state::OrderState& orders, AlertList& alerts);
+  void updateRub(const state::OrderState& orders, AlertList& alerts);
 
   std::string system_;
   double hysteresis_ = 0.0;
   VibrationZones zones_;  // infinite: none
   bool has_zones_ = false;
   double line_level_ = 0.0;  // [m]; infinite: none
+  RubLevels rub_levels_;
   StartUp start_up_;
   ConditionAlarm zone_alarm_;
   ConditionAlarm line_alarm_;
+  ConditionAlarm rub_alarm_;
   LineCharacter line_;
 };
 

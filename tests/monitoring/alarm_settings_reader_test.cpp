@@ -39,6 +39,7 @@ TEST(AlarmSettingsReader, TheShippedFileAndNothingAreTheDefaults) {
     EXPECT_TRUE(read.amplitude.empty());
     EXPECT_TRUE(read.zones.empty());
     EXPECT_TRUE(read.subsynchronous.empty());
+    EXPECT_TRUE(read.rub.empty());
     EXPECT_EQ(read.decay_audit, 0.0);
     EXPECT_EQ(read.delaysOf(alert_type::kUnstable).set, 0.0);
     EXPECT_EQ(read.delaysOf(alert_type::kUnstable).clear, 1.0);
@@ -116,8 +117,14 @@ TEST(AlarmSettingsReader, ReadsWhatIsSetForTheSignal) {
   const AlarmSettings read = settingsOf(R"(
 zones: {rotor: {a: 50.0e-6, b: 100.0e-6, c: 150.0e-6}}
 subsynchronous: {rotor: 20.0e-6, pump: 30.0e-6}
+rub: {rotor: {backward: 15.0e-6}, pump: {subharmonic: 5.0e-6}}
 decay_audit: 40
 )");
+  EXPECT_EQ(read.rub.at("rotor").backward, 15.0e-6);
+  EXPECT_TRUE(std::isinf(read.rub.at("rotor").subharmonic));
+  EXPECT_EQ(read.rub.at("pump").subharmonic, 5.0e-6);
+  EXPECT_EQ(errorsOf("rub: {rotor: {}, pump: {backwards: 1.0e-6}}").size(), 3u);
+  EXPECT_EQ(errorsOf("rub: {rotor: {backward: 0}}").size(), 1u);
   EXPECT_EQ(read.zones.at("rotor").b, 100.0e-6);
   EXPECT_EQ(read.subsynchronous.at("pump"), 30.0e-6);
   EXPECT_EQ(read.decay_audit, 40.0);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 
 #include "messages/alert_types.h"
 #include "twin/order_observer.h"
@@ -119,10 +120,71 @@ TEST(SubsynchronousWhirl, IsOilWhirlWhereTheRatioStaysAndWhipWhereTheFrequencySt
   }
 }
 
+struct Rubbing : Told {
+  Rubbing() : Told(levels()) { orders.precession = 1.0; }
+  static AlarmSettings levels() {
+    AlarmSettings settings;
+    settings.rub["rotor"] = {20e-6, 10e-6};
+    return settings;
+  }
+  /// An ellipse of a forward and a backward circle [m].
+  void circles(double forward, double backward) {
+    orders.peak_to_peak = 2.0 * (forward + backward);
+    // As the order filter has it: area swept beside what steps of that length could sweep.
+    double swept = 0.0, most = 0.0;
+    for (double angle = 0.0; angle < 6.28; angle += 0.01) {
+      const std::complex<double> f = std::polar(forward, angle), b = std::polar(backward, -angle);
+      swept += (std::conj(f + b) * (f - b)).real();
+      most += std::abs(f + b) * std::abs(f - b);
+    }
+    orders.precession = swept / most;
+  }
+  const state::Alert* rub() const { return alerts.find("rotor", alert_type::kRub); }
+};
+
+TEST(Rub, IsToldByWhatWhirlsBackward) {
+  Rubbing told;
+  told.circles(300e-6, 19e-6);
+  told.tell(1.0);
+  EXPECT_EQ(told.rub(), nullptr);
+  told.circles(60e-6, 22e-6);
+  told.tell(0.2);
+  ASSERT_NE(told.rub(), nullptr);
+  EXPECT_EQ(told.rub()->severity, state::Severity::kWarning);
+  EXPECT_NEAR(told.rub()->amplitude, 22e-6, 0.3e-6);
+  EXPECT_NE(told.rub()->text.find("backward by 2"), std::string::npos) << told.rub()->text;
+  told.circles(60e-6, 500e-6);
+  told.tell(0.2);
+  EXPECT_EQ(told.rub()->severity, state::Severity::kDanger);
+  EXPECT_NE(told.rub()->text.find("stop it"), std::string::npos) << told.rub()->text;
+  told.circles(60e-6, 1e-6);
+  told.tell(1.3);
+  EXPECT_EQ(told.rub(), nullptr);
+}
+
+TEST(Rub, IsToldByAHalfAndAThirdOfTheSpeedAndByNoOtherLine) {
+  for (const double part : {1.0 / 2.0, 1.0 / 3.0}) {
+    Rubbing told;
+    told.circles(60e-6, 0.0);
+    told.line(0.47 * told.orders.speed, 50e-6);
+    told.tell(1.0);
+    EXPECT_EQ(told.rub(), nullptr);
+    told.line(part * told.orders.speed, 9e-6);
+    told.tell(1.0);
+    EXPECT_EQ(told.rub(), nullptr);
+    told.line(part * told.orders.speed, 5e-6, 8e-6);
+    told.tell(0.2);
+    ASSERT_NE(told.rub(), nullptr);
+    EXPECT_NEAR(told.rub()->amplitude, 13e-6, 1e-12);
+    EXPECT_EQ(told.rub()->severity, state::Severity::kWarning);
+  }
+}
+
 TEST(OrderAlarm, WithoutLevelsSaysNothing) {
   Told told(AlarmSettings{});
   told.orders.peak_to_peak = 1.0;
-  told.line(96.0, 1.0);
+  told.orders.precession = -1.0;
+  told.line(100.0, 1.0);
   told.tell(5.0);
   EXPECT_TRUE(told.alerts.active().empty());
 }
