@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "signal/order_vector.h"
+
 namespace whirl_twin {
 
 /// Which alerts stay after their cause has gone, until the alarms are reset.
@@ -52,6 +54,13 @@ struct RubLevels {
   double subharmonic = std::numeric_limits<double>::infinity();  ///< of a half and a third order
 };
 
+/// What turns with a shaft at any speed, its bow and the run-out of its surface: taken off what is
+/// measured.
+struct SlowRoll {
+  double below = 0.0;  ///< [rad/s], it is learnt while the shaft turns slower; 0: as given
+  OrderVector given;   ///< of the first order
+};
+
 /// Of one type of alert [s]: how long its cause has to be there, and to have gone.
 struct AlarmDelays {
   double set = 0.0;
@@ -76,6 +85,7 @@ struct AlarmSettings {
   std::map<std::string, Voting> voting;              ///< likewise
   std::map<std::string, VibrationZones> zones;       ///< likewise
   std::map<std::string, double> subsynchronous;  ///< [m], level of a whirl slower than the shaft
+  std::map<std::string, SlowRoll> slow_roll;     ///< of systems that are measured
   std::map<std::string, RubLevels> rub;          ///< of systems that have some
   double decay_audit = 0.0;  ///< [s], record that decay is measured from; 0: it is not
   // Of a system that follows its machine:

@@ -10,6 +10,7 @@
 
 #include "messages/alert_types.h"
 #include "messages/names.h"
+#include "monitoring/signal_settings_reader.h"
 #include "scene/node_reader.h"
 #include "scene/scene_error.h"
 
@@ -150,41 +151,6 @@ Voting readVoting(const YAML::Node& node, const std::string& key,
   return voting;
 }
 
-VibrationZones readZones(const YAML::Node& node, const std::string& key, Complaints& complaints) {
-  const MapReader map(node, key, {"a", "b", "c"}, "zone", complaints);
-  VibrationZones zones;
-  if (!map.usable()) {
-    return zones;
-  }
-  zones.a = map.number("a", Range::kPositive, "m", std::nullopt);
-  zones.b = map.number("b", Range::kPositive, "m", std::nullopt);
-  zones.c = map.number("c", Range::kPositive, "m", std::nullopt);
-  const bool all = map.has("a") && map.has("b") && map.has("c");
-  if (all && (zones.b <= zones.a || zones.c <= zones.b)) {
-    complaints.add(key, fmt::format("zones must end one above the other, found {:g}, {:g}, {:g} m",
-                                    zones.a, zones.b, zones.c));
-  }
-  return zones;
-}
-
-RubLevels readRub(const YAML::Node& node, const std::string& key, Complaints& complaints) {
-  const MapReader map(node, key, {"backward", "subharmonic"}, "key of rub levels", complaints);
-  RubLevels levels;
-  if (!map.usable()) {
-    return levels;
-  }
-  if (!map.has("backward") && !map.has("subharmonic")) {
-    complaints.add(key, "must have a level: backward or subharmonic [m]; found none");
-  }
-  for (const auto& [name, level] :
-       {std::pair("backward", &levels.backward), std::pair("subharmonic", &levels.subharmonic)}) {
-    if (map.has(name)) {
-      *level = map.number(name, Range::kPositive, "m", std::nullopt);
-    }
-  }
-  return levels;
-}
-
 }  // namespace
 
 AlarmSettings readAlarmSettings(const YAML::Node& tree, const std::string& source,
@@ -210,7 +176,7 @@ AlarmSettings readAlarmSettings(const YAML::Node& tree, const std::string& sourc
       {"trip_multiply", &s.trip_multiply},
       {"start_up_acceleration", &s.start_up_acceleration}};
   std::vector<std::string> known{"latch", "delays",         "amplitude", "voting",
-                                 "zones", "subsynchronous", "rub"};
+                                 "zones", "subsynchronous", "rub",       "slow_roll"};
   for (const auto& number : numbers) {
     known.emplace_back(number.first);
   }
@@ -270,6 +236,9 @@ AlarmSettings readAlarmSettings(const YAML::Node& tree, const std::string& sourc
   });
   each_rotor("rub", [&](const std::string& rotor, const MapReader& of) {
     s.rub[rotor] = readRub(of.at(rotor), of.key(rotor), complaints);
+  });
+  each_rotor("slow_roll", [&](const std::string& rotor, const MapReader& of) {
+    s.slow_roll[rotor] = readSlowRoll(of.at(rotor), of.key(rotor), complaints);
   });
   if (!complaints.all().empty()) {
     throw SceneError(complaints.all());

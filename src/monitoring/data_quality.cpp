@@ -81,7 +81,7 @@ bool DataQuality::isStale(double wall_time) const {
 }
 
 std::string DataQuality::notOk(double wall_time, bool paused) const {
-  if (std::isinf(heard_at_)) {
+  if (!heard()) {
     return "stale: nothing has come yet";
   }
   if (isStale(wall_time) && !paused) {

@@ -5,6 +5,7 @@
 // the same to the last digit since (stuck_channel.h).
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -31,6 +32,8 @@ class DataQuality {
   bool take(const state::PendulumState& pendulum, double wall_time);
   /// Time begins anew: what was seen before says nothing of what comes.
   void restart() { sampled_at_ = std::numeric_limits<double>::quiet_NaN(); }
+  /// Some state has come.
+  bool heard() const { return !std::isinf(heard_at_); }
   /// No state has come for too long, or none ever.
   bool isStale(double wall_time) const;
   /// Why what comes cannot be judged; "": it can. paused: the simulation says that it is held.

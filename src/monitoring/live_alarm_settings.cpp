@@ -39,7 +39,8 @@ void put(const MapReader& change, YAML::Node present, bool outermost, Complaints
     const YAML::Node value = change.at(name);
     const YAML::Node before = std::as_const(present)[name];
     const bool has_entries = name == "delays" || name == "amplitude" || name == "voting" ||
-                             name == "zones" || name == "subsynchronous" || name == "rub";
+                             name == "zones" || name == "subsynchronous" || name == "rub" ||
+                             name == "slow_roll";
     if (value.IsNull()) {
       if (!before.IsDefined()) {
         complaints.add(change.key(name), "is not set: there is nothing to take away");

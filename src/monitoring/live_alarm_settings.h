@@ -19,9 +19,9 @@ class LiveAlarmSettings {
                     std::vector<std::string> stations = {});
 
   /// What `text`, YAML, says takes the place of what was set; what it leaves out stays. delays,
-  /// amplitude, voting, zones, subsynchronous and rub are maps: each of their entries is one such
-  /// setting. Nothing (~) as a value takes a setting away, to its default. Throws Refusal with all
-  /// that is wrong, and then nothing has changed.
+  /// amplitude, voting, zones, subsynchronous, rub and slow_roll are maps: each of their entries is
+  /// one such setting. Nothing (~) as a value takes a setting away, to its default. Throws Refusal
+  /// with all that is wrong, and then nothing has changed.
   void change(const std::string& text);
 
   const AlarmSettings& settings() const { return settings_; }

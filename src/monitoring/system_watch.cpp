@@ -88,6 +88,9 @@ state::DriveState SystemWatch::shaftOf(const state::PendulumState& state) {
 
 void SystemWatch::set(const AlarmSettings& settings) {
   quality.set(settings);
+  if (measured) {
+    measured->set(settings);
+  }
   amplitude_alarm.set(settings);
   voted_alarm.set(settings);
   order_alarm.set(settings);
@@ -103,6 +106,9 @@ void SystemWatch::set(const AlarmSettings& settings) {
 void SystemWatch::restart(const AlarmSettings& settings) {
   const std::shared_ptr<const Dynamics>& dynamics = system->dynamics;
   quality.restart();
+  if (measured) {
+    measured->restart();
+  }
   amplitude_alarm = AmplitudeAlarm(name, settings);
   voted_alarm = VotedAlarm(name, settings);
   order_alarm = OrderAlarm(name, settings);
@@ -118,10 +124,14 @@ void SystemWatch::restart(const AlarmSettings& settings) {
   news_at = -std::numeric_limits<double>::infinity();
 }
 
-void SystemWatch::hold() {
+void SystemWatch::holdMotion() {
   amplitude_alarm.hold();
   order_alarm.hold();
   decay_alarm.hold();
+}
+
+void SystemWatch::hold() {
+  holdMotion();
   critical_speed_alarm.hold();
   capture_alarm.hold();
   stability_alarm.hold();

@@ -17,6 +17,7 @@
 #include "monitoring/decay_alarm.h"
 #include "monitoring/following_alarm.h"
 #include "monitoring/judged_speeds.h"
+#include "monitoring/measured_signal.h"
 #include "monitoring/order_alarm.h"
 #include "monitoring/stability_alarm.h"
 #include "monitoring/state_alarm.h"
@@ -39,6 +40,10 @@ struct SystemWatch {
   void restart(const AlarmSettings& settings);
   /// What comes cannot be judged: no alarm clears by it, or counts it as time without its cause.
   void hold();
+  /// Likewise of what is measured only: alarms on the motion.
+  void holdMotion();
+  /// Alarms on the motion act on what is measured, not on what the twin says.
+  bool isMeasured() const { return measured && measured->heard(); }
   /// All coordinates of a rotor (or rates) as far as its whirl tells them: the smallest that give
   /// x and y at the station, and what the shaft has turned.
   std::vector<double> coordinates(double x, double y, double turned) const;
@@ -57,6 +62,7 @@ struct SystemWatch {
   std::optional<state::DriveState> seen;  ///< its shaft, of one without a drive
   double acceleration = 0.0;              ///< [rad/s^2], newest
   DataQuality quality;
+  std::optional<MeasuredSignal> measured;  ///< where the scene has sensors for it
   AmplitudeAlarm amplitude_alarm;
   VotedAlarm voted_alarm;
   OrderAlarm order_alarm;

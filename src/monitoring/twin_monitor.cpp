@@ -34,6 +34,9 @@ TwinMonitor::TwinMonitor(const BuiltScene& scene, const AlarmSettings& settings,
       restored_(settings) {
   for (std::size_t i = 0; i < scene.systems.size(); ++i) {
     watches_.emplace_back(scene.systems[i], judging_.speedsOf(i), settings_);
+    if (const auto orbit = measuredOrbitOf(scene, i)) {
+      watches_.back().measured.emplace(watches_.back().name, *orbit, settings_);
+    }
   }
 }
 
@@ -139,7 +142,10 @@ bool TwinMonitor::isFit(SystemWatch& watch, bool fit, double time) {
 std::vector<std::string> TwinMonitor::notOk(double wall_time, bool paused) const {
   std::vector<std::string> why;
   for (const SystemWatch& watch : watches_) {
-    const std::string own = watch.quality.notOk(wall_time, paused);
+    std::string own = watch.isMeasured() ? watch.measured->notOk(wall_time, paused) : "";
+    if (own.empty() && (!watch.isMeasured() || watch.quality.heard())) {
+      own = watch.quality.notOk(wall_time, paused);
+    }
     why.push_back(own.empty() ? watch.voted_alarm.notOk(wall_time, paused) : own);
   }
   return why;
@@ -152,7 +158,11 @@ void TwinMonitor::tick(double wall_time, bool paused) {
       continue;
     }
     watch.voted_alarm.tick(wall_time);
-    if (watch.quality.isStale(wall_time)) {
+    const bool alone = watch.isMeasured() && !watch.quality.heard();
+    if (watch.isMeasured() && !watch.measured->isFit(wall_time)) {
+      watch.holdMotion();
+    }
+    if (alone ? !watch.measured->isFit(wall_time) : watch.quality.isStale(wall_time)) {
       isFit(watch, false, time_);
     }
   }
@@ -249,12 +259,18 @@ void TwinMonitor::take(const state::WhirlState& whirl, double wall_time) {
     watchShaft(*watch, shaft);
   }
   watch->speed = whirl.speed;
-  watch->amplitude_alarm.update(whirl.at.time, whirl.radius, whirl.speed, watch->acceleration,
-                                alerts_);
-  watch->decay_alarm.update(whirl, alerts_);
+  if (!watch->isMeasured()) {
+    watchMotion(*watch, whirl);
+  }
   watch->state_alarm.updateEnergy(whirl.at.time, whirl.energy_residual, alerts_);
   judge(*watch, whirl.at, watch->coordinates(whirl.x, whirl.y, whirl.shaft_angle),
         watch->coordinates(whirl.x_rate, whirl.y_rate, whirl.speed), wall_time);
+}
+
+void TwinMonitor::watchMotion(SystemWatch& watch, const state::WhirlState& whirl) {
+  watch.amplitude_alarm.update(whirl.at.time, whirl.radius, whirl.speed, watch.acceleration,
+                               alerts_);
+  watch.decay_alarm.update(whirl, alerts_);
 }
 
 void TwinMonitor::take(const state::PendulumState& pendulum, double wall_time) {
@@ -296,7 +312,8 @@ void TwinMonitor::take(const state::DriveState& drive, double wall_time) {
 void TwinMonitor::take(const state::OrderState& orders, double wall_time) {
   SystemWatch* watch = find(orders.system);
   // By the clock of the states, not one of their own: a gap in orders is no loss of data.
-  if (watch != nullptr && watch->rotor && watch->quality.notOk(wall_time, false).empty() &&
+  if (watch != nullptr && watch->rotor && !watch->isMeasured() &&
+      watch->quality.notOk(wall_time, false).empty() &&
       std::fabs(orders.at.time - time_) < kOrdersLate) {
     watch->order_alarm.update(orders, watch->acceleration, alerts_);
   }
@@ -308,6 +325,73 @@ void TwinMonitor::take(const state::FollowState& follow, double wall_time) {
   if (watch != nullptr && arrived("follow/" + follow.system, follow.at, wall_time)) {
     watch->following_alarm.update(follow, watch->decay_alarm.active(), alerts_);
   }
+}
+
+void TwinMonitor::take(const state::Measurement& measurement, double wall_time) {
+  bool believed = false;
+  for (SystemWatch& watch : watches_) {
+    if (!watch.measured || !watch.measured->listensTo(measurement.source)) {
+      continue;
+    }
+    if (!believed && !arrived("measured/" + measurement.source, measurement.at, wall_time)) {
+      return;
+    }
+    believed = true;
+    watch.measured->take(measurement, wall_time);
+    takeMeasured(watch, wall_time);
+  }
+}
+
+void TwinMonitor::takeMeasured(SystemWatch& watch, double wall_time) {
+  const MeasuredSignal& signal = *watch.measured;
+  const bool alone = !watch.quality.heard();  // no twin runs beside it
+  const bool fit = signal.isFit(wall_time);
+  if (alone) {
+    data_lost_alarm_.received(watch.name, wall_time, time_, alerts_);
+    isFit(watch, fit, time_);
+  } else if (!fit) {
+    watch.holdMotion();
+  }
+  if (!fit || signal.motion().empty()) {
+    return;
+  }
+  const state::WhirlState& newest = signal.motion().back();
+  if (alone && newest.speed != 0.0) {
+    state::DriveState shaft;
+    shaft.at = newest.at;
+    shaft.speed = newest.speed;
+    shaft.acceleration = signal.acceleration();
+    shaft.target_speed = std::numeric_limits<double>::quiet_NaN();  // nobody has told
+    if (watch.drive.empty() || clocks_.count("drives/" + watch.drive) == 0) {
+      watchShaft(watch, shaft);
+    }
+    // Its velocity is not measured; a steady motion is looked for from where it is.
+    judge(watch, newest.at, watch.coordinates(newest.x, newest.y, newest.shaft_angle),
+          watch.coordinates(0.0, 0.0, newest.speed), wall_time);
+  }
+  for (const state::WhirlState& whirl : signal.motion()) {
+    watchMotion(watch, whirl);
+  }
+  for (const state::OrderState& orders : signal.orders()) {
+    watch.order_alarm.update(orders, watch.acceleration, alerts_);
+    orders_.push_back(orders);
+    orders_.back().system += "_measured";
+  }
+}
+
+bool TwinMonitor::measures(const std::string& system) const {
+  return std::any_of(watches_.begin(), watches_.end(), [&](const SystemWatch& watch) {
+    return watch.name == system && watch.isMeasured();
+  });
+}
+
+std::optional<OrderVector> TwinMonitor::slowRoll(const std::string& system) const {
+  for (const SystemWatch& watch : watches_) {
+    if (watch.name == system && watch.isMeasured()) {
+      return watch.measured->slowRoll();
+    }
+  }
+  return std::nullopt;
 }
 
 bool TwinMonitor::take(const state::LoopStatistics& loop, double wall_time) {

@@ -6,10 +6,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "messages/follow_state.h"
 #include "messages/loop_statistics.h"
+#include "messages/measurement.h"
 #include "messages/monitor_status.h"
 #include "messages/order_state.h"
 #include "monitoring/alarm_memory.h"
@@ -41,6 +43,9 @@ class TwinMonitor {
   void take(const state::DriveState& drive, double wall_time);
   void take(const state::OrderState& orders, double wall_time);
   void take(const state::FollowState& follow, double wall_time);
+  /// Of a system that the scene's sensors measure (measured_signal.h): from its first message on
+  /// the alarms on its motion act on it instead of on the twin's.
+  void take(const state::Measurement& measurement, double wall_time);
   /// The parameters of a system are others now, and it is judged with them at once, where it was
   /// last. False for a set that the system does not have, or cannot have.
   bool take(const state::ParameterChange& change);
@@ -57,6 +62,11 @@ class TwinMonitor {
   /// changed by a hundredth, at once but for a break that goes with what a verdict costs
   /// (newsBreak).
   std::vector<state::StabilityMargin> takeMargins();
+  /// Orders of what was measured, since last asked; of each system as SYSTEM_measured.
+  std::vector<state::OrderState> takeOrders() { return std::exchange(orders_, {}); }
+  bool measures(const std::string& system) const;
+  /// What is taken off what a system measures.
+  std::optional<OrderVector> slowRoll(const std::string& system) const;
   /// Something is being judged: it is worth asking soon.
   bool judging() { return judging_.pending(); }
   AlertList& alerts() { return alerts_; }
@@ -95,6 +105,8 @@ class TwinMonitor {
   /// Where it was last told to be.
   void askFor(SystemWatch& watch);
   void watchShaft(SystemWatch& watch, state::DriveState shaft);
+  void watchMotion(SystemWatch& watch, const state::WhirlState& whirl);
+  void takeMeasured(SystemWatch& watch, double wall_time);
 
   AlarmSettings settings_;
   Judging judging_;
@@ -107,6 +119,7 @@ class TwinMonitor {
   RestoredAlerts restored_;
   std::map<std::string, double> inhibited_until_;  ///< [s, wall]
   std::vector<state::StabilityMargin> margins_;
+  std::vector<state::OrderState> orders_;
   std::map<std::string, SourceClock> clocks_;  ///< of each source
   SourceClock loop_clock_;
   double pace_ = 1.0;       ///< [-], of simulated time, where it goes faster than the clock

@@ -87,6 +87,11 @@ class MonitorNode {
     for (const SharedSystem& system : scene_.systems) {
       topics_.advertise<state::StabilityMargin>(system->spec.name);
     }
+    for (std::size_t i = 0; i < scene_.systems.size(); ++i) {
+      if (measuredOrbitOf(scene_, i)) {
+        topics_.advertise<state::OrderState>(scene_.systems[i]->spec.name + "_measured");
+      }
+    }
     topics_.advertise<state::MonitorStatus>();
     publishAlerts();
 
@@ -109,7 +114,7 @@ class MonitorNode {
     // A verdict that is being made is not kept waiting for a state.
     const bool soon = monitor_.judging();
     if (receiver_) {
-      receiver_->receive(std::chrono::milliseconds(soon ? 1 : 10));
+      receiver_->receive(std::chrono::microseconds(soon ? 200 : 10'000));
       ros::getGlobalCallbackQueue()->callAvailable();
     } else {
       ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(soon ? 2.0e-4 : 1.0e-2));
@@ -156,6 +161,9 @@ class MonitorNode {
     });
     for (const SharedSystem& system : scene_.systems) {
       subscribeTo<state::FollowState>(system->spec.name);  // of a follower, if it is one
+    }
+    for (const SensorSpec& sensor : scene_.scene.sensors) {
+      subscribeTo<state::Measurement>(sensor.name);
     }
     subscribeTo<state::LoopStatistics>();
   }
@@ -252,6 +260,10 @@ class MonitorNode {
     for (const state::StabilityMargin& margin : monitor_.takeMargins()) {
       lcm_.publish(margin);
       topics_.publish(margin);
+    }
+    for (const state::OrderState& orders : monitor_.takeOrders()) {
+      lcm_.publish(orders);
+      topics_.publish(orders);
     }
     keepEvents();
     if (history_ && monitor_.run() && monitor_.run() != run_) {

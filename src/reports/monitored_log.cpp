@@ -87,6 +87,7 @@ class Replay {
       if (!spectrum_at_) {
         course.spectrum = cascades_[i].latest();
       }
+      course.slow_roll = monitor_.slowRoll(course.name);
       course.resonances = passedResonances(course.orders, course.critical_speeds);
     }
   }
@@ -125,6 +126,7 @@ class Replay {
 
   void draw(const state::WhirlState& whirl) {
     if (SystemCourse* course = courseOf(whirl.system)) {
+      course->modelled = true;
       const auto place = static_cast<std::size_t>(course - run_.systems.data());
       const double time = whirl.at.time;
       if (spectrum_at_ && time > *spectrum_at_ && !course->spectrum) {
@@ -144,8 +146,13 @@ class Replay {
       sample(*course, pendulum.at.time, speedOf(*course));
     }
   }
+  void draw(const state::Measurement&) {}  // its orders are drawn
   void draw(const state::OrderState& told) {
-    SystemCourse* const course = courseOf(told.system);
+    if (!monitor_.measures(told.system)) {
+      drawOrders(told, courseOf(told.system));
+    }
+  }
+  void drawOrders(const state::OrderState& told, SystemCourse* course) {
     if (course == nullptr) {
       return;
     }
@@ -198,6 +205,15 @@ class Replay {
     }
     for (const state::Alert& event : monitor_.alerts().takeEvents()) {
       keepEvent(event);
+    }
+    for (const state::OrderState& measured : monitor_.takeOrders()) {
+      SystemCourse* const course =
+          courseOf(measured.system.substr(0, measured.system.rfind("_measured")));
+      drawOrders(measured, course);
+      if (course != nullptr && !course->modelled &&
+          sample(*course, measured.at.time, measured.speed)) {
+        course->radius.push_back(0.5 * measured.peak_to_peak);
+      }
     }
     if (const std::optional<TwinRun> run = monitor_.run()) {
       run_.resets = std::max(run_.resets, run->second);

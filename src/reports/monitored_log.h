@@ -38,6 +38,8 @@ struct NotOkCourse {
 struct SystemCourse {
   std::string name;
   bool rotor = false;
+  bool modelled = false;  ///< states of the twin have come, besides what was measured
+  std::optional<OrderVector> slow_roll;  ///< taken off what was measured
   OrderCourse orders;
   std::vector<NotOkCourse> not_ok;
   std::vector<PassedResonance> resonances;  ///< that its run-ups and run-downs have passed

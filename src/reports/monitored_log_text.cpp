@@ -37,6 +37,13 @@ std::string motionText(const SystemCourse& system) {
     }
     out += "\n";
   }
+  if (system.slow_roll) {
+    out += fmt::format(
+        "  {}: slow roll taken off what was measured, {:.4g} um forward, {:.4g} um "
+        "backward\n",
+        system.name, 1.0e6 * std::abs(system.slow_roll->forward),
+        1.0e6 * std::abs(system.slow_roll->backward));
+  }
   if (system.spectrum && !system.spectrum->lines.empty()) {
     out += fmt::format("  {}: full spectrum, t = {:.4g} to {:.4g} s, {:.4g} rad/s:", system.name,
                        system.spectrum->begin, system.spectrum->end, system.spectrum->speed);
@@ -179,6 +186,12 @@ Json json(const MonitoredLog& run) {
       of_it["resonances"] = Json::array();
       for (const PassedResonance& resonance : system.resonances) {
         of_it["resonances"].push_back(resonanceJson(resonance));
+      }
+      if (system.slow_roll) {
+        of_it["slow_roll"] = {{"forward", std::abs(system.slow_roll->forward)},
+                              {"forward_lag", system.slow_roll->forwardLag()},
+                              {"backward", std::abs(system.slow_roll->backward)},
+                              {"backward_lag", system.slow_roll->backwardLag()}};
       }
       of_it["spectrum"] = system.spectrum ? spectrumJson(*system.spectrum) : Json(nullptr);
     }

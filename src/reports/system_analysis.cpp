@@ -90,6 +90,7 @@ SystemAnalysis analyzeSystem(const BuiltScene& scene, const BuiltSystem& system,
   a.steady_speeds = steadySpeedsOf(system);
   if (a.at_equilibrium && (search == ParameterSearch::kOfAll || isQuickToSearch(system))) {
     a.parameter_margins = parameterMargins(system, {a.about, a.about_v}, shaft.speed);
+    a.decrement_amplitude = decrementAmplitude(dynamics, {a.about, a.about_v}, shaft.speed);
   }
   if (a.at_equilibrium) {
     a.spread_margin = spreadMargin(system, {a.about, a.about_v}, shaft.speed);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/cross_coupling_margin.h"
+#include "analysis/decrement_amplitude.h"
 #include "analysis/equilibria.h"
 #include "analysis/stability.h"
 #include "mechanics/dynamics.h"
@@ -48,6 +49,7 @@ struct SystemAnalysis {
   std::vector<SteadySpeed> steady_speeds;             ///< on its motor
   /// Of a stable motion, the nearest first; nothing where it was not looked for.
   std::optional<std::vector<ParameterMargin>> parameter_margins;
+  std::optional<DecrementAmplitude> decrement_amplitude;  ///< likewise; nothing: none vibrates
   std::optional<SpreadMargin> spread_margin;  ///< of a steady motion, where its numbers are spread
 };
 

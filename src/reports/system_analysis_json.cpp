@@ -165,6 +165,11 @@ Json json(const SystemAnalysis& a) {
       {"decay_rate", a.reduced_stability.decay_rate},
       {"damping_ratio", a.reduced_stability.damping_ratio},
       {"log_decrement", a.reduced_stability.log_decrement},
+      // Infinite, and so null here, where it holds for any.
+      {"log_decrement_amplitude",
+       a.decrement_amplitude ? Json(a.decrement_amplitude->amplitude) : Json()},
+      {"log_decrement_coordinate",
+       a.decrement_amplitude ? Json(a.decrement_amplitude->coordinate) : Json()},
       {"instability_speed", a.instability_speed ? Json(*a.instability_speed) : Json()}};
   json["critical_speeds"] = Json::array();
   for (const auto& critical : a.critical_speeds) {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "reports/matrix_text.h"
@@ -109,6 +110,22 @@ std::string modesText(const SystemAnalysis& a) {
   return out;
 }
 
+/// Up to which amplitude the decrement is that of small motions.
+std::string decrementText(const SystemAnalysis& a) {
+  if (!a.decrement_amplitude) {
+    return "";
+  }
+  const DecrementAmplitude& of = *a.decrement_amplitude;
+  if (std::isinf(of.amplitude)) {
+    return "      of motions of any amplitude\n";
+  }
+  const auto moving =
+      std::find_if(a.coordinates.begin(), a.coordinates.end(),
+                   [&](const CoordinateInfo& c) { return c.name == of.coordinate; });
+  return fmt::format("      of motions up to {:.4g} {} of {}\n", of.amplitude,
+                     moving == a.coordinates.end() ? "m" : moving->unit, of.coordinate);
+}
+
 std::string stabilityText(const SystemAnalysis& a) {
   const Stability& s = a.reduced_stability;
   std::string out = fmt::format("  stability: {}\n", verdictText(s.routh.verdict));
@@ -120,6 +137,7 @@ std::string stabilityText(const SystemAnalysis& a) {
              : fmt::format("    polynomial      {:.6g}\n", fmt::join(s.polynomial, "  "));
   out += routhText(s.routh);
   out += marginsText(s.decay_rate, s.damping_ratio, s.log_decrement);
+  out += decrementText(a);
   if (a.speed) {
     out += fmt::format("    unstable above  {}\n",
                        a.instability_speed ? fmt::format("{:.6g} rad/s", *a.instability_speed)

@@ -35,11 +35,15 @@ std::int64_t periodOf(const state::Measurement& message) {
 
 }  // namespace
 
+bool MeasuredOrbit::makeAnOrbit(double first, double second) {
+  return std::fabs(std::sin(second - first)) >= kLeastAngle;
+}
+
 MeasuredOrbit::MeasuredOrbit(const MeasuredOrbitSettings& settings)
     : settings_(settings), shaft_(settings.shaft) {
   const double a = settings.probes[0].direction, b = settings.probes[1].direction;
   const double sine = std::sin(b - a);
-  if (!(std::fabs(sine) >= kLeastAngle)) {
+  if (!makeAnOrbit(a, b)) {
     throw std::invalid_argument("two probes along one line do not make an orbit");
   }
   inverse_ = {

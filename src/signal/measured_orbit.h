@@ -44,7 +44,9 @@ struct SampleCounts {
 
 class MeasuredOrbit {
  public:
-  /// The directions of the two probes differ, and not by half a turn: std::invalid_argument.
+  /// Two directions [rad] differ, and not by half a turn.
+  static bool makeAnOrbit(double first, double second);
+  /// The directions of the probes make an orbit; else std::invalid_argument.
   explicit MeasuredOrbit(const MeasuredOrbitSettings& settings);
 
   /// Whether messages of this source are any of its business.

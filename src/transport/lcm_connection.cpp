@@ -1,6 +1,9 @@
 #include "transport/lcm_connection.h"
 
 #include <fmt/format.h>
+#include <poll.h>
+
+#include <ctime>
 
 #include "transport/channels.h"
 
@@ -20,12 +23,18 @@ std::shared_ptr<lcm::LCM> openLcm(const std::string& url) {
   return lcm;
 }
 
-int handleArrived(lcm::LCM& lcm, std::chrono::milliseconds timeout, int most) {
+int handleArrived(lcm::LCM& lcm, std::chrono::microseconds timeout, int most) {
+  // LCM itself waits whole milliseconds.
+  pollfd arrival{lcm.getFileno(), POLLIN, 0};
+  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(timeout);
+  const timespec wait{static_cast<std::time_t>(seconds.count()),
+                      static_cast<long>(1000 * (timeout - seconds).count())};
+  if (timeout.count() > 0 && ppoll(&arrival, 1, &wait, nullptr) <= 0) {
+    return 0;
+  }
   int handled = 0;
-  int wait = static_cast<int>(timeout.count());
-  while (handled < most && lcm.handleTimeout(wait) > 0) {
+  while (handled < most && lcm.handleTimeout(0) > 0) {
     ++handled;
-    wait = 0;
   }
   return handled;
 }

@@ -21,6 +21,6 @@ std::shared_ptr<lcm::LCM> openLcm(const std::string& url);
 
 /// Waits up to `timeout` for an event, then has all that have arrived handled, at most `most` of
 /// them. Returns how many.
-int handleArrived(lcm::LCM& lcm, std::chrono::milliseconds timeout, int most);
+int handleArrived(lcm::LCM& lcm, std::chrono::microseconds timeout, int most);
 
 }  // namespace whirl_twin

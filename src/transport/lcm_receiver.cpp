@@ -26,7 +26,7 @@ LcmReceiver::~LcmReceiver() {
   lcm_unsubscribe(lcm_->getUnderlyingLCM(), subscription_);
 }
 
-int LcmReceiver::receive(std::chrono::milliseconds timeout, int most) {
+int LcmReceiver::receive(std::chrono::microseconds timeout, int most) {
   return handleArrived(*lcm_, timeout, most);
 }
 

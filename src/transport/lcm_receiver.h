@@ -35,7 +35,7 @@ class LcmReceiver {
 
   /// Waits up to `timeout` for an event, then handles all that have arrived, at most `most` of
   /// them. Returns how many were handled.
-  int receive(std::chrono::milliseconds timeout, int most = 1000);
+  int receive(std::chrono::microseconds timeout, int most = 1000);
 
   const std::map<std::string, ChannelCount>& channels() const { return channels_; }
   /// Over all channels: states accepted, missing by their steps, and rejected.

@@ -118,8 +118,12 @@ TEST(AlarmSettingsReader, ReadsWhatIsSetForTheSignal) {
 zones: {rotor: {a: 50.0e-6, b: 100.0e-6, c: 150.0e-6}}
 subsynchronous: {rotor: 20.0e-6, pump: 30.0e-6}
 rub: {rotor: {backward: 15.0e-6}, pump: {subharmonic: 5.0e-6}}
+slow_roll: {rotor: {below: 30.0}, pump: {forward: 1.0e-5, forward_lag: 0.5}}
 decay_audit: 40
 )");
+  EXPECT_EQ(read.slow_roll.at("rotor").below, 30.0);
+  EXPECT_NEAR(read.slow_roll.at("pump").given.forwardLag(), 0.5, 1e-12);
+  EXPECT_EQ(errorsOf("slow_roll: {rotor: {below: 30, forward: 1.0e-5}, pump: {}}").size(), 2u);
   EXPECT_EQ(read.rub.at("rotor").backward, 15.0e-6);
   EXPECT_TRUE(std::isinf(read.rub.at("rotor").subharmonic));
   EXPECT_EQ(read.rub.at("pump").subharmonic, 5.0e-6);

@@ -67,6 +67,7 @@ TEST(Analyze, HasEveryKey) {
               (std::set<std::string>{"verdict", "right", "imaginary", "left", "first_column"}));
     EXPECT_EQ(keys(system["margins"]),
               (std::set<std::string>{"decay_rate", "damping_ratio", "log_decrement",
+                                     "log_decrement_amplitude", "log_decrement_coordinate",
                                      "instability_speed"}));
   }
   EXPECT_EQ(keys(end.json()["systems"]["rotor"]["critical_speeds"][0]),
@@ -98,6 +99,8 @@ TEST_F(DampedRotor, FrequencyAndDamping) {
   EXPECT_NEAR(rotor_["margins"]["damping_ratio"], kZeta, 1e-14);
   EXPECT_NEAR(rotor_["margins"]["log_decrement"],
               2.0 * M_PI * kZeta / std::sqrt(1.0 - kZeta * kZeta), 1e-12);
+  EXPECT_TRUE(rotor_["margins"]["log_decrement_amplitude"].is_null()) << "any: it is linear";
+  EXPECT_EQ(rotor_["margins"]["log_decrement_coordinate"], "whirl");
   EXPECT_TRUE(rotor_["margins"]["instability_speed"].is_null());
   EXPECT_EQ(rotor_["routh"]["verdict"], "asymptotically_stable");
   EXPECT_EQ(rotor_["routh"]["left"], 4);
@@ -332,7 +335,8 @@ TEST(Analyze, ReportForReaders) {
   EXPECT_EQ(end.status, 0);
   EXPECT_EQ(linesOf(end.out).front(),
             "rotor: jeffcott_rotor, unbalanced disc on a massless flexible shaft");
-  for (const char* part : {"stability: asymptotically stable", "log decrement   0.314553",
+  for (const char* part : {"stability: asymptotically stable",
+                           "log decrement   0.314553\n      of motions of any amplitude",
                            "rad/s          Hz   damping ratio", "critical speeds"}) {
     EXPECT_NE(end.out.find(part), std::string::npos) << part << "\n" << end.out;
   }

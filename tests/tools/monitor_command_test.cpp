@@ -178,5 +178,37 @@ TEST_F(RunUpLog, OfAnotherSceneIsRefused) {
   EXPECT_EQ(contentsOf(page), "") << "nothing half-done";
 }
 
+// What two oblique probes show of that run-up, with a run-out of 20 um: learnt at first, taken off.
+TEST(MonitorCommand, TakesWhatSensorsMeasure) {
+  const TemporaryDirectory directory;
+  std::string text = kRunUp;
+  text.replace(text.find("{speed: 30.0, profile: ["), 24,
+               "{speed: 15.0, profile: [{speed: 15.0, max_acceleration: 1.0, dwell: 4.0}, ");
+  text +=
+      "sensors:\n  probes:\n    rate: 1000.0\n    channels:\n"
+      "      a: {measures: rotor, direction: 0.785, run_out: 2.0e-5, run_out_angle: 0.5}\n"
+      "      b: {measures: rotor, direction: 2.356, run_out: 2.0e-5, run_out_angle: 0.5}\n"
+      "  tacho: {keyphasor: shaft}\n";
+  const std::string scene = directory.write("measured.yaml", text);
+  const std::string log = directory.file("measured.lcmlog");
+  ASSERT_EQ(twin({"simulate", scene, "--duration", "18", "--measure", "sensors", "--sample",
+                  "0.005", "--output", log})
+                .status,
+            0);
+  const std::string settings =
+      directory.write("monitor.yaml", "slow_roll: {rotor: {below: 18.0}}\n");
+  const Json plain = twin({"monitor", scene, log, "--json"}).json();
+  const Json rolled = twin({"monitor", scene, log, "--settings", settings, "--json"}).json();
+  EXPECT_EQ(rolled["rejected"], 0);
+  EXPECT_FALSE(plain["systems"]["rotor"].contains("slow_roll"));
+  const Json& roll = rolled["systems"]["rotor"]["slow_roll"];
+  // At 15 rad/s 6.6 um of the unbalance of 100 um are in it.
+  EXPECT_NEAR(roll["forward"].get<double>(), 2.0e-5, 7.0e-6);
+  EXPECT_LT(roll["backward"].get<double>(), 1.0e-7);
+  const Json& passed = rolled["systems"]["rotor"]["resonances"];
+  ASSERT_EQ(passed.size(), 1u);
+  EXPECT_NEAR(passed[0]["speed"].get<double>(), 62.0, 1.5);
+}
+
 }  // namespace
 }  // namespace whirl_twin
