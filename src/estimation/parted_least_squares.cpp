@@ -1,0 +1,192 @@
+#include "estimation/parted_least_squares.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "algebra/cholesky.h"
+#include "algebra/eigenvalues.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr std::size_t kMostParts = 240;  // then two become one
+/// Of the normal equations in units of each unknown alone, below which there is only rounding.
+constexpr double kSmallestEigenvalue = 1.0e-11;
+/// Of all that is explained, above which a direction's deviation leaves it untold.
+constexpr double kMostUncertain = 0.3;
+constexpr std::size_t kGroups = 20;  // of parts, left out one by one
+constexpr double kTakesPart = 0.05;  // in an untold direction, at least
+
+}  // namespace
+
+/// Independent directions of the unknowns, each explaining so much by itself.
+struct PartedLeastSquares::Directions {
+  Eigen::MatrixXd plain;    // in units of what each unknown alone explains
+  Eigen::MatrixXd columns;  // in the unknowns' own
+  Eigen::VectorXd size;
+  std::vector<bool> told;
+
+  Eigen::VectorXd solved(const Eigen::VectorXd& right) const {
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(right.size());
+    for (Eigen::Index i = 0; i < size.size(); ++i) {
+      if (told[static_cast<std::size_t>(i)]) {
+        x += columns.col(i) * (columns.col(i).dot(right) / size[i]);
+      }
+    }
+    return x;
+  }
+};
+
+PartedLeastSquares::Directions PartedLeastSquares::directionsOf(const Eigen::MatrixXd& normal) {
+  Eigen::VectorXd unit = normal.diagonal();
+  for (double& u : unit) {
+    u = u > 0.0 ? 1.0 / std::sqrt(u) : 0.0;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+      Eigen::MatrixXd(unit.asDiagonal() * normal * unit.asDiagonal()));
+  Directions all;
+  all.plain = eigen.eigenvectors();
+  all.columns = unit.asDiagonal() * all.plain;
+  all.size = eigen.eigenvalues();
+  for (const double size : all.size) {
+    all.told.push_back(size > kSmallestEigenvalue);
+  }
+  return all;
+}
+
+void PartedLeastSquares::Part::add(const Part& other) {
+  normal += other.normal;
+  right += other.right;
+  squares += other.squares;
+  values += other.values;
+}
+
+PartedLeastSquares::Part PartedLeastSquares::nothing() const {
+  return {Eigen::MatrixXd::Zero(unknowns_, unknowns_), Eigen::VectorXd::Zero(unknowns_), 0.0, 0};
+}
+
+PartedLeastSquares::Part& PartedLeastSquares::current() {
+  if (!parts_.empty() && parts_.back().values < part_values_) {
+    return parts_.back();
+  }
+  if (parts_.size() == kMostParts) {
+    for (std::size_t i = 0; i < kMostParts / 2; ++i) {
+      Part both = std::move(parts_[2 * i]);
+      both.add(parts_[2 * i + 1]);
+      parts_[i] = std::move(both);
+    }
+    parts_.resize(kMostParts / 2);
+    part_values_ *= 2;
+  }
+  parts_.push_back(nothing());
+  return parts_.back();
+}
+
+void PartedLeastSquares::add(const std::vector<Eigen::Index>& places,
+                             const std::vector<double>& row, double value) {
+  Part& part = current();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      part.normal(places[i], places[k]) += row[i] * row[k];
+    }
+    part.right[places[i]] += row[i] * value;
+  }
+  part.squares += value * value;
+  ++part.values;
+}
+
+/// By how much the solution along the told directions changes without one of the groups of parts, a
+/// column each: the sum of their squares is its variance (the jackknife).
+Eigen::MatrixXd PartedLeastSquares::withoutParts(const Directions& directions,
+                                                 const Eigen::VectorXd& x) const {
+  const std::size_t groups = std::min(kGroups, parts_.size());
+  Eigen::MatrixXd changes = Eigen::MatrixXd::Zero(unknowns_, static_cast<Eigen::Index>(groups));
+  for (std::size_t g = 0; g < groups; ++g) {
+    Part group = nothing();
+    for (std::size_t i = g * parts_.size() / groups; i < (g + 1) * parts_.size() / groups; ++i) {
+      group.add(parts_[i]);
+    }
+    Eigen::MatrixXd left = -(directions.columns.transpose() * group.normal * directions.columns);
+    Eigen::VectorXd score = directions.columns.transpose() * (group.right - group.normal * x);
+    left.diagonal() += directions.size;
+    for (Eigen::Index i = 0; i < unknowns_; ++i) {
+      if (!directions.told[static_cast<std::size_t>(i)]) {
+        left.row(i).setZero();
+        left.col(i).setZero();
+        left(i, i) = 1.0;
+        score[i] = 0.0;
+      }
+    }
+    changes.col(static_cast<Eigen::Index>(g)) = Eigen::LDLT<Eigen::MatrixXd>(left).solve(score);
+  }
+  const auto count = static_cast<double>(groups);
+  return changes * std::sqrt(groups > 1 ? (count - 1.0) / count : 1.0);
+}
+
+PartedSolution PartedLeastSquares::solve() const {
+  if (parts_.empty()) {
+    throw std::logic_error("PartedLeastSquares: expected a row");
+  }
+  Part all = nothing();
+  for (const Part& part : parts_) {
+    all.add(part);
+  }
+  Directions directions = directionsOf(all.normal);
+  const Eigen::VectorXd first = directions.solved(all.right);
+  const double rest = all.squares - 2.0 * first.dot(all.right) + first.dot(all.normal * first);
+
+  PartedSolution solution;
+  solution.values = all.values;
+  solution.variance =
+      std::max(0.0, rest) / std::max(1.0, static_cast<double>(all.values - unknowns_));
+  solution.explained = first.dot(all.right);
+  for (Eigen::Index i = unknowns_ - constants_; i < unknowns_; ++i) {
+    solution.explained -=
+        all.normal(i, i) > 0.0 ? std::pow(all.right[i], 2.0) / all.normal(i, i) : 0.0;
+  }
+  solution.explained = std::max(0.0, solution.explained);
+
+  // By rounding first, then by how certain each direction is.
+  const Eigen::ArrayXd changes = withoutParts(directions, first).array().square().rowwise().sum();
+  std::vector<Eigen::Index> untold;
+  solution.told.assign(static_cast<std::size_t>(unknowns_), true);
+  for (Eigen::Index i = 0; i < unknowns_; ++i) {
+    const auto place = static_cast<std::size_t>(i);
+    const double variance = std::max(changes[i], solution.variance / directions.size[i]);
+    if (directions.told[place] &&
+        variance <= kMostUncertain * kMostUncertain * solution.explained) {
+      continue;
+    }
+    directions.told[place] = false;
+    untold.push_back(i);
+    for (Eigen::Index k = 0; k < unknowns_; ++k) {
+      if (std::fabs(directions.plain(k, i)) > kTakesPart) {
+        solution.told[static_cast<std::size_t>(k)] = false;
+      }
+    }
+  }
+  solution.x = directions.solved(all.right);
+  Eigen::ArrayXd white = Eigen::ArrayXd::Zero(unknowns_);
+  for (Eigen::Index i = 0; i < unknowns_; ++i) {
+    if (directions.told[static_cast<std::size_t>(i)]) {
+      white += solution.variance * directions.columns.col(i).array().square() / directions.size[i];
+    }
+  }
+  solution.deviation = (directions.columns * withoutParts(directions, solution.x))
+                           .array()
+                           .square()
+                           .rowwise()
+                           .sum()
+                           .max(white)
+                           .sqrt();
+  solution.untold.resize(unknowns_, static_cast<Eigen::Index>(untold.size()));
+  for (std::size_t i = 0; i < untold.size(); ++i) {
+    solution.untold.col(static_cast<Eigen::Index>(i)) = directions.columns.col(untold[i]);
+  }
+  return solution;
+}
+
+}  // namespace whirl_twin

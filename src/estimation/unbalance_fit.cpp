@@ -1,0 +1,197 @@
+#include "estimation/unbalance_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kTurn = 6.283185307179586;
+constexpr std::complex<double> kI(0.0, 1.0);
+constexpr double kLongestGap = 2.0;   // s: across it the shaft's motion is filled in
+constexpr double kFinestSteps = 1.5;  // of the usual distance, that is one step
+
+/// Of a unit of unbalance at a station.
+ShaftForce unitUnbalance(const Station& station) {
+  return {station.along_x.cast<std::complex<double>>() - kI * station.along_y, 1, true};
+}
+
+std::vector<ShaftForce> forcesOf(const LinearRotor& rotor,
+                                 const std::vector<BalancingPlane>& planes) {
+  std::vector<ShaftForce> forces;
+  for (const BalancingPlane& plane : planes) {
+    forces.push_back(unitUnbalance(plane.station));
+  }
+  // The model's bow is known; what of its own is out of balance is what is asked for.
+  ShaftForce bow{Eigen::VectorXcd::Zero(rotor.dof()), 1, false};
+  for (const ShaftForce& force : rotor.forces) {
+    if (force.harmonic == 1 && !force.inertial) {
+      bow.amplitude += force.amplitude;
+    }
+  }
+  forces.push_back(bow);
+  return forces;
+}
+
+/// What a probe shows of e^(i w t).
+std::complex<double> seen(const RotorProbe& probe, double speed) {
+  const std::complex<double> delayed = std::polar(1.0, -speed * probe.delay);
+  return probe.bandwidth > 0.0 ? delayed / (1.0 + kI * speed / (kTurn * probe.bandwidth)) : delayed;
+}
+
+}  // namespace
+
+UnbalanceFit::UnbalanceFit(const LinearRotor& rotor, const std::vector<BalancingPlane>& planes,
+                           const std::vector<RotorProbe>& probes)
+    : planes_(planes),
+      probes_(probes),
+      whirl_(rotor, forcesOf(rotor, planes)),
+      weight_(Eigen::VectorXd::Ones(static_cast<Eigen::Index>(probes.size()))),
+      noise_known_(std::all_of(probes.begin(), probes.end(),
+                               [](const RotorProbe& probe) { return probe.deviation > 0.0; })),
+      offset_(Eigen::VectorXd::Constant(weight_.size(), std::nan(""))) {
+  if (planes.empty() || probes.empty()) {
+    throw std::invalid_argument("UnbalanceFit: expected a plane and a probe");
+  }
+  first_mean_ = 2 * static_cast<Eigen::Index>(planes.size());
+  for (std::size_t c = 0; c < probes.size(); ++c) {
+    run_out_place_.push_back(probes[c].run_out_known ? -1 : first_mean_);
+    first_mean_ += probes[c].run_out_known ? 0 : 2;
+    if (noise_known_) {
+      weight_[static_cast<Eigen::Index>(c)] = 1.0 / probes[c].deviation;
+    }
+  }
+  equations_ = PartedLeastSquares(first_mean_ + weight_.size(), weight_.size());
+}
+
+/// The rotor follows the shaft; over a hole of some samples by a motion between its ends.
+void UnbalanceFit::turnTo(const ProbeReading& reading) {
+  const double time = reading.time - last_.time;
+  const double turn = kTurn * static_cast<double>(reading.turns - last_.turns) +
+                      (reading.remainder - last_.remainder);
+  if (!started_ || !(time > 0.0) || time > kLongestGap) {
+    whirl_.start(reading.speed);
+    started_ = true;
+    return;
+  }
+  if (step_ == 0.0 || time < step_) {
+    step_ = time;
+  }
+  const int steps =
+      time > kFinestSteps * step_ ? static_cast<int>(std::ceil(time / step_ - 1.0e-6)) : 1;
+  const double part = 1.0 / steps;
+  const double change = reading.speed - last_.speed;
+  const double skew = turn - 0.5 * (last_.speed + reading.speed) * time;
+  double turned = 0.0;
+  for (int i = 1; i <= steps; ++i) {
+    const double at = i * part;
+    const double now =
+        i == steps ? turn : at * time * (last_.speed + 0.5 * change * at) + at * skew;
+    whirl_.advance(part * time, now - turned, last_.speed + change * at);
+    turned = now;
+  }
+  duration_ += time;
+}
+
+void UnbalanceFit::take(const ProbeReading& reading) {
+  if (!std::isfinite(reading.time) || !std::isfinite(reading.remainder) ||
+      !std::isfinite(reading.speed)) {
+    return;
+  }
+  turnTo(reading);
+  last_ = reading;
+  const bool first = samples_ == 0;
+  lowest_speed_ = first ? reading.speed : std::min(lowest_speed_, reading.speed);
+  highest_speed_ = first ? reading.speed : std::max(highest_speed_, reading.speed);
+  ++samples_;
+  const Eigen::MatrixXcd amplitudes = whirl_.amplitudes();
+  const std::complex<double> turned = std::polar(1.0, reading.remainder);
+  for (std::size_t c = 0; c < probes_.size(); ++c) {
+    const double value = reading.values[static_cast<Eigen::Index>(c)];
+    if (std::isfinite(value)) {
+      double& offset = offset_[static_cast<Eigen::Index>(c)];
+      offset = std::isnan(offset) ? value : offset;  // so that a large gap costs no digits
+      add(c, value - offset, amplitudes, turned, reading.speed);
+    }
+  }
+}
+
+void UnbalanceFit::add(std::size_t probe, double value, const Eigen::MatrixXcd& amplitudes,
+                       std::complex<double> turned, double speed) {
+  const RotorProbe& at = probes_[probe];
+  const auto c = static_cast<Eigen::Index>(probe);
+  const double weight = weight_[c];
+  const std::complex<double> shown = weight * seen(at, speed) * turned;
+  const auto planes = static_cast<Eigen::Index>(planes_.size());
+  const Eigen::RowVectorXcd whirl = at.along.transpose() * amplitudes;
+
+  std::vector<Eigen::Index> places;
+  std::vector<double> row;
+  const auto put = [&](Eigen::Index place, std::complex<double> factor) {
+    places.insert(places.end(), {place, place + 1});
+    row.insert(row.end(), {factor.real(), -factor.imag()});
+  };
+  for (Eigen::Index j = 0; j < planes; ++j) {
+    put(2 * j, whirl[j] * shown);
+  }
+  double rest = weight * value - (whirl[planes] * shown).real();
+  if (run_out_place_[probe] >= 0) {
+    put(run_out_place_[probe], shown);
+  } else {
+    rest -= (at.run_out * shown).real();
+  }
+  places.push_back(first_mean_ + c);
+  row.push_back(weight);
+
+  equations_.add(places, row, rest);
+}
+
+UnbalanceEstimate UnbalanceFit::told() const {
+  const PartedSolution solution = equations_.solve();
+  const auto phasor = [&](Eigen::Index place) {
+    const auto k = static_cast<std::size_t>(place);
+    PhasorEstimate estimate;
+    estimate.value = {solution.x[place], solution.x[place + 1]};
+    estimate.deviation = std::max(solution.deviation[place], solution.deviation[place + 1]);
+    estimate.told = solution.told[k] && solution.told[k + 1];
+    return estimate;
+  };
+  UnbalanceEstimate told;
+  for (std::size_t j = 0; j < planes_.size(); ++j) {
+    told.planes.push_back(phasor(2 * static_cast<Eigen::Index>(j)));
+  }
+  for (std::size_t c = 0; c < probes_.size(); ++c) {
+    told.run_outs.push_back(run_out_place_[c] >= 0 ? phasor(run_out_place_[c])
+                                                   : PhasorEstimate{probes_[c].run_out, 0.0, true});
+  }
+  for (Eigen::Index i = 0; i < solution.untold.cols(); ++i) {
+    const auto part = [&](Eigen::Index place) {
+      return place < 0
+                 ? std::complex<double>()
+                 : std::complex<double>(solution.untold(place, i), solution.untold(place + 1, i));
+    };
+    UntoldCombination untold;
+    for (std::size_t j = 0; j < planes_.size(); ++j) {
+      untold.planes.push_back(part(2 * static_cast<Eigen::Index>(j)));
+    }
+    for (const Eigen::Index place : run_out_place_) {
+      untold.run_outs.push_back(part(place));
+    }
+    told.untold.push_back(std::move(untold));
+  }
+  told.samples = samples_;
+  told.lowest_speed = lowest_speed_;
+  told.highest_speed = highest_speed_;
+  told.duration = duration_;
+  const double weights = weight_.squaredNorm() / static_cast<double>(probes_.size());
+  const double values = std::max(1.0, static_cast<double>(solution.values));
+  told.synchronous = std::sqrt(solution.explained / values / weights);
+  told.noise = std::sqrt(solution.variance / weights);
+  told.beyond_noise = noise_known_ ? std::sqrt(solution.variance) : 0.0;
+  return told;
+}
+
+}  // namespace whirl_twin
