@@ -1,11 +1,12 @@
 #!/usr/bin/python3
 """A growing CSV file, or what an acquisition card's program writes into a pipe, as whirl_twin/Measurement on ROS.
 
-usage: csv_to_ros.py FILE|- SOURCE [--quiet S] [--plain]
+usage: csv_to_ros.py FILE|- SOURCE [--quiet S] [--pace P] [--plain]
 
 The first line has names with units, time,probe_x[m],probe_y[m]; time: s of the machine's clock. What is no number is
 sent as invalid; a row not later than the one before is left out, and said. It ends with the pipe, or when the file has
-not grown for S seconds, which may be left out. --plain needs no ROS: a block a line, as JSON, on standard output.
+not grown for S seconds, which may be left out. --pace plays a record P times as fast as it
+was made. --plain needs no ROS: a block a line, as JSON, on standard output.
 """
 import argparse
 import decimal
@@ -70,6 +71,7 @@ def main():
     parser.add_argument('file')
     parser.add_argument('source')
     parser.add_argument('--quiet', type=float, default=math.inf)
+    parser.add_argument('--pace', type=float, default=0.0)
     parser.add_argument('--plain', action='store_true')
     told = parser.parse_args([a for a in sys.argv[1:] if not re.match(r'_\w+:=', a)])  # roslaunch adds __name:=
     file, quiet = (sys.stdin, 0.0) if told.file == '-' else (open(told.file), told.quiet)
@@ -82,10 +84,16 @@ def main():
     import rospy  # pylint: disable=import-outside-toplevel
     from whirl_twin.msg import Measurement
     rospy.init_node('csv_to_ros', anonymous=True)
-    topic = rospy.Publisher('/twin/measured/' + told.source, Measurement, queue_size=100)
+    machine = rospy.get_namespace() if rospy.get_namespace() != '/' else '/twin/'
+    topic = rospy.Publisher(machine + 'measured/' + told.source, Measurement, queue_size=100)
     while topic.get_num_connections() == 0 and not rospy.is_shutdown():
         time.sleep(0.05)  # until somebody listens: else the first blocks would be lost
+    start = None
     for block in blocks(file, quiet):
+        newest = 1e-9 * block['instant'][-1]
+        start = start or (time.monotonic(), newest)
+        if told.pace > 0.0 and not rospy.is_shutdown():
+            time.sleep(max(0.0, start[0] + (newest - start[1]) / told.pace - time.monotonic()))
         message = Measurement(**block)
         message.header.stamp, message.header.frame_id = rospy.Time.now(), told.source
         topic.publish(message)

@@ -57,6 +57,8 @@ struct Follower::Followed {
     told.residual.assign(n, state::FollowState::kNone);
     told.residual_deviation = told.offset = told.residual;
     told.channel_status.assign(n, static_cast<std::uint8_t>(state::ChannelStatus::kSilent));
+    squares.assign(n, 0.0);
+    counts.assign(n, 0);
     heard.assign(n, std::numeric_limits<std::int64_t>::min());
     model = filter.model().system();
   }
@@ -78,6 +80,8 @@ struct Follower::Followed {
   ResidualWatch residuals;
   DriftWatch drift;
   std::vector<double> innovations;  // of that instant
+  std::vector<double> squares;      // of the residuals of each channel
+  std::vector<std::int64_t> counts;
   std::vector<std::int64_t> heard;  // [ns], of each channel: its newest sample
   state::FollowState told;
   std::int64_t next_telling = 0;  // [ns]
@@ -167,6 +171,15 @@ const SystemFilter* Follower::filter(std::size_t system) const {
   return systems_[system] ? &systems_[system]->filter : nullptr;
 }
 
+std::vector<double> Follower::residualRms(std::size_t system) const {
+  const Followed& followed = *systems_[system];
+  std::vector<double> rms;
+  for (std::size_t c = 0; c < followed.squares.size(); ++c) {
+    rms.push_back(std::sqrt(followed.squares[c] / static_cast<double>(followed.counts[c])));
+  }
+  return rms;
+}
+
 std::int64_t Follower::machineInstant(std::int64_t step) const {
   return origin_ + step * twin_.scene().step;
 }
@@ -185,6 +198,9 @@ void Follower::finish() {
   for (const auto& system : systems_) {
     if (system && system->runs) {
       system->endInstant(static_cast<double>(system->at) * kNanosecond);
+    }
+    if (system && began_) {
+      tellState(*system);
     }
   }
 }
@@ -271,8 +287,7 @@ void Follower::takeSample(const MeasuredSample& sample) {
     return;
   }
   const ShaftInstant there = instantOf(instant, shaft);
-  const std::int64_t now = system.filter.shaft().time;
-  if (!system.runs || instant - now > kLongestGap) {
+  if (!system.runs || instant - system.at > kLongestGap) {
     restarts_ += system.runs ? 1 : 0;
     system.filter.begin(there);
     system.runs = true;
@@ -298,6 +313,10 @@ void Follower::takeSample(const MeasuredSample& sample) {
     set_status(state::ChannelStatus::kUsed);
     system.innovations[channel.place] = innovation.normalized();
     system.last_used = instant;
+    if (static_cast<double>(instant) - system.began > kSettled / kNanosecond) {
+      system.squares[channel.place] += innovation.value * innovation.value;
+      ++system.counts[channel.place];
+    }
     return;
   }
   ++told.refused;
@@ -337,8 +356,7 @@ void Follower::writeRecord(std::int64_t step) {
     }
     Followed& followed = *system;
     SystemFilter& filter = followed.filter;
-    if (followed.runs && instant > filter.shaft().time &&
-        instant - filter.shaft().time <= kLongestGap) {
+    if (followed.runs && instant > filter.shaft().time && instant - followed.at <= kLongestGap) {
       const ShaftEstimate at = shaftAt(followed.drive, instant);
       filter.goTo(instantOf(instant, at));
     }

@@ -50,6 +50,8 @@ class Follower {
   const SystemFilter* filter(std::size_t system) const;
   /// [ns], of the machine's clock.
   std::int64_t machineInstant(std::int64_t step) const;
+  /// Root mean square of the residuals of each channel, from when its motion was found; NaN: none.
+  std::vector<double> residualRms(std::size_t system) const;
   /// How often the machine's clock was set, or a motion had to be found anew.
   std::int64_t restarts() const { return restarts_; }
 

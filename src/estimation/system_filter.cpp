@@ -101,6 +101,11 @@ SystemFilter::SystemFilter(const BuiltScene& scene, std::size_t system,
   }
   filter_ = KalmanFilter(std::move(start), deviation);
   by_parameter_ = Eigen::MatrixXd::Zero(n_, m_);
+  angles_ = Eigen::VectorXd::Zero(n_);
+  const std::vector<CoordinateInfo> coordinates = dynamics.coordinates();
+  for (Eigen::Index i = 0; i < n_; ++i) {
+    angles_[i] = coordinates[static_cast<std::size_t>(i)].isAngle() ? 1.0 : 0.0;
+  }
 }
 
 void SystemFilter::begin(const ShaftInstant& at) {
@@ -333,8 +338,16 @@ void SystemFilter::spread(const Step& step, const ShaftPath& path) {
     }
   }
   const double walk = settings_.unbalance.walk;
-  for (Eigen::Index i = unbalance_; i < run_out_; ++i) {
-    noise_(i, i) = walk * walk * h;
+  if (walk > 0.0) {
+    // What has walked on the way has acted for a part of it: of a force that stays, 1/2 of the rate
+    // and 1/3 of the place that it makes in all.
+    const Eigen::Index unbalances = run_out_ - unbalance_;
+    auto acted = noise_.block(0, unbalance_, s, unbalances);
+    acted = walk * walk * h * transition_.block(0, unbalance_, s, unbalances);
+    acted.topRows(n_) /= 3.0;
+    acted.bottomRows(n_) /= 2.0;
+    noise_.block(unbalance_, 0, unbalances, s) = acted.transpose();
+    noise_.diagonal().segment(unbalance_, unbalances).setConstant(walk * walk * h);
   }
   filter_.propagate(transition_, noise_);
 }
@@ -377,8 +390,21 @@ Innovation SystemFilter::take(std::size_t channel, double value) {
   }
   innovation.used = true;
   const bool settled = now_.time - began_ > std::llround(kSettling / kNanosecond);
-  filter_.take(h, value, noise, settled ? filter_.size() : 2 * n_);
+  const double known = expected.deviation * expected.deviation - noise * noise;
+  filter_.take(h, value, std::sqrt(noise * noise + doubt() * std::max(0.0, known)),
+               settled ? filter_.size() : 2 * n_);
   return innovation;
+}
+
+/// Derivatives are taken where the filter believes to be. What they are off by, in parts of
+/// themselves, is about how far it may be off, in radians and logarithms: that much of what is
+/// expected is no better than noise, or a filter that begins with little would soon be too sure.
+double SystemFilter::doubt() const {
+  double doubt = filter_.covariance().diagonal().segment(2 * n_, m_).sum();
+  if (!model_.system()->dynamics->linear()) {
+    doubt += filter_.covariance().diagonal().head(n_).cwiseProduct(angles_).sum();
+  }
+  return doubt;
 }
 
 double SystemFilter::parameter(std::size_t index) const {

@@ -110,6 +110,7 @@ class SystemFilter {
   Eigen::VectorXd unbalanceAcceleration(const ShaftPath& path, double part) const;
   Eigen::MatrixXd unbalanceColumns(const ShaftPath& path, double part) const;
   Eigen::VectorXd rowOf(std::size_t channel) const;
+  double doubt() const;
   Eigen::VectorXd numbers() const { return filter_.state().segment(2 * n_, m_); }
 
   std::vector<FollowedChannel> channels_;
@@ -122,6 +123,7 @@ class SystemFilter {
   Eigen::Index unbalance_, run_out_, offset_;         // where they begin in the state
   std::vector<Eigen::Index> run_out_of_, offset_of_;  // of each channel; -1: none
   Eigen::VectorXd u_;
+  Eigen::VectorXd angles_;  // 1 for each coordinate that is an angle, else 0
   KalmanFilter filter_;
   ShaftInstant now_;
   std::int64_t began_ = 0;              // [ns]

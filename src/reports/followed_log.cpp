@@ -2,23 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
-#include <set>
-#include <variant>
 
 #include "estimation/follower.h"
-#include "messages/refusal.h"
-#include "transport/event_scan.h"
-#include "transport/lcm_decode.h"
 #include "twin/observer.h"
 
 namespace whirl_twin {
 
 namespace {
-
-constexpr std::uint64_t kTell = 256;  // events from one look at the progress to the next
 
 /// What a follower tells of one system, put together.
 class Course {
@@ -26,14 +18,6 @@ class Course {
   explicit Course(FollowedSystem& system) : system_(system) {}
 
   void take(const state::FollowState& told) {
-    squares_.resize(told.channel.size());
-    counts_.resize(told.channel.size());
-    for (std::size_t c = 0; c < told.channel.size(); ++c) {
-      if (told.channel_status[c] == static_cast<std::uint8_t>(state::ChannelStatus::kUsed)) {
-        squares_[c] += told.residual[c] * told.residual[c];
-        ++counts_[c];
-      }
-    }
     if (!std::isnan(told.mismatch) && told.mismatch != system_.last.mismatch) {
       ++system_.windows;
       system_.mismatched += told.mismatch > told.mismatch_limit ||
@@ -52,11 +36,6 @@ class Course {
   }
 
   void finish(const SystemFilter& filter, const BuiltSystem& built) {
-    for (std::size_t c = 0; c < squares_.size(); ++c) {
-      system_.rms.push_back(counts_[c] > 0
-                                ? std::sqrt(squares_[c] / static_cast<double>(counts_[c]))
-                                : std::numeric_limits<double>::quiet_NaN());
-    }
     for (const FollowedParameter& p : filter.model().parameters()) {
       system_.start.push_back(p.start);
     }
@@ -70,8 +49,6 @@ class Course {
 
  private:
   FollowedSystem& system_;
-  std::vector<double> squares_;
-  std::vector<std::uint64_t> counts_;
 };
 
 std::string plusMinus(double value, double deviation) {
@@ -123,7 +100,6 @@ FollowedLog followLog(const Twin& twin, const FollowSettings& settings, const st
   FollowedLog run;
   run.scene = twin.scene().name;
   run.log = log;
-  EventScan scan(log);
   const auto generations = std::make_shared<SystemGenerations>(twin);
   Observer observer(twin, generations);
   std::vector<std::unique_ptr<Course>> courses(twin.systems().size());
@@ -152,51 +128,21 @@ FollowedLog followLog(const Twin& twin, const FollowSettings& settings, const st
     systems[i].name = twin.systems()[i]->spec.name;
     courses[i] = std::make_unique<Course>(systems[i]);
   }
-  std::set<std::string> sources;
-  for (const SensorSpec& sensor : twin.scene().sensors) {
-    sources.insert(sensor.name);
-  }
-
-  RawEvent event;
-  std::uint64_t events = 0;
-  for (auto found = scan.next(event); found != EventScan::Found::kEnd; found = scan.next(event)) {
-    if (++events % kTell == 0) {
-      advanced(scan.offset(), scan.size());
-    }
-    if (found != EventScan::Found::kEvent) {
-      ++run.damaged;
-      continue;
-    }
-    const auto channel = parseChannel(event.channel, prefix);
-    if (event.data == nullptr || !channel || channel->kind != &state::Measurement::kKind) {
-      continue;
-    }
-    try {
-      const Message message = decodeEvent(event.channel, event.data, event.size, prefix);
-      const auto& measurement = std::get<state::Measurement>(message);
-      if (sources.count(measurement.source) == 0) {
-        continue;
-      }
-      ++run.messages;
-      if (writer != nullptr) {
-        writer->write(measurement);
-      }
-      follower.take(measurement);
-    } catch (const RejectedMessage&) {
-      ++run.rejected;
-    }
-  }
+  run.file = readMeasurements(
+      log, twin.scene(), prefix,
+      [&](const state::Measurement& measurement) {
+        if (writer != nullptr) {
+          writer->write(measurement);
+        }
+        follower.take(measurement);
+      },
+      advanced);
   follower.finish();
-  if (run.messages == 0) {
-    throw Refusal(
-        fmt::format("{}: expected measurements of the sensors of '{}' on channels that "
-                    "begin with {} (--lcm-prefix), found none in {} bytes",
-                    log, run.scene, prefix, scan.size()));
-  }
   run.restarts = follower.restarts();
   for (std::size_t i = 0; i < systems.size(); ++i) {
     if (const SystemFilter* filter = follower.filter(i)) {
       courses[i]->finish(*filter, *twin.systems()[i]);
+      systems[i].rms = follower.residualRms(i);
       run.systems.push_back(systems[i]);
     }
   }
@@ -205,10 +151,13 @@ FollowedLog followLog(const Twin& twin, const FollowSettings& settings, const st
 
 std::string text(const FollowedLog& run) {
   std::string out = fmt::format("{} followed for {:.1f} s by {}: {} messages", run.log,
-                                run.duration, run.scene, run.messages);
-  out += run.rejected + run.damaged > 0
-             ? fmt::format(", {} refused, {} damaged\n", run.rejected, run.damaged)
+                                run.duration, run.scene, run.file.messages);
+  out += run.file.rejected + run.file.damaged > 0
+             ? fmt::format(", {} refused, {} damaged\n", run.file.rejected, run.file.damaged)
              : "\n";
+  for (const std::string& remark : run.file.remarks) {
+    out += "  " + remark + "\n";
+  }
   if (run.restarts > 0) {
     out += fmt::format("The motion was found anew {} times.\n", run.restarts);
   }
@@ -219,9 +168,14 @@ std::string text(const FollowedLog& run) {
 }
 
 Json json(const FollowedLog& run) {
-  Json out = {{"scene", run.scene},       {"log", run.log},           {"duration", run.duration},
-              {"messages", run.messages}, {"rejected", run.rejected}, {"damaged", run.damaged},
-              {"restarts", run.restarts}, {"systems", Json::object()}};
+  Json out = {{"scene", run.scene},
+              {"log", run.log},
+              {"duration", run.duration},
+              {"messages", run.file.messages},
+              {"rejected", run.file.rejected},
+              {"damaged", run.file.damaged},
+              {"restarts", run.restarts},
+              {"systems", Json::object()}};
   for (const FollowedSystem& s : run.systems) {
     Json system = {
         {"found", s.found}, {"parameters", Json::object()}, {"channels", Json::object()}};

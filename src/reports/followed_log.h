@@ -10,6 +10,7 @@
 
 #include "estimation/follow_settings.h"
 #include "messages/follow_state.h"
+#include "reports/measured_file.h"
 #include "reports/output.h"
 #include "reports/sample_writer.h"
 #include "twin/twin.h"
@@ -29,7 +30,7 @@ struct FollowedSystem {
   bool found = false;         ///< its motion was found
   state::FollowState last;    ///< as told at the end
   std::vector<double> start;  ///< of its parameters, as the scene says
-  std::vector<double> rms;    ///< of each channel: of the residuals told [its unit]; NaN: none
+  std::vector<double> rms;    ///< of each channel: of the residuals [its unit]; NaN: none
   std::vector<FoundUnbalance> unbalances;
   std::uint64_t windows = 0;     ///< that were judged
   std::uint64_t mismatched = 0;  ///< of them: too large, too small, or not white
@@ -44,14 +45,14 @@ struct FollowedSystem {
 struct FollowedLog {
   std::string scene, log;
   double duration = 0.0;  ///< [s]
-  std::uint64_t messages = 0, rejected = 0, damaged = 0;
+  MeasuredFile file;
   std::int64_t restarts = 0;
   std::vector<FollowedSystem> systems;
 };
 
-/// Follows the measurements of a log, on channels that begin with `prefix`. writer may be null; it
-/// is given a sample every so many steps, and what was measured, and is not finished. Throws
-/// Refusal for a log without measurements of the scene's sensors.
+/// Follows the measurements of a log, on channels that begin with `prefix`, or of a table. writer
+/// may be null; it is given a sample every so many steps, and what was measured, and is not
+/// finished. Throws as readMeasurements().
 FollowedLog followLog(const Twin& twin, const FollowSettings& settings, const std::string& log,
                       const std::string& prefix, SampleWriter* writer, std::int64_t every,
                       const std::function<void(std::uint64_t, std::uint64_t)>& advanced);

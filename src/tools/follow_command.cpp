@@ -106,7 +106,9 @@ void addFollowCommand(CLI::App& twin, int& status) {
   CLI::App* command = twin.add_subcommand("follow", kDescription);
   const auto request = std::make_shared<Request>();
   addSceneOption(command, request->scene);
-  command->add_option("LOG", request->log, "LCM log with measurements, such as rig.lcmlog")
+  command
+      ->add_option("LOG", request->log,
+                   "LCM log with measurements, such as rig.lcmlog, or a table, swing.csv")
       ->required()
       ->type_name("");
   command

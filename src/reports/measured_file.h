@@ -1,0 +1,29 @@
+// What was measured, out of a file: the Measurement messages of an LCM log, or a table of
+// comma-separated values with a column `time` [s] and one for each channel of a scene's sensors.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "messages/measurement.h"
+#include "scene/scene.h"
+
+namespace whirl_twin {
+
+struct MeasuredFile {
+  std::uint64_t messages = 0;
+  std::uint64_t rejected = 0;        ///< payloads that are no sound message
+  std::uint64_t damaged = 0;         ///< places of the log that are no event
+  std::vector<std::string> remarks;  ///< on a table: gaps, uneven steps, columns that stand still
+};
+
+/// Gives `take` every message of the scene's sensors, in the order of the file; a table ends in
+/// .csv. Throws Refusal for a file that cannot be read, and for one that has none of them.
+MeasuredFile readMeasurements(const std::string& path, const Scene& scene,
+                              const std::string& prefix,
+                              const std::function<void(const state::Measurement&)>& take,
+                              const std::function<void(std::uint64_t, std::uint64_t)>& advanced);
+
+}  // namespace whirl_twin
