@@ -15,10 +15,10 @@ namespace {
 constexpr std::size_t kMostParts = 240;  // then two become one
 /// Of the normal equations in units of each unknown alone, below which there is only rounding.
 constexpr double kSmallestEigenvalue = 1.0e-11;
-/// Of all that is explained, above which a direction's deviation leaves it untold.
+/// Of all that is explained, above which its deviation leaves an unknown or a direction untold.
 constexpr double kMostUncertain = 0.3;
 constexpr std::size_t kGroups = 20;  // of parts, left out one by one
-constexpr double kTakesPart = 0.05;  // in an untold direction, at least
+constexpr double kTakesPart = 0.01;  // in a direction that is rounding, at least
 
 }  // namespace
 
@@ -149,39 +149,37 @@ PartedSolution PartedLeastSquares::solve() const {
   }
   solution.explained = std::max(0.0, solution.explained);
 
-  // By rounding first, then by how certain each direction is.
-  const Eigen::ArrayXd changes = withoutParts(directions, first).array().square().rowwise().sum();
-  std::vector<Eigen::Index> untold;
-  solution.told.assign(static_cast<std::size_t>(unknowns_), true);
-  for (Eigen::Index i = 0; i < unknowns_; ++i) {
-    const auto place = static_cast<std::size_t>(i);
-    const double variance = std::max(changes[i], solution.variance / directions.size[i]);
-    if (directions.told[place] &&
-        variance <= kMostUncertain * kMostUncertain * solution.explained) {
-      continue;
-    }
-    directions.told[place] = false;
-    untold.push_back(i);
-    for (Eigen::Index k = 0; k < unknowns_; ++k) {
-      if (std::fabs(directions.plain(k, i)) > kTakesPart) {
-        solution.told[static_cast<std::size_t>(k)] = false;
-      }
-    }
-  }
-  solution.x = directions.solved(all.right);
+  solution.x = first;
+  const Eigen::MatrixXd changes = withoutParts(directions, first);
   Eigen::ArrayXd white = Eigen::ArrayXd::Zero(unknowns_);
   for (Eigen::Index i = 0; i < unknowns_; ++i) {
     if (directions.told[static_cast<std::size_t>(i)]) {
       white += solution.variance * directions.columns.col(i).array().square() / directions.size[i];
     }
   }
-  solution.deviation = (directions.columns * withoutParts(directions, solution.x))
-                           .array()
-                           .square()
-                           .rowwise()
-                           .sum()
-                           .max(white)
-                           .sqrt();
+  solution.deviation =
+      (directions.columns * changes).array().square().rowwise().sum().max(white).sqrt();
+
+  // In units of what each explains alone, an unknown or a direction that may be off by a good part
+  // of all that is explained is not told.
+  const double most = kMostUncertain * std::sqrt(solution.explained);
+  std::vector<Eigen::Index> untold;
+  for (Eigen::Index k = 0; k < unknowns_; ++k) {
+    solution.told.push_back(solution.deviation[k] * std::sqrt(all.normal(k, k)) <= most);
+  }
+  for (Eigen::Index i = 0; i < unknowns_; ++i) {
+    const bool rounding = !directions.told[static_cast<std::size_t>(i)];
+    const double variance =
+        std::max(changes.row(i).squaredNorm(), solution.variance / directions.size[i]);
+    if (rounding || variance > most * most) {
+      untold.push_back(i);
+    }
+    for (Eigen::Index k = 0; k < unknowns_ && rounding; ++k) {
+      if (std::fabs(directions.plain(k, i)) > kTakesPart) {
+        solution.told[static_cast<std::size_t>(k)] = false;
+      }
+    }
+  }
   solution.untold.resize(unknowns_, static_cast<Eigen::Index>(untold.size()));
   for (std::size_t i = 0; i < untold.size(); ++i) {
     solution.untold.col(static_cast<Eigen::Index>(i)) = directions.columns.col(untold[i]);

@@ -15,9 +15,9 @@
 namespace whirl_twin {
 
 struct PartedSolution {
-  Eigen::VectorXd x;          ///< least in the untold directions
+  Eigen::VectorXd x;          ///< least in the directions of rounding
   Eigen::VectorXd deviation;  ///< standard deviations
-  std::vector<bool> told;     ///< of each unknown: it has no part in an untold direction
+  std::vector<bool> told;     ///< of each unknown
   Eigen::MatrixXd untold;     ///< a direction each column
   double variance = 0.0;      ///< of the rest
   double explained = 0.0;     ///< squares that the unknowns explain beside the last `constants`

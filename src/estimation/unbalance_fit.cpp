@@ -67,15 +67,18 @@ UnbalanceFit::UnbalanceFit(const LinearRotor& rotor, const std::vector<Balancing
   equations_ = PartedLeastSquares(first_mean_ + weight_.size(), weight_.size());
 }
 
-/// The rotor follows the shaft; over a hole of some samples by a motion between its ends.
-void UnbalanceFit::turnTo(const ProbeReading& reading) {
+/// The rotor follows the shaft, or begins anew: false; over a hole of some samples by a motion
+/// between its ends.
+bool UnbalanceFit::turnTo(const ProbeReading& reading) {
   const double time = reading.time - last_.time;
   const double turn = kTurn * static_cast<double>(reading.turns - last_.turns) +
                       (reading.remainder - last_.remainder);
-  if (!started_ || !(time > 0.0) || time > kLongestGap) {
+  const double skew = turn - 0.5 * (last_.speed + reading.speed) * time;
+  // A shaft that was lost meanwhile may have been found with another number of turns.
+  if (!started_ || !(time > 0.0) || time > kLongestGap || std::fabs(skew) > 0.5 * kTurn) {
     whirl_.start(reading.speed);
     started_ = true;
-    return;
+    return false;
   }
   if (step_ == 0.0 || time < step_) {
     step_ = time;
@@ -84,7 +87,6 @@ void UnbalanceFit::turnTo(const ProbeReading& reading) {
       time > kFinestSteps * step_ ? static_cast<int>(std::ceil(time / step_ - 1.0e-6)) : 1;
   const double part = 1.0 / steps;
   const double change = reading.speed - last_.speed;
-  const double skew = turn - 0.5 * (last_.speed + reading.speed) * time;
   double turned = 0.0;
   for (int i = 1; i <= steps; ++i) {
     const double at = i * part;
@@ -93,7 +95,7 @@ void UnbalanceFit::turnTo(const ProbeReading& reading) {
     whirl_.advance(part * time, now - turned, last_.speed + change * at);
     turned = now;
   }
-  duration_ += time;
+  return true;
 }
 
 void UnbalanceFit::take(const ProbeReading& reading) {
@@ -101,8 +103,13 @@ void UnbalanceFit::take(const ProbeReading& reading) {
       !std::isfinite(reading.speed)) {
     return;
   }
-  turnTo(reading);
+  const double since = reading.time - last_.time;
+  const bool goes_on = turnTo(reading);
   last_ = reading;
+  if (!reading.values.array().isFinite().any()) {
+    return;
+  }
+  duration_ += goes_on ? since : 0.0;
   const bool first = samples_ == 0;
   lowest_speed_ = first ? reading.speed : std::min(lowest_speed_, reading.speed);
   highest_speed_ = first ? reading.speed : std::max(highest_speed_, reading.speed);

@@ -82,7 +82,7 @@ class UnbalanceFit {
   UnbalanceEstimate told() const;
 
  private:
-  void turnTo(const ProbeReading& reading);
+  bool turnTo(const ProbeReading& reading);
   void add(std::size_t probe, double value, const Eigen::MatrixXcd& amplitudes,
            std::complex<double> turned, double speed);
 

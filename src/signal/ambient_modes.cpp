@@ -45,10 +45,12 @@ double assurance(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
 struct Chain {
   std::vector<IdentifiedMode> links;
   std::vector<int> orders;
+};
 
-  /// Of the order in the middle.
-  const IdentifiedMode& mode() const { return links[links.size() / 2]; }
-  int order() const { return orders[orders.size() / 2]; }
+/// A mode with its deviations, from the parts of a record left out one by one.
+struct Scatter {
+  double frequency = 0.0, decay = 0.0;  // [rad/s], [1/s], squared
+  Eigen::VectorXd shape;                // squared
 };
 
 /// Of the modes that of the chain's; nullptr: it is not there.
@@ -102,6 +104,29 @@ std::vector<Chain> stableChains(const SubspaceIdentification& record, double lim
     }
   }
   return stable;
+}
+
+/// How a mode scatters; nothing where it is not found without one of the parts.
+std::optional<Scatter> scatterOf(const IdentifiedMode& whole, int order,
+                                 const std::vector<SubspaceIdentification>& others) {
+  const auto parts = static_cast<double>(others.size());
+  const double share = parts > 0.0 ? (parts - 1.0) / parts : 0.0;
+  Scatter scatter;
+  scatter.shape = Eigen::VectorXd::Zero(whole.shape.size());
+  Eigen::Index largest = 0;
+  whole.shape.cwiseAbs().maxCoeff(&largest);
+  for (const SubspaceIdentification& other : others) {
+    const std::vector<IdentifiedMode> found = other.modes(order);
+    const IdentifiedMode* const mode = same(whole, found);
+    if (mode == nullptr) {
+      return std::nullopt;
+    }
+    scatter.frequency += share * std::pow(mode->frequency - whole.frequency, 2.0);
+    scatter.decay += share * std::pow(mode->decay_rate - whole.decay_rate, 2.0);
+    const Eigen::VectorXcd shape = mode->shape / mode->shape[largest] * whole.shape[largest];
+    scatter.shape += share * (shape - whole.shape).cwiseAbs2();
+  }
+  return scatter;
 }
 
 /// Of a large number of parts, that 95 % lie within so many deviations: 1.96.
@@ -240,35 +265,31 @@ std::vector<AmbientMode> AmbientModes::identified() const {
     others.push_back(identification(part));
   }
   for (const Chain& chain : chains) {
-    const IdentifiedMode& whole = chain.mode();
-    const auto parts = static_cast<double>(others.size());
-    const double share = parts > 0.0 ? (parts - 1.0) / parts : 0.0;
-    double frequency_squares = 0.0, decay_squares = 0.0;
-    Eigen::VectorXd shape_squares = Eigen::VectorXd::Zero(stations_);
-    Eigen::Index largest = 0;
-    whole.shape.cwiseAbs().maxCoeff(&largest);
-    bool everywhere = true;
-    for (const SubspaceIdentification& other : others) {
-      const std::vector<IdentifiedMode> found = other.modes(chain.order());
-      const IdentifiedMode* const mode = same(whole, found);
-      if (mode == nullptr) {
-        everywhere = false;
-        break;
+    // Low orders scatter less, high ones tell neighbours apart: the one that scatters least.
+    std::optional<Scatter> least;
+    std::size_t best = 0;
+    for (const std::size_t link :
+         {std::size_t{0}, chain.links.size() / 4, chain.links.size() / 2}) {
+      const std::optional<Scatter> scatter =
+          scatterOf(chain.links[link], chain.orders[link], others);
+      if (scatter && (!least || scatter->decay < least->decay)) {
+        least = scatter;
+        best = link;
       }
-      frequency_squares += share * std::pow(mode->frequency - whole.frequency, 2.0);
-      decay_squares += share * std::pow(mode->decay_rate - whole.decay_rate, 2.0);
-      const Eigen::VectorXcd shape = mode->shape / mode->shape[largest] * whole.shape[largest];
-      shape_squares += share * (shape - whole.shape).cwiseAbs2();
     }
+    if (!least) {
+      continue;
+    }
+    const IdentifiedMode& whole = chain.links[best];
     const double limit_of_theory = std::sqrt(std::max(0.0, whole.decay_rate) / duration);
     AmbientMode mode;
     mode.frequency = whole.frequency;
-    mode.frequency_deviation = std::max(std::sqrt(frequency_squares), limit_of_theory);
+    mode.frequency_deviation = std::max(std::sqrt(least->frequency), limit_of_theory);
     mode.decay_rate = whole.decay_rate;
-    mode.decay_deviation = std::max(std::sqrt(decay_squares), limit_of_theory);
+    mode.decay_deviation = std::max(std::sqrt(least->decay), limit_of_theory);
     mode.power = whole.power / covariance_.meanSquare();
     mode.shape = whole.shape;
-    mode.shape_deviation = shape_squares.cwiseSqrt();
+    mode.shape_deviation = least->shape.cwiseSqrt();
     const double k = std::fabs(mode.frequency / speed_);
     if (std::round(k) >= 1.0 && std::round(k) <= orders_ &&
         std::fabs(k - std::round(k)) < kNearOrder / shortest_block_) {
@@ -276,7 +297,7 @@ std::vector<AmbientMode> AmbientModes::identified() const {
     }
     const bool sure = mode.frequency_deviation < kMostUncertain * std::fabs(mode.frequency);
     const bool grows_surely = mode.decay_rate < -3.0 * mode.decay_deviation;
-    if (everywhere && sure && (mode.decay_rate > 0.0 || grows_surely)) {
+    if (sure && (mode.decay_rate > 0.0 || grows_surely)) {
       modes.push_back(std::move(mode));
     }
   }

@@ -2,18 +2,25 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "messages/names.h"
 #include "reports/output.h"
+#include "reports/rotor_record.h"
+#include "reports/unbalance_report.h"
+#include "scene/scene_reader.h"
 #include "tools/balancing_runs.h"
 #include "tools/commands.h"
+#include "tools/shipped_scenes.h"
 
 namespace whirl_twin {
 
 namespace {
 
 constexpr const char* kDescription =
-    "Balances a rotor in several planes by influence coefficients, from measured trial runs.";
+    "Balances a rotor in several planes: by influence coefficients, from measured trial runs; or, "
+    "of\n"
+    "a rotor with a model, from one log of the running machine.";
 
 constexpr const char* kFooter =
     "FILE is YAML or JSON:\n"
@@ -26,12 +33,26 @@ constexpr const char* kFooter =
     "    - {plane: disc_2, mass_radius: 1e-4, angle: 90, readings: [[10e-6, 20], [5e-6, 150]]}\n"
     "  weights: [1, 1]                             of the probes; may be left out\n"
     "mass_radius in kg m; angles in degrees from the shaft's mark in the direction of rotation.\n"
-    "The correction is to be added, with the trial masses taken out.";
+    "The correction is to be added, with the trial masses taken out.\n"
+    "\n"
+    "With --measured FILE is a scene, and LOG an LCM log with what its `sensors` measured, as "
+    "`twin\n"
+    "simulate --measure` writes it: displacement probes and a keyphasor, over a run-up or at "
+    "several\n"
+    "steady speeds. Slow roll is part of the answer (run-out). Angles count from the shaft's "
+    "mark.\n"
+    "What the log does not tell is said, and null in the JSON.\n"
+    "\n"
+    "Example:\n"
+    "  twin balance balancing --measured run.lcmlog --planes left_disc right_disc";
 
 constexpr double kRadian = 3.14159265358979323846 / 180.0;
 
 struct Request {
   std::string file;
+  std::optional<std::string> measured, system;
+  UnbalanceRequest unbalance;
+  std::string lcm_prefix = kDefaultLcmPrefix;
   bool json = false;
 };
 
@@ -87,15 +108,61 @@ int balanceRuns(const Request& request) {
   return kDone;
 }
 
+int balanceMeasured(const Request& request) {
+  if (!(request.unbalance.from >= 0.0 && request.unbalance.from < request.unbalance.to)) {
+    throw Refusal(fmt::format("--from, --to: expected --from below --to, found {:g} and {:g} rad/s",
+                              request.unbalance.from, request.unbalance.to));
+  }
+  requireLcmPrefix(request.lcm_prefix);
+  const BuiltScene scene = build(readSceneFile(scenePath(request.file)));
+  const auto systems = rotorSystems(scene, request.system);
+  if (systems.size() > 1) {
+    throw Refusal("--system: expected which of the rotors the log is of");
+  }
+  const RotorRecord record(scene, systems.front(), *request.measured, request.lcm_prefix);
+  const UnbalanceReport report = unbalanceReport(systems.front(), record, request.unbalance);
+  if (request.json) {
+    printJson(json(report));
+  } else {
+    printText(text(report));
+  }
+  return kDone;
+}
+
 }  // namespace
 
 void addBalanceCommand(CLI::App& twin, int& status) {
   CLI::App* command = twin.add_subcommand("balance", kDescription);
   const auto request = std::make_shared<Request>();
-  command->add_option("FILE", request->file, "the runs")->required()->type_name("");
+  command->add_option("FILE", request->file, "the runs; with --measured the scene")
+      ->required()
+      ->type_name("");
+  CLI::Option* const measured =
+      command->add_option("--measured", request->measured, "a log of the running machine")
+          ->type_name("LOG");
+  const auto with_log = [measured](CLI::Option* option) { return option->needs(measured); };
+  with_log(command->add_option("--system", request->system, "this rotor")->type_name("NAME"));
+  with_log(command
+               ->add_option("--planes", request->unbalance.planes,
+                            "stations where masses can be set; default: where the scene's "
+                            "unbalances are")
+               ->type_name("STATION"));
+  with_log(
+      command->add_option("--from", request->unbalance.from, "rad/s; what was slower is left out")
+          ->type_name("W"));
+  with_log(command->add_option("--to", request->unbalance.to, "rad/s; what was faster is left out")
+               ->type_name("W"));
+  with_log(command->add_flag("--known-run-out", request->unbalance.run_out_known,
+                             "the run-out of the scene's sensors holds, none where they say none"));
+  with_log(command
+               ->add_option("--lcm-prefix", request->lcm_prefix,
+                            "what the channels of the log begin with; default: TWIN_")
+               ->type_name("PREFIX"));
   command->add_flag("--json", request->json, "print one JSON object");
   command->footer(kFooter);
-  command->callback([request, &status] { status = balanceRuns(*request); });
+  command->callback([request, &status] {
+    status = request->measured ? balanceMeasured(*request) : balanceRuns(*request);
+  });
 }
 
 }  // namespace whirl_twin

@@ -1,0 +1,181 @@
+#include "reports/modes_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "messages/refusal.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kTurn = 6.283185307179586;
+constexpr std::size_t kModesLookedAt = 6;
+constexpr double kBeyond = 1.25;     // of the last of them
+constexpr double kOfNyquist = 0.8;   // what probes can tell
+constexpr double kWellKnown = 0.25;  // deviation of a decay rate, of it
+
+/// The frequencies to look at: as far as the model has its first modes, and the samples reach.
+double limitOf(const std::vector<WhirlMode>& model, double speed, double period) {
+  double limit = 3.0 * speed;
+  if (!model.empty()) {
+    const std::size_t last = std::min(model.size(), kModesLookedAt) - 1;
+    limit = kBeyond * model[last].dampedFrequency();
+  }
+  return std::min(limit, kOfNyquist * 0.5 * kTurn / period);
+}
+
+/// One mode of the measured ones for each sense of the model's: the stronger stays.
+std::vector<ComparedMode> compared(const std::vector<AmbientMode>& measured,
+                                   const std::vector<SeenMode>& seen) {
+  std::vector<ComparedMode> all;
+  for (const AmbientMode& mode : measured) {
+    all.push_back({mode, std::nullopt, 0.0, 0.0});
+  }
+  for (const ModePair& pair : pairModes(measured, seen)) {
+    all[pair.measured].model = pair.modelled;
+    all[pair.measured].assurance = pair.assurance;
+  }
+  std::vector<ComparedMode> kept;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    ComparedMode& one = all[i];
+    const auto other = std::find_if(all.begin(), all.end(), [&](const ComparedMode& candidate) {
+      return &candidate != &one && candidate.model && candidate.model == one.model;
+    });
+    if (other != all.end()) {
+      const double apart =
+          std::fabs(std::fabs(one.mode.frequency) - std::fabs(other->mode.frequency));
+      const double deviation =
+          std::hypot(one.mode.frequency_deviation, other->mode.frequency_deviation);
+      const bool one_mode = apart < 3.0 * deviation + 0.005 * std::fabs(one.mode.frequency);
+      if (one_mode && one.mode.power < other->mode.power) {
+        continue;
+      }
+      if (one_mode) {
+        one.other_sense = std::sqrt(other->mode.power / one.mode.power);
+      }
+    }
+    kept.push_back(one);
+  }
+  return kept;
+}
+
+void addNotes(ModesReport& report) {
+  std::vector<std::string>& notes = report.notes;
+  if (!report.record) {
+    notes.push_back(fmt::format(
+        "the record is too short at {:.5g} rad/s: {} samples with a known angle at a speed within "
+        "1 % of it hold no modes. A decay rate s is known to sqrt(s/T) after T seconds at best",
+        report.speed, report.counts.samples));
+    return;
+  }
+  const AmbientRecord& record = *report.record;
+  for (const ComparedMode& one : report.modes) {
+    const AmbientMode& mode = one.mode;
+    if (mode.decay_deviation > kWellKnown * std::fabs(mode.decay_rate)) {
+      notes.push_back(fmt::format(
+          "the decay at {:.5g} rad/s is known to {:.2g} of itself only; {:.2g} times as long a "
+          "record would tell it to a tenth",
+          std::fabs(mode.frequency), mode.decay_deviation / std::fabs(mode.decay_rate),
+          std::pow(10.0 * mode.decay_deviation / mode.decay_rate, 2.0)));
+    }
+    if (mode.order > 0) {
+      notes.push_back(
+          fmt::format("{:.5g} rad/s stands at {} times the speed: what was taken away there is "
+                      "missing from it, "
+                      "its frequency and decay are not those of a mode",
+                      std::fabs(mode.frequency), mode.order));
+    }
+  }
+  if (record.modes.empty()) {
+    notes.push_back(
+        "nothing that stays from one model order to the next: too little excites the rotor, or the "
+        "record is too short");
+  }
+  if (std::find(report.one_probe.begin(), report.one_probe.end(), true) != report.one_probe.end()) {
+    notes.push_back(
+        "a station with one probe shows forwards and backwards alike: senses are those of the "
+        "stations with two");
+  }
+  if (record.speed > report.system->rotor.highest_speed) {
+    notes.push_back(fmt::format("the reduced rotor of the model holds up to {:g} rad/s",
+                                report.system->rotor.highest_speed));
+  }
+}
+
+}  // namespace
+
+ModesReport modesReport(const RotorSystem& system, double speed) {
+  ModesReport report;
+  report.system = &system;
+  report.speed = speed;
+  report.model = whirlModes(system.rotor, system.stations, speed).modes;
+  return report;
+}
+
+ModesReport modesReport(const RotorSystem& system, const RotorRecord& record,
+                        std::optional<double> speed, std::optional<double> limit) {
+  ModesReport report = modesReport(system, speed.value_or(record.steadySpeed()));
+  report.log = record.log();
+  std::vector<std::size_t> places;
+  std::vector<double> directions;
+  for (const RecordedProbe& probe : record.probes()) {
+    places.push_back(probe.station);
+    directions.push_back(probe.direction);
+  }
+  const std::vector<MeasuredStation> stations = measuredStations(places, directions);
+  for (const MeasuredStation& station : stations) {
+    report.stations.push_back(system.stations[station.station].name);
+    report.one_probe.push_back(!station.whole());
+  }
+  const double highest = kOfNyquist * 0.5 * kTurn / record.period();
+  if (limit && !(*limit > 0.0 && *limit <= highest)) {
+    throw Refusal(
+        fmt::format("--to: expected a frequency above 0 and up to {:.4g} rad/s, {:g} of "
+                    "half the sampling rate, found {:g}",
+                    highest, kOfNyquist, *limit));
+  }
+  AmbientModes ambient(static_cast<Eigen::Index>(stations.size()), record.period(), report.speed,
+                       limit.value_or(limitOf(report.model, report.speed, record.period())));
+  StationSample sample;
+  sample.z.resize(static_cast<Eigen::Index>(stations.size()));
+  report.counts = record.read([&](const ProbeReading& reading) {
+    sample.index = reading.index;
+    sample.time = reading.time;
+    sample.turns = reading.turns;
+    sample.remainder = reading.remainder;
+    sample.speed = reading.speed;
+    for (std::size_t s = 0; s < stations.size(); ++s) {
+      const MeasuredStation& at = stations[s];
+      const auto value = [&](std::size_t k) {
+        return reading.values[static_cast<Eigen::Index>(at.probe[k])];
+      };
+      sample.z[static_cast<Eigen::Index>(s)] =
+          at.whole() ? at.z(value(0), value(1)) : at.z(value(0), 0.0);
+    }
+    ambient.take(sample);
+  });
+  report.record = ambient.told();
+  if (report.record) {
+    report.speed = report.record->speed;
+    report.model = whirlModes(system.rotor, system.stations, report.speed).modes;
+    std::vector<SeenMode> seen;
+    for (const WhirlMode& mode : report.model) {
+      seen.push_back(seenMode(mode, stations));
+    }
+    report.modes = compared(report.record->modes, seen);
+    for (std::size_t k = 0; k < report.model.size(); ++k) {
+      const bool found = std::any_of(report.modes.begin(), report.modes.end(),
+                                     [&](const ComparedMode& one) { return one.model == k; });
+      if (!found && report.model[k].dampedFrequency() <= report.record->limit) {
+        report.not_seen.push_back(k);
+      }
+    }
+  }
+  addNotes(report);
+  return report;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,53 @@
+// What `twin modes` shows of one rotor: the modes of its model at a speed and, of a recorded log,
+// those of the machine beside them.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/whirl_modes.h"
+#include "estimation/mode_pairing.h"
+#include "reports/output.h"
+#include "reports/rotor_record.h"
+#include "reports/rotor_systems.h"
+#include "signal/ambient_modes.h"
+
+namespace whirl_twin {
+
+/// A measured mode, and what it is of the model.
+struct ComparedMode {
+  AmbientMode mode;
+  std::optional<std::size_t> model;  ///< of ModesReport::model
+  double assurance = 0.0;            ///< [-], of the shapes
+  /// Of an elliptic whirl: how large its circle in the other sense is beside that of this one.
+  double other_sense = 0.0;
+};
+
+struct ModesReport {
+  const RotorSystem* system = nullptr;
+  double speed = 0.0;  ///< [rad/s]
+  std::vector<WhirlMode> model;
+  // Of a log.
+  std::string log;
+  RecordCounts counts;
+  std::vector<std::string> stations;  ///< names, of what is measured
+  std::vector<bool> one_probe;        ///< of each: it shows one direction only
+  std::optional<AmbientRecord> record;
+  std::vector<ComparedMode> modes;
+  std::vector<std::size_t> not_seen;  ///< of `model`, within what was looked at
+  std::vector<std::string> notes;     ///< what the record does not tell, in words
+};
+
+/// The model's modes at a speed [rad/s].
+ModesReport modesReport(const RotorSystem& system, double speed);
+/// And those that a record tells, about the speed that it kept to or about `speed`; `limit`
+/// [rad/s]: of the frequencies looked at, else a little beyond the model's sixth mode.
+ModesReport modesReport(const RotorSystem& system, const RotorRecord& record,
+                        std::optional<double> speed, std::optional<double> limit);
+
+Json json(const ModesReport& report);
+std::string text(const ModesReport& report);
+
+}  // namespace whirl_twin

@@ -1,0 +1,211 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <complex>
+
+#include "reports/modes_report.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kRadian = 3.14159265358979323846 / 180.0;
+
+/// "86.7 +- 0.12": a value with half of an interval that holds 95 %.
+std::string interval(double value, double half) {
+  return fmt::format("{:.5g} +- {:.2g}", value, half);
+}
+
+const char* sense(const AmbientMode& mode) {
+  return mode.frequency > 0.0 ? "forward" : "backward";
+}
+
+Json phasorsJson(const std::vector<std::string>& stations, const Eigen::VectorXcd& shape,
+                 const Eigen::VectorXd& deviation) {
+  Json json = Json::array();
+  for (std::size_t s = 0; s < stations.size(); ++s) {
+    const auto k = static_cast<Eigen::Index>(s);
+    json.push_back({{"station", stations[s]},
+                    {"amplitude", std::abs(shape[k])},
+                    {"phase", std::arg(shape[k])},
+                    {"deviation", deviation[k]}});
+  }
+  return json;
+}
+
+Json modelJson(const ModesReport& report, std::size_t place) {
+  const WhirlMode& mode = report.model[place];
+  Json json;
+  json["mode"] = place + 1;
+  json["frequency"] = mode.dampedFrequency();
+  json["decay_rate"] = -mode.eigenvalue.real() + 0.0;
+  json["damping_ratio"] = mode.dampingRatio();
+  json["log_decrement"] = mode.logDecrement();
+  json["whirl"] = name(mode.whirl);
+  json["shape"] = Json::array();
+  for (std::size_t s = 0; s < mode.orbits.size(); ++s) {
+    const Orbit& orbit = mode.orbits[s];
+    json["shape"].push_back({{"station", report.system->stations[s].name},
+                             {"major", orbit.major()},
+                             {"minor", orbit.minor()},
+                             {"inclination", orbit.inclination()},
+                             {"whirl", name(orbit.direction())}});
+  }
+  return json;
+}
+
+Json estimateJson(double value, double deviation, double factor) {
+  return {{"value", value},
+          {"standard_deviation", deviation},
+          {"interval", {value - factor * deviation, value + factor * deviation}}};
+}
+
+Json measuredJson(const ModesReport& report, const ComparedMode& one) {
+  const AmbientMode& mode = one.mode;
+  const double factor = report.record->interval;
+  const double frequency = std::fabs(mode.frequency);
+  Json json;
+  json["whirl"] = sense(mode);
+  json["frequency"] = estimateJson(frequency, mode.frequency_deviation, factor);
+  json["decay_rate"] = estimateJson(mode.decay_rate, mode.decay_deviation, factor);
+  json["damping_ratio"] =
+      estimateJson(mode.dampingRatio(), mode.decay_deviation / mode.size(), factor);
+  json["log_decrement"] =
+      estimateJson(mode.logDecrement(),
+                   mode.logDecrement() * mode.decay_deviation / std::fabs(mode.decay_rate), factor);
+  json["other_sense"] = one.other_sense;
+  json["power"] = mode.power;
+  json["order"] = mode.order > 0 ? Json(mode.order) : Json();
+  json["shape"] = phasorsJson(report.stations, mode.shape, mode.shape_deviation);
+  if (one.model) {
+    const WhirlMode& model = report.model[*one.model];
+    const double apart = model.dampedFrequency() - frequency;
+    const double decay_apart = -model.eigenvalue.real() - mode.decay_rate;
+    json["model"] = modelJson(report, *one.model);
+    json["model"]["assurance"] = one.assurance;
+    json["model"]["frequency_difference"] = apart;
+    json["model"]["decay_rate_difference"] = decay_apart;
+    json["model"]["agrees"] = std::fabs(apart) <= factor * mode.frequency_deviation &&
+                              std::fabs(decay_apart) <= factor * mode.decay_deviation;
+  } else {
+    json["model"] = nullptr;
+  }
+  return json;
+}
+
+std::string modelLine(const ModesReport& report, std::size_t place) {
+  const WhirlMode& mode = report.model[place];
+  return fmt::format("  {:>3}  {:<9} {:>10.5g} {:>10.4g} {:>10.4g} {:>10.4g}\n", place + 1,
+                     name(mode.whirl), mode.dampedFrequency(), -mode.eigenvalue.real() + 0.0,
+                     mode.dampingRatio(), mode.logDecrement());
+}
+
+std::string modelText(const ModesReport& report) {
+  std::string out = "  mode  whirl          rad/s  decay 1/s    ratio    log dec.\n";
+  for (std::size_t k = 0; k < report.model.size(); ++k) {
+    out += modelLine(report, k);
+  }
+  return report.model.empty() ? "  no mode that swings\n" : out;
+}
+
+std::string measuredText(const ModesReport& report, const ComparedMode& one) {
+  const AmbientMode& mode = one.mode;
+  const double factor = report.record->interval;
+  const double decrement = mode.logDecrement();
+  std::string out = fmt::format(
+      "  {:<9} {:>18} {:>20} {:>20}\n", sense(mode),
+      interval(std::fabs(mode.frequency), factor * mode.frequency_deviation),
+      interval(mode.decay_rate, factor * mode.decay_deviation),
+      interval(decrement, factor * std::fabs(decrement / mode.decay_rate) * mode.decay_deviation));
+  if (one.model) {
+    const WhirlMode& model = report.model[*one.model];
+    out +=
+        fmt::format("    model {:<3} {:>12.5g} ({:+.2g} %) {:>13.4g} {:>19.4g}   shapes {:.3f}\n",
+                    *one.model + 1, model.dampedFrequency(),
+                    100.0 * (model.dampedFrequency() / std::fabs(mode.frequency) - 1.0),
+                    -model.eigenvalue.real() + 0.0, model.logDecrement(), one.assurance);
+  } else {
+    out += "    no mode of the model\n";
+  }
+  if (report.stations.size() > 1) {
+    out += "    shape  ";
+    for (std::size_t s = 0; s < report.stations.size(); ++s) {
+      const auto k = static_cast<Eigen::Index>(s);
+      out += fmt::format(" {} {:.3g} at {:.0f} deg +- {:.2g},", report.stations[s],
+                         std::abs(mode.shape[k]), std::arg(mode.shape[k]) / kRadian + 0.0,
+                         factor * mode.shape_deviation[k]);
+    }
+    out.back() = '\n';
+  }
+  if (one.other_sense > 0.0) {
+    out += fmt::format("    an ellipse: {:.2g} of it the other way round\n", one.other_sense);
+  }
+  return out;
+}
+
+}  // namespace
+
+Json json(const ModesReport& report) {
+  Json json;
+  json["speed"] = report.speed;
+  if (report.log.empty()) {
+    json["modes"] = Json::array();
+    for (std::size_t k = 0; k < report.model.size(); ++k) {
+      json["modes"].push_back(modelJson(report, k));
+    }
+    return json;
+  }
+  json["log"] = report.log;
+  json["stations"] = report.stations;
+  json["samples"] = report.counts.samples;
+  json["samples_without_angle"] = report.counts.no_angle;
+  json["values_not_valid"] = report.counts.not_valid;
+  json["false_pulses"] = report.counts.false_pulses;
+  json["missing_pulses"] = report.counts.missing_pulses;
+  json["duration"] = report.record ? report.record->duration : 0.0;
+  json["limit"] = report.record ? Json(report.record->limit) : Json();
+  json["vibration"] = report.record ? Json(report.record->vibration) : Json();
+  json["orders"] = report.record ? Json(report.record->orders) : Json();
+  json["modes"] = Json::array();
+  for (const ComparedMode& one : report.modes) {
+    json["modes"].push_back(measuredJson(report, one));
+  }
+  json["not_seen"] = Json::array();
+  for (const std::size_t k : report.not_seen) {
+    json["not_seen"].push_back(modelJson(report, k));
+  }
+  json["notes"] = report.notes;
+  return json;
+}
+
+std::string text(const ModesReport& report) {
+  std::string out = report.system->title();
+  if (report.log.empty()) {
+    return out + fmt::format(": at {:g} rad/s\n", report.speed) + modelText(report);
+  }
+  if (report.record) {
+    const AmbientRecord& record = *report.record;
+    out += fmt::format(
+        ": {:.4g} s at {:.5g} rad/s, frequencies up to {:.4g} rad/s\n"
+        "  {:.3g} m rms turns with the shaft and is taken away, {:.3g} m rms is left\n"
+        "  measured           rad/s            decay 1/s             log dec.    (95 %)\n",
+        record.duration, report.speed, record.limit, record.orders, record.vibration);
+  } else {
+    out += fmt::format(": {}\n", report.log);
+  }
+  for (const ComparedMode& one : report.modes) {
+    out += measuredText(report, one);
+  }
+  if (!report.not_seen.empty()) {
+    out += "  of the model, not seen:\n";
+    for (const std::size_t k : report.not_seen) {
+      out += modelLine(report, k);
+    }
+  }
+  for (const std::string& note : report.notes) {
+    out += fmt::format("  {}\n", note);
+  }
+  return out;
+}
+
+}  // namespace whirl_twin

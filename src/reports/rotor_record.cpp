@@ -1,0 +1,353 @@
+#include "reports/rotor_record.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "messages/message_check.h"
+#include "messages/refusal.h"
+#include "scene/station_names.h"
+#include "signal/shaft_tracker.h"
+#include "transport/event_scan.h"
+#include "transport/lcm_decode.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kTurn = 6.283185307179586;
+constexpr double kNanosecond = 1.0e-9;  // s
+constexpr double kHalfPi = 0.25 * kTurn;
+constexpr double kSteady = 0.01;      // of a speed
+constexpr double kSurelyKnown = 0.1;  // rad, deviation of the shaft's angle
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// The speed about which the most time was spent, of speeds and the times [s] spent at them.
+double longestKept(std::vector<std::pair<double, double>> dwells) {
+  std::sort(dwells.begin(), dwells.end());
+  double longest = 0.0, time = 0.0, moment = 0.0, speed = 0.0;
+  std::size_t first = 0;
+  for (const auto& [now, spent] : dwells) {
+    time += spent;
+    moment += spent * now;
+    while (dwells[first].first < now * (1.0 - kSteady)) {
+      time -= dwells[first].second;
+      moment -= dwells[first].second * dwells[first].first;
+      ++first;
+    }
+    if (time > longest) {
+      longest = time;
+      speed = moment / time;
+    }
+  }
+  return speed;
+}
+
+/// A source of probes, or a keyphasor, and what the log has of it.
+struct Source {
+  const SensorSpec* spec = nullptr;
+  std::int64_t samples = 0;
+  std::int64_t first = 0, last = 0;              // [ns]
+  std::map<std::string, double> deviation = {};  // of its channels, as the first message says
+};
+
+/// The instants [ns] of a message's samples.
+std::int64_t instantOf(const state::Measurement& message, std::int64_t sample) {
+  return message.period > 0 ? message.first_instant + sample * message.period
+                            : message.instant[static_cast<std::size_t>(sample)];
+}
+
+/// The shaft between pulses, at instants in order.
+class TrackedShaft {
+ public:
+  TrackedShaft(const KeyphasorSettings& keyphasor, const std::vector<std::int64_t>& pulses)
+      : tracker_(settingsOf(keyphasor)), pulses_(pulses) {}
+
+  ShaftEstimate at(std::int64_t instant) {
+    while (next_ < pulses_.size() && (!tracker_.locked() || tracker_.newest() <= instant)) {
+      tracker_.take(pulses_[next_++]);
+    }
+    ShaftEstimate shaft = tracker_.at(instant);
+    shaft.known = shaft.known && shaft.deviation < kSurelyKnown;
+    return shaft;
+  }
+  const PulseCounts& counts() const { return tracker_.counts(); }
+
+ private:
+  static ShaftTrackerSettings settingsOf(const KeyphasorSettings& keyphasor) {
+    ShaftTrackerSettings settings;
+    settings.mark = keyphasor.mark - kTurn * std::floor(keyphasor.mark / kTurn);
+    settings.jitter = std::max(1.0e-9, keyphasor.jitter);
+    return settings;
+  }
+
+  ShaftTracker tracker_;
+  const std::vector<std::int64_t>& pulses_;
+  std::size_t next_ = 0;
+};
+
+std::vector<RecordedProbe> probesOf(const SensorSpec& sensor, std::size_t system) {
+  std::vector<RecordedProbe> probes;
+  for (const SensorChannelSpec& channel : sensor.channels) {
+    const SignalSpec& at = channel.signal;
+    if (at.kind == SignalSpec::Kind::kDisplacement && at.system == system) {
+      probes.push_back(
+          {channel.name, at.station, at.direction, 0.0, channel.sensor.delay,
+           channel.sensor.bandwidth,
+           std::polar(channel.run_out.amplitude, channel.run_out.angle - at.direction)});
+    }
+  }
+  return probes;
+}
+
+}  // namespace
+
+RotorRecord::RotorRecord(const BuiltScene& scene, const RotorSystem& system, const std::string& log,
+                         const std::string& prefix)
+    : log_(log), prefix_(prefix) {
+  findProbes(scene, system);
+  if (probes_.empty()) {
+    findWhirl(system);
+  }
+  if (probes_.empty()) {
+    throw Refusal(fmt::format(
+        "{}: expected displacement probes at '{}' and a keyphasor on its shaft, as `sensors` of "
+        "the "
+        "scene names them, or its whirl, on channels that begin with {} (--lcm-prefix); found none",
+        log_, system.name, prefix_));
+  }
+  if (!(steady_speed_ > 0.0)) {
+    throw Refusal(fmt::format("{}: expected a shaft that turns forwards", log_));
+  }
+}
+
+void RotorRecord::eachMessage(const std::function<void(const Message&)>& take) const {
+  EventScan scan(log_);
+  RawEvent event;
+  for (auto found = scan.next(event); found != EventScan::Found::kEnd; found = scan.next(event)) {
+    if (found != EventScan::Found::kEvent || event.data == nullptr ||
+        !parseChannel(event.channel, prefix_)) {
+      continue;
+    }
+    try {
+      take(decodeEvent(event.channel, event.data, event.size, prefix_));
+    } catch (const RejectedMessage&) {  // damaged: `twin log` says where
+    }
+  }
+}
+
+/// The source with the most probes at the rotor of those that the log has, and a keyphasor.
+void RotorRecord::findProbes(const BuiltScene& scene, const RotorSystem& system) {
+  std::map<std::string, Source> sources, keyphasors;
+  std::size_t place = 0;
+  for (std::size_t i = 0; i < scene.systems.size(); ++i) {
+    place = scene.systems[i]->spec.name == system.name ? i : place;
+  }
+  const std::size_t drive = scene.scene.driveOf(scene.scene.systems[place]);
+  for (const SensorSpec& sensor : scene.scene.sensors) {
+    if (sensor.keyphasor && sensor.drive == drive) {
+      keyphasors[sensor.name].spec = &sensor;
+    } else if (!sensor.keyphasor && !probesOf(sensor, place).empty()) {
+      sources[sensor.name].spec = &sensor;
+    }
+  }
+  if (sources.empty() || keyphasors.empty()) {
+    return;
+  }
+  std::map<std::string, std::vector<std::int64_t>> pulses;
+  eachMessage([&](const Message& message) {
+    const auto* const measured = std::get_if<state::Measurement>(&message);
+    if (measured == nullptr) {
+      return;
+    }
+    if (keyphasors.count(measured->source) > 0) {
+      std::vector<std::int64_t>& all = pulses[measured->source];
+      for (std::int64_t i = 0; i < measured->samples; ++i) {
+        if (measured->valid[static_cast<std::size_t>(i)] != 0) {
+          all.push_back(instantOf(*measured, i));
+        }
+      }
+    }
+    const auto found = sources.find(measured->source);
+    if (found == sources.end()) {
+      return;
+    }
+    Source& source = found->second;
+    if (source.samples == 0) {
+      source.first = measured->first_instant;
+      for (std::size_t c = 0; c < measured->channel.size(); ++c) {
+        source.deviation[measured->channel[c]] = measured->deviation[c];
+      }
+    }
+    source.samples += measured->samples;
+    source.last = instantOf(*measured, measured->samples - 1);
+  });
+  const Source* best = nullptr;
+  for (const auto& [name, source] : sources) {
+    if (source.samples > 1 && (best == nullptr || probesOf(*source.spec, place).size() >
+                                                      probesOf(*best->spec, place).size())) {
+      best = &source;
+      source_ = name;
+    }
+  }
+  const auto most = std::max_element(
+      pulses.begin(), pulses.end(),
+      [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); });
+  if (best == nullptr || most == pulses.end()) {
+    return;
+  }
+  probes_ = probesOf(*best->spec, place);
+  for (RecordedProbe& probe : probes_) {
+    const auto said = best->deviation.find(probe.name);
+    probe.deviation = said != best->deviation.end() && said->second > 0.0 ? said->second : 0.0;
+  }
+  keyphasor_ = *keyphasors[most->first].spec->keyphasor;
+  pulses_ = most->second;
+  period_ = static_cast<double>(best->last - best->first) * kNanosecond /
+            static_cast<double>(best->samples - 1);
+  std::vector<std::pair<double, double>> dwells;
+  for (std::size_t i = 1; i < pulses_.size(); ++i) {
+    const double time = static_cast<double>(pulses_[i] - pulses_[i - 1]) * kNanosecond;
+    if (time > 0.0) {
+      dwells.emplace_back(kTurn / time, time);
+    }
+  }
+  steady_speed_ = longestKept(std::move(dwells));
+}
+
+/// The whirl that a twin told, at each station that it published: x and y of each.
+void RotorRecord::findWhirl(const RotorSystem& system) {
+  std::map<std::string, std::int64_t> states;
+  std::vector<std::pair<double, double>> dwells;
+  std::map<std::string, std::pair<double, double>> times;  // first and last [s]
+  eachMessage([&](const Message& message) {
+    if (const auto* const whirl = std::get_if<state::WhirlState>(&message)) {
+      if (++states[whirl->system] == 1) {
+        times[whirl->system] = {whirl->at.time, whirl->at.time};
+      }
+      double& last = times[whirl->system].second;
+      if (whirl->system == system.name && whirl->at.time > last) {
+        dwells.emplace_back(whirl->speed, whirl->at.time - last);
+      }
+      last = whirl->at.time;
+    }
+  });
+  const std::int64_t count = states[system.name];
+  if (count < 2) {
+    return;
+  }
+  for (std::size_t k = 0; k < system.stations.size(); ++k) {
+    const std::string name = k == 0 ? system.name : stationName(system.name, system.stations[k]);
+    if (states[name] == count) {
+      whirls_.push_back(name);
+      probes_.push_back({system.stations[k].name + " x", k, 0.0});
+      probes_.push_back({system.stations[k].name + " y", k, kHalfPi});
+    }
+  }
+  const auto [first, last] = times[system.name];
+  period_ = (last - first) / static_cast<double>(count - 1);
+  steady_speed_ = longestKept(std::move(dwells));
+}
+
+RecordCounts RotorRecord::read(const std::function<void(const ProbeReading&)>& take) const {
+  return whirls_.empty() ? readProbes(take) : readWhirl(take);
+}
+
+RecordCounts RotorRecord::readProbes(const std::function<void(const ProbeReading&)>& take) const {
+  RecordCounts counts;
+  TrackedShaft shaft(keyphasor_, pulses_);
+  std::optional<std::int64_t> origin;
+  std::int64_t last = std::numeric_limits<std::int64_t>::min();
+  ProbeReading reading;
+  reading.values.resize(static_cast<Eigen::Index>(probes_.size()));
+  eachMessage([&](const Message& message) {
+    const auto* const measured = std::get_if<state::Measurement>(&message);
+    if (measured == nullptr || measured->source != source_) {
+      return;
+    }
+    const std::size_t channels = measured->channel.size();
+    std::vector<std::size_t> columns;
+    for (const RecordedProbe& probe : probes_) {
+      const auto found = std::find(measured->channel.begin(), measured->channel.end(), probe.name);
+      columns.push_back(static_cast<std::size_t>(found - measured->channel.begin()));
+    }
+    for (std::int64_t i = 0; i < measured->samples; ++i) {
+      const std::int64_t instant = instantOf(*measured, i);
+      if (instant <= last) {
+        continue;
+      }
+      last = instant;
+      origin = origin.value_or(instant);
+      const ShaftEstimate at = shaft.at(instant);
+      if (!at.known) {
+        ++counts.no_angle;
+        continue;
+      }
+      reading.time = static_cast<double>(instant - *origin) * kNanosecond;
+      reading.index = std::llround(reading.time / period_);
+      reading.turns = at.angle.turns;
+      reading.remainder = at.angle.remainder;
+      reading.speed = at.speed;
+      for (std::size_t c = 0; c < columns.size(); ++c) {
+        const std::size_t value = static_cast<std::size_t>(i) * channels + columns[c];
+        const bool valid = columns[c] < channels && measured->valid[value] != 0;
+        counts.not_valid += valid ? 0 : 1;
+        reading.values[static_cast<Eigen::Index>(c)] = valid ? measured->value[value] : kNaN;
+      }
+      ++counts.samples;
+      take(reading);
+    }
+  });
+  counts.pulses = shaft.counts().taken;
+  counts.false_pulses = shaft.counts().refused;
+  counts.missing_pulses = shaft.counts().missed;
+  return counts;
+}
+
+RecordCounts RotorRecord::readWhirl(const std::function<void(const ProbeReading&)>& take) const {
+  RecordCounts counts;
+  ProbeReading reading;
+  const auto stations = static_cast<Eigen::Index>(whirls_.size());
+  reading.values = Eigen::VectorXd::Constant(2 * stations, kNaN);
+  std::optional<double> time;
+  std::optional<double> origin;
+  const auto finish = [&] {
+    if (time) {
+      counts.not_valid += reading.values.array().isNaN().count();
+      ++counts.samples;
+      take(reading);
+    }
+    reading.values.setConstant(kNaN);
+  };
+  eachMessage([&](const Message& message) {
+    const auto* const whirl = std::get_if<state::WhirlState>(&message);
+    if (whirl == nullptr) {
+      return;
+    }
+    const auto found = std::find(whirls_.begin(), whirls_.end(), whirl->system);
+    if (found == whirls_.end() || (time && whirl->at.time < *time)) {
+      return;
+    }
+    if (!time || whirl->at.time > *time) {
+      finish();
+      time = whirl->at.time;
+      origin = origin.value_or(*time);
+      reading.time = *time - *origin;
+      reading.index = std::llround(reading.time / period_);
+      reading.turns = static_cast<std::int64_t>(std::floor(whirl->shaft_angle / kTurn));
+      reading.remainder = whirl->shaft_angle - kTurn * static_cast<double>(reading.turns);
+      reading.speed = whirl->speed;
+    }
+    const auto place = 2 * static_cast<Eigen::Index>(found - whirls_.begin());
+    reading.values[place] = whirl->x;
+    reading.values[place + 1] = whirl->y;
+  });
+  finish();
+  return counts;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,74 @@
+// What a recorded LCM log holds of a running rotor: the samples of its displacement probes with the
+// angle of its shaft from the keyphasor's pulses, as `twin simulate --measure` writes them and an
+// acquisition beside a machine would; where there are no measurements, the whirl that a twin told.
+#pragma once
+
+#include <complex>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "estimation/unbalance_fit.h"
+#include "messages/measurement.h"
+#include "reports/rotor_systems.h"
+#include "transport/channels.h"
+
+namespace whirl_twin {
+
+/// A displacement probe at a station of the rotor.
+struct RecordedProbe {
+  std::string name;
+  std::size_t station = 0;         ///< of the rotor's stations
+  double direction = 0.0;          ///< [rad], across the shaft, from +x towards +y
+  double deviation = 0.0;          ///< [m], of its noise, as the messages say; 0: they do not
+  double delay = 0.0;              ///< [s], as the scene says
+  double bandwidth = 0.0;          ///< [Hz], likewise; 0: no filter
+  std::complex<double> run_out{};  ///< [m], likewise, as in unbalance_fit.h
+};
+
+/// What has become of what the log holds.
+struct RecordCounts {
+  std::int64_t samples = 0;    ///< with an angle
+  std::int64_t no_angle = 0;   ///< samples while the angle of the shaft was not known
+  std::int64_t not_valid = 0;  ///< values of probes
+  std::int64_t pulses = 0;     ///< that were taken
+  std::int64_t false_pulses = 0, missing_pulses = 0;
+};
+
+class RotorRecord {
+ public:
+  /// Looks through the log. Throws Refusal where it holds nothing of the rotor that could be used,
+  /// with what was expected, and as EventScan does.
+  RotorRecord(const BuiltScene& scene, const RotorSystem& system, const std::string& log,
+              const std::string& prefix);
+
+  const std::string& log() const { return log_; }
+  /// Of the messages; "" where it is the whirl that a twin told.
+  const std::string& source() const { return source_; }
+  const std::vector<RecordedProbe>& probes() const { return probes_; }
+  double period() const { return period_; }  ///< [s], from sample to sample
+  /// [rad/s], about which the shaft kept within 1 % for the longest time.
+  double steadySpeed() const { return steady_speed_; }
+
+  /// Goes through the log again and gives each sample that has an angle.
+  RecordCounts read(const std::function<void(const ProbeReading&)>& take) const;
+
+ private:
+  void findProbes(const BuiltScene& scene, const RotorSystem& system);
+  void findWhirl(const RotorSystem& system);
+  RecordCounts readProbes(const std::function<void(const ProbeReading&)>& take) const;
+  RecordCounts readWhirl(const std::function<void(const ProbeReading&)>& take) const;
+  void eachMessage(const std::function<void(const Message&)>& take) const;
+
+  std::string log_, prefix_, source_;
+  std::vector<RecordedProbe> probes_;
+  KeyphasorSettings keyphasor_;
+  std::vector<std::int64_t> pulses_;  // [ns]
+  std::vector<std::string> whirls_;   // systems, as published, of two probes each
+  double period_ = 0.0;
+  double steady_speed_ = 0.0;
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,262 @@
+#include "reports/unbalance_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "messages/names.h"
+#include "messages/refusal.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kRadian = 3.14159265358979323846 / 180.0;
+constexpr double kTakesPart = 0.1;   // in a combination, of its largest, to be named
+constexpr double kMuchBeyond = 2.0;  // what is left over what the probes' noise makes
+constexpr double kSameSpeed = 0.01;  // of a speed
+
+/// Does a force act at the station as an unbalance would?
+bool actsAt(const ShaftForce& force, const Station& station) {
+  const Eigen::VectorXcd unit = station.along_x.cast<std::complex<double>>() -
+                                std::complex<double>(0.0, 1.0) * station.along_y;
+  const double both = unit.squaredNorm() * force.amplitude.squaredNorm();
+  return force.inertial && force.harmonic == 1 && both > 0.0 &&
+         std::norm(unit.dot(force.amplitude)) > (1.0 - 1.0e-9) * both;
+}
+
+std::vector<BalancingPlane> planesOf(const RotorSystem& system,
+                                     const std::vector<std::string>& wanted) {
+  std::vector<std::string> names;
+  std::vector<BalancingPlane> all, unbalanced;
+  for (const Station& station : system.stations) {
+    names.push_back(station.name);
+    all.push_back({station.name, station});
+    if (std::any_of(system.rotor.forces.begin(), system.rotor.forces.end(),
+                    [&](const ShaftForce& force) { return actsAt(force, station); })) {
+      unbalanced.push_back(all.back());
+    }
+  }
+  if (wanted.empty()) {
+    return unbalanced.empty() ? all : unbalanced;
+  }
+  std::vector<BalancingPlane> planes;
+  for (const std::string& name : wanted) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) {
+      throw Refusal(fmt::format("--planes: '{}' has no station '{}'{}", system.name, name,
+                                hint(name, names)));
+    }
+    planes.push_back(all[static_cast<std::size_t>(found - names.begin())]);
+  }
+  return planes;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// Who takes part in a combination that is not told; of planes and run-outs each, beside the
+/// largest of their kind.
+std::string partners(const UnbalanceReport& report, const UntoldCombination& untold) {
+  std::vector<std::string> names;
+  const auto collect = [&](const std::vector<std::complex<double>>& parts,
+                           const std::vector<std::string>& of, const char* what) {
+    double largest = 0.0;
+    for (const std::complex<double>& part : parts) {
+      largest = std::max(largest, std::abs(part));
+    }
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      if (largest > 0.0 && std::abs(parts[i]) > kTakesPart * largest) {
+        names.push_back(fmt::format("{} {}", what, of[i]));
+      }
+    }
+  };
+  collect(untold.planes, report.planes, "the unbalance at");
+  collect(untold.run_outs, report.probes, "the run-out under");
+  return listed(names);
+}
+
+void addNotes(UnbalanceReport& report) {
+  const UnbalanceEstimate& found = report.estimate;
+  if (!found.untold.empty()) {
+    const bool one_speed =
+        found.highest_speed - found.lowest_speed < kSameSpeed * found.highest_speed;
+    report.notes.push_back(fmt::format(
+        "the log does not tell {} of its unknowns: {}", found.untold.size(),
+        one_speed
+            ? "at one speed run-out is the same as unbalance. A second speed tells them apart, "
+              "a slow one best; or take the run-outs for known (--known-run-out)"
+            : "some planes move the probes alike at these speeds, as where there are more of "
+              "them than modes that take part. Fewer planes (--planes), or a critical speed "
+              "more, tell them"));
+    std::vector<std::string> said;
+    for (const UntoldCombination& untold : found.untold) {
+      const std::string who = partners(report, untold);
+      if (std::find(said.begin(), said.end(), who) == said.end()) {
+        said.push_back(who);
+        report.notes.push_back("not told apart: " + who);
+      }
+    }
+  }
+  if (found.beyond_noise > kMuchBeyond) {
+    report.notes.push_back(fmt::format(
+        "what is left is {:.3g} times the probes' noise: ambient vibration, or a model that is not "
+        "the machine's; deviations hold for the model as it is (`twin fit`, `twin modes`)",
+        found.beyond_noise));
+  }
+  if (found.highest_speed > report.system->rotor.highest_speed) {
+    report.notes.push_back(
+        fmt::format("the reduced rotor of the model holds up to {:g} rad/s (--to)",
+                    report.system->rotor.highest_speed));
+  }
+}
+
+/// [deg], from the phase mark.
+double angleOf(const UnbalanceReport& report, std::complex<double> unbalance) {
+  return std::arg(unbalance * std::polar(1.0, -report.phase_mark)) / kRadian + 0.0;
+}
+
+/// [deg], of the angle of a phasor.
+double angleDeviation(const PhasorEstimate& estimate) {
+  return std::atan2(estimate.deviation, std::abs(estimate.value)) / kRadian;
+}
+
+Json massJson(const UnbalanceReport& report, const PhasorEstimate& estimate, double sign) {
+  if (!estimate.told) {
+    return {{"mass_radius", nullptr},
+            {"angle", nullptr},
+            {"mass_radius_deviation", nullptr},
+            {"angle_deviation", nullptr}};
+  }
+  return {{"mass_radius", std::abs(estimate.value)},
+          {"angle", angleOf(report, sign * estimate.value)},
+          {"mass_radius_deviation", estimate.deviation},
+          {"angle_deviation", angleDeviation(estimate)}};
+}
+
+std::string massLine(const UnbalanceReport& report, std::size_t plane, double sign) {
+  const PhasorEstimate& estimate = report.estimate.planes[plane];
+  const std::string name = printable(report.planes[plane]);
+  return estimate.told
+             ? fmt::format("  {:<18} {:>14.6g} +- {:<9.2g} {:>11.3f} +- {:.2g}\n", name,
+                           std::abs(estimate.value), estimate.deviation,
+                           angleOf(report, sign * estimate.value), angleDeviation(estimate))
+             : fmt::format("  {:<18} {:>14}\n", name, "not told");
+}
+
+}  // namespace
+
+UnbalanceReport unbalanceReport(const RotorSystem& system, const RotorRecord& record,
+                                const UnbalanceRequest& request) {
+  UnbalanceReport report;
+  report.system = &system;
+  report.log = record.log();
+  report.phase_mark = system.dynamics->phaseMark();
+  const std::vector<BalancingPlane> planes = planesOf(system, request.planes);
+  for (const BalancingPlane& plane : planes) {
+    report.planes.push_back(plane.name);
+  }
+  std::vector<RotorProbe> probes;
+  for (const RecordedProbe& probe : record.probes()) {
+    const Station& station = system.stations[probe.station];
+    report.probes.push_back(probe.name);
+    probes.push_back(
+        {probe.name,
+         std::cos(probe.direction) * station.along_x + std::sin(probe.direction) * station.along_y,
+         probe.deviation, probe.delay, probe.bandwidth, request.run_out_known, probe.run_out});
+  }
+  UnbalanceFit fit(system.rotor, planes, probes);
+  std::int64_t used = 0;
+  ProbeReading outside;
+  report.counts = record.read([&](const ProbeReading& reading) {
+    if (reading.speed >= request.from && reading.speed <= request.to) {
+      ++used;
+      fit.take(reading);
+      return;
+    }
+    outside = reading;  // the rotor goes on, and nothing is asked of it
+    outside.values.setConstant(std::nan(""));
+    fit.take(outside);
+  });
+  if (used == 0) {
+    throw Refusal(fmt::format(
+        "{}: expected samples with a known angle of the shaft from {:g} to {:g} rad/s, found none "
+        "among {} samples",
+        record.log(), request.from, request.to, report.counts.samples + report.counts.no_angle));
+  }
+  report.estimate = fit.told();
+  addNotes(report);
+  return report;
+}
+
+Json json(const UnbalanceReport& report) {
+  const UnbalanceEstimate& found = report.estimate;
+  Json json;
+  json["system"] = report.system->name;
+  json["log"] = report.log;
+  for (std::size_t i = 0; i < report.planes.size(); ++i) {
+    json["unbalance"][report.planes[i]] = massJson(report, found.planes[i], 1.0);
+    json["correction"][report.planes[i]] = massJson(report, found.planes[i], -1.0);
+  }
+  for (std::size_t i = 0; i < report.probes.size(); ++i) {
+    const PhasorEstimate& one = found.run_outs[i];
+    json["run_out"][report.probes[i]] =
+        one.told ? Json({{"amplitude", std::abs(one.value)},
+                         {"phase_lag", -std::arg(one.value) / kRadian + 0.0},
+                         {"deviation", one.deviation}})
+                 : Json();
+  }
+  json["rank_deficiency"] = found.untold.size();
+  json["undetermined"] = Json::array();
+  for (const UntoldCombination& untold : found.untold) {
+    json["undetermined"].push_back(partners(report, untold));
+  }
+  json["lowest_speed"] = found.lowest_speed;
+  json["highest_speed"] = found.highest_speed;
+  json["duration"] = found.duration;
+  json["samples"] = found.samples;
+  json["samples_without_angle"] = report.counts.no_angle;
+  json["values_not_valid"] = report.counts.not_valid;
+  json["false_pulses"] = report.counts.false_pulses;
+  json["missing_pulses"] = report.counts.missing_pulses;
+  json["synchronous_rms"] = found.synchronous;
+  json["residual_rms"] = found.noise;
+  json["residual_beyond_noise"] = found.beyond_noise > 0.0 ? Json(found.beyond_noise) : Json();
+  json["notes"] = report.notes;
+  return json;
+}
+
+std::string text(const UnbalanceReport& report) {
+  const UnbalanceEstimate& found = report.estimate;
+  std::string out = fmt::format(
+      "{}: {:.4g} s from {:.4g} to {:.4g} rad/s, {} probes\n"
+      "  {:.3g} m rms turns with the shaft, {:.3g} m rms is left (of each probe)\n"
+      "unbalance            mass x radius, kg m            angle, deg   (standard deviations)\n",
+      report.system->title(), found.duration, found.lowest_speed, found.highest_speed,
+      report.probes.size(), found.synchronous, found.noise);
+  for (std::size_t i = 0; i < report.planes.size(); ++i) {
+    out += massLine(report, i, 1.0);
+  }
+  out += "add\n";
+  for (std::size_t i = 0; i < report.planes.size(); ++i) {
+    out += massLine(report, i, -1.0);
+  }
+  out += "run-out                 amplitude, m             phase lag, deg\n";
+  for (std::size_t i = 0; i < report.probes.size(); ++i) {
+    const PhasorEstimate& one = found.run_outs[i];
+    const std::string name = printable(report.probes[i]);
+    out += one.told ? fmt::format("  {:<18} {:>14.4g} +- {:<9.2g} {:>11.2f}\n", name,
+                                  std::abs(one.value), one.deviation,
+                                  -std::arg(one.value) / kRadian + 0.0)
+                    : fmt::format("  {:<18} {:>14}\n", name, "not told");
+  }
+  for (const std::string& note : report.notes) {
+    out += note + "\n";
+  }
+  return out;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,107 @@
+#include <memory>
+#include <optional>
+
+#include "messages/refusal.h"
+#include "reports/modes_report.h"
+#include "reports/rotor_record.h"
+#include "scene/scene_reader.h"
+#include "tools/arguments.h"
+#include "tools/commands.h"
+#include "tools/shipped_scenes.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr const char* kDescription =
+    "Modes of the rotors of a scene at a speed: frequency, damping, sense, shape; and, from a log\n"
+    "of the running machine, those that its ambient vibration shows, with intervals.";
+
+constexpr const char* kFooter =
+    "LOG is an LCM log with the measurements of the scene's `sensors`, displacement probes and a\n"
+    "keyphasor, as `twin simulate --measure` writes them, or with the whirl that a twin told. "
+    "What\n"
+    "turns with the shaft is taken away; what stays from model order to model order is a mode. "
+    "The\n"
+    "speed is the one that was kept for longest. A decay rate s is known to sqrt(s/T) after T\n"
+    "seconds at best.\n"
+    "\n"
+    "Examples:\n"
+    "  twin modes balancing --speed 70\n"
+    "  twin modes balancing --measured run.lcmlog --json";
+
+struct Request {
+  std::string scene;
+  std::optional<std::string> system, measured;
+  std::optional<double> speed, limit;
+  std::string lcm_prefix = kDefaultLcmPrefix;
+  bool json = false;
+};
+
+void requireUse(const Request& request) {
+  constexpr double kFastest = 1.0e6;
+  if (request.speed && !(*request.speed >= 0.0 && *request.speed <= kFastest)) {
+    throw Refusal("--speed: expected a shaft speed from 0 to 1e+06 rad/s");
+  }
+  if (request.limit && !request.measured) {
+    throw Refusal("--to: is for what is measured, with --measured LOG");
+  }
+  requireLcmPrefix(request.lcm_prefix);
+}
+
+int modesOf(const Request& request) {
+  requireUse(request);
+  const BuiltScene scene = build(readSceneFile(scenePath(request.scene)));
+  const auto systems = rotorSystems(scene, request.system);
+  if (request.measured && systems.size() > 1) {
+    throw Refusal("--system: expected which of the rotors the log is of");
+  }
+  Json all;
+  all["scene"] = scene.scene.name;
+  std::string words;
+  for (const RotorSystem& system : systems) {
+    const ModesReport report =
+        request.measured
+            ? modesReport(system, RotorRecord(scene, system, *request.measured, request.lcm_prefix),
+                          request.speed, request.limit)
+            : modesReport(system, request.speed.value_or(system.highest_speed));
+    all["systems"][system.name] = json(report);
+    words += (words.empty() ? "" : "\n") + text(report);
+  }
+  if (request.json) {
+    printJson(all);
+  } else {
+    printText(words);
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void addModesCommand(CLI::App& twin, int& status) {
+  CLI::App* command = twin.add_subcommand("modes", kDescription);
+  const auto request = std::make_shared<Request>();
+  addSceneOption(command, request->scene);
+  command->add_option("--system", request->system, "this rotor only")->type_name("NAME");
+  command->add_option("--measured", request->measured, "a log of the running machine")
+      ->type_name("LOG");
+  command
+      ->add_option("--speed", request->speed,
+                   "rad/s, of the shaft; default: the drive's highest, of a log the one kept for "
+                   "longest")
+      ->type_name("W");
+  command
+      ->add_option("--to", request->limit,
+                   "rad/s, of the frequencies that are looked for; default: a little beyond the "
+                   "model's sixth")
+      ->type_name("W");
+  command
+      ->add_option("--lcm-prefix", request->lcm_prefix,
+                   "what the channels of the log begin with; default: TWIN_")
+      ->type_name("PREFIX");
+  command->add_flag("--json", request->json, "print one JSON object");
+  command->footer(kFooter);
+  command->callback([request, &status] { status = modesOf(*request); });
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,190 @@
+// `twin modes` and `twin balance --measured`: what a log of the running machine tells, of rotors
+// whose modes and unbalances are known.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "twin_program.h"
+
+namespace whirl_twin {
+namespace {
+
+constexpr double kRadian = 3.14159265358979323846 / 180.0;
+
+/// A disc with internal damping at 90 rad/s, 1.5 times its critical speed: forwards it decays by
+/// less than backwards. Forces that nobody knows shake it; its probes are noisy, its surface is not
+/// round.
+std::string shakenRotor(const TemporaryDirectory& folder, double duration) {
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> normal(0.0, 1.0);
+  std::string table = "time,x,y\n";
+  for (int i = 0; i * 0.004 < duration + 1.0; ++i) {
+    table += std::to_string(i * 0.004) + "," + std::to_string(normal(random)) + "," +
+             std::to_string(normal(random)) + "\n";
+  }
+  folder.write("forces.csv", table);
+  return folder.write(
+      "rotor.yaml",
+      "name: shaken\n"
+      "step: 0.001\n"
+      "drives: {shaft: {speed: 90.0}}\n"
+      "systems:\n"
+      "  rotor:\n"
+      "    model: jeffcott_rotor\n"
+      "    drive: shaft\n"
+      "    parameters: {mass: 2.0, stiffness: 7200.0, damping: 8.0, internal_damping: 2.0,\n"
+      "                 eccentricity: 1.0e-5}\n"
+      "    inputs:\n"
+      "      force_x: {table: forces.csv, time: time, value: x, hold: true}\n"
+      "      force_y: {table: forces.csv, time: time, value: y, hold: true}\n"
+      "sensors:\n"
+      "  probes:\n"
+      "    rate: 1000.0\n"
+      "    channels:\n"
+      "      x: {measures: rotor.x, noise: 3.0e-6, resolution: 1.0e-7, run_out: 8.0e-6}\n"
+      "      slant: {measures: rotor, direction: 2.0, noise: 3.0e-6, run_out: 8.0e-6}\n"
+      "  tacho: {keyphasor: shaft, jitter: 1.0e-6}\n");
+}
+
+/// A log of what its sensors measured; "": of the whirl alone.
+std::string logOf(const TemporaryDirectory& folder, const std::string& scene, double duration,
+                  bool measured = true) {
+  const std::string log = folder.file("run.lcmlog");
+  std::vector<std::string> command{"simulate", scene, "--duration", std::to_string(duration),
+                                   "--output", log,   "--sample",   "0.002"};
+  if (measured) {
+    command.insert(command.end(), {"--measure", "sensors"});
+  }
+  const Ending end = twin(command);
+  EXPECT_EQ(end.status, 0) << end.err;
+  return log;
+}
+
+/// Does an interval hold a value, and say more than nothing?
+void expectHolds(const nlohmann::json& estimate, double truth) {
+  EXPECT_LE(estimate["interval"][0].get<double>(), truth);
+  EXPECT_GE(estimate["interval"][1].get<double>(), truth);
+  EXPECT_LT(estimate["standard_deviation"].get<double>(), 0.5 * std::fabs(truth));
+}
+
+TEST(Modes, OfTheModelAtASpeed) {
+  const Ending end = twin({"modes", "demo", "--speed", "50", "--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  const auto modes = end.json()["systems"]["rotor"]["modes"];
+  ASSERT_EQ(modes.size(), 2u);
+  for (const auto& mode : modes) {
+    EXPECT_NEAR(mode["frequency"].get<double>(), 60.0 * std::sqrt(1.0 - 0.0025), 1e-9);
+    EXPECT_NEAR(mode["decay_rate"].get<double>(), 3.0, 1e-9);
+  }
+  EXPECT_NE(modes[0]["whirl"], modes[1]["whirl"]);
+}
+
+// x and y are at 115 degrees from one another; order removed are an unbalance and a run-out that
+// are as large as the vibration.
+TEST(Modes, OfAShakenRotorStandBesideTheModels) {
+  const TemporaryDirectory folder;
+  const std::string scene = shakenRotor(folder, 120.0);
+  for (const bool measured : {true, false}) {
+    const std::string log = logOf(folder, scene, 120.0, measured);
+    const Ending end = twin({"modes", scene, "--measured", log, "--json"});
+    ASSERT_EQ(end.status, 0) << end.err;
+    const auto rotor = end.json()["systems"]["rotor"];
+    EXPECT_NEAR(rotor["speed"].get<double>(), 90.0, 1e-3);
+    ASSERT_EQ(rotor["modes"].size(), 2u) << rotor.dump(1);
+    EXPECT_EQ(rotor["not_seen"].size(), 0u);
+    const auto model =
+        twin({"modes", scene, "--speed", "90", "--json"}).json()["systems"]["rotor"]["modes"];
+    for (const auto& mode : rotor["modes"]) {
+      for (const auto& truth : model) {
+        if (truth["whirl"] != mode["whirl"]) {
+          continue;
+        }
+        EXPECT_EQ(mode["model"]["mode"], truth["mode"]);
+        for (const char* value : {"frequency", "decay_rate", "damping_ratio", "log_decrement"}) {
+          expectHolds(mode[value], truth[value].get<double>());
+        }
+        EXPECT_EQ(mode["model"]["agrees"], true);
+      }
+    }
+  }
+}
+
+TEST(Modes, SayWhatARecordDoesNotTell) {
+  const TemporaryDirectory folder;
+  const std::string scene = shakenRotor(folder, 6.0);
+  const std::string log = logOf(folder, scene, 1.0);
+  const Ending end = twin({"modes", scene, "--measured", log});
+  EXPECT_EQ(end.status, 0) << end.err;
+  EXPECT_NE(end.out.find("too short"), std::string::npos) << end.out;
+}
+
+TEST(Modes, RefuseALogOfSomethingElse) {
+  const TemporaryDirectory folder;
+  const std::string scene = shakenRotor(folder, 2.0);
+  const Ending demo =
+      twin({"simulate", "pendulum", "--duration", "1", "--output", folder.file("other.lcmlog")});
+  ASSERT_EQ(demo.status, 0) << demo.err;
+  const Ending end = twin({"modes", scene, "--measured", folder.file("other.lcmlog")});
+  EXPECT_EQ(end.status, 2);
+  EXPECT_NE(end.err.find("expected displacement probes at 'rotor'"), std::string::npos) << end.err;
+}
+
+/// 6.0e-4 kg m at 0.9 rad and 9.0e-4 kg m at 3.6 rad, as the shipped scene hides them.
+void expectHiddenUnbalances(const nlohmann::json& told) {
+  const double size[] = {6.0e-4, 9.0e-4};
+  const double angle[] = {0.9 / kRadian, 3.6 / kRadian - 360.0};
+  const char* plane[] = {"node_2", "node_4"};
+  for (int i = 0; i < 2; ++i) {
+    const auto found = told["unbalance"][plane[i]];
+    EXPECT_NEAR(found["mass_radius"].get<double>(), size[i], 0.02 * size[i]);
+    EXPECT_NEAR(found["angle"].get<double>(), angle[i], 2.0);
+    const auto add = told["correction"][plane[i]];
+    EXPECT_NEAR(std::remainder(add["angle"].get<double>() - angle[i] - 180.0, 360.0), 0.0, 2.0);
+    EXPECT_LT(found["mass_radius_deviation"].get<double>(), 0.02 * size[i]);
+    EXPECT_LT(std::fabs(found["mass_radius"].get<double>() - size[i]),
+              5.0 * found["mass_radius_deviation"].get<double>());
+  }
+}
+
+TEST(BalanceMeasured, FindsWhatTheShippedSceneHidesFromItsRunUp) {
+  const TemporaryDirectory folder;
+  const std::string log = logOf(folder, "balancing", 14.0);
+  const Ending end = twin({"balance", "balancing", "--measured", log, "--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  const auto told = end.json();
+  EXPECT_EQ(told["rank_deficiency"], 0);
+  EXPECT_LT(told["residual_beyond_noise"].get<double>(), 1.2);
+  expectHiddenUnbalances(told);
+
+  // At one speed run-out and unbalance are one; only how the run-up rings down tells a little.
+  const Ending one =
+      twin({"balance", "balancing", "--measured", log, "--json", "--from", "69.99999"});
+  ASSERT_EQ(one.status, 0) << one.err;
+  EXPECT_GE(one.json()["rank_deficiency"].get<int>(), 2);
+  EXPECT_TRUE(one.json()["unbalance"]["node_2"]["mass_radius"].is_null());
+  EXPECT_TRUE(one.json()["unbalance"]["node_4"]["mass_radius"].is_null());
+  EXPECT_NE(one.json()["notes"].dump().find("at one speed run-out is the same as unbalance"),
+            std::string::npos);
+
+  const Ending known = twin({"balance", "balancing", "--measured", log, "--json", "--from",
+                             "69.99999", "--known-run-out"});
+  ASSERT_EQ(known.status, 0) << known.err;
+  expectHiddenUnbalances(known.json());
+}
+
+TEST(BalanceMeasured, RefusesPlanesThatAreNotThereAndOptionsWithoutALog) {
+  const TemporaryDirectory folder;
+  const std::string log = logOf(folder, "balancing", 2.0);
+  const Ending plane = twin({"balance", "balancing", "--measured", log, "--planes", "node_22"});
+  EXPECT_EQ(plane.status, 2);
+  EXPECT_NE(plane.err.find("has no station 'node_22'; did you mean 'node_2'?"), std::string::npos)
+      << plane.err;
+  EXPECT_EQ(twin({"balance", "runs.yaml", "--planes", "node_2"}).status, 2);
+  const Ending none = twin({"balance", "balancing", "--measured", log, "--from", "500"});
+  EXPECT_EQ(none.status, 2);
+  EXPECT_NE(none.err.find("from 500 to 1e+06 rad/s, found none"), std::string::npos) << none.err;
+}
+
+}  // namespace
+}  // namespace whirl_twin
