@@ -1,0 +1,292 @@
+// A follower beside a simulated machine that it knows by its sensors alone.
+#include "estimation/follower.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "messages/refusal.h"
+#include "scene/scene_reader.h"
+#include "twin/measurements.h"
+#include "twin/observer.h"
+
+namespace whirl_twin {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+constexpr const char* kRotor = R"(
+name: rig
+step: 0.001
+drives:
+  shaft: {speed: 45.0}
+systems:
+  rotor:
+    model: jeffcott_rotor
+    drive: shaft
+    parameters: {mass: 2.0, stiffness: 7200.0, damping: 12.0, eccentricity: 1.0e-4}
+sensors:
+  probes:
+    rate: 200.0
+    channels:
+      x: {measures: rotor.x, noise: 3.0e-6}
+      y: {measures: rotor.y, noise: 3.0e-6}
+  tacho: {keyphasor: shaft, jitter: 2.0e-5}
+)";
+
+BuiltScene sceneOf(const std::string& text) {
+  return build(readScene(YAML::Load(text), "a test"));
+}
+
+/// A machine that runs, and tells what its sensors see.
+class Machine {
+ public:
+  explicit Machine(const std::string& scene)
+      : twin_(sceneOf(scene)),
+        generations_(std::make_shared<SystemGenerations>(twin_)),
+        observer_(twin_, generations_),
+        measurements_(twin_.scene().sensors, twin_.built(), observer_),
+        record_(twin_.layout().size) {}
+
+  std::vector<state::Measurement> step() {
+    twin_.step();
+    twin_.write(record_.data());
+    observer_.observe(record_.data());
+    return measurements_.observe(observer_);
+  }
+  void setStiffness(double stiffness) {
+    const SharedSystem next =
+        twin_.systems()[0]->with({"stiffness", "stiffness_y"}, {stiffness, stiffness}, "a test");
+    const std::int64_t generation = generations_->add(0, {next->dynamics, next->parameters()});
+    old_.push_back(twin_.replace(0, twin_.stepperOf(*next), generation));
+  }
+  double time() const { return twin_.time(); }
+  double x() const { return observer_.coordinates(0)[0]; }
+  double y() const { return observer_.coordinates(0)[1]; }
+
+ private:
+  Twin twin_;
+  std::shared_ptr<SystemGenerations> generations_;
+  Observer observer_;
+  Measurements measurements_;
+  std::vector<double> record_;
+  std::vector<std::unique_ptr<Stepper>> old_;
+};
+
+/// The follower, and all that it has told.
+class Twinned {
+ public:
+  Twinned(const std::string& scene, const FollowSettings& settings)
+      : twin_(sceneOf(scene)),
+        follower(twin_, std::make_shared<SystemGenerations>(twin_), settings, 10, listener()) {}
+
+  const state::FollowState& last() const { return told.back(); }
+  double x() const { return whirl_[whirl_.size() - 2]; }
+  double y() const { return whirl_.back(); }
+  /// Of all records, one after another.
+  std::vector<double> whirl() const { return whirl_; }
+  double recorded = 0.0;  ///< [s], of the newest record
+
+ private:
+  FollowerListener listener() {
+    return {[this](const double* record) {
+              const auto rotor = twin_.layout().system(record, 0);
+              whirl_.push_back(rotor.q()[0]);
+              whirl_.push_back(rotor.q()[1]);
+              recorded = twin_.seconds(RecordLayout::step(record));
+            },
+            [this](const state::FollowState& state) { told.push_back(state); }};
+  }
+
+  Twin twin_;
+  std::vector<double> whirl_;
+
+ public:
+  std::vector<state::FollowState> told;
+  Follower follower;
+};
+
+FollowSettings followStiffness() {
+  FollowSettings settings;
+  settings.systems["rotor"].disturbance = 1.0e-3;
+  settings.systems["rotor"].parameters = {{"stiffness", {0.05, 2.0e-4}}};
+  return settings;
+}
+
+TEST(Follower, TellsTheWhirlThatTheMachineHas) {
+  Machine machine(kRotor);
+  Twinned twin(kRotor, {});
+  for (int k = 0; k < 10'000; ++k) {
+    for (const state::Measurement& m : machine.step()) {
+      twin.follower.take(m);
+    }
+  }
+  // What the machine's whirl was when the newest record was due.
+  Machine again(kRotor);
+  while (again.time() < twin.recorded - 1.0e-9) {
+    again.step();
+  }
+  EXPECT_LT(std::hypot(twin.x() - again.x(), twin.y() - again.y()), 3.0e-6);
+  EXPECT_GT(twin.recorded, 9.5);
+  EXPECT_TRUE(twin.last().shaft_known);
+  EXPECT_EQ(twin.last().refused, 0);
+  EXPECT_GT(twin.last().used, 3700);
+}
+
+/// Two per cent of stiffness are what matters: told within ten seconds of being gone, not before
+/// anything has changed, and what it has become is told right.
+TEST(Follower, TellsOfAShaftThatSoftens) {
+  Machine machine(kRotor);
+  Twinned twin(kRotor, followStiffness());
+  const auto stiffness = [](double t) {
+    return 7200.0 * (1.0 - 0.05 * std::clamp((t - 180.0) / 60.0, 0.0, 1.0));
+  };
+  double told = kNaN;
+  while (machine.time() < 260.0) {
+    for (const state::Measurement& m : machine.step()) {
+      twin.follower.take(m);
+    }
+    if (std::llround(machine.time() * 1000.0) % 200 == 0 && machine.time() > 180.0) {
+      machine.setStiffness(stiffness(machine.time()));
+    }
+    if (std::isnan(told) && !twin.told.empty() && !twin.last().drift_parameter.empty()) {
+      told = machine.time();
+    }
+  }
+  const double passed = 180.0 + 0.02 / 0.05 * 60.0;
+  EXPECT_GT(told, 180.0);
+  EXPECT_LT(told, passed + 10.0);
+  EXPECT_EQ(twin.last().drift_parameter, "stiffness");
+  EXPECT_NEAR(twin.last().drift_from, 7200.0, 0.005 * 7200.0);
+  EXPECT_NEAR(twin.last().value[0], stiffness(260.0), 0.005 * 7200.0);
+}
+
+/// Sources that are slower than others, within the patience, and blocks that come in another order,
+/// change not a bit.
+TEST(Follower, GivesTheSameBitsInWhateverOrderSourcesCome) {
+  const auto run = [](int delay) {
+    Machine machine(kRotor);
+    FollowSettings settings = followStiffness();
+    settings.patience = 0.5;
+    Twinned twin(kRotor, settings);
+    std::vector<state::Measurement> late;
+    for (int k = 0; k < 5'000; ++k) {
+      for (const state::Measurement& m : machine.step()) {
+        if (m.source == "tacho" && delay > 0) {
+          late.push_back(m);
+        } else {
+          twin.follower.take(m);
+        }
+      }
+      if (delay > 0 && k % delay == 0) {
+        for (const state::Measurement& m : late) {
+          twin.follower.take(m);
+        }
+        late.clear();
+      }
+    }
+    twin.follower.finish();
+    return twin.whirl();
+  };
+  const std::vector<double> prompt = run(0), slow = run(170);
+  ASSERT_GT(prompt.size(), 900U);
+  const std::size_t common = std::min(prompt.size(), slow.size());
+  EXPECT_GT(common + 20, prompt.size());
+  EXPECT_TRUE(std::equal(prompt.begin(), prompt.begin() + static_cast<std::ptrdiff_t>(common),
+                         slow.begin()));
+}
+
+/// A probe that is dead, samples that are none, a keyphasor that misses two seconds, blocks that
+/// are lost or come twice: each is said, and the motion is known again afterwards.
+TEST(Follower, SurvivesWhatSensorsDo) {
+  Machine machine(kRotor);
+  Twinned twin(kRotor, {});
+  bool dead_said = false, refused_said = false;
+  for (int k = 0; k < 30'000; ++k) {
+    const double t = machine.time();
+    for (state::Measurement m : machine.step()) {
+      const bool probes = m.source == "probes";
+      if (probes && t > 5.0 && t < 7.0) {  // not valid
+        for (std::size_t i = 0; i < m.value.size(); i += 2) {
+          m.value[i] = kNaN;
+        }
+      }
+      if (probes && t > 10.0 && t < 12.0) {  // one stands still, far away
+        for (std::size_t i = 1; i < m.value.size(); i += 2) {
+          m.value[i] = 1.0e-2;
+        }
+      }
+      if (!probes && t > 15.0 && t < 17.0) {
+        continue;
+      }
+      if (probes && t > 20.0 && t < 20.4) {
+        continue;
+      }
+      twin.follower.take(m);
+      if (probes && t > 22.0 && t < 22.4) {
+        twin.follower.take(m);
+      }
+    }
+    if (!twin.told.empty()) {
+      const auto status = [&](std::size_t c) {
+        return static_cast<state::ChannelStatus>(twin.last().channel_status[c]);
+      };
+      dead_said = dead_said || (t > 5.2 && t < 7.0 && status(0) == state::ChannelStatus::kInvalid);
+      refused_said =
+          refused_said || (t > 10.2 && t < 12.0 && status(1) == state::ChannelStatus::kRefused);
+    }
+  }
+  EXPECT_TRUE(dead_said);
+  EXPECT_TRUE(refused_said);
+  EXPECT_GT(twin.last().invalid, 300);
+  EXPECT_GT(twin.last().refused, 300);
+  EXPECT_GT(twin.last().lost, 0);
+  EXPECT_GT(twin.last().repeated, 0);
+  EXPECT_EQ(twin.last().channel_status[0], 0);
+  EXPECT_EQ(twin.last().channel_status[1], 0);
+  EXPECT_TRUE(twin.last().shaft_known);
+  Machine again(kRotor);
+  while (again.time() < twin.recorded - 1.0e-9) {
+    again.step();
+  }
+  EXPECT_LT(std::hypot(twin.x() - again.x(), twin.y() - again.y()), 5.0e-6);
+}
+
+/// The machine's clock is set forward, and back, by an hour: the twin's time goes on, and the
+/// motion is found anew.
+TEST(Follower, GoesOnWhenTheMachinesClockIsSet) {
+  Machine machine(kRotor);
+  Twinned twin(kRotor, {});
+  constexpr std::int64_t kHour = 3'600'000'000'000;
+  for (int k = 0; k < 15'000; ++k) {
+    const double t = machine.time();
+    for (state::Measurement m : machine.step()) {
+      const std::int64_t by = t > 5.0 && t < 10.0 ? kHour : 0;
+      m.first_instant += by;
+      for (std::int64_t& instant : m.instant) {
+        instant += by;
+      }
+      twin.follower.take(m);
+    }
+  }
+  EXPECT_GE(twin.follower.restarts(), 2);
+  EXPECT_GT(twin.recorded, 13.0);
+  EXPECT_LT(twin.recorded, 15.1);
+  EXPECT_TRUE(twin.last().shaft_known);
+  EXPECT_EQ(twin.last().channel_status[0], 0);
+  EXPECT_LT(std::fabs(twin.last().residual[0]), 5.0 * twin.last().residual_deviation[0]);
+}
+
+TEST(Follower, RefusesASceneThatMeasuresNothing) {
+  const std::string text = std::string(kRotor).substr(0, std::string(kRotor).find("sensors:"));
+  const Twin twin(sceneOf(text));
+  EXPECT_THROW(Follower(twin, std::make_shared<SystemGenerations>(twin), {}, 1, {}), Refusal);
+}
+
+}  // namespace
+}  // namespace whirl_twin
