@@ -123,7 +123,7 @@ bool RecordPublisher::take(const double* record) {
   const bool shown = due && step / every_ % thinning_.every() == 0;
   left_out_ += due && !shown ? 1 : 0;
   const bool orders_due = orders_.dueAt(step);
-  if (!shown && !orders_due && !measuring_ && !observer_.mustSee(record)) {
+  if (!shown && !orders_due && !measuring_ && observer_.look(record)) {
     orders_.take(record, observer_);
     return false;
   }

@@ -56,39 +56,72 @@ void Simulation::run(SampleWriter* writer, bool results_on_standard_output) {
     twin_.write(record.data());
     writer->follow(record.data(), observer_);
   }
-  std::int64_t next_look = 1;
-  for (std::int64_t i = 1; i <= plan_.steps; ++i) {
-    twin_.step();
-    const bool shown = writer != nullptr && i % plan_.stride == 0;
-    const bool seen = shown || every_step || i >= next_look || i == plan_.steps || stopsNow() ||
-                      (followed && writer->hasToSee(i));
-    if (seen || followed) {
-      twin_.write(record.data());
-    }
-    if (seen) {
-      observer_.observe(record.data());
-      next_look = i + observer_.mayPass();
-      noteStops(bar);
-      warn(bar);
-    }
-    if (shown) {
+  std::int64_t next_sample = writer != nullptr ? plan_.stride : plan_.steps;
+  std::int64_t next_bar = kStepsPerLook;
+  for (std::int64_t i = 0; i < plan_.steps;) {
+    const std::int64_t passed = every_step ? 1 : observer_.mostPassed();
+    const std::int64_t due = std::min({i + passed, next_sample, plan_.steps});
+    i = followed ? stepFollowed(due, *writer, record) : stepUnseen(due);
+    twin_.write(record.data());
+    observer_.observe(record.data());
+    noteStops(bar);
+    warn(bar);
+    if (writer != nullptr && i == next_sample) {
       writer->write(observer_);
+      next_sample += plan_.stride;
     }
     if (followed) {
       writer->follow(record.data(), observer_);
     }
-    for (const state::Measurement& block : measurements_.observe(observer_)) {
-      writer->write(block);
+    if (!plan_.sensors.empty()) {
+      for (const state::Measurement& block : measurements_.observe(observer_)) {
+        writer->write(block);
+      }
     }
-    if (stop_requested.load(std::memory_order_relaxed)) {
-      throw RunFailure(fmt::format("interrupted after {} of {} steps", i, plan_.steps));
-    }
-    if (i % kStepsPerLook == 0) {
+    if (i >= next_bar) {
       bar.show(i);
+      next_bar = i + kStepsPerLook;
     }
   }
   for (const state::Measurement& block : measurements_.finish()) {
     writer->write(block);
+  }
+}
+
+/// At least a step, to one that is to be observed: the one that is due or one before it.
+std::int64_t Simulation::stepUnseen(std::int64_t due) {
+  const std::int64_t quiet = observer_.quietUntil(twin_);
+  std::int64_t i = twin_.stepCount();
+  do {
+    twin_.step();
+    ++i;
+    endIfAsked(i);
+  } while (i < due && !stopsNow() && i != quiet && (i < quiet || observer_.look(twin_)));
+  return i;
+}
+
+/// As stepUnseen(), where the writer follows every record.
+std::int64_t Simulation::stepFollowed(std::int64_t due, SampleWriter& writer,
+                                      std::vector<double>& record) {
+  std::int64_t i = twin_.stepCount();
+  while (true) {
+    twin_.step();
+    ++i;
+    endIfAsked(i);
+    if (i == due || stopsNow() || writer.hasToSee(i)) {
+      return i;
+    }
+    twin_.write(record.data());
+    if (!observer_.look(record.data())) {
+      return i;
+    }
+    writer.follow(record.data(), observer_);
+  }
+}
+
+void Simulation::endIfAsked(std::int64_t step) const {
+  if (stop_requested.load(std::memory_order_relaxed)) {
+    throw RunFailure(fmt::format("interrupted after {} of {} steps", step, plan_.steps));
   }
 }
 

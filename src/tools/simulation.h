@@ -58,6 +58,10 @@ class Simulation {
   Json json() const;
 
  private:
+  std::int64_t stepUnseen(std::int64_t due);
+  std::int64_t stepFollowed(std::int64_t due, SampleWriter& writer, std::vector<double>& record);
+  /// Throws RunFailure after SIGINT or SIGTERM.
+  void endIfAsked(std::int64_t step) const;
   bool stopsNow() const;
   void noteStops(ProgressBar& bar);
   void warn(ProgressBar& bar);

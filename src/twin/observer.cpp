@@ -1,6 +1,5 @@
 #include "twin/observer.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,19 +17,19 @@ namespace {
 /// speed.
 constexpr double kSlowestOrbit = 0.01;
 
-/// Without a phase to follow, energies are still looked at now and then: the largest in play is
-/// what the residual is a part of.
+/// Steps from one whose energies are observed to the next, whoever is told: the largest in play is
+/// what the residual is a part of. Where every step is a linear rotor's own, which costs less than
+/// its energies do, fewer.
 constexpr std::int64_t kMostPassed = 64;
-constexpr int kMostCoordinates = 8;
+constexpr std::int64_t kMostPassedOfLinearRotors = 256;
+constexpr double kQuarterTurn = 0.5 * 3.14159265358979323846;
 
-/// A bound [rad/s] on the frequencies of a linear rotor, with a margin for what bearings and
-/// gyroscopic moments do at speed. Infinite where it is not to be had.
-double fastestOf(const Dynamics& dynamics, const Linearization& l, bool driven_from_outside) {
-  if (!dynamics.linear() || driven_from_outside || l.mass.rows() > kMostCoordinates) {
-    return std::numeric_limits<double>::infinity();
-  }
-  const Eigen::MatrixXd squared = l.mass.ldlt().solve(l.stiffness + l.circulatory);
-  return 2.0 * std::sqrt(squared.cwiseAbs().rowwise().sum().maxCoeff());
+/// Of rotors with more, a look is little beside a step.
+constexpr std::size_t kMostCoordinates = 16;
+
+bool isLinearRotor(const BuiltSystem& system) {
+  return system.dynamics->isRotor() && system.dynamics->linear() &&
+         system.integrator == "exponential";
 }
 
 Eigen::VectorXd vector(const double* x, std::size_t n) {
@@ -46,9 +45,27 @@ Observer::Observer(const Twin& twin, std::shared_ptr<SystemGenerations> generati
       record_(twin.layout().size),
       tracks_(twin.systems().size()),
       stations_(twin.systems().size()),
-      motors_(twin.scene().drives.size()) {
+      motors_(twin.scene().drives.size()),
+      looked_errors_(twin.systems().size(), std::numeric_limits<double>::quiet_NaN()),
+      looked_(twin.layout().size),
+      most_passed_(kMostPassedOfLinearRotors) {
   for (std::size_t i = 0; i < stations_.size(); ++i) {
-    stations_[i] = publishedStations(twin.systems()[i]->spec.name, *twin.systems()[i]->dynamics);
+    const BuiltSystem& system = *twin.systems()[i];
+    stations_[i] = publishedStations(system.spec.name, *system.dynamics);
+    if (isRotor(i)) {
+      rotors_.push_back(i);
+    }
+    if (!isLinearRotor(system)) {
+      most_passed_ = kMostPassed;
+    }
+  }
+  for (std::size_t i = 0; i < twin.driveCount(); ++i) {
+    if (twin.isMotor(i)) {
+      has_motors_ = true;
+    } else {
+      const auto [lowest, highest] = twin.drive(i).speedRange();
+      fastest_ = std::max({fastest_, -lowest, highest});
+    }
   }
   twin.write(record_.data());
   observe(std::vector<double>(record_).data());
@@ -61,60 +78,105 @@ void Observer::observe(const double* record) {
   bool changed = false;
   std::copy(record, record + record_.size(), record_.begin());
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    Track& track = tracks_[i];
     if (restarted) {
-      tracks_[i] = Track{};
+      track = Track{};
+    } else if (isRotor(i) && track.dynamics) {
+      track.whirl.settle(step(), shaftOf(i), track.dynamics->phaseMark(),
+                         twin_.scene().stepSeconds());
     }
     const bool anew = takeGeneration(i);
     changed = anew || changed;
     if (status(i) != StepStatus::kOk) {
-      if (tracks_[i].stop_reason.empty()) {
-        tracks_[i].stop_reason =
-            stopText(*twin_.systems()[i], view(i), step(), twin_.seconds(step()));
+      if (track.stop_reason.empty()) {
+        track.stop_reason = stopText(*twin_.systems()[i], view(i), step(), twin_.seconds(step()));
       }
       continue;
     }
     follow(i, anew);
   }
-  followMotors();
+  followMotors(record_.data());
   tells_only_change_ = changed && step() == before;
-  may_pass_ = quietSteps();
 }
 
-bool Observer::mustSee(const double* record) const {
-  const std::int64_t passed = RecordLayout::step(record) - step();
-  if (passed <= 0 || passed >= may_pass_) {
-    return true;
-  }
-  for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    const SystemView now = twin_.layout().system(record, i);
-    if (now.generation() != tracks_[i].generation || now.status() != status(i)) {
-      return true;
-    }
-  }
-  return false;
+bool Observer::errorFound(std::size_t system, double sum) {
+  const bool another = sum != looked_errors_[system] && !std::isnan(sum);
+  looked_errors_[system] = sum;
+  return another;
 }
 
-/// A motor's track adds up from record to record.
-std::int64_t Observer::quietSteps() const {
-  double quiet = static_cast<double>(kMostPassed) * twin_.scene().stepSeconds();
-  for (std::size_t i = 0; i < motors_.size(); ++i) {
-    if (twin_.turnedBy(i) != Twin::kNoSystem) {
-      return 1;
-    }
+bool Observer::look(const double* record) {
+  const std::int64_t now = RecordLayout::step(record);
+  const std::int64_t passed = now - step();
+  if (passed <= 0 || passed >= most_passed_) {
+    return false;
   }
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    if (!isRotor(i) || status(i) != StepStatus::kOk) {
+    const SystemView system = twin_.layout().system(record, i);
+    if (system.generation() != tracks_[i].generation || system.status() != status(i)) {
+      return false;
+    }
+  }
+  const double h = twin_.scene().stepSeconds();
+  for (const std::size_t i : rotors_) {
+    if (status(i) != StepStatus::kOk) {
       continue;
     }
-    const ShaftView shaft = shaftOf(i);
-    // The mark where the shaft goes faster in the meantime.
-    const double speed = std::fabs(shaft.speed()) + std::fabs(shaft.acceleration()) * quiet;
-    for (std::size_t k = 0; k < tracks_[i].stations.size(); ++k) {
-      quiet = std::min(quiet, tracks_[i].stations[k].phase.quietFor(
-                                  whirlOf(i, k), speed, std::max(speed, tracks_[i].fastest)));
+    const SystemView system = twin_.layout().system(record, i);
+    const ShaftView shaft = RecordLayout::shaft(record, twin_.systems()[i]->drive);
+    const double turned = (std::fabs(shaft.speed()) + std::fabs(shaft.acceleration()) * h) * h;
+    if (!(turned < kQuarterTurn) || errorFound(i, system.errorSum()) ||
+        !tracks_[i].whirl.follow(now, system.q())) {
+      return false;
     }
   }
-  return std::max<std::int64_t>(1, static_cast<std::int64_t>(quiet / twin_.scene().stepSeconds()));
+  followMotors(record);
+  return true;
+}
+
+bool Observer::look(const Twin& now) {
+  if (has_motors_) {
+    now.write(looked_.data());
+    return look(looked_.data());
+  }
+  const std::int64_t step = now.stepCount();
+  const bool coarse = !(fastest_ * twin_.scene().stepSeconds() < kQuarterTurn);
+  for (const std::size_t i : rotors_) {
+    FollowedWhirl& whirl = tracks_[i].whirl;
+    if (now.status(i) != StepStatus::kOk || step < whirl.steadyUntil()) {
+      continue;
+    }
+    const Stepper& running = now.running(i);
+    running.write(looked_.data());
+    if (coarse || errorFound(i, running.errorSum()) || !whirl.follow(step, looked_.data())) {
+      return false;
+    }
+  }
+  return true;
+}
+
+std::int64_t Observer::quietUntil(const Twin& now) {
+  if (has_motors_) {
+    return step();
+  }
+  const double h = twin_.scene().stepSeconds();
+  std::int64_t quiet = std::numeric_limits<std::int64_t>::max();
+  for (const std::size_t i : rotors_) {
+    if (status(i) != StepStatus::kOk) {
+      continue;
+    }
+    const BuiltSystem& system = *twin_.systems()[i];
+    const Drive& drive = now.drive(system.drive);
+    FollowedWhirl& whirl = tracks_[i].whirl;
+    if (isLinearRotor(system) && system.spec.inputs.empty() &&
+        system.spec.q.size() <= kMostCoordinates && drive.constantFor(0.0)) {
+      const double lasts = std::min(drive.nextCorner(0.0) / h, 1.0e9);
+      whirl.findSteady(*tracks_[i].dynamics, coordinates(i), rates(i), shaftOf(i), h,
+                       static_cast<std::int64_t>(lasts), !(fastest_ * h < kQuarterTurn));
+    }
+    quiet = std::min(quiet, whirl.steadyUntil());
+  }
+  return quiet;
 }
 
 bool Observer::takeGeneration(std::size_t system) {
@@ -134,7 +196,6 @@ bool Observer::takeGeneration(std::size_t system) {
     takeStations(system);
     const Linearization l =
         linearizationAtRest(dynamics, Eigen::VectorXd::Zero(dynamics.dof()), 0.0);
-    track.fastest = fastestOf(dynamics, l, !twin_.systems()[system]->spec.inputs.empty());
     track.slowest_orbit = kSlowestOrbit * std::sqrt(std::min(l.stiffness(0, 0) / l.mass(0, 0),
                                                              l.stiffness(1, 1) / l.mass(1, 1)));
   }
@@ -143,37 +204,42 @@ bool Observer::takeGeneration(std::size_t system) {
 
 /// The published stations, where the dynamics of now have them; their phases go on.
 void Observer::takeStations(std::size_t system) {
-  std::vector<StationTrack>& tracks = tracks_[system].stations;
   const std::string& name = twin_.systems()[system]->spec.name;
-  tracks.resize(stations_[system].size());
   const std::vector<Station> all = tracks_[system].dynamics->stations();
-  tracks.front().at = all.front();
-  for (std::size_t k = 1; k < tracks.size(); ++k) {
+  std::vector<Station> published{all.front()};
+  for (std::size_t k = 1; k < stations_[system].size(); ++k) {
     const auto is_it = [&](const Station& s) {
       return stationName(name, s) == stations_[system][k];
     };
-    tracks[k].at = *std::find_if(all.begin(), all.end(), is_it);
+    published.push_back(*std::find_if(all.begin(), all.end(), is_it));
   }
+  tracks_[system].whirl.put(published);
 }
 
 void Observer::follow(std::size_t system, bool anew) {
   Track& track = tracks_[system];
-  if (isRotor(system)) {
-    const double mark = shaftOf(system).remainder() + track.dynamics->phaseMark();
-    for (std::size_t k = 0; k < track.stations.size(); ++k) {
-      track.stations[k].phase.observe(whirlOf(system, k), mark);
-    }
-  }
   const SystemView now = view(system);
+  if (isRotor(system)) {
+    track.whirl.observe(step(), now.q(), now.v(),
+                        {shaftOf(system).angle(), track.dynamics->phaseMark()});
+  }
   track.energy.observe(energies(system), now.work());
   track.error.observe(twin_.seconds(step()), now.errorSum(), twin_.systems()[system]->spec.horizon,
                       anew);
 }
 
-void Observer::followMotors() {
+void Observer::followMotors(const double* record) {
+  if (!has_motors_) {
+    return;
+  }
+  const double time = twin_.seconds(RecordLayout::step(record));
   for (std::size_t i = 0; i < motors_.size(); ++i) {
     const std::size_t system = twin_.turnedBy(i);
-    if (system == Twin::kNoSystem || status(system) != StepStatus::kOk) {
+    if (system == Twin::kNoSystem) {
+      continue;
+    }
+    const SystemView now = twin_.layout().system(record, system);
+    if (now.status() != StepStatus::kOk) {
       continue;
     }
     Track& track = tracks_[system];
@@ -181,8 +247,9 @@ void Observer::followMotors() {
       track.motor_generation = track.generation;
       motors_[i].restart();
     }
-    motors_[i].observe(*twin_.scene().drives[i].motor, twin_.seconds(step()), shaft(i).speed(),
-                       shaft(i).acceleration(), view(system).work());
+    const ShaftView turned = RecordLayout::shaft(record, i);
+    motors_[i].observe(*twin_.scene().drives[i].motor, time, turned.speed(), turned.acceleration(),
+                       now.work());
   }
 }
 
@@ -242,17 +309,13 @@ double Observer::energyResidual(std::size_t system) const {
 }
 
 WhirlMotion Observer::whirlOf(std::size_t system, std::size_t station) const {
-  const Station& at = tracks_[system].stations[station].at;
-  const auto n = at.along_x.size();
-  const Eigen::Map<const Eigen::VectorXd> q(coordinates(system), n);
-  const Eigen::Map<const Eigen::VectorXd> v(rates(system), n);
-  return {at.along_x.dot(q), at.along_y.dot(q), at.along_x.dot(v), at.along_y.dot(v)};
+  return tracks_[system].whirl.motion(station, coordinates(system), rates(system));
 }
 
 OrbitSample Observer::orbitSample(const double* record, std::size_t system,
                                   std::size_t station) const {
   const Track& track = tracks_[system];
-  const Station& at = track.stations[station].at;
+  const Station& at = track.whirl.station(station);
   const SystemView now = twin_.layout().system(record, system);
   const ShaftView shaft = RecordLayout::shaft(record, twin_.systems()[system]->drive);
   const Eigen::Map<const Eigen::VectorXd> q(now.q(), at.along_x.size());
@@ -273,12 +336,12 @@ double Observer::whirlRadius(std::size_t system) const {
 }
 
 double Observer::whirlPhase(std::size_t system) const {
-  return tracks_[system].stations.front().phase.lag();
+  return tracks_[system].whirl.phase(0).lag();
 }
 
 state::WhirlState Observer::whirl(std::size_t system, std::size_t station) const {
   const Track& track = tracks_[system];
-  state::WhirlState s = whirlState(whirlOf(system, station), track.stations[station].phase,
+  state::WhirlState s = whirlState(whirlOf(system, station), track.whirl.phase(station),
                                    shaftOf(system), track.slowest_orbit);
   s.at = instant();
   s.system = stations_[system][station];

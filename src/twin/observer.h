@@ -1,7 +1,12 @@
 // Turns the twin's records into what users see: whirl radius and phase, angles, energies. It
 // follows the records in order (the phase is unwrapped, the energy residual needs the start), on
 // the side of the publisher, not in the real-time thread. What it follows has a class each:
-// WhirlPhase, EnergyAudit, ErrorTrack, MotorTrack; observed_states.h fills the messages.
+// FollowedWhirl, EnergyAudit, ErrorTrack, MotorTrack; observed_states.h fills the messages.
+//
+// observe() works out everything, for a step that somebody is told of. look() costs a few
+// nanoseconds and keeps what must not be missed between such steps: which way round the centre the
+// whirl goes, what a motor gives, that an error was found. Phases are the same to the last bit
+// whichever steps were observed; the energy residual is in parts of the largest energy observed.
 #pragma once
 
 #include <cstdint>
@@ -13,11 +18,11 @@
 #include "signal/orbit_window.h"
 #include "twin/energy_audit.h"
 #include "twin/error_track.h"
+#include "twin/followed_whirl.h"
 #include "twin/motor_track.h"
 #include "twin/stop_text.h"
 #include "twin/system_generations.h"
 #include "twin/twin.h"
-#include "twin/whirl_phase.h"
 
 namespace whirl_twin {
 
@@ -29,12 +34,21 @@ class Observer {
 
   /// Takes the next record. A step count that goes back means the twin was reset.
   void observe(const double* record);
+  /// Looks at the next record, which nobody is told of. False: it has to be observed, for it is not
+  /// the next, or another parameter or status holds, or an error was found, or its phase is not
+  /// known from a look, or energies have not been observed for mostPassed() steps.
+  bool look(const double* record);
 
-  /// How many steps further the next record may be, so that phases are as if every one had been
-  /// seen; 1: the next. Conditions, sensors and what else a step can do are the caller's to know.
-  std::int64_t mayPass() const { return may_pass_; }
-  /// Must this record be observed, and not only the ones that are shown?
-  bool mustSee(const double* record) const;
+  // Of a twin that this thread steps, whose commands are its own: without a record.
+
+  /// As look(record), at the step where the twin stands; a system that has just stopped is the
+  /// caller's to see.
+  bool look(const Twin& now);
+  /// After observe(): up to this step, which is to be observed, steps need not be looked at; the
+  /// present one: they do.
+  std::int64_t quietUntil(const Twin& now);
+  /// Steps from one that is observed to the next.
+  std::int64_t mostPassed() const { return most_passed_; }
 
   /// [ns], what states carry as their stamp from now on.
   void setStamp(std::int64_t stamp) { stamp_ = stamp; }
@@ -85,17 +99,12 @@ class Observer {
   Moment<double> moment(std::size_t system) const;
 
  private:
-  struct StationTrack {
-    Station at;
-    WhirlPhase phase;
-  };
   struct Track {
-    std::vector<StationTrack> stations;  // of a rotor: where its whirl is seen
+    FollowedWhirl whirl;  // of a rotor
     std::int64_t generation = -1;
     std::shared_ptr<const Dynamics> dynamics;
     state::ParameterChange parameters;
     double slowest_orbit = 0.0;  // [rad/s], below which there is no 1X orbit to speak of
-    double fastest = 0.0;  // [rad/s], that the whirl is known not to exceed; infinite: nothing is
     EnergyAudit energy;
     ErrorTrack error;
     std::string stop_reason;
@@ -109,8 +118,8 @@ class Observer {
   void takeStations(std::size_t system);
   /// anew: its sums have begun again since the last record.
   void follow(std::size_t system, bool anew);
-  void followMotors();
-  std::int64_t quietSteps() const;
+  void followMotors(const double* record);
+  bool errorFound(std::size_t system, double sum);
 
   const Twin& twin_;
   std::shared_ptr<SystemGenerations> generations_;
@@ -118,9 +127,14 @@ class Observer {
   std::vector<Track> tracks_;
   std::vector<std::vector<std::string>> stations_;  // names, as at the start
   std::vector<MotorTrack> motors_;                  // of each drive
+  std::vector<std::size_t> rotors_;                 // systems
+  std::vector<double> looked_errors_;               // of each system: sum, when last looked at
+  std::vector<double> looked_;                      // room for a record
+  double fastest_ = 0.0;                            // [rad/s], of the drives that are no motors
+  bool has_motors_ = false;
+  std::int64_t most_passed_;
   std::int64_t stamp_ = 0;
   bool tells_only_change_ = false;
-  std::int64_t may_pass_ = 1;
 };
 
 }  // namespace whirl_twin

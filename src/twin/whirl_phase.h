@@ -1,5 +1,18 @@
-// The phase lag of a whirl behind the mark on its shaft, unwrapped from record to record.
+// The phase lag of a whirl behind the mark on its shaft, unwrapped from step to step.
+//
+// Unwrapping takes the lag of a step nearest to that of the step before. What that needs of a step
+// that nobody is told of is only which way round the centre the whirl went: the mark's turns are
+// counted by its shaft, and within a quarter of a turn the shorter way crosses the negative x axis
+// where the sign of y changes at negative x. That is follow(), a few multiplications; the lag is
+// worked out where it is asked for, and is the same to the last bit as if it had been all along.
 #pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "control/shaft_angle.h"
 
 namespace whirl_twin {
 
@@ -10,25 +23,73 @@ struct WhirlMotion {
   double radius() const;  ///< [m]
 };
 
+/// The mark on a shaft: where the shaft is, and the mark on it [rad].
+struct ShaftMark {
+  ShaftAngle shaft;
+  double on_shaft = 0.0;
+
+  double direction() const { return shaft.remainder + on_shaft; }  ///< [rad]
+};
+
+/// What has changed by less than half a turn from one record to the next.
+enum class Kept {
+  kLag,       ///< as from step to step, and where the whirl turns with the shaft
+  kDirection  ///< of the whirl, whose shaft may have turned many times: it stands beside the centre
+};
+
 class WhirlPhase {
  public:
-  /// The next record: the whirl, and the direction [rad] of the phase mark.
-  void observe(const WhirlMotion& whirl, double mark);
+  /// The next record. After follow() settle() first.
+  void observe(const WhirlMotion& whirl, const ShaftMark& mark, Kept kept = Kept::kLag);
+
+  /// The next step, of which only the place [m] is looked at. False, with nothing done, where the
+  /// whirl went a quarter of a turn or more, or through the centre, or has had no angle: the step
+  /// is to be observed. The mark has to have turned by less than a quarter of a turn.
+  bool follow(double x, double y) noexcept {
+    const double square = x * x + y * y;
+    const bool near = valid_ && x * x_ + y * y_ > 0.0 &&
+                      square > kSmallestSquare * largest_square_ && square < kInfinite;
+    if (!near) {
+      return false;
+    }
+    // On both sides of the x axis, less than a quarter of a turn apart: x has one sign.
+    if (std::signbit(y) != std::signbit(y_) && x < 0.0) {
+      around_ += std::signbit(y) ? 1 : -1;
+    }
+    x_ = x;
+    y_ = y;
+    largest_square_ = std::max(largest_square_, square);
+    followed_ = true;
+    return true;
+  }
+  /// The last step followed, if any since the last one observed, had its mark there.
+  void settle(const ShaftMark& mark);
 
   /// The radius is large enough to have an angle.
   bool valid() const { return valid_; }
-  double lag() const;  ///< [rad]; NaN unless valid
-  /// [s] from the last record, where the whirl was this one, for which neither the whirl nor a mark
-  /// that turns at `speed` [rad/s] leaves its quadrant: the phase need not be seen for so long.
-  /// `fastest` [rad/s]: no frequency of the whirl is above it, and amplitudes are not above twice
-  /// the largest radius seen, so that the whirl goes no further than v t + (fastest)^2 R t^2.
-  double quietFor(const WhirlMotion& whirl, double speed, double fastest) const;
+  double lag() const;  ///< [rad], of the last record observed; NaN unless valid
+  double largestRadius() const { return largest_radius_; }  ///< [m], observed so far
 
  private:
+  /// A radius below this part of the largest so far has no angle worth the name.
+  static constexpr double kSmallestRadius = 1.0e-9;
+  /// The square of twice that: whether there is an angle is left to observe().
+  static constexpr double kSmallestSquare = 4.0 * kSmallestRadius * kSmallestRadius;
+  static constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
   double largest_radius_ = 0.0;  // [m], so far
-  double lag_ = 0.0;             // [rad], last valid
-  bool known_ = false;
+  double lag_ = 0.0;             // [rad], last valid; the first one is nearest to 0
   bool valid_ = false;
+
+  // Of the last valid record.
+  ShaftMark mark_;
+  double turns_ = 0.0;  // by which its lag is more than the mark's direction less the whirl's
+
+  // Of the last step with an angle, observed or followed.
+  double x_ = 0.0, y_ = 0.0;     // [m]
+  std::int64_t around_ = 0;      // times round the centre since the last valid record
+  bool followed_ = false;        // since then
+  double largest_square_ = 0.0;  // [m^2], of the radius
 };
 
 }  // namespace whirl_twin

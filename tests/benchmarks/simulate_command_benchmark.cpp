@@ -37,6 +37,17 @@ const std::vector<Case> kCases{
      "{gravity: 9.81, step: 0.001, systems: {rotor: {model: jeffcott_rotor, parameters: "
      "{mass: 2, stiffness: 2.0e4, damping: 10, internal_damping: 2, eccentricity: 1.0e-4, "
      "speed: 80}}}}"},
+    {"the same without, in a run-up",
+     "{step: 0.001, drives: {shaft: {speed: 0, profile: [{speed: 200, max_acceleration: 0.01}]}}, "
+     "systems: {rotor: {model: jeffcott_rotor, drive: shaft, parameters: {mass: 2, stiffness: "
+     "2.0e4, damping: 10, eccentricity: 1.0e-4}}}}"},
+    {"shaft of 8 modes, constant speed",
+     "{step: 0.001, systems: {rotor: {model: flexible_rotor, parameters: {youngs_modulus: 2.1e+11, "
+     "density: 7800, speed: 300, elements: [{length: 0.2, outer_diameter: 0.03, count: 6}], "
+     "discs: [{node: 2, mass: 5, polar_inertia: 0.02, transverse_inertia: 0.012}], "
+     "bearings: [{node: 0, kxx: 1.0e+6, kyy: 2.0e+6, cxx: 200, cyy: 200}, "
+     "{node: 6, kxx: 1.0e+6, kyy: 2.0e+6, cxx: 200, cyy: 200}], "
+     "unbalances: [{node: 2, magnitude: 1.0e-4, angle: 0.3}], modes: 8, highest_speed: 400}}}}"},
     {"double pendulum, stoermer_6",
      "{gravity: 9.81, step: 0.001, systems: {pendulum: {model: double_pendulum, parameters: "
      "{mass1: 1, mass2: 1, length1: 1, length2: 1}, initial: {theta1: 0.2, theta2: 0.3}, "

@@ -1,0 +1,68 @@
+// For how long a whirl is sure to turn with its shaft, or to stand beside its centre: so long its
+// phase need not be looked at.
+//
+// At constant speed a linear rotor, M q'' + (C + G) q' + (K + N) q = f_0 + Re[F e^(i theta)], moves
+// as q = s + Re[X e^(i theta)] + e. The sag s and the response X (synchronous_response.h) are
+// known; e is free and has in y = (L_K^T e, L_M^T e'), where K = L_K L_K^T and M = L_M L_M^T, the
+// length |y|^2 = 2 (T + V) of e. It obeys
+//
+//   d|y|/dt <= mu |y|,  mu the largest eigenvalue of [0, -B^T/2; -B/2, -L_M^-1 C L_M^-T],
+//                       B = L_M^-1 N L_K^-T
+//
+// (K and G do no work on it; mu is the logarithmic norm, Dahlquist, Trans. Royal Inst. Technology
+// 130 (1959)). At a station z = a . q + i b . q, and no free motion of length |y| is further out
+// there than r |y|, r^2 the largest eigenvalue of [a b]^T K^-1 [a b]. So
+//
+//   z = z_s + f e^(i theta) + b e^(-i theta) + z_e,   |z_e| <= r |y(0)| e^(mu t),
+//
+// and while |f| > |z_s| + |b| + |z_e| the whirl stays within a quarter of a turn of f e^(i theta):
+// its lag never leaves that half turn, whatever number of turns go by. Likewise about z_s.
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+#include <optional>
+#include <vector>
+
+#include "mechanics/dynamics.h"
+#include "twin/whirl_phase.h"
+
+namespace whirl_twin {
+
+/// Of one rotor at one speed.
+class SteadyWhirl {
+ public:
+  /// nullopt: nothing is known, as where a stiffness is not positive, at an undamped resonance, for
+  /// what turns twice a turn, or where neither the response nor the sag is ahead at a station.
+  static std::optional<SteadyWhirl> of(const Dynamics& dynamics,
+                                       const std::vector<Station>& stations, double speed);
+
+  double speed() const { return speed_; }  ///< [rad/s]
+  /// [s] from the state q, v, at the shaft's angle [rad], for which the whirl keeps() at every
+  /// station, if nothing else acts; 0: not even now.
+  double lasts(const double* q, const double* v, double angle) const;
+  /// What a station's whirl keeps in the meantime.
+  Kept keeps(std::size_t station) const { return stations_[station].keeps; }
+  /// [m], at least that far out it is then.
+  double leastRadius(std::size_t station) const { return stations_[station].least_radius; }
+
+ private:
+  struct StationBound {
+    Kept keeps = Kept::kLag;
+    double largest_free = 0.0;  ///< |y|, up to which the free motion leaves the rest ahead
+    double least_radius = 0.0;  ///< [m]
+  };
+
+  SteadyWhirl() = default;
+  std::optional<StationBound> bound(const Station& station) const;
+
+  double speed_ = 0.0;
+  double growth_ = 0.0;             ///< mu [1/s], not below 0
+  Eigen::VectorXd sag_;             ///< s
+  Eigen::VectorXcd response_;       ///< X
+  Eigen::MatrixXd stiffness_root_;  ///< L_K
+  Eigen::MatrixXd mass_root_;       ///< L_M
+  std::vector<StationBound> stations_;
+};
+
+}  // namespace whirl_twin
