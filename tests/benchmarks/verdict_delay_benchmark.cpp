@@ -1,7 +1,7 @@
 // How long after a change of a parameter, or of the speed, the monitor has its verdict: wall time,
 // from the message to the margin, with the thread that judges asleep before. What ROS or LCM takes
 // to bring the one and to carry the other comes on top, and what the node waits between looks (up
-// to 0.2 ms, by LCM a millisecond).
+// to 0.2 ms).
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
