@@ -22,6 +22,7 @@ constexpr double kApart = 6.0;
 constexpr double kTogether = 4.0;
 /// Of the larger of the two rates, less than which is no matter.
 constexpr double kMatters = 0.25;
+constexpr double kLargestAngle = 1.0e15;  // rad, beyond which a double holds no phase
 
 }  // namespace
 
@@ -57,6 +58,10 @@ void DecayAlarm::update(const state::WhirlState& whirl, AlertList& alerts) {
       alerts.clear(system_, alert_type::kModelMismatch, whirl.at.time,
                    fmt::format("{}: its decay is no longer measured", system_));
     }
+    return;
+  }
+  if (!(std::fabs(whirl.shaft_angle) <= kLargestAngle)) {
+    audit_.clear();
     return;
   }
   const std::int64_t passed = whirl.at.step - last_;

@@ -8,6 +8,7 @@
 #include "analysis/characteristic_polynomial.h"
 #include "analysis/routh.h"
 #include "analysis/small_motion.h"
+#include "analysis/stability.h"
 #include "messages/refusal.h"
 #include "monitoring/parameter_margins.h"
 #include "scene/ensemble_draw.h"
@@ -22,6 +23,7 @@ constexpr double kDeviationsOfBox = 3.0;    // of a normal spread
 constexpr double kFirstStride = 0.5;        // of half a side
 constexpr double kLastStride = 1.0 / 64.0;  // likewise
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kExactBudget = 2.0e8;  // products, of Kharitonov's polynomials: a second
 
 /// A system as some values of its numbers make it.
 struct Place {
@@ -107,7 +109,9 @@ class Box {
 class CoefficientIntervals {
  public:
   void add(const SmallMotion& small) {
-    if (small.zeros > 0 || small.matrices.mass.rows() == 0) {  // roots that are set aside
+    const Eigen::Index coordinates = small.matrices.mass.rows();
+    if (small.zeros > 0 || coordinates == 0 ||  // roots that are set aside
+        coordinates > kMostExactCoordinates) {
       usable_ = false;
       return;
     }
@@ -115,6 +119,7 @@ class CoefficientIntervals {
     std::vector<double> polynomial;
     for (const Rational& coefficient : exact) {
       polynomial.push_back(coefficient.convert_to<double>());
+      usable_ = usable_ && std::isfinite(polynomial.back());
     }
     if (low_.empty()) {
       low_ = high_ = polynomial;
@@ -128,18 +133,24 @@ class CoefficientIntervals {
   void spoil() { usable_ = false; }
 
   /// Do Kharitonov's four polynomials decay? From the lowest power on, two low, two high, and so
-  /// on, from each of the four beginnings.
+  /// on, from each of the four beginnings. Not as far as is known where exact numbers become too
+  /// long.
   bool decayThroughout() const {
     if (!usable_ || low_.empty()) {
       return false;
     }
+    ExactBudget budget(kExactBudget);
     for (std::size_t beginning = 0; beginning < 4; ++beginning) {
-      std::vector<double> polynomial(low_.size());
+      std::vector<Rational> polynomial(low_.size());
       for (std::size_t power = 0; power < low_.size(); ++power) {
         const std::size_t k = low_.size() - 1 - power;
-        polynomial[k] = (power + beginning) % 4 < 2 ? low_[k] : high_[k];
+        polynomial[k] = Rational((power + beginning) % 4 < 2 ? low_[k] : high_[k]);
       }
-      if (routh(polynomial).verdict != Verdict::kAsymptoticallyStable) {
+      try {
+        if (routh(polynomial, budget).verdict != Verdict::kAsymptoticallyStable) {
+          return false;
+        }
+      } catch (const ExactBudgetSpent&) {
         return false;
       }
     }

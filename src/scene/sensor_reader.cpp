@@ -16,6 +16,8 @@ constexpr double kHighestRate = 1.0e7;   // Hz
 constexpr double kLongestBlock = 10.0;   // s
 constexpr double kMostSamples = 1.0e5;   // values in a message
 constexpr double kLongestDelay = 1.0e3;  // s
+constexpr double kLargestMark = 1.0e6;   // rad
+constexpr double kLargestJitter = 1.0;   // s
 constexpr double kHalfPi = 1.57079632679489661923;
 
 /// Everything of a system that can be measured, by name.
@@ -144,8 +146,8 @@ void readKeyphasor(const MapReader& map, const Scene& scene, SensorSpec& sensor,
   const auto found = std::find(drives.begin(), drives.end(), name);
   sensor.drive = static_cast<std::size_t>(found - drives.begin());
   KeyphasorSettings settings;
-  settings.mark = map.number("mark", Range::kAny, "rad", 0.0);
-  settings.jitter = map.number("jitter", Range::kNotNegative, "s", 0.0);
+  settings.mark = map.numberBetween("mark", -kLargestMark, kLargestMark, "rad", 0.0);
+  settings.jitter = map.numberBetween("jitter", 0.0, kLargestJitter, "s", 0.0);
   settings.resolution = map.numberBetween("resolution", 0.0, 1.0, "s", 0.0);
   sensor.keyphasor = settings;
   for (const char* key : {"rate", "channels"}) {

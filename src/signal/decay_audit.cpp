@@ -14,6 +14,7 @@ namespace {
 constexpr double kTurn = 6.283185307179586;
 constexpr int kOrders = 4;  // taken away
 constexpr double kTurnsInBlock = 40.0;
+constexpr double kShortestStep = 1.0e-9;  // s; stamps may say anything
 constexpr std::size_t kMostBlocks = 256;  // of which the size is known
 constexpr double kSteadySpeed = 0.01;     // of the speed
 constexpr int kParts = 8;                 // of a record, left out one by one
@@ -87,7 +88,7 @@ std::optional<AuditedDecay> DecayAudit::take(const OrbitSample& sample) {
   block_.push_back(sample);
   const double turns = static_cast<double>(sample.turns - block_.front().turns) +
                        (sample.remainder - block_.front().remainder) / kTurn;
-  if (std::fabs(turns) < kTurnsInBlock || !(step_ > 0.0)) {
+  if (std::fabs(turns) < kTurnsInBlock || !(step_ >= kShortestStep)) {
     return std::nullopt;
   }
   removeOrders();

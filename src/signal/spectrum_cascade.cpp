@@ -131,6 +131,9 @@ std::optional<WindowSpectrum> SpectrumCascade::latest() const {
     return std::nullopt;
   }
   const double whole = kept_.back().time - kept_.front().time;
+  if (!(whole > 0.0)) {
+    return std::nullopt;  // stamps may say anything
+  }
   const double period = whole / static_cast<double>(kept_.size() - 1);
   const double rate = std::fabs(kept_.back().speed - kept_.front().speed) / whole;
   const double sharp = std::max(kShortest, std::sqrt(4.0 * kPi / rate));

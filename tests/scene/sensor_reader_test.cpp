@@ -70,6 +70,24 @@ TEST(SensorReader, NamesEveryMistakeAtOnce) {
   }
 }
 
+// Whole turns and nanoseconds are counted in 64 bits.
+TEST(SensorReader, AKeyphasorMarksATurnAndStampsAnInstant) {
+  for (const std::string& key : {std::string("mark"), std::string("jitter")}) {
+    try {
+      sceneOf(
+          "{step: 0.001, drives: {shaft: {speed: 50}}, systems: {rotor: {model: jeffcott_rotor, "
+          "drive: shaft, parameters: {mass: 1, stiffness: 1.0e+4}}}, sensors: {tacho: {keyphasor: "
+          "shaft, " +
+          key + ": 1.0e+300}}}");
+      FAIL() << key;
+    } catch (const SceneError& error) {
+      EXPECT_NE(std::string(error.what()).find("sensors.tacho." + key + ": must be from "),
+                std::string::npos)
+          << error.what();
+    }
+  }
+}
+
 TEST(SensorReader, StationsHaveNamesThatNoSystemHas) {
   const std::string shaft =
       "{step: 0.001, systems: {rotor: {model: flexible_rotor, parameters: {youngs_modulus: "
