@@ -42,6 +42,10 @@ constexpr double kRoundingExcess = 1.0e-3;
 constexpr double kOwnSteps = 50.0;
 constexpr int kPastMargin = 4;
 constexpr double kFastRate = 1.0e3;  // [m/s] or [rad/s]
+/// Coordinates of a rotor whose steps are tables over speed, and of one at a constant speed, that
+/// is still calibrated.
+constexpr Eigen::Index kMostInTables = 64;
+constexpr Eigen::Index kMostAtOneSpeed = 200;
 const char* const kReference = "gauss_legendre_6";
 const char* const kExact = "exponential";
 
@@ -60,6 +64,14 @@ bool hasRateForces(const ModelSetup& setup, const SystemSpec& spec) {
   const Eigen::VectorXd rates = Eigen::VectorXd::Constant(v.size(), kFastRate);
   return (l.damping.array() != 0.0).any() || (l.gyroscopic.array() != 0.0).any() ||
          dynamics.appliedForce(q, rates, at) != dynamics.appliedForce(q, -rates, at);
+}
+
+/// Are its steps, of matrices over speed, so dear to prepare that nobody wants to wait for a dozen
+/// ways of it? That goes as the cube of the coordinates.
+bool dearToPrepare(const Scene& one, const ModelSetup& setup) {
+  const bool over_speed = !one.drives.empty() && !one.drives.front().profile.empty();
+  return setup.integrators.size() == 1 && setup.dynamics->hasShaft() &&
+         setup.dynamics->dof() > (over_speed ? kMostInTables : kMostAtOneSpeed);
 }
 
 /// How often the substeps have to be doubled for so many times the error allowed.
@@ -266,11 +278,12 @@ StepChoice chooseStep(const Scene& given, double evaluations) {
   const ModelSetup& setup = built.systems.front()->setup();
   const IntegratorChoice structural = chooseIntegrator(setup, spec.drive.has_value());
   EvaluationBudget budget(evaluations, one, setup);
-  if (evaluations <= 0.0) {
+  if (evaluations <= 0.0 || dearToPrepare(one, setup)) {
     StepChoice plain;
     plain.integrator = structural.integrator;
     plain.substeps = spec.substeps;
-    plain.reason = structural.reason + "; not calibrated: too many systems";
+    plain.reason = structural.reason + "; not calibrated: " +
+                   (evaluations <= 0.0 ? "too many systems" : "its steps take long to prepare");
     return plain;
   }
   StepJudge judge(one, setup, budget);
@@ -303,7 +316,7 @@ StepChoice judgeStep(const Scene& given, double evaluations) {
   StepChoice named;
   named.integrator = built.systems.front()->integrator;
   named.substeps = built.scene.systems.front().substeps;
-  if (evaluations > 0.0) {
+  if (evaluations > 0.0 && !dearToPrepare(built.scene, built.systems.front()->setup())) {
     StepJudge judge(built.scene, built.systems.front()->setup(), budget);
     named.promise = judge.promise(settingOf(built.scene, named));
   }

@@ -1,6 +1,7 @@
 #include "reports/scene_check.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -15,6 +16,8 @@ namespace whirl_twin {
 
 namespace {
 
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kDearSteps = 10.0;     // s, to prepare: of such the cost of a step is not measured
 constexpr double kWholeBudget = 0.02;   // s, to measure the scene
 constexpr double kSystemBudget = 0.01;  // s, to measure one system,
 constexpr double kSystemsBudget = 0.5;  // and all of them one by one
@@ -76,6 +79,21 @@ void listMessages(const BuiltScene& scene, SceneCheck& check) {
 
 }  // namespace
 
+AskedCost costOfCheck(const Scene& scene, const std::vector<std::size_t>& systems) {
+  const BuiltScene built = build(scene);
+  AskedCost cost;
+  for (const std::size_t i : systems) {
+    const AskedCost steps = costOfSteps(built, i);
+    if (steps.seconds <= kDearSteps) {
+      cost += steps;
+      const AskedCost members = costOfMembers(built, i);
+      const double times = systems.size() > 1 ? 2.0 : 1.0;  // alone, and with the others
+      cost += {members.seconds * times, members.memory, members.cause};
+    }
+  }
+  return cost;
+}
+
 SceneCheck checkScene(const Scene& scene, const std::vector<std::size_t>& systems) {
   SceneCheck check;
   check.scene = scene;
@@ -86,12 +104,21 @@ SceneCheck checkScene(const Scene& scene, const std::vector<std::size_t>& system
   const std::vector<StepChoice> choices = chooseSteps(check.scene, true);
   check.scene = withSteps(check.scene, choices);
   const BuiltScene built = build(check.scene);
+  bool dear = false;
   const double budget =
       std::min(kSystemBudget, kSystemsBudget / static_cast<double>(built.systems.size()));
   for (std::size_t i = 0; i < built.systems.size(); ++i) {
     check.systems.push_back(checkSystem(*built.systems[i]));
     SystemCheck& system = check.systems.back();
     system.accuracy = choices[i].promise;
+    const AskedCost steps = costOfSteps(built, i);
+    if (steps.seconds > kDearSteps) {
+      system.preparation = steps.seconds;
+      system.step_cost = kUnknown;
+      system.memory = static_cast<std::size_t>(steps.memory);
+      dear = true;
+      continue;
+    }
     const RunningCost cost = runningCost(sceneOfOne(check.scene, i), budget);
     system.step_cost = cost.step;
     system.memory = cost.memory;
@@ -100,6 +127,11 @@ SceneCheck checkScene(const Scene& scene, const std::vector<std::size_t>& system
   if (check.systems.size() == 1) {
     check.step_cost = check.systems[0].step_cost;
     check.memory = check.systems[0].memory;
+  } else if (dear) {
+    check.step_cost = kUnknown;
+    for (const SystemCheck& system : check.systems) {
+      check.memory += system.memory;
+    }
   } else {
     const RunningCost cost = runningCost(check.scene, kWholeBudget);
     check.step_cost = cost.step;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "accuracy/promise.h"
+#include "reports/asked_cost.h"
 #include "reports/output.h"
 #include "twin/twin.h"
 
@@ -46,9 +47,10 @@ struct SystemCheck {
   std::optional<double> speed;  ///< [rad/s], constant
   std::vector<InputCheck> inputs;
   Published published;
-  double step_cost = 0.0;  ///< [ns]; NaN: it stops at once
-  std::size_t memory = 0;  ///< [bytes], heap of a twin of it alone
-  std::string ensemble;    ///< "1000 members, side by side in vectors", or ""
+  double step_cost = 0.0;    ///< [ns]; NaN: it stops at once, or was too dear to prepare
+  double preparation = 0.0;  ///< [s], of its steps, about, where that was too dear
+  std::size_t memory = 0;    ///< [bytes], heap of a twin of it alone
+  std::string ensemble;      ///< "1000 members, side by side in vectors", or ""
 };
 
 struct SceneCheck {
@@ -59,6 +61,9 @@ struct SceneCheck {
   std::size_t memory = 0;                   ///< [bytes], heap of the running twin
   std::size_t record = 0;                   ///< [bytes], of one step's snapshot
 };
+
+/// What checkScene() takes.
+AskedCost costOfCheck(const Scene& scene, const std::vector<std::size_t>& systems);
 
 /// Checks the systems chosen (indices into scene.systems), all the others aside. Takes a few
 /// hundredths of a second to measure what a step costs, besides choosing the steps.

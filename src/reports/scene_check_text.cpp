@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "messages/names.h"
+#include "reports/asked_cost.h"
 #include "reports/scene_check.h"
 #include "scene/drive_profile.h"
 
@@ -31,7 +32,10 @@ std::string driveText(const DriveSpec& drive, const Published& published) {
                            fmt::join(published.channels, ", "));
 }
 
-std::string costText(double cost) {
+std::string costText(double cost, double preparation) {
+  if (preparation > 0.0) {
+    return fmt::format("not measured: its steps take about {} to prepare", inWords(preparation));
+  }
   return std::isnan(cost) ? "not measured: it stops within the first steps"
                           : fmt::format("about {:.0f} ns", cost);
 }
@@ -85,7 +89,8 @@ std::string systemText(const SystemCheck& system) {
     out += fmt::format("    ensemble      {}\n", system.ensemble);
   }
   return out + fmt::format("    a step costs  {}, memory {:.1f} kB, no thread of its own\n",
-                           costText(system.step_cost), static_cast<double>(system.memory) / 1000.0);
+                           costText(system.step_cost, system.preparation),
+                           static_cast<double>(system.memory) / 1000.0);
 }
 
 }  // namespace
@@ -106,7 +111,11 @@ std::string text(const SceneCheck& check) {
   for (const SystemCheck& system : check.systems) {
     out += systemText(system);
   }
-  out += fmt::format("all together\n  a step costs {}", costText(check.step_cost));
+  double preparation = 0.0;
+  for (const SystemCheck& system : check.systems) {
+    preparation += system.preparation;
+  }
+  out += fmt::format("all together\n  a step costs {}", costText(check.step_cost, preparation));
   if (!std::isnan(check.step_cost)) {
     const double factor = static_cast<double>(scene.step) / check.step_cost;
     out +=

@@ -1,6 +1,7 @@
 #include <memory>
 #include <optional>
 
+#include "reports/asked_cost.h"
 #include "reports/method_analysis.h"
 #include "reports/selected_systems.h"
 #include "reports/system_analysis.h"
@@ -41,12 +42,18 @@ struct Request {
   std::optional<std::string> system;
   ParameterSearch search = ParameterSearch::kWhereQuick;
   bool json = false;
+  bool insist = false;
 };
 
 int analyzeScene(const Request& request) {
   const Scene scene = readSceneFile(scenePath(request.scene));
   const auto systems = selectedSystems(scene, request.system);
   const BuiltScene built = build(scene);
+  AskedCost cost;
+  for (const std::size_t i : systems) {
+    cost += costOfAnalysis(scene.systems[i].name, built.systems[i]->dynamics->dof());
+  }
+  tell(cost, request.insist);
   Json all;
   all["scene"] = scene.name;
   std::string report;
@@ -76,6 +83,7 @@ void addAnalyzeCommand(CLI::App& twin, int& status) {
       "--parameters", [request] { request->search = ParameterSearch::kOfAll; },
       "look for the numbers that stability is lost by where that takes minutes, too");
   command->add_flag("--json", request->json, "print one JSON object");
+  addInsistOption(command, request->insist);
   command->footer(kFooter);
   command->callback([request, &status] { status = analyzeScene(*request); });
 }

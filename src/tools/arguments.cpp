@@ -17,6 +17,11 @@ void addSceneOption(CLI::App* command, std::string& scene) {
       ->type_name("");
 }
 
+void addInsistOption(CLI::App* command, bool& insist) {
+  command->add_flag("--insist", insist,
+                    "even if it takes more than a day or more memory than is free");
+}
+
 std::string inSeconds(std::int64_t nanoseconds) {
   return fmt::format("{} s", static_cast<double>(nanoseconds) / 1.0e9);
 }

@@ -11,6 +11,9 @@ namespace whirl_twin {
 /// The scene that a command is about.
 void addSceneOption(CLI::App* command, std::string& scene);
 
+/// --insist: do what takes more than a day, or more memory than is free (reports/asked_cost.h).
+void addInsistOption(CLI::App* command, bool& insist);
+
 /// Seconds, as typed, as the nearest whole number of `unit`s [ns], in nanoseconds; from `low` to
 /// `high` [ns]. Exact: no binary fraction comes in between. What is not a whole number is said on
 /// standard error with what is taken instead. `option` names it there. Throws Refusal.

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "messages/refusal.h"
+#include "reports/asked_cost.h"
 #include "reports/campbell_report.h"
 #include "reports/picture_file.h"
 #include "reports/rotor_systems.h"
@@ -35,6 +36,7 @@ struct Request {
   std::vector<double> harmonics{1.0};
   int modes = 12;
   bool json = false;
+  bool insist = false;
 };
 
 void requireNumbers(const Request& request) {
@@ -54,6 +56,11 @@ int campbellOf(const Request& request) {
   requireNumbers(request);
   const BuiltScene scene = build(readSceneFile(scenePath(request.scene)));
   const auto systems = rotorSystems(scene, request.system);
+  AskedCost cost;
+  for (const RotorSystem& system : systems) {
+    cost += costOfCampbell(system.name, system.dynamics->dof(), request.range.points);
+  }
+  tell(cost, request.insist);
   Json all;
   all["scene"] = scene.scene.name;
   std::string report;
@@ -93,6 +100,7 @@ void addCampbellCommand(CLI::App& twin, int& status) {
   command->add_option("--plot", request->plot, "the diagram, FILE.svg or FILE.png")
       ->type_name("FILE");
   command->add_flag("--json", request->json, "print one JSON object");
+  addInsistOption(command, request->insist);
   command->footer(kFooter);
   command->callback([request, &status] { status = campbellOf(*request); });
 }

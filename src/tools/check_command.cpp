@@ -28,11 +28,14 @@ struct Request {
   std::string scene;
   std::optional<std::string> system;
   bool json = false;
+  bool insist = false;
 };
 
 int check(const Request& request) {
   const Scene scene = readSceneFile(scenePath(request.scene));
-  const SceneCheck result = checkScene(scene, selectedSystems(scene, request.system));
+  const std::vector<std::size_t> systems = selectedSystems(scene, request.system);
+  tell(costOfCheck(scene, systems), request.insist);
+  const SceneCheck result = checkScene(scene, systems);
   if (request.json) {
     printJson(json(result));
   } else {
@@ -51,6 +54,7 @@ void addCheckCommand(CLI::App& twin, int& status) {
   command->add_flag(
       "--json", request->json,
       "print one JSON object; `accuracy` of each system: what is kept, until when it is known");
+  addInsistOption(command, request->insist);
   command->footer(kFooter);
   command->callback([request, &status] { status = check(*request); });
 }

@@ -11,6 +11,7 @@
 #include "reports/fit_report.h"
 #include "reports/picture_file.h"
 #include "scene/scene_reader.h"
+#include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/progress_bar.h"
 
@@ -51,6 +52,7 @@ struct Request {
   std::optional<std::string> plot;
   bool validate_only = false;
   bool json = false;
+  bool insist = false;
 };
 
 std::string pictureOf(const std::string& plot, const FitStudy& study, std::size_t run) {
@@ -76,11 +78,11 @@ int fit(const Request& request) {
   std::optional<ProgressBar> bar;
   const ShootingFit fit = fitByShooting(study, [&](int done, int of) {
     if (!bar) {
-      bar.emplace(of, request.json);
+      bar.emplace(fmt::format("{} rounds at most", of), of, request.json, request.insist);
     }
     bar->show(done);
   });
-  bar->clear();
+  bar.reset();
   if (request.output) {
     writeScene(study, fit, *request.output);
   }
@@ -113,6 +115,7 @@ void addFitCommand(CLI::App& twin, int& status) {
   command->add_flag("--validate-only", request->validate_only,
                     "find nothing but the starts of windows");
   command->add_flag("--json", request->json, "print one JSON object");
+  addInsistOption(command, request->insist);
   command->footer(kFooter);
   command->callback([request, &status] { status = fit(*request); });
 }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <fstream>
 #include <memory>
 #include <optional>
@@ -40,6 +41,7 @@ struct Request {
   std::string lcm_prefix = kDefaultLcmPrefix;
   std::optional<double> spectrum_at;  // s
   bool json = false;
+  bool insist = false;
 };
 
 AlarmSettings settingsOf(const BuiltScene& scene, const std::optional<std::string>& path) {
@@ -75,12 +77,13 @@ int monitor(const Request& request) {
   const BuiltScene scene = build(readSceneFile(scenePath(request.scene)));
   const AlarmSettings settings = settingsOf(scene, request.settings);
   constexpr std::int64_t kParts = 1000;
-  ProgressBar progress(kParts, false);
+  ProgressBar progress(request.log, kParts, false, request.insist);
   const MonitoredLog run = monitorLog(
       scene, settings, request.log, request.lcm_prefix, request.spectrum_at,
       [&](std::uint64_t bytes, std::uint64_t all) {
-        progress.show(static_cast<std::int64_t>(
-            static_cast<double>(kParts) * static_cast<double>(bytes) / static_cast<double>(all)));
+        progress.show(
+            static_cast<std::int64_t>(static_cast<double>(kParts) * static_cast<double>(bytes) /
+                                      static_cast<double>(std::max<std::uint64_t>(1, all))));
       });
   progress.clear();
   if (request.output) {
@@ -116,6 +119,7 @@ void addMonitorCommand(CLI::App& twin, int& status) {
                    "where the window of the full spectrum ends, simulated; default: at the end")
       ->type_name("S");
   command->add_flag("--json", request->json, "print one JSON object");
+  addInsistOption(command, request->insist);
   command->footer(kFooter);
   command->callback([request, &status] { status = monitor(*request); });
 }

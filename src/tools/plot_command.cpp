@@ -116,6 +116,7 @@ void addPlotCommand(CLI::App& twin, int& status) {
   command->add_option("--output", request->folder, "folder of the files; default: this one")
       ->type_name("FOLDER");
   command->add_option("--format", request->format, "svg or png; default: svg")->type_name("FORMAT");
+  addInsistOption(command, request->run.insist);
   command->footer(kFooter);
   command->callback([request, &status] { status = plot(*request); });
 }

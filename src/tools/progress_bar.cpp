@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
-#include <string>
+#include <utility>
+
+#include "reports/asked_cost.h"
 
 namespace whirl_twin {
 
@@ -12,39 +15,58 @@ namespace {
 
 constexpr std::size_t kWidth = 40;
 constexpr std::chrono::milliseconds kInterval{100};
+constexpr double kLook = 0.02;             // s, from one look to the next
+constexpr std::int64_t kMostSteps = 1024;  // likewise: a look costs as much as a cheap step
+constexpr double kJudged = 1.0;            // s, after which the pace is known
 
 /// Onto the terminal, with its control characters.
-void draw(const std::string& text) {
+void put(const std::string& text) {
   std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);
 }
 
 }  // namespace
 
-ProgressBar::ProgressBar(std::int64_t steps, bool results_on_standard_output)
-    : steps_(steps),
+ProgressBar::ProgressBar(std::string asked, std::int64_t steps, bool results_on_standard_output,
+                         bool insist)
+    : asked_(std::move(asked)),
+      steps_(std::max<std::int64_t>(1, steps)),
+      insist_(insist),
       on_(::isatty(STDERR_FILENO) != 0 &&
-          !(results_on_standard_output && ::isatty(STDOUT_FILENO) != 0)) {}
+          !(results_on_standard_output && ::isatty(STDOUT_FILENO) != 0)),
+      start_(processorTime()) {}
 
-void ProgressBar::show(std::int64_t step) {
-  if (!on_) {
-    return;
+std::int64_t ProgressBar::show(std::int64_t step) {
+  if (step <= 0) {
+    return 1;
+  }
+  const double taken = processorTime() - start_;
+  const double of_one = taken / static_cast<double>(step);
+  if (!judged_ && taken > kJudged) {
+    judged_ = true;
+    clear();
+    tell({of_one * static_cast<double>(steps_), 0.0, asked_}, insist_);
   }
   const auto now = std::chrono::steady_clock::now();
-  if (now < next_) {
-    return;
+  if (on_ && now >= next_) {
+    next_ = now + kInterval;
+    draw(static_cast<double>(step) / static_cast<double>(steps_),
+         of_one * static_cast<double>(steps_ - step));
   }
-  next_ = now + kInterval;
-  const double part = static_cast<double>(step) / static_cast<double>(steps_);
-  const auto filled = static_cast<std::size_t>(part * kWidth);
-  draw(fmt::format("\r[{}{}] {:3.0f} %", std::string(filled, '#'),
-                   std::string(kWidth - filled, ' '), 100.0 * part));
+  return static_cast<std::int64_t>(
+      std::clamp(kLook / std::max(of_one, 1.0e-9), 1.0, static_cast<double>(kMostSteps)));
+}
+
+void ProgressBar::draw(double part, double left) {
+  const auto filled = static_cast<std::size_t>(std::min(part, 1.0) * kWidth);
+  put(fmt::format("\r[{}{}] {:3.0f} %, {} left\033[K", std::string(filled, '#'),
+                  std::string(kWidth - filled, ' '), 100.0 * part, inWords(left)));
   drawn_ = true;
 }
 
 void ProgressBar::clear() {
   if (drawn_) {
-    draw("\r\033[K");
+    put("\r\033[K");
     drawn_ = false;
   }
 }

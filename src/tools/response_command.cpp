@@ -2,6 +2,7 @@
 #include <memory>
 #include <optional>
 
+#include "reports/asked_cost.h"
 #include "reports/picture_file.h"
 #include "reports/response_report.h"
 #include "scene/scene_reader.h"
@@ -34,6 +35,7 @@ struct Request {
   SpeedRangeOptions range;
   double speed = 0.0;
   bool json = false;
+  bool insist = false;
 };
 
 /// `report` of a rotor gives what json(), text() and figure() take.
@@ -84,9 +86,12 @@ void addResponseCommand(CLI::App& twin, int& status) {
       ->type_name("N");
   command->add_option("--station", request->station, "this place along the shaft only")
       ->type_name("NAME");
+  addInsistOption(command, request->insist);
   command->footer(kResponseFooter);
   command->callback([request, &status] {
     status = show(*request, [&](const RotorSystem& system) {
+      tell(costOfResponse(system.name, system.dynamics->dof(), request->range.points),
+           request->insist);
       return responseReport(system, request->range.of(system), request->station);
     });
   });

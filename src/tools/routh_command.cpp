@@ -10,8 +10,10 @@
 #include "analysis/routh.h"
 #include "analysis/stability_margins.h"
 #include "messages/refusal.h"
+#include "reports/asked_cost.h"
 #include "reports/output.h"
 #include "reports/verdict_text.h"
+#include "tools/arguments.h"
 #include "tools/commands.h"
 
 namespace whirl_twin {
@@ -97,9 +99,7 @@ RouthResult countsOf(const std::vector<std::complex<double>>& roots) {
   return counts;
 }
 
-Judgement judge(const std::vector<ComplexRational>& coefficients) {
-  const bool real = std::all_of(coefficients.begin(), coefficients.end(),
-                                [](const ComplexRational& c) { return c.im == 0; });
+Judgement judge(const std::vector<ComplexRational>& coefficients, bool real) {
   const auto rounded = inRange(coefficients);
   std::vector<Rational> exact;
   std::vector<double> values;
@@ -178,6 +178,7 @@ std::string text(const Judgement& j) {
 struct Request {
   std::vector<std::string> coefficients;
   bool json = false;
+  bool insist = false;
 };
 
 int test(const Request& request) {
@@ -186,7 +187,10 @@ int test(const Request& request) {
                   [](const ComplexRational& c) { return c.re == 0 && c.im == 0; })) {
     throw Refusal("coefficients: expected at least one that is not zero, found none");
   }
-  Judgement judgement = judge(coefficients);
+  const bool real = std::all_of(coefficients.begin(), coefficients.end(),
+                                [](const ComplexRational& c) { return c.im == 0; });
+  tell(costOfRoots(coefficients.size(), real), request.insist);
+  Judgement judgement = judge(coefficients, real);
   addMargins(judgement);
   if (request.json) {
     printJson(json(judgement));
@@ -205,6 +209,7 @@ void addRouthCommand(CLI::App& twin, int& status) {
       ->required()
       ->type_name("");
   command->add_flag("--json", request->json, "print one JSON object");
+  addInsistOption(command, request->insist);
   command->footer(kFooter);
   command->callback([request, &status] { status = test(*request); });
 }

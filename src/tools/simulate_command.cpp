@@ -129,6 +129,7 @@ void addSimulateCommand(CLI::App& twin, int& status) {
       ->type_name("NAME");
   command->add_option("--system", request->system, "show this system only")->type_name("NAME");
   command->add_flag("--json", request->json, "print the final state as one JSON object");
+  addInsistOption(command, request->insist);
   command->footer(kFooter);
   command->callback([request, &status] { status = simulate(*request); });
 }

@@ -17,8 +17,6 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::int64_t kStepsPerLook = 1024;  // the bar's look at the clock costs as much as a step
-
 std::atomic<bool> stop_requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
 
@@ -44,7 +42,7 @@ Simulation::Simulation(const SimulationPlan& plan)
 
 void Simulation::run(SampleWriter* writer, bool results_on_standard_output) {
   const DenormalsToZero denormals_to_zero;  // as the real-time loop does: the same numbers
-  ProgressBar bar(plan_.steps, results_on_standard_output);
+  ProgressBar bar(plan_.asked(), plan_.steps, results_on_standard_output, plan_.insist);
   std::vector<double> record(twin_.layout().size);
   warn(bar);
   const bool every_step = !plan_.sensors.empty() || validity_.watches();
@@ -57,7 +55,7 @@ void Simulation::run(SampleWriter* writer, bool results_on_standard_output) {
     writer->follow(record.data(), observer_);
   }
   std::int64_t next_sample = writer != nullptr ? plan_.stride : plan_.steps;
-  std::int64_t next_bar = kStepsPerLook;
+  std::int64_t next_bar = 1;
   for (std::int64_t i = 0; i < plan_.steps;) {
     const std::int64_t passed = every_step ? 1 : observer_.mostPassed();
     const std::int64_t due = std::min({i + passed, next_sample, plan_.steps});
@@ -79,8 +77,7 @@ void Simulation::run(SampleWriter* writer, bool results_on_standard_output) {
       }
     }
     if (i >= next_bar) {
-      bar.show(i);
-      next_bar = i + kStepsPerLook;
+      next_bar = i + bar.show(i);
     }
   }
   for (const state::Measurement& block : measurements_.finish()) {

@@ -28,6 +28,7 @@ struct SimulationRequest {
   std::optional<std::string> members;  ///< path of their table
   std::optional<std::string> measure;  ///< one of the scene's sensors, or `sensors`: all of them
   bool json = false;
+  bool insist = false;
 };
 
 /// A request that has been checked.
@@ -37,6 +38,10 @@ struct SimulationPlan {
   std::vector<SensorSpec> sensors;   ///< those that measure
   std::int64_t steps = 0;
   std::int64_t stride = 1;  ///< steps from one sample to the next
+  bool insist = false;      ///< however long it takes
+
+  /// The numbers that make it long: "--duration: 100 s, 100000 steps".
+  std::string asked() const;
 };
 
 /// Reads the scene and checks the options against it. Throws SceneError or Refusal.

@@ -7,6 +7,7 @@
 #include "messages/names.h"
 #include "messages/refusal.h"
 #include "models/model_registry.h"
+#include "reports/asked_cost.h"
 #include "reports/selected_systems.h"
 #include "scene/drive_profile.h"
 #include "scene/scene_reader.h"
@@ -109,7 +110,22 @@ SimulationPlan planSimulation(const SimulationRequest& request) {
   plan.steps = request.duration
                    ? parseNanoseconds("--duration", *request.duration, 0, kLongestRun, step) / step
                    : defaultSteps(plan);
+  plan.insist = request.insist;
+  tell(costOfRun(build(plan.scene)), plan.insist);
   return plan;
+}
+
+std::string SimulationPlan::asked() const {
+  int substeps = 1;
+  std::size_t members = 0;
+  for (const SystemSpec& system : scene.systems) {
+    substeps = std::max(substeps, system.substeps);
+    members = std::max(members, system.ensemble.count);
+  }
+  return fmt::format("--duration: {} s in {} steps{}{}",
+                     static_cast<double>(steps) * scene.stepSeconds(), steps,
+                     substeps > 1 ? fmt::format(", {} substeps each", substeps) : "",
+                     members > 0 ? fmt::format(", of {} members", members) : "");
 }
 
 }  // namespace whirl_twin

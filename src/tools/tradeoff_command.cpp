@@ -42,6 +42,7 @@ struct Request {
   std::string scene;
   std::optional<std::string> system, duration, plot, output;
   bool json = false;
+  bool insist = false;
 };
 
 void requireTableName(const std::optional<std::string>& path) {
@@ -84,18 +85,19 @@ int tradeoffOf(const Request& request) {
   if (request.duration) {
     asked = parseNanoseconds("--duration", *request.duration, scene.step, kLongest);
   }
+  constexpr std::int64_t kParts = 1000;
+  ProgressBar bar(fmt::format("--duration: {}", request.duration.value_or("the horizon")),
+                  static_cast<std::int64_t>(systems.size()) * kParts, false, request.insist);
   std::vector<TradeoffReport> reports;
   for (std::size_t i = 0; i < systems.size(); ++i) {
     const Scene one = sceneOfOne(scene, systems[i]);
     const std::int64_t duration = asked ? *asked : horizonOf(one);
-    constexpr std::int64_t kParts = 1000;
-    const auto all = static_cast<std::int64_t>(systems.size()) * kParts;
-    ProgressBar bar(all, false);
     reports.push_back(tradeoffReport(one, duration, [&](double share) {
       bar.show(static_cast<std::int64_t>(i) * kParts +
                static_cast<std::int64_t>(share * static_cast<double>(kParts)));
     }));
   }
+  bar.clear();
   for (const TradeoffReport& report : reports) {
     if (request.plot) {
       writePicture(pictureName(*request.plot, report.system, reports.size() > 1), figure(report));
@@ -140,6 +142,7 @@ void addTradeoffCommand(CLI::App& twin, int& status) {
   command->add_option("--output", request->output, "the rows as a table, FILE.csv")
       ->type_name("FILE");
   command->add_flag("--json", request->json, "print one JSON object");
+  addInsistOption(command, request->insist);
   command->footer(kFooter);
   command->callback([request, &status] { status = tradeoffOf(*request); });
 }

@@ -16,6 +16,7 @@
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
+#include "tools/patience.h"
 
 namespace whirl_twin {
 
@@ -116,6 +117,7 @@ int run(int argc, const char* const* argv) {
     return kBadInput;
   }
   std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes a vector
+  const Patience patience("twin " + arguments.back());
   try {
     twin.parse(arguments);
     finishStandardOutput();

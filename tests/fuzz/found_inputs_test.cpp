@@ -156,6 +156,57 @@ TEST(FoundInputs, ARootBeyondDoubleIsRefused) {
   EXPECT_TRUE(contains(end.err, "a root lies beyond 1.8e308")) << end.err;
 }
 
+// 404 coordinates, whose steps over speed are some hundred exponentials of a matrix of 800 rows.
+TEST(FoundInputs, AShaftWhoseStepsTakeMinutesIsCheckedWithoutThem) {
+  const Ending end = twin({"check", kCorpus + "shaft_unreduced.yaml"});
+  EXPECT_EQ(end.status, 0) << end.err;
+  EXPECT_TRUE(contains(end.out, "not calibrated: its steps take long to prepare"));
+  EXPECT_TRUE(contains(end.out, "a step costs  not measured: its steps take about ")) << end.out;
+}
+
+TEST(FoundInputs, AMillionSubstepsAreChecked) {
+  const Ending end = twin({"check", kCorpus + "substeps_million.yaml", "--json"});
+  EXPECT_EQ(end.status, 0) << end.err;
+  EXPECT_EQ(end.json()["systems"]["a"]["substeps"], 1000000);
+}
+
+TEST(FoundInputs, ARunOfMoreThanADayIsRefusedByItsNumbers) {
+  const TemporaryDirectory folder;
+  const Lines asked{"simulate",   kCorpus + "substeps_million.yaml",
+                    "--duration", "1000000",
+                    "--output",   folder.file("run.csv")};
+  const Ending end = twin(asked);
+  EXPECT_EQ(end.status, 2);
+  EXPECT_TRUE(contains(end.err,
+                       "--duration: 1000000 s in 1000000000 steps, 1000000 substeps each: takes "
+                       "about "))
+      << end.err;
+  EXPECT_TRUE(contains(end.err, "or --insist")) << end.err;
+  EXPECT_EQ(folder.files(), Lines{});
+}
+
+TEST(FoundInputs, MoreMembersThanADayOrTheMemoryHoldsAreRefusedByTheirNumber) {
+  std::string scene = contentsOf(kCorpus + "members_of_a_shaft.yaml");
+  scene.replace(scene.find("count: 1000"), 11, "count: 100000");
+  scene.replace(scene.find("modes: 8"), 8, "modes: 24");
+  const TemporaryDirectory folder;
+  for (const char* command : {"check", "simulate"}) {
+    const Ending end = twin({command, folder.write("scene.yaml", scene)});
+    EXPECT_EQ(end.status, 2) << command;
+    EXPECT_EQ(end.out, "");
+    EXPECT_TRUE(contains(end.err, "rotor: count: 100000: takes about ")) << end.err;
+  }
+}
+
+TEST(FoundInputs, RootsThatTakeMoreThanADayAreRefusedByTheirNumber) {
+  Lines many(50000, "1+i");
+  many.insert(many.begin(), {"routh", "--json"});
+  const Ending end = twin(many);
+  EXPECT_EQ(end.status, 2);
+  EXPECT_EQ(end.out, "");
+  EXPECT_TRUE(contains(end.err, "50000 coefficients: takes about ")) << end.err;
+}
+
 /// What is no file with text or events in it, given to everything that reads one.
 TEST(FoundInputs, FoldersDevicesAndPipesAreNoFiles) {
   const TemporaryDirectory folder;

@@ -1,0 +1,47 @@
+#include "tools/patience.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <utility>
+
+#include "reports/asked_cost.h"
+#include "reports/output.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr std::chrono::milliseconds kLook{500};
+constexpr double kLong = 10.0;  // s, of the processor: on a busy machine nobody is to blame
+
+}  // namespace
+
+Patience::Patience(std::string command)
+    : command_(std::move(command)), thread_([this] { watch(); }) {}
+
+Patience::~Patience() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    end_ = true;
+  }
+  ended_.notify_one();
+  thread_.join();
+}
+
+void Patience::watch() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (!ended_.wait_for(lock, kLook, [this] { return end_; })) {
+    if (isTold()) {
+      return;
+    }
+    if (processorTime() > kLong) {
+      complain(
+          fmt::format("{}: at work for {:.0f} s; how long it takes is not known. Ctrl-C ends it\n",
+                      command_, processorTime()));
+      return;
+    }
+  }
+}
+
+}  // namespace whirl_twin
