@@ -72,8 +72,10 @@ void StateAlarm::updateAccuracy(double time, double estimate, double tolerance, 
   }
 }
 
-void StateAlarm::updateStopped(double time, StepStatus status, const std::string& text,
+void StateAlarm::updateStopped(double time, StepStatus status, const std::string& why,
                                AlertList& alerts) {
+  // Over the network it may come without.
+  const std::string text = why.empty() ? system_ + ": stopped, and not told why" : why;
   const bool stopped = status != StepStatus::kOk;
   const AlarmCondition condition = stopped ? AlarmCondition::kDanger : AlarmCondition::kClear;
   const bool cleared = stopped_alarm_.update(time, condition) == ConditionAlarm::Change::kCleared;

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "monitoring/alarm_settings_reader.h"
+#include "reports/asked_cost.h"
 #include "reports/monitored_log.h"
 #include "scene/scene_reader.h"
 #include "scene/station_names.h"
@@ -76,6 +77,11 @@ int monitor(const Request& request) {
   requireLcmPrefix(request.lcm_prefix);
   const BuiltScene scene = build(readSceneFile(scenePath(request.scene)));
   const AlarmSettings settings = settingsOf(scene, request.settings);
+  AskedCost cost;  // of the speeds that it begins with
+  for (const SharedSystem& system : scene.systems) {
+    cost += costOfAnalysis(system->spec.name, system->dynamics->dof());
+  }
+  tell(cost, request.insist);
   constexpr std::int64_t kParts = 1000;
   ProgressBar progress(request.log, kParts, false, request.insist);
   const MonitoredLog run = monitorLog(

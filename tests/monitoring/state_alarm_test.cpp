@@ -106,6 +106,15 @@ TEST_P(Stopped, IsDangerAndTellsItsCauseInOneSentence) {
   EXPECT_TRUE(list.active().empty());
 }
 
+TEST(StoppedSystem, IsToldWhereItsCauseDoesNotArrive) {
+  AlertList list;
+  StateAlarm alarm("rotor", AlarmSettings());
+  alarm.updateStopped(0.0, StepStatus::kOk, "", list);
+  alarm.updateStopped(1.0, StepStatus::kNotFinite, "", list);
+  ASSERT_EQ(list.active().size(), 1u);
+  EXPECT_EQ(list.active().front().text, "rotor: stopped, and not told why");
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Causes, Stopped,
     testing::Values(Cause{StepStatus::kNotFinite, "NOT_FINITE", "state not finite"},
