@@ -188,6 +188,7 @@ void Follower::take(const state::Measurement& message) {
   if (!queue_.take(message)) {
     began_ = false;
     ++restarts_;
+    ++clock_settings_;
   }
   process();
 }

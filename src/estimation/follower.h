@@ -52,8 +52,10 @@ class Follower {
   std::int64_t machineInstant(std::int64_t step) const;
   /// Root mean square of the residuals of each channel, from when its motion was found; NaN: none.
   std::vector<double> residualRms(std::size_t system) const;
-  /// How often the machine's clock was set, or a motion had to be found anew.
+  /// How often a motion had to be found anew.
   std::int64_t restarts() const { return restarts_; }
+  /// How often the machine's clock was set.
+  std::int64_t clockSettings() const { return clock_settings_; }
 
  private:
   struct Channel {
@@ -92,6 +94,7 @@ class Follower {
   std::int64_t origin_ = 0;         // [ns], the machine's instant of step 0
   std::int64_t next_step_ = 0;      // to be recorded
   std::int64_t restarts_ = 0;
+  std::int64_t clock_settings_ = 0;
   std::vector<double> record_;
 };
 

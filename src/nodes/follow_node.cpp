@@ -23,6 +23,7 @@
 #include <string>
 #include <vector>
 
+#include "estimation/clock_watch.h"
 #include "estimation/follow_settings_reader.h"
 #include "estimation/follower.h"
 #include "nodes/private_parameter.h"
@@ -219,7 +220,14 @@ void run() {
     publisher.setStamp(following->machineInstant(RecordLayout::step(record)) + ahead);
     publisher.publish(record);
   };
-  listener.follow = [&](const state::FollowState& told) { publisher.publish(told); };
+  ClockWatch clocks;
+  std::int64_t restarts = 0;
+  listener.follow = [&](state::FollowState told) {
+    told.clock_offset = clocks.offset();
+    told.clock_offset_deviation = clocks.deviation();
+    told.clock_drift = clocks.drift();
+    publisher.publish(told);
+  };
   Follower follower(twin, generations, readSettings(twin.built()), every, listener);
   following = &follower;
   MachineInput measurements(twin.scene(), machine, input == "lcm", lcm_url, prefix,
@@ -227,8 +235,13 @@ void run() {
                               const auto now =
                                   static_cast<std::int64_t>(ros::WallTime::now().toNSec());
                               ahead = now - lastInstant(message);
+                              clocks.take(lastInstant(message), now);
                               publisher.publish(message);
                               follower.take(message);
+                              if (follower.clockSettings() != restarts) {
+                                restarts = follower.clockSettings();
+                                clocks.restart();
+                              }
                             });
 
   MasterWatch master({node.resolveName("scene"), node.resolveName("scene_file")});

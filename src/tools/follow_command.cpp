@@ -41,6 +41,7 @@ struct Request {
   std::optional<std::string> sample;  // s
   std::string lcm_prefix = kDefaultLcmPrefix;
   bool json = false;
+  bool insist = false;
 };
 
 std::int64_t strideOf(const Request& request, const Scene& scene) {
@@ -81,7 +82,7 @@ int follow(const Request& request) {
   const std::int64_t every = strideOf(request, twin.scene());
   const auto writer = writerOf(request, twin);
   constexpr std::int64_t kParts = 1000;
-  ProgressBar progress(kParts, false);
+  ProgressBar progress(request.log, kParts, false, request.insist);
   const FollowedLog run = followLog(
       twin, settings, request.log, request.lcm_prefix, writer.get(), every,
       [&](std::uint64_t bytes, std::uint64_t all) {
@@ -128,6 +129,7 @@ void addFollowCommand(CLI::App& twin, int& status) {
                    "what the channels of the machine begin with; default: TWIN_")
       ->type_name("PREFIX");
   command->add_flag("--json", request->json, "print one JSON object");
+  addInsistOption(command, request->insist);
   command->footer(kFooter);
   command->callback([request, &status] { status = follow(*request); });
 }

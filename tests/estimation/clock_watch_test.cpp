@@ -1,0 +1,48 @@
+#include "estimation/clock_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace whirl_twin {
+namespace {
+
+constexpr std::int64_t kEpoch = 1'750'000'000'000'000'000;  // ns
+
+/// The machine's clock is `offset` [s] ahead at first and gains `drift`; messages take 1 ms and,
+/// most of them, some more.
+ClockWatch watched(double offset, double drift, std::int64_t machine_epoch, double duration) {
+  ClockWatch watch;
+  std::mt19937 random(5);
+  std::exponential_distribution<double> delay(1.0 / 0.004);
+  for (double t = 0.0; t < duration; t += 0.05) {
+    const double machine = offset + t * (1.0 + drift);
+    watch.take(machine_epoch + std::llround(machine * 1.0e9),
+               kEpoch + std::llround((t + 0.001 + delay(random)) * 1.0e9));
+  }
+  return watch;
+}
+
+TEST(ClockWatch, TellsOffsetAndDriftThroughDelays) {
+  const ClockWatch watch = watched(0.25, 1.0e-4, kEpoch, 100.0);
+  EXPECT_NEAR(watch.drift(), 1.0e-4, 1.0e-5);
+  EXPECT_NEAR(watch.offset(), 0.25 + 1.0e-4 * 97.0 - 0.001, 1.0e-3);
+  EXPECT_LT(watch.deviation(), 1.0e-3);
+}
+
+TEST(ClockWatch, ClocksThatCountFromElsewhereAreComparedWithTheirStart) {
+  const ClockWatch watch = watched(0.0, -2.0e-3, 0, 60.0);
+  EXPECT_NEAR(watch.offset(), -2.0e-3 * 57.5, 1.0e-2);
+  EXPECT_NEAR(watch.drift(), -2.0e-3, 1.0e-4);
+}
+
+TEST(ClockWatch, SaysNothingBeforeItKnows) {
+  const ClockWatch watch = watched(0.0, 0.0, kEpoch, 4.0);
+  EXPECT_TRUE(std::isnan(watch.offset()));
+  EXPECT_TRUE(std::isnan(watch.drift()));
+  EXPECT_TRUE(std::isnan(watch.deviation()));
+}
+
+}  // namespace
+}  // namespace whirl_twin

@@ -1,0 +1,136 @@
+// `twin follow`: a log or a table of measurements, followed.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "twin_program.h"
+
+namespace whirl_twin {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* kArm = R"(name: rig
+step: 0.001
+systems:
+  arm:
+    model: pendulum
+    parameters: {mass: 0.5, length: 0.3, damping: 0.004}
+    initial: {theta: 1.2}
+sensors:
+  encoder:
+    rate: 200.0
+    channels:
+      theta: {measures: arm.theta, noise: 0.002}
+)";
+
+class FollowedArm : public testing::Test {
+ protected:
+  FollowedArm() {
+    const Ending end = twin({"simulate", scene_, "--duration", "10", "--sample", "0.005",
+                             "--measure", "sensors", "--output", log_});
+    EXPECT_EQ(end.status, 0) << end.err;
+  }
+  std::string other() const {
+    std::string text = kArm;
+    text.replace(text.find("length: 0.3,"), 12, "length: 0.31,");
+    return directory_.write("other.yaml", text);
+  }
+
+  const TemporaryDirectory directory_;
+  const std::string scene_ = directory_.write("arm.yaml", kArm);
+  const std::string log_ = directory_.file("arm.lcmlog");
+};
+
+TEST_F(FollowedArm, TellsWhatTheMachineIs) {
+  const std::string settings =
+      directory_.write("follow.yaml", "systems: {arm: {parameters: {length: 0.05}}}\n");
+  const std::string output = directory_.file("twin.lcmlog");
+  const Ending end =
+      twin({"follow", other(), log_, "--settings", settings, "--json", "--output", output});
+  ASSERT_EQ(end.status, 0) << end.err;
+  const Json arm = end.json()["systems"]["arm"];
+  EXPECT_TRUE(arm["found"]);
+  EXPECT_NEAR(arm["parameters"]["length"]["value"].get<double>(), 0.3, 3.0e-4);
+  EXPECT_NEAR(arm["channels"]["encoder/theta"]["residual_rms"].get<double>(), 0.002, 2.0e-4);
+  EXPECT_EQ(arm["samples"]["refused"], 0);
+  EXPECT_TRUE(arm["drift"].is_null());
+
+  // Its log is that of a twin, with what was measured and what was learned.
+  const Ending log = twin({"log", output, "--json"});
+  ASSERT_EQ(log.status, 0) << log.err;
+  std::vector<std::string> channels;
+  for (const Json& channel : log.json()["channels"]) {
+    channels.push_back(channel["channel"]);
+  }
+  for (const char* name : {"TWIN_ARM_PENDULUM", "TWIN_ARM_FOLLOW", "TWIN_ENCODER_MEASUREMENT"}) {
+    EXPECT_EQ(std::count(channels.begin(), channels.end(), name), 1) << name;
+  }
+  // Followed again, what was measured gives the same.
+  const Ending again = twin({"follow", other(), output, "--settings", settings, "--json"});
+  ASSERT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(again.json()["systems"], end.json()["systems"]);
+}
+
+TEST_F(FollowedArm, ATableIsFollowedAsWell) {
+  const std::string table = directory_.file("run.csv");
+  ASSERT_EQ(twin({"simulate", scene_, "--duration", "5", "--sample", "0.005", "--output",
+                  directory_.file("motion.csv")})
+                .status,
+            0);
+  // time,arm.theta,... : its angle as the column of the channel
+  std::ifstream motion(directory_.file("motion.csv"));
+  std::ofstream out(table);
+  out << "time,theta\n";
+  std::string line;
+  std::getline(motion, line);
+  while (std::getline(motion, line)) {
+    const std::size_t second = line.find(',', line.find(',') + 1);
+    out << line.substr(0, second) << '\n';
+  }
+  out.close();
+  const Ending end = twin({"follow", scene_, table, "--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  EXPECT_LT(end.json()["systems"]["arm"]["channels"]["encoder/theta"]["residual_rms"].get<double>(),
+            1.0e-3);
+}
+
+TEST_F(FollowedArm, WhatIsWrongIsSaidAtItsPlaceAllAtOnce) {
+  const std::string settings = directory_.write("follow.yaml", R"(systems:
+  arm:
+    parameters: {lenght: 0.05, inertia: 0.1}
+    offsets: {encoder/tetha: 0.1}
+    unbalance: 1.0e-3
+    disturbance: -1
+  leg: {}
+patience: 100
+)");
+  const Ending end = twin({"follow", scene_, log_, "--settings", settings});
+  EXPECT_EQ(end.status, 2);
+  for (const char* part :
+       {"lenght", "did you mean 'length'", "inertia: is 0 in the scene", "encoder/tetha",
+        "unbalance: is of rotors", "disturbance", "leg", "patience"}) {
+    EXPECT_NE(end.err.find(part), std::string::npos) << part << " in\n" << end.err;
+  }
+}
+
+TEST_F(FollowedArm, NothingToFollowIsSaid) {
+  const std::string silent = directory_.file("silent.lcmlog");
+  ASSERT_EQ(twin({"simulate", scene_, "--duration", "1", "--output", silent}).status, 0);
+  const Ending empty = twin({"follow", scene_, silent});
+  EXPECT_EQ(empty.status, 2);
+  EXPECT_NE(empty.err.find("found none"), std::string::npos) << empty.err;
+  const Ending none = twin({"follow", scene_, directory_.file("nothing.lcmlog")});
+  EXPECT_EQ(none.status, 2);
+  const std::string blind = directory_.write(
+      "blind.yaml", std::string(kArm).substr(0, std::string(kArm).find("sensors")));
+  const Ending unseen = twin({"follow", blind, log_});
+  EXPECT_EQ(unseen.status, 2);
+  EXPECT_NE(unseen.err.find("sensors"), std::string::npos) << unseen.err;
+}
+
+}  // namespace
+}  // namespace whirl_twin
