@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "estimation/bearing_forces.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {
@@ -61,6 +62,12 @@ struct Follower::Followed {
     counts.assign(n, 0);
     heard.assign(n, std::numeric_limits<std::int64_t>::min());
     model = filter.model().system();
+    forces = bearingForces(*model);
+    for (const BearingForce& force : forces) {
+      told.bearing.push_back(force.name);
+    }
+    told.force_x.assign(forces.size(), state::FollowState::kNone);
+    told.force_y = told.force_deviation = told.force_x;
   }
 
   void endInstant(double seconds) {
@@ -84,8 +91,9 @@ struct Follower::Followed {
   std::vector<std::int64_t> counts;
   std::vector<std::int64_t> heard;  // [ns], of each channel: its newest sample
   state::FollowState told;
-  std::int64_t next_telling = 0;  // [ns]
-  SharedSystem model;             // of the generation
+  std::int64_t next_telling = 0;     // [ns]
+  SharedSystem model;                // of the generation
+  std::vector<BearingForce> forces;  // of that model
   std::int64_t generation = 0;
   std::int64_t next_generation = 0;  // [ns]
 };
@@ -364,6 +372,7 @@ void Follower::writeRecord(std::int64_t step) {
     if (followed.runs && filter.model().system() != followed.model &&
         instant >= followed.next_generation) {
       followed.model = filter.model().system();
+      followed.forces = bearingForces(*followed.model);
       followed.next_generation = instant + kNewParameters;
       followed.generation = generations_->add(
           followed.index, {followed.model->dynamics, followed.model->parameters()});
@@ -422,6 +431,13 @@ void Follower::tellState(Followed& system) {
   }
   for (std::size_t c = 0; c < told.channel.size(); ++c) {
     told.offset[c] = filter.hasOffset(c) ? filter.offset(c) : state::FollowState::kNone;
+  }
+  for (std::size_t i = 0; i < system.forces.size() && system.runs; ++i) {
+    const KalmanFilter::Expected x = filter.combined(system.forces[i].x);
+    const KalmanFilter::Expected y = filter.combined(system.forces[i].y);
+    told.force_x[i] = x.value;
+    told.force_y[i] = y.value;
+    told.force_deviation[i] = std::max(x.deviation, y.deviation);
   }
   const ResidualWatch::Verdict& verdict = system.residuals.verdict();
   told.mismatch = verdict.mismatch;

@@ -73,7 +73,11 @@ SystemFilter::SystemFilter(const BuiltScene& scene, std::size_t system,
           static_cast<Eigen::Index>(scene.systems[system]->dynamics->inputs().size()))) {
   const Dynamics& dynamics = *scene.systems[system]->dynamics;
   if (settings.unbalance.deviation > 0.0) {
-    stations_ = dynamics.stations();
+    for (const Station& station : dynamics.stations()) {
+      if (stations_.empty() || station.published) {
+        stations_.push_back(station);
+      }
+    }
   }
   run_out_ = unbalance_ + 2 * static_cast<Eigen::Index>(stations_.size());
   Eigen::Index next = run_out_;
@@ -427,6 +431,12 @@ Eigen::Matrix2d SystemFilter::unbalanceCovariance(std::size_t station) const {
   const Eigen::Rotation2Dd back(-now_.angle.remainder);
   return back.toRotationMatrix() * filter_.covariance().block<2, 2>(i, i) *
          back.toRotationMatrix().transpose();
+}
+
+KalmanFilter::Expected SystemFilter::combined(const Eigen::VectorXd& row) const {
+  Eigen::VectorXd h = Eigen::VectorXd::Zero(filter_.size());
+  h.head(2 * n_) = row;
+  return filter_.expect(h, 0.0);
 }
 
 double SystemFilter::offset(std::size_t channel) const {

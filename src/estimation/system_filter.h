@@ -70,7 +70,10 @@ class SystemFilter {
 
   double parameter(std::size_t index) const;
   double parameterDeviation(std::size_t index) const;  ///< in its unit
-  std::size_t unbalances() const { return stations_.size(); }
+  /// A linear combination of coordinates and rates [2 dof], and its standard deviation.
+  KalmanFilter::Expected combined(const Eigen::VectorXd& row) const;
+  /// Of stations whose whirl is published.
+  const std::vector<Station>& unbalanceStations() const { return stations_; }
   /// At a station, from the shaft's phase mark: amount along x and y [kg m].
   Eigen::Vector2d unbalance(std::size_t station) const;
   Eigen::Matrix2d unbalanceCovariance(std::size_t station) const;

@@ -35,12 +35,12 @@ class Course {
     system_.last = told;
   }
 
-  void finish(const SystemFilter& filter, const BuiltSystem& built) {
+  void finish(const SystemFilter& filter) {
     for (const FollowedParameter& p : filter.model().parameters()) {
       system_.start.push_back(p.start);
     }
-    const std::vector<Station> stations = built.dynamics->stations();
-    for (std::size_t i = 0; i < filter.unbalances(); ++i) {
+    const std::vector<Station>& stations = filter.unbalanceStations();
+    for (std::size_t i = 0; i < stations.size(); ++i) {
       const Eigen::Vector2d u = filter.unbalance(i);
       system_.unbalances.push_back({stations[i].name, u.norm(), std::atan2(u.y(), u.x()),
                                     std::sqrt(0.5 * filter.unbalanceCovariance(i).trace())});
@@ -141,7 +141,7 @@ FollowedLog followLog(const Twin& twin, const FollowSettings& settings, const st
   run.restarts = follower.restarts();
   for (std::size_t i = 0; i < systems.size(); ++i) {
     if (const SystemFilter* filter = follower.filter(i)) {
-      courses[i]->finish(*filter, *twin.systems()[i]);
+      courses[i]->finish(*filter);
       systems[i].rms = follower.residualRms(i);
       run.systems.push_back(systems[i]);
     }

@@ -208,6 +208,70 @@ TEST(Follower, GoesOnWhenTheMachinesClockIsSet) {
   EXPECT_LT(std::fabs(twin.last().residual[0]), 5.0 * twin.last().residual_deviation[0]);
 }
 
+/// A shaft with a disc between two bearings, seen by probes at the disc and at one bearing: what
+/// the bearings bear is its weight, and more at the one that the disc is nearer to.
+TEST(Follower, TellsWhatTheBearingsBear) {
+  const char* text = R"(
+name: rig
+step: 0.0005
+systems:
+  rotor:
+    model: flexible_rotor
+    parameters:
+      youngs_modulus: 2.0e11
+      density: 7800.0
+      gravity_on_shaft: true
+      modes: 4
+      elements: [{length: 0.1, outer_diameter: 0.02, count: 6}]
+      discs: [{node: 2, mass: 3.0, polar_inertia: 0.01, transverse_inertia: 0.006}]
+      bearings:
+        - {node: 0, kxx: 1.0e6, kyy: 1.0e6, cxx: 200.0, cyy: 200.0}
+        - {node: 6, kxx: 1.0e6, kyy: 1.0e6, cxx: 200.0, cyy: 200.0}
+      unbalances: [{node: 2, magnitude: 1.0e-5}]
+      stations: [{node: 6}]
+    drive: shaft
+drives:
+  shaft: {speed: 100.0}
+sensors:
+  probes:
+    rate: 1000.0
+    channels:
+      x: {measures: rotor.node_2.x, noise: 1.0e-6}
+      y: {measures: rotor.node_2.y, noise: 1.0e-6}
+      u: {measures: rotor.node_6.x, noise: 1.0e-6}
+      v: {measures: rotor.node_6.y, noise: 1.0e-6}
+)";
+  Machine machine(text);
+  FollowSettings settings;
+  settings.systems["rotor"].disturbance = 1.0e-3;
+  Twinned twin(text, settings);
+  double x = 0.0, y0 = 0.0, y1 = 0.0;
+  std::size_t counted = 0, seen = 0;
+  while (machine.time() < 8.0) {
+    for (const state::Measurement& m : machine.step()) {
+      twin.follower.take(m);
+    }
+    for (; seen < twin.told.size(); ++seen) {
+      const state::FollowState& told = twin.told[seen];
+      ASSERT_EQ(told.bearing, (std::vector<std::string>{"bearings[0]", "bearings[1]"}));
+      if (told.at.time > 4.0) {
+        x += told.force_x[0] + told.force_x[1];
+        y0 += told.force_y[0];
+        y1 += told.force_y[1];
+        ++counted;
+        EXPECT_LT(told.force_deviation[0], 2.0);
+      }
+    }
+  }
+  const double n = static_cast<double>(counted);
+  const double weight = 9.80665 * (3.0 + 7800.0 * M_PI * 1.0e-4 * 0.6);
+  EXPECT_NEAR((y0 + y1) / n, weight, 0.02 * weight);
+  EXPECT_NEAR(x / n, 0.0, 0.02 * weight);
+  // Moments about the second bearing: the disc at two thirds of the length from it.
+  EXPECT_NEAR(y0 / n, 9.80665 * (3.0 * 2.0 / 3.0 + 0.5 * 7800.0 * M_PI * 1.0e-4 * 0.6),
+              0.03 * weight);
+}
+
 TEST(Follower, RefusesASceneThatMeasuresNothing) {
   const std::string text = std::string(kRotor).substr(0, std::string(kRotor).find("sensors:"));
   const Twin twin(sceneOf(text));

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
@@ -189,6 +190,82 @@ TEST(SystemFilter, KnowsHowCertainItIs) {
   EXPECT_NEAR(states / kRuns, 2.0, 5.0 * 2.0 / std::sqrt(kRuns));
   EXPECT_NEAR(parameters / kRuns, 2.0, 5.0 * 2.0 / std::sqrt(kRuns));
   EXPECT_NEAR(innovations / static_cast<double>(taken), 1.0, 0.03);
+}
+
+/// An unscented filter of the arm (S. J. Julier, J. K. Uhlmann, Proc. IEEE 92, 2004; 2n points of
+/// equal weight) with its own steps, angle, rate and length: no derivative in it.
+class UnscentedArm {
+ public:
+  explicit UnscentedArm(double length) : x_(1.2, 0.0, std::log(length)) {
+    p_ = Eigen::Vector3d(1.0, 100.0, 0.01 * 0.01).asDiagonal();
+  }
+  void goOn(double h) {
+    propagate([h](Eigen::Vector3d x) {
+      const double length = std::exp(x[2]);
+      const auto rate = [length](const Eigen::Vector3d& y) {
+        const double damping = 0.004 / (0.5 * length * length);
+        return Eigen::Vector3d(y[1], -9.80665 / length * std::sin(y[0]) - damping * y[1], 0.0);
+      };
+      const Eigen::Vector3d k1 = rate(x), k2 = rate(x + 0.5 * h * k1), k3 = rate(x + 0.5 * h * k2),
+                            k4 = rate(x + h * k3);
+      return Eigen::Vector3d(x + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4));
+    });
+  }
+  void take(double angle, double noise) {
+    const Eigen::Vector3d gain = p_.col(0) / (p_(0, 0) + noise * noise);
+    const double variance = p_(0, 0) + noise * noise;
+    x_ += gain * (angle - x_[0]);
+    p_ -= variance * gain * gain.transpose();
+    p_ = (0.5 * (p_ + p_.transpose())).eval();
+  }
+  double length() const { return std::exp(x_[2]); }
+  double deviation() const { return std::sqrt(p_(2, 2)); }
+
+ private:
+  template <class Motion>
+  void propagate(const Motion& motion) {
+    const Eigen::Matrix3d root = Eigen::LLT<Eigen::Matrix3d>(3.0 * p_).matrixL();
+    std::array<Eigen::Vector3d, 6> points;
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < 6; ++i) {
+      const auto column = root.col(static_cast<Eigen::Index>(i / 2));
+      points[i] = motion(x_ + (i % 2 == 0 ? 1.0 : -1.0) * column);
+      mean += points[i] / 6.0;
+    }
+    p_.setZero();
+    for (const Eigen::Vector3d& point : points) {
+      p_ += (point - mean) * (point - mean).transpose() / 6.0;
+    }
+    x_ = mean;
+  }
+
+  Eigen::Vector3d x_;
+  Eigen::Matrix3d p_;
+};
+
+/// Two filters that share nothing but the problem tell the same length, as certain.
+TEST(SystemFilter, AgreesWithAnUnscentedFilter) {
+  SystemFollowing settings;
+  settings.parameters = {{"length", {0.01, 0.0}}};
+  SystemFilter filter(armWith(0.302, 0.004), 0, settings, {angle("encoder/theta", 0, 0.002)});
+  UnscentedArm unscented(0.302);
+  Twin machine(sceneOf(kArm));
+  std::vector<double> record(machine.layout().size);
+  std::mt19937 random(11);
+  std::normal_distribution<double> noise(0.0, 0.002);
+  filter.begin({0, {}, 0.0});
+  for (int k = 1; k <= 10'000; ++k) {
+    machine.step();
+    machine.write(record.data());
+    const double measured = machine.layout().system(record.data(), 0).q()[0] + noise(random);
+    filter.goTo({machine.stepCount() * 1'000'000, {}, 0.0});
+    filter.take(0, measured);
+    unscented.goOn(0.001);
+    unscented.take(measured, 0.002);
+  }
+  const double deviation = filter.parameterDeviation(0) / filter.parameter(0);
+  EXPECT_NEAR(deviation / unscented.deviation(), 1.0, 0.1);
+  EXPECT_NEAR(std::log(filter.parameter(0) / unscented.length()), 0.0, deviation);
 }
 
 /// An unbalance of 2 g mm at 40 degrees that the model has not, beside a shaft on its way through
