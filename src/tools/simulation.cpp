@@ -57,7 +57,7 @@ void Simulation::run(SampleWriter* writer, bool results_on_standard_output) {
   std::int64_t next_sample = writer != nullptr ? plan_.stride : plan_.steps;
   std::int64_t next_bar = 1;
   for (std::int64_t i = 0; i < plan_.steps;) {
-    const std::int64_t passed = every_step ? 1 : observer_.mostPassed();
+    const std::int64_t passed = every_step || i == 0 ? 1 : observer_.mostPassed();
     const std::int64_t due = std::min({i + passed, next_sample, plan_.steps});
     i = followed ? stepFollowed(due, *writer, record) : stepUnseen(due);
     twin_.write(record.data());

@@ -17,21 +17,6 @@ namespace {
 /// speed.
 constexpr double kSlowestOrbit = 0.01;
 
-/// Steps from one whose energies are observed to the next, whoever is told: the largest in play is
-/// what the residual is a part of. Where every step is a linear rotor's own, which costs less than
-/// its energies do, fewer.
-constexpr std::int64_t kMostPassed = 64;
-constexpr std::int64_t kMostPassedOfLinearRotors = 256;
-constexpr double kQuarterTurn = 0.5 * 3.14159265358979323846;
-
-/// Of rotors with more, a look is little beside a step.
-constexpr std::size_t kMostCoordinates = 16;
-
-bool isLinearRotor(const BuiltSystem& system) {
-  return system.dynamics->isRotor() && system.dynamics->linear() &&
-         system.integrator == "exponential";
-}
-
 Eigen::VectorXd vector(const double* x, std::size_t n) {
   return Eigen::Map<const Eigen::VectorXd>(x, static_cast<Eigen::Index>(n));
 }
@@ -47,26 +32,11 @@ Observer::Observer(const Twin& twin, std::shared_ptr<SystemGenerations> generati
       stations_(twin.systems().size()),
       motors_(twin.scene().drives.size()),
       looked_errors_(twin.systems().size(), std::numeric_limits<double>::quiet_NaN()),
-      looked_(twin.layout().size),
-      most_passed_(kMostPassedOfLinearRotors) {
+      looked_(twin.layout().size) {
   for (std::size_t i = 0; i < stations_.size(); ++i) {
-    const BuiltSystem& system = *twin.systems()[i];
-    stations_[i] = publishedStations(system.spec.name, *system.dynamics);
-    if (isRotor(i)) {
-      rotors_.push_back(i);
-    }
-    if (!isLinearRotor(system)) {
-      most_passed_ = kMostPassed;
-    }
+    stations_[i] = publishedStations(twin.systems()[i]->spec.name, *twin.systems()[i]->dynamics);
   }
-  for (std::size_t i = 0; i < twin.driveCount(); ++i) {
-    if (twin.isMotor(i)) {
-      has_motors_ = true;
-    } else {
-      const auto [lowest, highest] = twin.drive(i).speedRange();
-      fastest_ = std::max({fastest_, -lowest, highest});
-    }
-  }
+  prepareLooks();
   twin.write(record_.data());
   observe(std::vector<double>(record_).data());
   tells_only_change_ = false;
@@ -97,86 +67,6 @@ void Observer::observe(const double* record) {
   }
   followMotors(record_.data());
   tells_only_change_ = changed && step() == before;
-}
-
-bool Observer::errorFound(std::size_t system, double sum) {
-  const bool another = sum != looked_errors_[system] && !std::isnan(sum);
-  looked_errors_[system] = sum;
-  return another;
-}
-
-bool Observer::look(const double* record) {
-  const std::int64_t now = RecordLayout::step(record);
-  const std::int64_t passed = now - step();
-  if (passed <= 0 || passed >= most_passed_) {
-    return false;
-  }
-  for (std::size_t i = 0; i < tracks_.size(); ++i) {
-    const SystemView system = twin_.layout().system(record, i);
-    if (system.generation() != tracks_[i].generation || system.status() != status(i)) {
-      return false;
-    }
-  }
-  const double h = twin_.scene().stepSeconds();
-  for (const std::size_t i : rotors_) {
-    if (status(i) != StepStatus::kOk) {
-      continue;
-    }
-    const SystemView system = twin_.layout().system(record, i);
-    const ShaftView shaft = RecordLayout::shaft(record, twin_.systems()[i]->drive);
-    const double turned = (std::fabs(shaft.speed()) + std::fabs(shaft.acceleration()) * h) * h;
-    if (!(turned < kQuarterTurn) || errorFound(i, system.errorSum()) ||
-        !tracks_[i].whirl.follow(now, system.q())) {
-      return false;
-    }
-  }
-  followMotors(record);
-  return true;
-}
-
-bool Observer::look(const Twin& now) {
-  if (has_motors_) {
-    now.write(looked_.data());
-    return look(looked_.data());
-  }
-  const std::int64_t step = now.stepCount();
-  const bool coarse = !(fastest_ * twin_.scene().stepSeconds() < kQuarterTurn);
-  for (const std::size_t i : rotors_) {
-    FollowedWhirl& whirl = tracks_[i].whirl;
-    if (now.status(i) != StepStatus::kOk || step < whirl.steadyUntil()) {
-      continue;
-    }
-    const Stepper& running = now.running(i);
-    running.write(looked_.data());
-    if (coarse || errorFound(i, running.errorSum()) || !whirl.follow(step, looked_.data())) {
-      return false;
-    }
-  }
-  return true;
-}
-
-std::int64_t Observer::quietUntil(const Twin& now) {
-  if (has_motors_) {
-    return step();
-  }
-  const double h = twin_.scene().stepSeconds();
-  std::int64_t quiet = std::numeric_limits<std::int64_t>::max();
-  for (const std::size_t i : rotors_) {
-    if (status(i) != StepStatus::kOk) {
-      continue;
-    }
-    const BuiltSystem& system = *twin_.systems()[i];
-    const Drive& drive = now.drive(system.drive);
-    FollowedWhirl& whirl = tracks_[i].whirl;
-    if (isLinearRotor(system) && system.spec.inputs.empty() &&
-        system.spec.q.size() <= kMostCoordinates && drive.constantFor(0.0)) {
-      const double lasts = std::min(drive.nextCorner(0.0) / h, 1.0e9);
-      whirl.findSteady(*tracks_[i].dynamics, coordinates(i), rates(i), shaftOf(i), h,
-                       static_cast<std::int64_t>(lasts), !(fastest_ * h < kQuarterTurn));
-    }
-    quiet = std::min(quiet, whirl.steadyUntil());
-  }
-  return quiet;
 }
 
 bool Observer::takeGeneration(std::size_t system) {
@@ -226,31 +116,6 @@ void Observer::follow(std::size_t system, bool anew) {
   track.energy.observe(energies(system), now.work());
   track.error.observe(twin_.seconds(step()), now.errorSum(), twin_.systems()[system]->spec.horizon,
                       anew);
-}
-
-void Observer::followMotors(const double* record) {
-  if (!has_motors_) {
-    return;
-  }
-  const double time = twin_.seconds(RecordLayout::step(record));
-  for (std::size_t i = 0; i < motors_.size(); ++i) {
-    const std::size_t system = twin_.turnedBy(i);
-    if (system == Twin::kNoSystem) {
-      continue;
-    }
-    const SystemView now = twin_.layout().system(record, system);
-    if (now.status() != StepStatus::kOk) {
-      continue;
-    }
-    Track& track = tracks_[system];
-    if (track.motor_generation != track.generation) {
-      track.motor_generation = track.generation;
-      motors_[i].restart();
-    }
-    const ShaftView turned = RecordLayout::shaft(record, i);
-    motors_[i].observe(*twin_.scene().drives[i].motor, time, turned.speed(), turned.acceleration(),
-                       now.work());
-  }
 }
 
 SystemView Observer::view(std::size_t system) const {

@@ -118,6 +118,7 @@ class Observer {
   void takeStations(std::size_t system);
   /// anew: its sums have begun again since the last record.
   void follow(std::size_t system, bool anew);
+  void prepareLooks();
   void followMotors(const double* record);
   bool errorFound(std::size_t system, double sum);
 
@@ -132,7 +133,7 @@ class Observer {
   std::vector<double> looked_;                      // room for a record
   double fastest_ = 0.0;                            // [rad/s], of the drives that are no motors
   bool has_motors_ = false;
-  std::int64_t most_passed_;
+  std::int64_t most_passed_ = 1;
   std::int64_t stamp_ = 0;
   bool tells_only_change_ = false;
 };
