@@ -161,10 +161,12 @@ std::string criticalSpeedsText(const SystemAnalysis& a) {
       *a.speed);
   for (const auto& c : a.critical_speeds) {
     const bool too_near = c.separation_margin < c.required_separation_margin;
-    out += fmt::format("    {:>12.6g} {:>11.6g}  {:<9} {:>15} {:>9} % {:>9.4g} %{}\n", c.speed,
-                       c.speed * 30.0 / kPi, c.direction, defined(c.amplification_factor, "-"),
-                       defined(c.separation_margin, "-"), c.required_separation_margin,
-                       too_near ? "  too near" : "");
+    out += fmt::format(
+        "    {:>12.6g} {:>11.6g}  {:<9} {:>15} {:>9} % {:>9.4g} %{}\n", c.speed,
+        c.speed * 30.0 / kPi, c.direction,
+        std::isinf(c.amplification_factor) ? "undamped" : defined(c.amplification_factor, "-"),
+        defined(c.separation_margin, "-"), c.required_separation_margin,
+        too_near ? "  too near" : "");
   }
   return out + beyond;
 }
