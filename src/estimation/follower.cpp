@@ -127,7 +127,8 @@ void Follower::addSensors(const FollowSettings& settings) {
     if (sensor.keyphasor) {
       pulses_.back() = sensor.drive;
       ShaftTrackerSettings shaft;
-      shaft.mark = sensor.keyphasor->mark;
+      const double mark = sensor.keyphasor->mark;
+      shaft.mark = mark - ShaftAngle::kTurn * std::floor(mark / ShaftAngle::kTurn);
       shaft.jitter = std::max(
           shaft.jitter, std::hypot(sensor.keyphasor->jitter, sensor.keyphasor->resolution / 3.5));
       shafts_[sensor.drive].tracker.emplace(shaft);

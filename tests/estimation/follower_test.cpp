@@ -221,7 +221,7 @@ systems:
       youngs_modulus: 2.0e11
       density: 7800.0
       gravity_on_shaft: true
-      modes: 4
+      modes: 12
       elements: [{length: 0.1, outer_diameter: 0.02, count: 6}]
       discs: [{node: 2, mass: 3.0, polar_inertia: 0.01, transverse_inertia: 0.006}]
       bearings:

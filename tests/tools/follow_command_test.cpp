@@ -1,10 +1,8 @@
 // `twin follow`: a log or a table of measurements, followed.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <fstream>
 #include <string>
-#include <vector>
 
 #include "twin_program.h"
 
@@ -60,14 +58,10 @@ TEST_F(FollowedArm, TellsWhatTheMachineIs) {
   EXPECT_TRUE(arm["drift"].is_null());
 
   // Its log is that of a twin, with what was measured and what was learned.
-  const Ending log = twin({"log", output, "--json"});
+  const Ending log = twin({"log", output});
   ASSERT_EQ(log.status, 0) << log.err;
-  std::vector<std::string> channels;
-  for (const Json& channel : log.json()["channels"]) {
-    channels.push_back(channel["channel"]);
-  }
   for (const char* name : {"TWIN_ARM_PENDULUM", "TWIN_ARM_FOLLOW", "TWIN_ENCODER_MEASUREMENT"}) {
-    EXPECT_EQ(std::count(channels.begin(), channels.end(), name), 1) << name;
+    EXPECT_NE(log.out.find(name), std::string::npos) << name << " in\n" << log.out;
   }
   // Followed again, what was measured gives the same.
   const Ending again = twin({"follow", other(), output, "--settings", settings, "--json"});
