@@ -213,12 +213,19 @@ TEST(FoundInputs, FoldersDevicesAndPipesAreNoFiles) {
   const std::string pipe = folder.file("pipe");
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   for (const std::string& path : {folder.file("."), std::string("/dev/zero"), pipe}) {
-    for (const char* command : {"check", "simulate", "analyze", "balance", "log"}) {
-      const Ending end = twin({command, path});
-      EXPECT_EQ(end.status, 2) << command << ' ' << path;
+    const auto expectRefused = [&](const Lines& arguments) {
+      const Ending end = twin(arguments);
+      EXPECT_EQ(end.status, 2) << arguments.front() << ' ' << path;
       EXPECT_EQ(end.out, "");
       EXPECT_TRUE(contains(end.err, path)) << end.err;
+    };
+    for (const char* command : {"check", "simulate", "plot", "analyze", "campbell", "response",
+                                "tradeoff", "balance", "log", "fit"}) {
+      expectRefused({command, path});
     }
+    const std::string scene = WHIRL_TWIN_SOURCE "/config/scenes/demo.yaml";
+    expectRefused({"monitor", scene, path});
+    expectRefused({"monitor", scene, "no.lcmlog", "--settings", path});
   }
 }
 
