@@ -13,16 +13,18 @@ namespace {
 
 constexpr double kTurn = 6.283185307179586;
 constexpr std::size_t kModesLookedAt = 6;
-constexpr double kBeyond = 1.25;     // of the last of them
-constexpr double kOfNyquist = 0.8;   // what probes can tell
-constexpr double kWellKnown = 0.25;  // deviation of a decay rate, of it
+constexpr double kBeyond = 1.25;      // of the last of them
+constexpr double kBeyondFirst = 3.0;  // of the first
+constexpr double kOfNyquist = 0.8;    // what probes can tell
+constexpr double kWellKnown = 0.25;   // deviation of a decay rate, of it
 
 /// The frequencies to look at: as far as the model has its first modes, and the samples reach.
 double limitOf(const std::vector<WhirlMode>& model, double speed, double period) {
   double limit = 3.0 * speed;
   if (!model.empty()) {
     const std::size_t last = std::min(model.size(), kModesLookedAt) - 1;
-    limit = kBeyond * model[last].dampedFrequency();
+    limit = std::max(kBeyond * model[last].dampedFrequency(),
+                     kBeyondFirst * model.front().dampedFrequency());
   }
   return std::min(limit, kOfNyquist * 0.5 * kTurn / period);
 }
