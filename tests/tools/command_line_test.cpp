@@ -62,8 +62,8 @@ INSTANTIATE_TEST_SUITE_P(
             "campbell, response, orbit, modes, balance, tradeoff, routh, log, "
             "monitor, fit"},
         Misuse{{"analyse", kDemo}, "twin: unknown command 'analyse'; did you mean 'analyze'?"},
-        Misuse{{"bode", kDemo},
-               "twin: unknown command 'bode'; there are: check, scenes, models, simulate, plot, "
+        Misuse{{"nyquist", kDemo},
+               "twin: unknown command 'nyquist'; there are: check, scenes, models, simulate, plot, "
                "analyze, campbell, response, orbit, modes, balance, tradeoff, routh, log, "
                "monitor, fit"},
         Misuse{{""},
