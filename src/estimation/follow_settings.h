@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,7 +34,9 @@ struct SystemFollowing {
 struct FollowSettings {
   std::map<std::string, SystemFollowing> systems;  ///< by their names; others: as by default
   double false_alarms = 0.02;                      ///< an hour, of each kind
-  double patience = 0.25;  ///< [s], that a sample waits for those of slower sources
+  /// [s], that a sample waits for those of slower sources. Else a quarter of a second and the
+  /// longest block of the scene's sensors.
+  std::optional<double> patience;
 
   const SystemFollowing& of(const std::string& system) const {
     static const SystemFollowing kPlain;

@@ -105,7 +105,9 @@ FollowSettings readFollowSettings(const YAML::Node& tree, const std::string& sou
   if (map.usable()) {
     settings.false_alarms =
         map.numberBetween("false_alarms", 1.0e-9, kMostFalseAlarms, "an hour", 0.02);
-    settings.patience = map.numberBetween("patience", 0.0, kLongestPatience, "s", 0.25);
+    if (map.has("patience")) {
+      settings.patience = map.numberBetween("patience", 0.0, kLongestPatience, "s", 0.0);
+    }
     if (map.has("systems")) {
       std::vector<std::string> names;
       for (const SharedSystem& system : scene.systems) {

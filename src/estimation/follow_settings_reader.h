@@ -11,7 +11,8 @@
 //       unbalance: {deviation: 1e-4, walk: 0.0}   # kg m, beside the scene's, at each station
 //       run_out: 5e-6                           # m, under each displacement probe
 //   false_alarms: 0.02                          # an hour
-//   patience: 0.25                              # s, that samples wait for slower sources
+//   patience: 0.25                              # s, that samples wait for slower sources; else
+//                                               # 0.25 s and the longest block of the sensors
 #pragma once
 
 #include <yaml-cpp/yaml.h>

@@ -15,11 +15,13 @@ namespace whirl_twin {
 
 namespace {
 
+constexpr double kHalfTurn = 0.5 * ShaftAngle::kTurn;
 constexpr double kNanosecond = 1.0e-9;                  // s
 constexpr std::int64_t kLongestGap = 1'000'000'000;     // ns, that a motion is believed through
 constexpr std::int64_t kTelling = 100'000'000;          // ns, from one FollowState to the next
 constexpr std::int64_t kLost = 250'000'000;             // ns, of nothing but refused samples
 constexpr std::int64_t kNewParameters = 1'000'000'000;  // ns, from one generation to the next
+constexpr double kPatience = 0.25;                      // s, beside the longest block
 constexpr double kSettled = 0.2;                        // s, until residuals are judged
 
 ShaftInstant instantOf(std::int64_t instant, const ShaftEstimate& at) {
@@ -28,6 +30,21 @@ ShaftInstant instantOf(std::int64_t instant, const ShaftEstimate& at) {
 
 std::int64_t nanoseconds(double seconds) {
   return std::llround(seconds / kNanosecond);
+}
+
+/// [s]
+double patienceFor(const Scene& scene) {
+  double longest = 0.0;
+  for (const SensorSpec& sensor : scene.sensors) {
+    longest = std::max(longest, sensor.block);
+  }
+  return kPatience + longest;
+}
+
+/// [s]; of the anti-alias filter what it delays by well below its bandwidth.
+double delayOf(const SensorSettings& sensor) {
+  return sensor.delay +
+         (sensor.bandwidth > 0.0 ? 1.0 / (ShaftAngle::kTurn * sensor.bandwidth) : 0.0);
 }
 
 double noiseOf(const SensorSettings& sensor) {
@@ -104,7 +121,7 @@ Follower::Follower(const Twin& twin, std::shared_ptr<SystemGenerations> generati
       generations_(std::move(generations)),
       listener_(std::move(listener)),
       every_(every),
-      queue_(settings.patience),
+      queue_(settings.patience.value_or(patienceFor(twin.scene()))),
       record_(twin.layout().size) {
   for (std::size_t i = 0; i < twin.driveCount(); ++i) {
     shafts_.push_back({std::nullopt, 0, twin.drive(i)});
@@ -151,7 +168,7 @@ void Follower::addSensors(const FollowSettings& settings) {
       channel.offset = offset == of.offset.end() ? 0.0 : offset->second;
       channel.run_out = c.signal.kind == SignalSpec::Kind::kDisplacement ? of.run_out : 0.0;
       channels_.back().push_back(
-          {c.signal.system, followed[c.signal.system].size(), nanoseconds(c.sensor.delay)});
+          {c.signal.system, followed[c.signal.system].size(), nanoseconds(delayOf(c.sensor))});
       longest_delay_ = std::max(longest_delay_, channels_.back().back().delay);
       followed[c.signal.system].push_back(channel);
       names.push_back(c.name);
@@ -315,7 +332,8 @@ void Follower::takeSample(const MeasuredSample& sample) {
     system.at = instant;
   }
   system.filter.goTo(there);
-  const Innovation innovation = system.filter.take(channel.place, sample.value);
+  const Innovation innovation =
+      system.filter.take(channel.place, sample.value, shaft.known ? shaft.deviation : kHalfTurn);
   told.residual[channel.place] = innovation.value;
   told.residual_deviation[channel.place] = innovation.deviation;
   if (innovation.used) {

@@ -384,9 +384,14 @@ Eigen::VectorXd SystemFilter::rowOf(std::size_t channel) const {
   return h;
 }
 
-Innovation SystemFilter::take(std::size_t channel, double value) {
+Innovation SystemFilter::take(std::size_t channel, double value, double shaft_deviation) {
   const Eigen::VectorXd h = rowOf(channel);
-  const double noise = channels_[channel].deviation;
+  double noise = channels_[channel].deviation;
+  if (shaft_deviation > 0.0 && now_.speed != 0.0) {
+    // A motion that turns with the shaft is seen as far off as the shaft's angle is.
+    noise = std::hypot(
+        noise, shaft_deviation * std::hypot(h.head(n_).dot(q()), h.head(n_).dot(v()) / now_.speed));
+  }
   const KalmanFilter::Expected expected = filter_.expect(h, noise);
   Innovation innovation{value - expected.value, expected.deviation, false};
   if (!(std::fabs(innovation.value) <= kGate * innovation.deviation)) {

@@ -53,8 +53,9 @@ class SystemFilter {
   void begin(const ShaftInstant& at);
   /// Goes on, the shaft's motion being the cubic between here and there.
   void goTo(const ShaftInstant& there);
-  /// Takes what a channel shows now; a value too far off is refused.
-  Innovation take(std::size_t channel, double value);
+  /// Takes what a channel shows now, the shaft's angle being known to a deviation [rad]; a value
+  /// too far off is refused.
+  Innovation take(std::size_t channel, double value, double shaft_deviation = 0.0);
   /// The motion, not the rest, is as at the beginning again: what was believed of it is wrong.
   void forgetMotion();
   /// What acts on the inputs from now on.
