@@ -70,6 +70,7 @@ visualization_msgs::Marker& MarkerCanvas::add(const std::string& part, int type,
   marker.scale.y = scale.y();
   marker.scale.z = scale.z();
   marker.color = toColor(color);
+  marker.lifetime = ros::Duration(lifetime_);
   return marker;
 }
 
@@ -79,6 +80,12 @@ MarkerCanvas MarkerCanvas::turned(const Eigen::Vector3d& at,
   pose.translation() = world_from_system_ * at;
   pose.linear() = world_axes;
   return {markers_, system_, pose};
+}
+
+MarkerCanvas MarkerCanvas::beside(const std::string& name, double lifetime) const {
+  MarkerCanvas canvas(markers_, system_ + "/" + name, world_from_system_);
+  canvas.lifetime_ = lifetime;
+  return canvas;
 }
 
 void MarkerCanvas::gone(const std::string& part) {

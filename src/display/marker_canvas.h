@@ -32,6 +32,10 @@ class MarkerCanvas {
   /// The same system's, with other axes: at a point in the system's axes, turned in the world.
   MarkerCanvas turned(const Eigen::Vector3d& at, const Eigen::Matrix3d& world_axes) const;
 
+  /// Another picture of the same system, in the same axes: its parts are "<name>/<part>".
+  /// @param lifetime [s], after which what is not drawn again goes by itself
+  MarkerCanvas beside(const std::string& name, double lifetime) const;
+
   /// Takes the next marker of the part away, and keeps its number.
   void gone(const std::string& part);
 
@@ -72,6 +76,7 @@ class MarkerCanvas {
   visualization_msgs::MarkerArray& markers_;
   std::string system_;
   Eigen::Isometry3d world_from_system_;
+  double lifetime_ = 0.0;  // [s]; 0: for ever
   std::map<std::string, int> next_id_;
 };
 

@@ -28,6 +28,7 @@ constexpr Color kBase{0.75F, 0.80F, 0.88F};
 constexpr Color kBoard{0.17F, 0.21F, 0.26F};
 constexpr Color kCalmMass{0.30F, 0.62F, 0.52F};
 constexpr Color kTrail{0.95F, 0.60F, 0.95F};
+constexpr double kHullLifetime = 0.5;  // s, wall time
 
 bool allFinite(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
@@ -80,6 +81,15 @@ void MechanismDisplay::update(const PendulumState& state, const Moment<double>& 
   }
   while (!trail_.empty() && state.time - trail_.front().time > kTrailTime) {
     trail_.pop_front();
+  }
+}
+
+void MechanismDisplay::measure(const std::vector<double>& place) {
+  measured_ = {};
+  if (dynamics_ && place.size() == static_cast<std::size_t>(dynamics_->dof()) && allFinite(place)) {
+    measured_ = dynamics_->sketch(
+        Eigen::Map<const Eigen::VectorXd>(place.data(), static_cast<Eigen::Index>(place.size())),
+        shaft_);
   }
 }
 
@@ -190,6 +200,10 @@ void MechanismDisplay::draw(const SystemStatus& status, MarkerCanvas& canvas) co
     bars_.draw(mass, canvas);
   } else {
     drawSketch(sketch_, pictureScale(), mass, canvas);
+    if (!measured_.empty()) {
+      MarkerCanvas hull = canvas.beside("measured", kHullLifetime);
+      drawHull(measured_, pictureScale(), hull);
+    }
     if (sketch_.has_tracer) {
       drawTrail(canvas);
     }

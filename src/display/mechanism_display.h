@@ -1,5 +1,6 @@
 // A mechanism as a picture: the sketch of its model before a board, the trail of a point of it, its
-// coordinates, energies, margins and alerts in words. A system whose model is not known, or has no
+// coordinates, energies, margins and alerts in words; where it is measured, a pale hull where the
+// sensors show it to be. A system whose model is not known, or has no
 // sketch, is shown as bars, one a coordinate.
 //
 // The sketch's axes (see mechanics/sketch.h) stand upright in the world and face the viewer of the
@@ -35,6 +36,10 @@ class MechanismDisplay : public SystemDisplay {
   /// @param shaft the motion of its shaft at that time; zero without one
   void update(const PendulumState& state, const Moment<double>& shaft);
 
+  /// Where sensors show it to be, coordinates as in the states; it is drawn until measuredGone().
+  void measure(const std::vector<double>& place);
+  void measuredGone() { measured_ = {}; }
+
   /// [-], metres in the picture for a metre of the machine.
   double pictureScale() const;
 
@@ -65,6 +70,7 @@ class MechanismDisplay : public SystemDisplay {
   std::vector<CoordinateInfo> coordinates_;
   Moment<double> shaft_;
   Sketch sketch_;
+  Sketch measured_;
   CoordinateBars bars_;
   std::deque<TrailPoint> trail_;
 };

@@ -24,13 +24,18 @@ bool SceneDynamics::refresh() {
   }
   tree_ = found;
   systems_.clear();
+  measured_.clear();
   if (tree_.empty()) {
     return true;
   }
   try {
     const ParameterTree scene = parameterTree(node, "scene");
-    for (const SharedSystem& system : build(readScene(scene.tree, scene.source)).systems) {
+    const BuiltScene built = build(readScene(scene.tree, scene.source));
+    for (const SharedSystem& system : built.systems) {
       systems_[system->spec.name] = system;
+      if (const auto place = MeasuredPlace::of(built, system->spec.name)) {
+        measured_.emplace(system->spec.name, *place);
+      }
     }
   } catch (const Refusal& error) {
     ROS_WARN("systems are shown without their models, for the scene is not right:\n%s",
@@ -75,6 +80,11 @@ std::string SceneDynamics::systemOf(const std::string& published) const {
 std::string SceneDynamics::driveOf(const std::string& system) const {
   const auto found = systems_.find(system);
   return found == systems_.end() ? "" : found->second->spec.drive.value_or("");
+}
+
+std::optional<MeasuredPlace> SceneDynamics::measuredPlace(const std::string& system) const {
+  const auto found = measured_.find(system);
+  return found == measured_.end() ? std::nullopt : std::optional<MeasuredPlace>(found->second);
 }
 
 Moment<double> SceneDynamics::shaft(const std::string& system, double time,

@@ -4,8 +4,10 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "display/measured_place.h"
 #include "mechanics/dynamics.h"
 #include "scene/built_scene.h"
 #include "whirl_twin/DriveState.h"
@@ -31,6 +33,9 @@ class SceneDynamics {
   /// Name of the drive that turns a system; "" without one.
   std::string driveOf(const std::string& system) const;
 
+  /// How sensors of the scene show where a system is; none: they do not.
+  std::optional<MeasuredPlace> measuredPlace(const std::string& system) const;
+
   /// The motion of a system's shaft at a time [s], simulated.
   /// @param drive the latest state of its drive; null without one
   Moment<double> shaft(const std::string& system, double time, const DriveState* drive) const;
@@ -38,6 +43,7 @@ class SceneDynamics {
  private:
   std::string tree_;                             // of parameters, as they were read last
   std::map<std::string, SharedSystem> systems_;  // with their parameters as they are now
+  std::map<std::string, MeasuredPlace> measured_;
 };
 
 }  // namespace whirl_twin

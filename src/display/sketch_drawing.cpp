@@ -13,14 +13,18 @@ constexpr Color kMark{1.0F, 0.93F, 0.45F};
 constexpr Color kForce{0.35F, 0.85F, 1.0F};
 constexpr Color kThin{0.80F, 0.83F, 0.87F, 0.55F};
 
+constexpr Color kHull{0.55F, 0.85F, 1.0F, 0.35F};
+constexpr double kHullWidth = 1.7;  // times as thick as what is in it
+
 constexpr int kWindings = 9;
 constexpr int kPointsPerWinding = 14;
 constexpr double kShortestLength = 1e-6;  // m in the picture, of what has a direction
 
 class SketchDrawing {
  public:
-  SketchDrawing(double scale, const Color& mass, MarkerCanvas& canvas)
-      : scale_(scale), mass_(mass), canvas_(canvas) {}
+  /// alike: all in the colour of the masses
+  SketchDrawing(double scale, const Color& mass, MarkerCanvas& canvas, bool alike = false)
+      : scale_(scale), mass_(mass), alike_(alike), canvas_(canvas) {}
 
   void draw(const Sketch::Rod& rod) {
     const Eigen::Vector3d from = at(rod.from);
@@ -82,6 +86,9 @@ class SketchDrawing {
                                                 : to;
   }
   Color color(SketchRole role) const {
+    if (alike_) {
+      return mass_;
+    }
     switch (role) {
       case SketchRole::kBody:
         return kSteel;
@@ -99,6 +106,7 @@ class SketchDrawing {
 
   double scale_;
   Color mass_;
+  bool alike_;
   MarkerCanvas& canvas_;
 };
 
@@ -122,6 +130,39 @@ std::vector<Eigen::Vector3d> coil(const Eigen::Vector3d& from, const Eigen::Vect
   }
   line.push_back(to);
   return line;
+}
+
+void drawHull(const Sketch& sketch, double scale, MarkerCanvas& canvas) {
+  Sketch hull;
+  const auto moves = [](SketchRole role) { return role != SketchRole::kSupport; };
+  for (Sketch::Rod rod : sketch.rods) {
+    if (moves(rod.role)) {
+      rod.radius *= kHullWidth;
+      hull.rods.push_back(rod);
+    }
+  }
+  for (Sketch::Ball ball : sketch.balls) {
+    if (moves(ball.role)) {
+      ball.radius *= kHullWidth;
+      hull.balls.push_back(ball);
+    }
+  }
+  for (Sketch::Box box : sketch.boxes) {
+    if (moves(box.role)) {
+      const double wider = (kHullWidth - 1.0) * std::min({box.size.x, box.size.y, box.size.z});
+      box.size = {box.size.x + wider, box.size.y + wider, box.size.z + wider};
+      hull.boxes.push_back(box);
+    }
+  }
+  SketchDrawing drawing(scale, kHull, canvas, true);
+  const auto draw = [&drawing](const auto& parts) {
+    for (const auto& part : parts) {
+      drawing.draw(part);
+    }
+  };
+  draw(hull.rods);
+  draw(hull.balls);
+  draw(hull.boxes);
 }
 
 void drawSketch(const Sketch& sketch, double scale, const Color& mass, MarkerCanvas& canvas) {

@@ -18,6 +18,10 @@ inline Eigen::Vector3d toVector(const SketchPoint& p) {
 /// @param mass colour of the masses
 void drawSketch(const Sketch& sketch, double scale, const Color& mass, MarkerCanvas& canvas);
 
+/// What moves of a sketch, as a pale hull about the same sketch drawn in full: where a measurement
+/// shows it to be. Without supports, forces and paths.
+void drawHull(const Sketch& sketch, double scale, MarkerCanvas& canvas);
+
 /// Windings of a spring between its ends, straight for a short way at either; [m].
 std::vector<Eigen::Vector3d> coil(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                                   double radius);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "display/follow_text.h"
 #include "display/layout.h"
 #include "display/status_text.h"
 
@@ -13,6 +14,7 @@ namespace whirl_twin {
 namespace {
 
 constexpr Color kText{0.90F, 0.92F, 0.94F};
+constexpr Color kLearned{0.55F, 0.85F, 1.0F};
 constexpr double kHeadlineHeight = 0.095;  // m
 constexpr double kLineHeight = 0.072;      // m
 constexpr double kCompactHeight = 0.17;    // m
@@ -71,6 +73,8 @@ void drawStatus(const std::string& headline, const std::vector<std::string>& lin
     wrapped.insert(wrapped.end(), pieces.begin(), pieces.end());
   }
   stack.add("text", wrapped, kLineHeight, kText);
+  stack.add("follow", status.follow ? followLines(*status.follow) : std::vector<std::string>{},
+            kLineHeight, kLearned);
   stack.add("text", {headline}, kHeadlineHeight, color);
   // The most severe stands on top in full, the others below it by their names. Places without an
   // alert are written empty, which clears them.

@@ -10,6 +10,7 @@
 #include "display/marker_canvas.h"
 #include "display/vibration_limits.h"
 #include "whirl_twin/Alert.h"
+#include "whirl_twin/FollowState.h"
 #include "whirl_twin/OrderState.h"
 
 namespace whirl_twin {
@@ -18,6 +19,7 @@ namespace whirl_twin {
 struct SystemStatus {
   LiveMargin live;
   OrderState::ConstPtr orders;         ///< of a rotor, null before the first
+  FollowState::ConstPtr follow;        ///< of a twin that follows its machine, else null
   std::vector<Alert> alerts;           ///< active, most severe first
   std::vector<VibrationLimit> limits;  ///< of a rotor
   bool compact = false;                ///< there is little room: its name, instruments, one alert
@@ -46,9 +48,9 @@ Color severityColor(const std::vector<Alert>& alerts, const Color& calm);
 /// Colour of an alert's severity.
 Color severityColor(int severity);
 
-/// Draws the instruments on a board that faces the viewer and, above them, writes the lines, the
-/// headline and the active alerts; where it is compact, the headline with the speed and the first
-/// alert's type.
+/// Draws the instruments on a board that faces the viewer and, above them, writes the lines, what
+/// has been learned of the machine, the headline and the active alerts; where it is compact, the
+/// headline with the speed and the first alert's type.
 /// @param speed [rad/s], of the shaft; NaN without one
 /// @param foot [m], lower edge of the board, in the system's axes
 void drawStatus(const std::string& headline, const std::vector<std::string>& lines, double speed,

@@ -39,11 +39,11 @@ std::vector<TwinTopic> twinTopics(const ros::master::V_TopicInfo& all,
       topics.push_back({info.name, info.datatype, ""});
     } else if (slash == std::string::npos || rest.find('/', slash + 1) != std::string::npos) {
       continue;
-    } else if (isType<DriveState>(info.datatype)) {
+    } else if (isType<DriveState>(info.datatype) || isType<Measurement>(info.datatype)) {
       topics.push_back({info.name, info.datatype, rest.substr(slash + 1)});
     } else if (isType<WhirlState>(info.datatype) || isType<PendulumState>(info.datatype) ||
                isType<StabilityMargin>(info.datatype) || isType<ParameterChange>(info.datatype) ||
-               isType<OrderState>(info.datatype)) {
+               isType<OrderState>(info.datatype) || isType<FollowState>(info.datatype)) {
       topics.push_back({info.name, info.datatype, rest.substr(0, slash)});
     }
   }
@@ -108,6 +108,18 @@ ros::Subscriber TwinListener::subscribe(const TwinTopic& topic) {
     return listen<StabilityMargin>(topic, [this, subject](const StabilityMargin::ConstPtr& margin) {
       systems_[subject].margin = margin;
       systems_[subject].margin_heard = ros::WallTime::now().toSec();
+    });
+  }
+  if (isType<FollowState>(topic.type)) {
+    return listen<FollowState>(topic, [this, subject](const FollowState::ConstPtr& follow) {
+      systems_[subject].follow = follow;
+    });
+  }
+  if (isType<Measurement>(topic.type)) {
+    return listen<Measurement>(topic, [this, subject](const Measurement::ConstPtr& block) {
+      if (measurement_handler_) {
+        measurement_handler_(subject, *block);
+      }
     });
   }
   if (isType<ParameterChange>(topic.type)) {

@@ -13,7 +13,9 @@
 #include "messages/monitor_pulse.h"
 #include "whirl_twin/AlertArray.h"
 #include "whirl_twin/DriveState.h"
+#include "whirl_twin/FollowState.h"
 #include "whirl_twin/LoopStatistics.h"
+#include "whirl_twin/Measurement.h"
 #include "whirl_twin/MonitorStatus.h"
 #include "whirl_twin/OrderState.h"
 #include "whirl_twin/ParameterChange.h"
@@ -30,13 +32,14 @@ struct SystemReadout {
   PendulumState::ConstPtr pendulum;
   StabilityMargin::ConstPtr margin;
   double margin_heard = 0.0;  ///< [s], wall time
+  FollowState::ConstPtr follow;
 };
 
 /// A topic of the twin: its full name, message type and the system or drive it is about.
 struct TwinTopic {
   std::string topic;
   std::string type;
-  std::string subject;  ///< empty for what is about all of the twin
+  std::string subject;  ///< also a source of measurements; empty for what is about all of the twin
 };
 
 /// The topics of the twin in a namespace, such as /twin, among all that the master knows.
@@ -48,6 +51,7 @@ class TwinListener {
   using WhirlHandler = std::function<void(const std::string& system, const WhirlState&)>;
   using PendulumHandler = std::function<void(const std::string& system, const PendulumState&)>;
   using ParameterHandler = std::function<void(const ParameterChange&)>;
+  using MeasurementHandler = std::function<void(const std::string& source, const Measurement&)>;
   using LoopHandler = std::function<void(const LoopStatistics&)>;
   using AlertHandler = std::function<void(const AlertArray&)>;
 
@@ -55,6 +59,7 @@ class TwinListener {
   void onWhirl(WhirlHandler handler) { whirl_handler_ = std::move(handler); }
   void onPendulum(PendulumHandler handler) { pendulum_handler_ = std::move(handler); }
   void onParameters(ParameterHandler handler) { parameter_handler_ = std::move(handler); }
+  void onMeasurement(MeasurementHandler handler) { measurement_handler_ = std::move(handler); }
   void onLoop(LoopHandler handler) { loop_handler_ = std::move(handler); }
   void onAlerts(AlertHandler handler) { alert_handler_ = std::move(handler); }
 
@@ -93,6 +98,7 @@ class TwinListener {
   WhirlHandler whirl_handler_;
   PendulumHandler pendulum_handler_;
   ParameterHandler parameter_handler_;
+  MeasurementHandler measurement_handler_;
   LoopHandler loop_handler_;
   AlertHandler alert_handler_;
   struct Subscription {

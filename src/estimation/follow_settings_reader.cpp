@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "messages/refusal.h"
@@ -30,7 +33,7 @@ FollowedNumber followedNumber(const MapReader& map, const std::string& name,
   return number;
 }
 
-/// "source/channel" of what is measured of a system, of displacements alone or of all.
+/// Of what is measured of a system, of displacements alone or of all: "source/channel".
 std::vector<std::string> channelsOf(const Scene& scene, const std::string& system,
                                     bool displacements) {
   std::vector<std::string> all;
@@ -43,6 +46,38 @@ std::vector<std::string> channelsOf(const Scene& scene, const std::string& syste
     }
   }
   return all;
+}
+
+/// SOURCE/CHANNEL: number, or SOURCE: {CHANNEL: number}, as the parameter server, where a slash
+/// divides, has it.
+void readOffsets(const YAML::Node& given, const std::string& key,
+                 const std::vector<std::string>& channels, SystemFollowing& of,
+                 Complaints& complaints) {
+  constexpr const char* kUnit = "the channel's unit";
+  constexpr const char* kKey = "channel of the scene's sensors, SOURCE/CHANNEL, of the system";
+  std::vector<std::string> known = channels;
+  std::map<std::string, std::vector<std::string>> sources;
+  for (const std::string& path : channels) {
+    const std::size_t slash = path.find('/');
+    sources[path.substr(0, slash)].push_back(path.substr(slash + 1));
+  }
+  for (const auto& [source, own] : sources) {
+    if (given.IsMap() && given[source].IsDefined() && given[source].IsMap()) {
+      known.push_back(source);
+    }
+  }
+  const MapReader offsets(given, key, known, kKey, complaints);
+  for (const std::string& name : offsets.usable() ? offsets.names() : std::vector<std::string>{}) {
+    if (!offsets.at(name).IsMap()) {
+      of.offset[name] = offsets.number(name, Range::kPositive, kUnit, 0.0);
+      continue;
+    }
+    const MapReader source(offsets.at(name), offsets.key(name), sources[name], kKey, complaints);
+    for (const std::string& channel :
+         source.usable() ? source.names() : std::vector<std::string>{}) {
+      of.offset[name + "/" + channel] = source.number(channel, Range::kPositive, kUnit, 0.0);
+    }
+  }
 }
 
 SystemFollowing readSystem(const MapReader& map, const BuiltSystem& system, const Scene& scene,
@@ -80,13 +115,8 @@ SystemFollowing readSystem(const MapReader& map, const BuiltSystem& system, cons
   }
   of.run_out = map.number("run_out", Range::kNotNegative, "m", 0.0);
   if (map.has("offsets")) {
-    const MapReader offsets(
-        map.at("offsets"), map.key("offsets"), channelsOf(scene, system.spec.name, false),
-        "channel of the scene's sensors, SOURCE/CHANNEL, of the system", complaints);
-    for (const std::string& name :
-         offsets.usable() ? offsets.names() : std::vector<std::string>{}) {
-      of.offset[name] = offsets.number(name, Range::kPositive, "the channel's unit", 0.0);
-    }
+    readOffsets(map.at("offsets"), map.key("offsets"), channelsOf(scene, system.spec.name, false),
+                of, complaints);
   }
   if (of.run_out > 0.0 && channelsOf(scene, system.spec.name, true).empty()) {
     complaints.add(map.key("run_out"), "needs displacement probes among the scene's sensors");

@@ -6,7 +6,8 @@
 //       parameters:
 //         damping1: 0.5                         # what may be wrong with it, in parts of its value
 //         coulomb1: {deviation: 0.5, walk: 1e-3}  # and what it changes by, in a second
-//       offsets: {encoders/theta1: 0.01}        # rad, what zeros may be off by
+//       offsets: {encoders/theta1: 0.01}        # rad, what zeros may be off by; or {encoders:
+//                                               # {theta1: 0.01}}, as on a parameter server
 //     rotor:
 //       unbalance: {deviation: 1e-4, walk: 0.0}   # kg m, beside the scene's, at each station
 //       run_out: 5e-6                           # m, under each displacement probe

@@ -402,10 +402,10 @@ void Follower::writeRecord(std::int64_t step) {
       const auto n = static_cast<Eigen::Index>(place.dof());
       Eigen::Map<Eigen::VectorXd>(place.q(), n) = filter.q();
       Eigen::Map<Eigen::VectorXd>(place.v(), n) = filter.v();
-      // A correction by a measurement is no work of the model: none is left over.
-      place.motion()[2 * n] = twin_.systems()[followed.index]
-                                  ->dynamics->energies(filter.q(), filter.v(), filter.moment())
-                                  .jacobi;
+      // A correction by a measurement is no work of the model: none is left over, by the parameters
+      // that this record is told with.
+      place.motion()[2 * n] =
+          followed.model->dynamics->energies(filter.q(), filter.v(), filter.moment()).jacobi;
     }
   }
   if (listener_.record) {

@@ -16,6 +16,7 @@
 #include <ros/ros.h>
 #include <whirl_twin/Measurement.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <map>
@@ -48,6 +49,8 @@ constexpr double kSlowestRate = 1.0e-3;  // Hz, of publication
 constexpr std::uint32_t kQueue = 1000;   // blocks
 constexpr std::chrono::milliseconds kPoll{2};
 const ros::WallDuration kReportPeriod(1.0);
+const ros::WallDuration kSilence(1.0);         // of the machine, from which on it is told
+const ros::WallDuration kSilenceTelling(0.2);  // from one such message to the next
 
 std::int64_t stepsFor(double rate, const Scene& scene) {
   if (!(rate == 0.0 || (rate >= kSlowestRate && std::isfinite(rate)))) {
@@ -99,6 +102,19 @@ class FollowPublisher {
     told_[told.system] = told;
   }
   void publish(const state::Measurement& raw) { states_.tell(raw); }
+  /// Nothing has come for so long [s]: what is known, and that every channel is silent.
+  void publishSilence(double silent, double step_seconds) {
+    for (const auto& [system, last] : told_) {
+      state::FollowState told = last;
+      told.at.time += silent;
+      told.at.step += std::llround(silent / step_seconds);
+      told.at.stamp += std::llround(1.0e9 * silent);
+      std::fill(told.channel_status.begin(), told.channel_status.end(),
+                static_cast<std::uint8_t>(state::ChannelStatus::kSilent));
+      std::fill(told.residual.begin(), told.residual.end(), state::FollowState::kNone);
+      states_.tell(told);
+    }
+  }
   const std::map<std::string, state::FollowState>& told() const { return told_; }
 
  private:
@@ -230,10 +246,11 @@ void run() {
   };
   Follower follower(twin, generations, readSettings(twin.built()), every, listener);
   following = &follower;
+  ros::WallTime heard = ros::WallTime::now();  // the last message
   MachineInput measurements(twin.scene(), machine, input == "lcm", lcm_url, prefix,
                             [&](const state::Measurement& message) {
-                              const auto now =
-                                  static_cast<std::int64_t>(ros::WallTime::now().toNSec());
+                              heard = ros::WallTime::now();
+                              const auto now = static_cast<std::int64_t>(heard.toNSec());
                               ahead = now - lastInstant(message);
                               clocks.take(lastInstant(message), now);
                               publisher.publish(message);
@@ -252,10 +269,16 @@ void run() {
   });
   ROS_INFO("follows %s by %s", machine.c_str(), input.c_str());
   ros::WallTime next_report = ros::WallTime::now();
+  ros::WallTime next_silence = next_report;
   while (ros::ok() && !stopRequested()) {
     measurements.receive();
-    if (ros::WallTime::now() >= next_report) {
-      next_report = ros::WallTime::now() + kReportPeriod;
+    const ros::WallTime now = ros::WallTime::now();
+    if (now - heard > kSilence && now >= next_silence) {
+      next_silence = now + kSilenceTelling;
+      publisher.publishSilence((now - heard).toSec(), twin.scene().stepSeconds());
+    }
+    if (now >= next_report) {
+      next_report = now + kReportPeriod;
       diagnostics.force_update();
     }
   }

@@ -33,6 +33,8 @@
 namespace whirl_twin {
 namespace {
 
+const ros::WallDuration kMeasuredFor(1.0);  // what was measured is shown
+
 /// Reads a private parameter that has to be a number above (or, if allowed, at) zero.
 double positiveParameter(const char* name, const char* unit, double fallback, bool zero_allowed) {
   const ros::NodeHandle node("~");
@@ -86,6 +88,9 @@ class VisualizationNode {
       const DriveState* drive = listener_.drive(scene_.driveOf(system));
       mechanismOf(system).update(state, scene_.shaft(system, state.time, drive));
     });
+    listener_.onMeasurement([this](const std::string& source, const Measurement& block) {
+      takeMeasurement(source, block);
+    });
     listener_.onLoop(
         [this](const LoopStatistics& loop) { loop_.take(loop, ros::WallTime::now().toSec()); });
     listener_.onParameters([this](const ParameterChange& change) { takeParameters(change); });
@@ -114,6 +119,16 @@ class VisualizationNode {
     }
   }
 
+  void takeMeasurement(const std::string& source, const Measurement& block) {
+    for (auto& [name, mechanism] : mechanisms_) {
+      const auto place = scene_.measuredPlace(name);
+      if (place && place->source() == source) {
+        mechanism.measure(place->newest(block));
+        measured_at_[name] = ros::WallTime::now();
+      }
+    }
+  }
+
   void discover() {
     listener_.discover();
     const auto gone = [this](const auto& entry) {
@@ -139,6 +154,11 @@ class VisualizationNode {
   }
 
   void draw() {
+    for (auto& [name, mechanism] : mechanisms_) {
+      if (ros::WallTime::now() - measured_at_[name] > kMeasuredFor) {
+        mechanism.measuredGone();
+      }
+    }
     std::vector<std::pair<std::string, const SystemDisplay*>> displays;
     for (const auto& [name, rotor] : rotors_) {
       displays.emplace_back(name, &rotor);
@@ -189,6 +209,7 @@ class VisualizationNode {
     const SystemReadout& readout = listener_.systems().at(name);
     SystemStatus status;
     status.orders = readout.orders;
+    status.follow = readout.follow;
     if (readout.whirl) {
       status.limits = vibrationLimits(settings_, name, readout.whirl->speed);
     }
@@ -223,7 +244,8 @@ class VisualizationNode {
   SceneDynamics scene_;
   std::map<std::string, ParameterChange> parameters_;  // the latest of each system
   std::map<std::string, MechanismDisplay> mechanisms_;
-  std::vector<std::string> drawn_;  // systems in the order of the last frame
+  std::map<std::string, ros::WallTime> measured_at_;  // where each was measured last
+  std::vector<std::string> drawn_;                    // systems in the order of the last frame
   ros::Publisher publisher_;
   tf2_ros::TransformBroadcaster broadcaster_;
   ros::Time transformed_;

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "display/follow_text.h"
 #include "display/status_text.h"
 #include "display/terminal_text.h"
 
@@ -34,6 +35,25 @@ Alert alert(unsigned id, int severity, double raised_time) {
   alert.time = raised_time;
   alert.text = "rotor: do not dwell";
   return alert;
+}
+
+TEST(FollowText, TellsParametersToTheirDeviationsAndWhatIsNotUsed) {
+  FollowState follow;
+  follow.parameter = {"stiffness", "coulomb1", "gone", "known"};
+  follow.parameter_unit = {"N/m", "N m", "", ""};
+  follow.value = {7123.456, 2.8912e-4, kNan, 0.25};
+  follow.deviation = {12.34, 5.94e-5, 1.0, 0.0};
+  follow.channel = {"probes/x", "probes/y"};
+  follow.channel_status = {FollowState::USED, FollowState::REFUSED};
+  follow.mismatch = kNan;
+  EXPECT_EQ(followLines(follow),
+            (std::vector<std::string>{"stiffness 7123 +- 12 N/m", "coulomb1 0.00029 +- 5.9e-05 N m",
+                                      "gone nan", "known 0.25", "probes/y refused"}));
+  follow.mismatch = 1.21;
+  EXPECT_EQ(followLines(follow).back(), "residuals 1.10 of those expected");
+  follow.parameter_unit.clear();  // no message of ours
+  follow.channel.clear();
+  EXPECT_EQ(followLines(follow).size(), 1U);
 }
 
 TEST(StatusText, WrapsAngles) {

@@ -11,6 +11,7 @@
 #include <set>
 #include <utility>
 
+#include "display/measured_place.h"
 #include "display/sketch_drawing.h"
 #include "drawn_markers.h"
 #include "models/model_registry.h"
@@ -133,6 +134,85 @@ TEST(MechanismDisplay, ShowsTheHighestSeverity) {
   status.alerts[0].severity = Alert::DANGER;
   const auto bob = part(frame(display, status), "ball").color;
   EXPECT_GT(bob.r, 2.0F * bob.g);  // red
+}
+
+TEST(MechanismDisplay, DrawsAPaleHullWhereItIsMeasured) {
+  MechanismDisplay display("arm", spinningPendulum(0.5));
+  display.update(swungOut(0.3), {});
+  const auto hulls = [&display] {
+    std::vector<Marker> found;
+    for (const Marker& marker : frame(display)) {
+      if (marker.ns.rfind("system/measured/", 0) == 0) {
+        found.push_back(marker);
+      }
+    }
+    return found;
+  };
+  EXPECT_TRUE(hulls().empty());
+  display.measure({0.4});
+  bool ball = false;
+  for (const Marker& hull : hulls()) {
+    EXPECT_LT(hull.color.a, 0.6F) << hull.ns;
+    EXPECT_GT(hull.lifetime, ros::Duration(0.0)) << hull.ns;
+    if (hull.ns == "system/measured/ball") {
+      ball = true;
+      const Eigen::Vector3d at = inSystem(display, hull).translation();
+      EXPECT_NEAR(std::atan2(at.x(), -at.z()), 0.4, 1e-9);
+      EXPECT_GT(hull.scale.x, part(frame(display), "ball").scale.x);
+    }
+  }
+  EXPECT_TRUE(ball);
+  EXPECT_EQ(part(frame(display), "ball").color.a, 1.0F);
+  for (const std::vector<double>& nowhere :
+       {std::vector<double>{}, {0.1, 0.2}, {std::numeric_limits<double>::quiet_NaN()}}) {
+    display.measure({0.4});
+    display.measure(nowhere);
+    EXPECT_TRUE(hulls().empty());
+  }
+  display.measure({0.4});
+  display.measuredGone();
+  EXPECT_TRUE(hulls().empty());
+}
+
+TEST(MeasuredPlace, IsTheNewestSampleOfWhichAllIsValid) {
+  const auto scene = [](const std::string& channels) {
+    return build(readScene(YAML::Load(R"(
+name: rig
+step: 0.001
+drives: {shaft: {speed: 45.0}}
+systems:
+  pendulum:
+    model: double_pendulum
+    integrator: runge_kutta_4
+    parameters: {mass1: 1.0, mass2: 1.0, length1: 0.5, length2: 0.5}
+  rotor:
+    model: jeffcott_rotor
+    drive: shaft
+    parameters: {mass: 2.0, stiffness: 7200.0, damping: 12.0, eccentricity: 1.0e-4}
+sensors:
+  probes: {rate: 1000.0, channels: {x: {measures: rotor.x}, y: {measures: rotor.y}}}
+  encoders: {rate: 500.0, channels: )" +
+                                      channels + "}"),
+                           "a test"));
+  };
+  EXPECT_FALSE(MeasuredPlace::of(scene("{a: {measures: pendulum.theta1}}"), "pendulum"));
+  const BuiltScene both = scene("{b: {measures: pendulum.theta2}, a: {measures: pendulum.theta1}}");
+  EXPECT_FALSE(MeasuredPlace::of(both, "rotor"));
+  const auto place = MeasuredPlace::of(both, "pendulum");
+  ASSERT_TRUE(place);
+  EXPECT_EQ(place->source(), "encoders");
+  Measurement block;
+  block.channel = {"b", "other", "a"};
+  block.value = {0.2, 9.0, 0.1, 0.4, 9.0, 0.3, 0.6, 9.0, 0.5};
+  block.valid.assign(9, 1);
+  EXPECT_EQ(place->newest(block), (std::vector<double>{0.5, 0.6}));
+  block.valid[6] = 0;
+  block.value[5] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(place->newest(block), (std::vector<double>{0.1, 0.2}));
+  block.valid[0] = 0;
+  EXPECT_TRUE(place->newest(block).empty());
+  block.channel = {"b", "other", "c"};
+  EXPECT_TRUE(place->newest(block).empty());
 }
 
 TEST(MechanismDisplay, ShowsBarsWhereItKnowsNoModel) {
