@@ -90,6 +90,7 @@ bool FollowedModel::follow(const Eigen::VectorXd& numbers) {
     more_ = std::move(more);
     less_ = std::move(less);
     numbers_ = numbers;
+    ++version_;
   } catch (const Refusal&) {
     return false;
   }

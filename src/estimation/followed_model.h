@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,8 @@ class FollowedModel {
   const std::vector<FollowedParameter>& parameters() const { return parameters_; }
   /// The system with the parameters as they were when it was last set up for them.
   const SharedSystem& system() const { return now_; }
+  /// How often it was set up.
+  std::int64_t version() const { return version_; }
   /// Sets it up for these numbers of its parameters, if they are far enough from those that it has.
   /// Numbers that a system cannot have leave it as it was: false.
   bool follow(const Eigen::VectorXd& numbers);
@@ -64,6 +67,7 @@ class FollowedModel {
   Eigen::Index dof_;
   Eigen::MatrixXd inputs_;  // directions [n x inputs]
   SharedSystem now_;
+  std::int64_t version_ = 0;
   Eigen::VectorXd numbers_;                // that it is set up for
   std::vector<SharedSystem> more_, less_;  // each parameter by kDifference
 };

@@ -316,7 +316,7 @@ void Follower::takeSample(const MeasuredSample& sample) {
   const ShaftInstant there = instantOf(instant, shaft);
   if (!system.runs || instant - system.at > kLongestGap) {
     restarts_ += system.runs ? 1 : 0;
-    system.filter.begin(there);
+    system.filter.begin(there, twin_.scene().time - origin_);
     system.runs = true;
     system.began = static_cast<double>(instant);
     system.at = instant;
@@ -384,10 +384,6 @@ void Follower::writeRecord(std::int64_t step) {
     }
     Followed& followed = *system;
     SystemFilter& filter = followed.filter;
-    if (followed.runs && instant > filter.shaft().time && instant - followed.at <= kLongestGap) {
-      const ShaftEstimate at = shaftAt(followed.drive, instant);
-      filter.goTo(instantOf(instant, at));
-    }
     if (followed.runs && filter.model().system() != followed.model &&
         instant >= followed.next_generation) {
       followed.model = filter.model().system();
@@ -399,13 +395,23 @@ void Follower::writeRecord(std::int64_t step) {
     const auto place = twin_.layout().system(record_.data(), followed.index);
     place.setGeneration(followed.generation);
     if (followed.runs) {
+      const bool goes_on = instant > filter.shaft().time && instant - followed.at <= kLongestGap;
+      const ShaftEstimate shaft = goes_on ? shaftAt(followed.drive, instant) : ShaftEstimate{};
       const auto n = static_cast<Eigen::Index>(place.dof());
-      Eigen::Map<Eigen::VectorXd>(place.q(), n) = filter.q();
-      Eigen::Map<Eigen::VectorXd>(place.v(), n) = filter.v();
+      Eigen::Map<Eigen::VectorXd> motion(place.q(), 2 * n);
+      if (goes_on) {
+        motion = filter.motionAt(instantOf(instant, shaft));
+      } else {
+        motion << filter.q(), filter.v();
+      }
       // A correction by a measurement is no work of the model: none is left over, by the parameters
       // that this record is told with.
-      place.motion()[2 * n] =
-          followed.model->dynamics->energies(filter.q(), filter.v(), filter.moment()).jacobi;
+      const ShaftView turned = RecordLayout::shaft<const double>(record_.data(), followed.drive);
+      place.motion()[2 * n] = followed.model->dynamics
+                                  ->energies(motion.head(n), motion.tail(n),
+                                             {twin_.seconds(step), turned.remainder(),
+                                              turned.speed(), turned.acceleration()})
+                                  .jacobi;
     }
   }
   if (listener_.record) {

@@ -14,6 +14,7 @@ namespace whirl_twin {
 namespace {
 
 constexpr double kNanosecond = 1.0e-9;  // s
+constexpr double kSmall = 1.0e-3;       // of a duration, for differences
 // Gauss's three nodes on 0..1, and their weights.
 constexpr std::array<double, 3> kNode = {0.11270166537925831, 0.5, 0.88729833462074169};
 constexpr std::array<double, 3> kWeight = {5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0};
@@ -69,8 +70,7 @@ SystemFilter::SystemFilter(const BuiltScene& scene, std::size_t system,
       n_(model_.dof()),
       m_(static_cast<Eigen::Index>(settings.parameters.size())),
       unbalance_(2 * n_ + m_),
-      u_(Eigen::VectorXd::Zero(
-          static_cast<Eigen::Index>(scene.systems[system]->dynamics->inputs().size()))) {
+      inputs_(scene.inputsOf(*scene.systems[system])) {
   const Dynamics& dynamics = *scene.systems[system]->dynamics;
   if (settings.unbalance.deviation > 0.0) {
     for (const Station& station : dynamics.stations()) {
@@ -112,7 +112,8 @@ SystemFilter::SystemFilter(const BuiltScene& scene, std::size_t system,
   }
 }
 
-void SystemFilter::begin(const ShaftInstant& at) {
+void SystemFilter::begin(const ShaftInstant& at, std::int64_t to_twin) {
+  to_twin_ = to_twin;
   const double turned = at.angle.remainder - now_.angle.remainder;
   for (Eigen::Index i = unbalance_; i < offset_; i += 2) {
     turn(filter_.state(), i, std::cos(turned), std::sin(turned));
@@ -142,7 +143,6 @@ void SystemFilter::forgetMotion() {
 
 Moment<double> SystemFilter::ShaftPath::at(double part) const {
   const double t = part * duration;
-  constexpr double kSmall = 1.0e-3;  // of the duration, for the acceleration by differences
   const double h = kSmall * duration;
   const double low = std::clamp(t, h, duration - h);
   const double here = turn.at(low), before = turn.at(low - h), after = turn.at(low + h);
@@ -155,46 +155,73 @@ Moment<double> SystemFilter::ShaftPath::at(double part) const {
 }
 
 Moment<double> SystemFilter::moment() const {
-  return {seconds(now_.time), now_.angle.remainder, now_.speed, 0.0};
+  return {seconds(now_.time + to_twin_), now_.angle.remainder, now_.speed, 0.0};
 }
 
-void SystemFilter::goTo(const ShaftInstant& there) {
+/// In parts that a step can take, the last of them to there.
+std::vector<ShaftInstant> SystemFilter::partsOf(const ShaftInstant& there) const {
   const std::int64_t all = there.time - now_.time;
-  if (all <= 0) {
-    return;
-  }
   const double turned =
       there.angle.remainder - now_.angle.remainder +
       ShaftAngle::kTurn * static_cast<double>(there.angle.turns - now_.angle.turns);
-  std::int64_t parts = model_.system()->dynamics->linear()
-                           ? static_cast<std::int64_t>(std::fabs(turned) / kLongestTurn) + 1
-                           : (all + longest_ - 1) / longest_;
-  const ShaftInstant from = now_;
-  const CubicPiece path{seconds(all), 0.0, turned, from.speed, there.speed};
+  const std::int64_t parts = model_.system()->dynamics->linear()
+                                 ? static_cast<std::int64_t>(std::fabs(turned) / kLongestTurn) + 1
+                                 : (all + longest_ - 1) / longest_;
+  const CubicPiece path{seconds(all), 0.0, turned, now_.speed, there.speed};
+  std::vector<ShaftInstant> instants;
   for (std::int64_t k = 1; k < parts; ++k) {
     const std::int64_t time = all / parts * k;
     const double t = seconds(time);
-    constexpr double kSmall = 1.0e-3;
     const double h = kSmall * seconds(all / parts);
-    const double a = from.angle.remainder + path.at(t);
+    const double a = now_.angle.remainder + path.at(t);
     const double whole = std::floor(a / ShaftAngle::kTurn);
-    goOn({from.time + time,
-          {from.angle.turns + static_cast<std::int64_t>(whole), a - whole * ShaftAngle::kTurn},
-          (path.at(t + h) - path.at(t - h)) / (2.0 * h)});
+    instants.push_back(
+        {now_.time + time,
+         {now_.angle.turns + static_cast<std::int64_t>(whole), a - whole * ShaftAngle::kTurn},
+         (path.at(t + h) - path.at(t - h)) / (2.0 * h)});
   }
-  goOn(there);
+  instants.push_back(there);
+  return instants;
+}
+
+void SystemFilter::goTo(const ShaftInstant& there) {
+  if (there.time > now_.time) {
+    for (const ShaftInstant& part : partsOf(there)) {
+      goOn(part);
+    }
+  }
+}
+
+Eigen::VectorXd SystemFilter::motionAt(const ShaftInstant& there) {
+  Eigen::VectorXd state = filter_.state();
+  if (there.time > now_.time) {
+    ShaftInstant from = now_;
+    for (const ShaftInstant& part : partsOf(there)) {
+      state = moved(state, pathBetween(from, part), part.time - from.time);
+      from = part;
+    }
+  }
+  return state.head(2 * n_);
+}
+
+/// Inputs stand at its start.
+SystemFilter::ShaftPath SystemFilter::pathBetween(const ShaftInstant& from,
+                                                  const ShaftInstant& to) {
+  ShaftPath path;
+  path.start = seconds(from.time + to_twin_);
+  path.duration = seconds(to.time - from.time);
+  path.angle = from.angle.remainder;
+  path.turn = {path.duration, 0.0,
+               to.angle.remainder - from.angle.remainder +
+                   ShaftAngle::kTurn * static_cast<double>(to.angle.turns - from.angle.turns),
+               from.speed, to.speed};
+  inputs_.begin(from.time + to_twin_);
+  return path;
 }
 
 void SystemFilter::goOn(const ShaftInstant& there) {
   const std::int64_t duration = there.time - now_.time;
-  ShaftPath path;
-  path.start = seconds(now_.time);
-  path.duration = seconds(duration);
-  path.angle = now_.angle.remainder;
-  path.turn = {path.duration, 0.0,
-               there.angle.remainder - now_.angle.remainder +
-                   ShaftAngle::kTurn * static_cast<double>(there.angle.turns - now_.angle.turns),
-               now_.speed, there.speed};
+  const ShaftPath path = pathBetween(now_, there);
   model_.follow(numbers());
   if (!stations_.empty()) {
     const Eigen::LDLT<Eigen::MatrixXd> mass(
@@ -206,20 +233,91 @@ void SystemFilter::goOn(const ShaftInstant& there) {
       station_directions_.col(k + 1) = mass.solve(stations_[i].along_y);
     }
   }
-  if (model_.system()->dynamics->linear()) {
-    moveLinear(path, duration);
-  } else {
-    moveNonlinear(path, duration);
+  const Eigen::VectorXd next = moved(filter_.state(), path, duration);
+  const Eigen::VectorXd middle = 0.5 * (filter_.state() + next);
+  const bool linear = model_.system()->dynamics->linear();
+  if (!linear || m_ > 0) {
+    const LocalMotion local = model_.about(middle.head(n_), middle.segment(n_, n_), path.at(0.5),
+                                           numbers(), inputsAt(path, 0.5));
+    by_parameter_ = local.by_parameter;
+    if (!linear) {
+      steps_.front() = stepAbout(local, duration, path.at(0.5).speed);
+    }
   }
-  const double turned = path.turn.to;
-  for (Eigen::Index i = unbalance_; i < offset_; i += 2) {
-    turn(filter_.state(), i, std::cos(turned), std::sin(turned));
-  }
+  spread(linear ? stepFor(path, duration) : steps_.front(), path);
+  filter_.state() = next;
   now_ = there;
 }
 
-const SystemFilter::Step& SystemFilter::linearStep(const LocalMotion& local, std::int64_t duration,
-                                                   double speed) {
+Eigen::VectorXd SystemFilter::inputsAt(const ShaftPath& path, double part) const {
+  Eigen::VectorXd u(static_cast<Eigen::Index>(inputs_.count()));
+  for (std::size_t i = 0; i < inputs_.count(); ++i) {
+    u[static_cast<Eigen::Index>(i)] =
+        inputs_.acts(i) ? inputs_.value(i, part * path.duration) : 0.0;
+  }
+  return u;
+}
+
+/// The state at the end of the path.
+Eigen::VectorXd SystemFilter::moved(const Eigen::VectorXd& state, const ShaftPath& path,
+                                    std::int64_t duration) {
+  const Eigen::VectorXd now = numbers();
+  const auto acceleration = [&](double part, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
+    Eigen::VectorXd a =
+        model_.acceleration(q, v, path.at(part), now, inputsAt(path, part), by_parameter_);
+    if (!stations_.empty()) {
+      a += unbalanceColumns(path, part) * state.segment(unbalance_, run_out_ - unbalance_);
+    }
+    return a;
+  };
+  const Eigen::VectorXd y = state.head(2 * n_);
+  Eigen::VectorXd next = state;
+  if (model_.system()->dynamics->linear()) {
+    const Step& step = stepFor(path, duration);
+    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n_);
+    next.head(2 * n_).noalias() = step.states * y;
+    for (std::size_t k = 0; k < kNode.size(); ++k) {
+      next.head(2 * n_).noalias() += step.node[k] * acceleration(kNode[k], zero, zero);
+    }
+  } else {
+    const double h = path.duration;
+    const auto rate = [&](double part, const Eigen::VectorXd& at) {
+      Eigen::VectorXd f(2 * n_);
+      f.head(n_) = at.tail(n_);
+      f.tail(n_) = acceleration(part, at.head(n_), at.tail(n_));
+      return f;
+    };
+    const Eigen::VectorXd k1 = rate(0.0, y);
+    const Eigen::VectorXd k2 = rate(0.5, y + 0.5 * h * k1);
+    const Eigen::VectorXd k3 = rate(0.5, y + 0.5 * h * k2);
+    const Eigen::VectorXd k4 = rate(1.0, y + h * k3);
+    next.head(2 * n_) += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
+  }
+  for (Eigen::Index i = unbalance_; i < offset_; i += 2) {
+    turn(next, i, std::cos(path.turn.to), std::sin(path.turn.to));
+  }
+  return next;
+}
+
+/// Of a linear system; of those kept, if one is of the same duration and, nearly, speed.
+const SystemFilter::Step& SystemFilter::stepFor(const ShaftPath& path, std::int64_t duration) {
+  const Moment<double> middle = path.at(0.5);
+  for (const Step& step : steps_) {
+    if (step.duration == duration && step.version == model_.version() &&
+        std::fabs(middle.speed - step.speed) <= kSameSpeed * std::fabs(step.speed)) {
+      return step;
+    }
+  }
+  next_step_ = (next_step_ + 1) % steps_.size();
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n_);
+  steps_[next_step_] = stepAbout(model_.about(zero, zero, middle, numbers(), inputsAt(path, 0.5)),
+                                 duration, middle.speed);
+  return steps_[next_step_];
+}
+
+SystemFilter::Step SystemFilter::stepAbout(const LocalMotion& local, std::int64_t duration,
+                                           double speed) const {
+  Step step;
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * n_, 2 * n_);
   A.topRightCorner(n_, n_).setIdentity();
   A.bottomRows(n_) = local.by_state;
@@ -229,19 +327,19 @@ const SystemFilter::Step& SystemFilter::linearStep(const LocalMotion& local, std
     e.diagonal().array() += 1.0;
     return e;
   };
-  step_.states = power(1.0);
-  step_.forced = Eigen::MatrixXd::Zero(2 * n_, n_);
-  step_.noise = Eigen::MatrixXd::Zero(2 * n_, 2 * n_);
+  step.states = power(1.0);
+  step.forced = Eigen::MatrixXd::Zero(2 * n_, n_);
+  step.noise = Eigen::MatrixXd::Zero(2 * n_, 2 * n_);
   for (std::size_t k = 0; k < kNode.size(); ++k) {
     const Eigen::MatrixXd rates = power(1.0 - kNode[k]).rightCols(n_);
-    step_.node[k] = kWeight[k] * h * rates;
-    step_.forced += step_.node[k];
-    step_.noise.noalias() += kWeight[k] * h * rates * rates.transpose();
+    step.node[k] = kWeight[k] * h * rates;
+    step.forced += step.node[k];
+    step.noise.noalias() += kWeight[k] * h * rates * rates.transpose();
   }
-  step_.duration = duration;
-  step_.speed = speed;
-  step_.system = model_.system().get();
-  return step_;
+  step.duration = duration;
+  step.speed = speed;
+  step.version = model_.version();
+  return step;
 }
 
 Eigen::MatrixXd SystemFilter::unbalanceColumns(const ShaftPath& path, double part) const {
@@ -260,61 +358,6 @@ Eigen::MatrixXd SystemFilter::unbalanceColumns(const ShaftPath& path, double par
     columns.middleCols<2>(i).noalias() = station_directions_.middleCols<2>(i) * load;
   }
   return columns;
-}
-
-Eigen::VectorXd SystemFilter::unbalanceAcceleration(const ShaftPath& path, double part) const {
-  return unbalanceColumns(path, part) * filter_.state().segment(unbalance_, run_out_ - unbalance_);
-}
-
-void SystemFilter::moveLinear(const ShaftPath& path, std::int64_t duration) {
-  const Moment<double> middle = path.at(0.5);
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n_);
-  const bool same = step_.duration == duration && step_.system == model_.system().get() &&
-                    std::fabs(middle.speed - step_.speed) <= kSameSpeed * std::fabs(step_.speed);
-  if (!same) {
-    linearStep(model_.about(zero, zero, middle, numbers(), u_), duration, middle.speed);
-  }
-  const Eigen::VectorXd s = filter_.state().head(2 * n_);
-  Eigen::VectorXd next = step_.states * s;
-  for (std::size_t k = 0; k < kNode.size(); ++k) {
-    Eigen::VectorXd load =
-        model_.acceleration(zero, zero, path.at(kNode[k]), numbers(), u_, by_parameter_);
-    if (!stations_.empty()) {
-      load += unbalanceAcceleration(path, kNode[k]);
-    }
-    next.noalias() += step_.node[k] * load;
-  }
-  if (m_ > 0) {
-    const Eigen::VectorXd mean = 0.5 * (s + next);
-    by_parameter_ = model_.about(mean.head(n_), mean.tail(n_), middle, numbers(), u_).by_parameter;
-  }
-  filter_.state().head(2 * n_) = next;
-  spread(step_, path);
-}
-
-void SystemFilter::moveNonlinear(const ShaftPath& path, std::int64_t duration) {
-  const double h = path.duration;
-  const Eigen::VectorXd now = numbers();
-  const auto rate = [&](double part, const Eigen::VectorXd& y) {
-    Eigen::VectorXd f(2 * n_);
-    f.head(n_) = y.tail(n_);
-    f.tail(n_) = model_.acceleration(y.head(n_), y.tail(n_), path.at(part), now, u_, by_parameter_);
-    if (!stations_.empty()) {
-      f.tail(n_) += unbalanceAcceleration(path, part);
-    }
-    return f;
-  };
-  const Eigen::VectorXd y = filter_.state().head(2 * n_);
-  const Eigen::VectorXd k1 = rate(0.0, y);
-  const Eigen::VectorXd k2 = rate(0.5, y + 0.5 * h * k1);
-  const Eigen::VectorXd k3 = rate(0.5, y + 0.5 * h * k2);
-  const Eigen::VectorXd k4 = rate(1.0, y + h * k3);
-  const Eigen::VectorXd next = y + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
-  const Eigen::VectorXd mean = 0.5 * (y + next);
-  const LocalMotion local = model_.about(mean.head(n_), mean.tail(n_), path.at(0.5), now, u_);
-  by_parameter_ = local.by_parameter;
-  filter_.state().head(2 * n_) = next;
-  spread(linearStep(local, duration, path.at(0.5).speed), path);
 }
 
 void SystemFilter::spread(const Step& step, const ShaftPath& path) {

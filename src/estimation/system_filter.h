@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "control/inputs.h"
 #include "control/keyphasor.h"
 #include "estimation/follow_settings.h"
 #include "estimation/followed_model.h"
@@ -50,7 +51,8 @@ class SystemFilter {
                std::vector<FollowedChannel> channels);
 
   /// Begins anew at an instant, knowing nothing of the motion, and of all else what is known.
-  void begin(const ShaftInstant& at);
+  /// to_twin [ns]: what its instants are less than the twin's.
+  void begin(const ShaftInstant& at, std::int64_t to_twin = 0);
   /// Goes on, the shaft's motion being the cubic between here and there.
   void goTo(const ShaftInstant& there);
   /// Takes what a channel shows now, the shaft's angle being known to a deviation [rad]; a value
@@ -58,8 +60,8 @@ class SystemFilter {
   Innovation take(std::size_t channel, double value, double shaft_deviation = 0.0);
   /// The motion, not the rest, is as at the beginning again: what was believed of it is wrong.
   void forgetMotion();
-  /// What acts on the inputs from now on.
-  void setInputs(const Eigen::VectorXd& u) { u_ = u; }
+  /// Coordinates and rates [2 dof] further on, where nothing is measured.
+  Eigen::VectorXd motionAt(const ShaftInstant& there);
 
   const std::vector<FollowedChannel>& channels() const { return channels_; }
   const FollowedModel& model() const { return model_; }
@@ -93,7 +95,7 @@ class SystemFilter {
     // What it was made for
     std::int64_t duration = 0;  // [ns]
     double speed = 0.0;         // [rad/s]
-    const BuiltSystem* system = nullptr;
+    std::int64_t version = -1;  // of the model
   };
   /// The shaft on its way: at a part of the way there, from 0 to 1.
   struct ShaftPath {
@@ -105,13 +107,15 @@ class SystemFilter {
   };
 
   void goOn(const ShaftInstant& there);
-  const Step& linearStep(const LocalMotion& local, std::int64_t duration, double speed);
-  void moveLinear(const ShaftPath& path, std::int64_t duration);
-  void moveNonlinear(const ShaftPath& path, std::int64_t duration);
+  std::vector<ShaftInstant> partsOf(const ShaftInstant& there) const;
+  ShaftPath pathBetween(const ShaftInstant& from, const ShaftInstant& to);
+  Eigen::VectorXd moved(const Eigen::VectorXd& state, const ShaftPath& path, std::int64_t duration);
+  Eigen::VectorXd inputsAt(const ShaftPath& path, double part) const;
+  const Step& stepFor(const ShaftPath& path, std::int64_t duration);
+  Step stepAbout(const LocalMotion& local, std::int64_t duration, double speed) const;
   /// The covariance goes through a step; unbalances and run-outs turn by the path's angle.
   void spread(const Step& step, const ShaftPath& path);
-  /// Accelerations by unbalances, on the way.
-  Eigen::VectorXd unbalanceAcceleration(const ShaftPath& path, double part) const;
+  /// Accelerations by unbalances, on the way [n x 2 stations].
   Eigen::MatrixXd unbalanceColumns(const ShaftPath& path, double part) const;
   Eigen::VectorXd rowOf(std::size_t channel) const;
   double doubt() const;
@@ -126,14 +130,16 @@ class SystemFilter {
   Eigen::Index n_, m_;
   Eigen::Index unbalance_, run_out_, offset_;         // where they begin in the state
   std::vector<Eigen::Index> run_out_of_, offset_of_;  // of each channel; -1: none
-  Eigen::VectorXd u_;
+  Inputs inputs_;                                     // as the scene gives them
+  std::int64_t to_twin_ = 0;                          // [ns], from its instants to the twin's
   Eigen::VectorXd angles_;  // 1 for each coordinate that is an angle, else 0
   KalmanFilter filter_;
   ShaftInstant now_;
   std::int64_t began_ = 0;              // [ns]
   Eigen::MatrixXd by_parameter_;        // of the last step, in its middle [n x m]
   Eigen::MatrixXd station_directions_;  // M^-1 of them, now [n x 2 stations]
-  Step step_;
+  std::array<Step, 4> steps_;           // the last that were made; of a nonlinear system the first
+  std::size_t next_step_ = 0;
   Eigen::MatrixXd transition_, noise_;
 };
 
