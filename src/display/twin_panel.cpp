@@ -84,7 +84,7 @@ int LoopHealth::severity(double wall_time) const {
 
 std::vector<std::string> LoopHealth::lines(double wall_time) const {
   if (!loop_) {
-    return {"loop: never heard"};
+    return {following_ ? "follows its machine" : "loop: never heard"};
   }
   const LoopStatistics& loop = *loop_;
   std::vector<std::string> lines;

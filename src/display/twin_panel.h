@@ -20,6 +20,8 @@ class LoopHealth {
  public:
   /// @param wall_time [s]
   void take(const LoopStatistics& loop, double wall_time);
+  /// There is none to be heard: the twin follows its machine.
+  void setFollowing() { following_ = true; }
 
   /// "loop: 1000 steps/s", "1.00 of real time"; how many steps came late, and how late 99 of 100
   /// wake; that it is silent.
@@ -35,6 +37,7 @@ class LoopHealth {
   bool behind() const;
 
   std::optional<LoopStatistics> loop_;
+  bool following_ = false;
   double heard_at_ = 0.0;     // [s]
   std::uint64_t lately_ = 0;  // late, left out or unpublished since the message before
 };

@@ -394,25 +394,26 @@ void Follower::writeRecord(std::int64_t step) {
     }
     const auto place = twin_.layout().system(record_.data(), followed.index);
     place.setGeneration(followed.generation);
+    const auto n = static_cast<Eigen::Index>(place.dof());
+    Eigen::Map<Eigen::VectorXd> q(place.q(), n), v(place.v(), n);
     if (followed.runs) {
       const bool goes_on = instant > filter.shaft().time && instant - followed.at <= kLongestGap;
-      const ShaftEstimate shaft = goes_on ? shaftAt(followed.drive, instant) : ShaftEstimate{};
-      const auto n = static_cast<Eigen::Index>(place.dof());
-      Eigen::Map<Eigen::VectorXd> motion(place.q(), 2 * n);
       if (goes_on) {
-        motion = filter.motionAt(instantOf(instant, shaft));
+        const Eigen::VectorXd motion =
+            filter.motionAt(instantOf(instant, shaftAt(followed.drive, instant)));
+        q = motion.head(n);
+        v = motion.tail(n);
       } else {
-        motion << filter.q(), filter.v();
+        q = filter.q();
+        v = filter.v();
       }
-      // A correction by a measurement is no work of the model: none is left over, by the parameters
-      // that this record is told with.
-      const ShaftView turned = RecordLayout::shaft<const double>(record_.data(), followed.drive);
-      place.motion()[2 * n] = followed.model->dynamics
-                                  ->energies(motion.head(n), motion.tail(n),
-                                             {twin_.seconds(step), turned.remainder(),
-                                              turned.speed(), turned.acceleration()})
-                                  .jacobi;
     }
+    // A correction by a measurement is no work of the model: none is left over, by the shaft and
+    // the parameters that this record is told with.
+    const auto shaft = RecordLayout::shaft(record_.data(), followed.drive);
+    const Moment<double> moment{twin_.seconds(step), shaft.remainder(), shaft.speed(),
+                                shaft.acceleration()};
+    place.motion()[2 * n] = followed.model->dynamics->energies(q, v, moment).jacobi;
   }
   if (listener_.record) {
     listener_.record(record_.data());

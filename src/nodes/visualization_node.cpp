@@ -205,11 +205,14 @@ class VisualizationNode {
   }
 
   /// What the monitor says of a system; that it says nothing, where it is silent.
-  SystemStatus statusOf(const std::string& name) const {
+  SystemStatus statusOf(const std::string& name) {
     const SystemReadout& readout = listener_.systems().at(name);
     SystemStatus status;
     status.orders = readout.orders;
     status.follow = readout.follow;
+    if (readout.follow) {
+      loop_.setFollowing();
+    }
     if (readout.whirl) {
       status.limits = vibrationLimits(settings_, name, readout.whirl->speed);
     }

@@ -245,6 +245,9 @@ LoopStatistics loopOf(std::uint64_t overruns, double achieved) {
 TEST(LoopHealth, TellsLateStepsTheRealTimeFactorAndSilence) {
   LoopHealth health;
   EXPECT_EQ(health.lines(0.0), std::vector<std::string>{"loop: never heard"});
+  LoopHealth of_a_follower;
+  of_a_follower.setFollowing();
+  EXPECT_EQ(of_a_follower.lines(0.0), std::vector<std::string>{"follows its machine"});
   health.take(loopOf(3, 1.0), 10.0);
   EXPECT_EQ(health.severity(10.5), Alert::INFO) << "late long ago, before anybody looked";
   EXPECT_EQ(health.lines(10.5),
