@@ -32,6 +32,24 @@ std::int64_t nanoseconds(double seconds) {
   return std::llround(seconds / kNanosecond);
 }
 
+/// Of `stiffness`, or of a column, `bearings[0].kxx`; "" of the entries of a matrix.
+std::string unitOf(const ModelInfo& model, const std::string& path) {
+  for (const ParameterInfo& parameter : model.parameters) {
+    if (parameter.name == path) {
+      return parameter.unit;
+    }
+  }
+  const std::string column = path.substr(std::min(path.size(), path.find('.') + 1));
+  for (const SettingInfo& setting : model.settings) {
+    for (const ColumnInfo& c : setting.columns) {
+      if (path.rfind(setting.name + "[", 0) == 0 && c.name == column) {
+        return c.unit;
+      }
+    }
+  }
+  return "";
+}
+
 /// [s]
 double patienceFor(const Scene& scene) {
   double longest = 0.0;
@@ -65,7 +83,7 @@ struct Follower::Followed {
     told.system = twin.systems()[system]->spec.name;
     for (const FollowedParameter& p : filter.model().parameters()) {
       told.parameter.push_back(p.path);
-      told.parameter_unit.push_back("");
+      told.parameter_unit.push_back(unitOf(*twin.systems()[system]->model, p.path));
     }
     for (const FollowedChannel& c : filter.channels()) {
       told.channel.push_back(c.name);
@@ -111,6 +129,7 @@ struct Follower::Followed {
   std::int64_t next_telling = 0;     // [ns]
   SharedSystem model;                // of the generation
   std::vector<BearingForce> forces;  // of that model
+  double first_energy = 0.0;         // [J], as the scene says
   std::int64_t generation = 0;
   std::int64_t next_generation = 0;  // [ns]
 };
@@ -130,6 +149,11 @@ Follower::Follower(const Twin& twin, std::shared_ptr<SystemGenerations> generati
   addSensors(settings);
   twin.write(record_.data());
   RecordLayout::setScheduled(record_.data(), 0);
+  for (const auto& system : systems_) {
+    if (system) {
+      system->first_energy = heldEnergy(*system);
+    }
+  }
 }
 
 Follower::~Follower() = default;
@@ -367,6 +391,18 @@ void Follower::stepUntil(std::int64_t instant) {
   }
 }
 
+double Follower::heldEnergy(const Followed& followed) const {
+  const auto place = twin_.layout().system(record_.data(), followed.index);
+  const auto shaft = RecordLayout::shaft(record_.data(), followed.drive);
+  const Moment<double> moment{twin_.seconds(RecordLayout::step(record_.data())), shaft.remainder(),
+                              shaft.speed(), shaft.acceleration()};
+  const auto n = static_cast<Eigen::Index>(place.dof());
+  return followed.model->dynamics
+      ->energies(Eigen::Map<const Eigen::VectorXd>(place.q(), n),
+                 Eigen::Map<const Eigen::VectorXd>(place.v(), n), moment)
+      .jacobi;
+}
+
 void Follower::writeRecord(std::int64_t step) {
   const std::int64_t instant = machineInstant(step);
   RecordLayout::setStep(record_.data(), step);
@@ -408,12 +444,8 @@ void Follower::writeRecord(std::int64_t step) {
         v = filter.v();
       }
     }
-    // A correction by a measurement is no work of the model: none is left over, by the shaft and
-    // the parameters that this record is told with.
-    const auto shaft = RecordLayout::shaft(record_.data(), followed.drive);
-    const Moment<double> moment{twin_.seconds(step), shaft.remainder(), shaft.speed(),
-                                shaft.acceleration()};
-    place.motion()[2 * n] = followed.model->dynamics->energies(q, v, moment).jacobi;
+    // A correction by a measurement is no work of the model: all it has gained counts as work.
+    place.motion()[2 * n] = heldEnergy(followed) - followed.first_energy;
   }
   if (listener_.record) {
     listener_.record(record_.data());

@@ -75,6 +75,8 @@ class Follower {
   void takeSample(const MeasuredSample& sample);
   void stepUntil(std::int64_t instant);
   void writeRecord(std::int64_t step);
+  /// [J], of a system as it stands in the record, v dL/dv - L.
+  double heldEnergy(const Followed& followed) const;
   void tellState(Followed& system);
   void begin(std::int64_t instant);
   ShaftEstimate shaftAt(std::size_t drive, std::int64_t instant);

@@ -443,15 +443,16 @@ Innovation SystemFilter::take(std::size_t channel, double value, double shaft_de
   innovation.used = true;
   const bool settled = now_.time - began_ > std::llround(kSettling / kNanosecond);
   const double known = expected.deviation * expected.deviation - noise * noise;
-  filter_.take(h, value, std::sqrt(noise * noise + doubt() * std::max(0.0, known)),
+  const double doubt = settled ? std::min(1.0, derivativeDoubt()) : 0.0;
+  filter_.take(h, value, std::sqrt(noise * noise + doubt * std::max(0.0, known)),
                settled ? filter_.size() : 2 * n_);
   return innovation;
 }
 
 /// Derivatives are taken where the filter believes to be. What they are off by, in parts of
-/// themselves, is about how far it may be off, in radians and logarithms: that much of what is
-/// expected is no better than noise, or a filter that begins with little would soon be too sure.
-double SystemFilter::doubt() const {
+/// themselves, is about how far it may be off, in radians and logarithms: that much of what it
+/// knows is no better than noise, or a filter that begins with little would soon be too sure.
+double SystemFilter::derivativeDoubt() const {
   double doubt = filter_.covariance().diagonal().segment(2 * n_, m_).sum();
   if (!model_.system()->dynamics->linear()) {
     doubt += filter_.covariance().diagonal().head(n_).cwiseProduct(angles_).sum();

@@ -118,7 +118,7 @@ class SystemFilter {
   /// Accelerations by unbalances, on the way [n x 2 stations].
   Eigen::MatrixXd unbalanceColumns(const ShaftPath& path, double part) const;
   Eigen::VectorXd rowOf(std::size_t channel) const;
-  double doubt() const;
+  double derivativeDoubt() const;
   Eigen::VectorXd numbers() const { return filter_.state().segment(2 * n_, m_); }
 
   std::vector<FollowedChannel> channels_;

@@ -62,7 +62,7 @@ std::string systemText(const FollowedSystem& system) {
     return out + "  its motion was not found: no sample of it, or no shaft angle\n";
   }
   for (std::size_t i = 0; i < system.last.parameter.size(); ++i) {
-    out += fmt::format("  {:<24} {}   (scene: {:.6g})\n", system.last.parameter[i],
+    out += fmt::format("  {:<24} {} {}   (scene: {:.6g})\n", system.last.parameter[i],
                        plusMinus(system.last.value[i], system.last.deviation[i]), system.start[i]);
   }
   for (const FoundUnbalance& u : system.unbalances) {
