@@ -8,7 +8,6 @@
 #include <map>
 #include <utility>
 
-#include "estimation/bearing_forces.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {
@@ -22,7 +21,6 @@ constexpr std::int64_t kTelling = 100'000'000;          // ns, from one FollowSt
 constexpr std::int64_t kLost = 250'000'000;             // ns, of nothing but refused samples
 constexpr std::int64_t kNewParameters = 1'000'000'000;  // ns, from one generation to the next
 constexpr double kPatience = 0.25;                      // s, beside the longest block
-constexpr double kSettled = 0.2;                        // s, until residuals are judged
 
 ShaftInstant instantOf(std::int64_t instant, const ShaftEstimate& at) {
   return {instant, at.angle, at.speed};
@@ -30,24 +28,6 @@ ShaftInstant instantOf(std::int64_t instant, const ShaftEstimate& at) {
 
 std::int64_t nanoseconds(double seconds) {
   return std::llround(seconds / kNanosecond);
-}
-
-/// Of `stiffness`, or of a column, `bearings[0].kxx`; "" of the entries of a matrix.
-std::string unitOf(const ModelInfo& model, const std::string& path) {
-  for (const ParameterInfo& parameter : model.parameters) {
-    if (parameter.name == path) {
-      return parameter.unit;
-    }
-  }
-  const std::string column = path.substr(std::min(path.size(), path.find('.') + 1));
-  for (const SettingInfo& setting : model.settings) {
-    for (const ColumnInfo& c : setting.columns) {
-      if (path.rfind(setting.name + "[", 0) == 0 && c.name == column) {
-        return c.unit;
-      }
-    }
-  }
-  return "";
 }
 
 /// [s]
@@ -70,69 +50,6 @@ double noiseOf(const SensorSettings& sensor) {
 }
 
 }  // namespace
-
-struct Follower::Followed {
-  Followed(const Twin& twin, std::size_t system, const SystemFollowing& settings,
-           std::vector<FollowedChannel> channels, double false_alarms)
-      : index(system),
-        filter(twin.built(), system, settings, std::move(channels)),
-        drive(twin.systems()[system]->drive),
-        residuals(filter.channels().size(), {1.0, false_alarms}),
-        drift(settings.parameters.size(), {1.0, 120.0, 0.02, false_alarms}),
-        innovations(filter.channels().size(), std::numeric_limits<double>::quiet_NaN()) {
-    told.system = twin.systems()[system]->spec.name;
-    for (const FollowedParameter& p : filter.model().parameters()) {
-      told.parameter.push_back(p.path);
-      told.parameter_unit.push_back(unitOf(*twin.systems()[system]->model, p.path));
-    }
-    for (const FollowedChannel& c : filter.channels()) {
-      told.channel.push_back(c.name);
-      told.channel_unit.push_back(c.signal.unit);
-    }
-    const std::size_t n = filter.channels().size();
-    told.residual.assign(n, state::FollowState::kNone);
-    told.residual_deviation = told.offset = told.residual;
-    told.channel_status.assign(n, static_cast<std::uint8_t>(state::ChannelStatus::kSilent));
-    squares.assign(n, 0.0);
-    counts.assign(n, 0);
-    heard.assign(n, std::numeric_limits<std::int64_t>::min());
-    model = filter.model().system();
-    forces = bearingForces(*model);
-    for (const BearingForce& force : forces) {
-      told.bearing.push_back(force.name);
-    }
-    told.force_x.assign(forces.size(), state::FollowState::kNone);
-    told.force_y = told.force_deviation = told.force_x;
-  }
-
-  void endInstant(double seconds) {
-    if (seconds - began * kNanosecond > kSettled) {
-      residuals.take(seconds, innovations.data(), innovations.size());
-    }
-    std::fill(innovations.begin(), innovations.end(), std::numeric_limits<double>::quiet_NaN());
-  }
-
-  std::size_t index;
-  SystemFilter filter;
-  std::size_t drive;
-  bool runs = false;
-  double began = 0.0;          // [ns]
-  std::int64_t at = 0;         // [ns], of the instant whose innovations are gathered
-  std::int64_t last_used = 0;  // [ns]
-  ResidualWatch residuals;
-  DriftWatch drift;
-  std::vector<double> innovations;  // of that instant
-  std::vector<double> squares;      // of the residuals of each channel
-  std::vector<std::int64_t> counts;
-  std::vector<std::int64_t> heard;  // [ns], of each channel: its newest sample
-  state::FollowState told;
-  std::int64_t next_telling = 0;     // [ns]
-  SharedSystem model;                // of the generation
-  std::vector<BearingForce> forces;  // of that model
-  double first_energy = 0.0;         // [J], as the scene says
-  std::int64_t generation = 0;
-  std::int64_t next_generation = 0;  // [ns]
-};
 
 Follower::Follower(const Twin& twin, std::shared_ptr<SystemGenerations> generations,
                    const FollowSettings& settings, std::int64_t every, FollowerListener listener)
@@ -212,8 +129,8 @@ void Follower::addSensors(const FollowSettings& settings) {
                       scene.source, scene.systems[system].name));
     }
     systems_[system] =
-        std::make_unique<Followed>(twin_, system, settings.of(scene.systems[system].name),
-                                   std::move(channels), settings.false_alarms);
+        std::make_unique<FollowedTrack>(twin_, system, settings.of(scene.systems[system].name),
+                                        std::move(channels), settings.false_alarms);
   }
 }
 
@@ -222,7 +139,7 @@ const SystemFilter* Follower::filter(std::size_t system) const {
 }
 
 std::vector<double> Follower::residualRms(std::size_t system) const {
-  const Followed& followed = *systems_[system];
+  const FollowedTrack& followed = *systems_[system];
   std::vector<double> rms;
   for (std::size_t c = 0; c < followed.squares.size(); ++c) {
     rms.push_back(std::sqrt(followed.squares[c] / static_cast<double>(followed.counts[c])));
@@ -248,7 +165,7 @@ void Follower::finish() {
   process();
   for (const auto& system : systems_) {
     if (system && system->runs) {
-      system->endInstant(static_cast<double>(system->at) * kNanosecond);
+      system->endInstant();
     }
     if (system && began_) {
       tellState(*system);
@@ -313,7 +230,7 @@ ShaftEstimate Follower::shaftAt(std::size_t drive, std::int64_t instant) {
 
 void Follower::takeSample(const MeasuredSample& sample) {
   const Channel& channel = channels_[sample.source][sample.channel];
-  Followed& system = *systems_[channel.system];
+  FollowedTrack& system = *systems_[channel.system];
   const std::int64_t instant = sample.time - channel.delay;
   state::FollowState& told = system.told;
   const auto set_status = [&](state::ChannelStatus status) {
@@ -342,17 +259,17 @@ void Follower::takeSample(const MeasuredSample& sample) {
     restarts_ += system.runs ? 1 : 0;
     system.filter.begin(there, twin_.scene().time - origin_);
     system.runs = true;
-    system.began = static_cast<double>(instant);
+    system.began = instant;
     system.at = instant;
     system.last_used = instant;
     system.residuals.restart();
   }
   if (instant < system.filter.shaft().time) {
-    ++told.late;  // its delay is longer than that of a channel that was faster
+    ++system.overtaken;  // by a channel with less delay
     return;
   }
   if (instant != system.at) {
-    system.endInstant(static_cast<double>(system.at) * kNanosecond);
+    system.endInstant();
     system.at = instant;
   }
   system.filter.goTo(there);
@@ -365,7 +282,7 @@ void Follower::takeSample(const MeasuredSample& sample) {
     set_status(state::ChannelStatus::kUsed);
     system.innovations[channel.place] = innovation.normalized();
     system.last_used = instant;
-    if (static_cast<double>(instant) - system.began > kSettled / kNanosecond) {
+    if (system.settled(instant)) {
       system.squares[channel.place] += innovation.value * innovation.value;
       ++system.counts[channel.place];
     }
@@ -376,7 +293,7 @@ void Follower::takeSample(const MeasuredSample& sample) {
   if (instant - system.last_used > kLost) {
     // Nothing agrees with the motion any more: it is the motion that is wrong.
     system.filter.forgetMotion();
-    system.began = static_cast<double>(instant);
+    system.began = instant;
     system.last_used = instant;
     system.residuals.restart();
     ++restarts_;
@@ -391,7 +308,7 @@ void Follower::stepUntil(std::int64_t instant) {
   }
 }
 
-double Follower::heldEnergy(const Followed& followed) const {
+double Follower::heldEnergy(const FollowedTrack& followed) const {
   const auto place = twin_.layout().system(record_.data(), followed.index);
   const auto shaft = RecordLayout::shaft(record_.data(), followed.drive);
   const Moment<double> moment{twin_.seconds(RecordLayout::step(record_.data())), shaft.remainder(),
@@ -418,7 +335,7 @@ void Follower::writeRecord(std::int64_t step) {
     if (!system) {
       continue;
     }
-    Followed& followed = *system;
+    FollowedTrack& followed = *system;
     SystemFilter& filter = followed.filter;
     if (followed.runs && filter.model().system() != followed.model &&
         instant >= followed.next_generation) {
@@ -458,20 +375,14 @@ void Follower::writeRecord(std::int64_t step) {
   }
 }
 
-void Follower::tellState(Followed& system) {
+void Follower::tellState(FollowedTrack& system) {
   state::FollowState& told = system.told;
-  const SystemFilter& filter = system.filter;
   const std::int64_t step = RecordLayout::step(record_.data());
   const double time = twin_.seconds(step);
   const std::int64_t instant = machineInstant(step);
   told.at = {step, time, 0};
-  told.value.clear();
-  told.deviation.clear();
-  for (std::size_t i = 0; i < told.parameter.size(); ++i) {
-    told.value.push_back(filter.parameter(i));
-    told.deviation.push_back(filter.parameterDeviation(i));
-  }
-  told.late = told.lost = told.repeated = 0;
+  told.late = system.overtaken;
+  told.lost = told.repeated = 0;
   for (std::size_t s = 0; s < channels_.size(); ++s) {
     for (std::size_t c = 0; c < channels_[s].size(); ++c) {
       const Channel& channel = channels_[s][c];
@@ -487,33 +398,7 @@ void Follower::tellState(Followed& system) {
       }
     }
   }
-  for (std::size_t c = 0; c < told.channel.size(); ++c) {
-    told.offset[c] = filter.hasOffset(c) ? filter.offset(c) : state::FollowState::kNone;
-  }
-  for (std::size_t i = 0; i < system.forces.size() && system.runs; ++i) {
-    const KalmanFilter::Expected x = filter.combined(system.forces[i].x);
-    const KalmanFilter::Expected y = filter.combined(system.forces[i].y);
-    told.force_x[i] = x.value;
-    told.force_y[i] = y.value;
-    told.force_deviation[i] = std::max(x.deviation, y.deviation);
-  }
-  const ResidualWatch::Verdict& verdict = system.residuals.verdict();
-  told.mismatch = verdict.mismatch;
-  told.mismatch_least = verdict.mismatch_least;
-  told.mismatch_limit = verdict.mismatch_limit;
-  told.whiteness = verdict.whiteness;
-  told.whiteness_limit = verdict.whiteness_limit;
-  if (!told.parameter.empty() && system.runs) {
-    system.drift.take(time, told.value.data(), told.deviation.data());
-    const DriftWatch::Drift& drift = system.drift.drift();
-    told.drift_parameter =
-        drift.parameter < 0 ? "" : told.parameter[static_cast<std::size_t>(drift.parameter)];
-    told.drift_from = drift.from;
-    told.drift_to = drift.to;
-    told.drift_since = drift.since;
-    told.drift = drift.statistic;
-    told.drift_limit = drift.limit;
-  }
+  system.tellWhatIsKnown(time);
   if (listener_.follow) {
     listener_.follow(told);
   }

@@ -14,11 +14,9 @@
 #include <vector>
 
 #include "control/drive.h"
-#include "estimation/drift_watch.h"
 #include "estimation/follow_settings.h"
+#include "estimation/followed_track.h"
 #include "estimation/measured_queue.h"
-#include "estimation/residual_watch.h"
-#include "estimation/system_filter.h"
 #include "messages/follow_state.h"
 #include "messages/measurement.h"
 #include "signal/shaft_tracker.h"
@@ -68,7 +66,6 @@ class Follower {
     std::size_t source = 0;               // then
     Drive drive;                          // else
   };
-  struct Followed;  // a system that is measured
 
   void addSensors(const FollowSettings& settings);
   void process();
@@ -76,8 +73,8 @@ class Follower {
   void stepUntil(std::int64_t instant);
   void writeRecord(std::int64_t step);
   /// [J], of a system as it stands in the record, v dL/dv - L.
-  double heldEnergy(const Followed& followed) const;
-  void tellState(Followed& system);
+  double heldEnergy(const FollowedTrack& followed) const;
+  void tellState(FollowedTrack& system);
   void begin(std::int64_t instant);
   ShaftEstimate shaftAt(std::size_t drive, std::int64_t instant);
 
@@ -90,7 +87,7 @@ class Follower {
   std::vector<std::optional<std::size_t>>
       pulses_;                 // of each source: the drive it is a keyphasor of
   std::vector<Shaft> shafts_;  // of each drive
-  std::vector<std::unique_ptr<Followed>> systems_;  // of the scene's; nullptr: not measured
+  std::vector<std::unique_ptr<FollowedTrack>> systems_;  // of the scene's; nullptr: not measured
   bool began_ = false;
   std::int64_t longest_delay_ = 0;  // [ns], of all channels
   std::int64_t origin_ = 0;         // [ns], the machine's instant of step 0

@@ -63,7 +63,8 @@ std::string systemText(const FollowedSystem& system) {
   }
   for (std::size_t i = 0; i < system.last.parameter.size(); ++i) {
     out += fmt::format("  {:<24} {} {}   (scene: {:.6g})\n", system.last.parameter[i],
-                       plusMinus(system.last.value[i], system.last.deviation[i]), system.start[i]);
+                       plusMinus(system.last.value[i], system.last.deviation[i]),
+                       system.last.parameter_unit[i], system.start[i]);
   }
   for (const FoundUnbalance& u : system.unbalances) {
     out +=

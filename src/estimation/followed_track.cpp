@@ -1,0 +1,119 @@
+#include "estimation/followed_track.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr std::int64_t kSettling = 200'000'000;  // ns
+constexpr double kWindow = 1.0;                  // s, of residuals, and from parameter to parameter
+constexpr double kWarmUp = 120.0;                // s, of a parameter's reference
+constexpr double kMatters = 0.02;                // of a parameter
+
+/// Of `stiffness`, or of a column, `bearings[0].kxx`; "" of the entries of a matrix.
+std::string unitOf(const ModelInfo& model, const std::string& path) {
+  for (const ParameterInfo& parameter : model.parameters) {
+    if (parameter.name == path) {
+      return parameter.unit;
+    }
+  }
+  const std::string column = path.substr(std::min(path.size(), path.find('.') + 1));
+  for (const SettingInfo& setting : model.settings) {
+    for (const ColumnInfo& c : setting.columns) {
+      if (path.rfind(setting.name + "[", 0) == 0 && c.name == column) {
+        return c.unit;
+      }
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+FollowedTrack::FollowedTrack(const Twin& twin, std::size_t system, const SystemFollowing& settings,
+                             std::vector<FollowedChannel> channels, double false_alarms)
+    : index(system),
+      filter(twin.built(), system, settings, std::move(channels)),
+      drive(twin.systems()[system]->drive),
+      residuals(filter.channels().size(), {kWindow, false_alarms}),
+      drift(settings.parameters.size(), {kWindow, kWarmUp, kMatters, false_alarms}),
+      innovations(filter.channels().size(), kNaN) {
+  told.system = twin.systems()[system]->spec.name;
+  for (const FollowedParameter& p : filter.model().parameters()) {
+    told.parameter.push_back(p.path);
+    told.parameter_unit.push_back(unitOf(*twin.systems()[system]->model, p.path));
+  }
+  for (const FollowedChannel& c : filter.channels()) {
+    told.channel.push_back(c.name);
+    told.channel_unit.push_back(c.signal.unit);
+  }
+  const std::size_t n = filter.channels().size();
+  told.residual.assign(n, state::FollowState::kNone);
+  told.residual_deviation = told.offset = told.residual;
+  told.channel_status.assign(n, static_cast<std::uint8_t>(state::ChannelStatus::kSilent));
+  squares.assign(n, 0.0);
+  counts.assign(n, 0);
+  heard.assign(n, std::numeric_limits<std::int64_t>::min());
+  model = filter.model().system();
+  forces = bearingForces(*model);
+  for (const BearingForce& force : forces) {
+    told.bearing.push_back(force.name);
+  }
+  told.force_x.assign(forces.size(), state::FollowState::kNone);
+  told.force_y = told.force_deviation = told.force_x;
+}
+
+bool FollowedTrack::settled(std::int64_t instant) const {
+  return instant - began > kSettling;
+}
+
+void FollowedTrack::endInstant() {
+  if (settled(at)) {
+    residuals.take(static_cast<double>(at) * 1.0e-9, innovations.data(), innovations.size());
+  }
+  std::fill(innovations.begin(), innovations.end(), kNaN);
+}
+
+void FollowedTrack::tellWhatIsKnown(double time) {
+  told.value.clear();
+  told.deviation.clear();
+  for (std::size_t i = 0; i < told.parameter.size(); ++i) {
+    told.value.push_back(filter.parameter(i));
+    told.deviation.push_back(filter.parameterDeviation(i));
+  }
+  for (std::size_t c = 0; c < told.channel.size(); ++c) {
+    told.offset[c] = filter.hasOffset(c) ? filter.offset(c) : state::FollowState::kNone;
+  }
+  for (std::size_t i = 0; i < forces.size() && runs; ++i) {
+    const KalmanFilter::Expected x = filter.combined(forces[i].x);
+    const KalmanFilter::Expected y = filter.combined(forces[i].y);
+    told.force_x[i] = x.value;
+    told.force_y[i] = y.value;
+    told.force_deviation[i] = std::max(x.deviation, y.deviation);
+  }
+  const ResidualWatch::Verdict& verdict = residuals.verdict();
+  told.mismatch = verdict.mismatch;
+  told.mismatch_least = verdict.mismatch_least;
+  told.mismatch_limit = verdict.mismatch_limit;
+  told.whiteness = verdict.whiteness;
+  told.whiteness_limit = verdict.whiteness_limit;
+  if (!told.parameter.empty() && runs) {
+    drift.take(time, told.value.data(), told.deviation.data());
+    const DriftWatch::Drift& gone = drift.drift();
+    told.drift_parameter =
+        gone.parameter < 0 ? "" : told.parameter[static_cast<std::size_t>(gone.parameter)];
+    told.drift_from = gone.from;
+    told.drift_to = gone.to;
+    told.drift_since = gone.since;
+    told.drift = gone.statistic;
+    told.drift_limit = gone.limit;
+  }
+}
+
+}  // namespace whirl_twin
