@@ -60,7 +60,10 @@ bool EvaluationBudget::take(double cost) {
 }
 
 double ReferenceTrajectory::magnifiedRounding(std::size_t sample) const {
-  return sample < disturbed.samples() ? disturbed.position(sample) / kDisturbance * kRounding : 0.0;
+  if (disturbed.samples() == 0) {
+    return 0.0;
+  }
+  return disturbed.position(sample) / kDisturbance * kRounding;
 }
 
 double ReferenceTrajectory::error(std::size_t sample) const {
@@ -68,7 +71,7 @@ double ReferenceTrajectory::error(std::size_t sample) const {
 }
 
 double ReferenceTrajectory::rateError(std::size_t sample) const {
-  const double growth = sample < disturbed.samples() ? disturbed.rate(sample) / kDisturbance : 0.0;
+  const double growth = disturbed.samples() == 0 ? 0.0 : disturbed.rate(sample) / kDisturbance;
   return std::max(2.0 * difference.rate(sample), growth * kRounding);
 }
 
@@ -82,17 +85,22 @@ std::size_t ReferenceTrajectory::lastWithin(double most) const {
 
 namespace {
 
-/// One pair of trajectories, as far as they go together.
+/// One pair of trajectories, as far as they go together. A corner of the forces within the last
+/// part of a step, after every node of both methods, both miss alike: they go one sample further,
+/// and what they differ by there is held against the sample before.
 ReferenceTrajectory pair(const Scene& one, const StepSetting& setting, const StepSetting& other,
                          std::int64_t interval, std::size_t samples) {
   ReferenceTrajectory now;
   now.setting = setting;
   now.other = other;
-  const Trajectory beside = motion(withSetting(one, other), interval, samples);
-  now.trajectory = motion(withSetting(one, setting), interval, samples, [&](const Trajectory& t) {
-    return now.difference.take(t, beside) &&
-           now.difference.position(now.difference.samples() - 1) < kParted;
-  });
+  const Trajectory beside = motion(withSetting(one, other), interval, samples + 1);
+  now.trajectory =
+      motion(withSetting(one, setting), interval, samples + 1, [&](const Trajectory& t) {
+        return now.difference.take(t, beside) &&
+               now.difference.position(now.difference.samples() - 1) < kParted;
+      });
+  now.difference.holdAgainstTheSampleBefore();
+  now.trajectory.keep(now.difference.samples());
   return now;
 }
 

@@ -42,6 +42,11 @@ struct Trajectory {
   StepStatus status = StepStatus::kOk;  ///< why the samples end before the duration
 
   std::size_t samples() const { return dof == 0 ? 0 : coordinates.size() / dof; }
+  /// The first so many samples of the coordinates and rates; it has as many or more.
+  void keep(std::size_t samples) {
+    coordinates.resize(samples * dof);
+    rates.resize(samples * dof);
+  }
 };
 
 /// Of a scene of one system the coordinates and rates alone: `samples` of them, the start the

@@ -118,6 +118,13 @@ bool ErrorCurve::take(const Trajectory& t, const Trajectory& reference) {
   return true;
 }
 
+void ErrorCurve::holdAgainstTheSampleBefore() {
+  if (samples() > 1) {
+    position_.erase(position_.begin() + 1);
+    rate_.erase(rate_.begin() + 1);
+  }
+}
+
 double ErrorCurve::position(std::size_t sample) const {
   return sample < position_.size() ? position_[sample] : kInfinity;
 }

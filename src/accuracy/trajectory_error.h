@@ -34,6 +34,9 @@ class ErrorCurve {
   /// Takes the next sample of a trajectory. False: the trajectory or the reference ends before.
   bool take(const Trajectory& trajectory, const Trajectory& reference);
 
+  /// Each sample but the start gets the errors of the next; the last is dropped.
+  void holdAgainstTheSampleBefore();
+
   std::size_t samples() const { return position_.size(); }
   /// [-], as TrajectoryError::position; infinite beyond the last sample.
   double position(std::size_t sample) const;

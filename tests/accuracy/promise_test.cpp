@@ -84,6 +84,56 @@ TEST(Promise, OfNarrowDryFrictionEndsWhereItIsNotKnown) {
   }
 }
 
+// The plank is as fast as the roller 19 us before 0.059 s, and neither of the two methods that are
+// the reference has a node so late in its step.
+TEST(Promise, IsNotMadeAcrossACornerThatOnlyTheNextStepSees) {
+  const Scene one = sceneOf(
+      "{step: 0.001, systems: {p: {model: friction_oscillator, tolerance: 1.0e-8, horizon: 0.059, "
+      "parameters: {mass: 1, friction_coefficient: 0.47376499481537815, half_spacing: 0.0762, "
+      "height: 0.0127, roller_speed: 0.2, regularization: 6.0405771733914061e-8}, initial: {x: "
+      "0.053245293475055397}}}}");
+  const StepChoice choice = chooseStep(one);
+  const double error = trueError(one, choice);
+  EXPECT_TRUE(!choice.promise.kept || error <= 1.0e-8) << choice.reason << ", error " << error;
+}
+
+// Two judges that round their forces to doubles may part from the motion alike, and would call the
+// promise broken: of point masses they count in 64 bits however the scene writes them down.
+TEST(Promise, OfChaosIsKeptAsLongAsItSays) {
+  Scene one = sceneOf(
+      "{step: 0.567410386, systems: {p: {model: double_pendulum, tolerance: 1.0e-6, horizon: 60, "
+      "parameters: {mass1: 1, mass2: 0.52718821580643216, length1: 1, length2: 2.7049801047934161, "
+      "center1: 1, center2: 2.7049801047934161, gear_ratio1: 1, gear_ratio2: 1, coulomb_rate: "
+      "0.01}, initial: {theta1: 0.99585360434487402, theta2: -2.1518722002766495}}}}");
+  const StepChoice choice = chooseStep(one);
+  EXPECT_GT(choice.promise.kept_until, 45.0) << choice.reason;
+  const auto kept =
+      static_cast<std::size_t>(std::floor(choice.promise.kept_until / one.stepSeconds() + 1.0e-9));
+  const IndependentMotion truth = independentMotion(one, one.step, kept + 1, 1.0e6);
+  EXPECT_LT(truth.own.position(kept), 1.0e-7) << "the judge must be better";
+  const Trajectory chosen =
+      motion(withSetting(one, {choice.integrator, one.step, choice.substeps}), one.step, kept + 1);
+  EXPECT_LE(ErrorCurve(chosen, truth.trajectory).position(kept), 1.0e-6) << choice.reason;
+}
+
+// A disturbance that has grown out of sight says nothing of what rounding does from then on.
+TEST(Promise, IsNotMadeBeyondWhereADisturbedMotionParted) {
+  Trajectory right;
+  right.interval = 1.0;
+  right.dof = 1;
+  right.angular = {true};
+  right.coordinates = right.rates = {1.0, 1.0, 1.0};
+  Trajectory parted = right;
+  parted.keep(2);
+  ReferenceTrajectory reference;
+  reference.difference = ErrorCurve(right, right);
+  EXPECT_EQ(reference.error(2), 0.0) << "a motion that magnifies nothing";
+  reference.disturbed = ErrorCurve(parted, right);
+  EXPECT_EQ(reference.error(1), 0.0);
+  EXPECT_TRUE(std::isinf(reference.error(2)));
+  EXPECT_TRUE(std::isinf(reference.rateError(2)));
+}
+
 // Their errors grow e-fold 2.4 times a second, whatever was asked of them.
 TEST(Promise, OfChaosDoesNotDependOnTheHorizon) {
   const auto promised = [](const std::string& tolerance, const std::string& horizon) {
