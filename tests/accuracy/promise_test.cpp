@@ -105,6 +105,23 @@ TEST(Promise, IsNotMadeAcrossACornerThatOnlyTheNextStepSees) {
   EXPECT_LE(ErrorCurve(reference.trajectory, truth.trajectory).position(last), 1.0e-9);
 }
 
+// Here it sticks 31 us after 0.086 s, where a judge that takes the step across sees the even and
+// the odd of its nodes each go a smooth way.
+TEST(Promise, IsKeptWhereAPlankSticksEarlyInAStep) {
+  const Scene one = sceneOf(
+      "{step: 0.001, systems: {p: {model: friction_oscillator, tolerance: 1.0e-6, horizon: 0.088, "
+      "parameters: {mass: 1, friction_coefficient: 0.46405828272795668, half_spacing: 0.0762, "
+      "height: 0.0127, roller_speed: 0.2, regularization: 3.1921213156597557e-7}, initial: {x: "
+      "0.038951550173368266}}}}");
+  const StepChoice choice = chooseStep(one);
+  EXPECT_GT(choice.promise.kept_until, 0.0865) << choice.reason;
+  const IndependentMotion truth = independentMotion(one, one.step, 88, 1.0e6);
+  const ErrorCurve error(
+      motion(withSetting(one, {choice.integrator, one.step, choice.substeps}), one.step, 88),
+      truth.trajectory);
+  EXPECT_LE(error.position(87), 1.0e-6) << choice.reason;
+}
+
 // Two judges that round their forces to doubles may part from the motion alike, and would call the
 // promise broken: of point masses they count in 64 bits however the scene writes them down.
 TEST(Promise, OfChaosIsKeptAsLongAsItSays) {
