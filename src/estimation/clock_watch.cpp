@@ -9,7 +9,8 @@ namespace {
 
 constexpr std::int64_t kWindow = 5'000'000'000;  // ns
 constexpr std::size_t kWindows = 24;             // two minutes
-constexpr std::size_t kFewest = 3;
+constexpr std::size_t kFewest = 6;
+constexpr double kSure = 1.0e-4;  // of a drift
 constexpr double kDay = 86400.0;  // s
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -50,38 +51,34 @@ double ClockWatch::offset() const {
   return windows_.back().most + (std::fabs(first) < kDay ? first : 0.0);
 }
 
-double ClockWatch::drift() const {
-  if (windows_.size() < kFewest) {
-    return kNaN;
-  }
+ClockWatch::Line ClockWatch::line() const {
   double t = 0.0, x = 0.0;
   for (const Window& w : windows_) {
     t += w.middle;
     x += w.most;
   }
   const auto n = static_cast<double>(windows_.size());
-  double tt = 0.0, tx = 0.0;
+  double tt = 0.0, tx = 0.0, xx = 0.0;
   for (const Window& w : windows_) {
     tt += (w.middle - t / n) * (w.middle - t / n);
     tx += (w.middle - t / n) * (w.most - x / n);
+    xx += (w.most - x / n) * (w.most - x / n);
   }
-  return tx / tt;
+  const double deviation = std::sqrt(std::max(0.0, xx - tx * tx / tt) / (n - 2.0));
+  return {tx / tt, deviation, deviation / std::sqrt(tt)};
+}
+
+double ClockWatch::drift() const {
+  if (windows_.size() < kFewest) {
+    return kNaN;
+  }
+  const Line through = line();
+  return through.slope_deviation < kSure ? through.slope : kNaN;
 }
 
 /// What windows differ by beyond the drift.
 double ClockWatch::deviation() const {
-  if (windows_.size() < kFewest) {
-    return kNaN;
-  }
-  const double slope = drift();
-  double squares = 0.0, sum = 0.0;
-  for (const Window& w : windows_) {
-    const double rest = w.most - slope * w.middle;
-    sum += rest;
-    squares += rest * rest;
-  }
-  const auto n = static_cast<double>(windows_.size());
-  return std::sqrt(std::max(0.0, squares - sum * sum / n) / (n - 2.0));
+  return windows_.size() < kFewest ? kNaN : line().deviation;
 }
 
 }  // namespace whirl_twin

@@ -23,9 +23,19 @@ class ClockWatch {
   /// same, less what it was at first. NaN: not known yet.
   double offset() const;
   double deviation() const;  ///< [s], of the offset; NaN: not known
-  double drift() const;      ///< [-], seconds that the machine's clock gains in one; NaN: not known
+  /// [-], seconds that the machine's clock gains in one; NaN: not known to 1e-4, as where delays
+  /// come and go.
+  double drift() const;
 
  private:
+  /// Of the windows: the straight line through them.
+  struct Line {
+    double slope = 0.0;            // [-]
+    double deviation = 0.0;        // [s], of a window from the line
+    double slope_deviation = 0.0;  // [-]
+  };
+  Line line() const;
+
   struct Window {
     double middle = 0.0;  // [s], of the twin's clock, from the first message on
     double most = 0.0;    // [s], machine less twin, less what it was at first
