@@ -1,0 +1,40 @@
+// A controller as machines have them: at instants of its own it is shown what is measured, and
+// gives outputs. What is around it, sensors, delay and actuators, is not its own.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "control/discrete_state_space.h"
+#include "control/shaft_angle.h"
+
+namespace whirl_twin {
+
+/// What a controller is shown at one of its instants.
+struct ControlSample {
+  const double* values;    ///< as many as it measures, in their units
+  std::int64_t index;      ///< of the sample: k at k / rate after simulated time 0
+  std::int64_t time;       ///< [ns], simulated
+  ShaftAngle shaft_angle;  ///< of the shaft it goes by; 0 without
+  double shaft_speed;      ///< [rad/s]
+};
+
+class Controller {
+ public:
+  virtual ~Controller() = default;
+
+  // Real-time safe: no allocation, no lock, no exception.
+
+  /// Forgets the past.
+  virtual void reset() noexcept = 0;
+  /// Writes as many outputs as it has, in their units.
+  virtual void update(const ControlSample& sample, double* outputs) noexcept = 0;
+
+  // Not real-time safe.
+
+  /// How small changes of what it measures come out, without limits and at a shaft speed [rad/s];
+  /// nothing where that is not linear.
+  virtual std::optional<DiscreteStateSpace> linear(double shaft_speed) const = 0;
+};
+
+}  // namespace whirl_twin
