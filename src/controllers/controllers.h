@@ -1,0 +1,10 @@
+// One function a controller, each in a translation unit of its own.
+#pragma once
+
+#include "controllers/controller_info.h"
+
+namespace whirl_twin {
+
+ControllerInfo pidInfo();
+
+}  // namespace whirl_twin

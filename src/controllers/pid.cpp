@@ -1,0 +1,169 @@
+// A PID law for each pair of what is measured and what is acted on, axis by axis. With samples T
+// apart, y what is measured and e = setpoint - y,
+//
+//   u(k)     = kp e(k) + I(k) + D(k)
+//   I(k + 1) = I(k) + T (ki e(k) + (cut(u(k)) - u(k)) / tracking_time),   I(0) = 0
+//   D(k)     = (derivative_time D(k - 1) - kd (y(k) - y(k - 1))) / (derivative_time + T),  D(0) = 0
+//
+// (K. J. Astrom, R. M. Murray, Feedback Systems, Princeton 2008, sec. 10.5.) The derivative is of
+// what is measured, so that a set-point gives no kick; nor does the first sample, which has none
+// before it. cut() is the limit of the actuator: u itself is given uncut, for the actuator to cut
+// and to count. Instead of that back-calculation, clamping stops the integral while it drives u
+// further beyond the limit.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "controllers/controllers.h"
+
+namespace whirl_twin {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+enum class AntiWindup { kBackCalculation, kClamping, kNone };
+
+class Pid final : public Controller {
+ public:
+  Pid(const ParameterValues& values, AntiWindup anti_windup, const ControllerPlan& plan)
+      : kp_(values.at("kp")),
+        ki_(values.at("ki")),
+        kd_(values.at("kd")),
+        setpoint_(values.at("setpoint")),
+        period_(1.0 / plan.rate),
+        anti_windup_(anti_windup),
+        limits_(plan.limits),
+        axes_(plan.outputs) {
+    const double derivative_time = values.at("derivative_time");
+    remembered_ = derivative_time / (derivative_time + period_);
+    slope_gain_ = 1.0 / (derivative_time + period_);
+    const double given = values.at("tracking_time");
+    const double natural = ki_ != 0.0 ? std::abs(kp_ / ki_) : 0.0;
+    tracking_time_ = std::max(given > 0.0 ? given : natural, period_);
+  }
+
+  void reset() noexcept override {
+    std::fill(axes_.begin(), axes_.end(), Axis{});
+    started_ = false;
+  }
+
+  void update(const ControlSample& sample, double* outputs) noexcept override {
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+      Axis& axis = axes_[i];
+      const double y = sample.values[i];
+      const double e = setpoint_ - y;
+      const double last = started_ ? axis.last : y;
+      axis.slope = remembered_ * axis.slope + slope_gain_ * (y - last);
+      axis.last = y;
+      const double u = kp_ * e + axis.integral - kd_ * axis.slope;
+      axis.integral += period_ * integrand(e, u, limits_[i]);
+      outputs[i] = u;
+    }
+    started_ = true;
+  }
+
+  /// States: the integral, then derivative_time / (derivative_time + T) D + what the last sample
+  /// takes off the next D, of each axis.
+  std::optional<DiscreteStateSpace> linear(double) const override {
+    const Index integrals = ki_ != 0.0 ? 1 : 0;
+    const Index states = integrals + (kd_ != 0.0 ? 1 : 0);
+    const auto axes = static_cast<Index>(axes_.size());
+    DiscreteStateSpace law;
+    law.a = MatrixXd::Zero(axes * states, axes * states);
+    law.b = MatrixXd::Zero(axes * states, axes);
+    law.c = MatrixXd::Zero(axes, axes * states);
+    law.d = -(kp_ + kd_ * slope_gain_) * MatrixXd::Identity(axes, axes);
+    for (Index i = 0; i < axes; ++i) {
+      const Index first = i * states;
+      if (ki_ != 0.0) {
+        law.a(first, first) = 1.0;
+        law.b(first, i) = -period_ * ki_;
+        law.c(i, first) = 1.0;
+      }
+      if (kd_ != 0.0) {
+        const Index slope = first + integrals;
+        law.a(slope, slope) = remembered_;
+        law.b(slope, i) = (1.0 - remembered_) * slope_gain_ * kd_;
+        law.c(i, slope) = 1.0;
+      }
+    }
+    return law;
+  }
+
+ private:
+  struct Axis {
+    double integral = 0.0;
+    double slope = 0.0;  // of y, filtered
+    double last = 0.0;
+  };
+
+  double integrand(double e, double u, double limit) const noexcept {
+    const double cut = std::clamp(u, -limit, limit);
+    const double wanted = ki_ * e;
+    switch (anti_windup_) {
+      case AntiWindup::kBackCalculation:
+        return ki_ != 0.0 ? wanted + (cut - u) / tracking_time_ : 0.0;
+      case AntiWindup::kClamping:
+        return (u - cut) * wanted > 0.0 ? 0.0 : wanted;
+      case AntiWindup::kNone:
+        break;
+    }
+    return wanted;
+  }
+
+  double kp_, ki_, kd_;
+  double setpoint_;
+  double period_;         // [s]
+  double remembered_;     // [-], of the last slope
+  double slope_gain_;     // [1/s], of a difference
+  double tracking_time_;  // [s], a sample at least
+  AntiWindup anti_windup_;
+  std::vector<double> limits_;
+  std::vector<Axis> axes_;
+  bool started_ = false;
+};
+
+std::unique_ptr<Controller> makePid(const ParameterValues& values, const Settings& settings,
+                                    const ControllerPlan& plan) {
+  if (plan.measured != plan.outputs) {
+    throw SetupError("kp",
+                     fmt::format("a pid acts axis by axis: it must measure as many as it acts "
+                                 "on, found {} measured, {} acted on",
+                                 plan.measured, plan.outputs));
+  }
+  const std::string& way = settings.choices.at("anti_windup");
+  return std::make_unique<Pid>(values,
+                               way == "clamping" ? AntiWindup::kClamping
+                               : way == "none"   ? AntiWindup::kNone
+                                                 : AntiWindup::kBackCalculation,
+                               plan);
+}
+
+}  // namespace
+
+ControllerInfo pidInfo() {
+  ControllerInfo info;
+  info.name = "pid";
+  info.summary = "proportional, integral and derivative, axis by axis";
+  info.parameters = {
+      {"kp", "output/measured", Range::kAny, "proportional gain", 0.0, ""},
+      {"ki", "output/measured/s", Range::kAny, "integral gain", 0.0, ""},
+      {"kd", "output s/measured", Range::kAny, "derivative gain", 0.0, ""},
+      {"derivative_time", "s", Range::kNotNegative,
+       "time constant of the derivative's filter; 0: backward difference", 0.0, ""},
+      {"setpoint", "measured", Range::kAny, "of what is measured", 0.0, ""},
+      {"tracking_time", "s", Range::kNotNegative,
+       "in which back_calculation unwinds the integral; 0: kp/ki", 0.0, ""},
+  };
+  SettingInfo anti_windup{"anti_windup", SettingKind::kChoice, "",
+                          "what keeps the integral from growing while the output is at its limit"};
+  anti_windup.choices = {"back_calculation", "clamping", "none"};
+  info.settings = {anti_windup};
+  info.make = makePid;
+  return info;
+}
+
+}  // namespace whirl_twin
