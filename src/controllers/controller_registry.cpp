@@ -26,7 +26,7 @@ const ControllerInfo* find(const std::vector<ControllerInfo>& list, const std::s
 }
 
 const std::vector<ControllerInfo>& builtInControllers() {
-  static const std::vector<ControllerInfo> built_in{pidInfo()};
+  static const std::vector<ControllerInfo> built_in{leadInfo(), linearInfo(), pidInfo()};
   return built_in;
 }
 

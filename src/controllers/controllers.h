@@ -5,6 +5,8 @@
 
 namespace whirl_twin {
 
+ControllerInfo leadInfo();
+ControllerInfo linearInfo();
 ControllerInfo pidInfo();
 
 }  // namespace whirl_twin

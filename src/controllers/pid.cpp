@@ -10,11 +10,11 @@
 // before it. cut() is the limit of the actuator: u itself is given uncut, for the actuator to cut
 // and to count. Instead of that back-calculation, clamping stops the integral while it drives u
 // further beyond the limit.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "control/transfer_function.h"
+#include "controllers/controller_settings.h"
 #include "controllers/controllers.h"
 
 namespace whirl_twin {
@@ -65,32 +65,22 @@ class Pid final : public Controller {
     started_ = true;
   }
 
-  /// States: the integral, then derivative_time / (derivative_time + T) D + what the last sample
-  /// takes off the next D, of each axis.
+  /// States, of each axis: I, then what is known of the next D before its sample.
   std::optional<DiscreteStateSpace> linear(double) const override {
     const Index integrals = ki_ != 0.0 ? 1 : 0;
     const Index states = integrals + (kd_ != 0.0 ? 1 : 0);
-    const auto axes = static_cast<Index>(axes_.size());
-    DiscreteStateSpace law;
-    law.a = MatrixXd::Zero(axes * states, axes * states);
-    law.b = MatrixXd::Zero(axes * states, axes);
-    law.c = MatrixXd::Zero(axes, axes * states);
-    law.d = -(kp_ + kd_ * slope_gain_) * MatrixXd::Identity(axes, axes);
-    for (Index i = 0; i < axes; ++i) {
-      const Index first = i * states;
-      if (ki_ != 0.0) {
-        law.a(first, first) = 1.0;
-        law.b(first, i) = -period_ * ki_;
-        law.c(i, first) = 1.0;
-      }
-      if (kd_ != 0.0) {
-        const Index slope = first + integrals;
-        law.a(slope, slope) = remembered_;
-        law.b(slope, i) = (1.0 - remembered_) * slope_gain_ * kd_;
-        law.c(i, slope) = 1.0;
-      }
+    DiscreteStateSpace law{MatrixXd::Zero(states, states), MatrixXd::Zero(states, 1),
+                           MatrixXd::Ones(1, states),
+                           MatrixXd::Constant(1, 1, -(kp_ + kd_ * slope_gain_))};
+    if (ki_ != 0.0) {
+      law.a(0, 0) = 1.0;
+      law.b(0, 0) = -period_ * ki_;
     }
-    return law;
+    if (kd_ != 0.0) {
+      law.a(integrals, integrals) = remembered_;
+      law.b(integrals, 0) = (1.0 - remembered_) * slope_gain_ * kd_;
+    }
+    return onEachAxis(law, static_cast<Index>(axes_.size()));
   }
 
  private:
@@ -128,12 +118,7 @@ class Pid final : public Controller {
 
 std::unique_ptr<Controller> makePid(const ParameterValues& values, const Settings& settings,
                                     const ControllerPlan& plan) {
-  if (plan.measured != plan.outputs) {
-    throw SetupError("kp",
-                     fmt::format("a pid acts axis by axis: it must measure as many as it acts "
-                                 "on, found {} measured, {} acted on",
-                                 plan.measured, plan.outputs));
-  }
+  requireAxes(plan, "kp");
   const std::string& way = settings.choices.at("anti_windup");
   return std::make_unique<Pid>(values,
                                way == "clamping" ? AntiWindup::kClamping

@@ -21,8 +21,42 @@ inline Settings choice(const std::string& name, const std::string& word) {
   return settings;
 }
 
+inline Settings matrices(std::map<std::string, Eigen::MatrixXd> given) {
+  Settings settings;
+  settings.matrices = std::move(given);
+  return settings;
+}
+
+/// A row of numbers.
+inline Eigen::MatrixXd row(const std::vector<double>& numbers) {
+  return Eigen::Map<const Eigen::RowVectorXd>(numbers.data(),
+                                              static_cast<Eigen::Index>(numbers.size()));
+}
+
+inline ControllerPlan planOf(double rate, std::size_t measured, std::size_t outputs) {
+  ControllerPlan plan = planOf(rate, outputs);
+  plan.measured = measured;
+  return plan;
+}
+
 inline const std::map<std::string, std::vector<ExampleController>>& exampleControllers() {
+  const Eigen::MatrixXd a =
+      (Eigen::MatrixXd(3, 3) << 0.5, 0.2, 0, -0.1, 0.9, 0.3, 0, 0.4, -0.2).finished();
+  const Eigen::MatrixXd b = (Eigen::MatrixXd(3, 2) << 1, 2, 3, 4, 5, 6).finished();
   static const std::map<std::string, std::vector<ExampleController>> examples{
+      {"lead",
+       {{{{"gain", 3.0}, {"zero", 20.0}, {"pole", 200.0}}, {}, planOf(1000.0, 2)},
+        {{{"gain", 3.0}, {"zero", 20.0}, {"pole", 2.0}, {"prewarp", 6.0}, {"setpoint", 0.1}},
+         {},
+         planOf(50.0, 1)}}},
+      {"linear",
+       {{{},
+         matrices({{"a", a}, {"b", b}, {"c", row({1, -2, 0.5})}, {"d", row({0.3, -7})}}),
+         planOf(100.0, 2, 1)},
+        {{}, matrices({{"d", b}, {"setpoint", row({4, -2})}}), planOf(100.0, 2, 3)},
+        {{},
+         matrices({{"numerator", row({1, -0.3})}, {"denominator", row({2, -1, 0.3, 0.2})}}),
+         planOf(100.0, 2)}}},
       {"pid",
        {{{{"kp", 2.0}, {"ki", 7.0}, {"kd", 0.3}, {"derivative_time", 0.02}}, {}, planOf(200.0, 1)},
         {{{"kp", -2.0}, {"kd", 0.3}}, {}, planOf(20.0, 3)},

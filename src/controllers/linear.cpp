@@ -1,0 +1,123 @@
+// Any linear law in samples, y what is measured less its set-point: by matrices,
+//
+//   x(k + 1) = a x(k) + b y(k),   u(k) = c x(k) + d y(k),   x(0) = 0,
+//
+// or axis by axis by a transfer function in z, u = (numerator / denominator) y. No sign is turned:
+// a law that holds back what it measures has negative gains.
+#include <fmt/format.h>
+
+#include "control/transfer_function.h"
+#include "controllers/controller_settings.h"
+#include "controllers/controllers.h"
+#include "controllers/state_space_controller.h"
+
+namespace whirl_twin {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+DiscreteStateSpace byMatrices(const Settings& settings, const ControllerPlan& plan) {
+  const auto measured = static_cast<Index>(plan.measured);
+  const auto outputs = static_cast<Index>(plan.outputs);
+  const MatrixXd* a = givenMatrix(settings, "a");
+  const Index states = a != nullptr ? a->rows() : 0;
+  DiscreteStateSpace law{MatrixXd(0, 0), MatrixXd(0, measured), MatrixXd(outputs, 0),
+                         MatrixXd::Zero(outputs, measured)};
+  const auto take = [&](const char* name, MatrixXd& place, Index rows, Index columns,
+                        const char* why) {
+    const MatrixXd* given = givenMatrix(settings, name);
+    if (given == nullptr) {
+      throw SetupError(name, "missing beside a: a, b and c are given together");
+    }
+    requireSize(name, *given, rows, columns, why);
+    place = *given;
+  };
+  if (a != nullptr) {
+    take("a", law.a, states, states, "a row and a column a state");
+    take("b", law.b, states, measured, "a row a state, a column for each of what is measured");
+    take("c", law.c, outputs, states, "a row an output, a column a state");
+  } else {
+    for (const char* name : {"b", "c"}) {
+      if (givenMatrix(settings, name) != nullptr) {
+        throw SetupError("a",
+                         fmt::format("missing beside {}: a, b and c are given together", name));
+      }
+    }
+  }
+  if (const MatrixXd* d = givenMatrix(settings, "d"); d != nullptr) {
+    requireSize("d", *d, outputs, measured,
+                "a row an output, a column for each of what is measured");
+    law.d = *d;
+  } else if (a == nullptr) {
+    throw SetupError("d",
+                     "missing; a linear law is given by d, by a, b, c and d, or by numerator "
+                     "and denominator");
+  }
+  return law;
+}
+
+DiscreteStateSpace byTransferFunction(const Settings& settings, const ControllerPlan& plan) {
+  for (const char* name : {"a", "b", "c", "d"}) {
+    if (givenMatrix(settings, name) != nullptr) {
+      throw SetupError(name, "must not be given beside numerator and denominator");
+    }
+  }
+  const auto row = [&](const char* name) {
+    const MatrixXd* given = givenMatrix(settings, name);
+    if (given == nullptr) {
+      throw SetupError(name, "missing; numerator and denominator are given together");
+    }
+    requireSize(name, *given, 1, given->cols(), "coefficients of falling powers of z");
+    return Eigen::VectorXd(given->row(0).transpose());
+  };
+  const Eigen::VectorXd numerator = row("numerator");
+  const Eigen::VectorXd denominator = row("denominator");
+  if (denominator[0] == 0.0) {
+    throw SetupError("denominator", "must begin with a number that is not 0, found 0");
+  }
+  if (numerator.size() > denominator.size()) {
+    throw SetupError("numerator",
+                     fmt::format("must have up to {} coefficients, as the denominator has: what "
+                                 "comes later cannot be known, found {}",
+                                 denominator.size(), numerator.size()));
+  }
+  requireAxes(plan, "numerator");
+  return onEachAxis(discreteTransferFunction(numerator, denominator),
+                    static_cast<Index>(plan.outputs));
+}
+
+std::unique_ptr<Controller> makeLinear(const ParameterValues&, const Settings& settings,
+                                       const ControllerPlan& plan) {
+  const bool transfer_function = givenMatrix(settings, "numerator") != nullptr ||
+                                 givenMatrix(settings, "denominator") != nullptr;
+  return std::make_unique<StateSpaceController>(
+      transfer_function ? byTransferFunction(settings, plan) : byMatrices(settings, plan),
+      setpointOf(settings, plan));
+}
+
+}  // namespace
+
+ControllerInfo linearInfo() {
+  const auto matrix = [](const char* name, const char* unit, const char* meaning) {
+    return SettingInfo{name, SettingKind::kMatrix, unit, meaning};
+  };
+  ControllerInfo info;
+  info.name = "linear";
+  info.summary =
+      "any linear law in samples, by matrices or axis by axis by a transfer function in z";
+  info.settings = {
+      matrix("a", "-", "of its states to the next; none if not given"),
+      matrix("b", "state/measured", "of what is measured to the next states"),
+      matrix("c", "output/state", "of its states to the outputs"),
+      matrix("d", "output/measured", "of what is measured to the outputs; 0 if not given beside a"),
+      matrix("numerator", "output/measured", "a row of coefficients of falling powers of z"),
+      matrix("denominator", "-", "likewise, as many or more"),
+      setpointSetting(),
+  };
+  info.make = makeLinear;
+  return info;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,27 @@
+// A controller that is a linear system in samples, of what is measured less its set-point.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "controllers/controller.h"
+
+namespace whirl_twin {
+
+class StateSpaceController final : public Controller {
+ public:
+  /// setpoint: one number for each of what is measured.
+  StateSpaceController(DiscreteStateSpace law, Eigen::VectorXd setpoint);
+
+  void reset() noexcept override { state_.setZero(); }
+  void update(const ControlSample& sample, double* outputs) noexcept override;
+  std::optional<DiscreteStateSpace> linear(double) const override { return law_; }
+
+ private:
+  DiscreteStateSpace law_;
+  Eigen::VectorXd setpoint_;
+  Eigen::VectorXd state_;
+  Eigen::VectorXd next_;      // of update(), kept to save the room
+  Eigen::VectorXd measured_;  // likewise
+};
+
+}  // namespace whirl_twin

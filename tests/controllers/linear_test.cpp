@@ -1,0 +1,86 @@
+// Linear laws by matrices and by a transfer function: their samples, and what is refused where.
+#include <gtest/gtest.h>
+
+#include "example_controllers.h"
+
+namespace whirl_twin {
+namespace {
+
+using Eigen::MatrixXd;
+
+std::vector<double> outputsOf(Controller& controller, const std::vector<double>& y) {
+  std::vector<double> all;
+  for (const double value : y) {
+    double u = 0.0;
+    controller.update(sampleOf(&value), &u);
+    all.push_back(u);
+  }
+  return all;
+}
+
+// u(k) = u(k - 1) + 2 y(k) - y(k - 1).
+TEST(Linear, IsItsDifferenceEquation) {
+  const std::vector<double> expected{2.0, 1.0, 1.0, -5.0};
+  const auto fraction =
+      made("linear", {}, matrices({{"numerator", row({2, -1})}, {"denominator", row({1, -1})}}),
+           planOf(10.0, 1));
+  EXPECT_EQ(outputsOf(*fraction, {1.0, 0.0, 0.0, -3.0}), expected);
+  const auto states = made(
+      "linear", {}, matrices({{"a", row({1})}, {"b", row({1})}, {"c", row({1})}, {"d", row({2})}}),
+      planOf(10.0, 1));
+  EXPECT_EQ(outputsOf(*states, {1.0, 0.0, 0.0, -3.0}), expected);
+}
+
+TEST(Linear, GoesBySetpoints) {
+  const auto law = made("linear", {}, matrices({{"d", row({-2, 1})}, {"setpoint", row({3, 1})}}),
+                        planOf(10.0, 2, 1));
+  const double y[] = {4.0, 6.0};
+  double u = 0.0;
+  law->update(sampleOf(y), &u);
+  EXPECT_EQ(u, 3.0);
+}
+
+TEST(Linear, RefusesWhatDoesNotFitTogether) {
+  const ControllerPlan plan = planOf(10.0, 3, 2);
+  const MatrixXd two = MatrixXd::Identity(2, 2);
+  const MatrixXd two_by_three = MatrixXd::Ones(2, 3);
+  const auto refused = [&](std::map<std::string, MatrixXd> given) {
+    const auto [name, text] = refusal("linear", {}, matrices(std::move(given)), plan);
+    return name + ": " + text;
+  };
+  EXPECT_EQ(refused({}),
+            "d: missing; a linear law is given by d, by a, b, c and d, or by numerator and "
+            "denominator");
+  EXPECT_EQ(
+      refused({{"d", two}}),
+      "d: must be 2 x 3, a row an output, a column for each of what is measured, found 2 x 2");
+  EXPECT_EQ(refused({{"a", two_by_three}, {"b", two_by_three}, {"c", two}}),
+            "a: must be 2 x 2, a row and a column a state, found 2 x 3");
+  EXPECT_EQ(refused({{"a", two}, {"b", two}, {"c", two}}),
+            "b: must be 2 x 3, a row a state, a column for each of what is measured, found 2 x 2");
+  EXPECT_EQ(refused({{"a", two}, {"b", two_by_three}, {"c", two_by_three}}),
+            "c: must be 2 x 2, a row an output, a column a state, found 2 x 3");
+  EXPECT_EQ(refused({{"a", two}, {"c", two}}),
+            "b: missing beside a: a, b and c are given together");
+  EXPECT_EQ(refused({{"c", two}, {"d", two_by_three}}),
+            "a: missing beside c: a, b and c are given together");
+  EXPECT_EQ(refused({{"d", two_by_three}, {"setpoint", row({1, 2})}}),
+            "setpoint: must be 1 x 3, a number for each of what is measured, found 1 x 2");
+  EXPECT_EQ(refused({{"numerator", row({1})}}),
+            "denominator: missing; numerator and denominator are given together");
+  EXPECT_EQ(refused({{"numerator", row({1})}, {"denominator", row({0, 1})}}),
+            "denominator: must begin with a number that is not 0, found 0");
+  EXPECT_EQ(refused({{"numerator", row({1, 2, 3})}, {"denominator", row({1, 1})}}),
+            "numerator: must have up to 2 coefficients, as the denominator has: what comes later "
+            "cannot be known, found 3");
+  EXPECT_EQ(refused({{"numerator", two}, {"denominator", row({1, 1})}}),
+            "numerator: must be 1 x 2, coefficients of falling powers of z, found 2 x 2");
+  EXPECT_EQ(refused({{"numerator", row({1})}, {"denominator", row({1})}, {"d", two_by_three}}),
+            "d: must not be given beside numerator and denominator");
+  EXPECT_EQ(refused({{"numerator", row({1})}, {"denominator", row({1})}}),
+            "numerator: acts axis by axis: as many must be measured as acted on, found 3 measured, "
+            "2 acted on");
+}
+
+}  // namespace
+}  // namespace whirl_twin
