@@ -8,5 +8,6 @@ namespace whirl_twin {
 ControllerInfo leadInfo();
 ControllerInfo linearInfo();
 ControllerInfo pidInfo();
+ControllerInfo stateFeedbackInfo();
 
 }  // namespace whirl_twin

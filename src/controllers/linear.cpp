@@ -23,8 +23,7 @@ DiscreteStateSpace byMatrices(const Settings& settings, const ControllerPlan& pl
   const auto outputs = static_cast<Index>(plan.outputs);
   const MatrixXd* a = givenMatrix(settings, "a");
   const Index states = a != nullptr ? a->rows() : 0;
-  DiscreteStateSpace law{MatrixXd(0, 0), MatrixXd(0, measured), MatrixXd(outputs, 0),
-                         MatrixXd::Zero(outputs, measured)};
+  DiscreteStateSpace law = staticLaw(MatrixXd::Zero(outputs, measured));
   const auto take = [&](const char* name, MatrixXd& place, Index rows, Index columns,
                         const char* why) {
     const MatrixXd* given = givenMatrix(settings, name);

@@ -4,6 +4,11 @@
 
 namespace whirl_twin {
 
+DiscreteStateSpace staticLaw(const Eigen::MatrixXd& gain) {
+  return {Eigen::MatrixXd(0, 0), Eigen::MatrixXd(0, gain.cols()), Eigen::MatrixXd(gain.rows(), 0),
+          gain};
+}
+
 StateSpaceController::StateSpaceController(DiscreteStateSpace law, Eigen::VectorXd setpoint)
     : law_(std::move(law)),
       setpoint_(std::move(setpoint)),

@@ -7,6 +7,9 @@
 
 namespace whirl_twin {
 
+/// u = gain y, without states.
+DiscreteStateSpace staticLaw(const Eigen::MatrixXd& gain);
+
 class StateSpaceController final : public Controller {
  public:
   /// setpoint: one number for each of what is measured.

@@ -62,6 +62,9 @@ inline const std::map<std::string, std::vector<ExampleController>>& exampleContr
         {{{"kp", -2.0}, {"kd", 0.3}}, {}, planOf(20.0, 3)},
         {{{"kp", 1.5}, {"ki", -0.5}}, choice("anti_windup", "clamping"), planOf(50.0, 2)},
         {{{"kp", 4.0}}, choice("anti_windup", "none"), planOf(1e4, 2)}}},
+      {"state_feedback",
+       {{{}, matrices({{"gain", row({3, -1, 2, 0.5})}}), planOf(100.0, 4, 1)},
+        {{}, matrices({{"gain", b}, {"setpoint", row({1, 2})}}), planOf(100.0, 2, 3)}}},
   };
   return examples;
 }

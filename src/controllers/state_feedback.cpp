@@ -1,0 +1,34 @@
+// State feedback by a gain that is given: u = -gain (y - setpoint), y all that is measured at the
+// sample's instant.
+#include "controllers/controller_settings.h"
+#include "controllers/controllers.h"
+#include "controllers/state_space_controller.h"
+
+namespace whirl_twin {
+
+namespace {
+
+std::unique_ptr<Controller> makeStateFeedback(const ParameterValues&, const Settings& settings,
+                                              const ControllerPlan& plan) {
+  const Eigen::MatrixXd& gain = settings.matrices.at("gain");
+  requireSize("gain", gain, static_cast<Eigen::Index>(plan.outputs),
+              static_cast<Eigen::Index>(plan.measured),
+              "a row an output, a column for each of what is measured");
+  return std::make_unique<StateSpaceController>(staticLaw(-gain), setpointOf(settings, plan));
+}
+
+}  // namespace
+
+ControllerInfo stateFeedbackInfo() {
+  ControllerInfo info;
+  info.name = "state_feedback";
+  info.summary = "by a gain on all that is measured";
+  info.settings = {{"gain", SettingKind::kMatrix, "output/measured",
+                    "a row an output, a column for each of what is measured; it is taken off"},
+                   setpointSetting()};
+  info.settings[0].required = true;
+  info.make = makeStateFeedback;
+  return info;
+}
+
+}  // namespace whirl_twin
