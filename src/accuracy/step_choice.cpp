@@ -12,6 +12,8 @@
 #include "integration/step_methods.h"
 #include "models/model_registry.h"
 #include "realtime/denormals.h"
+#include "scene/built_scene.h"
+#include "scene/control_parts.h"
 #include "scene/drive_profile.h"
 #include "scene/scene_error.h"
 #include "twin/observer.h"
@@ -337,8 +339,9 @@ std::vector<StepChoice> chooseSteps(const Scene& scene, bool judge_named) {
   std::vector<StepChoice> choices(scene.systems.size());
   for (const std::size_t i : open) {
     const Scene one = sceneOfOne(whole, i);
+    const double left = isTiedToOthers(whole, i) ? 0.0 : budget;  // alone it moves otherwise
     choices[i] =
-        scene.systems[i].integrator == "auto" ? chooseStep(one, budget) : judgeStep(one, budget);
+        scene.systems[i].integrator == "auto" ? chooseStep(one, left) : judgeStep(one, left);
   }
   return choices;
 }

@@ -7,6 +7,7 @@
 
 #include "analysis/cyclic_coordinates.h"
 #include "realtime/denormals.h"
+#include "scene/part_of_scene.h"
 #include "scene/scene_error.h"
 #include "twin/observer.h"
 #include "twin/twin.h"
@@ -14,14 +15,10 @@
 namespace whirl_twin {
 
 Scene sceneOfOne(const Scene& scene, std::size_t system) {
-  Scene one;
-  one.source = scene.source;
-  one.name = scene.name;
-  one.step = scene.step;
-  one.time = scene.time;
-  one.gravity = scene.gravity;
-  one.systems = {scene.systems[system]};
+  Scene one = partOf(scene, {system});
   const std::size_t drive = scene.driveOf(one.systems.front());
+  one.drives.clear();
+  one.sensors.clear();
   if (drive < scene.drives.size()) {
     one.drives = {scene.drives[drive]};
     one.systems.front().drive_place = 0;

@@ -20,7 +20,7 @@ struct StepSetting {
   int substeps = 1;       ///< steps of the method inside one of the twin
 };
 
-/// The scene with one of its systems only.
+/// The scene with one of its systems only, and its controllers unless they tie it to others.
 Scene sceneOfOne(const Scene& scene, std::size_t system);
 
 /// A scene of one system, stepped as the setting says.

@@ -12,6 +12,12 @@ InputSignal InputSignal::constant(double value) {
   return signal;
 }
 
+InputSignal InputSignal::controlled() {
+  InputSignal signal;
+  signal.kind = Kind::kControlled;
+  return signal;
+}
+
 InputSignal InputSignal::harmonic(double amplitude, double frequency, double phase) {
   InputSignal signal;
   signal.kind = Kind::kHarmonic;

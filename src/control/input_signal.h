@@ -4,6 +4,7 @@
 //   harmonic  amplitude cos(frequency t + phase), t the simulated time
 //   table     values at instants, held from one instant to the next or linear between them; before
 //             the first and after the last it keeps their values
+//   controlled  held from one instant to the next by a controller of the scene; 0 before the first
 //
 // Instants are whole nanoseconds of simulated time and a harmonic's phase is counted in integers
 // (SteadyTurn), so that neither wears off over any number of steps.
@@ -26,7 +27,7 @@ constexpr double kLargestFrequency = 1.0e6;  ///< [rad/s]: phases stay below 1e1
 constexpr double kLargestPhase = 1.0e15;     ///< [rad]
 
 struct InputSignal {
-  enum class Kind { kNone, kHeld, kHarmonic, kTable };
+  enum class Kind { kNone, kHeld, kHarmonic, kTable, kControlled };
 
   Kind kind = Kind::kNone;                  ///< kNone: the input does not act
   double value = 0.0;                       ///< kHeld: unless a command says otherwise
@@ -38,6 +39,7 @@ struct InputSignal {
   bool hold = false;                        ///< from each instant to the next; else linear
 
   static InputSignal constant(double value);
+  static InputSignal controlled();
   static InputSignal harmonic(double amplitude, double frequency, double phase);
   static InputSignal table(std::vector<std::int64_t> instants, std::vector<double> values,
                            bool hold);

@@ -34,8 +34,9 @@ Inputs::Inputs(const std::vector<InputSignal>& signals) {
 }
 
 bool Inputs::any() const {
-  return std::any_of(channels_.begin(), channels_.end(),
-                     [](const Channel& c) { return c.signal.kind != InputSignal::Kind::kNone; });
+  return !parts_.empty() || std::any_of(channels_.begin(), channels_.end(), [](const Channel& c) {
+    return c.signal.kind != InputSignal::Kind::kNone;
+  });
 }
 
 void Inputs::begin(std::int64_t time) noexcept {
@@ -51,6 +52,7 @@ void Inputs::begin(std::int64_t time) noexcept {
       case InputSignal::Kind::kTable:
         channel.passed = passedAt(channel, time);
         break;
+      case InputSignal::Kind::kControlled:
       case InputSignal::Kind::kNone:
         break;
     }
@@ -60,6 +62,7 @@ void Inputs::begin(std::int64_t time) noexcept {
 void Inputs::reset() noexcept {
   for (Channel& channel : channels_) {
     channel.command_until = std::numeric_limits<std::int64_t>::min();
+    channel.held = 0.0;
   }
 }
 
@@ -109,7 +112,7 @@ std::int64_t Inputs::cornerAfter(std::int64_t offset) const noexcept {
 SignalPiece Inputs::piece(std::size_t input, std::int64_t offset) const noexcept {
   const Channel& channel = channels_[input];
   if (channel.signal.kind != InputSignal::Kind::kTable) {
-    return {0.0, channel.signal.kind == InputSignal::Kind::kHeld ? channel.held : 0.0, 0.0};
+    return {0.0, channel.held, 0.0};
   }
   const std::vector<std::int64_t>& instants = channel.signal.instants;
   const std::vector<double>& values = channel.signal.values;

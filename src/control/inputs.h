@@ -5,11 +5,15 @@
 // linear one kinks. Within a piece an input is a straight line in time or a harmonic, and no step
 // has to guess on which side of a jump it stands. A command takes effect at a begin(), so that a
 // constant is the same over a whole step.
+//
+// What a controller acts with changes at its instants, inside steps too: the twin then takes a step
+// in parts from instant to instant (Stepper::stepPart).
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "control/input_signal.h"
@@ -27,12 +31,17 @@ class Inputs {
   /// One signal for each input of a model. Throws std::logic_error for one with a fault.
   explicit Inputs(const std::vector<InputSignal>& signals);
 
+  /// Steps are to be taken in parts. Their lengths [ns] are these, or sums of them.
+  void setParts(std::vector<std::int64_t> lengths) { parts_ = std::move(lengths); }
+  /// Longest first; empty: steps are taken whole.
+  const std::vector<std::int64_t>& parts() const { return parts_; }
+
   std::size_t count() const noexcept { return channels_.size(); }
   const InputSignal& signal(std::size_t input) const { return channels_[input].signal; }
   bool acts(std::size_t input) const {
     return channels_[input].signal.kind != InputSignal::Kind::kNone;
   }
-  /// Does any input act?
+  /// Does any input act, or are steps taken in parts?
   bool any() const;
   /// May it have corners?
   bool isTable(std::size_t input) const {
@@ -53,6 +62,8 @@ class Inputs {
   /// then its own again. False, with nothing changed, for a value that is not finite, for an input
   /// that there is not, and for one that is a harmonic, a table or does not act.
   bool set(std::size_t input, double value, std::int64_t until) noexcept;
+  /// What a controller acts with, from now on.
+  void control(std::size_t input, double value) noexcept { channels_[input].held = value; }
   /// Has a command that still holds.
   bool commanded(std::size_t input) const noexcept {
     return channels_[input].command_until > time_;
@@ -85,6 +96,7 @@ class Inputs {
   static std::size_t passedAt(const Channel& channel, std::int64_t time) noexcept;
 
   std::vector<Channel> channels_;
+  std::vector<std::int64_t> parts_;
   std::size_t tables_ = 0;
   std::int64_t time_ = 0;
 };

@@ -53,6 +53,8 @@ class Sensor {
   double filtered(const CubicPiece& piece, double t) const noexcept;
   /// Goes on to the end of the piece.
   void pass(const CubicPiece& piece) noexcept { filtered_ = filtered(piece, piece.length); }
+  /// What comes out of the filter now.
+  double passed() const noexcept { return filtered_; }
   /// Sample k, of what came out of the filter.
   Sample sample(double filtered, std::int64_t k) const noexcept;
 

@@ -1,7 +1,8 @@
+#include "controllers/controller_registry.h"
+
 #include <algorithm>
 #include <utility>
 
-#include "controllers/controller_registry.h"
 #include "controllers/controllers.h"
 
 namespace whirl_twin {
@@ -25,8 +26,8 @@ const ControllerInfo* find(const std::vector<ControllerInfo>& list, const std::s
 }
 
 const std::vector<ControllerInfo>& builtInControllers() {
-  static const std::vector<ControllerInfo> built_in{leadInfo(), linearInfo(), lqgInfo(),
-                                                    lqrInfo(),  pidInfo(),    stateFeedbackInfo()};
+  static const std::vector<ControllerInfo> built_in{leadInfo(), linearInfo(), pidInfo(),
+                                                    stateFeedbackInfo()};
   return built_in;
 }
 

@@ -11,6 +11,7 @@
 #include "messages/refusal.h"
 #include "scene/built_scene.h"
 #include "scene/node_reader.h"
+#include "scene/part_of_scene.h"
 #include "scene/scene_reader.h"
 #include "scene/yaml_file.h"
 
@@ -93,6 +94,9 @@ class StudyReader {
                       "fitted yet; a drive or a constant speed can");
       return;
     }
+    // What its controllers gave is measured, or it was not there.
+    all = partOf(all, {static_cast<std::size_t>(place - names.begin())});
+    all.controllers.clear();
     all.systems = {std::move(system)};
     study_.scene = std::move(all);
     built_ = build(study_.scene).systems.front();

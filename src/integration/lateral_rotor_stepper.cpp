@@ -163,7 +163,7 @@ double LateralRotorStepper::furtherEnergy() const noexcept {
 }
 
 void LateralRotorStepper::write(double* out) const noexcept {
-  std::copy(motion_.y.begin(), motion_.y.end(), out);
+  motion(out);
   const double further = last_energy_ ? *last_energy_ : furtherEnergy();
   out[4] = motion_.work.high + (further - further_energy_);
 }

@@ -2,6 +2,7 @@
 // speed, quadrature at Gauss nodes while it changes. It is ready for any speed.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -26,7 +27,14 @@ class LateralRotorStepper : public Stepper {
 
   LateralRotorStepper(const LateralRotor& rotor, const Drive& drive, double step, int substeps);
 
+  /// Where steps are taken in parts it is no stepper of this kind that takes them.
+  StepStatus stepPart(double, std::int64_t, std::int64_t) noexcept override {
+    return stopped(StepStatus::kOutOfRange);
+  }
   std::size_t dof() const noexcept override { return 2; }
+  void motion(double* out) const noexcept override {
+    std::copy(motion_.y.begin(), motion_.y.end(), out);
+  }
   void write(double* out) const noexcept override;
   double errorSum() const noexcept override { return error_sum_; }
   void set(const double* q, const double* v) noexcept override;

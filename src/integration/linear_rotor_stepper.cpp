@@ -31,6 +31,11 @@ LinearRotorStepper::LinearRotorStepper(std::shared_ptr<const Dynamics> dynamics,
       inputs_(excitation.inputs, directionsOf(dynamics_->inputs(), dynamics_->dof())),
       method_(dynamics_->linearRotor(), step / substeps, speeds, constant_speeds_, inputs_),
       halves_(dynamics_->linearRotor(), 0.5 * step / substeps, speeds, constant_speeds_, inputs_),
+      parts_(excitation.inputs,
+             [&](double length) {
+               return RotorStep(dynamics_->linearRotor(), length, speeds, constant_speeds_,
+                                inputs_);
+             }),
       state_(dynamics_->dof()),
       next_(dynamics_->dof()),
       finer_(dynamics_->dof()) {
@@ -87,6 +92,25 @@ StepStatus LinearRotorStepper::step(double) noexcept {
   return StepStatus::kOk;
 }
 
+StepStatus LinearRotorStepper::stepPart(double, std::int64_t from, std::int64_t to) noexcept {
+  next_ = state_;
+  if (!(inputs_.nextCorner(from) < to &&
+        method_.advanceInParts(excitation_.drive, from, to, next_))) {
+    const StepStatus status = parts_.advance(from, to, [&](RotorStep& part, double offset) {
+      part.restart();
+      return part.advance(excitation_.drive, offset, next_);
+    });
+    if (status != StepStatus::kOk) {
+      return status;
+    }
+  }
+  if (!isFinite(next_)) {
+    return StepStatus::kNotFinite;
+  }
+  std::swap(state_, next_);
+  return StepStatus::kOk;
+}
+
 /// Takes the step from state_ to next_ once more, in halves.
 void LinearRotorStepper::estimateError() noexcept {
   finer_ = state_;
@@ -101,6 +125,10 @@ void LinearRotorStepper::estimateError() noexcept {
   // Of the coordinates: what the rates of stiff modes are off by comes and goes within a step.
   errors_.add(dof(), next_.q().data(), next_.v().data(), finer_.q().data(), next_.v().data(),
               [&](std::size_t i) { return angular_[i] != 0; });
+}
+
+void LinearRotorStepper::motion(double* out) const noexcept {
+  std::copy_n(state_.state.data(), state_.state.size(), out);
 }
 
 void LinearRotorStepper::write(double* out) const noexcept {

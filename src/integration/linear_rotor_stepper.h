@@ -11,6 +11,7 @@
 #include "integration/jacobi_integral.h"
 #include "integration/rotor_step.h"
 #include "integration/step_error_sum.h"
+#include "integration/step_parts.h"
 #include "integration/stepper.h"
 #include "mechanics/dynamics.h"
 
@@ -26,7 +27,9 @@ class LinearRotorStepper final : public Stepper {
                      const Excitation& excitation, double step, int substeps);
 
   StepStatus step(double time) noexcept override;
+  StepStatus stepPart(double time, std::int64_t from, std::int64_t to) noexcept override;
   std::size_t dof() const noexcept override { return static_cast<std::size_t>(state_.dof()); }
+  void motion(double* out) const noexcept override;
   void write(double* out) const noexcept override;
   double errorSum() const noexcept override { return errors_.sum(); }
   void set(const double* q, const double* v) noexcept override;
@@ -51,6 +54,7 @@ class LinearRotorStepper final : public Stepper {
   ActingInputs inputs_;
   RotorStep method_;
   RotorStep halves_;  ///< of half the length
+  StepParts<RotorStep> parts_;
   LinearMotion state_;
   LinearMotion next_;
   LinearMotion finer_;         ///< next_, by halves

@@ -31,6 +31,8 @@ LinearStepper::LinearStepper(const LinearModel& model, const std::string& method
     : inputs_(inputs, directionsOf(model.inputs, model.mass.rows())),
       method_(model, method, step / substeps, inputs_),
       halves_(model, method, 0.5 * step / substeps, inputs_),
+      parts_(inputs,
+             [&](double length) { return LinearStep(model, "exponential", length, inputs_); }),
       substep_(step / substeps),
       substeps_(substeps),
       step_(std::llround(step * 1e9)),
@@ -66,6 +68,23 @@ StepStatus LinearStepper::step(double time) noexcept {
   return StepStatus::kOk;
 }
 
+StepStatus LinearStepper::stepPart(double time, std::int64_t from, std::int64_t to) noexcept {
+  next_ = state_;
+  if (inputs_.nextCorner(from) < to) {
+    method_.advanceInParts(time, from, to, next_);
+  } else {
+    parts_.advance(from, to, [&](LinearStep& part, double offset) {
+      part.advance(time + offset, next_, offset);
+      return StepStatus::kOk;
+    });
+  }
+  if (!isFinite(next_)) {
+    return StepStatus::kNotFinite;
+  }
+  std::swap(state_, next_);
+  return StepStatus::kOk;
+}
+
 /// Takes the step from state_ to next_ once more, in halves.
 void LinearStepper::estimateError(double time) noexcept {
   finer_ = state_;
@@ -75,6 +94,10 @@ void LinearStepper::estimateError(double time) noexcept {
   }
   errors_.add(dof(), next_.q().data(), next_.v().data(), finer_.q().data(), finer_.v().data(),
               [&](std::size_t i) { return angular_[i] != 0; });
+}
+
+void LinearStepper::motion(double* out) const noexcept {
+  std::copy_n(state_.state.data(), state_.state.size(), out);
 }
 
 void LinearStepper::write(double* out) const noexcept {

@@ -10,6 +10,7 @@
 #include "integration/acting_inputs.h"
 #include "integration/linear_step.h"
 #include "integration/step_error_sum.h"
+#include "integration/step_parts.h"
 #include "integration/stepper.h"
 #include "mechanics/linear_dynamics.h"
 
@@ -31,7 +32,10 @@ class LinearStepper final : public Stepper {
                 const Inputs* inputs = nullptr);
 
   StepStatus step(double time) noexcept override;
+  /// Exact, whatever the method.
+  StepStatus stepPart(double time, std::int64_t from, std::int64_t to) noexcept override;
   std::size_t dof() const noexcept override { return static_cast<std::size_t>(state_.dof()); }
+  void motion(double* out) const noexcept override;
   void write(double* out) const noexcept override;
   double errorSum() const noexcept override { return errors_.sum(); }
   void set(const double* q, const double* v) noexcept override;
@@ -42,7 +46,8 @@ class LinearStepper final : public Stepper {
   ActingInputs inputs_;
   LinearStep method_;
   LinearStep halves_;  ///< of half the length
-  double substep_;     ///< [s]
+  StepParts<LinearStep> parts_;
+  double substep_;  ///< [s]
   int substeps_;
   std::int64_t step_;  ///< [ns], of the twin
   LinearMotion state_;

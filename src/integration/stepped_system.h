@@ -59,45 +59,28 @@ class SteppedSystem final : public Stepper {
         finer_method_(method),
         inputs_(inputs) {}
 
-  StepStatus step(double time) noexcept override {
-    const DrivenEquation<Model> equation{model_, drive_, time};
-    if constexpr (kHasHistory && Model::kHasShaft) {
-      const ShaftMotion shaft = drive_.at(0.0);  // a command may have changed its course
-      method_.follow(shaft.jerk, shaft.acceleration);
-    }
-    MotionState<n> next = state_;
-    for (int i = 0; i < substeps_; ++i) {
-      const StepStatus status = advance(method_, equation, i * substep_, substep_, next);
-      if (status != StepStatus::kOk) {
-        return finite(state_) ? status : StepStatus::kNotFinite;
-      }
-    }
-    if (!finite(next)) {
-      forget();
-      return StepStatus::kNotFinite;
-    }
-    if (!hasPhase(next)) {
-      forget();
-      return StepStatus::kOutOfRange;
-    }
-    if (errors_.countStep()) {
-      estimateError(equation, next);
-    }
-    state_ = next;
-    wholeTurns();
-    return StepStatus::kOk;
+  StepStatus step(double time) noexcept override { return take(time, 0.0, substeps_, substep_); }
+  [[gnu::noinline, gnu::cold]] StepStatus stepPart(double time, std::int64_t from,
+                                                   std::int64_t to) noexcept override {
+    const double length = static_cast<double>(to - from) / 1e9;
+    const double count = std::fmax(1.0, std::ceil(length / substep_ - kSliver));
+    method_.restart();
+    return take(time, static_cast<double>(from) / 1e9, static_cast<int>(count), length / count);
   }
   double errorSum() const noexcept override { return errors_.sum(); }
   std::size_t dof() const noexcept override { return n; }
-  void write(double* out) const noexcept override {
+  void motion(double* out) const noexcept override {
     for (std::size_t i = 0; i < n; ++i) {
       out[i] = state_.q[i];
       out[n + i] = state_.v[i];
     }
-    out[2 * n] = state_.work.high;
     if constexpr (HasSpin<Model>::value) {
       out[Model::kSpin] = spin().total();
     }
+  }
+  void write(double* out) const noexcept override {
+    motion(out);
+    out[2 * n] = state_.work.high;
   }
   bool shaft([[maybe_unused]] ShaftState& out) const noexcept override {
     if constexpr (HasSpin<Model>::value) {
@@ -135,6 +118,36 @@ class SteppedSystem final : public Stepper {
 
  private:
   static constexpr bool kHasHistory = HasHistory<Method>::value;
+
+  /// `count` steps of the method of h [s] each, from an offset [s] after `time` [s] on.
+  WHIRL_TWIN_INLINE StepStatus take(double time, double offset, int count, double h) noexcept {
+    const DrivenEquation<Model> equation{model_, drive_, time};
+    if constexpr (kHasHistory && Model::kHasShaft) {
+      const ShaftMotion shaft = drive_.at(0.0);  // a command may have changed its course
+      method_.follow(shaft.jerk, shaft.acceleration);
+    }
+    MotionState<n> next = state_;
+    for (int i = 0; i < count; ++i) {
+      const StepStatus status = advance(method_, equation, offset + i * h, h, next);
+      if (status != StepStatus::kOk) {
+        return finite(state_) ? status : StepStatus::kNotFinite;
+      }
+    }
+    if (!finite(next)) {
+      forget();
+      return StepStatus::kNotFinite;
+    }
+    if (!hasPhase(next)) {
+      forget();
+      return StepStatus::kOutOfRange;
+    }
+    if (errors_.countStep()) {
+      estimateError(equation, offset, count, h, next);
+    }
+    state_ = next;
+    wholeTurns();
+    return StepStatus::kOk;
+  }
   /// The state stays what it was: the past that the method has is another's.
   WHIRL_TWIN_INLINE void forget() noexcept {
     if constexpr (kHasHistory) {
@@ -316,9 +329,10 @@ class SteppedSystem final : public Stepper {
     return status;
   }
 
-  /// Takes the step from state_ to `end` once more, in halves. A method with a past knows its error
-  /// without, once it has one.
-  void estimateError(const DrivenEquation<Model>& equation, const MotionState<n>& end) noexcept {
+  /// Takes `count` steps of h [s] from state_ to `end` once more, in halves. A method with a past
+  /// knows its error without, once it has one.
+  void estimateError(const DrivenEquation<Model>& equation, double offset, int count, double h,
+                     const MotionState<n>& end) noexcept {
     MotionState<n> finer = state_;
     const auto add = [&] {
       errors_.add(n, end.q, end.v, finer.q, finer.v,
@@ -328,17 +342,17 @@ class SteppedSystem final : public Stepper {
       if (method_.hasPast()) {
         const std::array<double, n> error = method_.lastError();
         for (std::size_t i = 0; i < n; ++i) {
-          finer.q[i] = end.q[i] + substeps_ * error[i];
-          finer.v[i] = end.v[i] + substeps_ / substep_ * error[i];
+          finer.q[i] = end.q[i] + count * error[i];
+          finer.v[i] = end.v[i] + count / h * error[i];
         }
         add();
         return;
       }
     }
-    const double h = 0.5 * substep_;
+    const double half = 0.5 * h;
     finer_method_.restart();
-    for (int i = 0; i < 2 * substeps_; ++i) {
-      if (advance(finer_method_, equation, i * h, h, finer) != StepStatus::kOk) {
+    for (int i = 0; i < 2 * count; ++i) {
+      if (advance(finer_method_, equation, offset + i * half, half, finer) != StepStatus::kOk) {
         errors_.passOver();
         return;
       }

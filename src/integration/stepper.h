@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <memory>
 
@@ -35,7 +36,12 @@ class Stepper {
   /// One step of the twin from simulated time `time` [s]. The drive stands at the start of the
   /// step. If the outcome is not kOk the state stays what it was.
   virtual StepStatus step(double time) noexcept = 0;
+  /// A part of that step, from one instant to another, both [ns] after its start: between two
+  /// instants at which controllers act (Inputs::parts()). Parts come in order and make up the step.
+  virtual StepStatus stepPart(double time, std::int64_t from, std::int64_t to) noexcept = 0;
   virtual std::size_t dof() const noexcept = 0;
+  /// Copies q (dof) and v (dof) to `out`.
+  virtual void motion(double* out) const noexcept = 0;
   /// Copies q (dof), v (dof) and the audited work [J] (1) to `out`.
   virtual void write(double* out) const noexcept = 0;
   /// The shaft that a motor turns, whose angle is a coordinate; false: there is none.

@@ -5,6 +5,7 @@
 
 #include "messages/alarm_command.h"
 #include "messages/alert.h"
+#include "messages/controller_state.h"
 #include "messages/follow_state.h"
 #include "messages/input_command.h"
 #include "messages/loop_statistics.h"
@@ -21,7 +22,8 @@ using Message =
     std::variant<state::WhirlState, state::PendulumState, state::DriveState, state::MotorState,
                  state::EnsembleState, state::StabilityMargin, state::ParameterChange,
                  state::LoopStatistics, state::Measurement, state::InputCommand, state::Alert,
-                 state::MonitorStatus, state::OrderState, state::AlarmCommand, state::FollowState>;
+                 state::MonitorStatus, state::OrderState, state::AlarmCommand, state::FollowState,
+                 state::ControllerState>;
 
 /// A kind as a value: typename decltype(kind)::State.
 template <class T>

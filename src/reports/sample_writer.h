@@ -35,8 +35,9 @@ class SampleWriter {
 // twin's; the twin outlives the writer.
 
 /// Comma-separated values, 17 significant digits: time, then for each system its coordinates, its
-/// rates and, for a rotor, whirl radius [m] and unwrapped phase [rad]. A system that has stopped is
-/// nan. An empty path means standard output.
+/// rates and, for a rotor, whirl radius [m] and unwrapped phase [rad]; then what their controllers
+/// act with, CONTROLLER.SYSTEM.INPUT. A system that has stopped is nan. An empty path means
+/// standard output.
 std::unique_ptr<SampleWriter> makeTableWriter(const Twin& twin, std::vector<std::size_t> systems,
                                               const std::string& path);
 

@@ -8,6 +8,7 @@
 #include "accuracy/step_choice.h"
 #include "accuracy/trajectory.h"
 #include "reports/step_cost.h"
+#include "scene/part_of_scene.h"
 #include "scene/station_names.h"
 #include "transport/channels.h"
 #include "twin/step_messages.h"
@@ -55,8 +56,10 @@ void listMessages(const BuiltScene& scene, SceneCheck& check) {
   std::map<std::string, Published> heard;
   StepMessages(scene).announce([&](auto kind, const std::string& subject) {
     const MessageKind& row = decltype(kind)::State::kKind;
-    const bool of_drive = topicName(row, "").rfind("drives/", 0) == 0;
-    Published& published = of_drive ? check.drives[subject] : heard[subject];
+    const std::string topic = topicName(row, "");
+    Published& published = topic.rfind("drives/", 0) == 0        ? check.drives[subject]
+                           : topic.rfind("controllers/", 0) == 0 ? check.controllers[subject]
+                                                                 : heard[subject];
     add(row, subject, published);
     if (row.has(MessageKind::kJointStates)) {
       published.topics.push_back({"/twin/" + subject + "/joint_states", "sensor_msgs/JointState"});
@@ -96,11 +99,7 @@ AskedCost costOfCheck(const Scene& scene, const std::vector<std::size_t>& system
 
 SceneCheck checkScene(const Scene& scene, const std::vector<std::size_t>& systems) {
   SceneCheck check;
-  check.scene = scene;
-  check.scene.systems.clear();
-  for (const std::size_t i : systems) {
-    check.scene.systems.push_back(scene.systems[i]);
-  }
+  check.scene = partOf(scene, systems);
   const std::vector<StepChoice> choices = chooseSteps(check.scene, true);
   check.scene = withSteps(check.scene, choices);
   const BuiltScene built = build(check.scene);

@@ -57,9 +57,10 @@ struct SceneCheck {
   Scene scene;
   std::vector<SystemCheck> systems;
   std::map<std::string, Published> drives;  ///< by name
-  double step_cost = 0.0;                   ///< [ns], of all systems together
-  std::size_t memory = 0;                   ///< [bytes], heap of the running twin
-  std::size_t record = 0;                   ///< [bytes], of one step's snapshot
+  std::map<std::string, Published> controllers;
+  double step_cost = 0.0;  ///< [ns], of all systems together
+  std::size_t memory = 0;  ///< [bytes], heap of the running twin
+  std::size_t record = 0;  ///< [bytes], of one step's snapshot
 };
 
 /// What checkScene() takes.

@@ -45,9 +45,21 @@ Json inputJson(const InputCheck& check) {
     json["from"] = static_cast<double>(signal.instants.front()) / 1e9;
     json["to"] = static_cast<double>(signal.instants.back()) / 1e9;
     json["hold"] = signal.hold;
+  } else if (signal.kind == InputSignal::Kind::kControlled) {
+    json["controlled"] = true;
   } else {
     json["value"] = signal.value;
   }
+  return json;
+}
+
+Json controllerJson(const ControllerSpec& controller, const Published& published) {
+  Json json{{"type", controller.type},
+            {"rate", controller.rate},
+            {"delay", static_cast<double>(controller.delay) / 1e9},
+            {"measures", controller.measured},
+            {"acts_on", controller.acted_on}};
+  addPublished(published, json);
   return json;
 }
 
@@ -102,6 +114,10 @@ Json json(const SceneCheck& check) {
   }
   for (const SystemCheck& system : check.systems) {
     json["systems"][system.name] = systemJson(system);
+  }
+  for (const ControllerSpec& controller : check.scene.controllers) {
+    json["controllers"][controller.name] =
+        controllerJson(controller, check.controllers.at(controller.name));
   }
   json["ns_per_step"] = check.step_cost;
   json["real_time_factor"] = static_cast<double>(check.scene.step) / check.step_cost;

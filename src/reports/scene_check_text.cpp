@@ -11,6 +11,15 @@ namespace whirl_twin {
 
 namespace {
 
+std::string publishedText(const Published& published) {
+  std::vector<std::string> topics;
+  for (const PublishedTopic& topic : published.topics) {
+    topics.push_back(fmt::format("{} ({})", topic.topic, topic.type));
+  }
+  return fmt::format("    published on {}, LCM {}\n", fmt::join(topics, ", "),
+                     fmt::join(published.channels, ", "));
+}
+
 std::string driveText(const DriveSpec& drive, const Published& published) {
   std::string out = fmt::format("  {}: {:g} rad/s", drive.name, drive.speed);
   out += drive.profile.empty()
@@ -24,12 +33,7 @@ std::string driveText(const DriveSpec& drive, const Published& published) {
                        move.max_jerk > 0.0 ? fmt::format(" and {:g} rad/s^3", move.max_jerk) : "",
                        move.dwell);
   }
-  std::vector<std::string> topics;
-  for (const PublishedTopic& topic : published.topics) {
-    topics.push_back(fmt::format("{} ({})", topic.topic, topic.type));
-  }
-  return out + fmt::format("    published on {}, LCM {}\n", fmt::join(topics, ", "),
-                           fmt::join(published.channels, ", "));
+  return out + publishedText(published);
 }
 
 std::string costText(double cost, double preparation) {
@@ -52,11 +56,23 @@ std::string inputText(const InputCheck& check) {
                          signal.values.size(), unit, signal.hold ? "held" : "linear between them",
                          static_cast<double>(signal.instants.front()) / 1e9,
                          static_cast<double>(signal.instants.back()) / 1e9);
+    case InputSignal::Kind::kControlled:
+      return fmt::format("given by a controller ({})", unit);
     case InputSignal::Kind::kHeld:
     case InputSignal::Kind::kNone:
       break;
   }
   return fmt::format("{:g} {}", signal.value, unit);
+}
+
+std::string controllerText(const ControllerSpec& controller, const Published& published) {
+  return fmt::format("  {}: {} at {:g} Hz, {}\n    measures {}, acts on {}\n", controller.name,
+                     controller.type, controller.rate,
+                     controller.delay == 0
+                         ? "without delay"
+                         : fmt::format("{:g} s late", static_cast<double>(controller.delay) / 1e9),
+                     fmt::join(controller.measured, ", "), fmt::join(controller.acted_on, ", ")) +
+         publishedText(published);
 }
 
 std::string systemText(const SystemCheck& system) {
@@ -110,6 +126,12 @@ std::string text(const SceneCheck& check) {
   out += "systems\n";
   for (const SystemCheck& system : check.systems) {
     out += systemText(system);
+  }
+  if (!scene.controllers.empty()) {
+    out += "controllers\n";
+  }
+  for (const ControllerSpec& controller : scene.controllers) {
+    out += controllerText(controller, check.controllers.at(controller.name));
   }
   double preparation = 0.0;
   for (const SystemCheck& system : check.systems) {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -12,6 +13,7 @@
 #include "messages/refusal.h"
 #include "reports/output.h"
 #include "reports/sample_writer.h"
+#include "scene/control_parts.h"
 
 namespace whirl_twin {
 
@@ -28,6 +30,13 @@ class TableWriter final : public SampleWriter {
       file_ = std::fopen(pending_->path().c_str(), "wb");
       if (file_ == nullptr) {
         fail();
+      }
+    }
+    for (std::size_t i = 0; i < twin.scene().controllers.size(); ++i) {
+      if (std::any_of(systems_.begin(), systems_.end(), [&](std::size_t system) {
+            return involves(twin.scene().controllers[i], system);
+          })) {
+        controllers_.push_back(i);
       }
     }
     put(header());
@@ -55,6 +64,11 @@ class TableWriter final : public SampleWriter {
       if (observer.isRotor(i)) {
         append(running ? observer.whirlRadius(i) : kNaN);
         append(running ? observer.whirlPhase(i) : kNaN);
+      }
+    }
+    for (const std::size_t i : controllers_) {
+      for (const double output : observer.controller(i).output) {
+        append(output);
       }
     }
     row_.back() = '\n';
@@ -87,6 +101,12 @@ class TableWriter final : public SampleWriter {
         text += fmt::format(",{0}.whirl_radius,{0}.whirl_phase", system.spec.name);
       }
     }
+    for (const std::size_t i : controllers_) {
+      const ControllerSpec& controller = twin_.scene().controllers[i];
+      for (const std::string& input : controller.acted_on) {
+        text += fmt::format(",{}.{}", controller.name, input);
+      }
+    }
     return text + "\n";
   }
   void append(double value) {
@@ -111,6 +131,7 @@ class TableWriter final : public SampleWriter {
 
   const Twin& twin_;
   std::vector<std::size_t> systems_;
+  std::vector<std::size_t> controllers_;  // that have to do with them
   std::string name_;
   std::optional<PendingFile> pending_;
   std::FILE* file_ = stdout;

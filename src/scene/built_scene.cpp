@@ -1,7 +1,9 @@
 #include "scene/built_scene.h"
 
+#include <algorithm>
 #include <stdexcept>
 
+#include "scene/control_parts.h"
 #include "scene/input_reader.h"
 #include "scene/surroundings.h"
 
@@ -44,9 +46,17 @@ Drive BuiltScene::driveOf(const BuiltSystem& system) const {
 }
 
 Inputs BuiltScene::inputsOf(const BuiltSystem& system) const {
+  const auto place = static_cast<std::size_t>(
+      std::find_if(scene.systems.begin(), scene.systems.end(),
+                   [&](const SystemSpec& known) { return known.name == system.spec.name; }) -
+      scene.systems.begin());
+  const bool controlled = isControlled(scene, place);
   Inputs inputs;
-  if (!system.spec.inputs.empty()) {
+  if (controlled || !system.spec.inputs.empty()) {
     inputs = Inputs(signalsOf(system.dynamics->inputs(), system.spec.inputs));
+  }
+  if (controlled) {
+    inputs.setParts(partLengths(scene));
   }
   inputs.begin(scene.time);
   return inputs;

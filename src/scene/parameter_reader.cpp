@@ -188,31 +188,41 @@ void readSetting(const MapReader& map, const SettingInfo& info, Settings& settin
 
 }  // namespace
 
-void readParameters(const MapReader& system, const ModelInfo& model, SystemSpec& spec,
-                    Complaints& complaints) {
+MapReader readParameterValues(const MapReader& owner, const std::string& of,
+                              const std::vector<ParameterInfo>& parameters,
+                              const std::vector<SettingInfo>& settings,
+                              const std::vector<std::string>& further, ParameterValues& values,
+                              Settings& given, Complaints& complaints) {
   std::vector<std::string> known;
-  for (const ParameterInfo& parameter : model.parameters) {
+  for (const ParameterInfo& parameter : parameters) {
     known.push_back(parameter.name);
   }
-  for (const SettingInfo& setting : model.settings) {
+  for (const SettingInfo& setting : settings) {
     known.push_back(setting.name);
   }
-  if (model.has_shaft) {
-    known.push_back("speed");
-  }
+  known.insert(known.end(), further.begin(), further.end());
   const MapReader map(
-      system.has("parameters") ? system.at("parameters") : YAML::Node(YAML::NodeType::Map),
-      system.key("parameters"), known, "parameter of " + model.name, complaints);
-  for (const ParameterInfo& p : model.parameters) {
+      owner.has("parameters") ? owner.at("parameters") : YAML::Node(YAML::NodeType::Map),
+      owner.key("parameters"), known, "parameter of " + of, complaints);
+  for (const ParameterInfo& p : parameters) {
     std::optional<double> fallback = p.fallback;
     if (!p.fallback_parameter.empty()) {
-      fallback = spec.parameters.at(p.fallback_parameter);
+      fallback = values.at(p.fallback_parameter);
     }
-    spec.parameters[p.name] = map.number(p.name, p.range, p.unit, fallback);
+    values[p.name] = map.number(p.name, p.range, p.unit, fallback);
   }
-  for (const SettingInfo& setting : model.settings) {
-    readSetting(map, setting, spec.settings, complaints);
+  for (const SettingInfo& setting : settings) {
+    readSetting(map, setting, given, complaints);
   }
+  return map;
+}
+
+void readParameters(const MapReader& system, const ModelInfo& model, SystemSpec& spec,
+                    Complaints& complaints) {
+  const std::vector<std::string> further =
+      model.has_shaft ? std::vector<std::string>{"speed"} : std::vector<std::string>{};
+  const MapReader map = readParameterValues(system, model.name, model.parameters, model.settings,
+                                            further, spec.parameters, spec.settings, complaints);
   if (map.has("speed")) {
     spec.speed = map.numberBetween("speed", -kLargestSpeed, kLargestSpeed, "rad/s", std::nullopt);
   }

@@ -1,6 +1,9 @@
-// Reads a system's `parameters` as its model wants them: numbers with units and ranges, words,
-// matrices, names and tables.
+// Reads a system's `parameters` as its model wants them, and a controller's as its law does:
+// numbers with units and ranges, words, matrices, names and tables.
 #pragma once
+
+#include <string>
+#include <vector>
 
 #include "models/model_info.h"
 #include "scene/node_reader.h"
@@ -11,5 +14,13 @@ namespace whirl_twin {
 /// Fills spec.parameters, spec.settings and spec.speed; complains of everything that does not fit.
 void readParameters(const MapReader& system, const ModelInfo& model, SystemSpec& spec,
                     Complaints& complaints);
+
+/// The `parameters` of `owner`, whose values are `of` a model or a law by this name; `further` keys
+/// may stand among them. Complains likewise.
+MapReader readParameterValues(const MapReader& owner, const std::string& of,
+                              const std::vector<ParameterInfo>& parameters,
+                              const std::vector<SettingInfo>& settings,
+                              const std::vector<std::string>& further, ParameterValues& values,
+                              Settings& given, Complaints& complaints);
 
 }  // namespace whirl_twin

@@ -14,6 +14,7 @@
 #include "control/motor.h"
 #include "control/speed_profile.h"
 #include "models/settings.h"
+#include "scene/controller_spec.h"
 #include "scene/sensor_spec.h"
 
 namespace whirl_twin {
@@ -80,6 +81,7 @@ struct Scene {
   std::vector<DriveSpec> drives;
   std::vector<SystemSpec> systems;
   std::vector<SensorSpec> sensors;
+  std::vector<ControllerSpec> controllers;
 
   /// Place in `drives` of the one that turns the system; drives.size() if none does.
   std::size_t driveOf(const SystemSpec& system) const {

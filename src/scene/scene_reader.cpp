@@ -12,6 +12,7 @@
 #include "analysis/mass_matrix.h"
 #include "messages/names.h"
 #include "models/model_registry.h"
+#include "scene/controller_reader.h"
 #include "scene/drive_reader.h"
 #include "scene/ensemble_reader.h"
 #include "scene/input_reader.h"
@@ -198,8 +199,9 @@ SystemSpec readSystem(const YAML::Node& node, const std::string& key, const std:
 Scene readTree(const YAML::Node& tree, const std::string& source, Complaints& complaints) {
   Scene scene;
   scene.source = source;
-  const MapReader map(tree, "", {"name", "step", "time", "gravity", "drives", "systems", "sensors"},
-                      "key of a scene", complaints);
+  const MapReader map(
+      tree, "", {"name", "step", "time", "gravity", "drives", "systems", "sensors", "controllers"},
+      "key of a scene", complaints);
   if (!map.usable()) {
     return scene;
   }
@@ -236,6 +238,9 @@ Scene readTree(const YAML::Node& tree, const std::string& source, Complaints& co
   checkStations(scene, systems, complaints);
   if (map.has("sensors")) {
     scene.sensors = readSensors(map.at("sensors"), "sensors", scene, complaints);
+  }
+  if (map.has("controllers")) {
+    readControllers(map.at("controllers"), "controllers", scene, complaints);
   }
   return scene;
 }

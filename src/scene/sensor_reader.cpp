@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <set>
 
 #include "messages/names.h"
-#include "scene/system_setup.h"
+#include "scene/signal_names.h"
 
 namespace whirl_twin {
 
@@ -18,63 +19,6 @@ constexpr double kMostSamples = 1.0e5;   // values in a message
 constexpr double kLongestDelay = 1.0e3;  // s
 constexpr double kLargestMark = 1.0e6;   // rad
 constexpr double kLargestJitter = 1.0;   // s
-constexpr double kHalfPi = 1.57079632679489661923;
-
-/// Everything of a system that can be measured, by name.
-struct Signals {
-  std::vector<std::string> names;
-  std::vector<SignalSpec> signals;
-  std::vector<bool> takes_direction;
-
-  void add(const std::string& name, const SignalSpec& signal, bool free_direction = false) {
-    if (std::find(names.begin(), names.end(), name) == names.end()) {
-      names.push_back(name);
-      signals.push_back(signal);
-      takes_direction.push_back(free_direction);
-    }
-  }
-};
-
-void addDisplacements(const std::string& prefix, SignalSpec at, Signals& all) {
-  at.kind = SignalSpec::Kind::kDisplacement;
-  at.unit = "m";
-  all.add(prefix, at, true);
-  all.add(prefix + ".x", at);
-  at.direction = kHalfPi;
-  all.add(prefix + ".y", at);
-}
-
-Signals signalsOf(const Scene& scene) {
-  Signals all;
-  for (std::size_t i = 0; i < scene.systems.size(); ++i) {
-    if (!scene.systems[i].setup) {
-      continue;  // it was refused
-    }
-    const Dynamics& dynamics = *scene.systems[i].setup->made.dynamics;
-    const std::string& system = scene.systems[i].name;
-    SignalSpec signal;
-    signal.system = i;
-    const std::vector<Station> stations = dynamics.stations();
-    for (std::size_t k = 0; k < stations.size(); ++k) {
-      signal.station = k;
-      if (k == 0) {
-        addDisplacements(system, signal, all);
-      }
-      addDisplacements(system + "." + stations[k].name, signal, all);
-    }
-    const std::vector<CoordinateInfo> coordinates = dynamics.coordinates();
-    for (std::size_t k = 0; k < coordinates.size(); ++k) {
-      signal.coordinate = k;
-      signal.kind = SignalSpec::Kind::kCoordinate;
-      signal.unit = coordinates[k].unit;
-      all.add(system + "." + coordinates[k].name, signal);
-      signal.kind = SignalSpec::Kind::kRate;
-      signal.unit += "/s";
-      all.add(system + "." + coordinates[k].name + "_rate", signal);
-    }
-  }
-  return all;
-}
 
 std::string upper(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](char c) {
@@ -88,7 +32,7 @@ std::uint32_t readSeed(const MapReader& map) {
 }
 
 SensorChannelSpec readChannel(const YAML::Node& node, const std::string& key,
-                              const std::string& name, const Signals& signals,
+                              const std::string& name, const SignalNames& signals,
                               Complaints& complaints) {
   SensorChannelSpec channel;
   channel.name = name;
@@ -100,21 +44,16 @@ SensorChannelSpec readChannel(const YAML::Node& node, const std::string& key,
     return channel;
   }
   const std::string measured = map.text("measures", "");
-  const auto found = std::find(signals.names.begin(), signals.names.end(), measured);
+  const std::optional<NamedSignal> found =
+      map.has("measures") ? signals.find(measured, map.key("measures"), complaints) : std::nullopt;
   if (!map.has("measures")) {
     complaints.add(map.key("measures"), "missing; must be a signal such as rotor.x");
-  } else if (found == signals.names.end()) {
-    const std::string near = nearestName(measured, signals.names);
-    complaints.add(map.key("measures"),
-                   fmt::format("must be a coordinate, a rate or a station of a system, found {}{}",
-                               quoted(measured),
-                               near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
-  } else {
-    const auto place = static_cast<std::size_t>(found - signals.names.begin());
-    channel.signal = signals.signals[place];
+  }
+  if (found) {
+    channel.signal = found->signal;
     if (map.has("direction")) {
       channel.signal.direction = map.number("direction", Range::kAny, "rad", 0.0);
-      if (!signals.takes_direction[place]) {
+      if (!found->takes_direction) {
         complaints.add(
             map.key("direction"),
             fmt::format("is for a rotor or a station of it, but {} has its own", quoted(measured)));
@@ -130,7 +69,7 @@ SensorChannelSpec readChannel(const YAML::Node& node, const std::string& key,
   channel.run_out.amplitude = map.number("run_out", Range::kNotNegative, "m", 0.0);
   channel.run_out.angle = map.number("run_out_angle", Range::kAny, "rad", 0.0);
   if (channel.run_out.amplitude > 0.0 && channel.signal.kind != SignalSpec::Kind::kDisplacement &&
-      found != signals.names.end()) {
+      found) {
     complaints.add(map.key("run_out"), "is of a rotor's surface under a probe of displacement");
   }
   return channel;
@@ -158,7 +97,7 @@ void readKeyphasor(const MapReader& map, const Scene& scene, SensorSpec& sensor,
 }
 
 SensorSpec readSource(const YAML::Node& node, const std::string& key, const std::string& name,
-                      const Scene& scene, const Signals& signals, Complaints& complaints) {
+                      const Scene& scene, const SignalNames& signals, Complaints& complaints) {
   SensorSpec sensor;
   sensor.name = name;
   const MapReader map(
@@ -212,7 +151,7 @@ std::vector<SensorSpec> readSensors(const YAML::Node& node, const std::string& k
                                     const Scene& scene, Complaints& complaints) {
   std::vector<SensorSpec> sensors;
   const MapReader map(node, key, {}, "", complaints);
-  const Signals signals = signalsOf(scene);
+  const SignalNames signals(scene);
   std::set<std::string> channels;  // of LCM
   for (const std::string& name : map.names()) {
     if (!isLegalName(name)) {

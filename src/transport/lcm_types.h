@@ -4,6 +4,7 @@
 #include "messages/message.h"
 #include "whirl_twin/alarm_command_t.hpp"
 #include "whirl_twin/alert_t.hpp"
+#include "whirl_twin/controller_state_t.hpp"
 #include "whirl_twin/drive_state_t.hpp"
 #include "whirl_twin/ensemble_state_t.hpp"
 #include "whirl_twin/follow_state_t.hpp"
@@ -36,6 +37,7 @@ monitor_status_t lcmTypeOf(const state::MonitorStatus&);
 order_state_t lcmTypeOf(const state::OrderState&);
 alarm_command_t lcmTypeOf(const state::AlarmCommand&);
 follow_state_t lcmTypeOf(const state::FollowState&);
+controller_state_t lcmTypeOf(const state::ControllerState&);
 
 template <class State>
 using LcmType = decltype(lcmTypeOf(std::declval<State>()));

@@ -11,12 +11,6 @@ namespace {
 
 constexpr double kNanosecond = 1.0e-9;  // s
 
-/// The nanoseconds from one sample to the next; 0 where that is not a whole number.
-std::int64_t periodOf(double rate) {
-  const std::int64_t period = std::llround(1.0e9 / rate);
-  return static_cast<double>(period) * rate == 1.0e9 ? period : 0;
-}
-
 }  // namespace
 
 MeasuredSource::MeasuredSource(const SensorSpec& spec, const BuiltScene& scene,
@@ -36,10 +30,8 @@ MeasuredSource::MeasuredSource(const SensorSpec& spec, const BuiltScene& scene,
     message_.deviation = {spec.keyphasor->jitter};
     return;
   }
-  first_ = std::llround(std::ceil(static_cast<double>(time_) * kNanosecond * spec.rate));
-  while (instantOf(first_) < time_) {
-    ++first_;
-  }
+  instants_.emplace(spec.rate);
+  first_ = instants_->firstFrom(time_);
   block_ = std::max<std::int64_t>(1, std::llround(spec.block * spec.rate));
   for (std::size_t i = 0; i < spec.channels.size(); ++i) {
     const SensorChannelSpec& channel = spec.channels[i];
@@ -59,13 +51,7 @@ MeasuredSource::MeasuredSource(const SensorSpec& spec, const BuiltScene& scene,
     message_.deviation.push_back(
         std::hypot(channel.sensor.noise, channel.sensor.resolution / std::sqrt(12.0)));
   }
-  message_.period = periodOf(spec.rate);
-}
-
-std::int64_t MeasuredSource::instantOf(std::int64_t sample) const {
-  const std::int64_t period = periodOf(spec_.rate);
-  return period > 0 ? sample * period
-                    : std::llround(static_cast<double>(sample) / spec_.rate / kNanosecond);
+  message_.period = instants_->period();
 }
 
 MeasuredSource::Point MeasuredSource::signal(const Channel& channel,
@@ -110,8 +96,8 @@ void MeasuredSource::sampleChannel(Channel& channel, const Point& now, std::int6
   const std::int64_t delay = std::llround(channel.spec.sensor.delay / kNanosecond);
   const CubicPiece piece{static_cast<double>(time - time_) * kNanosecond, channel.last.value,
                          now.value, channel.last.rate, now.rate};
-  for (; instantOf(channel.next) - delay <= time; ++channel.next) {
-    const std::int64_t shown = instantOf(channel.next) - delay;
+  for (; instants_->at(channel.next) - delay <= time; ++channel.next) {
+    const std::int64_t shown = instants_->at(channel.next) - delay;
     const double t = shown == time
                          ? piece.length
                          : static_cast<double>(std::max(shown, time_) - time_) * kNanosecond;
@@ -143,7 +129,7 @@ void MeasuredSource::observe(const Observer& observer, std::vector<state::Measur
 void MeasuredSource::collectSamples(std::vector<state::Measurement>& out) {
   const auto complete = [](const Channel& channel) { return !channel.waiting.empty(); };
   while (std::all_of(channels_.begin(), channels_.end(), complete)) {
-    const std::int64_t instant = instantOf(first_++);
+    const std::int64_t instant = instants_->at(first_++);
     if (message_.valid.empty()) {
       message_.first_instant = instant;
     }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "control/keyphasor.h"
+#include "control/sample_instants.h"
 #include "control/sensor.h"
 #include "messages/measurement.h"
 #include "scene/built_scene.h"
@@ -46,7 +47,6 @@ class MeasuredSource {
     std::deque<Sample> waiting;  ///< for the samples of the other channels
   };
 
-  std::int64_t instantOf(std::int64_t sample) const;  ///< [ns]
   Point signal(const Channel& channel, const Observer& observer) const;
   ShaftInstant shaft(const Observer& observer) const;
   void sampleChannel(Channel& channel, const Point& now, std::int64_t time);
@@ -58,7 +58,8 @@ class MeasuredSource {
   std::vector<SharedSystem> systems_;
   std::int64_t start_ns_;  ///< of the scene
   std::int64_t step_ns_;
-  std::int64_t time_;  ///< [ns], of the newest record
+  std::int64_t time_;                       ///< [ns], of the newest record
+  std::optional<SampleInstants> instants_;  ///< of all channels
   std::vector<Channel> channels_;
   std::optional<Keyphasor> keyphasor_;
   ShaftInstant shaft_;  ///< at the newest record

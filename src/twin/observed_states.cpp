@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/system_setup.h"
+
 namespace whirl_twin {
 
 state::WhirlState whirlState(const WhirlMotion& at, const WhirlPhase& phase, const ShaftView& shaft,
@@ -73,6 +75,27 @@ state::MotorState motorState(const Motor& motor, const MotorTrack& track, const 
   s.motor_work = track.work();
   s.dissipated_work = track.dissipated();
   return s;
+}
+
+state::ControllerState controllerState(const ControllerSpec& spec, const Scene& scene,
+                                       const ControllerPlace<const double>& controller) {
+  state::ControllerState state;
+  state.controller = spec.name;
+  state.signal = spec.measured;
+  for (const SignalSpec& signal : spec.measures) {
+    state.signal_unit.push_back(signal.unit);
+  }
+  state.value.assign(controller.values(), controller.values() + spec.measures.size());
+  state.input = spec.acted_on;
+  for (const ActedInput& acted : spec.acts_on) {
+    state.input_unit.push_back(
+        scene.systems[acted.system].setup->made.dynamics->inputs()[acted.input].unit);
+  }
+  state.output.assign(controller.outputs(), controller.outputs() + spec.acts_on.size());
+  state.samples = controller.samples();
+  state.saturated = controller.saturated();
+  state.missed = controller.missed();
+  return state;
 }
 
 }  // namespace whirl_twin

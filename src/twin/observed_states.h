@@ -6,7 +6,9 @@
 
 #include "control/motor.h"
 #include "mechanics/dynamics.h"
+#include "messages/controller_state.h"
 #include "messages/states.h"
+#include "scene/scene.h"
 #include "twin/motor_track.h"
 #include "twin/record.h"
 #include "twin/whirl_phase.h"
@@ -22,5 +24,8 @@ state::DriveState driveState(const ShaftView& shaft);
 /// Energies of the system that the motor turns.
 state::MotorState motorState(const Motor& motor, const MotorTrack& track, const ShaftView& shaft,
                              const Energies& energies);
+
+state::ControllerState controllerState(const ControllerSpec& spec, const Scene& scene,
+                                       const ControllerPlace<const double>& controller);
 
 }  // namespace whirl_twin

@@ -196,6 +196,14 @@ OrbitSample Observer::orbitSample(const double* record, std::size_t system,
   return sample;
 }
 
+state::ControllerState Observer::controller(std::size_t controller) const {
+  const ControllerSpec& spec = twin_.scene().controllers[controller];
+  state::ControllerState state =
+      controllerState(spec, twin_.scene(), twin_.layout().controller(record_.data(), controller));
+  state.at = instant();
+  return state;
+}
+
 double Observer::whirlRadius(std::size_t system) const {
   return whirlOf(system).radius();
 }

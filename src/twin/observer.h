@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "messages/controller_state.h"
 #include "messages/states.h"
 #include "signal/orbit_window.h"
 #include "twin/energy_audit.h"
@@ -67,6 +68,7 @@ class Observer {
   state::PendulumState pendulum(std::size_t system) const;  ///< of any other model
   state::DriveState drive(std::size_t drive) const;         ///< of a drive of the scene
   state::MotorState motor(std::size_t drive) const;         ///< of a drive that is a motor
+  state::ControllerState controller(std::size_t controller) const;
   /// Whirl radius [m] and unwrapped phase lag [rad] of a rotor (NaN while undefined).
   double whirlRadius(std::size_t system) const;
   WhirlMotion whirlOf(std::size_t system, std::size_t station = 0) const;

@@ -103,17 +103,55 @@ class SystemPlace {
 };
 using SystemView = SystemPlace<const double>;
 
+/// A controller in a record.
+template <class Number>
+class ControllerPlace {
+ public:
+  static constexpr std::size_t size(std::size_t signals, std::size_t inputs) noexcept {
+    return kValues + signals + inputs;
+  }
+
+  ControllerPlace(Number* place, std::size_t signals) noexcept : place_(place), signals_(signals) {}
+
+  std::int64_t samples() const noexcept { return unpacked(place_[kSamples]); }
+  std::int64_t saturated() const noexcept { return unpacked(place_[kSaturated]); }
+  std::int64_t missed() const noexcept { return unpacked(place_[kMissed]); }
+  Number* values() const noexcept { return place_ + kValues; }      ///< of the signals
+  Number* outputs() const noexcept { return values() + signals_; }  ///< of the inputs
+
+  void setCount(std::int64_t samples, std::int64_t saturated, std::int64_t missed) const noexcept {
+    place_[kSamples] = packed(samples);
+    place_[kSaturated] = packed(saturated);
+    place_[kMissed] = packed(missed);
+  }
+
+ private:
+  enum { kSamples, kSaturated, kMissed, kValues };
+  Number* place_;
+  std::size_t signals_;
+};
+
+/// How many signals a controller measures, and how many inputs it acts on.
+struct ControllerSize {
+  std::size_t signals, inputs;
+};
+
 /// Where things stand in a record of a scene's twin.
 class RecordLayout {
  public:
   std::size_t size = kDrives;  ///< [doubles]
 
   RecordLayout() = default;
-  RecordLayout(std::size_t drives, const std::vector<std::size_t>& dofs) {
+  RecordLayout(std::size_t drives, const std::vector<std::size_t>& dofs,
+               const std::vector<ControllerSize>& controllers = {}) {
     size += drives * ShaftView::kSize;
     for (const std::size_t dof : dofs) {
       systems_.push_back({size, dof});
       size += SystemView::size(dof);
+    }
+    for (const ControllerSize& controller : controllers) {
+      controllers_.push_back({size, controller.signals});
+      size += ControllerPlace<double>::size(controller.signals, controller.inputs);
     }
   }
 
@@ -135,13 +173,21 @@ class RecordLayout {
   SystemPlace<Number> system(Number* record, std::size_t system) const noexcept {
     return {record + systems_[system].start, systems_[system].dof};
   }
+  template <class Number>
+  ControllerPlace<Number> controller(Number* record, std::size_t controller) const noexcept {
+    return {record + controllers_[controller].start, controllers_[controller].signals};
+  }
 
  private:
   enum { kStep, kScheduled, kDrives };
   struct Place {
     std::size_t start, dof;
   };
+  struct ControllerStart {
+    std::size_t start, signals;
+  };
   std::vector<Place> systems_;
+  std::vector<ControllerStart> controllers_;
 };
 
 }  // namespace whirl_twin

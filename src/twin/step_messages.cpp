@@ -1,6 +1,9 @@
 #include "twin/step_messages.h"
 
+#include <algorithm>
 #include <numeric>
+
+#include "scene/control_parts.h"
 
 namespace whirl_twin {
 
@@ -27,6 +30,13 @@ StepMessages::StepMessages(const BuiltScene& scene, std::vector<std::size_t> sys
       turned_by_(scene_drives_.size(), Twin::kNoSystem),
       systems_(std::move(systems)),
       told_(systems_.size()) {
+  for (const ControllerSpec& controller : scene.scene.controllers) {
+    if (std::any_of(systems_.begin(), systems_.end(),
+                    [&](std::size_t system) { return involves(controller, system); })) {
+      controllers_.push_back(controller_names_.size());
+    }
+    controller_names_.push_back(controller.name);
+  }
   for (std::size_t i = 0; i < built_.size(); ++i) {
     if (built_[i]->drive < turned_by_.size()) {
       turned_by_[built_[i]->drive] = i;

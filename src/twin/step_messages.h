@@ -114,6 +114,10 @@ class StepMessages {
               [i](const Observer& observer) { return observer.motor(i); });
       }
     }
+    for (const std::size_t i : controllers_) {
+      visit(controller_names_[i], Twin::kNoSystem,
+            [i](const Observer& observer) { return observer.controller(i); });
+    }
   }
 
   template <class Sink>
@@ -141,7 +145,9 @@ class StepMessages {
   std::vector<std::size_t> turned_by_;   // by each of them, the last of the systems
   std::vector<std::size_t> systems_;
   std::set<std::size_t> drives_;
-  std::vector<Told> told_;  // of systems_
+  std::vector<std::string> controller_names_;  // of all of the scene
+  std::vector<std::size_t> controllers_;       // those that measure or act on systems_
+  std::vector<Told> told_;                     // of systems_
 };
 
 }  // namespace whirl_twin

@@ -31,6 +31,7 @@ Twin::Twin(BuiltScene built)
       accompanied_ = true;
     }
   }
+  control_ = ControlLoop(built_, inputs_);
   for (std::size_t i = 0; i < systems().size(); ++i) {
     const BuiltSystem& system = *systems()[i];
     if (system.drive < scene().drives.size() && scene().drives[system.drive].motor) {
@@ -52,7 +53,11 @@ RecordLayout layoutOf(const BuiltScene& scene) {
   for (const SharedSystem& system : scene.systems) {
     dofs.push_back(system->spec.q.size());
   }
-  return {scene.drives().size(), dofs};
+  std::vector<ControllerSize> controllers;
+  for (const ControllerSpec& controller : scene.scene.controllers) {
+    controllers.push_back({controller.measures.size(), controller.acts_on.size()});
+  }
+  return {scene.drives().size(), dofs, controllers};
 }
 
 void Twin::buildEnsembles() {
@@ -97,6 +102,10 @@ double Twin::seconds(std::int64_t steps) const noexcept {
 // out of the way.
 void Twin::step() noexcept {
   const double time = this->time();
+  if (__builtin_expect(control_.any(), 0)) {
+    stepControlled(time);
+    return;
+  }
   Stepper* const* const running = running_.data();
   StepStatus* const status = status_.data();
   for (std::size_t i = 0, count = running_.size(); i < count; ++i) {
@@ -110,6 +119,26 @@ void Twin::step() noexcept {
     ++steps_;
     beginDrives();
   }
+}
+
+/// From instant to instant of the controllers, what they measure and act on; the others whole.
+[[gnu::noinline]] void Twin::stepControlled(double time) noexcept {
+  const std::int64_t start = now();
+  const std::int64_t length = scene().step;
+  for (std::int64_t from = 0; from < length;) {
+    control_.act(start + from, static_cast<double>(from) / 1e9, running_, drives_);
+    const std::int64_t to = std::min(control_.nextInstant() - start, length);
+    const bool whole = from == 0 && to == length;
+    for (std::size_t i = 0; i < running_.size(); ++i) {
+      if (status_[i] == StepStatus::kOk && (from == 0 || control_.controls(i))) {
+        status_[i] = whole || !control_.controls(i) ? running_[i]->step(time)
+                                                    : running_[i]->stepPart(time, from, to);
+      }
+    }
+    control_.follow(start + to, running_);
+    from = to;
+  }
+  goOnAccompanied(time);
 }
 
 void Twin::goOnAccompanied(double time) noexcept {
@@ -157,6 +186,7 @@ void Twin::reset() noexcept {
       ensembles_[i]->publish(0);
     }
   }
+  control_.start(now(), running_);
 }
 
 std::unique_ptr<Stepper> Twin::replace(std::size_t system, std::unique_ptr<Stepper> next,
@@ -190,6 +220,16 @@ void Twin::write(double* record) const noexcept {
     place.setGeneration(generation_[i]);
     const double own = running_[i]->errorSum();
     place.setErrorSum(ensembles_[i] ? std::fmax(own, ensembles_[i]->errorSum()) : own);
+  }
+  for (std::size_t i = 0; i < control_.controllers().size(); ++i) {
+    const RunningController& controller = control_.controllers()[i];
+    const ControllerPlace<double> place = layout_.controller(record, i);
+    const ControlCount& count = controller.count();
+    place.setCount(count.samples, count.saturated, count.missed);
+    std::copy_n(controller.shown(), controller.measured(), place.values());
+    for (std::size_t k = 0; k < controller.outputs(); ++k) {
+      place.outputs()[k] = controller.acting(k);
+    }
   }
 }
 

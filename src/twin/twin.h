@@ -9,6 +9,7 @@
 #include "control/inputs.h"
 #include "integration/stepper.h"
 #include "scene/built_scene.h"
+#include "twin/control_loop.h"
 #include "twin/ensemble.h"
 #include "twin/record.h"
 
@@ -71,6 +72,7 @@ class Twin {
   /// Inputs::set() and for a duration that is not positive.
   bool setInput(std::size_t system, std::size_t input, double value,
                 std::int64_t duration) noexcept;
+  const ControlLoop& control() const noexcept { return control_; }
   const Inputs& inputs(std::size_t system) const noexcept { return inputs_[system]; }
   StepStatus status(std::size_t system) const noexcept { return status_[system]; }
   /// What steps in the place of a system.
@@ -82,10 +84,12 @@ class Twin {
   void beginStep() noexcept;
   void beginDrives() noexcept;
   void goOnAccompanied(double time) noexcept;
+  void stepControlled(double time) noexcept;
 
   BuiltScene built_;
   std::vector<Drive> drives_;                           // steppers keep references to them
   std::vector<Inputs> inputs_;                          // of each system, likewise
+  ControlLoop control_;                                 // acts by inputs_
   std::vector<std::size_t> turned_by_;                  // of each drive
   std::vector<std::unique_ptr<Stepper>> steppers_;      // the scene's
   std::vector<std::unique_ptr<Stepper>> replacements_;  // latest of each system; null: none yet

@@ -99,6 +99,10 @@ class Struck final : public Stepper {
     return inner_->step(time);
   }
   std::size_t dof() const noexcept override { return inner_->dof(); }
+  StepStatus stepPart(double time, std::int64_t from, std::int64_t to) noexcept override {
+    return inner_->stepPart(time, from, to);
+  }
+  void motion(double* out) const noexcept override { inner_->motion(out); }
   void write(double* out) const noexcept override { inner_->write(out); }
   void set(const double* q, const double* v) noexcept override { inner_->set(q, v); }
 

@@ -72,6 +72,18 @@ class StateSamples {
     return s;
   }
 
+  state::ControllerState controller() {
+    auto s = sample<state::ControllerState>();
+    s.signal_unit.assign(s.signal.size(), "rad/s");
+    s.value = numbers(s.signal.size());
+    s.input_unit.assign(s.input.size(), "N m");
+    s.output = numbers(s.input.size());
+    for (std::int64_t* const count : {&s.samples, &s.saturated, &s.missed}) {
+      *count = static_cast<std::int64_t>(below(std::uint64_t{1} << 62));
+    }
+    return s;
+  }
+
   state::ParameterChange change() {
     auto s = sample<state::ParameterChange>();
     s.names.emplace_back("bearings[0].kxx");
@@ -251,6 +263,7 @@ class StateSamples {
   auto of(KindOf<state::MonitorStatus>) { return status(); }
   auto of(KindOf<state::OrderState>) { return orders(); }
   auto of(KindOf<state::FollowState>) { return follow(); }
+  auto of(KindOf<state::ControllerState>) { return controller(); }
 
   double time() { return static_cast<double>(below(1000000000)) * 1e-3; }
 

@@ -35,6 +35,10 @@ class PreparedRotor final : public Stepper {
   }
   StepStatus step(double time) noexcept override { return system_->step(time); }
   std::size_t dof() const noexcept override { return system_->dof(); }
+  StepStatus stepPart(double time, std::int64_t from, std::int64_t to) noexcept override {
+    return system_->stepPart(time, from, to);
+  }
+  void motion(double* out) const noexcept override { system_->motion(out); }
   void write(double* out) const noexcept override { system_->write(out); }
   void set(const double* q, const double* v) noexcept override { system_->set(q, v); }
 

@@ -1,0 +1,30 @@
+#include "control/actuator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+Actuator::Actuator(const ActuatorSettings& settings, double period)
+    : limit_(settings.limit > 0.0 ? settings.limit : kInfinity),
+      most_(settings.slew > 0.0 ? settings.slew * period : kInfinity),
+      resolution_(settings.resolution) {}
+
+bool Actuator::take(double told) noexcept {
+  const double wanted = resolution_ > 0.0 ? resolution_ * std::nearbyint(told / resolution_) : told;
+  const double within = std::clamp(wanted, -limit_, limit_);
+  value_ += std::clamp(within - value_, -most_, most_);
+  if (std::fabs(within - value_) <= 1.0e-15 * std::fabs(within)) {
+    value_ = within;  // what it is told, not that but for rounding
+  }
+  return value_ == wanted;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,48 @@
+// A controller of the twin as it runs.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "messages/fields.h"
+#include "messages/states.h"
+
+namespace whirl_twin::state {
+
+struct ControllerState {
+  static constexpr MessageKind kKind{"controller", "ControllerState", "controllers/*",
+                                     MessageKind::kSeries};
+
+  Instant at;
+  std::string controller;
+  std::vector<std::string> signal;       ///< "rotor.x"
+  std::vector<std::string> signal_unit;  ///< "m", "rad", "m/s", "rad/s"
+  std::vector<double> value;             ///< as the sensors showed it at the last sample
+  std::vector<std::string> input;        ///< "rotor.force_x"
+  std::vector<std::string> input_unit;
+  std::vector<double> output;  ///< as it acts
+  std::int64_t samples = 0;    ///< since the start
+  std::int64_t saturated = 0;  ///< outputs that an actuator could not give
+  std::int64_t missed = 0;     ///< samples without an output that is a number
+
+  template <class Visit>
+  static void fields(Visit& visit) {
+    const auto count = between(0, std::numeric_limits<std::int64_t>::max());
+    const auto signal = TWIN_FIELD(signal);
+    visit.head(TWIN_FIELD(controller));
+    visit.array(TWIN_FIELD(signals), signal, "", kAnything, Stays::kSame);
+    visit.along(signal, TWIN_FIELD(signal_unit), "");
+    visit.along(signal, TWIN_FIELD(value), "");
+    const auto input = TWIN_FIELD(input);
+    visit.array(TWIN_FIELD(inputs), input, "", kAnything, Stays::kSame);
+    visit.along(input, TWIN_FIELD(input_unit), "");
+    visit.along(input, TWIN_FIELD(output), "");
+    visit(TWIN_FIELD(samples), "", count);
+    visit(TWIN_FIELD(saturated), "", count);
+    visit(TWIN_FIELD(missed), "", count);
+  }
+};
+
+}  // namespace whirl_twin::state

@@ -1,0 +1,56 @@
+// The parts in which the twin takes steps of what controllers measure and act on: from instant to
+// instant of theirs.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "control/sample_instants.h"
+#include "scene/scene.h"
+
+namespace whirl_twin {
+
+/// When a controller samples and when its outputs begin to act, one instant after the other; also
+/// the outputs of samples that were never taken, before the start, are among them, so that the
+/// parts are the same throughout.
+class ControlInstants {
+ public:
+  static constexpr std::int64_t kNever = INT64_MAX;
+
+  /// From simulated time `start` [ns] on.
+  ControlInstants(const ControllerSpec& controller, std::int64_t start);
+
+  // Real-time safe.
+
+  void start(std::int64_t start) noexcept;
+  /// The sample, and the sample whose output acts, that come next.
+  std::int64_t sample() const noexcept { return sample_; }
+  std::int64_t output() const noexcept { return output_; }
+  std::int64_t sampleTime() const noexcept { return sample_time_; }  ///< [ns]
+  std::int64_t outputTime() const noexcept { return output_time_; }  ///< [ns]
+  std::int64_t next() const noexcept {
+    return sample_time_ < output_time_ ? sample_time_ : output_time_;
+  }
+  void passSample() noexcept { sample_time_ = instants_.at(++sample_); }
+  void passOutput() noexcept { output_time_ = instants_.at(++output_) + delay_; }
+
+ private:
+  SampleInstants instants_;
+  std::int64_t delay_;  ///< [ns]
+  std::int64_t sample_ = 0, output_ = 0;
+  std::int64_t sample_time_ = 0, output_time_ = 0;
+};
+
+/// Lengths [ns] that all parts are sums of, longest first: each part is one of a few, where the
+/// instants come again after not too many; else powers of two are among them. Empty: every step is
+/// taken whole.
+std::vector<std::int64_t> partLengths(const Scene& scene);
+
+/// Does it measure a system or act on it?
+bool involves(const ControllerSpec& controller, std::size_t system);
+/// Does any?
+bool isControlled(const Scene& scene, std::size_t system);
+/// Does one make a system's motion hang on another's?
+bool isTiedToOthers(const Scene& scene, std::size_t system);
+
+}  // namespace whirl_twin

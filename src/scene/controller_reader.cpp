@@ -1,0 +1,260 @@
+#include "scene/controller_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "controllers/controller_registry.h"
+#include "messages/names.h"
+#include "scene/controlled_plant.h"
+#include "scene/parameter_reader.h"
+#include "scene/signal_names.h"
+#include "scene/system_setup.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kHighestRate = 1.0e7;   // Hz
+constexpr double kLongestDelay = 1.0e3;  // s
+constexpr double kMostUnderWay = 1.0e4;  // outputs
+constexpr std::size_t kMostSignals = 64;
+
+/// Inputs of systems by name.
+class InputNames {
+ public:
+  explicit InputNames(const Scene& scene) {
+    for (std::size_t i = 0; i < scene.systems.size(); ++i) {
+      if (!scene.systems[i].setup) {
+        continue;
+      }
+      const std::vector<InputInfo> inputs = scene.systems[i].setup->made.dynamics->inputs();
+      for (std::size_t k = 0; k < inputs.size(); ++k) {
+        names_.push_back(scene.systems[i].name + "." + inputs[k].name);
+        places_.push_back({i, k});
+      }
+    }
+  }
+
+  std::optional<ActedInput> find(const std::string& name, const std::string& key,
+                                 Complaints& complaints) const {
+    const auto found = std::find(names_.begin(), names_.end(), name);
+    if (found != names_.end()) {
+      return places_[static_cast<std::size_t>(found - names_.begin())];
+    }
+    const std::string near = nearestName(name, names_);
+    complaints.add(key, fmt::format("must be an input of a system, found {}{}", quoted(name),
+                                    near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+    return std::nullopt;
+  }
+
+ private:
+  std::vector<std::string> names_;
+  std::vector<ActedInput> places_;
+};
+
+/// The entries of a list that must have some.
+std::vector<YAML::Node> entries(const MapReader& map, const std::string& name,
+                                const std::string& of, Complaints& complaints) {
+  if (!map.usable()) {
+    return {};
+  }
+  if (!map.has(name)) {
+    complaints.add(map.key(name), fmt::format("missing; must be a list of {}", of));
+    return {};
+  }
+  const YAML::Node node = map.at(name);
+  if (!node.IsSequence() || node.size() == 0 || node.size() > kMostSignals) {
+    complaints.add(map.key(name),
+                   fmt::format("must be a list of 1 to {} {}, found {}", kMostSignals, of,
+                               node.IsSequence() ? fmt::format("{}", node.size()) : shown(node)));
+    return {};
+  }
+  return {node.begin(), node.end()};
+}
+
+void readMeasured(const MapReader& map, const SignalNames& signals, ControllerSpec& controller,
+                  Complaints& complaints) {
+  const std::vector<YAML::Node> given = entries(map, "measures", "signals", complaints);
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const std::string key = fmt::format("{}[{}]", map.key("measures"), i);
+    std::string name;
+    std::optional<double> direction;
+    std::string name_key = key;
+    if (given[i].IsMap()) {
+      const MapReader entry(given[i], key, {"signal", "direction"}, "key of a signal", complaints);
+      name = entry.text("signal", "");
+      name_key = entry.key("signal");
+      direction = entry.number("direction", Range::kAny, "rad", 0.0);
+    } else if (given[i].IsScalar()) {
+      name = given[i].Scalar();
+    }
+    std::optional<NamedSignal> found = signals.find(name, name_key, complaints);
+    if (found && direction) {
+      if (found->takes_direction) {
+        found->signal.direction = *direction;
+      } else {
+        complaints.add(
+            key + ".direction",
+            fmt::format("is for a rotor or a station of it, but {} has its own", quoted(name)));
+      }
+    }
+    if (found) {
+      controller.measured.push_back(name);
+      controller.measures.push_back(found->signal);
+    }
+  }
+}
+
+/// Makes the inputs that a controller acts on its own.
+void readActedOn(const MapReader& map, Scene& scene, ControllerSpec& controller,
+                 Complaints& complaints) {
+  const InputNames inputs(scene);
+  const std::vector<YAML::Node> given = entries(map, "acts_on", "inputs", complaints);
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const std::string key = fmt::format("{}[{}]", map.key("acts_on"), i);
+    const std::string name = given[i].IsScalar() ? given[i].Scalar() : "";
+    const std::optional<ActedInput> found = inputs.find(name, key, complaints);
+    if (!found) {
+      continue;
+    }
+    SystemSpec& system = scene.systems[found->system];
+    const std::string input = system.setup->made.dynamics->inputs()[found->input].name;
+    const auto signal = system.inputs.find(input);
+    if (signal != system.inputs.end()) {
+      complaints.add(key, fmt::format("{} is {} already", quoted(name),
+                                      signal->second.kind == InputSignal::Kind::kControlled
+                                          ? "acted on by a controller"
+                                          : "given by the system's inputs"));
+      continue;
+    }
+    system.inputs.emplace(input, InputSignal::controlled());
+    controller.acted_on.push_back(name);
+    controller.acts_on.push_back(*found);
+  }
+}
+
+void readSurroundings(const MapReader& map, ControllerSpec& controller, Complaints& complaints) {
+  const auto part = [&](const char* name, const std::vector<std::string>& keys) {
+    return MapReader(map.has(name) ? map.at(name) : YAML::Node(YAML::NodeType::Map), map.key(name),
+                     keys, fmt::format("key of {}", name), complaints);
+  };
+  const MapReader sensor = part("sensor", {"resolution", "noise", "bandwidth", "range", "seed"});
+  const std::string unit = "in the unit of what is measured";
+  controller.sensor.resolution = sensor.number("resolution", Range::kNotNegative, unit, 0.0);
+  controller.sensor.noise = sensor.number("noise", Range::kNotNegative, unit, 0.0);
+  controller.sensor.range = sensor.number("range", Range::kNotNegative, unit, 0.0);
+  controller.sensor.bandwidth = sensor.number("bandwidth", Range::kNotNegative, "Hz", 0.0);
+  controller.seed = static_cast<std::uint32_t>(sensor.integer("seed", 0, 2147483647, 1));
+  const MapReader actuator = part("actuator", {"limit", "slew", "resolution"});
+  const std::string acted = "in the unit of the input";
+  controller.actuator.limit = actuator.number("limit", Range::kNotNegative, acted, 0.0);
+  controller.actuator.slew = actuator.number("slew", Range::kNotNegative, acted + ", 1/s", 0.0);
+  controller.actuator.resolution = actuator.number("resolution", Range::kNotNegative, acted, 0.0);
+}
+
+/// A law that cannot be made of its parameters.
+void checkLaw(const MapReader& map, const ControllerInfo& info, const Scene& scene,
+              const ControllerSpec& controller, Complaints& complaints) {
+  try {
+    info.make(controller.parameters, controller.settings, planOf(scene, controller));
+  } catch (const SetupError& error) {
+    complaints.add(map.key("parameters." + error.parameter()), error.what());
+  } catch (const Refusal& error) {
+    complaints.add(map.key("type"), error.what());
+  }
+}
+
+/// What cannot have controllers.
+void checkSystems(const MapReader& map, const Scene& scene, const ControllerSpec& controller,
+                  Complaints& complaints) {
+  for (std::size_t i = 0; i < scene.systems.size(); ++i) {
+    const auto is_it = [&](const ActedInput& input) { return input.system == i; };
+    if (!scene.systems[i].ensemble.spread.empty() &&
+        std::any_of(controller.acts_on.begin(), controller.acts_on.end(), is_it)) {
+      complaints.add(map.key("acts_on"),
+                     fmt::format("systems.{} has a spread: its members would have no controllers",
+                                 scene.systems[i].name));
+    }
+  }
+}
+
+ControllerSpec readController(const YAML::Node& node, const std::string& key,
+                              const std::string& name, const SignalNames& signals, Scene& scene,
+                              Complaints& complaints) {
+  ControllerSpec controller;
+  controller.name = name;
+  const MapReader map(
+      node, key,
+      {"type", "rate", "measures", "acts_on", "delay", "sensor", "actuator", "parameters"},
+      "key of a controller", complaints);
+  if (!map.usable()) {
+    return controller;
+  }
+  const std::size_t before = complaints.all().size();
+  const ControllerInfo* info = nullptr;
+  if (map.has("type")) {
+    controller.type = map.choice("type", controllerNames(), "the name of a kind of controller", "");
+    info = findController(controller.type);
+  } else {
+    complaints.add(map.key("type"),
+                   fmt::format("missing; must be one of {}", fmt::join(controllerNames(), ", ")));
+  }
+  controller.rate = map.numberBetween("rate", 1.0e-3, kHighestRate, "Hz", std::nullopt);
+  const double delay = map.numberBetween("delay", 0.0, kLongestDelay, "s", 0.0);
+  controller.delay = std::llround(delay * 1.0e9);
+  if (delay * controller.rate > kMostUnderWay) {
+    complaints.add(map.key("delay"), fmt::format("must be at most {:g} samples, found {:g}",
+                                                 kMostUnderWay, delay * controller.rate));
+  }
+  readMeasured(map, signals, controller, complaints);
+  readActedOn(map, scene, controller, complaints);
+  readSurroundings(map, controller, complaints);
+  if (info != nullptr) {
+    readParameterValues(map, info->name, info->parameters, info->settings, {},
+                        controller.parameters, controller.settings, complaints);
+    checkSystems(map, scene, controller, complaints);
+    if (complaints.all().size() == before) {
+      checkLaw(map, *info, scene, controller, complaints);
+    }
+  }
+  return controller;
+}
+
+}  // namespace
+
+ControllerPlan planOf(const Scene& scene, const ControllerSpec& controller) {
+  ControllerPlan plan;
+  plan.rate = controller.rate;
+  plan.measured = controller.measures.size();
+  plan.outputs = controller.acts_on.size();
+  plan.limits.assign(plan.outputs, controller.actuator.limit > 0.0
+                                       ? controller.actuator.limit
+                                       : std::numeric_limits<double>::infinity());
+  const LinearPlant plant = linearPlant(scene, controller.measures, controller.acts_on);
+  if (plant.a.allFinite() && plant.b.allFinite()) {
+    plan.plant = plant;
+  }
+  return plan;
+}
+
+void readControllers(const YAML::Node& node, const std::string& key, Scene& scene,
+                     Complaints& complaints) {
+  const MapReader map(node, key, {}, "", complaints);
+  const SignalNames signals(scene);
+  for (const std::string& name : map.names()) {
+    if (!isLegalName(name)) {
+      complaints.add(map.key(name),
+                     fmt::format("a controller is named by up to {} letters, digits and _, a "
+                                 "letter first",
+                                 kMaxNameLength));
+    }
+    scene.controllers.push_back(
+        readController(map.at(name), map.key(name), name, signals, scene, complaints));
+  }
+}
+
+}  // namespace whirl_twin

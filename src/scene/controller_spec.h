@@ -1,0 +1,38 @@
+// The controllers of a scene: what each measures, when, by which law, and what it acts on.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "control/actuator.h"
+#include "control/sensor.h"
+#include "controllers/controller_info.h"
+#include "scene/sensor_spec.h"
+
+namespace whirl_twin {
+
+/// An input of a system, in the order of its dynamics.
+struct ActedInput {
+  std::size_t system = 0;  ///< of Scene::systems
+  std::size_t input = 0;
+};
+
+struct ControllerSpec {
+  std::string name;
+  std::string type;                   ///< of controllerNames()
+  double rate = 0.0;                  ///< [Hz]; sample k at k / rate after simulated time 0
+  std::int64_t delay = 0;             ///< [ns], from a sample to its output
+  std::vector<std::string> measured;  ///< "rotor.x", as the scene names them
+  std::vector<SignalSpec> measures;
+  std::vector<std::string> acted_on;  ///< "rotor.force_x"
+  std::vector<ActedInput> acts_on;
+  SensorSettings sensor;  ///< of everything it measures
+  std::uint32_t seed = 1;
+  ActuatorSettings actuator;  ///< of everything it acts on
+  ParameterValues parameters;
+  Settings settings;
+};
+
+}  // namespace whirl_twin

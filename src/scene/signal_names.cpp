@@ -1,0 +1,82 @@
+#include "scene/signal_names.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "messages/names.h"
+#include "scene/system_setup.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kHalfPi = 1.57079632679489661923;
+
+}  // namespace
+
+SignalNames::SignalNames(const Scene& scene) {
+  for (std::size_t i = 0; i < scene.systems.size(); ++i) {
+    if (!scene.systems[i].setup) {
+      continue;  // it was refused
+    }
+    const Dynamics& dynamics = *scene.systems[i].setup->made.dynamics;
+    const std::string& system = scene.systems[i].name;
+    SignalSpec signal;
+    signal.system = i;
+    const std::vector<Station> stations = dynamics.stations();
+    for (std::size_t k = 0; k < stations.size(); ++k) {
+      signal.station = k;
+      if (k == 0) {
+        addDisplacements(system, signal);
+      }
+      addDisplacements(system + "." + stations[k].name, signal);
+    }
+    const std::vector<CoordinateInfo> coordinates = dynamics.coordinates();
+    for (std::size_t k = 0; k < coordinates.size(); ++k) {
+      signal.coordinate = k;
+      signal.kind = SignalSpec::Kind::kCoordinate;
+      signal.unit = coordinates[k].unit;
+      add(system + "." + coordinates[k].name, signal);
+      signal.kind = SignalSpec::Kind::kRate;
+      signal.unit += "/s";
+      add(system + "." + coordinates[k].name + "_rate", signal);
+    }
+  }
+}
+
+void SignalNames::add(const std::string& name, const SignalSpec& signal, bool takes_direction) {
+  const bool taken = std::any_of(all_.begin(), all_.end(),
+                                 [&](const NamedSignal& known) { return known.name == name; });
+  if (!taken) {
+    all_.push_back({name, signal, takes_direction});
+  }
+}
+
+void SignalNames::addDisplacements(const std::string& prefix, SignalSpec at) {
+  at.kind = SignalSpec::Kind::kDisplacement;
+  at.unit = "m";
+  add(prefix, at, true);
+  add(prefix + ".x", at);
+  at.direction = kHalfPi;
+  add(prefix + ".y", at);
+}
+
+std::optional<NamedSignal> SignalNames::find(const std::string& name, const std::string& key,
+                                             Complaints& complaints) const {
+  std::vector<std::string> names;
+  for (const NamedSignal& known : all_) {
+    if (known.name == name) {
+      return known;
+    }
+    names.push_back(known.name);
+  }
+  const std::string near = nearestName(name, names);
+  complaints.add(
+      key,
+      fmt::format("must be a coordinate, a rate or a station of a system, found {}{}", quoted(name),
+                  near.empty() ? "" : fmt::format("; did you mean '{}'?", near)));
+  return std::nullopt;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,120 @@
+// The controllers of a scene while it runs: at their instants they are shown what their sensors
+// see, and what they give acts on the systems when it is due, held until the next.
+//
+// At an instant what is due acts first; then all samples are taken, of one and the same state; what
+// has no delay acts at once.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "control/actuator.h"
+#include "control/drive.h"
+#include "control/inputs.h"
+#include "control/sensor.h"
+#include "controllers/controller.h"
+#include "integration/stepper.h"
+#include "scene/built_scene.h"
+#include "scene/control_parts.h"
+
+namespace whirl_twin {
+
+/// What a controller has done since the start.
+struct ControlCount {
+  std::int64_t samples = 0;
+  std::int64_t saturated = 0;  ///< samples whose output an actuator could not give
+  std::int64_t missed = 0;     ///< samples whose output was no number: the last one stays
+};
+
+/// One controller.
+class RunningController {
+ public:
+  /// The inputs of all systems outlive it.
+  RunningController(const ControllerSpec& spec, const BuiltScene& built,
+                    std::vector<Inputs>& inputs);
+
+  // Real-time safe. `running` is what steps each system, `drive` the one whose shaft it goes by.
+
+  /// Forgets the past: the next instant is the first from `time` [ns] on.
+  void start(std::int64_t time, const std::vector<Stepper*>& running) noexcept;
+  std::int64_t nextInstant() const noexcept { return instants_.next(); }  ///< [ns]
+  /// Lets what is due act.
+  void actAt(std::int64_t time) noexcept;
+  /// Takes a sample if there is one, and lets its output act if that has no delay; `offset` [s]
+  /// after the start of the step.
+  void sampleAt(std::int64_t time, double offset, const std::vector<Stepper*>& running,
+                const Drive& drive) noexcept;
+  /// The state has gone on to an instant: what is between samples passes the sensors' filters.
+  void follow(std::int64_t time, const std::vector<Stepper*>& running) noexcept;
+
+  std::size_t drive() const { return drive_; }  ///< of Twin::drive()
+  const ControlCount& count() const noexcept { return count_; }
+  std::size_t measured() const { return channels_.size(); }
+  std::size_t outputs() const { return acted_.size(); }
+  /// What the last sample showed, and what acts.
+  const double* shown() const noexcept { return shown_.data(); }
+  double acting(std::size_t output) const noexcept { return acted_[output].actuator.value(); }
+
+ private:
+  struct Channel {
+    std::size_t system;
+    std::size_t dof;
+    bool of_rates;
+    std::vector<double> along;  ///< of q, or of v
+    Sensor sensor;
+    double value = 0.0, rate = 0.0;  ///< at `followed_`
+  };
+  struct Acted {
+    Inputs* inputs;
+    std::size_t input;
+    Actuator actuator;
+  };
+
+  void read(const std::vector<Stepper*>& running) noexcept;
+  void give(const double* outputs) noexcept;
+
+  std::unique_ptr<Controller> law_;
+  ControlInstants instants_;
+  bool at_once_;   ///< no delay
+  bool filtered_;  ///< its sensors have filters
+  std::size_t drive_;
+  std::vector<Channel> channels_;
+  std::vector<Acted> acted_;
+  std::int64_t followed_ = 0;  ///< [ns]
+  std::int64_t first_ = 0;     ///< sample
+  std::vector<double> shown_;
+  std::vector<double> outputs_;      ///< of samples under way, in turn
+  std::size_t under_way_;            ///< places in it
+  std::vector<double> motion_;       ///< room for q and v of the largest system
+  std::vector<double> now_, rates_;  ///< signals, and how they change
+  ControlCount count_;
+};
+
+class ControlLoop {
+ public:
+  ControlLoop() = default;
+  ControlLoop(const BuiltScene& built, std::vector<Inputs>& inputs);
+
+  bool any() const { return !controllers_.empty(); }
+  const std::vector<RunningController>& controllers() const { return controllers_; }
+  /// Is a system measured or acted on, so that its steps are taken in parts?
+  bool controls(std::size_t system) const noexcept { return controlled_[system] != 0; }
+
+  // Real-time safe.
+
+  void start(std::int64_t time, const std::vector<Stepper*>& running) noexcept;
+  std::int64_t nextInstant() const noexcept;  ///< [ns], simulated
+  /// Everything that is due at an instant, `offset` [s] after the start of the step.
+  void act(std::int64_t time, double offset, const std::vector<Stepper*>& running,
+           const std::vector<Drive>& drives) noexcept;
+  /// The systems have gone on to an instant.
+  void follow(std::int64_t time, const std::vector<Stepper*>& running) noexcept;
+
+ private:
+  std::vector<RunningController> controllers_;
+  std::vector<char> controlled_;  ///< of each system
+};
+
+}  // namespace whirl_twin

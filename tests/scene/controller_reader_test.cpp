@@ -1,0 +1,135 @@
+// The controllers of a scene: what is wrong with them is said all at once, and the parts that steps
+// are taken in.
+#include "scene/controller_reader.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "scene/control_parts.h"
+#include "scene/part_of_scene.h"
+#include "scene/scene_error.h"
+#include "scenes.h"
+
+namespace whirl_twin {
+namespace {
+
+std::string withControllers(const std::string& controllers, const std::string& of_system = "") {
+  return "{step: 0.001, systems: {s: {model: linear_system, parameters: {names: [x], mass: "
+         "[[1.0]], "
+         "stiffness: [[-1.0]]}" +
+         of_system +
+         "}, r: {model: jeffcott_rotor, parameters: {mass: 1.0, stiffness: 100.0, speed: "
+         "5.0}}}, controllers: " +
+         controllers + "}";
+}
+
+std::vector<std::string> complaintsOf(const std::string& yaml) {
+  try {
+    static_cast<void>(sceneOf(yaml));
+  } catch (const SceneError& error) {
+    return error.errors();
+  }
+  return {};
+}
+
+TEST(ControllerReader, TakesWhatAControllerIs) {
+  const Scene scene = sceneOf(withControllers(
+      "{pd: {type: pid, rate: 20.0, measures: [s.x, {signal: r, direction: 0.5}], acts_on: "
+      "[s.force_x, r.force_y], delay: 0.03, sensor: {noise: 1.0e-6}, actuator: {limit: 5.0}, "
+      "parameters: {kp: 2.0, kd: 1.0}}}"));
+  ASSERT_EQ(scene.controllers.size(), 1u);
+  const ControllerSpec& pd = scene.controllers[0];
+  EXPECT_EQ(pd.delay, 30'000'000);
+  EXPECT_EQ(pd.measures[1].system, 1u);
+  EXPECT_EQ(pd.measures[1].direction, 0.5);
+  EXPECT_EQ(pd.acts_on[1].system, 1u);
+  EXPECT_EQ(scene.systems[1].inputs.at("force_y").kind, InputSignal::Kind::kControlled);
+  EXPECT_EQ(pd.parameters.at("kp"), 2.0);
+  EXPECT_TRUE(isTiedToOthers(scene, 0));
+}
+
+TEST(ControllerReader, SaysAllThatIsWrongAtOnce) {
+  EXPECT_THAT(
+      complaintsOf(withControllers(
+          "{pd: {type: pidd, rate: 0.0, measures: [s.xx, {signal: s.x, direction: 1.0}], acts_on: "
+          "[s.force_x, s.force_y], delay: -1, actuator: {limits: 3}, parameters: {kp: 2.0}}, 2x: "
+          "{rate: 1.0e5, measures: s.x, acts_on: []}, q: {type: pid, rate: 20.0, measures: [s.x], "
+          "acts_on: [r.force_x], parameters: {kpp: 1.0}}, w: {type: pid, rate: 20.0, measures: "
+          "[s.x], acts_on: [r.force_x], parameters: {kp: 1.0}}, late: {type: pid, rate: 1.0e6, "
+          "measures: [s.x], acts_on: [r.force_y], delay: 1.0, parameters: {kp: 1.0}}}",
+          ", inputs: {force_x: 1.0}")),
+      testing::ElementsAre(
+          testing::HasSubstr("controllers.pd.type: must be the name of a kind of controller, found "
+                             "'pidd'; did you mean 'pid'?"),
+          testing::HasSubstr("controllers.pd.rate: must be from 0.001 to 1e+07 Hz, found 0.0"),
+          testing::HasSubstr("controllers.pd.delay: must be from 0 to 1000 s, found -1"),
+          testing::HasSubstr(
+              "controllers.pd.measures[0]: must be a coordinate, a rate or a station "
+              "of a system, found 's.xx'; did you mean 's.x'?"),
+          testing::HasSubstr("controllers.pd.measures[1].direction: is for a rotor"),
+          testing::HasSubstr("controllers.pd.acts_on[0]: 's.force_x' is given by the system's "
+                             "inputs already"),
+          testing::HasSubstr("controllers.pd.acts_on[1]: must be an input of a system, found "
+                             "'s.force_y'; did you mean 's.force_x'?"),
+          testing::HasSubstr("controllers.pd.actuator.limits: unknown key of actuator"),
+          testing::HasSubstr("controllers.2x: a controller is named by"),
+          testing::HasSubstr("controllers.2x.type: missing; must be one of"),
+          testing::HasSubstr("controllers.2x.measures: must be a list of 1 to 64 signals"),
+          testing::HasSubstr("controllers.2x.acts_on: must be a list of 1 to 64 inputs, found 0"),
+          testing::HasSubstr("controllers.q.parameters.kpp: unknown parameter of pid"),
+          testing::HasSubstr("controllers.w.acts_on[0]: 'r.force_x' is acted on by a controller "
+                             "already"),
+          testing::HasSubstr("controllers.late.delay: must be at most 10000 samples")));
+}
+
+TEST(ControllerReader, MembersOfAnEnsembleHaveNone) {
+  EXPECT_THAT(
+      complaintsOf(
+          "{step: 0.001, systems: {r: {model: jeffcott_rotor, count: 10, spread: "
+          "{mass: {standard_deviation: 0.1}}, parameters: {mass: 1.0, stiffness: 100.0, speed: "
+          "5.0}}}, controllers: {pd: {type: pid, rate: 100.0, measures: [r.x], "
+          "acts_on: [r.force_x], parameters: {kp: 1.0}}}}"),
+      testing::ElementsAre(testing::HasSubstr("systems.r has a spread")));
+}
+
+std::vector<std::int64_t> lengthsOf(const std::string& rate_and_delay) {
+  return partLengths(sceneOf(withControllers("{pd: {type: pid, " + rate_and_delay +
+                                             ", measures: [s.x], acts_on: [s.force_x], parameters: "
+                                             "{kp: 1.0}}}")));
+}
+
+TEST(ControlParts, AreFewWhereTheInstantsComeAgain) {
+  using testing::ElementsAre;
+  EXPECT_THAT(lengthsOf("rate: 1000.0"), ElementsAre());
+  EXPECT_THAT(lengthsOf("rate: 20.0, delay: 0.03"), ElementsAre());
+  EXPECT_THAT(lengthsOf("rate: 20000.0"), ElementsAre(50'000));
+  EXPECT_THAT(lengthsOf("rate: 20000.0, delay: 8.0e-5"), ElementsAre(30'000, 20'000));
+  EXPECT_THAT(lengthsOf("rate: 1250.0"), ElementsAre(800'000, 600'000, 400'000, 200'000));
+}
+
+TEST(ControlParts, AreSumsOfPowersOfTwoWhereTheyNeverDo) {
+  const std::vector<std::int64_t> lengths = lengthsOf("rate: 1300.0, delay: 3.0e-4");
+  EXPECT_EQ(lengths.back(), 1);
+  for (std::int64_t power = 1; power < 1'000'000; power *= 2) {
+    EXPECT_THAT(lengths, testing::Contains(power));
+  }
+}
+
+TEST(PartOfAScene, KeepsTheControllersThatHaveToDoWithNothingElse) {
+  const Scene scene =
+      sceneOf(withControllers("{both: {type: pid, rate: 20.0, measures: [s.x], acts_on: "
+                              "[r.force_x], parameters: {kp: 1.0}}, "
+                              "one: {type: pid, rate: 20.0, measures: [r.x], acts_on: [r.force_y], "
+                              "parameters: {kp: 1.0}}}"));
+  const Scene part = partOf(scene, {1});
+  ASSERT_EQ(part.controllers.size(), 1u);
+  EXPECT_EQ(part.controllers[0].name, "one");
+  EXPECT_EQ(part.controllers[0].measures[0].system, 0u);
+  EXPECT_EQ(part.controllers[0].acts_on[0].system, 0u);
+}
+
+}  // namespace
+}  // namespace whirl_twin
