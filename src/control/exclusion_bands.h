@@ -1,0 +1,76 @@
+// Speeds that a shaft passes and does not stay at: bands about its critical speeds.
+//
+// A target inside a band goes to an edge, as drives have it: to the upper one from the centre on,
+// to the lower one below, and it stays with the edge it went to until it is beyond the centre by a
+// share of the band (hysteresis). Bands that overlap are one, with a centre of its own.
+//
+// A band is crossed at the highest acceleration A from edge to edge: there is no schedule that
+// passes a resonance better. At a jerk J that takes a run-up of r = A^2 / (2 J) before the near
+// edge and as much beyond the far one. So a shaft that stands nearer goes back first, and one that
+// is to stop nearer comes back; and bands with a gap below r are one for this A and J. No shaft
+// turns round for that: a band nearer to rest than r is crossed at what rest allows.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "control/speed_profile.h"
+
+namespace whirl_twin {
+
+/// Speeds [rad/s] between two edges, which do not belong to it; 0 < from < to.
+struct SpeedBand {
+  double from;
+  double to;
+
+  double centre() const noexcept { return 0.5 * (from + to); }
+  bool holds(double speed) const noexcept { return from < speed && speed < to; }
+};
+
+/// Changes of speed that follow one another, each from the end of that before.
+struct BandedChange {
+  std::array<SpeedChange, 4> changes;
+  std::array<double, 4> speeds;  ///< [rad/s], at which each ends
+  std::size_t count = 0;
+  double duration = 0.0;  ///< [s]
+};
+
+class ExclusionBands {
+ public:
+  // Not real-time safe.
+
+  ExclusionBands() = default;
+  /// In any order; of both senses of rotation. hysteresis [-], 0 to 0.5: share of a band. Throws
+  /// Refusal for a band whose edges are not 0 < from < to, and for another hysteresis.
+  explicit ExclusionBands(std::vector<SpeedBand> bands, double hysteresis = 0.1);
+
+  /// As they are merged, of both senses, in rising order.
+  const std::vector<SpeedBand>& bands() const { return bands_; }
+
+  // Real-time safe: no allocation, no lock, no exception.
+
+  /// Where a target goes, for changes by this acceleration [rad/s^2] and jerk [rad/s^3; 0: no
+  /// limit]; before: where the last one went, NaN without one.
+  double allowed(double target, double max_acceleration, double max_jerk,
+                 double before) const noexcept;
+
+  /// From a speed and an acceleration to an allowed one: the least moves that cross each band at
+  /// full acceleration. What is inside a band goes on if it is at full acceleration, or leaves by
+  /// the edge it can reach first; so does what cannot stop before one. The move must be sound
+  /// (faultOf), its speed allowed(). To speed 0 it is the fastest stop that honours the bands.
+  BandedChange plan(double speed, double acceleration, const SpeedMove& move) const noexcept;
+
+ private:
+  /// Calls visit(band) in rising order, bands with gaps below a run-up as one, but across rest.
+  template <class Visit>
+  void visitMerged(double run_up, Visit visit) const noexcept;
+  /// The band, so merged, that a speed is in.
+  std::optional<SpeedBand> around(double speed, double run_up) const noexcept;
+
+  std::vector<SpeedBand> bands_;
+  double hysteresis_ = 0.1;
+};
+
+}  // namespace whirl_twin
