@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "controllers/controllers.h"
+#include "controllers/notch.h"
 
 namespace whirl_twin {
 
@@ -26,8 +27,9 @@ const ControllerInfo* find(const std::vector<ControllerInfo>& list, const std::s
 }
 
 const std::vector<ControllerInfo>& builtInControllers() {
-  static const std::vector<ControllerInfo> built_in{leadInfo(), linearInfo(), pidInfo(),
-                                                    stateFeedbackInfo()};
+  static const std::vector<ControllerInfo> built_in{withNotch(leadInfo()), withNotch(linearInfo()),
+                                                    withNotch(pidInfo()),
+                                                    withNotch(stateFeedbackInfo())};
   return built_in;
 }
 

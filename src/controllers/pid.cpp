@@ -10,12 +10,17 @@
 // before it. cut() is the limit of the actuator: u itself is given uncut, for the actuator to cut
 // and to count. Instead of that back-calculation, clamping stops the integral while it drives u
 // further beyond the limit.
+//
+// Gains may be given over the speed of a shaft. The integral is kept in units of the output, so
+// that it has no jump where they change.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "control/transfer_function.h"
 #include "controllers/controller_settings.h"
 #include "controllers/controllers.h"
+#include "controllers/speed_table.h"
 
 namespace whirl_twin {
 
@@ -26,31 +31,36 @@ using Eigen::MatrixXd;
 
 enum class AntiWindup { kBackCalculation, kClamping, kNone };
 
+struct Gains {
+  double kp, ki, kd;
+};
+
 class Pid final : public Controller {
  public:
-  Pid(const ParameterValues& values, AntiWindup anti_windup, const ControllerPlan& plan)
-      : kp_(values.at("kp")),
-        ki_(values.at("ki")),
-        kd_(values.at("kd")),
+  Pid(SpeedTable gains, const ParameterValues& values, AntiWindup anti_windup,
+      const ControllerPlan& plan)
+      : gains_(std::move(gains)),
         setpoint_(values.at("setpoint")),
         period_(1.0 / plan.rate),
+        tracking_time_(values.at("tracking_time")),
         anti_windup_(anti_windup),
         limits_(plan.limits),
         axes_(plan.outputs) {
     const double derivative_time = values.at("derivative_time");
     remembered_ = derivative_time / (derivative_time + period_);
     slope_gain_ = 1.0 / (derivative_time + period_);
-    const double given = values.at("tracking_time");
-    const double natural = ki_ != 0.0 ? std::abs(kp_ / ki_) : 0.0;
-    tracking_time_ = std::max(given > 0.0 ? given : natural, period_);
   }
 
   void reset() noexcept override {
     std::fill(axes_.begin(), axes_.end(), Axis{});
     started_ = false;
+    speed_ = 0.0;
   }
 
   void update(const ControlSample& sample, double* outputs) noexcept override {
+    // Of a shaft whose keyphasor is lost the last speed holds.
+    speed_ = std::isfinite(sample.shaft_speed) ? sample.shaft_speed : speed_;
+    const Gains g = gainsAt(speed_);
     for (std::size_t i = 0; i < axes_.size(); ++i) {
       Axis& axis = axes_[i];
       const double y = sample.values[i];
@@ -58,27 +68,28 @@ class Pid final : public Controller {
       const double last = started_ ? axis.last : y;
       axis.slope = remembered_ * axis.slope + slope_gain_ * (y - last);
       axis.last = y;
-      const double u = kp_ * e + axis.integral - kd_ * axis.slope;
-      axis.integral += period_ * integrand(e, u, limits_[i]);
+      const double u = g.kp * e + axis.integral - g.kd * axis.slope;
+      axis.integral += period_ * integrand(g, e, u, limits_[i]);
       outputs[i] = u;
     }
     started_ = true;
   }
 
   /// States, of each axis: I, then what is known of the next D before its sample.
-  std::optional<DiscreteStateSpace> linear(double) const override {
-    const Index integrals = ki_ != 0.0 ? 1 : 0;
-    const Index states = integrals + (kd_ != 0.0 ? 1 : 0);
+  std::optional<DiscreteStateSpace> linear(double shaft_speed) const override {
+    const Gains g = gainsAt(shaft_speed);
+    const Index integrals = gains_.zero(1) ? 0 : 1;
+    const Index states = integrals + (gains_.zero(2) ? 0 : 1);
     DiscreteStateSpace law{MatrixXd::Zero(states, states), MatrixXd::Zero(states, 1),
                            MatrixXd::Ones(1, states),
-                           MatrixXd::Constant(1, 1, -(kp_ + kd_ * slope_gain_))};
-    if (ki_ != 0.0) {
+                           MatrixXd::Constant(1, 1, -(g.kp + g.kd * slope_gain_))};
+    if (integrals > 0) {
       law.a(0, 0) = 1.0;
-      law.b(0, 0) = -period_ * ki_;
+      law.b(0, 0) = -period_ * g.ki;
     }
-    if (kd_ != 0.0) {
+    if (states > integrals) {
       law.a(integrals, integrals) = remembered_;
-      law.b(integrals, 0) = (1.0 - remembered_) * slope_gain_ * kd_;
+      law.b(integrals, 0) = (1.0 - remembered_) * slope_gain_ * g.kd;
     }
     return onEachAxis(law, static_cast<Index>(axes_.size()));
   }
@@ -90,37 +101,57 @@ class Pid final : public Controller {
     double last = 0.0;
   };
 
-  double integrand(double e, double u, double limit) const noexcept {
-    const double cut = std::clamp(u, -limit, limit);
-    const double wanted = ki_ * e;
+  Gains gainsAt(double speed) const noexcept {
+    return {gains_.at(speed, 0), gains_.at(speed, 1), gains_.at(speed, 2)};
+  }
+
+  double integrand(const Gains& g, double e, double u, double limit) const noexcept {
+    if (g.ki == 0.0) {
+      return 0.0;
+    }
+    const double beyond = u - std::clamp(u, -limit, limit);
+    const double wanted = g.ki * e;
     switch (anti_windup_) {
-      case AntiWindup::kBackCalculation:
-        return ki_ != 0.0 ? wanted + (cut - u) / tracking_time_ : 0.0;
+      case AntiWindup::kBackCalculation: {
+        const double time = tracking_time_ > 0.0 ? tracking_time_ : std::abs(g.kp / g.ki);
+        return wanted - beyond / std::max(time, period_);
+      }
       case AntiWindup::kClamping:
-        return (u - cut) * wanted > 0.0 ? 0.0 : wanted;
+        return beyond * wanted > 0.0 ? 0.0 : wanted;
       case AntiWindup::kNone:
         break;
     }
     return wanted;
   }
 
-  double kp_, ki_, kd_;
+  SpeedTable gains_;  // kp, ki, kd
   double setpoint_;
   double period_;         // [s]
   double remembered_;     // [-], of the last slope
   double slope_gain_;     // [1/s], of a difference
-  double tracking_time_;  // [s], a sample at least
+  double tracking_time_;  // [s]; 0: kp / ki
   AntiWindup anti_windup_;
   std::vector<double> limits_;
   std::vector<Axis> axes_;
   bool started_ = false;
+  double speed_ = 0.0;  // [rad/s]
 };
+
+SpeedTable gainsOf(const ParameterValues& values, const Settings& settings) {
+  SpeedTable gains(settings, "gains", {"kp", "ki", "kd"});
+  for (const char* name : {"kp", "ki", "kd"}) {
+    if (!gains.empty() && values.at(name) != 0.0) {
+      throw SetupError(name, "must not be given beside gains");
+    }
+  }
+  return gains.empty() ? SpeedTable({values.at("kp"), values.at("ki"), values.at("kd")}) : gains;
+}
 
 std::unique_ptr<Controller> makePid(const ParameterValues& values, const Settings& settings,
                                     const ControllerPlan& plan) {
   requireAxes(plan, "kp");
   const std::string& way = settings.choices.at("anti_windup");
-  return std::make_unique<Pid>(values,
+  return std::make_unique<Pid>(gainsOf(values, settings), values,
                                way == "clamping" ? AntiWindup::kClamping
                                : way == "none"   ? AntiWindup::kNone
                                                  : AntiWindup::kBackCalculation,
@@ -146,7 +177,11 @@ ControllerInfo pidInfo() {
   SettingInfo anti_windup{"anti_windup", SettingKind::kChoice, "",
                           "what keeps the integral from growing while the output is at its limit"};
   anti_windup.choices = {"back_calculation", "clamping", "none"};
-  info.settings = {anti_windup};
+  info.settings = {anti_windup,
+                   speedTableSetting("gains", "in place of kp, ki and kd, over the shaft's speed",
+                                     {{"kp", "output/measured", Range::kAny, 0.0},
+                                      {"ki", "output/measured/s", Range::kAny, 0.0},
+                                      {"kd", "output s/measured", Range::kAny, 0.0}})};
   info.make = makePid;
   return info;
 }

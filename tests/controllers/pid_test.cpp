@@ -129,6 +129,51 @@ TEST(Pid, KeepsItsAxesApart) {
   }
 }
 
+Settings gainsOverSpeed() {
+  Settings settings;
+  settings.tables["gains"] = {{{{"speed", 10.0}, {"kp", 1.0}, {"ki", 2.0}, {"kd", 0.0}}, {}},
+                              {{{"speed", 20.0}, {"kp", 3.0}, {"ki", 0.0}, {"kd", 0.4}}, {}},
+                              {{{"speed", 60.0}, {"kp", 3.0}, {"ki", 4.0}, {"kd", 0.0}}, {}}};
+  return settings;
+}
+
+TEST(Pid, HasGainsOverTheShaftsSpeed) {
+  const auto tabled = made("pid", {}, gainsOverSpeed(), planOf(20.0, 1));
+  const auto same = [&](double speed, double kp, double ki, double kd) {
+    const auto law = *tabled->linear(speed);
+    // With a trifle of a gain for 0, for a gain that is 0 at any speed has no state.
+    const auto plain =
+        *made("pid", {{"kp", kp}, {"ki", ki + 1e-300}, {"kd", kd + 1e-300}}, {}, planOf(20.0, 1))
+             ->linear(0.0);
+    return law.a == plain.a && law.b.isApprox(plain.b, 1e-15) && law.d.isApprox(plain.d, 1e-15);
+  };
+  EXPECT_TRUE(same(0.0, 1.0, 2.0, 0.0));
+  EXPECT_TRUE(same(10.0, 1.0, 2.0, 0.0));
+  EXPECT_TRUE(same(15.0, 2.0, 1.0, 0.2));
+  EXPECT_TRUE(same(-15.0, 2.0, 1.0, 0.2));
+  EXPECT_TRUE(same(30.0, 3.0, 1.0, 0.3));
+  EXPECT_TRUE(same(1e9, 3.0, 4.0, 0.0));
+}
+
+TEST(Pid, KeepsItsIntegralWhereItsGainsChange) {
+  const auto tabled = made("pid", {}, gainsOverSpeed(), planOf(20.0, 1));
+  const auto at = [&](double speed, double y) {
+    double u = 0.0;
+    tabled->update({&y, 0, 0, {}, speed}, &u);
+    return u;
+  };
+  for (int k = 0; k < 100; ++k) {
+    at(10.0, -0.5);
+  }
+  // 2 * 0.5 for 5 s, whatever the gains are at the next sample; without a speed the last one holds.
+  EXPECT_NEAR(at(20.0, -0.5), 3.0 * 0.5 + 5.0, 1e-12);
+  EXPECT_NEAR(at(std::nan(""), -0.5), 3.0 * 0.5 + 5.0, 1e-12);
+}
+
+TEST(Pid, RefusesAGainBesideATable) {
+  EXPECT_EQ(refusal("pid", {{"kd", 1.0}}, gainsOverSpeed(), planOf(20.0, 1)).first, "kd");
+}
+
 TEST(Pid, RefusesUnequalCounts) {
   ControllerPlan plan = planOf(20.0, 2);
   plan.measured = 3;
