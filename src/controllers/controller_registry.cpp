@@ -29,7 +29,7 @@ const ControllerInfo* find(const std::vector<ControllerInfo>& list, const std::s
 const std::vector<ControllerInfo>& builtInControllers() {
   static const std::vector<ControllerInfo> built_in{withNotch(leadInfo()), withNotch(linearInfo()),
                                                     withNotch(pidInfo()),
-                                                    withNotch(stateFeedbackInfo())};
+                                                    withNotch(stateFeedbackInfo()), swingUpInfo()};
   return built_in;
 }
 

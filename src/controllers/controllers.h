@@ -9,5 +9,6 @@ ControllerInfo leadInfo();
 ControllerInfo linearInfo();
 ControllerInfo pidInfo();
 ControllerInfo stateFeedbackInfo();
+ControllerInfo swingUpInfo();
 
 }  // namespace whirl_twin

@@ -69,6 +69,10 @@ inline const std::map<std::string, std::vector<ExampleController>>& exampleContr
       {"state_feedback",
        {{{}, matrices({{"gain", row({3, -1, 2, 0.5})}}), planOf(100.0, 4, 1)},
         {{}, matrices({{"gain", b}, {"setpoint", row({1, 2})}}), planOf(100.0, 2, 3)}}},
+      {"swing_up",
+       {{{{"frequency", 3.0}, {"drive", 0.5}},
+         matrices({{"gain", row({7, 8})}}),
+         planOf(100.0, 2, 1)}}},
   };
   return examples;
 }
