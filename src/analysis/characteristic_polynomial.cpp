@@ -1,13 +1,10 @@
 #include "analysis/characteristic_polynomial.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
 #include <limits>
 #include <stdexcept>
 #include <utility>
 
+#include "analysis/exact_determinant.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {
@@ -65,89 +62,6 @@ Matrix solve(Matrix m, Matrix b) {
   return b;
 }
 
-using IntegerMatrix = std::vector<std::vector<Integer>>;
-
-/// A matrix that is the sum of two, or one.
-struct Sum {
-  Sum(const Eigen::MatrixXd& one)
-      : first(one), second(Eigen::MatrixXd::Zero(one.rows(), one.cols())) {}
-  Sum(const Eigen::MatrixXd& one, const Eigen::MatrixXd& other) : first(one), second(other) {}
-  Eigen::MatrixXd first, second;
-};
-
-/// The number times 2^-exponent, which makes it whole.
-Integer whole(double x, int exponent) {
-  int own = 0;
-  const auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(x, &own), 53));
-  return mantissa == 0 ? Integer(0) : Integer(mantissa) << (own - 53 - exponent);
-}
-
-/// All of them times the same power of two, which makes every entry a whole number.
-std::array<IntegerMatrix, 3> integers(const std::array<Sum, 3>& sums) {
-  int lowest = std::numeric_limits<int>::max();
-  for (const Sum& sum : sums) {
-    for (const Eigen::MatrixXd* m : {&sum.first, &sum.second}) {
-      for (Eigen::Index i = 0; i < m->size(); ++i) {
-        if (!std::isfinite(m->data()[i])) {
-          throw std::overflow_error("a matrix entry is not finite");
-        }
-        int exponent = 0;
-        if (std::frexp(m->data()[i], &exponent) != 0.0) {
-          lowest = std::min(lowest, exponent - 53);
-        }
-      }
-    }
-  }
-  std::array<IntegerMatrix, 3> result;
-  for (std::size_t k = 0; k < sums.size(); ++k) {
-    const auto& [first, second] = sums[k];
-    for (Eigen::Index i = 0; i < first.rows(); ++i) {
-      result[k].emplace_back();
-      for (Eigen::Index j = 0; j < first.cols(); ++j) {
-        result[k].back().push_back(whole(first(i, j), lowest) + whole(second(i, j), lowest));
-      }
-    }
-  }
-  return result;
-}
-
-/// The first times s^2 plus the second times s plus the third.
-IntegerMatrix atValue(const std::array<IntegerMatrix, 3>& parts, int s) {
-  IntegerMatrix sum = parts[2];
-  for (std::size_t i = 0; i < sum.size(); ++i) {
-    for (std::size_t j = 0; j < sum.size(); ++j) {
-      sum[i][j] += s * (parts[1][i][j] + s * parts[0][i][j]);
-    }
-  }
-  return sum;
-}
-
-/// By elimination without fractions (Bareiss, Mathematics of Computation 22, 1968).
-Integer determinant(IntegerMatrix m) {
-  Integer before = 1;
-  bool negative = false;
-  for (std::size_t k = 0; k + 1 < m.size(); ++k) {
-    std::size_t pivot = k;
-    while (pivot < m.size() && m[pivot][k] == 0) {
-      ++pivot;
-    }
-    if (pivot == m.size()) {
-      return 0;
-    }
-    if (pivot != k) {
-      std::swap(m[pivot], m[k]);
-      negative = !negative;
-    }
-    for (std::size_t i = k + 1; i < m.size(); ++i) {
-      for (std::size_t j = k + 1; j < m.size(); ++j) {
-        m[i][j] = (m[i][j] * m[k][k] - m[i][k] * m[k][j]) / before;
-      }
-    }
-    before = m[k][k];
-  }
-  return negative ? Integer(-m.back().back()) : m.back().back();
-}
-
 /// The state matrix [0 I; -M^-1 (K + N), -M^-1 (C + G)].
 Matrix stateMatrix(const Linearization& l) {
   const auto n = static_cast<std::size_t>(l.mass.rows());
@@ -171,45 +85,8 @@ Matrix stateMatrix(const Linearization& l) {
   return a;
 }
 
-}  // namespace
-
-std::vector<Rational> characteristicPolynomial(const Linearization& l) {
-  const std::array<IntegerMatrix, 3> parts =
-      integers({l.mass, {l.damping, l.gyroscopic}, {l.stiffness, l.circulatory}});
-  const int n = static_cast<int>(l.mass.rows());
-  // det(M s^2 + (C + G) s + K + N) at 2 n + 1 whole numbers s, and Newton's divided differences.
-  std::vector<Rational> differences;
-  for (int s = -n; s <= n; ++s) {
-    differences.emplace_back(determinant(atValue(parts, s)));
-  }
-  const std::size_t count = differences.size();
-  for (std::size_t level = 1; level < count; ++level) {
-    for (std::size_t i = count - 1; i >= level; --i) {
-      differences[i] = (differences[i] - differences[i - 1]) / static_cast<int>(level);
-    }
-  }
-  std::vector<Rational> polynomial;  // lowest power first
-  for (std::size_t i = count; i-- > 0;) {
-    const int node = static_cast<int>(i) - n;
-    polynomial.insert(polynomial.begin(), Rational(0));  // times (s - node)
-    for (std::size_t k = 0; k + 1 < polynomial.size(); ++k) {
-      polynomial[k] -= node * polynomial[k + 1];
-    }
-    polynomial[0] += differences[i];
-  }
-  const Rational leading = polynomial[count - 1];
-  if (leading == 0) {
-    throw Refusal("the mass matrix is singular");
-  }
-  std::vector<Rational> monic;
-  for (std::size_t k = count; k-- > 0;) {
-    monic.push_back(polynomial[k] / leading);
-  }
-  return monic;
-}
-
-std::vector<Rational> minimalPolynomial(const Linearization& linearization) {
-  const Matrix a = stateMatrix(linearization);
+/// Of a square matrix, highest power first.
+std::vector<Rational> minimal(const Matrix& a) {
   const std::size_t size = a.size();
   // The smallest power A^k b that depends on the lower ones; b has no symmetry that could hide a
   // direction.
@@ -256,6 +133,39 @@ std::vector<Rational> minimalPolynomial(const Linearization& linearization) {
     vector = product(a, vector);
   }
   throw std::logic_error("a matrix satisfies its characteristic polynomial");
+}
+
+}  // namespace
+
+std::vector<Rational> characteristicPolynomial(const Linearization& l) {
+  ExactBudget unlimited(std::numeric_limits<double>::infinity());
+  std::vector<Rational> polynomial = determinantPolynomial(
+      {{l.mass}, {l.damping, l.gyroscopic}, {l.stiffness, l.circulatory}}, unlimited);
+  const Rational leading = polynomial.front();
+  if (leading == 0) {
+    throw Refusal("the mass matrix is singular");
+  }
+  for (Rational& coefficient : polynomial) {
+    coefficient /= leading;
+  }
+  return polynomial;
+}
+
+std::vector<Rational> characteristicPolynomial(const Eigen::MatrixXd& a, ExactBudget& budget) {
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(a.rows(), a.cols());
+  return determinantPolynomial({{identity}, {-a}}, budget);
+}
+
+std::vector<Rational> minimalPolynomial(const Linearization& linearization) {
+  return minimal(stateMatrix(linearization));
+}
+
+std::vector<Rational> minimalPolynomial(const Eigen::MatrixXd& a) {
+  Matrix exact;
+  for (Eigen::Index i = 0; i < a.rows(); ++i) {
+    exact.emplace_back(a.row(i).begin(), a.row(i).end());
+  }
+  return minimal(exact);
 }
 
 }  // namespace whirl_twin

@@ -1,11 +1,12 @@
-// The characteristic polynomial of M q'' + (C + G) q' + (K + N) q = 0, exact for the matrices
-// given.
+// The characteristic polynomial of M q'' + (C + G) q' + (K + N) q = 0, or of a matrix, exact for
+// the matrices given.
 //
 // Doubles are rational numbers, so det(M s^2 + (C + G) s + K + N) can be had without any rounding
-// (in whole numbers, at 2 n + 1 values of s). Structure then survives: an undamped system has odd
+// (exact_determinant.h). Structure then survives: an undamped system has odd
 // coefficients that are zero, not 1e-17, and Routh's test says marginal where it is marginal.
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "analysis/exact_number.h"
@@ -17,8 +18,14 @@ namespace whirl_twin {
 /// Throws Refusal if the mass matrix is singular.
 std::vector<Rational> characteristicPolynomial(const Linearization& linearization);
 
+/// det(s I - a) times a positive number, highest power first; [n x n], finite. Throws
+/// ExactBudgetSpent.
+std::vector<Rational> characteristicPolynomial(const Eigen::MatrixXd& a, ExactBudget& budget);
+
 /// The minimal polynomial of the state matrix: a repeated root of the characteristic polynomial is
 /// simple here where the matrix has a full set of eigenvectors for it (an isotropic rotor in x, y).
 std::vector<Rational> minimalPolynomial(const Linearization& linearization);
+/// That of a matrix.
+std::vector<Rational> minimalPolynomial(const Eigen::MatrixXd& a);
 
 }  // namespace whirl_twin

@@ -1,0 +1,13 @@
+// A matrix in units of its own.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace whirl_twin {
+
+/// D^-1 a D with a diagonal D of powers of two that brings rows and columns near one another in
+/// size (B. Parlett, C. Reinsch, Numer. Math. 13 (1969) 293): the same eigenvalues, no rounding,
+/// and what is said of its norm does not depend on the units of its states. `a` is square.
+Eigen::MatrixXd balanced(Eigen::MatrixXd a);
+
+}  // namespace whirl_twin

@@ -1,0 +1,148 @@
+#include "analysis/sampled_stability.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+
+#include "algebra/eigenvalues.h"
+#include "algebra/svd.h"
+#include "analysis/balanced_matrix.h"
+#include "analysis/characteristic_polynomial.h"
+#include "analysis/unit_circle.h"
+#include "messages/refusal.h"
+
+namespace whirl_twin {
+
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::MatrixXd;
+
+constexpr double kExactBudget = 2.0e8;  // products: a second
+/// Minimal polynomials cost more than characteristic ones.
+constexpr Eigen::Index kMostStatesOfMinimal = 12;
+/// Of a transition, in parts of its norm for each sample that it is a product of.
+constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
+/// Eigenvalues so far inside the circle are not brought to it by rounding.
+constexpr double kFarInside = 0.5;
+constexpr Eigen::Index kMostIterations = 400;  // an eigenvalue
+
+/// Of the polynomial without the roots z = 1 of standing directions; throws ExactBudgetSpent.
+RouthResult exactRouth(const MatrixXd& transition, int standing) {
+  ExactBudget budget(kExactBudget);
+  std::vector<Rational> polynomial =
+      bilinearTransform(characteristicPolynomial(transition, budget));
+  polynomial.resize(polynomial.size() - static_cast<std::size_t>(standing));
+  RouthResult result = routhOfCircle(polynomial, budget);
+  if (standing > 0 && polynomial.back() == 0) {
+    // One that stands and drifts: more roots than directions.
+    result.largest_imaginary_multiplicity = std::max(result.largest_imaginary_multiplicity, 2);
+    if (result.right == 0) {
+      result.verdict = Verdict::kRepeatedImaginary;
+    }
+  } else if (result.verdict == Verdict::kRepeatedImaginary && standing == 0 &&
+             transition.rows() <= kMostStatesOfMinimal &&
+             routhOfCircle(bilinearTransform(minimalPolynomial(transition)), budget).verdict ==
+                 Verdict::kMarginal) {
+    result.verdict = Verdict::kMarginal;
+  }
+  return result;
+}
+
+std::vector<Complex> eigenvaluesOf(const MatrixXd& a) {
+  Eigen::EigenSolver<MatrixXd> solver(a.rows());
+  solver.setMaxIterations(kMostIterations * a.rows()).compute(a, false);
+  if (solver.info() != Eigen::Success) {
+    throw RunFailure("sampled loop: its eigenvalues cannot be computed");
+  }
+  const Eigen::VectorXcd& values = solver.eigenvalues();
+  std::vector<Complex> roots(values.data(), values.data() + values.size());
+  std::sort(roots.begin(), roots.end(), [](const Complex& x, const Complex& y) {
+    const double ax = std::abs(x);
+    const double ay = std::abs(y);
+    return ax != ay ? ax > ay : x.imag() < y.imag();
+  });
+  return roots;
+}
+
+/// The smallest change of the matrix that brings an eigenvalue to this place of the circle: a
+/// singular value of a - z I. `standing` of them are 0 at z = 1.
+double distanceTo(const Complex& z, const MatrixXd& a, int standing) {
+  Eigen::MatrixXcd shifted = a;
+  shifted.diagonal().array() -= z;
+  const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(shifted);
+  const Eigen::Index smallest = a.rows() - 1 - (z == 1.0 ? standing : 0);
+  return smallest < 0 ? std::numeric_limits<double>::infinity() : svd.singularValues()[smallest];
+}
+
+/// Eigenvalues that rounding can not take across the circle, and those it can.
+struct Sides {
+  int outside = 0, near = 0, inside = 0;
+};
+
+Sides sides(const MatrixXd& a, std::vector<Complex> eigenvalues, int standing, double rounding) {
+  Sides sides;
+  for (int i = 0; i < standing && !eigenvalues.empty(); ++i) {
+    eigenvalues.erase(std::min_element(
+        eigenvalues.begin(), eigenvalues.end(),
+        [](const Complex& x, const Complex& y) { return std::abs(x - 1.0) < std::abs(y - 1.0); }));
+  }
+  for (const Complex& z : eigenvalues) {
+    const double size = std::abs(z);
+    const bool near = size > kFarInside && !(distanceTo(z / size, a, standing) > rounding);
+    ++(near ? sides.near : size > 1.0 ? sides.outside : sides.inside);
+  }
+  return sides;
+}
+
+}  // namespace
+
+SampledStability sampledStability(const SampledLoop& loop) {
+  SampledStability result;
+  if (!loop.transition.allFinite()) {
+    throw RunFailure("sampled loop: its transition is beyond the range of double");
+  }
+  if (loop.transition.size() == 0) {
+    result.verdict = Verdict::kAsymptoticallyStable;
+    result.exact = true;
+    return result;
+  }
+  const MatrixXd a = balanced(loop.transition);
+  result.eigenvalues = eigenvaluesOf(a);
+  result.spectral_radius = std::abs(result.eigenvalues.front());
+  const int samples = std::accumulate(loop.samples.begin(), loop.samples.end(), 0);
+  const Sides by_eigenvalues =
+      sides(a, result.eigenvalues, loop.standing, kRounding * samples * a.norm());
+  if (a.rows() <= kMostExactStates) {
+    try {
+      result.routh = exactRouth(a, loop.standing);
+      result.exact = true;
+    } catch (const ExactBudgetSpent&) {
+      result.routh = {};
+    }
+  }
+  if (!result.exact) {
+    result.routh.right = by_eigenvalues.outside;
+    result.routh.imaginary = by_eigenvalues.near;
+    result.routh.left = by_eigenvalues.inside;
+    result.routh.verdict = by_eigenvalues.outside > 0 ? Verdict::kUnstable
+                           : by_eigenvalues.near > 0  ? Verdict::kUncertain
+                                                      : Verdict::kAsymptoticallyStable;
+  }
+  RouthResult& routh = result.routh;
+  const bool agreed = by_eigenvalues.outside > 0
+                          ? routh.right > 0
+                          : routh.right == 0 && by_eigenvalues.near <= routh.imaginary;
+  routh.imaginary += loop.standing;
+  routh.largest_imaginary_multiplicity =
+      std::max(routh.largest_imaginary_multiplicity, loop.standing > 0 ? 1 : 0);
+  if (loop.standing > 0 && routh.verdict == Verdict::kAsymptoticallyStable) {
+    routh.verdict = Verdict::kMarginal;
+  }
+  result.verdict = agreed ? routh.verdict : Verdict::kUncertain;
+  return result;
+}
+
+}  // namespace whirl_twin
