@@ -1,0 +1,222 @@
+#include "analysis/loop_margins.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <boost/math/tools/minima.hpp>
+#include <cmath>
+#include <utility>
+
+#include "analysis/bracketed_root.h"
+#include "messages/refusal.h"
+
+namespace whirl_twin {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr int kPointsOfDecade = 60;
+/// Beyond the poles a loop that is not sampled is looked at for so many decades, and below them.
+constexpr double kDecadesBeyond = 4.0;
+/// A pole nearer to the axis than this part of its size is not resolved any more.
+constexpr double kNarrowest = 1e-9;
+constexpr double kSameFrequency = 1e-12;
+/// Peaks of a loop without any effect are 1, to rounding.
+constexpr double kRoundingOfPeak = 1e-9;
+
+struct Point {
+  double frequency;
+  Complex loop;
+  double sensitivity() const { return 1.0 / std::abs(1.0 + loop); }
+};
+
+/// Where to look: evenly on a logarithmic scale, and around each pole from a fraction of its width
+/// outwards.
+std::vector<double> frequencies(const LoopResponse& response) {
+  double least = kInfinity;
+  double largest = 0.0;
+  for (const Complex& pole : response.poles) {
+    if (pole != 0.0) {
+      least = std::fmin(least, std::abs(pole));
+      largest = std::fmax(largest, std::abs(pole));
+    }
+  }
+  const double end = std::fmin(response.highest, largest * std::pow(10.0, kDecadesBeyond));
+  const double begin = std::fmin(least, end) * std::pow(10.0, -kDecadesBeyond);
+  std::vector<double> w{0.0, end};
+  const double ratio = std::pow(10.0, 1.0 / kPointsOfDecade);
+  for (double x = begin; x < end; x *= ratio) {
+    w.push_back(x);
+  }
+  for (const Complex& pole : response.poles) {
+    const double place = std::fabs(pole.imag());
+    const double width = std::fmax(std::fabs(pole.real()), kNarrowest * std::abs(pole));
+    w.push_back(place);
+    for (double away = 0.25 * width; away < end && away > 0.0; away *= 1.5) {
+      w.push_back(place - away);
+      w.push_back(place + away);
+    }
+  }
+  w.erase(std::remove_if(w.begin(), w.end(), [end](double x) { return !(x >= 0.0 && x <= end); }),
+          w.end());
+  std::sort(w.begin(), w.end());
+  // Of two as good as the same, rounding would say which is higher.
+  w.erase(std::unique(w.begin(), w.end(),
+                      [](double a, double b) { return b - a <= kSameFrequency * b; }),
+          w.end());
+  return w;
+}
+
+void findPeak(const LoopResponse& response, const std::vector<Point>& points, LoopMargins& m) {
+  const auto fall = [&](double w) { return std::abs(1.0 + response.open_loop(w)); };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto take = [&m](double w, double sensitivity) {
+      if (sensitivity > m.sensitivity_peak) {
+        m.sensitivity_peak = sensitivity;
+        m.peak_frequency = w;
+      }
+    };
+    take(points[i].frequency, points[i].sensitivity());
+    const bool inside = i > 0 && i + 1 < points.size();
+    if (inside && points[i].sensitivity() >= points[i - 1].sensitivity() &&
+        points[i].sensitivity() >= points[i + 1].sensitivity()) {
+      const auto [w, nearest] = boost::math::tools::brent_find_minima(
+          fall, points[i - 1].frequency, points[i + 1].frequency,
+          std::numeric_limits<double>::digits);
+      take(w, 1.0 / nearest);
+    }
+  }
+}
+
+/// L at w, |L| = 1.
+void takeCrossover(double w, const Complex& loop, LoopMargins& m) {
+  const double phase = std::arg(-loop);  // to be lost until -1; in front of it negative
+  if (std::fabs(phase) < m.phase_margin) {
+    m.phase_margin = std::fabs(phase);
+    m.phase_crossover = w;
+  }
+  if (w > 0.0) {
+    m.delay_margin = std::fmin(m.delay_margin, (phase < 0.0 ? phase + 2.0 * kPi : phase) / w);
+  }
+}
+
+/// L real.
+void takeGain(double loop, LoopMargins& m) {
+  if (loop < -1.0) {
+    m.gain_reduction = std::fmax(m.gain_reduction, -1.0 / loop);
+  } else if (loop < 0.0) {
+    m.gain_margin = std::fmin(m.gain_margin, -1.0 / loop);
+  }
+}
+
+bool isReal(const Complex& loop) {
+  return std::fabs(loop.imag()) <= 1e-9 * std::fabs(loop.real());
+}
+
+void findCrossings(const LoopResponse& response, const std::vector<Point>& points, LoopMargins& m) {
+  const auto size = [&](double w) { return std::log(std::abs(response.open_loop(w))); };
+  const auto imaginary = [&](double w) { return response.open_loop(w).imag(); };
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const Point& a = points[i - 1];
+    const Point& b = points[i];
+    const double size_a = std::log(std::abs(a.loop));
+    const double size_b = std::log(std::abs(b.loop));
+    if ((size_a > 0.0) != (size_b > 0.0) && std::isfinite(size_a) && std::isfinite(size_b)) {
+      const double w = bracketedRoot(size, a.frequency, b.frequency, size_a, size_b);
+      takeCrossover(w, response.open_loop(w), m);
+    }
+    if ((a.loop.imag() > 0.0) != (b.loop.imag() > 0.0) &&
+        (a.loop.real() < 0.0 || b.loop.real() < 0.0)) {
+      const double w =
+          bracketedRoot(imaginary, a.frequency, b.frequency, a.loop.imag(), b.loop.imag());
+      takeGain(response.open_loop(w).real(), m);
+    }
+  }
+  // At both ends L is real without a change of sign.
+  for (const Point& end : {points.front(), points.back()}) {
+    if (isReal(end.loop)) {
+      takeGain(end.loop.real(), m);
+    }
+  }
+}
+
+}  // namespace
+
+const char* name(SensitivityZone zone) {
+  switch (zone) {
+    case SensitivityZone::kA:
+      return "A";
+    case SensitivityZone::kB:
+      return "B";
+    case SensitivityZone::kC:
+      return "C";
+    case SensitivityZone::kD:
+      return "D";
+    case SensitivityZone::kUnbounded:
+      break;
+  }
+  return "unbounded";
+}
+
+SensitivityZone zoneOf(double peak) {
+  return peak < 3.0            ? SensitivityZone::kA
+         : peak < 4.0          ? SensitivityZone::kB
+         : peak <= 5.0         ? SensitivityZone::kC
+         : std::isfinite(peak) ? SensitivityZone::kD
+                               : SensitivityZone::kUnbounded;
+}
+
+LoopMargins loopMargins(const LoopResponse& response) {
+  std::vector<Point> points;
+  for (const double w : frequencies(response)) {
+    const Complex loop = response.open_loop(w);
+    if (std::isfinite(loop.real()) && std::isfinite(loop.imag())) {  // not at a pole of it
+      points.push_back({w, loop});
+    }
+  }
+  LoopMargins m;
+  m.gain_margin = m.phase_margin = m.delay_margin = kInfinity;
+  findPeak(response, points, m);
+  if (m.sensitivity_peak < 1.0 - kRoundingOfPeak) {
+    throw RunFailure(
+        fmt::format("sensitivity: expected a peak of at least 1, as of every loop, found {}",
+                    m.sensitivity_peak));
+  }
+  m.zone = zoneOf(m.sensitivity_peak);
+  findCrossings(response, points, m);
+  return m;
+}
+
+double logSensitivityIntegral(const LoopResponse& response) {
+  using Quadrature = boost::math::quadrature::gauss_kronrod<double, 15>;
+  constexpr unsigned kDeepest = 10;
+  constexpr double kTolerance = 1e-10;
+  const auto logarithm = [&](double w) {
+    // Of 1 + L, where L is small, to the digits of L.
+    const Complex loop = response.open_loop(w);
+    return -0.5 * std::log1p(2.0 * loop.real() + std::norm(loop));
+  };
+  std::vector<double> ends{0.0};
+  for (const Complex& pole : response.poles) {
+    ends.push_back(std::fabs(pole.imag()));
+    ends.push_back(std::abs(pole));
+  }
+  ends.erase(
+      std::remove_if(ends.begin(), ends.end(), [&](double w) { return !(w < response.highest); }),
+      ends.end());
+  ends.push_back(response.highest);
+  std::sort(ends.begin(), ends.end());
+  double sum = 0.0;
+  for (std::size_t i = 1; i < ends.size(); ++i) {
+    if (ends[i] > ends[i - 1]) {
+      sum += Quadrature::integrate(logarithm, ends[i - 1], ends[i], kDeepest, kTolerance);
+    }
+  }
+  return sum;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,63 @@
+// How far a loop is from losing its stability, read from the response L of the open loop at one of
+// its sensors, all other loops closed: |S| = 1 / |1 + L| at its peak is how much the loop amplifies
+// what disturbs that sensor, and 1 / |S| how near L comes to -1.
+//
+// Zones are those of ISO 14839-3:2006 for rotors in magnetic bearings. Of a strictly proper loop
+// that is stable ln|S| has a mean of its own (H. Bode 1945; J. Freudenberg, D. Looze, IEEE Trans.
+// Automatic Control 30 (1985) 555; sampled: H. Sung, S. Hara, Int. J. Control 48 (1988) 2429), p
+// the poles of the open loop that are unstable:
+//   continuous, L falling faster than 1 / w   integral over 0..infinity of ln|S| dw = pi sum Re p
+//   sampled                                   integral over 0..pi/T = (pi / T) sum ln|p|
+// so that no peak is below 1.
+#pragma once
+
+#include <complex>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <vector>
+
+namespace whirl_twin {
+
+struct LoopResponse {
+  /// L(w), w >= 0 [rad/s].
+  std::function<std::complex<double>(double)> open_loop;
+  /// rad/s: pi / T of a sampled loop.
+  double highest = std::numeric_limits<double>::infinity();
+  /// 1/s, as far as they are known: poles of the open and of the closed loop, where to look
+  /// closely. At least one is not 0.
+  std::vector<std::complex<double>> poles;
+};
+
+enum class SensitivityZone : std::uint8_t {
+  kA = 0,     ///< peak below 3 (9.5 dB): new machines
+  kB,         ///< below 4: fit for long operation
+  kC,         ///< up to 5: not for long
+  kD,         ///< above: may do damage
+  kUnbounded  ///< the loop is not asymptotically stable
+};
+
+/// "A" ... "D", "unbounded".
+const char* name(SensitivityZone zone);
+SensitivityZone zoneOf(double sensitivity_peak);
+
+/// Of a loop that is stable. Nothing that loses stability: infinite, of the gain downwards 0.
+struct LoopMargins {
+  double sensitivity_peak = 0.0;  ///< [-], max |S|
+  double peak_frequency = 0.0;    ///< rad/s
+  SensitivityZone zone = SensitivityZone::kUnbounded;
+  double gain_margin = 0.0;      ///< [-] > 1: the gain may rise to less than so many times
+  double gain_reduction = 0.0;   ///< [-] < 1: and may fall to more than this part
+  double phase_margin = 0.0;     ///< rad, the least change of phase, of either sense
+  double phase_crossover = 0.0;  ///< rad/s, where; 0: nowhere
+  double delay_margin = 0.0;  ///< s: the phase that may be lost, over its frequency, at its least
+};
+
+/// Throws RunFailure where the peak of |S| is below 1, which no strictly proper loop can be: the
+/// response is not that of a loop. Not real-time safe (allocates).
+LoopMargins loopMargins(const LoopResponse& response);
+
+/// Integral of ln|S| over 0..highest [rad/s].
+double logSensitivityIntegral(const LoopResponse& response);
+
+}  // namespace whirl_twin
