@@ -14,13 +14,13 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kHalfTurn = 0.5 * ShaftAngle::kTurn;
 constexpr double kNanosecond = 1.0e-9;                  // s
 constexpr std::int64_t kLongestGap = 1'000'000'000;     // ns, that a motion is believed through
 constexpr std::int64_t kTelling = 100'000'000;          // ns, from one FollowState to the next
 constexpr std::int64_t kLost = 250'000'000;             // ns, of nothing but refused samples
 constexpr std::int64_t kNewParameters = 1'000'000'000;  // ns, from one generation to the next
 constexpr double kPatience = 0.25;                      // s, beside the longest block
+constexpr std::int64_t kShaftWait = 1'000'000'000;      // ns, for the first pulses
 
 ShaftInstant instantOf(std::int64_t instant, const ShaftEstimate& at) {
   return {instant, at.angle, at.speed};
@@ -60,7 +60,7 @@ Follower::Follower(const Twin& twin, std::shared_ptr<SystemGenerations> generati
       queue_(settings.patience.value_or(patienceFor(twin.scene()))),
       record_(twin.layout().size) {
   for (std::size_t i = 0; i < twin.driveCount(); ++i) {
-    shafts_.push_back({std::nullopt, 0, twin.drive(i)});
+    shafts_.push_back({FollowedShaft(twin.drive(i)), std::nullopt});
   }
   systems_.resize(twin.systems().size());
   addSensors(settings);
@@ -84,12 +84,7 @@ void Follower::addSensors(const FollowSettings& settings) {
     pulses_.emplace_back();
     if (sensor.keyphasor) {
       pulses_.back() = sensor.drive;
-      ShaftTrackerSettings shaft;
-      const double mark = sensor.keyphasor->mark;
-      shaft.mark = mark - ShaftAngle::kTurn * std::floor(mark / ShaftAngle::kTurn);
-      shaft.jitter = std::max(
-          shaft.jitter, std::hypot(sensor.keyphasor->jitter, sensor.keyphasor->resolution / 3.5));
-      shafts_[sensor.drive].tracker.emplace(shaft);
+      shafts_[sensor.drive].motion.listenTo(*sensor.keyphasor);
       shafts_[sensor.drive].source = queue_.addSource(sensor.name, {"keyphasor"});
       channels_.back().emplace_back();
       continue;
@@ -179,7 +174,7 @@ void Follower::process() {
       begin(sample->time);
     }
     if (const auto drive = pulses_[sample->source]) {
-      shafts_[*drive].tracker->take(sample->time);
+      shafts_[*drive].motion.take(sample->time);
       continue;
     }
     stepUntil(sample->time - longest_delay_ - 1);
@@ -193,11 +188,10 @@ void Follower::process() {
 /// The twin's next step is the first at or after this instant of the machine.
 void Follower::begin(std::int64_t instant) {
   began_ = true;
+  first_ = instant;
   origin_ = instant - next_step_ * twin_.scene().step;
   for (Shaft& shaft : shafts_) {
-    if (shaft.tracker) {
-      shaft.tracker->clear();
-    }
+    shaft.motion.restart();
   }
   for (const auto& system : systems_) {
     if (system) {
@@ -213,19 +207,15 @@ void Follower::begin(std::int64_t instant) {
 
 ShaftEstimate Follower::shaftAt(std::size_t drive, std::int64_t instant) {
   Shaft& shaft = shafts_[drive];
-  if (!shaft.tracker) {
-    shaft.drive.begin(twin_.scene().time + instant - origin_);
-    const ShaftMotion motion = shaft.drive.at(0.0);
-    return {true, shaft.drive.angle(), motion.speed, motion.acceleration, 0.0};
-  }
-  while (const MeasuredSample* pulse = queue_.front(shaft.source)) {
-    if (shaft.tracker->locked() && shaft.tracker->newest() > instant) {
+  while (shaft.motion.needsPulse(instant)) {
+    const MeasuredSample* pulse = queue_.front(*shaft.source);
+    if (pulse == nullptr) {
       break;
     }
-    shaft.tracker->take(pulse->time);
-    queue_.pop(shaft.source);
+    shaft.motion.take(pulse->time);
+    queue_.pop(*shaft.source);
   }
-  return shaft.tracker->at(instant);
+  return shaft.motion.at(instant, twin_.scene().time - origin_);
 }
 
 void Follower::takeSample(const MeasuredSample& sample) {
@@ -251,13 +241,13 @@ void Follower::takeSample(const MeasuredSample& sample) {
   told.shaft_known = has_shaft && shaft.known;
   told.shaft_angle_deviation =
       has_shaft && shaft.known ? shaft.deviation : state::FollowState::kNone;
-  if (!shaft.known && !system.runs) {
+  if (!shaft.known && !system.runs && instant - first_ < kShaftWait) {
     return;
   }
   const ShaftInstant there = instantOf(instant, shaft);
   if (!system.runs || instant - system.at > kLongestGap) {
     restarts_ += system.runs ? 1 : 0;
-    system.filter.begin(there, twin_.scene().time - origin_);
+    system.filter.begin(there, twin_.scene().time - origin_, shaft.deviation);
     system.runs = true;
     system.began = instant;
     system.at = instant;
@@ -272,15 +262,16 @@ void Follower::takeSample(const MeasuredSample& sample) {
     system.endInstant();
     system.at = instant;
   }
-  system.filter.goTo(there);
-  const Innovation innovation =
-      system.filter.take(channel.place, sample.value, shaft.known ? shaft.deviation : kHalfTurn);
+  system.filter.goTo(there, shaft.deviation);
+  const Innovation innovation = system.filter.take(channel.place, sample.value);
   told.residual[channel.place] = innovation.value;
   told.residual_deviation[channel.place] = innovation.deviation;
   if (innovation.used) {
     ++told.used;
     set_status(state::ChannelStatus::kUsed);
-    system.innovations[channel.place] = innovation.normalized();
+    if (!system.filter.byProbes()) {  // else they are of another model
+      system.innovations[channel.place] = innovation.normalized();
+    }
     system.last_used = instant;
     if (system.settled(instant)) {
       system.squares[channel.place] += innovation.value * innovation.value;
@@ -326,10 +317,8 @@ void Follower::writeRecord(std::int64_t step) {
   for (std::size_t i = 0; i < shafts_.size(); ++i) {
     const ShaftEstimate at = shaftAt(i, instant);
     const auto place = RecordLayout::shaft(record_.data(), i);
-    if (at.known) {
-      place.setAngle(at.angle);
-      place.setMotion(at.speed, at.acceleration, 0.0, at.speed);
-    }
+    place.setAngle(at.angle);
+    place.setMotion(at.speed, at.acceleration, 0.0, at.speed);
   }
   for (const auto& system : systems_) {
     if (!system) {

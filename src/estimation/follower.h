@@ -2,8 +2,9 @@
 // been stepped, and beside them what has been learned of the machine.
 //
 // Instants are the machine's. The first sample is the scene's start; from there on the twin's steps
-// count along the machine's clock. A system without a sample yet, or on a shaft whose angle is not
-// known yet, stands as the scene says. Where samples cease for a second, or the machine's clock is
+// count along the machine's clock. A system without a sample yet stands as the scene says, and so
+// does one on a shaft that nothing is heard of, for a second: then, and where pulses cease, it is
+// followed by its probes alone. Where samples cease for a second, or the machine's clock is
 // set, the motion is found anew and what was learned is kept; the twin's time goes on.
 #pragma once
 
@@ -13,13 +14,12 @@
 #include <optional>
 #include <vector>
 
-#include "control/drive.h"
 #include "estimation/follow_settings.h"
+#include "estimation/followed_shaft.h"
 #include "estimation/followed_track.h"
 #include "estimation/measured_queue.h"
 #include "messages/follow_state.h"
 #include "messages/measurement.h"
-#include "signal/shaft_tracker.h"
 #include "twin/system_generations.h"
 #include "twin/twin.h"
 
@@ -62,9 +62,8 @@ class Follower {
     std::int64_t delay = 0;  // [ns], that it shows the machine late by
   };
   struct Shaft {
-    std::optional<ShaftTracker> tracker;  // of a drive with a keyphasor
-    std::size_t source = 0;               // then
-    Drive drive;                          // else
+    FollowedShaft motion;
+    std::optional<std::size_t> source;  // of its pulses
   };
 
   void addSensors(const FollowSettings& settings);
@@ -91,6 +90,7 @@ class Follower {
   bool began_ = false;
   std::int64_t longest_delay_ = 0;  // [ns], of all channels
   std::int64_t origin_ = 0;         // [ns], the machine's instant of step 0
+  std::int64_t first_ = 0;          // [ns], of the first sample
   std::int64_t next_step_ = 0;      // to be recorded
   std::int64_t restarts_ = 0;
   std::int64_t clock_settings_ = 0;

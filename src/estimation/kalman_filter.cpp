@@ -27,6 +27,13 @@ void KalmanFilter::forget(Eigen::Index number, double deviation) {
   p_(number, number) = deviation * deviation;
 }
 
+void KalmanFilter::separate(Eigen::Index first, Eigen::Index count) {
+  fp_ = p_.block(first, first, count, count);
+  p_.middleRows(first, count).setZero();
+  p_.middleCols(first, count).setZero();
+  p_.block(first, first, count, count) = fp_;
+}
+
 KalmanFilter::Expected KalmanFilter::expect(const Eigen::VectorXd& h, double deviation) const {
   return {h.dot(x_), std::sqrt(std::max(0.0, h.dot(p_ * h)) + deviation * deviation)};
 }
@@ -48,11 +55,6 @@ void KalmanFilter::take(const Eigen::VectorXd& h, double measured, double deviat
   ph_.noalias() = p_ * h;
   p_.noalias() -= ph_ * gain_.transpose();
   p_.noalias() += r * gain_ * gain_.transpose();
-}
-
-void KalmanFilter::takeByGain(const Eigen::VectorXd& h, double measured,
-                              const Eigen::VectorXd& gain) {
-  x_ += gain * (measured - h.dot(x_));
 }
 
 }  // namespace whirl_twin

@@ -24,6 +24,8 @@ class KalmanFilter {
   void propagate(const Eigen::MatrixXd& transition, const Eigen::MatrixXd& noise);
   /// Makes a number this uncertain, and independent of all others.
   void forget(Eigen::Index number, double deviation);
+  /// Makes so many numbers from `first` on independent of all others.
+  void separate(Eigen::Index first, Eigen::Index count);
 
   /// What a measurement of h'x with noise of a standard deviation is expected to be.
   struct Expected {
@@ -33,17 +35,14 @@ class KalmanFilter {
   Expected expect(const Eigen::VectorXd& h, double deviation) const;
   /// Takes a measured value. Numbers from `considered` on count as uncertain and stay as they are.
   void take(const Eigen::VectorXd& h, double measured, double deviation, Eigen::Index considered);
-  /// The same with a gain found before: the covariance is left as it is.
-  void takeByGain(const Eigen::VectorXd& h, double measured, const Eigen::VectorXd& gain);
-  /// Of the last take().
-  const Eigen::VectorXd& gain() const { return gain_; }
 
  private:
   Eigen::VectorXd x_;
   Eigen::MatrixXd p_;
+  // Kept to save the room:
   Eigen::VectorXd gain_;
-  Eigen::VectorXd ph_;  // P h, kept to save the room
-  Eigen::MatrixXd fp_;  // F P, likewise
+  Eigen::VectorXd ph_;  // P h
+  Eigen::MatrixXd fp_;  // F P
 };
 
 }  // namespace whirl_twin

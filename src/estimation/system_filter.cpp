@@ -14,7 +14,6 @@ namespace whirl_twin {
 namespace {
 
 constexpr double kNanosecond = 1.0e-9;  // s
-constexpr double kSmall = 1.0e-3;       // of a duration, for differences
 // Gauss's three nodes on 0..1, and their weights.
 constexpr std::array<double, 3> kNode = {0.11270166537925831, 0.5, 0.88729833462074169};
 constexpr std::array<double, 3> kWeight = {5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0};
@@ -26,6 +25,10 @@ constexpr double kSameSpeed = 1.0e-3;
 constexpr double kGate = 6.0;
 /// Before, a motion is not known well enough to tell of parameters.
 constexpr double kSettling = 0.05;  // s
+/// Of the shaft's angle: with a larger deviation probes tell more of what turns with it.
+constexpr double kAngleOfUse = 0.2;  // rad
+/// What turns with a shaft that stands is no noise that lasts for ever.
+constexpr double kLongestPeriod = 1.0;  // s
 
 // What is known at the start, of coordinates and rates.
 constexpr double kStartAngle = 1.0;      // rad
@@ -112,12 +115,11 @@ SystemFilter::SystemFilter(const BuiltScene& scene, std::size_t system,
   }
 }
 
-void SystemFilter::begin(const ShaftInstant& at, std::int64_t to_twin) {
+void SystemFilter::begin(const ShaftInstant& at, std::int64_t to_twin, double shaft_deviation) {
   to_twin_ = to_twin;
-  const double turned = at.angle.remainder - now_.angle.remainder;
-  for (Eigen::Index i = unbalance_; i < offset_; i += 2) {
-    turn(filter_.state(), i, std::cos(turned), std::sin(turned));
-  }
+  by_probes_ = !(shaft_deviation <= kAngleOfUse);
+  shaft_deviation_ = shaft_deviation;
+  turnWhatTurns(at.angle.remainder - now_.angle.remainder);
   now_ = at;
   for (Eigen::Index i = 0; i < n_; ++i) {
     const auto k = static_cast<std::size_t>(i);
@@ -141,62 +143,48 @@ void SystemFilter::forgetMotion() {
   began_ = now_.time;
 }
 
-Moment<double> SystemFilter::ShaftPath::at(double part) const {
-  const double t = part * duration;
-  const double h = kSmall * duration;
-  const double low = std::clamp(t, h, duration - h);
-  const double here = turn.at(low), before = turn.at(low - h), after = turn.at(low + h);
-  Moment<double> moment;
-  moment.time = start + t;
-  moment.angle = angle + turn.at(t);
-  moment.acceleration = (after - 2.0 * here + before) / (h * h);
-  moment.speed = (after - before) / (2.0 * h) + (t - low) * moment.acceleration;
-  return moment;
-}
-
 Moment<double> SystemFilter::moment() const {
   return {seconds(now_.time + to_twin_), now_.angle.remainder, now_.speed, 0.0};
 }
 
 /// In parts that a step can take, the last of them to there.
 std::vector<ShaftInstant> SystemFilter::partsOf(const ShaftInstant& there) const {
-  const std::int64_t all = there.time - now_.time;
-  const double turned =
-      there.angle.remainder - now_.angle.remainder +
-      ShaftAngle::kTurn * static_cast<double>(there.angle.turns - now_.angle.turns);
-  const std::int64_t parts = model_.system()->dynamics->linear()
-                                 ? static_cast<std::int64_t>(std::fabs(turned) / kLongestTurn) + 1
-                                 : (all + longest_ - 1) / longest_;
-  const CubicPiece path{seconds(all), 0.0, turned, now_.speed, there.speed};
-  std::vector<ShaftInstant> instants;
-  for (std::int64_t k = 1; k < parts; ++k) {
-    const std::int64_t time = all / parts * k;
-    const double t = seconds(time);
-    const double h = kSmall * seconds(all / parts);
-    const double a = now_.angle.remainder + path.at(t);
-    const double whole = std::floor(a / ShaftAngle::kTurn);
-    instants.push_back(
-        {now_.time + time,
-         {now_.angle.turns + static_cast<std::int64_t>(whole), a - whole * ShaftAngle::kTurn},
-         (path.at(t + h) - path.at(t - h)) / (2.0 * h)});
-  }
-  instants.push_back(there);
-  return instants;
+  const ShaftPath path(now_, there, to_twin_);
+  const std::int64_t parts =
+      model_.system()->dynamics->linear()
+          ? static_cast<std::int64_t>(std::fabs(path.turned()) / kLongestTurn) + 1
+          : (there.time - now_.time + longest_ - 1) / longest_;
+  return path.parted(parts);
 }
 
-void SystemFilter::goTo(const ShaftInstant& there) {
-  if (there.time > now_.time) {
-    for (const ShaftInstant& part : partsOf(there)) {
-      goOn(part);
-    }
+/// Of a shaft that goes on at its speed.
+ShaftInstant SystemFilter::onward(std::int64_t time) const {
+  return {time, advance(now_.angle, now_.speed, time - now_.time), now_.speed};
+}
+
+void SystemFilter::goTo(const ShaftInstant& there, double shaft_deviation) {
+  if (there.time <= now_.time) {
+    return;
   }
+  const bool known = shaft_deviation <= kAngleOfUse;
+  const bool found = by_probes_ && known;
+  by_probes_ = by_probes_ || !known;
+  for (const ShaftInstant& part : partsOf(found ? onward(there.time) : there)) {
+    goOn(part);
+  }
+  if (found) {
+    turnWhatTurns(there.angle.remainder - now_.angle.remainder);
+    now_ = there;
+    by_probes_ = false;
+  }
+  shaft_deviation_ = shaft_deviation;
 }
 
 Eigen::VectorXd SystemFilter::motionAt(const ShaftInstant& there) {
   Eigen::VectorXd state = filter_.state();
   if (there.time > now_.time) {
     ShaftInstant from = now_;
-    for (const ShaftInstant& part : partsOf(there)) {
+    for (const ShaftInstant& part : partsOf(by_probes_ ? onward(there.time) : there)) {
       state = moved(state, pathBetween(from, part), part.time - from.time);
       from = part;
     }
@@ -205,18 +193,27 @@ Eigen::VectorXd SystemFilter::motionAt(const ShaftInstant& there) {
 }
 
 /// Inputs stand at its start.
-SystemFilter::ShaftPath SystemFilter::pathBetween(const ShaftInstant& from,
-                                                  const ShaftInstant& to) {
-  ShaftPath path;
-  path.start = seconds(from.time + to_twin_);
-  path.duration = seconds(to.time - from.time);
-  path.angle = from.angle.remainder;
-  path.turn = {path.duration, 0.0,
-               to.angle.remainder - from.angle.remainder +
-                   ShaftAngle::kTurn * static_cast<double>(to.angle.turns - from.angle.turns),
-               from.speed, to.speed};
+ShaftPath SystemFilter::pathBetween(const ShaftInstant& from, const ShaftInstant& to) {
   inputs_.begin(from.time + to_twin_);
-  return path;
+  return {from, to, to_twin_};
+}
+
+/// Of unbalances and run-outs, by an angle [rad].
+void SystemFilter::setTurning(double angle) {
+  const double cosine = std::cos(angle), sine = std::sin(angle);
+  for (Eigen::Index i = unbalance_; i < offset_; i += 2) {
+    transition_.block<2, 2>(i, i) << cosine, -sine, sine, cosine;
+  }
+}
+
+/// Unbalances and run-outs are at another angle [rad] at once: the motion is what it was.
+void SystemFilter::turnWhatTurns(double angle) {
+  const Eigen::Index all = filter_.size();
+  transition_.setIdentity(all, all);
+  setTurning(angle);
+  noise_.setZero(all, all);
+  filter_.state() = transition_ * filter_.state();
+  filter_.propagate(transition_, noise_);
 }
 
 void SystemFilter::goOn(const ShaftInstant& there) {
@@ -253,7 +250,7 @@ Eigen::VectorXd SystemFilter::inputsAt(const ShaftPath& path, double part) const
   Eigen::VectorXd u(static_cast<Eigen::Index>(inputs_.count()));
   for (std::size_t i = 0; i < inputs_.count(); ++i) {
     u[static_cast<Eigen::Index>(i)] =
-        inputs_.acts(i) ? inputs_.value(i, part * path.duration) : 0.0;
+        inputs_.acts(i) ? inputs_.value(i, part * path.duration()) : 0.0;
   }
   return u;
 }
@@ -280,7 +277,7 @@ Eigen::VectorXd SystemFilter::moved(const Eigen::VectorXd& state, const ShaftPat
       next.head(2 * n_).noalias() += step.node[k] * acceleration(kNode[k], zero, zero);
     }
   } else {
-    const double h = path.duration;
+    const double h = path.duration();
     const auto rate = [&](double part, const Eigen::VectorXd& at) {
       Eigen::VectorXd f(2 * n_);
       f.head(n_) = at.tail(n_);
@@ -294,7 +291,7 @@ Eigen::VectorXd SystemFilter::moved(const Eigen::VectorXd& state, const ShaftPat
     next.head(2 * n_) += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);
   }
   for (Eigen::Index i = unbalance_; i < offset_; i += 2) {
-    turn(next, i, std::cos(path.turn.to), std::sin(path.turn.to));
+    turn(next, i, std::cos(path.turned()), std::sin(path.turned()));
   }
   return next;
 }
@@ -344,8 +341,8 @@ SystemFilter::Step SystemFilter::stepAbout(const LocalMotion& local, std::int64_
 
 Eigen::MatrixXd SystemFilter::unbalanceColumns(const ShaftPath& path, double part) const {
   const Moment<double> moment = path.at(part);
-  const double cosine = std::cos(moment.angle - path.angle);
-  const double sine = std::sin(moment.angle - path.angle);
+  const double cosine = std::cos(moment.angle - path.startAngle());
+  const double sine = std::sin(moment.angle - path.startAngle());
   // (w^2 - i a) e^(i turn) of x + i y
   const double w2 = moment.speed * moment.speed, a = moment.acceleration;
   Eigen::Matrix2d load;
@@ -362,7 +359,7 @@ Eigen::MatrixXd SystemFilter::unbalanceColumns(const ShaftPath& path, double par
 
 void SystemFilter::spread(const Step& step, const ShaftPath& path) {
   const Eigen::Index all = filter_.size(), s = 2 * n_;
-  const double h = path.duration;
+  const double h = path.duration();
   transition_.setIdentity(all, all);
   transition_.topLeftCorner(s, s) = step.states;
   transition_.block(0, s, s, m_).noalias() = step.forced * by_parameter_;
@@ -370,12 +367,16 @@ void SystemFilter::spread(const Step& step, const ShaftPath& path) {
     transition_.block(0, unbalance_, s, run_out_ - unbalance_).noalias() +=
         step.node[k] * unbalanceColumns(path, kNode[k]);
   }
-  const double cosine = std::cos(path.turn.to), sine = std::sin(path.turn.to);
-  for (Eigen::Index i = unbalance_; i < offset_; i += 2) {
-    transition_.block<2, 2>(i, i) << cosine, -sine, sine, cosine;
-  }
+  setTurning(path.turned());
   noise_.setZero(all, all);
   noise_.topLeftCorner(s, s) = settings_.disturbance * settings_.disturbance * step.noise;
+  if (by_probes_) {
+    const Eigen::MatrixXd unknown = turningNoise(path);
+    for (std::size_t k = 0; k < kNode.size(); ++k) {
+      noise_.topLeftCorner(s, s) +=
+          step.node[k] * unknown * step.node[k].transpose() / (kWeight[k] * h);
+    }
+  }
   for (Eigen::Index i = 0; i < m_; ++i) {
     const FollowedNumber& number = settings_.parameters[static_cast<std::size_t>(i)].number;
     // Nothing is forgotten beyond what was known at the start: where nothing tells of a parameter
@@ -397,6 +398,32 @@ void SystemFilter::spread(const Step& step, const ShaftPath& path) {
     noise_.diagonal().segment(unbalance_, unbalances).setConstant(walk * walk * h);
   }
   filter_.propagate(transition_, noise_);
+  if (by_probes_) {
+    filter_.separate(unbalance_, offset_ - unbalance_);
+  }
+}
+
+/// Accelerations of what turns with the shaft, where nobody knows at which angle it is: white, as
+/// of one that lasts for a turn [n x n, (m/s^2)^2/Hz]. Twice as much, for what is taken for the
+/// angle is as far off as not.
+Eigen::MatrixXd SystemFilter::turningNoise(const ShaftPath& path) {
+  constexpr Eigen::Index kAngles = 4;
+  Moment<double> moment = path.at(0.5);
+  Eigen::VectorXd turned = filter_.state();
+  Eigen::MatrixXd a(n_, kAngles);
+  for (Eigen::Index k = 0; k < kAngles; ++k) {
+    a.col(k) = model_.acceleration(q(), v(), moment, numbers(), inputsAt(path, 0.5), by_parameter_);
+    if (!stations_.empty()) {
+      a.col(k) += unbalanceColumns(path, 0.5) * turned.segment(unbalance_, run_out_ - unbalance_);
+    }
+    moment.angle += ShaftAngle::kTurn / kAngles;
+    for (Eigen::Index i = unbalance_; i < run_out_; i += 2) {
+      turn(turned, i, 0.0, 1.0);
+    }
+  }
+  a.colwise() -= a.rowwise().mean().eval();
+  const double period = std::min(ShaftAngle::kTurn / std::fabs(moment.speed), kLongestPeriod);
+  return 2.0 * period / kAngles * a * a.transpose();
 }
 
 Eigen::VectorXd SystemFilter::rowOf(std::size_t channel) const {
@@ -427,13 +454,15 @@ Eigen::VectorXd SystemFilter::rowOf(std::size_t channel) const {
   return h;
 }
 
-Innovation SystemFilter::take(std::size_t channel, double value, double shaft_deviation) {
+Innovation SystemFilter::take(std::size_t channel, double value) {
   const Eigen::VectorXd h = rowOf(channel);
   double noise = channels_[channel].deviation;
-  if (shaft_deviation > 0.0 && now_.speed != 0.0) {
+  if (by_probes_ && run_out_of_[channel] >= 0) {
+    noise = std::hypot(noise, filter_.state().segment<2>(run_out_of_[channel]).norm());
+  } else if (!by_probes_ && shaft_deviation_ > 0.0 && now_.speed != 0.0) {
     // A motion that turns with the shaft is seen as far off as the shaft's angle is.
-    noise = std::hypot(
-        noise, shaft_deviation * std::hypot(h.head(n_).dot(q()), h.head(n_).dot(v()) / now_.speed));
+    noise = std::hypot(noise, shaft_deviation_ * std::hypot(h.head(n_).dot(q()),
+                                                            h.head(n_).dot(v()) / now_.speed));
   }
   const KalmanFilter::Expected expected = filter_.expect(h, noise);
   Innovation innovation{value - expected.value, expected.deviation, false};
@@ -445,7 +474,7 @@ Innovation SystemFilter::take(std::size_t channel, double value, double shaft_de
   const double known = expected.deviation * expected.deviation - noise * noise;
   const double doubt = settled ? std::min(1.0, derivativeDoubt()) : 0.0;
   filter_.take(h, value, std::sqrt(noise * noise + doubt * std::max(0.0, known)),
-               settled ? filter_.size() : 2 * n_);
+               settled && !by_probes_ ? filter_.size() : 2 * n_);
   return innovation;
 }
 

@@ -8,6 +8,11 @@
 // matrix exponential of the linearized equations, of a nonlinear system about the middle of the
 // step, whose motion Runge-Kutta's method of order four follows; noise by the series of van Loan
 // (IEEE Trans. Automatic Control 23, 1978).
+//
+// Where the shaft's angle is not known, a rotor is followed by its probes alone: the shaft goes on
+// at its speed, what the forces that turn with it may be at any angle counts as noise, and nothing
+// is learned but the motion. Unbalances and run-outs stay where they are on the shaft, and are
+// turned to where it is found again.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,6 +28,7 @@
 #include "estimation/follow_settings.h"
 #include "estimation/followed_model.h"
 #include "estimation/kalman_filter.h"
+#include "estimation/shaft_path.h"
 #include "scene/built_scene.h"
 #include "scene/sensor_spec.h"
 
@@ -51,13 +57,13 @@ class SystemFilter {
                std::vector<FollowedChannel> channels);
 
   /// Begins anew at an instant, knowing nothing of the motion, and of all else what is known.
-  /// to_twin [ns]: what its instants are less than the twin's.
-  void begin(const ShaftInstant& at, std::int64_t to_twin = 0);
+  /// to_twin [ns]: what its instants are less than the twin's. The shaft's angle there is known to
+  /// a deviation [rad].
+  void begin(const ShaftInstant& at, std::int64_t to_twin = 0, double shaft_deviation = 0.0);
   /// Goes on, the shaft's motion being the cubic between here and there.
-  void goTo(const ShaftInstant& there);
-  /// Takes what a channel shows now, the shaft's angle being known to a deviation [rad]; a value
-  /// too far off is refused.
-  Innovation take(std::size_t channel, double value, double shaft_deviation = 0.0);
+  void goTo(const ShaftInstant& there, double shaft_deviation = 0.0);
+  /// Takes what a channel shows now; a value too far off is refused.
+  Innovation take(std::size_t channel, double value);
   /// The motion, not the rest, is as at the beginning again: what was believed of it is wrong.
   void forgetMotion();
   /// Coordinates and rates [2 dof] further on, where nothing is measured.
@@ -67,6 +73,8 @@ class SystemFilter {
   const FollowedModel& model() const { return model_; }
   const KalmanFilter& filter() const { return filter_; }
   const ShaftInstant& shaft() const { return now_; }
+  /// The shaft's angle is not known well enough to be of use.
+  bool byProbes() const { return by_probes_; }
   Eigen::VectorXd q() const { return filter_.state().head(n_); }
   Eigen::VectorXd v() const { return filter_.state().segment(n_, n_); }
   Moment<double> moment() const;
@@ -97,24 +105,20 @@ class SystemFilter {
     double speed = 0.0;         // [rad/s]
     std::int64_t version = -1;  // of the model
   };
-  /// The shaft on its way: at a part of the way there, from 0 to 1.
-  struct ShaftPath {
-    double start = 0.0;     // [s], simulated
-    double duration = 0.0;  // [s]
-    double angle = 0.0;     // [rad], at the start, without whole turns
-    CubicPiece turn;        // [rad], since the start
-    Moment<double> at(double part) const;
-  };
 
   void goOn(const ShaftInstant& there);
   std::vector<ShaftInstant> partsOf(const ShaftInstant& there) const;
   ShaftPath pathBetween(const ShaftInstant& from, const ShaftInstant& to);
+  ShaftInstant onward(std::int64_t time) const;
+  void turnWhatTurns(double angle);
+  void setTurning(double angle);
   Eigen::VectorXd moved(const Eigen::VectorXd& state, const ShaftPath& path, std::int64_t duration);
   Eigen::VectorXd inputsAt(const ShaftPath& path, double part) const;
   const Step& stepFor(const ShaftPath& path, std::int64_t duration);
   Step stepAbout(const LocalMotion& local, std::int64_t duration, double speed) const;
   /// The covariance goes through a step; unbalances and run-outs turn by the path's angle.
   void spread(const Step& step, const ShaftPath& path);
+  Eigen::MatrixXd turningNoise(const ShaftPath& path);
   /// Accelerations by unbalances, on the way [n x 2 stations].
   Eigen::MatrixXd unbalanceColumns(const ShaftPath& path, double part) const;
   Eigen::VectorXd rowOf(std::size_t channel) const;
@@ -135,6 +139,8 @@ class SystemFilter {
   Eigen::VectorXd angles_;  // 1 for each coordinate that is an angle, else 0
   KalmanFilter filter_;
   ShaftInstant now_;
+  bool by_probes_ = false;
+  double shaft_deviation_ = 0.0;        // [rad], where it is not by the probes
   std::int64_t began_ = 0;              // [ns]
   Eigen::MatrixXd by_parameter_;        // of the last step, in its middle [n x m]
   Eigen::MatrixXd station_directions_;  // M^-1 of them, now [n x 2 stations]

@@ -64,7 +64,9 @@ class Twinned {
   double y() const { return whirl_.back(); }
   /// Of all records, one after another.
   std::vector<double> whirl() const { return whirl_; }
-  double recorded = 0.0;  ///< [s], of the newest record
+  std::vector<double> time;   ///< [s], of each record
+  std::vector<double> angle;  ///< [rad], of the shaft in each record
+  double recorded = 0.0;      ///< [s], of the newest record
 
  private:
   FollowerListener listener() {
@@ -73,6 +75,8 @@ class Twinned {
               whirl_.push_back(rotor.q()[0]);
               whirl_.push_back(rotor.q()[1]);
               recorded = twin_.seconds(RecordLayout::step(record));
+              time.push_back(recorded);
+              angle.push_back(RecordLayout::shaft(record, 0).angle().total());
             },
             [this](const state::FollowState& state) { told.push_back(state); }};
   }

@@ -183,6 +183,94 @@ TEST(Follower, SurvivesWhatSensorsDo) {
   EXPECT_LT(std::hypot(twin.x() - again.x(), twin.y() - again.y()), 5.0e-6);
 }
 
+std::string with(std::string scene, const std::string& what, const std::string& instead) {
+  return scene.replace(scene.find(what), what.size(), instead);
+}
+
+/// What the twin's records are off the machine by: root mean square [m] from one time to another.
+double apart(const Twinned& twin, const std::string& machine, double from, double to) {
+  Machine again(machine);
+  const std::vector<double> whirl = twin.whirl();
+  double squares = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < twin.time.size() && twin.time[i] < to; ++i) {
+    while (again.time() < twin.time[i] - 1.0e-9) {
+      again.step();
+    }
+    if (twin.time[i] >= from) {
+      squares += std::pow(whirl[2 * i] - again.x(), 2) + std::pow(whirl[2 * i + 1] - again.y(), 2);
+      count += 1.0;
+    }
+  }
+  return std::sqrt(squares / count);
+}
+
+/// Pulses cease for ten seconds, in which the shaft takes another speed. The whirl stays as well
+/// known as two probes tell it, which is less than before, and that is said. What has been learned
+/// of the unbalance is kept, and is right at the angle at which the shaft is found again.
+TEST(Follower, GoesOnByTheProbesWithoutAKeyphasor) {
+  const std::string rig =
+      with(kRotor, "{speed: 45.0}",
+           "{speed: 45.0, profile: ["
+           "{speed: 45.0, max_acceleration: 2.0, max_jerk: 20.0, dwell: 8.0}, "
+           "{speed: 50.0, max_acceleration: 2.0, max_jerk: 20.0, dwell: 30.0}]}");
+  const std::string model = with(kRotor, "eccentricity: 1.0e-4", "eccentricity: 5.0e-5");
+  FollowSettings settings;
+  settings.systems["rotor"].disturbance = 1.0e-3;
+  settings.systems["rotor"].unbalance = {2.0e-4, 0.0};
+  Machine machine(rig);
+  Twinned twin(model, settings);
+  const auto unbalance = [&] { return twin.follower.filter(0)->unbalance(0); };
+  double known_deviation = 0.0, least_deviation = 1.0;
+  bool said = false;
+  while (machine.time() < 30.0) {
+    const double t = machine.time();
+    for (const state::Measurement& m : machine.step()) {
+      if (m.source == "probes" || t < 5.0 || t > 15.0) {
+        twin.follower.take(m);
+      }
+    }
+    if (t > 4.0 && t < 5.0) {
+      known_deviation = std::max(known_deviation, twin.last().residual_deviation[0]);
+    }
+    if (t > 7.0 && t < 15.0) {
+      said = said || !twin.last().shaft_known;
+      least_deviation = std::min(least_deviation, twin.last().residual_deviation[0]);
+    }
+    if (std::fabs(t - 14.9) < 1.0e-6) {
+      EXPECT_NEAR(unbalance().x(), 1.0e-4, 2.0e-6);
+      EXPECT_NEAR(unbalance().y(), 0.0, 2.0e-6);
+    }
+  }
+  EXPECT_TRUE(said);
+  EXPECT_GT(least_deviation, 1.3 * known_deviation);
+  EXPECT_LT(apart(twin, rig, 3.0, 5.0), 2.0e-6);
+  EXPECT_LT(apart(twin, rig, 5.0, 15.0), 6.0e-6);  // two probes of 3 um
+  EXPECT_LT(apart(twin, rig, 17.0, 30.0), 2.0e-6);
+  EXPECT_EQ(twin.last().refused, 0);
+  EXPECT_EQ(twin.follower.restarts(), 0);
+  EXPECT_TRUE(twin.last().shaft_known);
+  EXPECT_NEAR(unbalance().x(), 1.0e-4, 1.0e-6);
+  EXPECT_NEAR(unbalance().y(), 0.0, 1.0e-6);
+  for (std::size_t i = 1; i < twin.angle.size(); ++i) {
+    EXPECT_GT(twin.angle[i], twin.angle[i - 1] - M_PI) << twin.time[i];
+  }
+}
+
+/// A keyphasor that has never told anything: the shaft turns as the drive says, at whatever angle.
+TEST(Follower, BeginsByTheProbesWhereTheKeyphasorIsDead) {
+  Machine machine(kRotor);
+  Twinned twin(with(kRotor, "speed: 45.0", "speed: 46.0"), {});
+  while (machine.time() < 10.0) {
+    for (const state::Measurement& m : machine.step()) {
+      if (m.source == "probes") {
+        twin.follower.take(m);
+      }
+    }
+  }
+  EXPECT_FALSE(twin.last().shaft_known);
+  EXPECT_LT(apart(twin, kRotor, 3.0, 10.0), 6.0e-6);
+}
+
 /// The machine's clock is set forward, and back, by an hour: the twin's time goes on, and the
 /// motion is found anew.
 TEST(Follower, GoesOnWhenTheMachinesClockIsSet) {

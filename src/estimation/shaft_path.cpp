@@ -1,0 +1,55 @@
+#include "estimation/shaft_path.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kNanosecond = 1.0e-9;  // s
+constexpr double kSmall = 1.0e-3;       // of a duration, for differences
+
+}  // namespace
+
+ShaftPath::ShaftPath(const ShaftInstant& from, const ShaftInstant& to, std::int64_t to_twin)
+    : from_(from),
+      to_(to),
+      start_(static_cast<double>(from.time + to_twin) * kNanosecond),
+      angle_(from.angle.remainder),
+      turn_{static_cast<double>(to.time - from.time) * kNanosecond, 0.0,
+            to.angle.remainder - from.angle.remainder +
+                ShaftAngle::kTurn * static_cast<double>(to.angle.turns - from.angle.turns),
+            from.speed, to.speed} {}
+
+Moment<double> ShaftPath::at(double part) const {
+  const double t = part * duration();
+  const double h = kSmall * duration();
+  const double low = std::clamp(t, h, duration() - h);
+  const double here = turn_.at(low), before = turn_.at(low - h), after = turn_.at(low + h);
+  Moment<double> moment;
+  moment.time = start_ + t;
+  moment.angle = angle_ + turn_.at(t);
+  moment.acceleration = (after - 2.0 * here + before) / (h * h);
+  moment.speed = (after - before) / (2.0 * h) + (t - low) * moment.acceleration;
+  return moment;
+}
+
+std::vector<ShaftInstant> ShaftPath::parted(std::int64_t pieces) const {
+  const std::int64_t piece = (to_.time - from_.time) / pieces;
+  std::vector<ShaftInstant> instants;
+  for (std::int64_t k = 1; k < pieces; ++k) {
+    const double t = static_cast<double>(piece * k) * kNanosecond;
+    const double h = kSmall * static_cast<double>(piece) * kNanosecond;
+    const double a = angle_ + turn_.at(t);
+    const double whole = std::floor(a / ShaftAngle::kTurn);
+    instants.push_back(
+        {from_.time + piece * k,
+         {from_.angle.turns + static_cast<std::int64_t>(whole), a - whole * ShaftAngle::kTurn},
+         (turn_.at(t + h) - turn_.at(t - h)) / (2.0 * h)});
+  }
+  instants.push_back(to_);
+  return instants;
+}
+
+}  // namespace whirl_twin
