@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "messages/units.h"
+
 namespace whirl_twin {
 
 std::optional<MeasuredPlace> MeasuredPlace::of(const BuiltScene& scene, const std::string& system) {
@@ -15,7 +17,10 @@ std::optional<MeasuredPlace> MeasuredPlace::of(const BuiltScene& scene, const st
     for (const SensorSpec& sensor : scene.scene.sensors) {
       MeasuredPlace place;
       place.source_ = sensor.name;
-      place.channel_.resize(built.dynamics->coordinates().size());
+      for (const CoordinateInfo& coordinate : built.dynamics->coordinates()) {
+        place.channel_.emplace_back();
+        place.unit_.push_back(coordinate.unit);
+      }
       for (const SensorChannelSpec& channel : sensor.channels) {
         if (channel.signal.system == i && channel.signal.kind == SignalSpec::Kind::kCoordinate) {
           place.channel_[channel.signal.coordinate] = channel.name;
@@ -32,21 +37,27 @@ std::optional<MeasuredPlace> MeasuredPlace::of(const BuiltScene& scene, const st
 
 std::vector<double> MeasuredPlace::newest(const Measurement& block) const {
   std::vector<std::size_t> column;
-  for (const std::string& name : channel_) {
-    const auto found = std::find(block.channel.begin(), block.channel.end(), name);
-    if (found == block.channel.end()) {
+  std::vector<double> scale;
+  for (std::size_t i = 0; i < channel_.size(); ++i) {
+    const auto found = std::find(block.channel.begin(), block.channel.end(), channel_[i]);
+    const auto c = static_cast<std::size_t>(found - block.channel.begin());
+    if (c >= std::min(block.channel.size(), block.unit.size())) {
       return {};
     }
-    column.push_back(static_cast<std::size_t>(found - block.channel.begin()));
+    column.push_back(c);
+    scale.push_back(unitScale(block.unit[c], unit_[i]));
+    if (scale.back() == 0.0) {
+      return {};
+    }
   }
   const std::size_t width = block.channel.size();
   const std::size_t values = std::min(block.value.size(), block.valid.size());
   for (std::size_t end = values - values % width; end > 0; end -= width) {
     std::vector<double> place;
-    for (const std::size_t c : column) {
-      const std::size_t at = end - width + c;
+    for (std::size_t i = 0; i < column.size(); ++i) {
+      const std::size_t at = end - width + column[i];
       if (block.valid[at] && std::isfinite(block.value[at])) {
-        place.push_back(block.value[at]);
+        place.push_back(scale[i] * block.value[at]);
       }
     }
     if (place.size() == column.size()) {

@@ -21,12 +21,14 @@ class MeasuredPlace {
   const std::string& source() const { return source_; }
 
   /// Coordinates [m or rad] of the newest sample of a block of which each is valid; empty: there
-  /// is none, or the block has not the channels.
+  /// is none, or the block has not the channels, or in units of another kind.
   std::vector<double> newest(const Measurement& block) const;
 
  private:
   std::string source_;
-  std::vector<std::string> channel_;  // of each coordinate
+  // Of each coordinate:
+  std::vector<std::string> channel_;
+  std::vector<std::string> unit_;
 };
 
 }  // namespace whirl_twin

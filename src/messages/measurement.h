@@ -33,6 +33,12 @@ struct Measurement {
   std::vector<double> value;          ///< sample after sample, each with all channels
   std::vector<std::uint8_t> valid;    ///< of each value; 0: not to be used
 
+  /// [ns], of a sample; of the last one.
+  std::int64_t instantOf(std::int64_t sample) const {
+    return period > 0 ? first_instant + sample * period : instant[static_cast<std::size_t>(sample)];
+  }
+  std::int64_t lastInstant() const { return instantOf(samples - 1); }
+
   template <class Visit>
   static void fields(Visit& visit) {
     visit.head(TWIN_FIELD(source));

@@ -10,6 +10,7 @@
 
 #include "messages/message_check.h"
 #include "messages/refusal.h"
+#include "messages/units.h"
 #include "scene/station_names.h"
 #include "signal/shaft_tracker.h"
 #include "transport/event_scan.h"
@@ -54,12 +55,6 @@ struct Source {
   std::int64_t first = 0, last = 0;              // [ns]
   std::map<std::string, double> deviation = {};  // of its channels, as the first message says
 };
-
-/// The instants [ns] of a message's samples.
-std::int64_t instantOf(const state::Measurement& message, std::int64_t sample) {
-  return message.period > 0 ? message.first_instant + sample * message.period
-                            : message.instant[static_cast<std::size_t>(sample)];
-}
 
 /// The shaft between pulses, at instants in order.
 class TrackedShaft {
@@ -168,7 +163,7 @@ void RotorRecord::findProbes(const BuiltScene& scene, const RotorSystem& system)
       std::vector<std::int64_t>& all = pulses[measured->source];
       for (std::int64_t i = 0; i < measured->samples; ++i) {
         if (measured->valid[static_cast<std::size_t>(i)] != 0) {
-          all.push_back(instantOf(*measured, i));
+          all.push_back(measured->instantOf(i));
         }
       }
     }
@@ -180,11 +175,12 @@ void RotorRecord::findProbes(const BuiltScene& scene, const RotorSystem& system)
     if (source.samples == 0) {
       source.first = measured->first_instant;
       for (std::size_t c = 0; c < measured->channel.size(); ++c) {
-        source.deviation[measured->channel[c]] = measured->deviation[c];
+        source.deviation[measured->channel[c]] =
+            unitScale(measured->unit[c], "m") * measured->deviation[c];
       }
     }
     source.samples += measured->samples;
-    source.last = instantOf(*measured, measured->samples - 1);
+    source.last = measured->lastInstant();
   });
   const Source* best = nullptr;
   for (const auto& [name, source] : sources) {
@@ -271,12 +267,15 @@ RecordCounts RotorRecord::readProbes(const std::function<void(const ProbeReading
     }
     const std::size_t channels = measured->channel.size();
     std::vector<std::size_t> columns;
+    std::vector<double> scales;  // to metres; 0: not valid
     for (const RecordedProbe& probe : probes_) {
       const auto found = std::find(measured->channel.begin(), measured->channel.end(), probe.name);
       columns.push_back(static_cast<std::size_t>(found - measured->channel.begin()));
+      scales.push_back(columns.back() < channels ? unitScale(measured->unit[columns.back()], "m")
+                                                 : 0.0);
     }
     for (std::int64_t i = 0; i < measured->samples; ++i) {
-      const std::int64_t instant = instantOf(*measured, i);
+      const std::int64_t instant = measured->instantOf(i);
       if (instant <= last) {
         continue;
       }
@@ -294,9 +293,10 @@ RecordCounts RotorRecord::readProbes(const std::function<void(const ProbeReading
       reading.speed = at.speed;
       for (std::size_t c = 0; c < columns.size(); ++c) {
         const std::size_t value = static_cast<std::size_t>(i) * channels + columns[c];
-        const bool valid = columns[c] < channels && measured->valid[value] != 0;
+        const bool valid = scales[c] != 0.0 && measured->valid[value] != 0;
         counts.not_valid += valid ? 0 : 1;
-        reading.values[static_cast<Eigen::Index>(c)] = valid ? measured->value[value] : kNaN;
+        reading.values[static_cast<Eigen::Index>(c)] =
+            valid ? scales[c] * measured->value[value] : kNaN;
       }
       ++counts.samples;
       take(reading);

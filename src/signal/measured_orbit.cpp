@@ -5,6 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "messages/units.h"
+
 namespace whirl_twin {
 
 namespace {
@@ -15,22 +17,12 @@ constexpr std::size_t kMostPulses = 4096;   // that wait for samples
 constexpr std::int64_t kExact = 1LL << 53;  // [ns], up to which a double counts them
 constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::min();
 
-/// In metres; 0 of what is no length.
-double scaleOf(const std::string& unit) {
-  return unit == "m" ? 1.0 : unit == "mm" ? 1.0e-3 : unit == "um" ? 1.0e-6 : 0.0;
-}
-
-std::int64_t instantOf(const state::Measurement& message, std::int64_t sample) {
-  return message.period > 0 ? message.first_instant + sample * message.period
-                            : message.instant[static_cast<std::size_t>(sample)];
-}
-
 /// [ns], mean of a message; 0 where it has one sample.
 std::int64_t periodOf(const state::Measurement& message) {
   if (message.period > 0 || message.samples < 2) {
     return message.period;
   }
-  return (message.instant.back() - message.instant.front()) / (message.samples - 1);
+  return (message.lastInstant() - message.first_instant) / (message.samples - 1);
 }
 
 }  // namespace
@@ -90,10 +82,10 @@ void MeasuredOrbit::takeProbe(std::size_t probe, const state::Measurement& messa
   }
   const std::size_t channels = message.channel.size();
   auto at = static_cast<std::size_t>(found - message.channel.begin());
-  const double scale = scaleOf(message.unit[at]);
+  const double scale = unitScale(message.unit[at], "m");
   const std::int64_t period = periodOf(message);
   for (std::int64_t i = 0; i < message.samples; ++i, at += channels) {
-    const std::int64_t instant = instantOf(message, i);
+    const std::int64_t instant = message.instantOf(i);
     std::int64_t& newest = newest_reading_[probe];
     if (instant <= newest) {
       ++(instant == newest ? samples_.repeated : samples_.late);
@@ -116,7 +108,7 @@ void MeasuredOrbit::takePulses(const state::Measurement& message) {
   for (std::int64_t i = 0; i < message.samples; ++i) {
     // Of a keyphasor the first channel counts; the instants are what is measured.
     if (message.valid[static_cast<std::size_t>(i) * channels] != 0) {
-      pulses_.push_back(instantOf(message, i));
+      pulses_.push_back(message.instantOf(i));
       newest_ = std::max(newest_, pulses_.back());
     }
   }

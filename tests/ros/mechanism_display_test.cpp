@@ -203,7 +203,8 @@ sensors:
   EXPECT_EQ(place->source(), "encoders");
   Measurement block;
   block.channel = {"b", "other", "a"};
-  block.value = {0.2, 9.0, 0.1, 0.4, 9.0, 0.3, 0.6, 9.0, 0.5};
+  block.unit = {"rad", "m", "mrad"};
+  block.value = {0.2, 9.0, 100.0, 0.4, 9.0, 300.0, 0.6, 9.0, 500.0};
   block.valid.assign(9, 1);
   EXPECT_EQ(place->newest(block), (std::vector<double>{0.5, 0.6}));
   block.valid[6] = 0;
@@ -211,6 +212,10 @@ sensors:
   EXPECT_EQ(place->newest(block), (std::vector<double>{0.1, 0.2}));
   block.valid[0] = 0;
   EXPECT_TRUE(place->newest(block).empty());
+  block.valid[0] = 1;
+  block.unit[2] = "m";
+  EXPECT_TRUE(place->newest(block).empty());
+  block.unit[2] = "mrad";
   block.channel = {"b", "other", "c"};
   EXPECT_TRUE(place->newest(block).empty());
 }
