@@ -44,6 +44,7 @@ constexpr double kRoundingExcess = 1.0e-3;
 constexpr double kOwnSteps = 50.0;
 constexpr int kPastMargin = 4;
 constexpr double kFastRate = 1.0e3;  // [m/s] or [rad/s]
+constexpr double kLengthsOfParts = 36.0;
 /// Coordinates of a rotor whose steps are tables over speed, and of one at a constant speed, that
 /// is still calibrated.
 constexpr Eigen::Index kMostInTables = 64;
@@ -69,11 +70,14 @@ bool hasRateForces(const ModelSetup& setup, const SystemSpec& spec) {
 }
 
 /// Are its steps, of matrices over speed, so dear to prepare that nobody wants to wait for a dozen
-/// ways of it? That goes as the cube of the coordinates.
+/// ways of it? That goes as the cube of the coordinates, and as the lengths of the parts that steps
+/// are taken in: at the steps of a reference those never come again.
 bool dearToPrepare(const Scene& one, const ModelSetup& setup) {
   const bool over_speed = !one.drives.empty() && !one.drives.front().profile.empty();
+  const double lengths = one.controllers.empty() ? 1.0 : kLengthsOfParts;
   return setup.integrators.size() == 1 && setup.dynamics->hasShaft() &&
-         setup.dynamics->dof() > (over_speed ? kMostInTables : kMostAtOneSpeed);
+         std::cbrt(lengths) * setup.dynamics->dof() >
+             (over_speed ? kMostInTables : kMostAtOneSpeed);
 }
 
 /// How often the substeps have to be doubled for so many times the error allowed.

@@ -13,9 +13,12 @@ double now() {
 
 }  // namespace
 
-Judging::Judging(const std::vector<SharedSystem>& systems, Mode mode) : waiting_(systems.size()) {
-  for (const SharedSystem& system : systems) {
-    seats_.push_back({system, std::make_unique<SystemJudge>(system)});
+Judging::Judging(const std::vector<SharedSystem>& systems, Mode mode,
+                 std::vector<std::shared_ptr<const ClosedLoop>> loops)
+    : waiting_(systems.size()) {
+  loops.resize(systems.size());
+  for (std::size_t i = 0; i < systems.size(); ++i) {
+    seats_.push_back({systems[i], loops[i], std::make_unique<SystemJudge>(systems[i], loops[i])});
     first_speeds_.push_back(seats_.back().judge->speeds());
   }
   if (mode == Mode::kBeside) {
@@ -72,7 +75,7 @@ Judgement Judging::judge(const Waiting& waiting, Speeds speeds) {
   const JudgementRequest& request = waiting.request;
   Seat& seat = seats_[request.system];
   if (seat.built != request.built) {
-    seat = {request.built, std::make_unique<SystemJudge>(request.built)};
+    seat = {request.built, seat.loop, std::make_unique<SystemJudge>(request.built, seat.loop)};
   }
   Judgement judgement;
   judgement.system = request.system;
@@ -80,6 +83,7 @@ Judgement Judging::judge(const Waiting& waiting, Speeds speeds) {
   judgement.arrived_at = request.arrived_at;
   judgement.built = request.built;
   judgement.speed = request.speed;
+  judgement.of_loop = seat.loop != nullptr;
   judgement.margin = seat.judge->judge(request.at, request.q, request.v, request.speed);
   judgement.motion = seat.judge->motion();
   if (speeds == Speeds::kAll && seat.judge->lacksSpeeds()) {

@@ -38,13 +38,17 @@ struct Judgement {
   std::optional<SteadyMotion> motion;  ///< that it is about
   double speed = 0.0;                  ///< [rad/s]
   std::optional<JudgedSpeeds> speeds;  ///< not of a verdict that went before them
+  bool of_loop = false;                ///< a system with its controllers
 };
 
 class Judging {
  public:
   enum class Mode { kAtOnce, kBeside };
 
-  Judging(const std::vector<SharedSystem>& systems, Mode mode);
+  /// loops: what controllers close around each system, nullptr where there are none; empty: no
+  /// system has any.
+  Judging(const std::vector<SharedSystem>& systems, Mode mode,
+          std::vector<std::shared_ptr<const ClosedLoop>> loops = {});
   ~Judging();
   Judging(const Judging&) = delete;
   Judging& operator=(const Judging&) = delete;
@@ -62,6 +66,7 @@ class Judging {
  private:
   struct Seat {
     SharedSystem built;
+    std::shared_ptr<const ClosedLoop> loop;
     std::unique_ptr<SystemJudge> judge;
   };
   struct Waiting {

@@ -1,9 +1,15 @@
 // Judges one system of a scene at its present speed and state: linearises it about the equilibrium
 // it operates at, applies Routh's test, and measures the distance to its critical and threshold
 // speeds.
+//
+// A system with controllers is judged as they sample it (analysis/sampled_stability.h): about the
+// equilibrium nearest to where it is, stable by itself or not, by the roots of its loop inside the
+// unit circle (`left`), on it and outside (`right`). Critical and threshold speeds of such a loop
+// are not looked for.
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -13,12 +19,14 @@
 #include "messages/stability_margin.h"
 #include "monitoring/judged_speeds.h"
 #include "scene/built_system.h"
+#include "scene/closed_loop.h"
 
 namespace whirl_twin {
 
 class SystemJudge {
  public:
-  explicit SystemJudge(SharedSystem system);
+  /// loop: what its controllers close around it; nullptr: it has none.
+  explicit SystemJudge(SharedSystem system, std::shared_ptr<const ClosedLoop> loop = nullptr);
 
   /// The verdict with coordinates q and rates v at shaft speed [rad/s] (ignored without a shaft):
   /// of the equilibrium or steady motion it operates about, its conserved momenta as they are.
@@ -27,7 +35,7 @@ class SystemJudge {
                                const std::vector<double>& v, double speed);
   /// Are they: critical speeds before the first time, thresholds where the last verdict was not
   /// that which they foretold?
-  bool lacksSpeeds() const { return !speeds_ || lacks_thresholds_; }
+  bool lacksSpeeds() const { return !loop_ && (!speeds_ || lacks_thresholds_); }
   /// Looks for them, about what was judged last at `speed` [rad/s], and puts them into its verdict.
   void findSpeeds(double speed, state::StabilityMargin& margin);
   /// Its critical speeds, and its thresholds as of the last search; those that follow from its
@@ -41,7 +49,12 @@ class SystemJudge {
   void putSpeeds(double speed, state::StabilityMargin& margin) const;
   double shaftSpeed(double speed) const { return system_->dynamics->hasShaft() ? speed : 0.0; }
 
+  Stability openStability(const state::Instant& at, const Eigen::VectorXd& present,
+                          const Eigen::VectorXd& rates, double speed, Eigen::VectorXd& about);
+  Stability loopStability(const Eigen::VectorXd& present, double speed, Eigen::VectorXd& about);
+
   SharedSystem system_;
+  std::shared_ptr<const ClosedLoop> loop_;
   std::optional<JudgedSpeeds> speeds_;
   KnownSteadyMotions steady_motions_;
   std::optional<SteadyMotion> motion_;

@@ -22,11 +22,23 @@ std::vector<std::string> namesOf(const std::vector<SharedSystem>& systems) {
   return names;
 }
 
+/// What controllers close around each system.
+std::vector<std::shared_ptr<const ClosedLoop>> loopsOf(const Scene& scene) {
+  std::vector<std::shared_ptr<const ClosedLoop>> loops(scene.systems.size());
+  for (const ClosedLoop& loop : closedLoops(scene)) {
+    const auto shared = std::make_shared<const ClosedLoop>(loop);
+    for (const std::size_t system : shared->systems()) {
+      loops[system] = shared;
+    }
+  }
+  return loops;
+}
+
 }  // namespace
 
 TwinMonitor::TwinMonitor(const BuiltScene& scene, const AlarmSettings& settings, Judging::Mode mode)
     : settings_(settings),
-      judging_(scene.systems, mode),
+      judging_(scene.systems, mode, loopsOf(scene.scene)),
       margin_search_(scene.systems.size(), mode),
       data_lost_alarm_(namesOf(scene.systems), settings),
       lcm_lost_alarm_(settings),
@@ -229,7 +241,9 @@ void TwinMonitor::takeJudgements() {
       watch.speeds = std::move(*judgement.speeds);
     }
     if (judgement.run == run_) {  // else of before a reset
-      margin_search_.take(judgement, watch.stability_alarm.slowestDecay());
+      if (!judgement.of_loop) {
+        margin_search_.take(judgement, watch.stability_alarm.slowestDecay());
+      }
       watch.verdict_of = judgement.arrived_at;
       watch.stability_alarm.update(judgement.margin, alerts_);
       watch.decay_alarm.update(judgement.margin);

@@ -12,6 +12,7 @@
 #include "accuracy/trajectory.h"
 #include "messages/refusal.h"
 #include "reports/output.h"
+#include "scene/control_parts.h"
 #include "twin/twin.h"
 
 namespace whirl_twin {
@@ -100,6 +101,11 @@ AskedCost costOfSteps(const BuiltScene& scene, std::size_t system) {
   const int coordinates = static_cast<int>(built.dynamics->dof());
   AskedCost cost = bySize(built.spec.name, coordinates, low < high ? kTable : kOneSpeed);
   cost.memory = low < high ? kTableMemory * square(coordinates) : cost.memory;
+  if (isControlled(scene.scene, system)) {  // a step in parts: half as much again for each length
+    const double lengths = 1.0 + 0.5 * static_cast<double>(partLengths(scene.scene).size());
+    cost.seconds *= lengths;
+    cost.memory *= lengths;
+  }
   return cost;
 }
 

@@ -16,20 +16,25 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-double startSpeed(const Scene& scene, const SystemSpec& system) {
-  const std::size_t drive = scene.driveOf(system);
-  return drive < scene.drives.size() ? scene.drives[drive].speed : system.speed.value_or(0.0);
-}
-
-Linearization smallMotion(const Dynamics& dynamics, const SystemSpec& system, double speed) {
-  const VectorXd start =
-      Eigen::Map<const VectorXd>(system.q.data(), static_cast<Index>(system.q.size()));
-  const std::optional<VectorXd> rest =
-      dynamics.linear() ? std::nullopt : equilibriumNear(dynamics, start, speed);
-  return linearizationAtRest(dynamics, rest.value_or(start), speed);
-}
-
 }  // namespace
+
+double startSpeedOf(const Scene& scene, std::size_t system) {
+  const SystemSpec& spec = scene.systems[system];
+  const std::size_t drive = scene.driveOf(spec);
+  return drive < scene.drives.size() ? scene.drives[drive].speed : spec.speed.value_or(0.0);
+}
+
+Linearization smallMotionAtStart(const Scene& scene, std::size_t system,
+                                 std::optional<double> speed) {
+  const SystemSpec& spec = scene.systems[system];
+  const Dynamics& dynamics = *spec.setup->made.dynamics;
+  const double at = speed.value_or(startSpeedOf(scene, system));
+  const VectorXd start =
+      Eigen::Map<const VectorXd>(spec.q.data(), static_cast<Index>(spec.q.size()));
+  const std::optional<VectorXd> rest =
+      dynamics.linear() ? std::nullopt : equilibriumNear(dynamics, start, at);
+  return linearizationAtRest(dynamics, rest.value_or(start), at);
+}
 
 SignalRow rowOf(const SignalSpec& signal, const Dynamics& dynamics) {
   if (signal.kind != SignalSpec::Kind::kDisplacement) {
@@ -44,7 +49,7 @@ SignalRow rowOf(const SignalSpec& signal, const Dynamics& dynamics) {
 }
 
 LinearPlant linearPlant(const Scene& scene, const std::vector<SignalSpec>& measures,
-                        const std::vector<ActedInput>& acts_on) {
+                        const std::vector<ActedInput>& acts_on, const SmallMotions& small_motions) {
   std::set<std::size_t> systems;
   for (const SignalSpec& signal : measures) {
     systems.insert(signal.system);
@@ -67,7 +72,7 @@ LinearPlant linearPlant(const Scene& scene, const std::vector<SignalSpec>& measu
     const Index n = dynamics.dof();
     const Index q = start[i];
     const Index v = q + n;
-    const Linearization matrices = smallMotion(dynamics, system, startSpeed(scene, system));
+    const Linearization matrices = small_motions(i);
     const Eigen::PartialPivLU<MatrixXd> mass(matrices.mass);
     plant.a.block(q, v, n, n).setIdentity();
     plant.a.block(v, q, n, n) = -mass.solve(matrices.stiffness + matrices.circulatory);

@@ -234,7 +234,9 @@ ControllerPlan planOf(const Scene& scene, const ControllerSpec& controller) {
   plan.limits.assign(plan.outputs, controller.actuator.limit > 0.0
                                        ? controller.actuator.limit
                                        : std::numeric_limits<double>::infinity());
-  const LinearPlant plant = linearPlant(scene, controller.measures, controller.acts_on);
+  const LinearPlant plant =
+      linearPlant(scene, controller.measures, controller.acts_on,
+                  [&](std::size_t system) { return smallMotionAtStart(scene, system); });
   if (plant.a.allFinite() && plant.b.allFinite()) {
     plan.plant = plant;
   }

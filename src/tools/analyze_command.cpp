@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "reports/asked_cost.h"
+#include "reports/loop_report.h"
 #include "reports/method_analysis.h"
 #include "reports/selected_systems.h"
 #include "reports/system_analysis.h"
@@ -63,6 +64,11 @@ int analyzeScene(const Request& request) {
     all["systems"][analysis.name] = json(analysis);
     all["systems"][analysis.name]["methods"] = json(methods, analysis);
     report += (report.empty() ? "" : "\n") + text(analysis) + text(methods, analysis);
+  }
+  if (!scene.controllers.empty()) {
+    const LoopReport loops = loopReport(scene);
+    all["controllers"] = json(loops)["controllers"];
+    report += "\n" + text(loops);
   }
   if (request.json) {
     printJson(all);

@@ -30,6 +30,7 @@ void addRouthCommand(CLI::App& twin, int& status);
 void addLogCommand(CLI::App& twin, int& status);
 void addFitCommand(CLI::App& twin, int& status);
 void addFollowCommand(CLI::App& twin, int& status);
+void addLoopCommand(CLI::App& twin, int& status);
 void addModesCommand(CLI::App& twin, int& status);
 void addMonitorCommand(CLI::App& twin, int& status);
 

@@ -59,16 +59,16 @@ INSTANTIATE_TEST_SUITE_P(
         Misuse{
             {},
             "twin: expected a command; there are: check, scenes, models, simulate, plot, analyze, "
-            "campbell, response, orbit, modes, balance, tradeoff, routh, log, "
+            "campbell, response, orbit, loop, modes, balance, tradeoff, routh, log, "
             "monitor, fit, follow"},
         Misuse{{"analyse", kDemo}, "twin: unknown command 'analyse'; did you mean 'analyze'?"},
         Misuse{{"nyquist", kDemo},
                "twin: unknown command 'nyquist'; there are: check, scenes, models, simulate, plot, "
-               "analyze, campbell, response, orbit, modes, balance, tradeoff, routh, log, "
+               "analyze, campbell, response, orbit, loop, modes, balance, tradeoff, routh, log, "
                "monitor, fit, follow"},
         Misuse{{""},
                "twin: unknown command ''; there are: check, scenes, models, simulate, plot, "
-               "analyze, campbell, response, orbit, modes, balance, tradeoff, routh, log, "
+               "analyze, campbell, response, orbit, loop, modes, balance, tradeoff, routh, log, "
                "monitor, fit, follow"},
         Misuse{{"check"}, "twin check: SCENE is required"},
         Misuse{{"routh"}, "twin routh: COEFFICIENTS is required"},

@@ -1,0 +1,41 @@
+// What `twin loop` shows: how the controllers of a scene close their loops, judged as they are
+// sampled.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/sampled_margins.h"
+#include "analysis/sampled_stability.h"
+#include "reports/output.h"
+#include "scene/scene.h"
+
+namespace whirl_twin {
+
+/// A controller in its loop.
+struct LoopedController {
+  const ControllerSpec* spec = nullptr;
+  std::vector<std::string> loop;  ///< all controllers of its loop, itself among them
+  double shaft_speed = 0.0;       ///< [rad/s], that it is judged at
+  /// Nothing where a law of the loop is not linear.
+  std::optional<SampledStability> stability;
+  double period = 0.0;  ///< [s], that the spectral radius is of: of a sample, or, of several
+                        ///< rates, after which they come again
+  std::vector<SampledMargins> margins;  ///< at each of its sensors, all other loops closed
+  std::string objection;                ///< why nothing can be said; else ""
+};
+
+struct LoopReport {
+  const Scene* scene = nullptr;
+  std::vector<LoopedController> controllers;  ///< in the order of the scene
+};
+
+/// About the equilibria nearest to where the systems start, at their shafts' speeds there or at
+/// `speed` [rad/s].
+LoopReport loopReport(const Scene& scene, std::optional<double> speed = std::nullopt);
+
+Json json(const LoopReport& report);
+std::string text(const LoopReport& report);
+
+}  // namespace whirl_twin

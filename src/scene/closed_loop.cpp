@@ -1,0 +1,106 @@
+#include "scene/closed_loop.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "controllers/controller_registry.h"
+#include "scene/control_parts.h"
+#include "scene/controller_reader.h"
+
+namespace whirl_twin {
+
+namespace {
+
+std::vector<std::size_t> systemsOf(const Scene& scene, const ControllerSpec& controller) {
+  std::vector<std::size_t> systems;
+  for (std::size_t i = 0; i < scene.systems.size(); ++i) {
+    if (involves(controller, i)) {
+      systems.push_back(i);
+    }
+  }
+  return systems;
+}
+
+}  // namespace
+
+ClosedLoop::ClosedLoop(const Scene& scene, std::vector<std::size_t> controllers)
+    : scene_(scene), controllers_(std::move(controllers)) {
+  for (const std::size_t i : controllers_) {
+    const ControllerSpec& spec = scene.controllers[i];
+    laws_.push_back(
+        findController(spec.type)->make(spec.parameters, spec.settings, planOf(scene, spec)));
+  }
+}
+
+std::vector<std::size_t> ClosedLoop::systems() const {
+  std::set<std::size_t> systems;
+  for (const std::size_t i : controllers_) {
+    for (const std::size_t system : systemsOf(scene_, scene_.controllers[i])) {
+      systems.insert(system);
+    }
+  }
+  return {systems.begin(), systems.end()};
+}
+
+std::optional<ClosedLoop::Parts> ClosedLoop::parts(const SmallMotions& small_motions,
+                                                   double shaft_speed) const {
+  std::vector<SignalSpec> measures;
+  std::vector<ActedInput> acts_on;
+  Parts parts;
+  for (std::size_t i = 0; i < controllers_.size(); ++i) {
+    const ControllerSpec& spec = scene_.controllers[controllers_[i]];
+    const std::optional<DiscreteStateSpace> law = laws_[i]->linear(shaft_speed);
+    if (!law) {
+      return std::nullopt;
+    }
+    LoopController controller;
+    controller.name = spec.name;
+    controller.rate = spec.rate;
+    controller.delay = static_cast<double>(spec.delay) / 1e9;
+    controller.law = *law;
+    controller.sensor_bandwidth = spec.sensor.bandwidth;
+    for (const SignalSpec& signal : spec.measures) {
+      controller.measures.push_back(static_cast<Eigen::Index>(measures.size()));
+      measures.push_back(signal);
+    }
+    for (const ActedInput& acted : spec.acts_on) {
+      controller.acts_on.push_back(static_cast<Eigen::Index>(acts_on.size()));
+      acts_on.push_back(acted);
+    }
+    parts.controllers.push_back(std::move(controller));
+  }
+  const LinearPlant plant = linearPlant(scene_, measures, acts_on, small_motions);
+  parts.plant = {plant.a, plant.b, plant.c};
+  return parts;
+}
+
+std::vector<ClosedLoop> closedLoops(const Scene& scene) {
+  std::vector<std::vector<std::size_t>> groups;  // of controllers
+  std::vector<std::set<std::size_t>> systems;    // of each
+  for (std::size_t i = 0; i < scene.controllers.size(); ++i) {
+    std::vector<std::size_t> group{i};
+    const std::vector<std::size_t> own = systemsOf(scene, scene.controllers[i]);
+    std::set<std::size_t> all(own.begin(), own.end());
+    for (std::size_t k = groups.size(); k-- > 0;) {
+      const bool shared = std::any_of(own.begin(), own.end(),
+                                      [&](std::size_t s) { return systems[k].count(s) > 0; });
+      if (shared) {
+        group.insert(group.end(), groups[k].begin(), groups[k].end());
+        all.insert(systems[k].begin(), systems[k].end());
+        groups.erase(groups.begin() + static_cast<std::ptrdiff_t>(k));
+        systems.erase(systems.begin() + static_cast<std::ptrdiff_t>(k));
+      }
+    }
+    std::sort(group.begin(), group.end());
+    groups.push_back(std::move(group));
+    systems.push_back(std::move(all));
+  }
+  std::vector<ClosedLoop> loops;
+  for (std::vector<std::size_t>& group : groups) {
+    loops.emplace_back(scene, std::move(group));
+  }
+  return loops;
+}
+
+}  // namespace whirl_twin

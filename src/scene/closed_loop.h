@@ -1,0 +1,42 @@
+// Controllers that hang together, by systems that they share, and the loop that they close.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/sampled_loop.h"
+#include "controllers/controller.h"
+#include "scene/controlled_plant.h"
+#include "scene/scene.h"
+
+namespace whirl_twin {
+
+class ClosedLoop {
+ public:
+  /// Of these controllers of a scene, with the laws that they have at its start.
+  ClosedLoop(const Scene& scene, std::vector<std::size_t> controllers);
+
+  const std::vector<std::size_t>& controllers() const { return controllers_; }
+  std::vector<std::size_t> systems() const;  ///< ascending
+
+  /// The plant and the laws that close the loop around it.
+  struct Parts {
+    LoopPlant plant;
+    std::vector<LoopController> controllers;  ///< as controllers()
+  };
+  /// For small motions, with the shafts at a speed [rad/s]; nothing where a law is not linear.
+  std::optional<Parts> parts(const SmallMotions& small_motions, double shaft_speed) const;
+
+ private:
+  Scene scene_;
+  std::vector<std::size_t> controllers_;
+  std::vector<std::shared_ptr<const Controller>> laws_;
+};
+
+/// All loops of a scene: no two of them have a system in common.
+std::vector<ClosedLoop> closedLoops(const Scene& scene);
+
+}  // namespace whirl_twin

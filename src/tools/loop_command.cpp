@@ -1,0 +1,69 @@
+#include <memory>
+#include <optional>
+
+#include "messages/refusal.h"
+#include "reports/loop_report.h"
+#include "scene/scene_reader.h"
+#include "tools/arguments.h"
+#include "tools/commands.h"
+#include "tools/shipped_scenes.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr const char* kDescription =
+    "The loops that a scene's controllers close, judged as they are sampled: rates and delays\n"
+    "as they are, several at once.";
+
+constexpr const char* kFooter =
+    "Small motions about the equilibrium nearest to where each system starts, through the\n"
+    "transition matrix of one sample (of several rates: of the time after which all samples come\n"
+    "again). Its characteristic polynomial goes through Routh's test, exactly, on w with\n"
+    "z = (1 + w)/(1 - w); the eigenvalues stand beside it. What a linear law does not show,\n"
+    "limits, slew and resolution, is not in it.\n"
+    "\n"
+    "Examples:\n"
+    "  twin loop my_rotor.yaml\n"
+    "  twin loop my_rotor.yaml --speed 300 --json";
+
+struct Request {
+  std::string scene;
+  std::optional<double> speed;
+  bool json = false;
+};
+
+int loopsOf(const Request& request) {
+  constexpr double kFastest = 1.0e6;
+  if (request.speed && !(*request.speed >= -kFastest && *request.speed <= kFastest)) {
+    throw Refusal("--speed: expected a shaft speed from -1e+06 to 1e+06 rad/s");
+  }
+  const Scene scene = readSceneFile(scenePath(request.scene));
+  if (scene.controllers.empty()) {
+    throw Refusal(request.scene + ": controllers: expected at least one, found none");
+  }
+  const LoopReport report = loopReport(scene, request.speed);
+  if (request.json) {
+    printJson(json(report));
+  } else {
+    printText(text(report));
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void addLoopCommand(CLI::App& twin, int& status) {
+  CLI::App* command = twin.add_subcommand("loop", kDescription);
+  const auto request = std::make_shared<Request>();
+  addSceneOption(command, request->scene);
+  command
+      ->add_option("--speed", request->speed,
+                   "of all shafts [rad/s], in place of that at the start")
+      ->type_name("W");
+  command->add_flag("--json", request->json, "print one JSON object");
+  command->footer(kFooter);
+  command->callback([request, &status] { status = loopsOf(*request); });
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,53 @@
+// A system with controllers is judged as they sample it.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "monitoring/system_judge.h"
+#include "scene/built_scene.h"
+#include "watched_twin.h"
+
+namespace whirl_twin {
+namespace {
+
+/// x'' = x + u, sampled ten times a second, so late.
+BuiltScene levitated(double delay) {
+  return build(sceneOf(fmt::format(
+      "{{step: 0.001, systems: {{s: {{model: linear_system, parameters: {{names: [x], mass: "
+      "[[1.0]], stiffness: [[-1.0]]}}}}}}, controllers: {{pd: {{type: pid, rate: 10.0, measures: "
+      "[s.x], acts_on: [s.force_x], delay: {}, parameters: {{kp: 2.0, ki: 0.0, kd: "
+      "1.4142135623730951}}}}}}}}",
+      delay)));
+}
+
+state::StabilityMargin judged(const BuiltScene& scene) {
+  SystemJudge judge(scene.systems[0],
+                    std::make_shared<const ClosedLoop>(closedLoops(scene.scene)[0]));
+  EXPECT_FALSE(judge.lacksSpeeds());
+  return judge.judge({5, 0.005, 0}, {1.0e-3}, {0.0}, 0.0);
+}
+
+TEST(ClosedLoopJudge, WhatIsUnstableByItselfIsStableWithItsController) {
+  const BuiltScene scene = levitated(0.1);
+  EXPECT_EQ(SystemJudge(scene.systems[0]).judge({5, 0.005, 0}, {1.0e-3}, {0.0}, 0.0).verdict_name,
+            "unstable");
+  const state::StabilityMargin margin = judged(scene);
+  EXPECT_EQ(margin.verdict_name, "asymptotically_stable");
+  EXPECT_EQ(margin.right, 0u);
+  EXPECT_EQ(margin.polynomial.size(), margin.left + 1u);
+  // Spectral radius 0.926013966 a sample of 0.1 s.
+  EXPECT_NEAR(margin.decay_rate, -std::log(0.926013966) / 0.1, 1e-7);
+  EXPECT_FALSE(margin.routh_disagrees);
+}
+
+TEST(ClosedLoopJudge, TooLateItIsUnstable) {
+  const state::StabilityMargin margin = judged(levitated(0.7));
+  EXPECT_EQ(margin.verdict_name, "unstable");
+  EXPECT_GT(margin.right, 0u);
+  EXPECT_LT(margin.decay_rate, 0.0);
+}
+
+}  // namespace
+}  // namespace whirl_twin

@@ -1,0 +1,87 @@
+// `twin loop`: the loops that controllers close, as they are sampled.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "twin_program.h"
+
+namespace whirl_twin {
+namespace {
+
+using Json = nlohmann::json;
+
+/// x'' = x + u under a PD law, the derivative a backward difference.
+std::string levitation(double kp, double kd, double period, double delay) {
+  return fmt::format(
+      "{{step: 0.001, systems: {{s: {{model: linear_system, parameters: {{names: [x], mass: "
+      "[[1.0]], stiffness: [[-1.0]]}}}}}}, controllers: {{pd: {{type: pid, rate: {:.17g}, "
+      "measures: "
+      "[s.x], acts_on: [s.force_x], delay: {:.17g}, parameters: {{kp: {:.17g}, ki: 0.0, kd: "
+      "{:.17g}}}}}}}}}",
+      1.0 / period, delay, kp, kd);
+}
+
+Json controllerOf(const std::string& scene) {
+  const TemporaryDirectory folder;
+  const Ending end = twin({"loop", folder.write("scene.yaml", scene), "--json"});
+  EXPECT_EQ(end.status, 0) << end.err;
+  return end.json()["controllers"]["pd"];
+}
+
+// T = 0.1 s, none, one and two samples of delay: spectral radii by powers of the transition matrix
+// in higher precision.
+TEST(Loop, SpectralRadiiOfALevitatedMass) {
+  const double kd = std::sqrt(2.0);
+  EXPECT_NEAR(controllerOf(levitation(2.0, kd, 0.1, 0.0))["spectral_radius"], 0.926077894, 1e-9);
+  EXPECT_NEAR(controllerOf(levitation(2.0, kd, 0.1, 0.1))["spectral_radius"], 0.926013966, 1e-9);
+  EXPECT_NEAR(controllerOf(levitation(2.0, kd, 0.1, 0.2))["spectral_radius"], 0.931151178, 1e-9);
+  EXPECT_NEAR(controllerOf(levitation(1.5, 1.0, 0.1, 0.0))["spectral_radius"], 0.949893757, 1e-9);
+  EXPECT_NEAR(controllerOf(levitation(1.5, 1.0, 0.1, 0.1))["spectral_radius"], 0.953405746, 1e-9);
+  EXPECT_NEAR(controllerOf(levitation(1.5, 1.0, 0.1, 0.2))["spectral_radius"], 0.959262159, 1e-9);
+}
+
+TEST(Loop, IsStableUpToALongestPeriod) {
+  const double kd = std::sqrt(2.0);
+  EXPECT_EQ(controllerOf(levitation(2.0, kd, 0.69, 0.0))["verdict"], "asymptotically_stable");
+  EXPECT_EQ(controllerOf(levitation(2.0, kd, 0.70, 0.0))["verdict"], "unstable");
+  const Json unstable = controllerOf(levitation(2.0, kd, 0.32, 0.32));
+  EXPECT_EQ(unstable["verdict"], "unstable");
+  EXPECT_EQ(unstable["zone"], "unbounded");
+  EXPECT_GT(unstable["spectral_radius"], 1.0);
+}
+
+// Fast sampling: the margins of the continuous loop. Peak sqrt(2) at 1 rad/s, 42.94 degrees.
+TEST(Loop, MarginsOfALevitatedMass) {
+  const Json fast = controllerOf(levitation(2.0, std::sqrt(2.0), 1.0e-4, 0.0));
+  EXPECT_NEAR(fast["sensitivity_peak"], std::sqrt(2.0), 1e-3);
+  EXPECT_EQ(fast["zone"], "A");
+  EXPECT_NEAR(fast["phase_margin"].get<double>() * 180.0 / M_PI, 42.9414, 0.01);
+  EXPECT_NEAR(fast["delay_margin"], 0.5694731892, 2e-4);
+  EXPECT_NEAR(fast["gain_reduction"], 0.5, 1e-6) << "the net stiffness is gone";
+  EXPECT_EQ(fast["axes"][0]["signal"], "s.x");
+}
+
+// A magnet whose law takes its negative stiffness away and no more stands nowhere.
+TEST(Loop, WithoutNetStiffnessItIsMarginal) {
+  EXPECT_EQ(controllerOf(levitation(1.0, 0.5, 0.125, 0.0))["verdict"], "marginal");
+}
+
+TEST(Loop, IsPartOfAnalyze) {
+  const std::string scene = levitation(2.0, std::sqrt(2.0), 0.1, 0.03);
+  const TemporaryDirectory folder;
+  const Ending end = twin({"analyze", folder.write("scene.yaml", scene), "--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  EXPECT_EQ(end.json()["controllers"]["pd"], controllerOf(scene));
+}
+
+TEST(Loop, NeedsAController) {
+  const Ending end = twin({"loop", "demo"});
+  EXPECT_EQ(end.status, 2);
+  EXPECT_NE(end.err.find("demo: controllers: expected at least one, found none"), std::string::npos)
+      << end.err;
+}
+
+}  // namespace
+}  // namespace whirl_twin
