@@ -11,7 +11,13 @@ constexpr double kWorthIt = 0.95;
 
 }  // namespace
 
-Eigen::MatrixXd balanced(Eigen::MatrixXd a) {
+Eigen::MatrixXd balanced(const Eigen::MatrixXd& a) {
+  const Eigen::VectorXd units = balancingUnits(a);
+  return units.cwiseInverse().asDiagonal() * a * units.asDiagonal();
+}
+
+Eigen::VectorXd balancingUnits(Eigen::MatrixXd a) {
+  Eigen::VectorXd units = Eigen::VectorXd::Ones(a.rows());
   bool changed = true;
   for (int round = 0; changed && round < kMostRounds; ++round) {
     changed = false;
@@ -26,11 +32,12 @@ Eigen::MatrixXd balanced(Eigen::MatrixXd a) {
       if (column * factor + row / factor < kWorthIt * (column + row)) {
         a.col(i) *= factor;
         a.row(i) /= factor;
+        units[i] *= factor;
         changed = true;
       }
     }
   }
-  return a;
+  return units;
 }
 
 }  // namespace whirl_twin

@@ -1,11 +1,9 @@
 #include "analysis/sampled_margins.h"
 
 #include <cmath>
-#include <memory>
 #include <stdexcept>
 
 #include "algebra/eigenvalues.h"
-#include "algebra/lu.h"
 #include "analysis/balanced_matrix.h"
 
 namespace whirl_twin {
@@ -48,6 +46,34 @@ void addPoles(const Eigen::VectorXcd& eigenvalues, double period, int samples,
   }
 }
 
+/// What a tap is shown of a motion z^k that is added there: output (z - F)^-1 input + direct, with
+/// F = U T U^H in Schur's form, so that one z takes a substitution.
+class ShownByTap {
+ public:
+  ShownByTap(const MatrixXd& transition, const LoopTap& tap) : direct_(tap.direct) {
+    if (transition.size() == 0) {
+      return;
+    }
+    const Eigen::VectorXd units = balancingUnits(transition);
+    const Eigen::ComplexSchur<MatrixXd> schur(balanced(transition));
+    triangle_ = schur.matrixT();
+    input_ = schur.matrixU().adjoint() * units.cwiseInverse().asDiagonal() * tap.input;
+    output_ = tap.output * units.asDiagonal() * schur.matrixU();
+  }
+
+  Eigen::MatrixXcd at(const Complex& z) const {
+    if (triangle_.size() == 0) {
+      return direct_;
+    }
+    Eigen::MatrixXcd shifted = -triangle_;
+    shifted.diagonal().array() += z;
+    return direct_ + output_ * shifted.triangularView<Eigen::Upper>().solve(input_);
+  }
+
+ private:
+  Eigen::MatrixXcd direct_, triangle_, input_, output_;
+};
+
 }  // namespace
 
 LoopResponse sampledResponse(const LoopPlant& plant, const std::vector<LoopController>& controllers,
@@ -62,13 +88,9 @@ LoopResponse sampledResponse(const LoopPlant& plant, const std::vector<LoopContr
   addPoles(eigenvaluesOf(loop.transition), loop.period, samples, response.poles);
   const SampledLoop open = sampledLoop(plant, opened(controllers, controller, measure));
   addPoles(eigenvaluesOf(open.transition), loop.period, samples, response.poles);
-  response.open_loop = [loop, tap, step, samples](double w) {
-    Eigen::MatrixXcd lifted = tap.direct;
-    if (loop.transition.size() > 0) {
-      Eigen::MatrixXcd shifted = -loop.transition;
-      shifted.diagonal().array() += std::polar(1.0, w * loop.period);
-      lifted += tap.output * shifted.partialPivLu().solve(tap.input.cast<Complex>());
-    }
+  response.open_loop = [shown = ShownByTap(loop.transition, tap), period = loop.period, step,
+                        samples](double w) {
+    const Eigen::MatrixXcd lifted = shown.at(std::polar(1.0, w * period));
     Complex sensitivity = 0.0;
     for (Index i = 0; i < samples; ++i) {
       for (Index j = 0; j < samples; ++j) {
