@@ -27,9 +27,10 @@ const ControllerInfo* find(const std::vector<ControllerInfo>& list, const std::s
 }
 
 const std::vector<ControllerInfo>& builtInControllers() {
-  static const std::vector<ControllerInfo> built_in{withNotch(leadInfo()), withNotch(linearInfo()),
-                                                    withNotch(pidInfo()),
-                                                    withNotch(stateFeedbackInfo()), swingUpInfo()};
+  static const std::vector<ControllerInfo> built_in{
+      withNotch(leadInfo()), withNotch(linearInfo()), withNotch(lqgInfo()),
+      withNotch(lqrInfo()),  withNotch(pidInfo()),    withNotch(stateFeedbackInfo()),
+      swingUpInfo()};
   return built_in;
 }
 

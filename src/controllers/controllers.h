@@ -7,6 +7,8 @@ namespace whirl_twin {
 
 ControllerInfo leadInfo();
 ControllerInfo linearInfo();
+ControllerInfo lqgInfo();
+ControllerInfo lqrInfo();
 ControllerInfo pidInfo();
 ControllerInfo stateFeedbackInfo();
 ControllerInfo swingUpInfo();

@@ -39,6 +39,38 @@ inline ControllerPlan planOf(double rate, std::size_t measured, std::size_t outp
   return plan;
 }
 
+/// Two masses, one unstable and one held by a spring, coupled; a force on each.
+inline LinearPlant twoMasses() {
+  LinearPlant plant;
+  plant.a = Eigen::MatrixXd::Zero(4, 4);
+  plant.a.topRightCorner(2, 2).setIdentity();
+  plant.a.bottomLeftCorner(2, 2) << 3.0, 0.5, 0.5, -7.0;
+  plant.a.bottomRightCorner(2, 2) << -0.1, 0.2, -0.2, -0.1;
+  plant.b = Eigen::MatrixXd::Zero(4, 2);
+  plant.b.bottomRows(2) << 1.0, 0.0, 0.0, 2.0;
+  plant.c = Eigen::MatrixXd::Identity(4, 4);
+  return plant;
+}
+
+/// The first `measured` states of twoMasses() are measured.
+inline ControllerPlan planOfTwoMasses(double rate, std::size_t measured) {
+  ControllerPlan plan = planOf(rate, measured, 2);
+  plan.plant = twoMasses();
+  plan.plant->c.conservativeResize(static_cast<Eigen::Index>(measured), 4);
+  return plan;
+}
+
+/// Weights of an lqr of twoMasses(), with those of its lqg for so many measured.
+inline Settings regulatorOfTwoMasses(const std::string& cost, std::size_t measured = 0) {
+  Settings settings = matrices({{"q", row({1, 2, 0.1, 0.2})}, {"r", row({0.3, 0.4})}});
+  settings.choices["cost"] = cost;
+  if (measured > 0) {
+    settings.matrices["process_noise"] = row({0, 0, 1, 2});
+    settings.matrices["sensor_noise"] = row(std::vector<double>(measured, 1e-3));
+  }
+  return settings;
+}
+
 inline const std::map<std::string, std::vector<ExampleController>>& exampleControllers() {
   const Eigen::MatrixXd a =
       (Eigen::MatrixXd(3, 3) << 0.5, 0.2, 0, -0.1, 0.9, 0.3, 0, 0.4, -0.2).finished();
@@ -57,6 +89,12 @@ inline const std::map<std::string, std::vector<ExampleController>>& exampleContr
         {{},
          matrices({{"numerator", row({1, -0.3})}, {"denominator", row({2, -1, 0.3, 0.2})}}),
          planOf(100.0, 2)}}},
+      {"lqg",
+       {{{}, regulatorOfTwoMasses("sampled", 2), planOfTwoMasses(50.0, 2)},
+        {{}, regulatorOfTwoMasses("continuous", 1), planOfTwoMasses(500.0, 1)}}},
+      {"lqr",
+       {{{}, regulatorOfTwoMasses("sampled"), planOfTwoMasses(20.0, 4)},
+        {{}, regulatorOfTwoMasses("continuous"), planOfTwoMasses(200.0, 4)}}},
       {"pid",
        {{{{"kp", 2.0}, {"ki", 7.0}, {"kd", 0.3}, {"derivative_time", 0.02}}, {}, planOf(200.0, 1)},
         {{{"kp", -2.0}, {"kd", 0.3}}, {}, planOf(20.0, 3)},

@@ -1,0 +1,50 @@
+// A linear-quadratic regulator: the state feedback u = -K (x - setpoint) of least
+//
+//   integral of  x' q x + u' r u
+//
+// for the plant's small motions about where it starts. `cost: sampled` counts it exactly for
+// outputs that are held from sample to sample; `continuous` gives the gain of outputs that follow
+// at once, which is near it only where samples are dense. Neither knows of a delay: the gain is
+// that of outputs that act at their sample's instant.
+#include <fmt/format.h>
+
+#include "algebra/lu.h"
+#include "controllers/controller_settings.h"
+#include "controllers/controllers.h"
+#include "controllers/quadratic_settings.h"
+#include "controllers/state_space_controller.h"
+
+namespace whirl_twin {
+
+namespace {
+
+using Eigen::MatrixXd;
+
+std::unique_ptr<Controller> makeLqr(const ParameterValues&, const Settings& settings,
+                                    const ControllerPlan& plan) {
+  const LinearPlant& plant = plantOf(plan);
+  const Eigen::FullPivLU<MatrixXd> measured(plant.c);
+  if (plant.c.rows() != plant.a.rows() || !measured.isInvertible()) {
+    throw SetupError("q",
+                     fmt::format("weighs all {} states: an lqr must measure each of them, found "
+                                 "{} measured that tell {}; lqg estimates the rest",
+                                 plant.a.rows(), plant.c.rows(), measured.rank()));
+  }
+  const MatrixXd gain = regulatorGain(settings, plant, plan.rate);
+  return std::make_unique<StateSpaceController>(staticLaw(-gain * measured.inverse()),
+                                                setpointOf(settings, plan));
+}
+
+}  // namespace
+
+ControllerInfo lqrInfo() {
+  ControllerInfo info;
+  info.name = "lqr";
+  info.summary = "linear-quadratic regulator: the state feedback of least cost";
+  info.settings = regulatorSettings();
+  info.settings.push_back(setpointSetting());
+  info.make = makeLqr;
+  return info;
+}
+
+}  // namespace whirl_twin
