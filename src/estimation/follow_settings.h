@@ -2,6 +2,7 @@
 // depart from its model, how often a false alarm may be.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
@@ -17,12 +18,24 @@ struct FollowedNumber {
 
 struct ParameterSettings {
   std::string path;
-  /// Of a parameter that is positive in parts of its value, of any other in its unit.
-  FollowedNumber number;
+  FollowedNumber number;  ///< in parts of its value, of a negative one of its size
+};
+
+/// What acts on an input of a system is measured: scale times what a channel shows, and an offset.
+struct InputFollowing {
+  std::size_t input = 0;  ///< of the system's inputs
+  std::string source;     ///< of the Measurement
+  std::string channel;
+  std::string unit;        ///< of the input
+  double scale = 1.0;      ///< [-]
+  double offset = 0.0;     ///< in the input's unit
+  double deviation = 0.0;  ///< standard deviation of a sample, in its unit; 0: it is exact
+  bool hold = false;       ///< from sample to sample; else linear
 };
 
 struct SystemFollowing {
   std::vector<ParameterSettings> parameters;
+  std::vector<InputFollowing> inputs;
   /// Accelerations that the model has not, white: [rad/s^2/sqrt(Hz)] or [m/s^2/sqrt(Hz)].
   double disturbance = 0.0;
   FollowedNumber unbalance;  ///< [kg m], at each station, beside the model's own

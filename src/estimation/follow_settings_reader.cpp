@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "messages/names.h"
 #include "messages/refusal.h"
 #include "scene/node_reader.h"
 
@@ -80,6 +82,80 @@ void readOffsets(const YAML::Node& given, const std::string& key,
   }
 }
 
+/// INPUT: SOURCE/CHANNEL, or a map with the channel and what is to be made of it.
+InputFollowing readInput(const MapReader& inputs, const InputInfo& info, const Scene& scene,
+                         Complaints& complaints) {
+  InputFollowing of;
+  of.unit = info.unit;
+  std::string path, key = inputs.key(info.name);
+  if (inputs.at(info.name).IsMap()) {
+    const MapReader map(inputs.at(info.name), key,
+                        {"channel", "scale", "offset", "deviation", "hold"},
+                        "key of a measured input", complaints);
+    if (!map.usable()) {
+      return of;
+    }
+    path = map.text("channel", "");
+    key = map.key("channel");
+    of.scale = map.number("scale", Range::kAny, "-", 1.0);
+    of.offset = map.number("offset", Range::kAny, info.unit, 0.0);
+    of.deviation = map.number("deviation", Range::kNotNegative, info.unit, 0.0);
+    of.hold = map.choice("hold", {"false", "true"}, "true or false", "false") == "true";
+  } else {
+    path = inputs.text(info.name, "");
+  }
+  const std::size_t slash = std::min(path.find('/'), path.size());
+  of.source = path.substr(0, slash);
+  of.channel = path.substr(std::min(slash + 1, path.size()));
+  if (!isLegalName(of.source) || !isLegalName(of.channel)) {
+    complaints.add(key,
+                   fmt::format("must be what measures it, SOURCE/CHANNEL, found {}", quoted(path)));
+  }
+  for (const SensorSpec& sensor : scene.sensors) {
+    const bool taken = std::any_of(sensor.channels.begin(), sensor.channels.end(),
+                                   [&](const auto& c) { return c.name == of.channel; });
+    if (sensor.name == of.source && (taken || sensor.keyphasor)) {
+      complaints.add(key, fmt::format("{} measures something else in the scene", quoted(path)));
+    }
+  }
+  return of;
+}
+
+void readInputs(const MapReader& map, const BuiltSystem& system, const Scene& scene,
+                SystemFollowing& of, Complaints& complaints) {
+  const std::vector<InputInfo> all = system.dynamics->inputs();
+  std::vector<std::string> names;
+  for (const InputInfo& info : all) {
+    names.push_back(info.name);
+  }
+  if (names.empty()) {
+    complaints.add(map.key("inputs"), "the system has no inputs");
+    return;
+  }
+  const MapReader inputs(map.at("inputs"), map.key("inputs"), names, "input of the system",
+                         complaints);
+  for (std::size_t i = 0; i < all.size() && inputs.usable(); ++i) {
+    if (inputs.has(names[i])) {
+      of.inputs.push_back(readInput(inputs, all[i], scene, complaints));
+      of.inputs.back().input = i;
+    }
+  }
+}
+
+/// A channel can be of one input only.
+void refuseDoubleInputs(const FollowSettings& settings, Complaints& complaints) {
+  std::map<std::string, std::string> used;  // by channels: by which input's system
+  for (const auto& [system, of] : settings.systems) {
+    for (const InputFollowing& input : of.inputs) {
+      const std::string path = input.source + "/" + input.channel;
+      if (!used.emplace(path, system).second) {
+        complaints.add("systems." + system + ".inputs",
+                       fmt::format("{} measures another input already", quoted(path)));
+      }
+    }
+  }
+}
+
 SystemFollowing readSystem(const MapReader& map, const BuiltSystem& system, const Scene& scene,
                            Complaints& complaints) {
   SystemFollowing of;
@@ -100,9 +176,7 @@ SystemFollowing readSystem(const MapReader& map, const BuiltSystem& system, cons
         complaints.add(parameters.key(path),
                        "is 0 in the scene: give it a value to start from, however small");
       }
-      of.parameters.push_back(
-          {path,
-           followedNumber(parameters, path, *value > 0.0 ? "its value" : "its unit", complaints)});
+      of.parameters.push_back({path, followedNumber(parameters, path, "of its value", complaints)});
     }
   }
   for (const char* key : {"unbalance", "run_out"}) {
@@ -114,6 +188,9 @@ SystemFollowing readSystem(const MapReader& map, const BuiltSystem& system, cons
     of.unbalance = followedNumber(map, "unbalance", "kg m", complaints);
   }
   of.run_out = map.number("run_out", Range::kNotNegative, "m", 0.0);
+  if (map.has("inputs")) {
+    readInputs(map, system, scene, of, complaints);
+  }
   if (map.has("offsets")) {
     readOffsets(map.at("offsets"), map.key("offsets"), channelsOf(scene, system.spec.name, false),
                 of, complaints);
@@ -149,13 +226,15 @@ FollowSettings readFollowSettings(const YAML::Node& tree, const std::string& sou
         if (!systems.usable() || !systems.has(system->spec.name)) {
           continue;
         }
-        const MapReader one(systems.at(system->spec.name), systems.key(system->spec.name),
-                            {"disturbance", "parameters", "unbalance", "offsets", "run_out"},
-                            "key of a system to be followed", complaints);
+        const MapReader one(
+            systems.at(system->spec.name), systems.key(system->spec.name),
+            {"disturbance", "parameters", "inputs", "unbalance", "offsets", "run_out"},
+            "key of a system to be followed", complaints);
         if (one.usable()) {
           settings.systems[system->spec.name] = readSystem(one, *system, scene.scene, complaints);
         }
       }
+      refuseDoubleInputs(settings, complaints);
     }
   }
   if (!complaints.all().empty()) {

@@ -6,6 +6,9 @@
 //       parameters:
 //         damping1: 0.5                         # what may be wrong with it, in parts of its value
 //         coulomb1: {deviation: 0.5, walk: 1e-3}  # and what it changes by, in a second
+//       inputs:                                 # what acts on them, where it is measured
+//         torque1: motors/tau1                  # SOURCE/CHANNEL
+//         torque2: {channel: motors/tau2, scale: 0.9, offset: 0.01, deviation: 0.02, hold: true}
 //       offsets: {encoders/theta1: 0.01}        # rad, what zeros may be off by; or {encoders:
 //                                               # {theta1: 0.01}}, as on a parameter server
 //     rotor:

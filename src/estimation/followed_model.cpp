@@ -21,23 +21,18 @@ constexpr double kNear = 5.0e-4;
 }  // namespace
 
 double FollowedParameter::value(double number) const {
-  return logarithmic ? start * std::exp(number) : start + scale * number;
+  return start * std::exp(number);
 }
 
 double FollowedParameter::deviation(double number, double deviation) const {
-  return deviation * (logarithmic ? std::fabs(value(number)) : scale);
+  return deviation * std::fabs(value(number));
 }
 
 FollowedModel::FollowedModel(SharedSystem system, std::vector<FollowedParameter> parameters)
     : scene_system_(std::move(system)),
       parameters_(std::move(parameters)),
       dof_(scene_system_->dynamics->dof()),
-      now_(scene_system_) {
-  const std::vector<InputInfo> inputs = scene_system_->dynamics->inputs();
-  inputs_.resize(dof_, static_cast<Eigen::Index>(inputs.size()));
-  for (std::size_t i = 0; i < inputs.size(); ++i) {
-    inputs_.col(static_cast<Eigen::Index>(i)) = inputs[i].direction;
-  }
+      now_(variant(scene_system_)) {
   along_.resize(parameters_.size());
   for (const ParameterInfo& p : scene_system_->model->parameters) {
     const auto is = [](const std::string& path) {
@@ -60,7 +55,16 @@ FollowedModel::FollowedModel(SharedSystem system, std::vector<FollowedParameter>
   }
 }
 
-SharedSystem FollowedModel::at(const Eigen::VectorXd& numbers) const {
+FollowedModel::Variant FollowedModel::variant(SharedSystem system) {
+  const std::vector<InputInfo> inputs = system->dynamics->inputs();
+  Eigen::MatrixXd directions(system->dynamics->dof(), static_cast<Eigen::Index>(inputs.size()));
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    directions.col(static_cast<Eigen::Index>(i)) = inputs[i].direction;
+  }
+  return {std::move(system), std::move(directions)};
+}
+
+FollowedModel::Variant FollowedModel::at(const Eigen::VectorXd& numbers) const {
   std::vector<std::string> paths;
   std::vector<double> values;
   for (std::size_t i = 0; i < parameters_.size(); ++i) {
@@ -71,7 +75,7 @@ SharedSystem FollowedModel::at(const Eigen::VectorXd& numbers) const {
       values.push_back(values.back());
     }
   }
-  return scene_system_->with(paths, values, scene_system_->spec.name);
+  return variant(scene_system_->with(paths, values, scene_system_->spec.name));
 }
 
 bool FollowedModel::follow(const Eigen::VectorXd& numbers) {
@@ -79,8 +83,8 @@ bool FollowedModel::follow(const Eigen::VectorXd& numbers) {
     return true;
   }
   try {
-    SharedSystem now = at(numbers);
-    std::vector<SharedSystem> more, less;
+    Variant now = at(numbers);
+    std::vector<Variant> more, less;
     for (Eigen::Index i = 0; i < numbers.size(); ++i) {
       const Eigen::VectorXd unit = kDifference * Eigen::VectorXd::Unit(numbers.size(), i);
       more.push_back(at(numbers + unit));
@@ -97,14 +101,20 @@ bool FollowedModel::follow(const Eigen::VectorXd& numbers) {
   return true;
 }
 
-Eigen::VectorXd FollowedModel::acceleration(const Dynamics& dynamics, const Eigen::VectorXd& q,
+Eigen::VectorXd FollowedModel::acceleration(const Variant& variant, const Eigen::VectorXd& q,
                                             const Eigen::VectorXd& v, const Moment<double>& at,
                                             const Eigen::VectorXd& u) const {
+  const Dynamics& dynamics = *variant.system->dynamics;
   Eigen::VectorXd a = dynamics.acceleration(q, v, at);
   if (u.size() > 0 && !u.isZero(0.0)) {
-    a += Eigen::LDLT<Eigen::MatrixXd>(dynamics.massMatrix(q, v, at)).solve(inputs_ * u);
+    a += Eigen::LDLT<Eigen::MatrixXd>(dynamics.massMatrix(q, v, at)).solve(variant.inputs * u);
   }
   return a;
+}
+
+Eigen::MatrixXd FollowedModel::byInput(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                       const Moment<double>& at) const {
+  return Eigen::LDLT<Eigen::MatrixXd>(system()->dynamics->massMatrix(q, v, at)).solve(now_.inputs);
 }
 
 Eigen::VectorXd FollowedModel::acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
@@ -112,7 +122,7 @@ Eigen::VectorXd FollowedModel::acceleration(const Eigen::VectorXd& q, const Eige
                                             const Eigen::VectorXd& numbers,
                                             const Eigen::VectorXd& u,
                                             const Eigen::MatrixXd& by_parameter) const {
-  Eigen::VectorXd a = acceleration(*now_->dynamics, q, v, at, u);
+  Eigen::VectorXd a = acceleration(now_, q, v, at, u);
   if (numbers.size() > 0) {
     a.noalias() += by_parameter * (numbers - numbers_);
   }
@@ -126,12 +136,12 @@ LocalMotion FollowedModel::about(const Eigen::VectorXd& q, const Eigen::VectorXd
   local.by_parameter.resize(dof_, numbers.size());
   for (Eigen::Index i = 0; i < numbers.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
-    local.by_parameter.col(i) = (acceleration(*more_[k]->dynamics, q, v, at, u) -
-                                 acceleration(*less_[k]->dynamics, q, v, at, u)) /
-                                (2.0 * kDifference);
+    local.by_parameter.col(i) =
+        (acceleration(more_[k], q, v, at, u) - acceleration(less_[k], q, v, at, u)) /
+        (2.0 * kDifference);
   }
   local.acceleration = acceleration(q, v, at, numbers, u, local.by_parameter);
-  const Linearization l = now_->dynamics->linearization(q, v, local.acceleration, at);
+  const Linearization l = system()->dynamics->linearization(q, v, local.acceleration, at);
   const Eigen::LDLT<Eigen::MatrixXd> mass(l.mass);
   local.by_state.resize(dof_, 2 * dof_);
   local.by_state.leftCols(dof_) = -mass.solve(l.stiffness + l.circulatory);

@@ -11,14 +11,11 @@
 
 namespace whirl_twin {
 
-/// A parameter as a filter keeps it, as one number that is 0 at the scene's value: of a parameter
-/// that is positive the logarithm of its ratio to that, so that it stays positive; of any other
-/// its difference in parts of `scale`.
+/// A parameter as a filter keeps it: the logarithm of its ratio to the scene's value, so that it
+/// keeps its sign, and a small number is a part of the value.
 struct FollowedParameter {
   std::string path;    ///< `stiffness`, `bearings[0].kxx`
-  double start = 0.0;  ///< as the scene says
-  bool logarithmic = false;
-  double scale = 1.0;  ///< in the parameter's unit
+  double start = 1.0;  ///< as the scene says; not 0
 
   double value(double number) const;
   /// Standard deviation in the parameter's unit of one of the number, there.
@@ -39,7 +36,7 @@ class FollowedModel {
   Eigen::Index dof() const { return dof_; }
   const std::vector<FollowedParameter>& parameters() const { return parameters_; }
   /// The system with the parameters as they were when it was last set up for them.
-  const SharedSystem& system() const { return now_; }
+  const SharedSystem& system() const { return now_.system; }
   /// How often it was set up.
   std::int64_t version() const { return version_; }
   /// Sets it up for these numbers of its parameters, if they are far enough from those that it has.
@@ -54,9 +51,18 @@ class FollowedModel {
                                const Moment<double>& at, const Eigen::VectorXd& numbers,
                                const Eigen::VectorXd& u, const Eigen::MatrixXd& by_parameter) const;
 
+  /// Accelerations by a unit of each input [n x inputs].
+  Eigen::MatrixXd byInput(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                          const Moment<double>& at) const;
+
  private:
-  SharedSystem at(const Eigen::VectorXd& numbers) const;
-  Eigen::VectorXd acceleration(const Dynamics& dynamics, const Eigen::VectorXd& q,
+  struct Variant {
+    SharedSystem system;
+    Eigen::MatrixXd inputs;  // directions [n x inputs]
+  };
+  static Variant variant(SharedSystem system);
+  Variant at(const Eigen::VectorXd& numbers) const;
+  Eigen::VectorXd acceleration(const Variant& variant, const Eigen::VectorXd& q,
                                const Eigen::VectorXd& v, const Moment<double>& at,
                                const Eigen::VectorXd& u) const;
 
@@ -65,11 +71,10 @@ class FollowedModel {
   /// Of each: parameters whose default it is, and that have its value (`stiffness_y`).
   std::vector<std::vector<std::string>> along_;
   Eigen::Index dof_;
-  Eigen::MatrixXd inputs_;  // directions [n x inputs]
-  SharedSystem now_;
+  Variant now_;
   std::int64_t version_ = 0;
-  Eigen::VectorXd numbers_;                // that it is set up for
-  std::vector<SharedSystem> more_, less_;  // each parameter by kDifference
+  Eigen::VectorXd numbers_;           // that it is set up for
+  std::vector<Variant> more_, less_;  // each parameter by kDifference
 };
 
 }  // namespace whirl_twin

@@ -39,16 +39,6 @@ double patienceFor(const Scene& scene) {
   return kPatience + longest;
 }
 
-/// [s]; of the anti-alias filter what it delays by well below its bandwidth.
-double delayOf(const SensorSettings& sensor) {
-  return sensor.delay +
-         (sensor.bandwidth > 0.0 ? 1.0 / (ShaftAngle::kTurn * sensor.bandwidth) : 0.0);
-}
-
-double noiseOf(const SensorSettings& sensor) {
-  return std::hypot(sensor.noise, sensor.resolution / std::sqrt(12.0));
-}
-
 }  // namespace
 
 Follower::Follower(const Twin& twin, std::shared_ptr<SystemGenerations> generations,
@@ -78,54 +68,64 @@ Follower::~Follower() = default;
 void Follower::addSensors(const FollowSettings& settings) {
   const Scene& scene = twin_.scene();
   std::map<std::size_t, std::vector<FollowedChannel>> followed;
-  for (const SensorSpec& sensor : scene.sensors) {
-    std::vector<std::string> names;
+  for (const FollowedSource& source : followedSources(scene, settings)) {
     channels_.emplace_back();
     pulses_.emplace_back();
-    if (sensor.keyphasor) {
-      pulses_.back() = sensor.drive;
-      shafts_[sensor.drive].motion.listenTo(*sensor.keyphasor);
-      shafts_[sensor.drive].source = queue_.addSource(sensor.name, {"keyphasor"});
+    if (source.keyphasor) {
+      pulses_.back() = source.drive;
+      shafts_[source.drive].motion.listenTo(*source.keyphasor);
+      shafts_[source.drive].source = queue_.addSource(source.name, {"keyphasor"}, {""});
       channels_.back().emplace_back();
       continue;
     }
-    for (const SensorChannelSpec& c : sensor.channels) {
-      const SystemFollowing& of = settings.of(scene.systems[c.signal.system].name);
+    const std::size_t number = queue_.addSource(source.name, source.names(), source.units());
+    for (const FollowedSource::Channel& c : source.channels) {
+      const SystemFollowing& of = settings.of(scene.systems[c.system].name);
+      std::vector<FollowedChannel>& channels = followed[c.system];
       FollowedChannel channel;
-      channel.name = sensor.name + "/" + c.name;
+      channel.name = source.name + "/" + c.name;
       channel.signal = c.signal;
-      channel.deviation = noiseOf(c.sensor);
-      if (!(channel.deviation > 0.0)) {
+      channel.signal.unit = c.unit;
+      channel.deviation = c.deviation;
+      channel.input = c.input;
+      if (!c.input && !(channel.deviation > 0.0)) {
         throw Refusal(
             fmt::format("{}: sensors.{}.{}: needs noise or resolution: how far it can be trusted",
-                        scene.source, sensor.name, c.name));
+                        scene.source, source.name, c.name));
       }
       const auto offset = of.offset.find(channel.name);
       channel.offset = offset == of.offset.end() ? 0.0 : offset->second;
-      channel.run_out = c.signal.kind == SignalSpec::Kind::kDisplacement ? of.run_out : 0.0;
-      channels_.back().push_back(
-          {c.signal.system, followed[c.signal.system].size(), nanoseconds(delayOf(c.sensor))});
+      const bool displacement = !c.input && c.signal.kind == SignalSpec::Kind::kDisplacement;
+      channel.run_out = displacement ? of.run_out : 0.0;
+      if (c.input) {
+        inputs_.push_back({c.system, number, channels_.back().size()});
+      }
+      channels_.back().push_back({c.system, channels.size(), nanoseconds(c.delay), c.input});
       longest_delay_ = std::max(longest_delay_, channels_.back().back().delay);
-      followed[c.signal.system].push_back(channel);
-      names.push_back(c.name);
+      channels.push_back(channel);
     }
-    queue_.addSource(sensor.name, names);
-  }
-  if (followed.empty()) {
-    throw Refusal(scene.source +
-                  ": sensors: must name what is measured of a system to be followed");
   }
   for (auto& [system, channels] : followed) {
+    const std::string& name = scene.systems[system].name;
     const std::size_t drive = twin_.systems()[system]->drive;
     if (drive < twin_.driveCount() && twin_.isMotor(drive)) {
       throw Refusal(
           fmt::format("{}: systems.{}: is turned by a motor, whose torque nobody "
                       "measures: give it a drive, and a keyphasor",
-                      scene.source, scene.systems[system].name));
+                      scene.source, name));
     }
-    systems_[system] =
-        std::make_unique<FollowedTrack>(twin_, system, settings.of(scene.systems[system].name),
-                                        std::move(channels), settings.false_alarms);
+    if (std::all_of(channels.begin(), channels.end(),
+                    [](const FollowedChannel& c) { return c.input.has_value(); })) {
+      throw Refusal(
+          fmt::format("{}: sensors: must measure the motion of {}, whose inputs are measured",
+                      scene.source, name));
+    }
+    systems_[system] = std::make_unique<FollowedTrack>(twin_, system, settings.of(name),
+                                                       std::move(channels), settings.false_alarms);
+  }
+  if (followed.empty()) {
+    throw Refusal(scene.source +
+                  ": sensors: must name what is measured of a system to be followed");
   }
 }
 
@@ -174,7 +174,7 @@ void Follower::process() {
       begin(sample->time);
     }
     if (const auto drive = pulses_[sample->source]) {
-      shafts_[*drive].motion.take(sample->time);
+      takePulse(*drive, *sample);
       continue;
     }
     stepUntil(sample->time - longest_delay_ - 1);
@@ -205,6 +205,12 @@ void Follower::begin(std::int64_t instant) {
   }
 }
 
+void Follower::takePulse(std::size_t drive, const MeasuredSample& pulse) {
+  if (pulse.valid) {
+    shafts_[drive].motion.take(pulse.time);
+  }
+}
+
 ShaftEstimate Follower::shaftAt(std::size_t drive, std::int64_t instant) {
   Shaft& shaft = shafts_[drive];
   while (shaft.motion.needsPulse(instant)) {
@@ -212,7 +218,7 @@ ShaftEstimate Follower::shaftAt(std::size_t drive, std::int64_t instant) {
     if (pulse == nullptr) {
       break;
     }
-    shaft.motion.take(pulse->time);
+    takePulse(drive, *pulse);
     queue_.pop(*shaft.source);
   }
   return shaft.motion.at(instant, twin_.scene().time - origin_);
@@ -232,12 +238,13 @@ void Follower::takeSample(const MeasuredSample& sample) {
     set_status(state::ChannelStatus::kInvalid);
     return;
   }
-  const bool has_shaft = twin_.systems()[channel.system]->dynamics->hasShaft();
-  ShaftEstimate shaft;
-  shaft.known = !has_shaft;
-  if (has_shaft) {
-    shaft = shaftAt(system.drive, instant);
+  if (channel.input) {
+    takeInput(channel, sample);
+    set_status(state::ChannelStatus::kUsed);
+    return;
   }
+  const bool has_shaft = twin_.systems()[channel.system]->dynamics->hasShaft();
+  const ShaftEstimate shaft = shaftOf(system, instant);
   told.shaft_known = has_shaft && shaft.known;
   told.shaft_angle_deviation =
       has_shaft && shaft.known ? shaft.deviation : state::FollowState::kNone;
@@ -262,8 +269,9 @@ void Follower::takeSample(const MeasuredSample& sample) {
     system.endInstant();
     system.at = instant;
   }
+  takeNextInputs(system);
   system.filter.goTo(there, shaft.deviation);
-  const Innovation innovation = system.filter.take(channel.place, sample.value);
+  const Innovation innovation = system.filter.take(channel.place, sample.value, sample.deviation);
   told.residual[channel.place] = innovation.value;
   told.residual_deviation[channel.place] = innovation.deviation;
   if (innovation.used) {
@@ -289,6 +297,34 @@ void Follower::takeSample(const MeasuredSample& sample) {
     system.residuals.restart();
     ++restarts_;
   }
+}
+
+void Follower::takeInput(const Channel& channel, const MeasuredSample& sample) {
+  const InputFollowing& input = *channel.input;
+  systems_[channel.system]->filter.takeInput(
+      channel.place, {sample.time - channel.delay, input.scale * sample.value + input.offset});
+}
+
+/// Of its inputs, before their turn: to the next sample there is a line. It has come, or waits no
+/// longer.
+void Follower::takeNextInputs(FollowedTrack& system) {
+  for (const Input& input : inputs_) {
+    const MeasuredSample* next =
+        input.system == system.index ? queue_.front(input.source, input.channel) : nullptr;
+    if (next != nullptr && next->valid) {
+      takeInput(channels_[input.source][input.channel], *next);
+    }
+  }
+}
+
+/// Of a system without one it is known.
+ShaftEstimate Follower::shaftOf(const FollowedTrack& system, std::int64_t instant) {
+  if (twin_.systems()[system.index]->dynamics->hasShaft()) {
+    return shaftAt(system.drive, instant);
+  }
+  ShaftEstimate none;
+  none.known = true;
+  return none;
 }
 
 void Follower::stepUntil(std::int64_t instant) {
@@ -341,8 +377,9 @@ void Follower::writeRecord(std::int64_t step) {
     if (followed.runs) {
       const bool goes_on = instant > filter.shaft().time && instant - followed.at <= kLongestGap;
       if (goes_on) {
+        takeNextInputs(followed);
         const Eigen::VectorXd motion =
-            filter.motionAt(instantOf(instant, shaftAt(followed.drive, instant)));
+            filter.motionAt(instantOf(instant, shaftOf(followed, instant)));
         q = motion.head(n);
         v = motion.tail(n);
       } else {

@@ -16,6 +16,7 @@
 
 #include "estimation/follow_settings.h"
 #include "estimation/followed_shaft.h"
+#include "estimation/followed_sources.h"
 #include "estimation/followed_track.h"
 #include "estimation/measured_queue.h"
 #include "messages/follow_state.h"
@@ -60,6 +61,11 @@ class Follower {
     std::size_t system = 0;
     std::size_t place = 0;   // in its filter
     std::int64_t delay = 0;  // [ns], that it shows the machine late by
+    std::optional<InputFollowing> input = std::nullopt;
+  };
+  /// What measures an input.
+  struct Input {
+    std::size_t system, source, channel;
   };
   struct Shaft {
     FollowedShaft motion;
@@ -68,7 +74,10 @@ class Follower {
 
   void addSensors(const FollowSettings& settings);
   void process();
+  void takePulse(std::size_t drive, const MeasuredSample& pulse);
   void takeSample(const MeasuredSample& sample);
+  void takeInput(const Channel& channel, const MeasuredSample& sample);
+  void takeNextInputs(FollowedTrack& system);
   void stepUntil(std::int64_t instant);
   void writeRecord(std::int64_t step);
   /// [J], of a system as it stands in the record, v dL/dv - L.
@@ -76,6 +85,7 @@ class Follower {
   void tellState(FollowedTrack& system);
   void begin(std::int64_t instant);
   ShaftEstimate shaftAt(std::size_t drive, std::int64_t instant);
+  ShaftEstimate shaftOf(const FollowedTrack& system, std::int64_t instant);
 
   const Twin& twin_;
   std::shared_ptr<SystemGenerations> generations_;
@@ -83,6 +93,7 @@ class Follower {
   std::int64_t every_;
   MeasuredQueue queue_;
   std::vector<std::vector<Channel>> channels_;  // of each source
+  std::vector<Input> inputs_;
   std::vector<std::optional<std::size_t>>
       pulses_;                 // of each source: the drive it is a keyphasor of
   std::vector<Shaft> shafts_;  // of each drive

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "messages/units.h"
+
 namespace whirl_twin {
 
 namespace {
@@ -14,20 +16,17 @@ constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::min();
 constexpr std::int64_t kJump = 60'000'000'000;  // ns
 constexpr int kBehind = 3;
 
-std::int64_t instantOf(const state::Measurement& message, std::int64_t sample) {
-  return message.period > 0 ? message.first_instant + sample * message.period
-                            : message.instant[static_cast<std::size_t>(sample)];
-}
-
 }  // namespace
 
 MeasuredQueue::MeasuredQueue(double patience)
     : patience_(std::llround(patience * 1.0e9)), given_(kNever) {}
 
-std::size_t MeasuredQueue::addSource(const std::string& name, std::vector<std::string> channels) {
+std::size_t MeasuredQueue::addSource(const std::string& name, std::vector<std::string> channels,
+                                     std::vector<std::string> units) {
   Source source;
   source.name = name;
   source.channels = std::move(channels);
+  source.units = std::move(units);
   sources_.push_back(std::move(source));
   return sources_.size() - 1;
 }
@@ -39,8 +38,8 @@ bool MeasuredQueue::take(const state::Measurement& message) {
     return true;
   }
   Source& source = *found;
-  const std::int64_t first = instantOf(message, 0);
-  const std::int64_t last = lastInstant(message);
+  const std::int64_t first = message.instantOf(0);
+  const std::int64_t last = message.lastInstant();
   const bool late = last <= std::max(given_, source.newest.value_or(kNever));
   const bool again = source.newest && message.at.step == source.newest_block;
   source.behind = late && !again ? source.behind + 1 : 0;
@@ -63,14 +62,26 @@ void MeasuredQueue::takeSamples(const state::Measurement& message, Source& sourc
   if (source.newest && message.at.step > source.newest_block + 1) {
     source.counts.lost += (message.at.step - source.newest_block - 1) * source.block_size;
   }
-  std::vector<std::size_t> place;  // of each of its channels in the message
-  for (const std::string& channel : source.channels) {
-    place.push_back(static_cast<std::size_t>(
-        std::find(message.channel.begin(), message.channel.end(), channel) -
-        message.channel.begin()));
+  struct Column {
+    std::size_t place;        // in the message; beyond its channels: it has none
+    double scale, deviation;  // 0: not to be used; 0: not said
+  };
+  std::vector<Column> columns;
+  for (std::size_t c = 0; c < source.channels.size(); ++c) {
+    Column column{static_cast<std::size_t>(std::find(message.channel.begin(), message.channel.end(),
+                                                     source.channels[c]) -
+                                           message.channel.begin()),
+                  0.0, 0.0};
+    if (column.place < message.channel.size()) {
+      column.scale =
+          source.units[c].empty() ? 1.0 : unitScale(message.unit[column.place], source.units[c]);
+      const double said = column.scale * message.deviation[column.place];
+      column.deviation = std::isfinite(said) ? said : 0.0;
+    }
+    columns.push_back(column);
   }
   for (std::int64_t k = 0; k < message.samples; ++k) {
-    const std::int64_t time = instantOf(message, k);
+    const std::int64_t time = message.instantOf(k);
     if (source.newest && time <= *source.newest) {
       ++source.counts.repeated;
       continue;
@@ -79,11 +90,14 @@ void MeasuredQueue::takeSamples(const state::Measurement& message, Source& sourc
       ++source.counts.late;
       continue;
     }
-    for (std::size_t c = 0; c < place.size(); ++c) {
-      if (place[c] < message.channel.size()) {
-        const std::size_t at = static_cast<std::size_t>(k) * message.channel.size() + place[c];
-        source.waiting.push_back({time, number, c, message.value[at],
-                                  message.valid[at] != 0 && std::isfinite(message.value[at])});
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const Column& column = columns[c];
+      if (column.place < message.channel.size()) {
+        const std::size_t at = static_cast<std::size_t>(k) * message.channel.size() + column.place;
+        const double value = column.scale * message.value[at];
+        source.waiting.push_back(
+            {time, number, c, value, column.deviation,
+             message.valid[at] != 0 && column.scale != 0.0 && std::isfinite(value)});
       }
     }
     source.newest = time;
@@ -135,8 +149,12 @@ std::optional<MeasuredSample> MeasuredQueue::next() {
   return sample;
 }
 
-const MeasuredSample* MeasuredQueue::front(std::size_t source) const {
-  return sources_[source].waiting.empty() ? nullptr : &sources_[source].waiting.front();
+const MeasuredSample* MeasuredQueue::front(std::size_t source, std::size_t channel) const {
+  const auto& waiting = sources_[source].waiting;
+  const auto found =
+      std::find_if(waiting.begin(), waiting.end(),
+                   [&](const MeasuredSample& sample) { return sample.channel == channel; });
+  return found == waiting.end() ? nullptr : &*found;
 }
 
 }  // namespace whirl_twin

@@ -19,15 +19,10 @@ struct MeasuredSample {
   std::int64_t time = 0;  ///< [ns], of the machine's clock
   std::size_t source = 0;
   std::size_t channel = 0;  ///< of that source, as it was registered
-  double value = 0.0;
-  bool valid = true;  ///< false: not to be used, or not finite
+  double value = 0.0;       ///< in the unit in which it was registered
+  double deviation = 0.0;   ///< as the message says, likewise; 0: it does not
+  bool valid = true;        ///< false: not to be used, not finite, or in a unit of another kind
 };
-
-/// [ns], of a message's last sample.
-inline std::int64_t lastInstant(const state::Measurement& message) {
-  return message.period > 0 ? message.first_instant + (message.samples - 1) * message.period
-                            : message.instant.back();
-}
 
 /// What has become of samples before they were of use.
 struct MeasuredCounts {
@@ -41,15 +36,16 @@ class MeasuredQueue {
   /// A sample waits for those of slower sources until the newest is `patience` [s] ahead of it.
   explicit MeasuredQueue(double patience);
 
-  /// Returns its number.
-  std::size_t addSource(const std::string& name, std::vector<std::string> channels);
+  /// Returns its number. units: of the samples that come out, of each channel; "": as they come.
+  std::size_t addSource(const std::string& name, std::vector<std::string> channels,
+                        std::vector<std::string> units);
   /// The next message, if it is of one of the sources. False where its clock has been set: what
   /// waits is left out, and all begins anew with this message.
   bool take(const state::Measurement& message);
   /// The earliest sample, if none before it can come any more.
   std::optional<MeasuredSample> next();
-  /// A sample of one source that has come, whether its turn has come or not.
-  const MeasuredSample* front(std::size_t source) const;
+  /// The next sample of a channel that has come, whether its turn has come or not; else nullptr.
+  const MeasuredSample* front(std::size_t source, std::size_t channel = 0) const;
   void pop(std::size_t source) { sources_[source].waiting.pop_front(); }
   /// All that has come counts as complete: no more will follow.
   void finish() { finished_ = true; }
@@ -62,6 +58,7 @@ class MeasuredQueue {
   struct Source {
     std::string name;
     std::vector<std::string> channels;
+    std::vector<std::string> units;
     std::deque<MeasuredSample> waiting;
     std::optional<std::int64_t> newest;  // [ns]
     std::int64_t newest_block = 0;

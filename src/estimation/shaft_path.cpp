@@ -14,7 +14,6 @@ constexpr double kSmall = 1.0e-3;       // of a duration, for differences
 
 ShaftPath::ShaftPath(const ShaftInstant& from, const ShaftInstant& to, std::int64_t to_twin)
     : from_(from),
-      to_(to),
       start_(static_cast<double>(from.time + to_twin) * kNanosecond),
       angle_(from.angle.remainder),
       turn_{static_cast<double>(to.time - from.time) * kNanosecond, 0.0,
@@ -35,21 +34,14 @@ Moment<double> ShaftPath::at(double part) const {
   return moment;
 }
 
-std::vector<ShaftInstant> ShaftPath::parted(std::int64_t pieces) const {
-  const std::int64_t piece = (to_.time - from_.time) / pieces;
-  std::vector<ShaftInstant> instants;
-  for (std::int64_t k = 1; k < pieces; ++k) {
-    const double t = static_cast<double>(piece * k) * kNanosecond;
-    const double h = kSmall * static_cast<double>(piece) * kNanosecond;
-    const double a = angle_ + turn_.at(t);
-    const double whole = std::floor(a / ShaftAngle::kTurn);
-    instants.push_back(
-        {from_.time + piece * k,
-         {from_.angle.turns + static_cast<std::int64_t>(whole), a - whole * ShaftAngle::kTurn},
-         (turn_.at(t + h) - turn_.at(t - h)) / (2.0 * h)});
-  }
-  instants.push_back(to_);
-  return instants;
+ShaftInstant ShaftPath::instantAt(std::int64_t time) const {
+  const double t = static_cast<double>(time - from_.time) * kNanosecond;
+  const double h = std::min({kSmall * duration(), t, duration() - t});
+  const double a = angle_ + turn_.at(t);
+  const double whole = std::floor(a / ShaftAngle::kTurn);
+  return {time,
+          {from_.angle.turns + static_cast<std::int64_t>(whole), a - whole * ShaftAngle::kTurn},
+          (turn_.at(t + h) - turn_.at(t - h)) / (2.0 * h)};
 }
 
 }  // namespace whirl_twin

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "control/keyphasor.h"
 #include "control/sensor.h"
@@ -17,14 +16,15 @@ class ShaftPath {
 
   /// At a part of the way there, from 0 to 1; its time is the twin's.
   Moment<double> at(double part) const;
+  std::int64_t from() const { return from_.time; }  ///< [ns]
   double duration() const { return turn_.length; }  ///< [s]
   double turned() const { return turn_.to; }        ///< [rad], in all
   double startAngle() const { return angle_; }      ///< [rad], without whole turns
-  /// Instants that part the way into so many pieces, the last of them its end.
-  std::vector<ShaftInstant> parted(std::int64_t pieces) const;
+  /// At an instant [ns] on the way, not at its ends.
+  ShaftInstant instantAt(std::int64_t time) const;
 
  private:
-  ShaftInstant from_, to_;
+  ShaftInstant from_;
   double start_;     // [s], simulated
   double angle_;     // [rad], at the start, without whole turns
   CubicPiece turn_;  // [rad], since the start

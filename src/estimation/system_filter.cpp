@@ -6,17 +6,12 @@
 #include <utility>
 
 #include "algebra/cholesky.h"
-#include "control/sensor.h"
-#include "integration/matrix_exponential.h"
 
 namespace whirl_twin {
 
 namespace {
 
 constexpr double kNanosecond = 1.0e-9;  // s
-// Gauss's three nodes on 0..1, and their weights.
-constexpr std::array<double, 3> kNode = {0.11270166537925831, 0.5, 0.88729833462074169};
-constexpr std::array<double, 3> kWeight = {5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0};
 /// The shaft turns by no more in a step of a linear system: 1^6/2e6 of its force is lost.
 constexpr double kLongestTurn = 1.0;  // rad
 /// Speeds that differ by less share a step: of matrices that change with speed.
@@ -55,7 +50,6 @@ std::vector<FollowedParameter> parametersOf(const BuiltSystem& system,
     FollowedParameter followed;
     followed.path = p.path;
     followed.start = *system.parameter(p.path);
-    followed.logarithmic = followed.start > 0.0;
     all.push_back(followed);
   }
   return all;
@@ -73,7 +67,13 @@ SystemFilter::SystemFilter(const BuiltScene& scene, std::size_t system,
       n_(model_.dof()),
       m_(static_cast<Eigen::Index>(settings.parameters.size())),
       unbalance_(2 * n_ + m_),
-      inputs_(scene.inputsOf(*scene.systems[system])) {
+      inputs_(scene.inputsOf(*scene.systems[system])),
+      measured_inputs_(scene.systems[system]->dynamics->inputs().size()) {
+  for (const FollowedChannel& channel : channels_) {
+    if (channel.input) {
+      measured_inputs_[channel.input->input].emplace(channel.input->hold, channel.input->deviation);
+    }
+  }
   const Dynamics& dynamics = *scene.systems[system]->dynamics;
   if (settings.unbalance.deviation > 0.0) {
     for (const Station& station : dynamics.stations()) {
@@ -147,14 +147,31 @@ Moment<double> SystemFilter::moment() const {
   return {seconds(now_.time + to_twin_), now_.angle.remainder, now_.speed, 0.0};
 }
 
-/// In parts that a step can take, the last of them to there.
+/// In parts that a step can take and in which no input has a corner, the last of them to there.
 std::vector<ShaftInstant> SystemFilter::partsOf(const ShaftInstant& there) const {
   const ShaftPath path(now_, there, to_twin_);
+  const std::int64_t all = there.time - now_.time;
   const std::int64_t parts =
       model_.system()->dynamics->linear()
           ? static_cast<std::int64_t>(std::fabs(path.turned()) / kLongestTurn) + 1
-          : (there.time - now_.time + longest_ - 1) / longest_;
-  return path.parted(parts);
+          : (all + longest_ - 1) / longest_;
+  std::vector<std::int64_t> times;
+  for (std::int64_t k = 1; k < parts; ++k) {
+    times.push_back(now_.time + all / parts * k);
+  }
+  for (const std::optional<FollowedInput>& input : measured_inputs_) {
+    if (input) {
+      input->addCorners(now_.time, there.time, times);
+    }
+  }
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  std::vector<ShaftInstant> instants;
+  for (const std::int64_t time : times) {
+    instants.push_back(path.instantAt(time));
+  }
+  instants.push_back(there);
+  return instants;
 }
 
 /// Of a shaft that goes on at its speed.
@@ -178,6 +195,11 @@ void SystemFilter::goTo(const ShaftInstant& there, double shaft_deviation) {
     by_probes_ = false;
   }
   shaft_deviation_ = shaft_deviation;
+  for (std::optional<FollowedInput>& input : measured_inputs_) {
+    if (input) {
+      input->forgetBefore(now_.time);
+    }
+  }
 }
 
 Eigen::VectorXd SystemFilter::motionAt(const ShaftInstant& there) {
@@ -185,7 +207,7 @@ Eigen::VectorXd SystemFilter::motionAt(const ShaftInstant& there) {
   if (there.time > now_.time) {
     ShaftInstant from = now_;
     for (const ShaftInstant& part : partsOf(by_probes_ ? onward(there.time) : there)) {
-      state = moved(state, pathBetween(from, part), part.time - from.time);
+      state = moved(state, pathBetween(from, part));
       from = part;
     }
   }
@@ -217,7 +239,6 @@ void SystemFilter::turnWhatTurns(double angle) {
 }
 
 void SystemFilter::goOn(const ShaftInstant& there) {
-  const std::int64_t duration = there.time - now_.time;
   const ShaftPath path = pathBetween(now_, there);
   model_.follow(numbers());
   if (!stations_.empty()) {
@@ -230,34 +251,40 @@ void SystemFilter::goOn(const ShaftInstant& there) {
       station_directions_.col(k + 1) = mass.solve(stations_[i].along_y);
     }
   }
-  const Eigen::VectorXd next = moved(filter_.state(), path, duration);
+  const Eigen::VectorXd next = moved(filter_.state(), path);
   const Eigen::VectorXd middle = 0.5 * (filter_.state() + next);
   const bool linear = model_.system()->dynamics->linear();
+  MotionStep about;  // the middle, of a nonlinear system
   if (!linear || m_ > 0) {
     const LocalMotion local = model_.about(middle.head(n_), middle.segment(n_, n_), path.at(0.5),
                                            numbers(), inputsAt(path, 0.5));
     by_parameter_ = local.by_parameter;
     if (!linear) {
-      steps_.front() = stepAbout(local, duration, path.at(0.5).speed);
+      about = MotionStep(local.by_state, path.duration());
     }
   }
-  spread(linear ? stepFor(path, duration) : steps_.front(), path);
+  spread(linear ? stepFor(path) : about, path);
   filter_.state() = next;
   now_ = there;
 }
 
 Eigen::VectorXd SystemFilter::inputsAt(const ShaftPath& path, double part) const {
-  Eigen::VectorXd u(static_cast<Eigen::Index>(inputs_.count()));
-  for (std::size_t i = 0; i < inputs_.count(); ++i) {
-    u[static_cast<Eigen::Index>(i)] =
-        inputs_.acts(i) ? inputs_.value(i, part * path.duration()) : 0.0;
+  const double offset = part * path.duration();
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(measured_inputs_.size()));
+  for (std::size_t i = 0; i < measured_inputs_.size(); ++i) {
+    const std::optional<FollowedInput>& measured = measured_inputs_[i];
+    const auto k = static_cast<Eigen::Index>(i);
+    if (measured && measured->known()) {
+      u[k] = measured->at(path.from(), offset);
+    } else if (i < inputs_.count() && inputs_.acts(i)) {
+      u[k] = inputs_.value(i, offset);
+    }
   }
   return u;
 }
 
 /// The state at the end of the path.
-Eigen::VectorXd SystemFilter::moved(const Eigen::VectorXd& state, const ShaftPath& path,
-                                    std::int64_t duration) {
+Eigen::VectorXd SystemFilter::moved(const Eigen::VectorXd& state, const ShaftPath& path) {
   const Eigen::VectorXd now = numbers();
   const auto acceleration = [&](double part, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
     Eigen::VectorXd a =
@@ -270,11 +297,11 @@ Eigen::VectorXd SystemFilter::moved(const Eigen::VectorXd& state, const ShaftPat
   const Eigen::VectorXd y = state.head(2 * n_);
   Eigen::VectorXd next = state;
   if (model_.system()->dynamics->linear()) {
-    const Step& step = stepFor(path, duration);
+    const MotionStep& step = stepFor(path);
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n_);
     next.head(2 * n_).noalias() = step.states * y;
-    for (std::size_t k = 0; k < kNode.size(); ++k) {
-      next.head(2 * n_).noalias() += step.node[k] * acceleration(kNode[k], zero, zero);
+    for (std::size_t k = 0; k < MotionStep::kNode.size(); ++k) {
+      next.head(2 * n_).noalias() += step.node[k] * acceleration(MotionStep::kNode[k], zero, zero);
     }
   } else {
     const double h = path.duration();
@@ -297,46 +324,20 @@ Eigen::VectorXd SystemFilter::moved(const Eigen::VectorXd& state, const ShaftPat
 }
 
 /// Of a linear system; of those kept, if one is of the same duration and, nearly, speed.
-const SystemFilter::Step& SystemFilter::stepFor(const ShaftPath& path, std::int64_t duration) {
+const MotionStep& SystemFilter::stepFor(const ShaftPath& path) {
   const Moment<double> middle = path.at(0.5);
-  for (const Step& step : steps_) {
-    if (step.duration == duration && step.version == model_.version() &&
-        std::fabs(middle.speed - step.speed) <= kSameSpeed * std::fabs(step.speed)) {
-      return step;
+  for (const KeptStep& kept : steps_) {
+    if (kept.step.duration == path.duration() && kept.version == model_.version() &&
+        std::fabs(middle.speed - kept.speed) <= kSameSpeed * std::fabs(kept.speed)) {
+      return kept.step;
     }
   }
   next_step_ = (next_step_ + 1) % steps_.size();
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n_);
-  steps_[next_step_] = stepAbout(model_.about(zero, zero, middle, numbers(), inputsAt(path, 0.5)),
-                                 duration, middle.speed);
-  return steps_[next_step_];
-}
-
-SystemFilter::Step SystemFilter::stepAbout(const LocalMotion& local, std::int64_t duration,
-                                           double speed) const {
-  Step step;
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * n_, 2 * n_);
-  A.topRightCorner(n_, n_).setIdentity();
-  A.bottomRows(n_) = local.by_state;
-  const double h = seconds(duration);
-  const auto power = [&](double part) {
-    Eigen::MatrixXd e = exponentialLessIdentity<Eigen::Dynamic>(part * h * A);
-    e.diagonal().array() += 1.0;
-    return e;
-  };
-  step.states = power(1.0);
-  step.forced = Eigen::MatrixXd::Zero(2 * n_, n_);
-  step.noise = Eigen::MatrixXd::Zero(2 * n_, 2 * n_);
-  for (std::size_t k = 0; k < kNode.size(); ++k) {
-    const Eigen::MatrixXd rates = power(1.0 - kNode[k]).rightCols(n_);
-    step.node[k] = kWeight[k] * h * rates;
-    step.forced += step.node[k];
-    step.noise.noalias() += kWeight[k] * h * rates * rates.transpose();
-  }
-  step.duration = duration;
-  step.speed = speed;
-  step.version = model_.version();
-  return step;
+  const LocalMotion local = model_.about(zero, zero, middle, numbers(), inputsAt(path, 0.5));
+  steps_[next_step_] = {MotionStep(local.by_state, path.duration()), middle.speed,
+                        model_.version()};
+  return steps_[next_step_].step;
 }
 
 Eigen::MatrixXd SystemFilter::unbalanceColumns(const ShaftPath& path, double part) const {
@@ -357,25 +358,25 @@ Eigen::MatrixXd SystemFilter::unbalanceColumns(const ShaftPath& path, double par
   return columns;
 }
 
-void SystemFilter::spread(const Step& step, const ShaftPath& path) {
+void SystemFilter::spread(const MotionStep& step, const ShaftPath& path) {
   const Eigen::Index all = filter_.size(), s = 2 * n_;
   const double h = path.duration();
   transition_.setIdentity(all, all);
   transition_.topLeftCorner(s, s) = step.states;
   transition_.block(0, s, s, m_).noalias() = step.forced * by_parameter_;
-  for (std::size_t k = 0; k < kNode.size() && !stations_.empty(); ++k) {
+  for (std::size_t k = 0; k < MotionStep::kNode.size() && !stations_.empty(); ++k) {
     transition_.block(0, unbalance_, s, run_out_ - unbalance_).noalias() +=
-        step.node[k] * unbalanceColumns(path, kNode[k]);
+        step.node[k] * unbalanceColumns(path, MotionStep::kNode[k]);
   }
   setTurning(path.turned());
   noise_.setZero(all, all);
   noise_.topLeftCorner(s, s) = settings_.disturbance * settings_.disturbance * step.noise;
+  Eigen::MatrixXd unknown = inputNoise(path);
   if (by_probes_) {
-    const Eigen::MatrixXd unknown = turningNoise(path);
-    for (std::size_t k = 0; k < kNode.size(); ++k) {
-      noise_.topLeftCorner(s, s) +=
-          step.node[k] * unknown * step.node[k].transpose() / (kWeight[k] * h);
-    }
+    unknown += turningNoise(path);
+  }
+  if (!unknown.isZero(0.0)) {
+    noise_.topLeftCorner(s, s) += step.noiseOf(unknown);
   }
   for (Eigen::Index i = 0; i < m_; ++i) {
     const FollowedNumber& number = settings_.parameters[static_cast<std::size_t>(i)].number;
@@ -426,6 +427,27 @@ Eigen::MatrixXd SystemFilter::turningNoise(const ShaftPath& path) {
   return 2.0 * period / kAngles * a * a.transpose();
 }
 
+/// Accelerations by what sensors of inputs show beside what acts: white [n x n, (m/s^2)^2/Hz].
+Eigen::MatrixXd SystemFilter::inputNoise(const ShaftPath& path) const {
+  Eigen::MatrixXd noise = Eigen::MatrixXd::Zero(n_, n_);
+  Eigen::MatrixXd by_input;
+  for (std::size_t i = 0; i < measured_inputs_.size(); ++i) {
+    const double density = measured_inputs_[i] ? measured_inputs_[i]->noiseDensity() : 0.0;
+    if (density > 0.0) {
+      if (by_input.size() == 0) {
+        by_input = model_.byInput(q(), v(), path.at(0.5));
+      }
+      const auto column = by_input.col(static_cast<Eigen::Index>(i));
+      noise += density * column * column.transpose();
+    }
+  }
+  return noise;
+}
+
+void SystemFilter::takeInput(std::size_t channel, const InputSample& sample) {
+  measured_inputs_[channels_[channel].input->input]->take(sample);
+}
+
 Eigen::VectorXd SystemFilter::rowOf(std::size_t channel) const {
   const FollowedChannel& c = channels_[channel];
   Eigen::VectorXd h = Eigen::VectorXd::Zero(filter_.size());
@@ -454,9 +476,9 @@ Eigen::VectorXd SystemFilter::rowOf(std::size_t channel) const {
   return h;
 }
 
-Innovation SystemFilter::take(std::size_t channel, double value) {
+Innovation SystemFilter::take(std::size_t channel, double value, double deviation) {
   const Eigen::VectorXd h = rowOf(channel);
-  double noise = channels_[channel].deviation;
+  double noise = deviation > 0.0 ? deviation : channels_[channel].deviation;
   if (by_probes_ && run_out_of_[channel] >= 0) {
     noise = std::hypot(noise, filter_.state().segment<2>(run_out_of_[channel]).norm());
   } else if (!by_probes_ && shaft_deviation_ > 0.0 && now_.speed != 0.0) {
@@ -519,10 +541,6 @@ KalmanFilter::Expected SystemFilter::combined(const Eigen::VectorXd& row) const 
 
 double SystemFilter::offset(std::size_t channel) const {
   return offset_of_[channel] < 0 ? 0.0 : filter_.state()[offset_of_[channel]];
-}
-
-double SystemFilter::offsetDeviation(std::size_t channel) const {
-  return offset_of_[channel] < 0 ? 0.0 : filter_.deviation(offset_of_[channel]);
 }
 
 }  // namespace whirl_twin

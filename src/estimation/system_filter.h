@@ -26,8 +26,10 @@
 #include "control/inputs.h"
 #include "control/keyphasor.h"
 #include "estimation/follow_settings.h"
+#include "estimation/followed_input.h"
 #include "estimation/followed_model.h"
 #include "estimation/kalman_filter.h"
+#include "estimation/motion_step.h"
 #include "estimation/shaft_path.h"
 #include "scene/built_scene.h"
 #include "scene/sensor_spec.h"
@@ -41,6 +43,8 @@ struct FollowedChannel {
   double deviation = 0.0;  ///< of its noise, in its unit
   double offset = 0.0;     ///< deviation of its zero; 0: its zero is known
   double run_out = 0.0;    ///< [m], deviation; 0: none
+  /// It shows what acts on an input, and there is no signal.
+  std::optional<InputFollowing> input = std::nullopt;
 };
 
 /// What a measured value did.
@@ -62,8 +66,11 @@ class SystemFilter {
   void begin(const ShaftInstant& at, std::int64_t to_twin = 0, double shaft_deviation = 0.0);
   /// Goes on, the shaft's motion being the cubic between here and there.
   void goTo(const ShaftInstant& there, double shaft_deviation = 0.0);
-  /// Takes what a channel shows now; a value too far off is refused.
-  Innovation take(std::size_t channel, double value);
+  /// Takes what a channel shows now, with noise of a standard deviation, else (0) of the channel's;
+  /// a value too far off is refused.
+  Innovation take(std::size_t channel, double value, double deviation = 0.0);
+  /// The next sample of a channel that shows an input, before its instant is passed.
+  void takeInput(std::size_t channel, const InputSample& sample);
   /// The motion, not the rest, is as at the beginning again: what was believed of it is wrong.
   void forgetMotion();
   /// Coordinates and rates [2 dof] further on, where nothing is measured.
@@ -89,19 +96,12 @@ class SystemFilter {
   Eigen::Vector2d unbalance(std::size_t station) const;
   Eigen::Matrix2d unbalanceCovariance(std::size_t station) const;
   double offset(std::size_t channel) const;
-  double offsetDeviation(std::size_t channel) const;
   bool hasOffset(std::size_t channel) const { return offset_of_[channel] >= 0; }
 
  private:
-  /// A step of a linear system y' = A y + (0, f), y its coordinates and rates, by Gauss's three
-  /// nodes.
-  struct Step {
-    Eigen::MatrixXd states;               // e^(A h) [2n x 2n]
-    std::array<Eigen::MatrixXd, 3> node;  // what f at a node comes to [2n x n]
-    Eigen::MatrixXd forced;               // their sum: what an f that stays comes to
-    Eigen::MatrixXd noise;                // of white accelerations, of density 1 [2n x 2n]
-    // What it was made for
-    std::int64_t duration = 0;  // [ns]
+  /// Of a linear system, and what it was made for.
+  struct KeptStep {
+    MotionStep step;
     double speed = 0.0;         // [rad/s]
     std::int64_t version = -1;  // of the model
   };
@@ -112,13 +112,13 @@ class SystemFilter {
   ShaftInstant onward(std::int64_t time) const;
   void turnWhatTurns(double angle);
   void setTurning(double angle);
-  Eigen::VectorXd moved(const Eigen::VectorXd& state, const ShaftPath& path, std::int64_t duration);
+  Eigen::VectorXd moved(const Eigen::VectorXd& state, const ShaftPath& path);
   Eigen::VectorXd inputsAt(const ShaftPath& path, double part) const;
-  const Step& stepFor(const ShaftPath& path, std::int64_t duration);
-  Step stepAbout(const LocalMotion& local, std::int64_t duration, double speed) const;
+  const MotionStep& stepFor(const ShaftPath& path);
   /// The covariance goes through a step; unbalances and run-outs turn by the path's angle.
-  void spread(const Step& step, const ShaftPath& path);
+  void spread(const MotionStep& step, const ShaftPath& path);
   Eigen::MatrixXd turningNoise(const ShaftPath& path);
+  Eigen::MatrixXd inputNoise(const ShaftPath& path) const;
   /// Accelerations by unbalances, on the way [n x 2 stations].
   Eigen::MatrixXd unbalanceColumns(const ShaftPath& path, double part) const;
   Eigen::VectorXd rowOf(std::size_t channel) const;
@@ -134,9 +134,10 @@ class SystemFilter {
   Eigen::Index n_, m_;
   Eigen::Index unbalance_, run_out_, offset_;         // where they begin in the state
   std::vector<Eigen::Index> run_out_of_, offset_of_;  // of each channel; -1: none
-  Inputs inputs_;                                     // as the scene gives them
-  std::int64_t to_twin_ = 0;                          // [ns], from its instants to the twin's
-  Eigen::VectorXd angles_;  // 1 for each coordinate that is an angle, else 0
+  Inputs inputs_;  // as the scene gives them; none where it gives none
+  std::vector<std::optional<FollowedInput>> measured_inputs_;  // of each that the system has
+  std::int64_t to_twin_ = 0;  // [ns], from its instants to the twin's
+  Eigen::VectorXd angles_;    // 1 for each coordinate that is an angle, else 0
   KalmanFilter filter_;
   ShaftInstant now_;
   bool by_probes_ = false;
@@ -144,7 +145,7 @@ class SystemFilter {
   std::int64_t began_ = 0;              // [ns]
   Eigen::MatrixXd by_parameter_;        // of the last step, in its middle [n x m]
   Eigen::MatrixXd station_directions_;  // M^-1 of them, now [n x 2 stations]
-  std::array<Step, 4> steps_;           // the last that were made; of a nonlinear system the first
+  std::array<KeptStep, 4> steps_;       // the last that were made
   std::size_t next_step_ = 0;
   Eigen::MatrixXd transition_, noise_;
 };

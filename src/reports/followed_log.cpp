@@ -39,6 +39,9 @@ class Course {
     for (const FollowedParameter& p : filter.model().parameters()) {
       system_.start.push_back(p.start);
     }
+    for (const FollowedChannel& c : filter.channels()) {
+      system_.is_input.push_back(c.input.has_value());
+    }
     const std::vector<Station>& stations = filter.unbalanceStations();
     for (std::size_t i = 0; i < stations.size(); ++i) {
       const Eigen::Vector2d u = filter.unbalance(i);
@@ -72,6 +75,10 @@ std::string systemText(const FollowedSystem& system) {
                     u.station, plusMinus(u.amount, u.deviation), u.angle * 57.29577951308232);
   }
   for (std::size_t c = 0; c < system.last.channel.size(); ++c) {
+    if (system.is_input[c]) {
+      out += fmt::format("  {:<24} acts on an input\n", system.last.channel[c]);
+      continue;
+    }
     out +=
         fmt::format("  {:<24} residual {:.3g} {} rms, expected {:.3g}", system.last.channel[c],
                     system.rms[c], system.last.channel_unit[c], system.last.residual_deviation[c]);
@@ -130,7 +137,7 @@ FollowedLog followLog(const Twin& twin, const FollowSettings& settings, const st
     courses[i] = std::make_unique<Course>(systems[i]);
   }
   run.file = readMeasurements(
-      log, twin.scene(), prefix,
+      log, run.scene, followedSources(twin.scene(), settings), prefix,
       [&](const state::Measurement& measurement) {
         if (writer != nullptr) {
           writer->write(measurement);
@@ -185,6 +192,9 @@ Json json(const FollowedLog& run) {
                                                    {"standard_deviation", s.last.deviation[i]}};
     }
     for (std::size_t c = 0; s.found && c < s.last.channel.size(); ++c) {
+      if (s.is_input[c]) {
+        continue;
+      }
       system["channels"][s.last.channel[c]] = {{"residual_rms", s.rms[c]},
                                                {"expected", s.last.residual_deviation[c]},
                                                {"offset", s.last.offset[c]}};

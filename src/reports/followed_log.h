@@ -27,10 +27,11 @@ struct FoundUnbalance {
 
 struct FollowedSystem {
   std::string name;
-  bool found = false;         ///< its motion was found
-  state::FollowState last;    ///< as told at the end
-  std::vector<double> start;  ///< of its parameters, as the scene says
-  std::vector<double> rms;    ///< of each channel: of the residuals [its unit]; NaN: none
+  bool found = false;          ///< its motion was found
+  state::FollowState last;     ///< as told at the end
+  std::vector<double> start;   ///< of its parameters, as the scene says
+  std::vector<double> rms;     ///< of each channel: of the residuals [its unit]; NaN: none
+  std::vector<bool> is_input;  ///< of each channel: it shows what acts
   std::vector<FoundUnbalance> unbalances;
   std::uint64_t windows = 0;     ///< that were judged
   std::uint64_t mismatched = 0;  ///< of them: too large, too small, or not white

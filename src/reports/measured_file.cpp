@@ -19,12 +19,13 @@ namespace {
 constexpr std::uint64_t kTell = 256;       // events from one look at the progress to the next
 constexpr std::size_t kRowsOfBlock = 100;  // of a table
 
-MeasuredFile readLog(const std::string& path, const Scene& scene, const std::string& prefix,
+MeasuredFile readLog(const std::string& path, const std::string& scene,
+                     const std::vector<FollowedSource>& sources, const std::string& prefix,
                      const std::function<void(const state::Measurement&)>& take,
                      const std::function<void(std::uint64_t, std::uint64_t)>& advanced) {
-  std::set<std::string> sources;
-  for (const SensorSpec& sensor : scene.sensors) {
-    sources.insert(sensor.name);
+  std::set<std::string> names;
+  for (const FollowedSource& source : sources) {
+    names.insert(source.name);
   }
   MeasuredFile file;
   EventScan scan(path);
@@ -45,7 +46,7 @@ MeasuredFile readLog(const std::string& path, const Scene& scene, const std::str
     try {
       const Message message = decodeEvent(event.channel, event.data, event.size, prefix);
       const auto& measurement = std::get<state::Measurement>(message);
-      if (sources.count(measurement.source) > 0) {
+      if (names.count(measurement.source) > 0) {
         ++file.messages;
         take(measurement);
       }
@@ -57,38 +58,31 @@ MeasuredFile readLog(const std::string& path, const Scene& scene, const std::str
     throw Refusal(
         fmt::format("{}: expected measurements of the sensors of '{}' on channels that "
                     "begin with {} (--lcm-prefix), found none in {} bytes",
-                    path, scene.name, prefix, scan.size()));
+                    path, scene, prefix, scan.size()));
   }
   return file;
 }
 
-/// The only source of the scene that is no keyphasor: rows have one time for all.
-const SensorSpec& tableSource(const Scene& scene) {
-  const SensorSpec* found = nullptr;
-  for (const SensorSpec& sensor : scene.sensors) {
-    if (sensor.keyphasor || found != nullptr) {
-      throw Refusal(
-          fmt::format("a table has the rows of one source without a keyphasor; the scene "
-                      "'{}' has {} sources: use an LCM log",
-                      scene.name, scene.sensors.size()));
-    }
-    found = &sensor;
+/// The only one, no keyphasor: rows have one time for all.
+const FollowedSource& tableSource(const std::string& scene,
+                                  const std::vector<FollowedSource>& sources) {
+  if (sources.size() != 1 || sources.front().keyphasor) {
+    throw Refusal(
+        fmt::format("a table has the rows of one source without a keyphasor; the scene "
+                    "'{}' and the settings have {} sources: use an LCM log",
+                    scene, sources.size()));
   }
-  if (found == nullptr) {
-    throw Refusal(fmt::format("the scene '{}' has no sensors", scene.name));
-  }
-  return *found;
+  return sources.front();
 }
 
-MeasuredFile readTable(const std::string& path, const Scene& scene,
+MeasuredFile readTable(const std::string& path, const FollowedSource& source,
                        const std::function<void(const state::Measurement&)>& take) {
-  const SensorSpec& source = tableSource(scene);
   state::Measurement block;
   block.source = source.name;
-  for (const SensorChannelSpec& channel : source.channels) {
-    block.channel.push_back(channel.name);
-    block.unit.push_back(channel.signal.unit);
-    block.deviation.push_back(channel.sensor.noise);
+  block.channel = source.names();
+  block.unit = source.units();
+  for (const FollowedSource::Channel& channel : source.channels) {
+    block.deviation.push_back(channel.deviation);
   }
   MeasuredFile file;
   const MeasuredRun run = [&] {
@@ -125,13 +119,13 @@ MeasuredFile readTable(const std::string& path, const Scene& scene,
 
 }  // namespace
 
-MeasuredFile readMeasurements(const std::string& path, const Scene& scene,
-                              const std::string& prefix,
+MeasuredFile readMeasurements(const std::string& path, const std::string& scene,
+                              const std::vector<FollowedSource>& sources, const std::string& prefix,
                               const std::function<void(const state::Measurement&)>& take,
                               const std::function<void(std::uint64_t, std::uint64_t)>& advanced) {
   return std::filesystem::path(path).extension() == ".csv"
-             ? readTable(path, scene, take)
-             : readLog(path, scene, prefix, take, advanced);
+             ? readTable(path, tableSource(scene, sources), take)
+             : readLog(path, scene, sources, prefix, take, advanced);
 }
 
 }  // namespace whirl_twin

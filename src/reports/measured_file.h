@@ -1,5 +1,5 @@
 // What was measured, out of a file: the Measurement messages of an LCM log, or a table of
-// comma-separated values with a column `time` [s] and one for each channel of a scene's sensors.
+// comma-separated values with a column `time` [s] and one for each channel of the sources.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "estimation/followed_sources.h"
 #include "messages/measurement.h"
-#include "scene/scene.h"
 
 namespace whirl_twin {
 
@@ -19,10 +19,11 @@ struct MeasuredFile {
   std::vector<std::string> remarks;  ///< on a table: gaps, uneven steps, columns that stand still
 };
 
-/// Gives `take` every message of the scene's sensors, in the order of the file; a table ends in
-/// .csv. Throws Refusal for a file that cannot be read, and for one that has none of them.
-MeasuredFile readMeasurements(const std::string& path, const Scene& scene,
-                              const std::string& prefix,
+/// Gives `take` every message of the sources, those of a scene by this name, in the order of the
+/// file; a table ends in .csv. Throws Refusal for a file that cannot be read, and for one that has
+/// none of them.
+MeasuredFile readMeasurements(const std::string& path, const std::string& scene,
+                              const std::vector<FollowedSource>& sources, const std::string& prefix,
                               const std::function<void(const state::Measurement&)>& take,
                               const std::function<void(std::uint64_t, std::uint64_t)>& advanced);
 

@@ -11,7 +11,7 @@
 namespace whirl_twin {
 namespace {
 
-FollowSettings settingsOf(const std::string& offsets) {
+FollowSettings settingsOf(const std::string& pendulum) {
   static const BuiltScene scene = build(readScene(YAML::Load(R"(
 name: rig
 step: 0.001
@@ -23,20 +23,50 @@ sensors:
   encoders: {rate: 500.0, channels: {theta: {measures: pendulum.theta, noise: 1.0e-4}}}
 )"),
                                                   "a test"));
-  return readFollowSettings(YAML::Load("systems: {pendulum: {offsets: " + offsets + "}}"), "a test",
-                            scene);
+  return readFollowSettings(YAML::Load("systems: {pendulum: {" + pendulum + "}}"), "a test", scene);
 }
 
 TEST(FollowSettings, TakesZerosByPathAndNestedAsAParameterServerHasThem) {
   for (const char* offsets : {"{encoders/theta: 0.02}", "{encoders: {theta: 0.02}}"}) {
-    const FollowSettings settings = settingsOf(offsets);
+    const FollowSettings settings = settingsOf(std::string("offsets: ") + offsets);
     EXPECT_EQ(settings.of("pendulum").offset.at("encoders/theta"), 0.02) << offsets;
   }
   for (const char* offsets : {"{encoders: 0.02}", "{encoders: {phi: 0.02}}", "{rig: {theta: 0.02}}",
                               "{encoders: {theta: -1.0}}", "{encoders: {theta: {a: 1.0}}}",
                               "{encoders/phi: 0.02}", "0.02", "[0.02]"}) {
-    EXPECT_THROW(settingsOf(offsets), Refusal) << offsets;
+    EXPECT_THROW(settingsOf(std::string("offsets: ") + offsets), Refusal) << offsets;
   }
+}
+
+TEST(FollowSettings, TakesAMeasuredInputByItsChannel) {
+  const InputFollowing plain = settingsOf("inputs: {torque: motor/tau}").of("pendulum").inputs[0];
+  EXPECT_EQ(plain.source + "/" + plain.channel, "motor/tau");
+  EXPECT_EQ(plain.unit, "N m");
+  EXPECT_EQ(plain.scale, 1.0);
+  EXPECT_FALSE(plain.hold);
+  const InputFollowing all =
+      settingsOf(
+          "inputs: {torque: {channel: encoders/tau, scale: -0.5, offset: 0.1, "
+          "deviation: 0.02, hold: true}}")
+          .of("pendulum")
+          .inputs[0];
+  EXPECT_EQ(all.source, "encoders");
+  EXPECT_EQ(all.scale, -0.5);
+  EXPECT_EQ(all.offset, 0.1);
+  EXPECT_EQ(all.deviation, 0.02);
+  EXPECT_TRUE(all.hold);
+  for (const char* wrong :
+       {"{force: motor/tau}", "{torque: tau}", "{torque: motor/}", "{torque: encoders/theta}",
+        "{torque: {scale: 2.0}}", "{torque: {channel: motor/tau, hold: maybe}}",
+        "{torque: {channel: motor/tau, deviation: -1.0}}", "{torque: [motor/tau]}", "motor/tau"}) {
+    EXPECT_THROW(settingsOf(std::string("inputs: ") + wrong), Refusal) << wrong;
+  }
+}
+
+TEST(FollowSettings, GivesDeviationsOfAParameterInPartsOfItsValue) {
+  const FollowSettings settings = settingsOf("parameters: {length: {deviation: 0.1, walk: 0.01}}");
+  EXPECT_EQ(settings.of("pendulum").parameters[0].number.deviation, 0.1);
+  EXPECT_EQ(settings.of("pendulum").parameters[0].number.walk, 0.01);
 }
 
 }  // namespace

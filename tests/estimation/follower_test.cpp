@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
@@ -294,6 +295,145 @@ TEST(Follower, GoesOnWhenTheMachinesClockIsSet) {
   EXPECT_TRUE(twin.last().shaft_known);
   EXPECT_EQ(twin.last().channel_status[0], 0);
   EXPECT_LT(std::fabs(twin.last().residual[0]), 5.0 * twin.last().residual_deviation[0]);
+}
+
+/// What a message says of its unit and of its noise is believed: probes in um, ten times as noisy
+/// as the scene has them. In a unit of another kind they show nothing.
+TEST(Follower, TakesUnitsAndDeviationsAsMessagesSayThem) {
+  const std::string noisy =
+      with(with(kRotor, "noise: 3.0e-6", "noise: 3.0e-5"), "noise: 3.0e-6", "noise: 3.0e-5");
+  Machine machine(noisy);
+  Twinned twin(kRotor, {});
+  while (machine.time() < 10.0) {
+    for (state::Measurement m : machine.step()) {
+      if (m.source == "probes") {
+        m.unit = {"um", machine.time() < 9.0 ? "um" : "V"};
+        for (double& value : m.value) {
+          value *= 1.0e6;
+        }
+        m.deviation = {30.0, 30.0};
+      }
+      twin.follower.take(m);
+    }
+  }
+  EXPECT_EQ(twin.last().refused, 0);
+  EXPECT_GT(twin.last().residual_deviation[0], 3.0e-5);
+  EXPECT_LT(twin.last().residual_deviation[0], 4.0e-5);
+  EXPECT_LT(apart(twin, noisy, 4.0, 8.0), 1.0e-5);
+  EXPECT_EQ(twin.last().channel_status[0], static_cast<int>(state::ChannelStatus::kUsed));
+  EXPECT_EQ(twin.last().channel_status[1], static_cast<int>(state::ChannelStatus::kInvalid));
+}
+
+constexpr const char* kDrivenArm = R"(
+name: rig
+step: 0.001
+systems:
+  arm:
+    model: pendulum
+    parameters: {mass: 0.5, length: 0.3, damping: 0.01}
+    inputs: {torque: {amplitude: 0.4, frequency: 7.3, phase: 0.3}}
+sensors:
+  encoder: {rate: 200.0, channels: {theta: {measures: arm.theta, noise: 1.0e-3}}}
+)";
+constexpr const char* kTorque =
+    "    inputs: {torque: {amplitude: 0.4, frequency: 7.3, phase: 0.3}}\n";
+
+FollowSettings followTorque() {
+  FollowSettings settings;
+  settings.systems["arm"].disturbance = 0.02;
+  InputFollowing torque;
+  torque.source = "motor";
+  torque.channel = "torque";
+  torque.unit = "N m";
+  torque.scale = 2.0;
+  settings.systems["arm"].inputs = {torque};
+  return settings;
+}
+
+/// The motor's torque as its sensor shows it, a block of ten samples at 100 Hz: half of it, in mN
+/// m.
+state::Measurement torqueBlock(std::int64_t number) {
+  state::Measurement block;
+  block.source = "motor";
+  block.at.step = number;
+  block.channel = {"torque"};
+  block.unit = {"mN m"};
+  block.deviation = {kNaN};
+  block.samples = 10;
+  block.period = 10'000'000;
+  block.first_instant = number * 100'000'000;
+  for (int i = 0; i < 10; ++i) {
+    block.value.push_back(200.0 *
+                          std::cos(7.3 * (0.1 * static_cast<double>(number) + 0.01 * i) + 0.3));
+  }
+  block.valid.assign(10, 1);
+  return block;
+}
+
+/// Drives the arm for 20 s, of which nobody hears of its torque from 12 s to 14 s; the torque's
+/// blocks come `late` steps after they are complete.
+void followDrivenArm(
+    Twinned& twin, bool torque_told, int late,
+    const std::function<void(double)>& look = [](double) {}) {
+  Machine machine(kDrivenArm);
+  for (std::int64_t k = 1; k <= 20'000; ++k) {
+    for (const state::Measurement& m : machine.step()) {
+      twin.follower.take(m);
+    }
+    const std::int64_t complete = k - late;
+    if (torque_told && complete >= 100 && complete % 100 == 0 &&
+        (complete <= 12'000 || complete > 14'000)) {
+      twin.follower.take(torqueBlock(complete / 100 - 1));
+    }
+    look(machine.time());
+  }
+  twin.follower.finish();
+}
+
+/// A torque that is measured is taken for what acts; without it the arm moves as the model cannot.
+/// Where it is not heard of, that is said.
+TEST(Follower, TakesWhatActsOnAnInputFromItsSensor) {
+  const std::string model = with(kDrivenArm, kTorque, "");
+  Twinned driven(model, followTorque());
+  bool silent = false;
+  double largest = 0.0;
+  followDrivenArm(driven, true, 60, [&](double t) {
+    if (driven.told.empty()) {
+      return;
+    }
+    const state::FollowState& told = driven.last();
+    ASSERT_EQ(told.channel, (std::vector<std::string>{"encoder/theta", "motor/torque"}));
+    if (t > 4.0 && t < 12.0) {
+      EXPECT_EQ(driven.follower.restarts(), 0) << t;
+      largest = std::max(largest, told.mismatch);
+      EXPECT_EQ(told.channel_status[1], static_cast<int>(state::ChannelStatus::kUsed)) << t;
+    }
+    silent = silent || (t > 13.0 && t < 14.0 &&
+                        told.channel_status[1] == static_cast<int>(state::ChannelStatus::kSilent));
+  });
+  EXPECT_LT(largest, driven.last().mismatch_limit);
+  EXPECT_LT(apart(driven, kDrivenArm, 4.0, 12.0), 5.0e-3);
+  EXPECT_TRUE(silent);
+  EXPECT_LT(driven.last().mismatch, driven.last().mismatch_limit);
+  EXPECT_EQ(driven.last().channel_status[1], static_cast<int>(state::ChannelStatus::kUsed));
+
+  FollowSettings without = followTorque();
+  without.systems["arm"].inputs.clear();
+  Twinned free(model, without);
+  followDrivenArm(free, false, 0);
+  EXPECT_GT(free.follower.restarts(), 10);  // it is never what the model expects
+}
+
+/// However late within the patience the torque comes, not a bit changes.
+TEST(Follower, TakesALateInputWhereItBelongs) {
+  const std::string model = with(kDrivenArm, kTorque, "");
+  Twinned prompt(model, followTorque()), late(model, followTorque());
+  followDrivenArm(prompt, true, 0);
+  followDrivenArm(late, true, 90);
+  const std::vector<double> one = prompt.whirl(), other = late.whirl();
+  constexpr std::ptrdiff_t kBoth = 3800;  // 19 s: what comes after the end is not waited for
+  ASSERT_GT(std::min(one.size(), other.size()), static_cast<std::size_t>(kBoth));
+  EXPECT_TRUE(std::equal(one.begin(), one.begin() + kBoth, other.begin()));
 }
 
 /// A shaft with a disc between two bearings, seen by probes at the disc and at one bearing: what

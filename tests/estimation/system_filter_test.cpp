@@ -326,6 +326,29 @@ TEST(SystemFilter, FindsAnUnbalanceInARunUp) {
   });
 }
 
+/// One that is negative keeps its sign; what is known of it is in parts of its size.
+TEST(SystemFilter, FindsANegativeParameter) {
+  SystemFollowing settings;
+  settings.disturbance = 1.0e-3;
+  settings.parameters = {{"cross_coupling", {0.4, 0.0}}};
+  const std::string rotor =
+      "mass: 2.0, stiffness: 20000.0, damping: 20.0, eccentricity: 2.0e-5, cross_coupling: ";
+  SystemFilter begun(sceneOf(R"(
+name: rig
+step: 0.0005
+drives: {shaft: {speed: 60.0}}
+systems:
+  rotor: {model: jeffcott_rotor, drive: shaft, parameters: {)" +
+                             rotor + "-400.0}}\n"),
+                     0, settings, {displacement("probes/x", 0.0, 3.0e-6)});
+  EXPECT_DOUBLE_EQ(begun.parameter(0), -400.0);
+  EXPECT_DOUBLE_EQ(begun.parameterDeviation(0), 0.4 * 400.0);
+  runUp(rotor + "-300.0", rotor + "-400.0", settings, [](const SystemFilter& filter) {
+    EXPECT_NEAR(filter.parameter(0), -300.0, 4.0 * filter.parameterDeviation(0));
+    EXPECT_LT(filter.parameterDeviation(0), 60.0);
+  });
+}
+
 /// Stiffness 3 % and damping 30 % off at first: within 0.5 % and 20 % after one run-up.
 TEST(SystemFilter, FindsStiffnessAndDampingInARunUp) {
   SystemFollowing settings;

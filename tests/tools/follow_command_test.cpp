@@ -1,6 +1,7 @@
 // `twin follow`: a log or a table of measurements, followed.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <string>
 
@@ -90,6 +91,40 @@ TEST_F(FollowedArm, ATableIsFollowedAsWell) {
   ASSERT_EQ(end.status, 0) << end.err;
   EXPECT_LT(end.json()["systems"]["arm"]["channels"]["encoder/theta"]["residual_rms"].get<double>(),
             1.0e-3);
+}
+
+/// A torque that acts on the arm, in a column of its own: what the settings say it is.
+TEST_F(FollowedArm, AColumnOfATableActsOnAnInput) {
+  const std::string motion = directory_.file("driven.csv");
+  const std::string driven = directory_.write(
+      "driven.yaml",
+      std::string(kArm).replace(std::string(kArm).find("    initial:"), 0,
+                                "    inputs: {torque: {amplitude: 0.4, frequency: 7.3}}\n"));
+  ASSERT_EQ(
+      twin({"simulate", driven, "--duration", "5", "--sample", "0.005", "--output", motion}).status,
+      0);
+  std::ifstream in(motion);
+  const std::string table = directory_.file("table.csv");
+  std::ofstream out(table);
+  out << "time,theta,tau\n";
+  std::string line;
+  std::getline(in, line);
+  while (std::getline(in, line)) {
+    const std::size_t second = line.find(',', line.find(',') + 1);
+    out << line.substr(0, second) << ',' << 200.0 * std::cos(7.3 * std::stod(line)) << '\n';
+  }
+  out.close();
+  const std::string settings = directory_.write(
+      "inputs.yaml", "systems: {arm: {inputs: {torque: {channel: encoder/tau, scale: 0.002}}}}\n");
+  const Ending end = twin({"follow", scene_, table, "--settings", settings, "--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  const Json arm = end.json()["systems"]["arm"];
+  EXPECT_LT(arm["channels"]["encoder/theta"]["residual_rms"].get<double>(), 1.0e-3);
+  EXPECT_EQ(arm["samples"]["refused"], 0);
+  EXPECT_FALSE(arm["channels"].contains("encoder/tau"));
+  const Ending without = twin({"follow", scene_, table, "--json"});
+  ASSERT_EQ(without.status, 0) << without.err;
+  EXPECT_GT(without.json()["restarts"].get<int>(), 0);
 }
 
 TEST_F(FollowedArm, WhatIsWrongIsSaidAtItsPlaceAllAtOnce) {

@@ -1,0 +1,78 @@
+#include "estimation/followed_sources.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "control/shaft_angle.h"
+
+namespace whirl_twin {
+
+namespace {
+
+/// [s]; of the anti-alias filter what it delays by well below its bandwidth.
+double delayOf(const SensorSettings& sensor) {
+  return sensor.delay +
+         (sensor.bandwidth > 0.0 ? 1.0 / (ShaftAngle::kTurn * sensor.bandwidth) : 0.0);
+}
+
+double noiseOf(const SensorSettings& sensor) {
+  return std::hypot(sensor.noise, sensor.resolution / std::sqrt(12.0));
+}
+
+void addInput(const InputFollowing& input, std::size_t system, std::vector<FollowedSource>& all) {
+  auto source = std::find_if(all.begin(), all.end(),
+                             [&](const FollowedSource& s) { return s.name == input.source; });
+  if (source == all.end()) {
+    FollowedSource further;
+    further.name = input.source;
+    source = all.insert(all.end(), further);
+  }
+  FollowedSource::Channel channel;
+  channel.name = input.channel;
+  channel.unit = input.unit;
+  channel.deviation = input.deviation;
+  channel.system = system;
+  channel.input = input;
+  source->channels.push_back(channel);
+}
+
+}  // namespace
+
+std::vector<std::string> FollowedSource::names() const {
+  std::vector<std::string> all;
+  for (const Channel& channel : channels) {
+    all.push_back(channel.name);
+  }
+  return all;
+}
+
+std::vector<std::string> FollowedSource::units() const {
+  std::vector<std::string> all;
+  for (const Channel& channel : channels) {
+    all.push_back(channel.unit);
+  }
+  return all;
+}
+
+std::vector<FollowedSource> followedSources(const Scene& scene, const FollowSettings& settings) {
+  std::vector<FollowedSource> all;
+  for (const SensorSpec& sensor : scene.sensors) {
+    FollowedSource source;
+    source.name = sensor.name;
+    source.keyphasor = sensor.keyphasor;
+    source.drive = sensor.drive;
+    for (const SensorChannelSpec& c : sensor.channels) {
+      source.channels.push_back({c.name, c.signal.unit, noiseOf(c.sensor), delayOf(c.sensor),
+                                 c.signal.system, c.signal, std::nullopt});
+    }
+    all.push_back(source);
+  }
+  for (std::size_t i = 0; i < scene.systems.size(); ++i) {
+    for (const InputFollowing& input : settings.of(scene.systems[i].name).inputs) {
+      addInput(input, i, all);
+    }
+  }
+  return all;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,52 @@
+#include "nodes/follow_publisher.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace whirl_twin {
+
+FollowPublisher::FollowPublisher(Twin& twin, std::shared_ptr<SystemGenerations> generations,
+                                 const std::vector<std::string>& sources, ros::NodeHandle node,
+                                 LcmPublisher lcm)
+    : observer_(twin, std::move(generations)),
+      orders_(twin),
+      states_(twin, EnsembleObserver(twin), node, std::move(lcm), false) {
+  for (const SystemSpec& system : twin.scene().systems) {
+    states_.advertise<state::FollowState>(system.name);
+  }
+  for (const std::string& source : sources) {
+    states_.advertise<state::Measurement>(source);
+  }
+}
+
+void FollowPublisher::publish(const double* record) {
+  observer_.observe(record);
+  orders_.take(record, observer_);
+  observer_.setStamp(stamp_);
+  states_.publish(observer_, !observer_.tellsOnlyChange());
+  if (orders_.dueAt(observer_.step())) {
+    states_.publishOrders(observer_, orders_);
+  }
+}
+
+void FollowPublisher::publish(state::FollowState told) {
+  told.at.stamp = stamp_;
+  states_.tell(told);
+  told_[told.system] = told;
+}
+
+void FollowPublisher::publishSilence(double silent, double step_seconds) {
+  for (const auto& [system, last] : told_) {
+    state::FollowState told = last;
+    told.at.time += silent;
+    told.at.step += std::llround(silent / step_seconds);
+    told.at.stamp += std::llround(1.0e9 * silent);
+    std::fill(told.channel_status.begin(), told.channel_status.end(),
+              static_cast<std::uint8_t>(state::ChannelStatus::kSilent));
+    std::fill(told.residual.begin(), told.residual.end(), state::FollowState::kNone);
+    states_.tell(told);
+  }
+}
+
+}  // namespace whirl_twin
