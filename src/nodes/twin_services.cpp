@@ -14,11 +14,10 @@ namespace whirl_twin {
 
 namespace {
 
-/// [s], that one ~step may take: the other services wait for it.
-constexpr double kLongestWait = 60.0;
-
 /// [s], that a command to an input may hold.
 constexpr double kLongestCommand = state::InputCommand::kLongest;
+
+constexpr std::chrono::microseconds kPoll{500};
 
 constexpr const char* kEnded = "the simulation is ending";
 
@@ -38,7 +37,6 @@ TwinServices::TwinServices(LiveTwin& twin, ros::NodeHandle node, std::function<b
       keep_waiting_(std::move(keep_waiting)),
       parameters_(twin, [this] { return wait(); }) {
   servers_ = {
-      node.advertiseService("pause", &TwinServices::pause, this),
       node.advertiseService("resume", &TwinServices::resume, this),
       node.advertiseService("reset", &TwinServices::reset, this),
       node.advertiseService("step", &TwinServices::step, this),
@@ -46,6 +44,13 @@ TwinServices::TwinServices(LiveTwin& twin, ros::NodeHandle node, std::function<b
       node.advertiseService("set_input", &TwinServices::setInput, this),
       node.advertiseService("set_parameter", &TwinServices::setParameter, this),
       node.advertiseService("set_real_time_factor", &TwinServices::setRealTimeFactor, this)};
+  advertisePause(node);
+}
+
+void TwinServices::advertisePause(ros::NodeHandle node) {
+  node.setCallbackQueue(&pause_queue_);
+  servers_.push_back(node.advertiseService("pause", &TwinServices::pause, this));
+  pause_thread_.start();
 }
 
 bool TwinServices::wait() {
@@ -53,7 +58,7 @@ bool TwinServices::wait() {
     if (!keep_waiting_()) {
       return false;
     }
-    std::this_thread::sleep_for(std::chrono::microseconds(500));
+    std::this_thread::sleep_for(kPoll);
   }
   return true;
 }
@@ -76,7 +81,14 @@ bool TwinServices::trigger(TwinCommand::Kind kind, const char* done, Trigger::Re
 }
 
 bool TwinServices::pause(Trigger::Request&, Trigger::Response& response) {
-  return trigger(TwinCommand::Kind::kPause, "paused", response);
+  twin_.pause();
+  while (twin_.pausing() && keep_waiting_()) {
+    std::this_thread::sleep_for(kPoll);
+  }
+  response.success = !twin_.pausing();
+  response.message =
+      response.success ? fmt::format("paused at step {}", twin_.stepCount()) : kEnded;
+  return true;
 }
 
 bool TwinServices::resume(Trigger::Request&, Trigger::Response& response) {
@@ -92,22 +104,18 @@ bool TwinServices::reset(Trigger::Request&, Trigger::Response& response) {
 }
 
 bool TwinServices::step(StepN::Request& request, StepN::Response& response) {
-  const double most = std::max(1.0, kLongestWait / twin_.twin().scene().stepSeconds());
-  if (request.steps > most) {
-    response.message = fmt::format("steps: must be at most {:.0f} at a time ({:g} s), found {}",
-                                   most, kLongestWait, request.steps);
-    return true;
-  }
   TwinCommand command;
   command.kind = TwinCommand::Kind::kStep;
   command.steps = request.steps;
   TwinAnswer answer;
+  const bool paused = twin_.paused();
   const bool carried_out = carryOut(command, answer);
   response.success = carried_out && answer.done;
   response.step = answer.step;
   response.time = twin_.twin().seconds(answer.step);
   response.message = !carried_out  ? kEnded
                      : answer.done ? fmt::format("{} steps done", request.steps)
+                     : paused      ? fmt::format("ended by a pause at step {}", answer.step)
                                    : "not paused: call pause first";
   return true;
 }

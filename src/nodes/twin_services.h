@@ -1,7 +1,8 @@
 // The services of the simulation node: each hands a command to the loop and answers when it is
-// done.
+// done. ~pause has a thread of its own, and ends a ~step that is under way.
 #pragma once
 
+#include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
 #include <whirl_twin/SetInput.h>
@@ -23,7 +24,8 @@ std::string factorFault(double factor);
 
 class TwinServices {
  public:
-  /// Advertises under `node`. A service waits for its command as long as keep_waiting() is true.
+  /// Advertises under `node`. A service waits for its command as long as keep_waiting() is true,
+  /// which any thread may ask.
   TwinServices(LiveTwin& twin, ros::NodeHandle node, std::function<bool()> keep_waiting);
 
   /// Changes of parameters that go in a ramp are under way: continueRamps() is to be called every
@@ -50,6 +52,7 @@ class TwinServices {
                          SetRealTimeFactor::Response& response);
 
   bool trigger(TwinCommand::Kind kind, const char* done, Trigger::Response& response);
+  void advertisePause(ros::NodeHandle node);
   /// Until all that was sent is carried out; false when the loop ended first.
   bool wait();
   /// Sends and waits; false when the loop ended first or takes no commands.
@@ -59,6 +62,9 @@ class TwinServices {
   std::function<bool()> keep_waiting_;
   LiveParameters parameters_;
   std::vector<ros::ServiceServer> servers_;
+  // ~pause is not kept waiting by a service that takes long.
+  ros::CallbackQueue pause_queue_;
+  ros::AsyncSpinner pause_thread_{1, &pause_queue_};
 };
 
 }  // namespace whirl_twin

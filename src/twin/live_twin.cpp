@@ -47,10 +47,22 @@ bool LiveTwin::cycle(std::int64_t scheduled) noexcept {
 }
 
 void LiveTwin::carryOutCommands() noexcept {
+  if (pause_asked_.load(std::memory_order_relaxed)) {
+    pauseNow();
+  }
   TwinCommand command;
   while (steps_to_do_ == 0 && commands_.pop(command)) {
     carryOut(command);
   }
+}
+
+void LiveTwin::pauseNow() noexcept {
+  paused_.store(true, std::memory_order_relaxed);
+  if (steps_to_do_ > 0) {
+    steps_to_do_ = 0;
+    finish(false, 0.0);
+  }
+  pause_asked_.store(false, std::memory_order_release);
 }
 
 bool LiveTwin::holds() const noexcept {
@@ -85,9 +97,6 @@ void LiveTwin::stepWhileThereIsTime(std::int64_t scheduled) noexcept {
 
 void LiveTwin::carryOut(const TwinCommand& command) noexcept {
   switch (command.kind) {
-    case TwinCommand::Kind::kPause:
-      paused_.store(true, std::memory_order_relaxed);
-      return finish(true, 0.0);
     case TwinCommand::Kind::kResume:
       paused_.store(false, std::memory_order_relaxed);
       return finish(true, 0.0);

@@ -22,17 +22,8 @@ namespace whirl_twin {
 
 /// A command from outside the loop.
 struct TwinCommand {
-  enum class Kind : std::uint8_t {
-    kPause,
-    kResume,
-    kReset,
-    kStep,
-    kSetSpeed,
-    kSetInput,
-    kLook,
-    kReplace
-  };
-  Kind kind = Kind::kPause;
+  enum class Kind : std::uint8_t { kResume, kReset, kStep, kSetSpeed, kSetInput, kLook, kReplace };
+  Kind kind = Kind::kResume;
   std::uint64_t steps = 0;        ///< kStep: how many
   std::size_t drive = 0;          ///< kSetSpeed, kLook: of twin().drive()
   double speed = 0.0;             ///< [rad/s]
@@ -89,6 +80,11 @@ class LiveTwin {
 
   // Any thread.
 
+  /// Stands still from the next cycle on, ahead of the commands that wait; a kStep under way ends
+  /// there, as one that is not done.
+  void pause() noexcept { pause_asked_.store(true, std::memory_order_relaxed); }
+  /// Asked to, and not yet done.
+  bool pausing() const noexcept { return pause_asked_.load(std::memory_order_acquire); }
   /// The real-time factor, that Pace::canBe(); of commands it is independent.
   void setPace(double factor) noexcept { pace_.set(factor); }
   double pace() const noexcept { return pace_.factor(); }
@@ -110,6 +106,7 @@ class LiveTwin {
 
  private:
   void carryOutCommands() noexcept;
+  void pauseNow() noexcept;
   bool holds() const noexcept;
   void step(std::int64_t scheduled) noexcept;
   void stepWhileThereIsTime(std::int64_t scheduled) noexcept;
@@ -126,6 +123,7 @@ class LiveTwin {
   boost::lockfree::spsc_queue<TwinCommand, boost::lockfree::capacity<64>> commands_;
   std::uint64_t sent_ = 0;
   std::atomic<std::uint64_t> carried_out_{0};
+  std::atomic<bool> pause_asked_{false};
   std::atomic<bool> paused_{false};
   std::atomic<std::int64_t> step_{0};
   std::atomic<std::uint64_t> resets_{0};

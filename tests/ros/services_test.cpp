@@ -9,9 +9,12 @@
 #include <whirl_twin/StepN.h>
 #include <whirl_twin/WhirlState.h>
 
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "waiting.h"
 
@@ -23,7 +26,10 @@ class Services : public testing::Test {
  protected:
   void SetUp() override {
     const boost::function<void(const WhirlState::ConstPtr&)> on_whirl =
-        [this](const WhirlState::ConstPtr& m) { whirl_ = *m; };
+        [this](const WhirlState::ConstPtr& m) {
+          whirl_ = *m;
+          reached_ = m->step;
+        };
     const boost::function<void(const DriveState::ConstPtr&)> on_drive =
         [this](const DriveState::ConstPtr& m) { shaft_ = *m; };
     whirl_subscriber_ = node_.subscribe<WhirlState>("/twin/rotor/whirl", 10000, on_whirl);
@@ -65,6 +71,7 @@ class Services : public testing::Test {
   ros::Subscriber drive_subscriber_;
   ros::Subscriber loop_subscriber_;
   std::optional<WhirlState> whirl_;
+  std::atomic<std::int64_t> reached_{0};  // its step, for other threads
   std::optional<DriveState> shaft_;
   std::optional<LoopStatistics> loop_;
 };
@@ -102,6 +109,33 @@ TEST_F(Services, pausedItStandsStillAndStepsAsAsked) {
   EXPECT_EQ(more.time, static_cast<double>(more.step) / 1000.0);
   EXPECT_TRUE(waitUntil([&] { return whirl_->step == more.step; }));
   EXPECT_EQ(step(0).step, more.step);
+}
+
+TEST_F(Services, aPauseEndsStepsThatAreUnderWay) {
+  ASSERT_TRUE(trigger("pause").success);
+  const std::int64_t stood = step(1).step;
+  std::atomic<bool> answered{false};
+  std_srvs::Trigger::Response pause;
+  std::thread another([&] {  // a second client, beside the one that waits for its steps
+    while (reached_.load() < stood + 10) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    EXPECT_FALSE(answered.load());
+    pause = trigger("pause");
+  });
+  std::thread listening([&] {
+    while (!answered.load()) {
+      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01));
+    }
+  });
+  const StepN::Response response = step(4000000000u);
+  answered.store(true);
+  another.join();
+  listening.join();
+  EXPECT_TRUE(pause.success);
+  EXPECT_FALSE(response.success);
+  EXPECT_EQ(response.message, "ended by a pause at step " + std::to_string(response.step));
+  EXPECT_EQ(step(1).step, response.step + 1) << "it stands where the pause put it";
 }
 
 TEST_F(Services, steppingWithoutAPauseIsRefused) {

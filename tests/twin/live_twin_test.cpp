@@ -51,7 +51,7 @@ TEST_F(Live, TheStartIsPublishedThenEveryStep) {
 
 TEST_F(Live, PausedItStandsStill) {
   stepsAfter(3);
-  send(Kind::kPause);
+  live_.pause();
   EXPECT_EQ(stepsAfter(5), Steps{});
   EXPECT_TRUE(live_.paused());
   send(Kind::kResume);
@@ -60,7 +60,7 @@ TEST_F(Live, PausedItStandsStill) {
 
 TEST_F(Live, StepsAreDoneOneACycleAndAnsweredWhenTheLastIsDone) {
   stepsAfter(3);
-  send(Kind::kPause);
+  live_.pause();
   send(Kind::kStep, 3);
   EXPECT_EQ(stepsAfter(2), (Steps{3, 4}));
   EXPECT_EQ(live_.carriedOut() + 1, live_.sent());
@@ -70,8 +70,23 @@ TEST_F(Live, StepsAreDoneOneACycleAndAnsweredWhenTheLastIsDone) {
   EXPECT_EQ(live_.answer().step, 5);
 }
 
+TEST_F(Live, APauseEndsStepsThatAreUnderWay) {
+  stepsAfter(1);
+  live_.pause();
+  send(Kind::kStep, 1000);
+  send(Kind::kReset);
+  EXPECT_EQ(stepsAfter(3), (Steps{1, 2, 3}));
+  live_.pause();
+  EXPECT_TRUE(live_.pausing());
+  live_.cycle(scheduled_ += 1000000);
+  EXPECT_FALSE(live_.pausing());
+  EXPECT_EQ(live_.carriedOut(), live_.sent()) << "what waits behind the steps is carried out";
+  EXPECT_EQ(stepsAfter(2), (Steps{0}));
+  EXPECT_TRUE(live_.paused());
+}
+
 TEST_F(Live, NoStepsAreDoneAtOnce) {
-  send(Kind::kPause);
+  live_.pause();
   send(Kind::kStep, 0);
   stepsAfter(1);
   EXPECT_EQ(live_.carriedOut(), live_.sent());
@@ -87,7 +102,7 @@ TEST_F(Live, SteppingWithoutAPauseIsNotDone) {
 
 TEST_F(Live, CommandsAreCarriedOutInOrderAndWaitForStepsUnderWay) {
   stepsAfter(10);
-  send(Kind::kPause);
+  live_.pause();
   send(Kind::kStep, 2);
   send(Kind::kReset);
   EXPECT_EQ(stepsAfter(4), (Steps{10, 11, 0}));
@@ -96,7 +111,7 @@ TEST_F(Live, CommandsAreCarriedOutInOrderAndWaitForStepsUnderWay) {
 
 TEST_F(Live, ASpeedIsSetWhilePausedAndTakesEffectWithTheNextStep) {
   stepsAfter(2);
-  send(Kind::kPause);
+  live_.pause();
   TwinCommand command;
   command.kind = Kind::kSetSpeed;
   command.speed = 20.0;
@@ -152,7 +167,7 @@ TEST_F(Live, FasterThanTheClockItTakesSeveralStepsStampedEvenlyInThePeriod) {
     ASSERT_TRUE(live_.pop(record_.data()));
     EXPECT_EQ(RecordLayout::scheduled(record_.data()), scheduled_ + i * 250000);
   }
-  send(Kind::kPause);
+  live_.pause();
   EXPECT_EQ(stepsAfter(3), Steps{});
 }
 
@@ -174,7 +189,7 @@ TEST_F(Live, AsFastAsItGoesNothingIsLostHoweverSlowTheReader) {
 
 TEST_F(Live, StepsThatAreAskedForNeedNoRealTime) {
   stepsAfter(1);
-  send(Kind::kPause);
+  live_.pause();
   send(Kind::kStep, 10);
   live_.cycle(monotonicNow() + 3600 * std::int64_t{1000000000});  // all the time there is
   EXPECT_EQ(live_.stepCount(), 10);

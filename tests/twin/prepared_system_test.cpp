@@ -149,8 +149,7 @@ TEST_F(Prepared, AChangedSystemIsReadyForTheSpeedsOfItsDriveAndGoesOnAtTheSameSt
   std::vector<double> after(live_.twin().layout().size);
   live_.twin().write(before.data());
   made_ready = 0;
-  TwinCommand pause;
-  ASSERT_TRUE(live_.send(pause));
+  live_.pause();
   ASSERT_TRUE(parameters_.set({"rotor", {"damping"}, {3.0}, 0.0}).done);
   EXPECT_EQ(made_ready, 1);
   EXPECT_GE(ready_to, 40.0);
