@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "messages/names.h"
+#include "messages/refusal.h"
+#include "twin/trial_steps.h"
 
 namespace whirl_twin {
 
@@ -123,6 +125,10 @@ ParameterAnswer LiveParameters::set(const ParameterRequest& request) {
   try {
     // Where a ramp ends has to be possible; on the way there it is seen.
     SharedSystem changed = (*found)->with(request.names, request.values, kService);
+    answer.message = whyItWouldStop(twin_.twin().built(), *changed);
+    if (!answer.message.empty()) {
+      return answer;
+    }
     answer.previous = valuesOf(**found, request.names);
     answer.done = request.ramp > 0.0 || change(system, std::move(changed), request.names);
   } catch (const std::exception& error) {
@@ -189,8 +195,11 @@ std::vector<std::string> LiveParameters::continueRamps() {
 
 std::string LiveParameters::objectionToSpeed(std::size_t drive, double speed) const {
   for (std::size_t i = 0; i < systems_.size(); ++i) {
+    if (systems_[i]->drive != drive) {
+      continue;
+    }
     const Ensemble* const ensemble = twin_.twin().ensemble(i);
-    if (systems_[i]->drive == drive && ensemble != nullptr) {
+    if (ensemble != nullptr) {
       const auto [low, high] = ensemble->steps().speeds();
       if (speed < low || speed > high) {
         return fmt::format(
@@ -198,6 +207,14 @@ std::string LiveParameters::objectionToSpeed(std::size_t drive, double speed) co
             "found {:g}",
             low, high, systems_[i]->spec.name, speed);
       }
+    }
+    try {
+      const std::string stop = whyItWouldStop(twin_.twin().built(), *systems_[i], speed);
+      if (!stop.empty()) {
+        return fmt::format("speed: at {:g} rad/s {}", speed, stop);
+      }
+    } catch (const RunFailure& error) {
+      return fmt::format("speed: at {:g} rad/s: {}", speed, error.what());
     }
   }
   return "";

@@ -47,8 +47,8 @@ class LiveParameters {
   std::vector<std::string> continueRamps();
   bool ramping() const { return !ramps_.empty(); }
 
-  /// Why a drive cannot be sent to `speed` [rad/s]: an ensemble on it is not prepared for that; ""
-  /// if it can.
+  /// Why a drive cannot be sent to `speed` [rad/s]: an ensemble on it is not prepared for that, or
+  /// a system on it would stop there; "" if it can.
   std::string objectionToSpeed(std::size_t drive, double speed) const;
 
   /// Makes every system on a drive ready for its move to `speed` [rad/s] within max_jerk

@@ -18,8 +18,8 @@ TEST(LiveChange, IsARecordOfItsStepWithTheSameState) {
   twin.cycle(501);
   twin.observe();
   const std::vector<double> before = twin.state(0);
-  TwinCommand pause;
-  ASSERT_TRUE(twin.live.send(pause));
+  twin.live.pause();
+  twin.cycle();
   const ParameterAnswer answer = twin.set("rotor", "damping", 25.0);
   ASSERT_TRUE(answer.done) << answer.message;
   EXPECT_EQ(answer.previous, std::vector<double>{kDamped});
@@ -33,6 +33,29 @@ TEST(LiveChange, IsARecordOfItsStepWithTheSameState) {
   EXPECT_EQ(twin.observer.parameters(0).changed, std::vector<std::string>{"damping"});
   EXPECT_EQ(twin.observer.parameters(0).previous, std::vector<double>{kDamped});
   EXPECT_EQ(twin.observer.generation(1), 0) << "the other system is what it was";
+}
+
+TEST(LiveChange, ParametersThatWouldStopASystemAreRefused) {
+  Running twin(sceneOf(kTwoSystems));
+  twin.cycle(10);
+  for (const double length : {1e200, 1e-200}) {  // whose square no double holds
+    const ParameterAnswer answer = twin.set("governor", "length", length);
+    EXPECT_FALSE(answer.done) << length;
+    EXPECT_EQ(answer.message.find("governor would stop in step 1 from the scene's start"), 0u)
+        << answer.message;
+  }
+  EXPECT_FALSE(twin.set("rotor", "mass", 1e-300).done);
+  ASSERT_TRUE(twin.set("governor", "length", 0.3).done);
+  twin.cycle(1000);
+  twin.observe();
+  EXPECT_EQ(twin.observer.status(1), StepStatus::kOk);
+}
+
+TEST(LiveChange, SpeedsThatWouldStopASystemAreRefused) {
+  Running twin(sceneOf(kTwoSystems));
+  EXPECT_EQ(twin.parameters.objectionToSpeed(0, 50.0), "");
+  const std::string refused = twin.parameters.objectionToSpeed(0, 1e6);
+  EXPECT_EQ(refused.find("speed: at 1e+06 rad/s governor would stop in step "), 0u) << refused;
 }
 
 TEST(LiveChange, TheMotionGoesOnAsATwinThatStartsThereWithTheNewParameters) {
@@ -129,7 +152,7 @@ TEST(LiveChange, InAPauseARampStandsStillAndAChangeIsTold) {
   Running twin(sceneOf(kTwoSystems));
   twin.cycle(10);
   ASSERT_TRUE(twin.set("rotor", "damping", 30.0, 0.1).done);
-  twin.command(TwinCommand::Kind::kPause);
+  twin.live.pause();
   for (int i = 0; i < 200; ++i) {
     twin.cycle();
     twin.parameters.continueRamps();
