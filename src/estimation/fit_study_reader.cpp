@@ -26,8 +26,8 @@ constexpr double kLongestDelay = 1.0;     // s
 
 class StudyReader {
  public:
-  StudyReader(const std::string& path, bool validate_only)
-      : folder_(std::filesystem::path(path).parent_path()), complaints_(path) {
+  StudyReader(const std::string& path, bool validate_only, const RunReader& read)
+      : folder_(std::filesystem::path(path).parent_path()), complaints_(path), read_(read) {
     study_.source = path;
     study_.validate_only = validate_only;
   }
@@ -160,7 +160,8 @@ class StudyReader {
     StudyRun run;
     run.file = map.text("file", "");
     if (run.file.empty()) {
-      complaints_.add(map.key("file"), "missing; must be a file of comma-separated values");
+      complaints_.add(map.key("file"),
+                      "missing; must be a file of comma-separated values, an LCM log or a rosbag");
     } else if (!files.insert(run.file).second) {
       complaints_.add(map.key("file"),
                       fmt::format("{} stands twice", whirl_twin::quoted(run.file)));
@@ -174,7 +175,7 @@ class StudyReader {
       return;
     }
     try {
-      run.data = readMeasuredRun((folder_ / run.file).string(), map.text("time", "time"), columns);
+      run.data = read_((folder_ / run.file).string(), map.text("time", "time"), columns);
       study_.runs.push_back(std::move(run));
     } catch (const Refusal& error) {
       complaints_.add(map.key("file"), fmt::format("{}: {}", printable(run.file), error.what()));
@@ -366,15 +367,16 @@ class StudyReader {
 
   std::filesystem::path folder_;
   Complaints complaints_;
+  const RunReader& read_;
   FitStudy study_;
   SharedSystem built_;
 };
 
 }  // namespace
 
-FitStudy readFitStudy(const std::string& path, bool validate_only) {
+FitStudy readFitStudy(const std::string& path, bool validate_only, const RunReader& read) {
   const YAML::Node tree = readYamlFile(path, "a study", "scene, system, runs and fit");
-  return StudyReader(path, validate_only).read(tree);
+  return StudyReader(path, validate_only, read).read(tree);
 }
 
 }  // namespace whirl_twin

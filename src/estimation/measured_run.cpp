@@ -149,11 +149,17 @@ MeasuredRun readMeasuredRun(const std::string& path, const std::string& time,
   std::vector<std::string> names = {time};
   names.insert(names.end(), columns.begin(), columns.end());
   std::vector<std::vector<double>> read = csvColumns(path, names);
-  MeasuredRun run;
-  run.time = std::move(read.front());
+  std::vector<MeasuredColumn> named;
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    run.columns.push_back({columns[i], std::move(read[i + 1])});
+    named.push_back({columns[i], std::move(read[i + 1])});
   }
+  return measuredRun(std::move(read.front()), std::move(named));
+}
+
+MeasuredRun measuredRun(std::vector<double> time, std::vector<MeasuredColumn> columns) {
+  MeasuredRun run;
+  run.time = std::move(time);
+  run.columns = std::move(columns);
   std::vector<std::size_t> rows(run.time.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i] = i + 1;

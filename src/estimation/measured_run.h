@@ -23,11 +23,14 @@ struct MeasuredRun {
   double duration() const { return time.back() - time.front(); }
 };
 
-/// Reads columns from a file of comma-separated values with a line of names. Rows that repeat the
-/// instant of the one before are left out, and that is remarked, as are gaps, uneven steps, and
-/// columns that stand still, stay at an end of their range, or come in coarse steps. Throws Refusal
-/// with what is wrong and where: what csvColumns() refuses, a time that goes back,
-/// fewer than five rows.
+/// A run of columns as they came. Rows that repeat the instant [s] of the one before are left out,
+/// and that is remarked, as are gaps, uneven steps, and columns that stand still, stay at an end of
+/// their range, or come in coarse steps. Throws Refusal with what is wrong and where: a time that
+/// goes back, fewer than five rows.
+MeasuredRun measuredRun(std::vector<double> time, std::vector<MeasuredColumn> columns);
+
+/// The same of columns in a file of comma-separated values with a line of names. Throws Refusal
+/// for what csvColumns() refuses, too.
 MeasuredRun readMeasuredRun(const std::string& path, const std::string& time,
                             const std::vector<std::string>& columns);
 

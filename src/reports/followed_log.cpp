@@ -163,6 +163,9 @@ std::string text(const FollowedLog& run) {
   out += run.file.rejected + run.file.damaged > 0
              ? fmt::format(", {} refused, {} damaged\n", run.file.rejected, run.file.damaged)
              : "\n";
+  if (!run.file.first_damage.empty()) {
+    out += "  first damage: " + run.file.first_damage + "\n";
+  }
   for (const std::string& remark : run.file.remarks) {
     out += "  " + remark + "\n";
   }
@@ -182,6 +185,7 @@ Json json(const FollowedLog& run) {
               {"messages", run.file.messages},
               {"rejected", run.file.rejected},
               {"damaged", run.file.damaged},
+              {"first_damage", run.file.first_damage},
               {"restarts", run.restarts},
               {"systems", Json::object()}};
   for (const FollowedSystem& s : run.systems) {

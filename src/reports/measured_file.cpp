@@ -9,57 +9,42 @@
 
 #include "estimation/measured_run.h"
 #include "messages/refusal.h"
-#include "transport/event_scan.h"
-#include "transport/lcm_decode.h"
+#include "transport/logged_messages.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr std::uint64_t kTell = 256;       // events from one look at the progress to the next
 constexpr std::size_t kRowsOfBlock = 100;  // of a table
 
 MeasuredFile readLog(const std::string& path, const std::string& scene,
                      const std::vector<FollowedSource>& sources, const std::string& prefix,
                      const std::function<void(const state::Measurement&)>& take,
-                     const std::function<void(std::uint64_t, std::uint64_t)>& advanced) {
+                     const LogProgress& advanced) {
   std::set<std::string> names;
   for (const FollowedSource& source : sources) {
     names.insert(source.name);
   }
   MeasuredFile file;
-  EventScan scan(path);
-  RawEvent event;
-  std::uint64_t events = 0;
-  for (auto found = scan.next(event); found != EventScan::Found::kEnd; found = scan.next(event)) {
-    if (++events % kTell == 0) {
-      advanced(scan.offset(), scan.size());
-    }
-    if (found != EventScan::Found::kEvent) {
-      ++file.damaged;
-      continue;
-    }
-    const auto channel = parseChannel(event.channel, prefix);
-    if (event.data == nullptr || !channel || channel->kind != &state::Measurement::kKind) {
-      continue;
-    }
-    try {
-      const Message message = decodeEvent(event.channel, event.data, event.size, prefix);
-      const auto& measurement = std::get<state::Measurement>(message);
-      if (names.count(measurement.source) > 0) {
-        ++file.messages;
-        take(measurement);
-      }
-    } catch (const RejectedMessage&) {
-      ++file.rejected;
-    }
-  }
+  const LoggedMessages log = readLoggedMessages(
+      path, prefix, {&state::Measurement::kKind},
+      [&](const Message& message, std::int64_t) {
+        const auto& measurement = std::get<state::Measurement>(message);
+        if (names.count(measurement.source) > 0) {
+          ++file.messages;
+          take(measurement);
+        }
+      },
+      advanced);
   if (file.messages == 0) {
     throw Refusal(
         fmt::format("{}: expected measurements of the sensors of '{}' on channels that "
-                    "begin with {} (--lcm-prefix), found none in {} bytes",
-                    path, scene, prefix, scan.size()));
+                    "begin with {} (--lcm-prefix), {}",
+                    path, scene, prefix, foundElsewhere(log)));
   }
+  file.rejected = log.rejected;
+  file.damaged = log.damaged;
+  file.first_damage = log.first_damage;
   return file;
 }
 
@@ -122,7 +107,7 @@ MeasuredFile readTable(const std::string& path, const FollowedSource& source,
 MeasuredFile readMeasurements(const std::string& path, const std::string& scene,
                               const std::vector<FollowedSource>& sources, const std::string& prefix,
                               const std::function<void(const state::Measurement&)>& take,
-                              const std::function<void(std::uint64_t, std::uint64_t)>& advanced) {
+                              const LogProgress& advanced) {
   return std::filesystem::path(path).extension() == ".csv"
              ? readTable(path, tableSource(scene, sources), take)
              : readLog(path, scene, sources, prefix, take, advanced);

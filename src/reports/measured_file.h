@@ -1,5 +1,5 @@
-// What was measured, out of a file: the Measurement messages of an LCM log, or a table of
-// comma-separated values with a column `time` [s] and one for each channel of the sources.
+// What was measured, out of a file: the Measurement messages of an LCM log or a rosbag, or a table
+// of comma-separated values with a column `time` [s] and one for each channel of the sources.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 
 #include "estimation/followed_sources.h"
 #include "messages/measurement.h"
+#include "transport/logged_messages.h"
 
 namespace whirl_twin {
 
@@ -16,6 +17,7 @@ struct MeasuredFile {
   std::uint64_t messages = 0;
   std::uint64_t rejected = 0;        ///< payloads that are no sound message
   std::uint64_t damaged = 0;         ///< places of the log that are no event
+  std::string first_damage;          ///< where, and what; "": none
   std::vector<std::string> remarks;  ///< on a table: gaps, uneven steps, columns that stand still
 };
 
@@ -25,6 +27,6 @@ struct MeasuredFile {
 MeasuredFile readMeasurements(const std::string& path, const std::string& scene,
                               const std::vector<FollowedSource>& sources, const std::string& prefix,
                               const std::function<void(const state::Measurement&)>& take,
-                              const std::function<void(std::uint64_t, std::uint64_t)>& advanced);
+                              const LogProgress& advanced);
 
 }  // namespace whirl_twin

@@ -10,13 +10,10 @@
 #include <type_traits>
 #include <utility>
 
-#include "messages/message_check.h"
 #include "messages/refusal.h"
 #include "monitoring/twin_monitor.h"
 #include "monitoring/watched_kinds.h"
-#include "transport/channels.h"
-#include "transport/event_scan.h"
-#include "transport/lcm_decode.h"
+#include "transport/logged_messages.h"
 
 namespace whirl_twin {
 
@@ -24,11 +21,10 @@ namespace {
 
 constexpr double kLongestWindow = 20.0;  // s, of what turns with the shaft
 constexpr double kTurn = 6.283185307179586;
-constexpr double kTick = 0.1;       // s, as the node ticks at least
-constexpr double kSample = 0.1;     // s, simulated, of what is drawn
-constexpr double kSilence = 600.0;  // s: a longer one is a clock that was set, or two recordings
-constexpr std::uint64_t kTell = 20000;  // events
-constexpr int kBelievedAstray = 10;     // events
+constexpr double kTick = 0.1;        // s, as the node ticks at least
+constexpr double kSample = 0.1;      // s, simulated, of what is drawn
+constexpr double kSilence = 600.0;   // s: a longer one is a clock that was set, or two recordings
+constexpr int kBelievedAstray = 10;  // events
 
 class Replay {
  public:
@@ -295,41 +291,28 @@ class Replay {
 
 MonitoredLog monitorLog(const BuiltScene& scene, const AlarmSettings& settings,
                         const std::string& log, const std::string& prefix,
-                        std::optional<double> spectrum_at,
-                        const std::function<void(std::uint64_t, std::uint64_t)>& advanced) {
-  EventScan scan(log);
+                        std::optional<double> spectrum_at, const LogProgress& advanced) {
   MonitoredLog run;
   run.scene = scene.scene.name;
   run.log = log;
   Replay replay(scene, settings, spectrum_at, run);
-  RawEvent event;
-  std::uint64_t events = 0;
-  for (auto found = scan.next(event); found != EventScan::Found::kEnd; found = scan.next(event)) {
-    if (++events % kTell == 0) {
-      advanced(scan.offset(), scan.size());
-    }
-    if (found != EventScan::Found::kEvent) {
-      ++run.damaged;
-      continue;
-    }
-    if (event.data == nullptr || !parseChannel(event.channel, prefix)) {
-      continue;  // not the twin's
-    }
-    try {
-      const Message message = decodeEvent(event.channel, event.data, event.size, prefix);
-      replay.passTo(event.timestamp);
-      replay.take(message);
-    } catch (const RejectedMessage&) {
-      ++run.rejected;
-    }
-  }
+  const LoggedMessages read = readLoggedMessages(
+      log, prefix, allKinds(),
+      [&](const Message& message, std::int64_t stamp) {
+        replay.passTo(stamp);
+        replay.take(message);
+      },
+      advanced);
+  run.damaged = read.damaged;
+  run.first_damage = read.first_damage;
+  run.rejected += read.rejected;
   replay.finish();
   if (std::all_of(run.systems.begin(), run.systems.end(),
                   [](const SystemCourse& course) { return course.states == 0; })) {
     throw Refusal(
         fmt::format("{}: expected states of the systems of '{}' on channels that begin "
-                    "with {} (--lcm-prefix), found none in {} bytes",
-                    log, scene.scene.name, prefix, scan.size()));
+                    "with {} (--lcm-prefix), {}",
+                    log, scene.scene.name, prefix, foundElsewhere(read)));
   }
   if (spectrum_at && !(*spectrum_at >= run.begin && *spectrum_at <= run.end)) {
     throw Refusal(

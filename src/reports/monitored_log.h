@@ -15,6 +15,7 @@
 #include "reports/passed_resonance.h"
 #include "scene/built_scene.h"
 #include "signal/spectrum_cascade.h"
+#include "transport/logged_messages.h"
 
 namespace whirl_twin {
 
@@ -66,6 +67,7 @@ struct MonitoredLog {
   std::uint64_t watched = 0;      ///< messages that the monitor took
   std::uint64_t rejected = 0;     ///< that could not be meant, or do not fit the scene
   std::uint64_t damaged = 0;      ///< places of the log that are no event
+  std::string first_damage;       ///< where, and what; "": none
   std::uint64_t resets = 0;       ///< of simulated time
   std::vector<SystemCourse> systems;  ///< in the order of the scene
   std::vector<AlertCourse> alerts;    ///< as they were raised
@@ -78,8 +80,7 @@ struct MonitoredLog {
 /// none at that time.
 MonitoredLog monitorLog(const BuiltScene& scene, const AlarmSettings& settings,
                         const std::string& log, const std::string& prefix,
-                        std::optional<double> spectrum_at,
-                        const std::function<void(std::uint64_t, std::uint64_t)>& advanced);
+                        std::optional<double> spectrum_at, const LogProgress& advanced);
 
 std::string text(const MonitoredLog& run);
 Json json(const MonitoredLog& run);

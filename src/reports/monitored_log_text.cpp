@@ -130,6 +130,7 @@ std::string text(const MonitoredLog& run) {
     out += fmt::format("  left out: {} that cannot be meant, {} of the file\n",
                        plural(run.rejected, "message", "messages"),
                        plural(run.damaged, "damaged place", "damaged places"));
+    out += run.first_damage.empty() ? "" : fmt::format("  first damage: {}\n", run.first_damage);
   }
   if (run.resets > 0) {
     out += fmt::format("  the simulation was reset {}\n", plural(run.resets, "time", "times"));
@@ -171,6 +172,7 @@ Json json(const MonitoredLog& run) {
   json["messages"] = run.watched;
   json["rejected"] = run.rejected;
   json["damaged"] = run.damaged;
+  json["first_damage"] = run.first_damage;
   json["resets"] = run.resets;
   json["systems"] = Json::object();
   for (const SystemCourse& system : run.systems) {

@@ -8,13 +8,11 @@
 #include <map>
 #include <optional>
 
-#include "messages/message_check.h"
 #include "messages/refusal.h"
 #include "messages/units.h"
 #include "scene/station_names.h"
 #include "signal/shaft_tracker.h"
-#include "transport/event_scan.h"
-#include "transport/lcm_decode.h"
+#include "transport/logged_messages.h"
 
 namespace whirl_twin {
 
@@ -112,27 +110,19 @@ RotorRecord::RotorRecord(const BuiltScene& scene, const RotorSystem& system, con
     throw Refusal(fmt::format(
         "{}: expected displacement probes at '{}' and a keyphasor on its shaft, as `sensors` of "
         "the "
-        "scene names them, or its whirl, on channels that begin with {} (--lcm-prefix); found none",
-        log_, system.name, prefix_));
+        "scene names them, or its whirl, on channels that begin with {} (--lcm-prefix); {}",
+        log_, system.name, prefix_, foundElsewhere(eachMessage([](const Message&) {}))));
   }
   if (!(steady_speed_ > 0.0)) {
     throw Refusal(fmt::format("{}: expected a shaft that turns forwards", log_));
   }
 }
 
-void RotorRecord::eachMessage(const std::function<void(const Message&)>& take) const {
-  EventScan scan(log_);
-  RawEvent event;
-  for (auto found = scan.next(event); found != EventScan::Found::kEnd; found = scan.next(event)) {
-    if (found != EventScan::Found::kEvent || event.data == nullptr ||
-        !parseChannel(event.channel, prefix_)) {
-      continue;
-    }
-    try {
-      take(decodeEvent(event.channel, event.data, event.size, prefix_));
-    } catch (const RejectedMessage&) {  // damaged: `twin log` says where
-    }
-  }
+LoggedMessages RotorRecord::eachMessage(const std::function<void(const Message&)>& take) const {
+  return readLoggedMessages(
+      log_, prefix_, {&state::Measurement::kKind, &state::WhirlState::kKind},
+      [&](const Message& message, std::int64_t) { take(message); },
+      [](std::uint64_t, std::uint64_t) {});
 }
 
 /// The source with the most probes at the rotor of those that the log has, and a keyphasor.

@@ -1,6 +1,7 @@
-// What a recorded LCM log holds of a running rotor: the samples of its displacement probes with the
-// angle of its shaft from the keyphasor's pulses, as `twin simulate --measure` writes them and an
-// acquisition beside a machine would; where there are no measurements, the whirl that a twin told.
+// What a recording, LCM log or rosbag, holds of a running rotor: the samples of its displacement
+// probes with the angle of its shaft from the keyphasor's pulses, as `twin simulate --measure`
+// writes them and an acquisition beside a machine would; where there are no measurements, the whirl
+// that a twin told.
 #pragma once
 
 #include <complex>
@@ -13,7 +14,7 @@
 #include "estimation/unbalance_fit.h"
 #include "messages/measurement.h"
 #include "reports/rotor_systems.h"
-#include "transport/channels.h"
+#include "transport/logged_messages.h"
 
 namespace whirl_twin {
 
@@ -40,7 +41,7 @@ struct RecordCounts {
 class RotorRecord {
  public:
   /// Looks through the log. Throws Refusal where it holds nothing of the rotor that could be used,
-  /// with what was expected, and as EventScan does.
+  /// with what was expected, and as readLoggedMessages() does.
   RotorRecord(const BuiltScene& scene, const RotorSystem& system, const std::string& log,
               const std::string& prefix);
 
@@ -60,7 +61,7 @@ class RotorRecord {
   void findWhirl(const RotorSystem& system);
   RecordCounts readProbes(const std::function<void(const ProbeReading&)>& take) const;
   RecordCounts readWhirl(const std::function<void(const ProbeReading&)>& take) const;
-  void eachMessage(const std::function<void(const Message&)>& take) const;
+  LoggedMessages eachMessage(const std::function<void(const Message&)>& take) const;
 
   std::string log_, prefix_, source_;
   std::vector<RecordedProbe> probes_;

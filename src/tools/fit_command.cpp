@@ -10,10 +10,12 @@
 #include "messages/refusal.h"
 #include "reports/fit_report.h"
 #include "reports/picture_file.h"
+#include "reports/recorded_run.h"
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/progress_bar.h"
+#include "transport/channels.h"
 
 namespace whirl_twin {
 
@@ -39,6 +41,8 @@ constexpr const char* kFooter =
     "       inputs: {torque1: tau}}                       what acted on an input of the model\n"
     "  windows: {length: 1.0, start: estimated}           s, or all; start: measured\n"
     "  fit: {mass1: {min: 0.01, max: 1.0}, coulomb1: {min: 0.0}}\n"
+    "A run may be an LCM log or a rosbag: swing.lcmlog, swing.bag, with channels of one source as "
+    "columns.\n"
     "A coordinate, or its rate as theta1_rate, is scale * state + offset:\n"
     "  measured: {theta1: {column: q1, offset: fit, scale: 1.0, deviation: 0.001}}\n"
     "  inputs: {torque1: {column: tau, scale: fit, offset: fit, delay: fit, hold: true}}\n"
@@ -50,6 +54,7 @@ struct Request {
   std::string study;
   std::optional<std::string> output;
   std::optional<std::string> plot;
+  std::string lcm_prefix = kDefaultLcmPrefix;
   bool validate_only = false;
   bool json = false;
   bool insist = false;
@@ -74,7 +79,13 @@ void writeScene(const FitStudy& study, const ShootingFit& fit, const std::string
 
 int fit(const Request& request) {
   requirePictureName(request.plot);
-  const FitStudy study = readFitStudy(request.study, request.validate_only);
+  requireLcmPrefix(request.lcm_prefix);
+  const FitStudy study =
+      readFitStudy(request.study, request.validate_only,
+                   [&](const std::string& path, const std::string& time,
+                       const std::vector<std::string>& columns) {
+                     return readRecordedRun(path, request.lcm_prefix, time, columns);
+                   });
   std::optional<ProgressBar> bar;
   const ShootingFit fit = fitByShooting(study, [&](int done, int of) {
     if (!bar) {
@@ -112,6 +123,11 @@ void addFitCommand(CLI::App& twin, int& status) {
                    "draw each run beside what is predicted: FILE.svg or FILE.png, of several runs "
                    "FILE_RUN")
       ->type_name("FILE");
+  command
+      ->add_option("--lcm-prefix", request->lcm_prefix,
+                   "what the channels of the machine begin with in runs that are logs; default: "
+                   "TWIN_")
+      ->type_name("PREFIX");
   command->add_flag("--validate-only", request->validate_only,
                     "find nothing but the starts of windows");
   command->add_flag("--json", request->json, "print one JSON object");

@@ -19,10 +19,10 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kDescription =
-    "Follows a machine through the measurements in an LCM log, faster than real time: estimates "
-    "what\n"
-    "is not measured, and the parameters that --settings name, and says where machine and model "
-    "part.";
+    "Follows a machine through the measurements in an LCM log or a rosbag, faster than real time:\n"
+    "estimates what is not measured, and the parameters that --settings name, and says where "
+    "machine\n"
+    "and model part.";
 
 constexpr const char* kFooter =
     "The scene's sensors say what is measured, where, and with how much noise. What the follower "
@@ -31,7 +31,9 @@ constexpr const char* kFooter =
     "Examples:\n"
     "  twin simulate rig.yaml --measure sensors --output rig.lcmlog && twin follow rig.yaml "
     "rig.lcmlog\n"
-    "  twin follow rig.yaml monday.lcmlog --settings follow.yaml --output twin.lcmlog";
+    "  twin follow rig.yaml monday.lcmlog --settings follow.yaml --output twin.lcmlog\n"
+    "  twin follow rig.yaml monday.bag --lcm-prefix MACHINE_      topics of /machine, by rosbag "
+    "record";
 
 struct Request {
   std::string scene;
@@ -108,8 +110,9 @@ void addFollowCommand(CLI::App& twin, int& status) {
   const auto request = std::make_shared<Request>();
   addSceneOption(command, request->scene);
   command
-      ->add_option("LOG", request->log,
-                   "LCM log with measurements, such as rig.lcmlog, or a table, swing.csv")
+      ->add_option(
+          "LOG", request->log,
+          "LCM log or rosbag with measurements, rig.lcmlog, rig.bag, or a table, swing.csv")
       ->required()
       ->type_name("");
   command

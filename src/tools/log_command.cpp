@@ -6,6 +6,7 @@
 #include "messages/refusal.h"
 #include "reports/output.h"
 #include "tools/commands.h"
+#include "transport/bag_scan.h"
 #include "transport/lcm_event_log.h"
 
 namespace whirl_twin {
@@ -124,6 +125,10 @@ struct Request {
 
 int summarize(const Request& request) {
   requireLcmPrefix(request.lcm_prefix);
+  if (BagScan::isBag(request.file)) {
+    throw Refusal(request.file +
+                  ": expected an LCM log, found a rosbag: `rosbag info` looks into it");
+  }
   const LogSummary log = readEventLog(request.file, request.lcm_prefix);
   if (log.events == 0) {
     throw Refusal(log.channels.empty()

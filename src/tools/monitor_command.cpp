@@ -20,10 +20,10 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kDescription =
-    "Replays an LCM log through the monitor, faster than real time: which alerts it raises and\n"
-    "when, and where the margins are least; which resonances the run-ups passed, and the lines of "
+    "Replays an LCM log or a rosbag through the monitor, faster than real time: which alerts it\n"
+    "raises and when, and where the margins are least; which resonances the run-ups passed, and "
     "the\n"
-    "full spectrum.";
+    "lines of the full spectrum.";
 
 constexpr const char* kFooter =
     "The monitor's clock is that of the log's stamps; it judges with the settings of --settings, "
@@ -109,7 +109,7 @@ void addMonitorCommand(CLI::App& twin, int& status) {
   CLI::App* command = twin.add_subcommand("monitor", kDescription);
   const auto request = std::make_shared<Request>();
   addSceneOption(command, request->scene);
-  command->add_option("LOG", request->log, "LCM log, such as demo.lcmlog")
+  command->add_option("LOG", request->log, "LCM log or rosbag, such as demo.lcmlog, night.bag")
       ->required()
       ->type_name("");
   command->add_option("--settings", request->settings, "as config/monitor.yaml; default: that")

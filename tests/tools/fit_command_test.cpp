@@ -98,6 +98,34 @@ TEST_F(Fit, SaysWhatIsNotTold) {
               HasSubstr("not told"));
 }
 
+/// What sensors measured, as an acquisition beside the machine records it.
+TEST_F(Fit, FitsALogOfWhatWasMeasured) {
+  const std::string sensors =
+      "sensors:\n  encoder: {rate: 200, channels: {theta: {measures: arm.theta, noise: 0.001}}}\n"
+      "  other: {rate: 200, channels: {theta: {measures: arm.theta, noise: 0.1}}}\n";
+  const std::string truth = directory_.write("truth.yaml", scene(0.02, 0.03, 0.05, 1.0) + sensors);
+  const std::string log = directory_.file("swing.lcmlog");
+  ASSERT_EQ(
+      twin({"simulate", truth, "--duration", "4", "--measure", "sensors", "--output", log}).status,
+      0);
+  const auto study = [](const std::string& column) {
+    return "scene: guess.yaml\nsystem: arm\nruns:\n  - {file: swing.lcmlog, measured: {theta: " +
+           column + "}}\nfit: {inertia: {min: 0.0}, damping: , coulomb: {min: 0.0}}\n";
+  };
+  const nlohmann::json json = fit(study("encoder/theta")).json();
+  for (const auto& [name, value] :
+       {std::pair("inertia", 0.02), std::pair("damping", 0.03), std::pair("coulomb", 0.05)}) {
+    const auto& told = json["parameters"][name];
+    EXPECT_NEAR(told["value"].get<double>(), value, 4.0 * told["standard_deviation"].get<double>())
+        << name;
+  }
+  EXPECT_NEAR(json["runs"]["swing.lcmlog"]["rms"]["theta"].get<double>(), 0.001, 1e-4);
+  const Ending several = fit(study("theta"));
+  EXPECT_EQ(several.status, 2);
+  EXPECT_THAT(several.err, HasSubstr("of one source"));
+  EXPECT_THAT(several.err, HasSubstr("found encoder/theta, other/theta"));
+}
+
 TEST_F(Fit, TellsAllMistakesOfAStudyAtOnce) {
   const Ending end =
       fit("scene: guess.yaml\nsystem: arm\nruns:\n"
