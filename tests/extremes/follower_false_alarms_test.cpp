@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 
 #include "../estimation/followed_machine.h"
 #include "measured.h"
@@ -30,6 +31,8 @@ sensors:
       y: {measures: rotor.y, noise: 3.0e-6}
   tacho: {keyphasor: shaft, jitter: 2.0e-5, block: 1.0}
 )";
+
+constexpr int kTold = 10;  // h, of two hours of a core for a thousand
 
 TEST(FollowerFalseAlarms, AreFewerThanOneADay) {
   const auto hours = static_cast<int>(runOf(1, 1000));
@@ -64,6 +67,10 @@ TEST(FollowerFalseAlarms, AreFewerThanOneADay) {
       }
       twin.told.clear();
       seen = 0;
+    }
+    if ((hour + 1) % kTold == 0) {
+      fmt::print("{} h: {} drifts, {} windows beyond their limits\n", hour + 1, drifts, mismatches);
+      std::fflush(stdout);
     }
   }
   // Poisson: of `hours` / 24 expected, three standard deviations more.
