@@ -17,6 +17,7 @@
 #include "nodes/input_commands.h"
 #include "nodes/loop_report.h"
 #include "nodes/private_parameter.h"
+#include "nodes/publish_rate.h"
 #include "nodes/record_publisher.h"
 #include "nodes/run_node.h"
 #include "nodes/state_publisher.h"
@@ -34,7 +35,6 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kSlowestRate = 1.0e-3;         // Hz, of publication
 constexpr std::int64_t kShortestStep = 10'000;  // ns, that the fixed-rate loop takes
 constexpr auto kReportPeriod = std::chrono::seconds(1);
 constexpr double kServicePoll = 0.05;   // s
@@ -55,13 +55,7 @@ Settings readSettings(const Scene& scene) {
   requireKnownParameters({"publish_rate", "lcm_url", "lcm_prefix", "clock", "realtime", "priority",
                           "overrun", "real_time_factor", "measure"});
   Settings s;
-  const auto rate = privateParameter("publish_rate", "a number in Hz", 0.0);
-  if (!(rate == 0.0 || (rate >= kSlowestRate && std::isfinite(rate)))) {
-    throw Refusal(fmt::format("publish_rate: must be 0 (every step), or at least {} Hz, found {}",
-                              kSlowestRate, rate));
-  }
-  s.every =
-      rate == 0.0 ? 1 : std::max<std::int64_t>(1, std::llround(1.0 / (rate * scene.stepSeconds())));
+  s.every = stepsToPublish(scene);
   s.lcm_url = privateParameter<std::string>("lcm_url", "an LCM url, or nothing", kDefaultLcmUrl);
   s.lcm_prefix = lcmPrefixParameter();
   s.clock = privateParameter("clock", "true or false", false);
