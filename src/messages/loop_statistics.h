@@ -49,6 +49,8 @@ struct LoopStatistics {
   // Simulated time beside wall time [-]; NaN: not told.
   double real_time_factor = std::numeric_limits<double>::quiet_NaN();  ///< asked; 0: all it can
   double achieved_factor = std::numeric_limits<double>::quiet_NaN();   ///< since the last message
+  std::uint64_t ros_lost = 0;  ///< messages that subscribers on ROS were too slow for
+  std::string sender;          ///< which process says so, as people find it; empty: not told
 
   template <class Visit>
   static void fields(Visit& visit) {
@@ -80,6 +82,8 @@ struct LoopStatistics {
     visit(TWIN_FIELD(lcm_failed), "", count);
     visit(TWIN_FIELD(publish_every), "", count);
     visit.numbers("-", TWIN_FIELD(real_time_factor), TWIN_FIELD(achieved_factor));
+    visit(TWIN_FIELD(ros_lost), "", count);
+    visit(TWIN_FIELD(sender), "", requireText);
   }
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 #include "monitoring/alarm_settings_reader.h"
@@ -30,6 +31,27 @@ bool isTree(const YAML::Node& node, int depth, int& left) {
   }
   return !node.IsMap() || std::all_of(node.begin(), node.end(), [&](const auto& entry) {
     return isTree(entry.first, depth + 1, left) && isTree(entry.second, depth + 1, left);
+  });
+}
+
+/// Whether two trees say the same, in whatever order and spelling of numbers.
+bool same(const YAML::Node& a, const YAML::Node& b) {
+  if (!a.IsDefined() || !b.IsDefined() || a.Type() != b.Type()) {
+    return false;
+  }
+  if (a.IsScalar()) {
+    const std::optional<double> x = parseNumber(a.Scalar());
+    return a.Scalar() == b.Scalar() || (x && x == parseNumber(b.Scalar()));
+  }
+  if (a.size() != b.size()) {
+    return false;
+  }
+  if (a.IsSequence()) {
+    return std::equal(a.begin(), a.end(), b.begin(),
+                      [](const auto& x, const auto& y) { return same(x, y); });
+  }
+  return !a.IsMap() || std::all_of(a.begin(), a.end(), [&b](const auto& entry) {
+    return same(entry.second, b[entry.first.Scalar()]);
   });
 }
 
@@ -98,6 +120,15 @@ void LiveAlarmSettings::change(const std::string& text) {
   }
   settings_ = std::move(settings);
   tree_ = changed;
+}
+
+bool LiveAlarmSettings::replace(const YAML::Node& tree, const std::string& source) {
+  if (same(tree, tree_)) {
+    return false;
+  }
+  settings_ = readAlarmSettings(tree, source, rotors_, {}, stations_);
+  tree_ = YAML::Clone(tree);
+  return true;
 }
 
 std::string LiveAlarmSettings::text() const {

@@ -24,6 +24,10 @@ class LiveAlarmSettings {
   /// with all that is wrong, and then nothing has changed.
   void change(const std::string& text);
 
+  /// `tree` takes the place of all that was set. `source` names it in what is wrong, as change()
+  /// says it. False: it is what was set.
+  bool replace(const YAML::Node& tree, const std::string& source);
+
   const AlarmSettings& settings() const { return settings_; }
   /// What is set, without defaults.
   const YAML::Node& tree() const { return tree_; }

@@ -61,6 +61,20 @@ bool AlarmSettingsService::set(SetAlarmSettings::Request& request,
   return true;
 }
 
+std::string AlarmSettingsService::obey(const YAML::Node& all) {
+  try {
+    if (settings_.replace(all, own_.getNamespace())) {
+      monitor_.set(settings_.settings());
+      was_changed_(settings_.text());
+      ROS_WARN("the settings of the alarms were changed by parameters: %s",
+               settings_.text().c_str());
+    }
+  } catch (const Refusal& wrong) {
+    return wrong.what();
+  }
+  return "";
+}
+
 void AlarmSettingsService::tellParameters(const YAML::Node& before) {
   for (const auto& entry : before) {
     if (!settings_.tree()[entry.first.Scalar()].IsDefined()) {

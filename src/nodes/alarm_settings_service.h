@@ -1,5 +1,6 @@
 // ~set_alarm_settings: the settings of the monitor, changed while it runs. The parameters of the
-// node follow, so that a monitor that comes back has what was set last.
+// node follow, so that a monitor that comes back has what was set last; set by themselves they are
+// obeyed, too.
 #pragma once
 
 #include <ros/ros.h>
@@ -18,6 +19,10 @@ class AlarmSettingsService {
   /// Advertises under `own`, the node itself. was_changed: called with the text of a change.
   AlarmSettingsService(TwinMonitor& monitor, LiveAlarmSettings& settings, ros::NodeHandle own,
                        std::function<void(const std::string&)> was_changed);
+
+  /// Parameters of the node that were set without the service, all settings of the alarms; returns
+  /// why they are refused, or "".
+  std::string obey(const YAML::Node& all);
 
  private:
   bool set(SetAlarmSettings::Request& request, SetAlarmSettings::Response& response);

@@ -25,10 +25,12 @@
 #include "estimation/follow_settings_reader.h"
 #include "estimation/followed_sources.h"
 #include "estimation/follower.h"
+#include "nodes/changed_parameters.h"
 #include "nodes/follow_publisher.h"
 #include "nodes/machine_input.h"
 #include "nodes/private_parameter.h"
 #include "nodes/publish_rate.h"
+#include "nodes/rival_report.h"
 #include "nodes/run_node.h"
 #include "plugins/plugin_models.h"
 #include "scene/scene_reader.h"
@@ -148,6 +150,9 @@ void run() {
   diagnostics.add("measurements", [&](diagnostic_updater::DiagnosticStatusWrapper& status) {
     report(*measurements, publisher, follower, status);
   });
+  reportMaster(master, diagnostics);
+  ChangedParameters parameters(master);
+  parameters.report(diagnostics);
   ROS_INFO("follows %s by %s", machine.c_str(), input.c_str());
   ros::WallTime next_report = ros::WallTime::now();
   ros::WallTime next_silence = next_report;

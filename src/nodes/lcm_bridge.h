@@ -21,6 +21,8 @@ class LcmBridge {
   /// that subscribed to the topic before are connected, so that they get every one.
   void publish(const Message& message);
 
+  const RosTopics& topics() const { return topics_; }
+
  private:
   template <class State>
   void publishState(const State& state) {

@@ -4,7 +4,8 @@
 //   ~lcm_prefix  what the channels begin with (default: TWIN_, or the node's namespace in capitals)
 //   ~derived   also publish recorded stability margins and alerts (default false: a monitor listens
 //              to the states and publishes its own)
-// Says what it received, lost and rejected on /diagnostics once a second, and when it ends. The
+// Says what it received, lost and rejected, and who else there is, on /diagnostics once a second,
+// and when it ends. The
 // service ~ready (std_srvs/Trigger) is there as soon as the bridge listens.
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <fmt/format.h>
@@ -14,15 +15,18 @@
 #include <chrono>
 #include <cstdio>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "nodes/changed_parameters.h"
 #include "nodes/lcm_bridge.h"
 #include "nodes/private_parameter.h"
+#include "nodes/rising_count.h"
+#include "nodes/rival_report.h"
 #include "nodes/run_node.h"
 #include "transport/channels.h"
 #include "transport/lcm_connection.h"
 #include "transport/lcm_receiver.h"
-#include "transport/master_watch.h"
 
 namespace whirl_twin {
 namespace {
@@ -45,18 +49,31 @@ std::string countsOf(const LcmReceiver& receiver) {
                      receiver.rejected());
 }
 
-void report(const LcmReceiver& receiver, diagnostic_updater::DiagnosticStatusWrapper& status) {
-  using diagnostic_msgs::DiagnosticStatus;
-  const bool complete = receiver.lost() + receiver.rejected() == 0;
-  status.summary(complete ? DiagnosticStatus::OK : DiagnosticStatus::WARN, countsOf(receiver));
-  status.add("received", receiver.received());
-  status.add("lost", receiver.lost());
-  status.add("rejected", receiver.rejected());
-  status.add("last rejection", receiver.lastRejection());
-  for (const auto& [name, count] : receiver.channels()) {
-    status.add(name, fmt::format("{} received, {} lost", count.received, count.steps.lost()));
+class BridgeDiagnostics {
+ public:
+  void summarize(const LcmReceiver& receiver, const RosTopics& topics,
+                 diagnostic_updater::DiagnosticStatusWrapper& status) {
+    using diagnostic_msgs::DiagnosticStatus;
+    const double now = ros::SteadyTime::now().toSec();
+    const bool missed = missed_.roseLately(receiver.lost() + receiver.rejected(), now);
+    status.summary(missed ? DiagnosticStatus::WARN : DiagnosticStatus::OK, countsOf(receiver));
+    if (ros_lost_.roseLately(topics.lost(), now)) {
+      status.mergeSummary(DiagnosticStatus::WARN,
+                          "a subscriber of " + topics.lostLast() + " is too slow");
+    }
+    status.add("received", receiver.received());
+    status.add("lost", receiver.lost());
+    status.add("rejected", receiver.rejected());
+    status.add("last rejection", receiver.lastRejection());
+    status.add("messages lost by slow subscribers", topics.lost());
+    for (const auto& [name, count] : receiver.channels()) {
+      status.add(name, fmt::format("{} received, {} lost", count.received, count.steps.lost()));
+    }
   }
-}
+
+ private:
+  RisingCount missed_, ros_lost_;
+};
 
 void run() {
   requireKnownParameters({"lcm_url", "lcm_prefix", "derived"});
@@ -64,14 +81,28 @@ void run() {
   const auto derived = privateParameter<bool>("derived", "true or false", false);
   const std::string prefix = lcmPrefixParameter();
   LcmBridge bridge(ros::NodeHandle(twinNamespace()), derived);
+  LcmRivals rivals(prefix);
   LcmReceiver receiver(
       openLcm(url), kindsToTell(derived),
-      [&bridge](const Message& message) { bridge.publish(message); }, prefix);
+      [&](const Message& message) {
+        if (const auto* loop = std::get_if<state::LoopStatistics>(&message)) {
+          rivals.take(*loop);
+        }
+        bridge.publish(message);
+      },
+      prefix);
 
   MasterWatch master;
   diagnostic_updater::Updater diagnostics;
   diagnostics.setHardwareID("LCM " + url);
-  diagnostics.add("received from LCM", [&receiver](auto& status) { report(receiver, status); });
+  BridgeDiagnostics counts;
+  diagnostics.add("received from LCM", [&](diagnostic_updater::DiagnosticStatusWrapper& status) {
+    counts.summarize(receiver, bridge.topics(), status);
+  });
+  reportMaster(master, diagnostics);
+  rivals.report(diagnostics);
+  ChangedParameters parameters(master);
+  parameters.report(diagnostics);
 
   ros::NodeHandle node("~");
   using Trigger = std_srvs::Trigger;

@@ -17,6 +17,7 @@
 #include "transport/channels.h"
 #include "transport/lcm_connection.h"
 #include "transport/lcm_recorder.h"
+#include "transport/master_watch.h"
 
 namespace whirl_twin {
 namespace {
@@ -36,6 +37,7 @@ void run() {
   if (!force && std::filesystem::exists(log)) {
     throw Refusal(fmt::format("log: '{}' exists; say force:=true to overwrite it", log));
   }
+  MasterWatch master;
   const auto lcm = openLcm(url);
   LcmRecorder recorder(lcm, prefix + ".*", log);
   fmt::print("recording {}* from {} to {}\n", prefix, url, log);
@@ -43,6 +45,7 @@ void run() {
   while (ros::ok() && !stopRequested()) {
     recorder.record(milliseconds(50));
   }
+  master.stop();
   constexpr int kAll = 100000;
   recorder.record(milliseconds(0), kAll);  // what arrived before the interruption
   fmt::print("{} events recorded to {}\n", recorder.recorded(), log);

@@ -6,8 +6,6 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kLately = 10.0;  // s, that a warning stands
-
 double seconds(std::int64_t nanoseconds) {
   return static_cast<double>(nanoseconds) * 1.0e-9;
 }
@@ -50,14 +48,6 @@ state::LoopStatistics loopStatistics(const Twin& twin, const Observer& observer,
   return m;
 }
 
-bool LoopDiagnostics::Watched::roseLately(std::uint64_t now, double time) {
-  if (now > count) {
-    rose = time;
-  }
-  count = now;
-  return time - rose < kLately;
-}
-
 void LoopDiagnostics::summarize(const state::LoopStatistics& loop, double time,
                                 diagnostic_updater::DiagnosticStatusWrapper& status) {
   using diagnostic_msgs::DiagnosticStatus;
@@ -67,6 +57,9 @@ void LoopDiagnostics::summarize(const state::LoopStatistics& loop, double time,
   }
   if (lcm_failed_.roseLately(loop.lcm_failed, time)) {
     status.mergeSummary(DiagnosticStatus::WARN, "messages could not be sent on LCM");
+  }
+  if (ros_lost_.roseLately(loop.ros_lost, time)) {
+    status.mergeSummary(DiagnosticStatus::WARN, "a subscriber is too slow: messages were lost");
   }
   if (skipped_.roseLately(loop.skipped_steps, time)) {
     status.mergeSummary(DiagnosticStatus::WARN, "steps were skipped: the machine was late");
@@ -89,6 +82,7 @@ void LoopDiagnostics::summarize(const state::LoopStatistics& loop, double time,
   status.add("skipped steps", loop.skipped_steps);
   status.add("dropped states", loop.dropped_snapshots);
   status.add("messages not sent on LCM", loop.lcm_failed);
+  status.add("messages lost by slow subscribers", loop.ros_lost);
   status.add("published every [steps]", loop.publish_every);
   status.add("real-time factor", loop.real_time_factor);
   status.add("real-time factor achieved", loop.achieved_factor);

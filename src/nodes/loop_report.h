@@ -4,6 +4,7 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 
 #include "messages/loop_statistics.h"
+#include "nodes/rising_count.h"
 #include "realtime/fixed_rate_loop.h"
 #include "twin/observer.h"
 
@@ -23,13 +24,7 @@ class LoopDiagnostics {
                  diagnostic_updater::DiagnosticStatusWrapper& status);
 
  private:
-  /// A count that should not rise.
-  struct Watched {
-    std::uint64_t count = 0;
-    double rose = -1.0e9;  // [s]
-    bool roseLately(std::uint64_t now, double time);
-  };
-  Watched dropped_, skipped_, lcm_failed_;
+  RisingCount dropped_, skipped_, lcm_failed_, ros_lost_;
 };
 
 }  // namespace whirl_twin

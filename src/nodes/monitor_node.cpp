@@ -16,7 +16,9 @@
 #include "monitoring/watched_kinds.h"
 #include "nodes/alarm_services.h"
 #include "nodes/alarm_settings_service.h"
+#include "nodes/changed_parameters.h"
 #include "nodes/private_parameter.h"
+#include "nodes/rival_report.h"
 #include "nodes/run_node.h"
 #include "plugins/plugin_models.h"
 #include "scene/scene_reader.h"
@@ -24,7 +26,6 @@
 #include "transport/lcm_connection.h"
 #include "transport/lcm_publisher.h"
 #include "transport/lcm_receiver.h"
-#include "transport/master_watch.h"
 #include "transport/ros_parameters.h"
 #include "transport/ros_topics.h"
 #include "twin/step_messages.h"
@@ -41,6 +42,13 @@ double wallTime() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+/// Parameters that are no settings of the alarms.
+std::vector<std::string> atStart() {
+  std::vector<std::string> names{"lcm_url", "lcm_prefix", "source", "history"};
+  names.insert(names.end(), kParametersOfRos.begin(), kParametersOfRos.end());
+  return names;
+}
+
 /// Throws Refusal for parameters of the node that are unknown, or out of range.
 LiveAlarmSettings alarmSettings(const BuiltScene& scene) {
   std::vector<std::string> rotors;
@@ -52,13 +60,11 @@ LiveAlarmSettings alarmSettings(const BuiltScene& scene) {
       stations.insert(stations.end(), names.begin() + 1, names.end());
     }
   }
-  std::vector<std::string> others{"lcm_url", "lcm_prefix", "source", "history"};
-  others.insert(others.end(), kParametersOfRos.begin(), kParametersOfRos.end());
   XmlRpc::XmlRpcValue all;
   const std::string node = ros::this_node::getName();
   const bool any = ros::param::get(node, all) && all.getType() == XmlRpc::XmlRpcValue::TypeStruct;
   return LiveAlarmSettings(any ? toYaml(all) : YAML::Node(YAML::NodeType::Map), node,
-                           std::move(rotors), others, std::move(stations));
+                           std::move(rotors), atStart(), std::move(stations));
 }
 
 BuiltScene sceneOf(const ParameterTree& given) {
@@ -74,6 +80,7 @@ class MonitorNode {
         monitor_(scene_, settings_.settings(), Judging::Mode::kBeside),
         url_(privateParameter<std::string>("lcm_url", "an LCM url, or nothing", kDefaultLcmUrl)),
         lcm_(url_, lcmPrefixParameter()),
+        rivals_(lcm_.prefix()),
         topics_(node, kPublishQueue),
         services_(monitor_, ros::NodeHandle("~"), node, wallTime, [this] { wasReset(); }),
         settings_service_(monitor_, settings_, ros::NodeHandle("~"),
@@ -108,6 +115,11 @@ class MonitorNode {
     }
     diagnostics_.setHardwareID("none");
     diagnostics_.add("monitor", this, &MonitorNode::summarize);
+    reportMaster(master_, diagnostics_);
+    parameters_.report(diagnostics_);
+    if (receiver_) {
+      rivals_.report(diagnostics_);
+    }
   }
 
   void spinOnce() {
@@ -129,6 +141,9 @@ class MonitorNode {
       beat();
     }
   }
+
+  /// As must be before ros::shutdown().
+  void stop() { master_.stop(); }
 
  private:
   /// Feeds one message to the monitor; a message that cannot be meant is counted and left.
@@ -177,6 +192,9 @@ class MonitorNode {
       }
     });
     const auto take = [this](const Message& message) {
+      if (const auto* loop = std::get_if<state::LoopStatistics>(&message)) {
+        rivals_.take(*loop);
+      }
       std::visit([this](const auto& state) { takeState(state); }, message);
     };
     receiver_ = std::make_unique<LcmReceiver>(openLcm(url), kinds, take, lcm_.prefix());
@@ -321,6 +339,7 @@ class MonitorNode {
   TwinMonitor monitor_;
   std::string url_;
   LcmPublisher lcm_;
+  LcmRivals rivals_;
   RosTopics topics_;
   std::optional<AlarmHistory> history_;
   std::optional<TwinRun> run_;  ///< as the history knows it
@@ -328,6 +347,9 @@ class MonitorNode {
   AlarmSettingsService settings_service_;
   std::vector<ros::Subscriber> subscribers_;
   std::unique_ptr<LcmReceiver> receiver_;
+  MasterWatch master_;
+  ChangedParameters parameters_{
+      master_, atStart(), [this](const YAML::Node& all) { return settings_service_.obey(all); }};
   diagnostic_updater::Updater diagnostics_;
   std::uint64_t rejected_ = 0;
   bool paused_ = false;          // the simulation says so
@@ -338,11 +360,10 @@ class MonitorNode {
 void run() {
   usePluginModels();
   MonitorNode monitor{ros::NodeHandle(twinNamespace())};
-  MasterWatch master;
   while (!stopRequested() && ros::ok()) {
     monitor.spinOnce();
   }
-  master.stop();
+  monitor.stop();
   ros::shutdown();
 }
 

@@ -1,5 +1,7 @@
 #include "nodes/record_publisher.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <ros/ros.h>
 
 #include <chrono>
@@ -8,6 +10,7 @@
 #include <utility>
 
 #include "nodes/loop_report.h"
+#include "nodes/rival_report.h"
 #include "realtime/monotonic_clock.h"
 
 namespace whirl_twin {
@@ -128,11 +131,12 @@ bool RecordPublisher::take(const double* record) {
     return false;
   }
   const bool reset = step < observer_.step();
+  if (reset) {
+    clock_steps_ += observer_.step() + 1;
+  }
   observer_.observe(record);
   orders_.take(record, observer_);
-  const Scene& scene = live_.twin().scene();
-  observer_.setStamp(clock_ ? scene.time + step * scene.step
-                            : clock_zero_ + RecordLayout::scheduled(record));
+  stamp(record);
   if (reset) {
     publishReport();  // the new epoch, ahead of its states
   }
@@ -155,6 +159,13 @@ bool RecordPublisher::take(const double* record) {
   return stopped_now;
 }
 
+/// Those who live by the clock would not bear it to go back.
+void RecordPublisher::stamp(const double* record) {
+  const Scene& scene = live_.twin().scene();
+  observer_.setStamp(clock_ ? scene.time + (clock_steps_ + RecordLayout::step(record)) * scene.step
+                            : clock_zero_ + RecordLayout::scheduled(record));
+}
+
 /// Blocks of what the scene's sensors have seen, as they are complete.
 void RecordPublisher::measure(bool reset) {
   if (reset) {
@@ -175,8 +186,10 @@ void RecordPublisher::publishReport() {
                                                 loop_.timing(), live_.paused(), dropped());
   report.at.stamp = static_cast<std::int64_t>(ros::Time::now().toNSec());
   report.started = started_;
+  report.sender = nameOfThisProcess();
   report.epoch = live_.resets();
   report.lcm_failed = lcmFailed();
+  report.ros_lost = rosLost();
   report.publish_every = static_cast<std::uint64_t>(every_ * thinning_.every());
   report.real_time_factor = live_.pace();
   report.achieved_factor = achievedFactor(report);
@@ -186,6 +199,13 @@ void RecordPublisher::publishReport() {
              static_cast<unsigned long>(report.lcm_failed));
   }
   lcm_failed_told_ = report.lcm_failed;
+  if (report.ros_lost > ros_lost_told_) {
+    const std::string& topic = states_.ros().lostLast();
+    ROS_WARN_THROTTLE(10.0, "a subscriber of %s is too slow: %lu messages lost; it goes to %s",
+                      topic.c_str(), static_cast<unsigned long>(report.ros_lost),
+                      fmt::format("{}", fmt::join(listenersOf(topic), ", ")).c_str());
+  }
+  ros_lost_told_ = report.ros_lost;
   states_.tell(report);
   for (std::size_t i = 0; i < inaccurate_.size(); ++i) {
     const bool lost = report.error_estimate[i] > report.tolerance[i];
@@ -225,6 +245,8 @@ void RecordPublisher::forgetCounts() {
   dropped_before_ = live_.dropped() + left_out_;
   lcm_failed_before_ = states_.lcm().failed();
   lcm_failed_told_ = 0;
+  ros_lost_before_ = states_.ros().lost();
+  ros_lost_told_ = 0;
 }
 
 }  // namespace whirl_twin

@@ -27,7 +27,8 @@ namespace whirl_twin {
 class RecordPublisher {
  public:
   /// What is referred to outlives it. every: steps from one publication to the next; clock: stamps
-  /// are simulated time, else wall time; measure: also what the scene's sensors see.
+  /// are simulated time, which a reset does not turn back, else wall time; measure: also what the
+  /// scene's sensors see.
   RecordPublisher(LiveTwin& live, const FixedRateLoop& loop, StatePublisher states,
                   std::int64_t every, bool clock, bool measure);
   ~RecordPublisher();
@@ -36,6 +37,7 @@ class RecordPublisher {
   void join();
   // Any thread.
 
+  bool onLcm() const { return states_.lcm().on(); }
   /// The newest report, for the diagnostics.
   state::LoopStatistics report() const;
   /// What was dropped, left out or not sent counts from zero again.
@@ -49,8 +51,10 @@ class RecordPublisher {
   void publishReport();
   double achievedFactor(const state::LoopStatistics& report);
   void followWallClock();
+  void stamp(const double* record);
   std::uint64_t dropped() const { return live_.dropped() + left_out_ - dropped_before_; }
   std::uint64_t lcmFailed() const { return states_.lcm().failed() - lcm_failed_before_; }
+  std::uint64_t rosLost() const { return states_.ros().lost() - ros_lost_before_; }
   void forgetCounts();
 
   LiveTwin& live_;
@@ -59,7 +63,8 @@ class RecordPublisher {
   OrderObserver orders_;
   StatePublisher states_;
   bool clock_;
-  std::int64_t every_;  // steps
+  std::int64_t clock_steps_ = 0;  // on the clock before the last reset
+  std::int64_t every_;            // steps
   EvenThinning thinning_;
   std::int64_t started_;     // [ns], wall clock
   std::int64_t clock_zero_;  // [ns], wall clock at zero of CLOCK_MONOTONIC
@@ -71,6 +76,8 @@ class RecordPublisher {
   std::uint64_t dropped_before_ = 0;
   std::uint64_t lcm_failed_before_ = 0;
   std::uint64_t lcm_failed_told_ = 0;
+  std::uint64_t ros_lost_before_ = 0;
+  std::uint64_t ros_lost_told_ = 0;
   // Of the report before.
   std::uint64_t reported_epoch_ = 0;
   double reported_time_ = 0.0;                                     // [s], simulated

@@ -1,7 +1,9 @@
 add_executable(simulation_node
+  ${CMAKE_CURRENT_LIST_DIR}/changed_parameters.cpp
   ${CMAKE_CURRENT_LIST_DIR}/input_commands.cpp
   ${CMAKE_CURRENT_LIST_DIR}/loop_report.cpp
   ${CMAKE_CURRENT_LIST_DIR}/record_publisher.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/rival_report.cpp
   ${CMAKE_CURRENT_LIST_DIR}/run_node.cpp
   ${CMAKE_CURRENT_LIST_DIR}/simulation_node.cpp
   ${CMAKE_CURRENT_LIST_DIR}/state_publisher.cpp

@@ -14,11 +14,13 @@
 
 #include "accuracy/step_choice.h"
 #include "messages/monitor_pulse.h"
+#include "nodes/changed_parameters.h"
 #include "nodes/input_commands.h"
 #include "nodes/loop_report.h"
 #include "nodes/private_parameter.h"
 #include "nodes/publish_rate.h"
 #include "nodes/record_publisher.h"
+#include "nodes/rival_report.h"
 #include "nodes/run_node.h"
 #include "nodes/state_publisher.h"
 #include "nodes/twin_services.h"
@@ -35,6 +37,8 @@ namespace whirl_twin {
 
 namespace {
 
+constexpr double kClockRate = 250.0;            // Hz
+constexpr double kFastestClock = 1.0e5;         // Hz
 constexpr std::int64_t kShortestStep = 10'000;  // ns, that the fixed-rate loop takes
 constexpr auto kReportPeriod = std::chrono::seconds(1);
 constexpr double kServicePoll = 0.05;   // s
@@ -46,14 +50,15 @@ struct Settings {
   std::string lcm_url;
   std::string lcm_prefix;
   bool clock;
-  bool measure;  ///< publish what the scene's sensors see
+  double clock_rate;  ///< [Hz], in simulated time
+  bool measure;       ///< publish what the scene's sensors see
   double real_time_factor;
   FixedRateLoop::Options loop;
 };
 
 Settings readSettings(const Scene& scene) {
   requireKnownParameters({"publish_rate", "lcm_url", "lcm_prefix", "clock", "realtime", "priority",
-                          "overrun", "real_time_factor", "measure"});
+                          "overrun", "real_time_factor", "measure", "clock_rate"});
   Settings s;
   s.every = stepsToPublish(scene);
   s.lcm_url = privateParameter<std::string>("lcm_url", "an LCM url, or nothing", kDefaultLcmUrl);
@@ -61,6 +66,11 @@ Settings readSettings(const Scene& scene) {
   s.clock = privateParameter("clock", "true or false", false);
   if (s.clock && scene.time < 0) {
     throw Refusal("clock: needs a scene whose time is >= 0 s");
+  }
+  s.clock_rate = privateParameter("clock_rate", "a number in Hz", kClockRate);
+  if (!(s.clock_rate >= kSlowestRate && s.clock_rate <= kFastestClock)) {
+    throw Refusal(fmt::format("clock_rate: must be from {} to {} Hz, found {}", kSlowestRate,
+                              kFastestClock, s.clock_rate));
   }
   s.measure = privateParameter("measure", "true or false", false);
   if (s.measure && scene.sensors.empty()) {
@@ -100,7 +110,8 @@ void run() {
   RecordPublisher publisher(
       live, loop,
       StatePublisher(live.twin(), live.ensembles(), node,
-                     LcmPublisher(settings.lcm_url, settings.lcm_prefix), settings.clock),
+                     LcmPublisher(settings.lcm_url, settings.lcm_prefix),
+                     settings.clock ? std::llround(1.0e9 / settings.clock_rate) : 0),
       settings.every, settings.clock, settings.measure);
   TwinServices services(live, private_node,
                         [&] { return !stopRequested() && ros::ok() && loop.running(); });
@@ -138,12 +149,14 @@ void run() {
   });
 
   MasterWatch master({node.resolveName("scene"), node.resolveName("scene_file")});
-  diagnostics.add("ROS master", [&](diagnostic_updater::DiagnosticStatusWrapper& status) {
-    const std::string trouble = master.trouble();
-    status.summary(trouble.empty() ? diagnostic_msgs::DiagnosticStatus::OK
-                                   : diagnostic_msgs::DiagnosticStatus::ERROR,
-                   trouble.empty() ? "this node is known to it" : trouble);
-  });
+  reportMaster(master, diagnostics);
+  ChangedParameters parameters(master);
+  parameters.report(diagnostics);
+  LcmRivals rivals(settings.lcm_prefix);
+  if (publisher.onLcm()) {
+    rivals.listen(settings.lcm_url);
+    rivals.report(diagnostics);
+  }
 
   for (const SharedSystem& system : live.twin().systems()) {
     ROS_INFO("%s: %s with %s%s%s%s", system->spec.name.c_str(), system->model->name.c_str(),
@@ -166,6 +179,7 @@ void run() {
         ros::WallDuration(services.ramping() || commands.any() ? kCommandPoll : kServicePoll));
     services.continueRamps();
     commands.receive();
+    rivals.receive();
     if (std::chrono::steady_clock::now() >= next_report) {
       next_report = std::chrono::steady_clock::now() + kReportPeriod;
       diagnostics.force_update();

@@ -2,15 +2,13 @@
 
 #include <rosgraph_msgs/Clock.h>
 
-#include <cstdlib>
 #include <utility>
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr std::uint32_t kQueue = 2000;            // two seconds at 1 kHz
-constexpr std::int64_t kClockPeriod = 4'000'000;  // ns, simulated: 250 Hz
+constexpr std::uint32_t kQueue = 2000;  // two seconds at 1 kHz
 
 /// To ROS and to LCM, which latches nothing.
 struct StepSink {
@@ -40,27 +38,29 @@ struct StepSink {
 }  // namespace
 
 StatePublisher::StatePublisher(const Twin& twin, EnsembleObserver ensembles, ros::NodeHandle node,
-                               LcmPublisher lcm, bool clock)
+                               LcmPublisher lcm, std::int64_t clock_period)
     : twin_(twin),
       messages_(twin.built()),
       ensembles_(std::move(ensembles)),
       topics_(node, kQueue),
-      lcm_(std::move(lcm)) {
+      lcm_(std::move(lcm)),
+      clock_period_(clock_period),
+      last_clock_(-clock_period) {
   messages_.announce([this](auto kind, const std::string& subject) {
     using State = typename decltype(kind)::State;
     requireChannelFits(channelName(State::kKind, subject, lcm_.prefix()));
     topics_.advertise<State>(subject);
   });
   topics_.advertise<state::LoopStatistics>();
-  if (clock) {
+  if (clock_period > 0) {
     clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", 10);
   }
 }
 
 void StatePublisher::publish(const Observer& observer, bool all) {
   messages_.tell(observer, all, StepSink{topics_, lcm_});
-  const std::int64_t time = clockTime(observer);
-  if (all && clock_ && std::abs(time - last_clock_) >= kClockPeriod) {
+  const std::int64_t time = observer.instant().stamp;
+  if (all && clock_ && time - last_clock_ >= clock_period_) {
     publishClock(observer);
     last_clock_ = time;
   }
@@ -80,13 +80,9 @@ void StatePublisher::publishOrders(const Observer& observer, const OrderObserver
   messages_.tellOrders(observer, orders, StepSink{topics_, lcm_});
 }
 
-std::int64_t StatePublisher::clockTime(const Observer& observer) const {
-  return twin_.scene().time + observer.step() * twin_.scene().step;
-}
-
 void StatePublisher::publishClock(const Observer& observer) {
   rosgraph_msgs::Clock message;
-  message.clock.fromNSec(static_cast<std::uint64_t>(clockTime(observer)));
+  message.clock.fromNSec(static_cast<std::uint64_t>(observer.instant().stamp));
   clock_.publish(message);
 }
 

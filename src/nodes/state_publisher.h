@@ -16,10 +16,11 @@ namespace whirl_twin {
 
 class StatePublisher {
  public:
-  /// Advertises every topic of the scene under `node`; `ensembles` are the twin's. clock: also
-  /// /clock, at most at 250 Hz. Throws Refusal for an LCM prefix that makes a channel too long.
+  /// Advertises every topic of the scene under `node`; `ensembles` are the twin's. clock_period
+  /// [ns, simulated]: also /clock, the stamps of states so far apart; 0: no clock. Throws Refusal
+  /// for an LCM prefix that makes a channel too long.
   StatePublisher(const Twin& twin, EnsembleObserver ensembles, ros::NodeHandle node,
-                 LcmPublisher lcm, bool clock);
+                 LcmPublisher lcm, std::int64_t clock_period = 0);
 
   /// Publishes what the observer stands at; all: also what leaves every step, and not only the
   /// parameters that have changed. Messages without a subscriber, and channels with LCM off, are
@@ -45,17 +46,17 @@ class StatePublisher {
   void publishClock(const Observer& observer);
 
   const LcmPublisher& lcm() const { return lcm_; }
+  const RosTopics& ros() const { return topics_; }
 
  private:
-  std::int64_t clockTime(const Observer& observer) const;  // [ns], simulated
-
   const Twin& twin_;
   StepMessages messages_;
   EnsembleObserver ensembles_;
   RosTopics topics_;
   LcmPublisher lcm_;
   ros::Publisher clock_;
-  std::int64_t last_clock_ = -1'000'000'000;  // [ns], simulated; before any
+  std::int64_t clock_period_;  // [ns]
+  std::int64_t last_clock_;    // [ns]
 };
 
 }  // namespace whirl_twin

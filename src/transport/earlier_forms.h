@@ -35,8 +35,8 @@ inline constexpr std::array<EarlierForm, 4> kEarlierForms<state::StabilityMargin
      {0x4058c40523023a98, "iidbsd"},
      {0x2dc55037686885d0, "sd"}}};
 template <>
-inline constexpr std::array<EarlierForm, 2> kEarlierForms<state::LoopStatistics>{
-    {{0xe676f1d3c287e44f, "lllldd"}, {0x9af8de11c53ac49c, "dd"}}};
+inline constexpr std::array<EarlierForm, 3> kEarlierForms<state::LoopStatistics>{
+    {{0xe676f1d3c287e44f, "llllddls"}, {0x9af8de11c53ac49c, "ddls"}, {0x2a3f5309642532d1, "ls"}}};
 template <>
 inline constexpr std::array<EarlierForm, 1> kEarlierForms<state::Alert>{
     {{0x966688c34b63f52f, "bbbidd"}}};

@@ -58,6 +58,7 @@ void connectTo(const std::string& topic, const XmlRpc::XmlRpcValue& publishers) 
 MasterWatch::MasterWatch(std::vector<std::string> parameters)
     : parameter_names_(std::move(parameters)) {
   parameter_names_.push_back(ros::this_node::getName());
+  parameter_names_.push_back("/use_sim_time");  // for nodes to come
   thread_ = std::thread([this] { run(); });
 }
 
@@ -75,6 +76,11 @@ void MasterWatch::stop() {
 std::string MasterWatch::trouble() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return trouble_;
+}
+
+XmlRpc::XmlRpcValue MasterWatch::ownParameters() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return own_parameters_;
 }
 
 void MasterWatch::run() {
@@ -156,6 +162,10 @@ void MasterWatch::rememberParameters() {
     if (ask("getParam", {name}, value)) {
       parameters_[name] = value;
     }
+  }
+  if (const auto own = parameters_.find(ros::this_node::getName()); own != parameters_.end()) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    own_parameters_ = own->second;
   }
 }
 

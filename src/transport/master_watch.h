@@ -18,7 +18,7 @@ namespace whirl_twin {
 class MasterWatch {
  public:
   /// Looks at the master every two seconds, in a thread of its own, once the node has started.
-  /// `parameters`: names of further trees to bring back, beside the node's own.
+  /// `parameters`: names of further trees to bring back, beside the node's own and /use_sim_time.
   explicit MasterWatch(std::vector<std::string> parameters = {});
   ~MasterWatch();
   /// Ends the thread, as must be before ros::shutdown().
@@ -26,6 +26,8 @@ class MasterWatch {
 
   /// What stands in the way at present, in a sentence for the diagnostics; empty: nothing.
   std::string trouble() const;
+  /// The node's private parameters as the master held them last; no struct before the first look.
+  XmlRpc::XmlRpcValue ownParameters() const;
 
  private:
   struct Registered {
@@ -43,6 +45,7 @@ class MasterWatch {
 
   std::vector<std::string> parameter_names_;
   std::map<std::string, XmlRpc::XmlRpcValue> parameters_;
+  XmlRpc::XmlRpcValue own_parameters_;
   std::set<std::string> services_;  // ever registered
   bool answered_ = true;
   std::set<std::string> rivals_;

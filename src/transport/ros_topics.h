@@ -2,6 +2,7 @@
 #pragma once
 
 #include <ros/ros.h>
+#include <ros/topic_manager.h>
 
 #include <cstdint>
 #include <functional>
@@ -11,9 +12,13 @@
 #include <vector>
 
 #include "transport/channels.h"
+#include "transport/queue_losses.h"
 #include "transport/ros_converters.h"
 
 namespace whirl_twin {
+
+/// The nodes that are connected to a topic of this node.
+std::vector<std::string> listenersOf(const std::string& topic);
 
 class RosTopics {
  public:
@@ -43,38 +48,62 @@ class RosTopics {
     static_assert(!std::is_same_v<State, state::Alert>, "alerts go in lists");
     const std::string subject = subjectOf(state);
     const bool is_new = topics_[&State::kKind].count(subject) == 0;
-    const Topics& topics = topicsOf<State>(subject);
+    Topics& topics = topicsOf<State>(subject);
     if (!topics.state) {
       return;
     }
     if (is_new) {
       advertised_(topics.state);
     }
-    if (State::kKind.has(MessageKind::kLatched) || topics.state.getNumSubscribers() > 0) {
+    if constexpr (State::kKind.has(MessageKind::kLatched)) {
       topics.state.publish(toRos(state));
+    } else if (topics.state.getNumSubscribers() > 0) {
+      publishCounted(topics.state, toRos(state), topics.state_losses);
     }
     if constexpr (State::kKind.has(MessageKind::kJointStates)) {
       if (is_new && topics.joint_states) {
         advertised_(topics.joint_states);
       }
       if (topics.joint_states.getNumSubscribers() > 0) {
-        topics.joint_states.publish(toJointState(state));
+        publishCounted(topics.joint_states, toJointState(state), topics.joint_state_losses);
       }
     }
   }
+
+  /// Messages that subscribers have missed because they were too slow, over all topics, and the
+  /// topic of the last of them; of latched topics, which are slow, they are not counted.
+  std::uint64_t lost() const { return lost_; }
+  const std::string& lostLast() const { return lost_last_; }
 
   /// The complete list of active alerts, stamped with the instant [ns] it holds at.
   void publishAlerts(const std::vector<state::Alert>& alerts, std::int64_t stamp);
 
  private:
   struct Topics {
+    explicit Topics(std::uint32_t queue) : state_losses(queue), joint_state_losses(queue) {}
     ros::Publisher state;  // null while ROS is shutting down
     ros::Publisher joint_states;
+    QueueLosses state_losses;
+    QueueLosses joint_state_losses;
   };
 
+  template <class RosMessage>
+  void publishCounted(const ros::Publisher& publisher, const RosMessage& message,
+                      QueueLosses& losses) {
+    const std::uint64_t before = losses.lost();
+    const std::string topic = publisher.getTopic();
+    ros::SerializedMessage bytes;
+    ros::TopicManager::instance()->publish(
+        topic, [&] { return losses.serialized(message); }, bytes);
+    if (losses.lost() > before) {
+      lost_ += losses.lost() - before;
+      lost_last_ = topic;
+    }
+  }
+
   template <class State>
-  const Topics& topicsOf(const std::string& subject) {
-    const auto [place, is_new] = topics_[&State::kKind].try_emplace(subject);
+  Topics& topicsOf(const std::string& subject) {
+    const auto [place, is_new] = topics_[&State::kKind].try_emplace(subject, queue_);
     if (is_new) {
       using Type =
           std::conditional_t<std::is_same_v<State, state::Alert>, AlertArray, RosType<State>>;
@@ -92,6 +121,8 @@ class RosTopics {
   std::uint32_t queue_;  // messages a slow subscriber may fall behind
   std::function<void(const ros::Publisher&)> advertised_;
   std::map<const MessageKind*, std::map<std::string, Topics>> topics_;
+  std::uint64_t lost_ = 0;
+  std::string lost_last_;  // a topic
 };
 
 }  // namespace whirl_twin

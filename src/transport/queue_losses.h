@@ -1,0 +1,43 @@
+// Messages that roscpp throws away because a subscriber does not take them: a topic keeps `queue`
+// of them for each, and then drops the oldest without a word. They are counted by what is still
+// held when the next one is published.
+#pragma once
+
+#include <ros/serialization.h>
+
+#include <atomic>
+#include <boost/shared_array.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+namespace whirl_twin {
+
+/// Of one topic that is not latched. Belongs to the thread that publishes.
+class QueueLosses {
+ public:
+  explicit QueueLosses(std::size_t queue) : queue_(queue) {}
+
+  /// The message as bytes that tell when nobody needs them any more.
+  template <class RosMessage>
+  ros::SerializedMessage serialized(const RosMessage& message) {
+    ros::SerializedMessage bytes = ros::serialization::serializeMessage(message);
+    // A queue that is full, and the message that is being written: the slowest subscriber's oldest
+    // goes for this one.
+    lost_ += held_->fetch_add(1) > queue_ ? 1 : 0;
+    const auto done = [held = held_, kept = bytes.buf](std::uint8_t*) { held->fetch_sub(1); };
+    bytes.buf = boost::shared_array<std::uint8_t>(bytes.buf.get(), done);
+    return bytes;
+  }
+
+  /// Messages that at least one subscriber has missed.
+  std::uint64_t lost() const { return lost_; }
+
+ private:
+  std::size_t queue_;
+  std::uint64_t lost_ = 0;
+  // Outlives this, as messages do that are on their way.
+  std::shared_ptr<std::atomic<std::size_t>> held_ = std::make_shared<std::atomic<std::size_t>>(0);
+};
+
+}  // namespace whirl_twin

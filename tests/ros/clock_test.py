@@ -1,0 +1,44 @@
+#!/usr/bin/python3
+"""/clock goes at the rate asked for, and a reset, which begins the twin's own time anew, does not turn it back."""
+import os
+import sys
+
+import rospy
+import rostest
+from rosgraph_msgs.msg import Clock
+from std_srvs.srv import Trigger
+from whirl_twin.msg import WhirlState
+
+from node_trial import SCENES, NodeTrial, load_scene, wait_until
+
+
+def call(name):
+    rospy.wait_for_service(name, 30)
+    return rospy.ServiceProxy(name, Trigger)()
+
+
+class ClockOfTheTwin(NodeTrial):
+    def test_a_reset_does_not_turn_it_back(self):
+        load_scene(os.path.join(SCENES, 'demo.yaml'))
+        clocks, whirls = [], []
+        self.listen('/clock', Clock, lambda m: clocks.append(m.clock.to_nsec()))
+        self.listen('/twin/rotor/whirl', WhirlState, whirls.append)
+        self.start('simulation_node', '_realtime:=ignore', '_lcm_url:=', '_clock:=true', '_clock_rate:=20')
+        self.assertTrue(wait_until(lambda: len(clocks) > 20))
+        self.assertEqual({after - before for before, after in zip(clocks[:20], clocks[1:21])}, {50_000_000})
+        for _ in range(2):
+            begun = len(whirls)
+            self.assertTrue(call('/simulation_node/reset').success)
+            self.assertTrue(wait_until(lambda: any(w.step == 0 for w in whirls[begun:])))
+            heard = len(clocks)
+            self.assertTrue(wait_until(lambda: len(clocks) > heard + 10))
+        self.assertEqual(clocks, sorted(clocks))
+        stamps = [whirl.header.stamp.to_nsec() for whirl in whirls]
+        self.assertEqual(stamps, sorted(set(stamps)), 'no instant twice')
+        self.assertEqual(sum(whirl.step == 0 for whirl in whirls[1:]), 2, 'the time of the twin begins anew')
+        self.assertGreater(clocks[-1], 1e9 * whirls[-1].time)
+
+
+if __name__ == '__main__':
+    rospy.init_node('clock_test')
+    rostest.rosrun('whirl_twin', 'clock_test', ClockOfTheTwin, sys.argv)
