@@ -11,7 +11,7 @@ FollowPublisher::FollowPublisher(Twin& twin, std::shared_ptr<SystemGenerations> 
                                  LcmPublisher lcm)
     : observer_(twin, std::move(generations)),
       orders_(twin),
-      states_(twin, EnsembleObserver(twin), node, std::move(lcm), false) {
+      states_(twin, EnsembleObserver(twin), node, std::move(lcm)) {
   for (const SystemSpec& system : twin.scene().systems) {
     states_.advertise<state::FollowState>(system.name);
   }
