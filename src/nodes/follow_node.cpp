@@ -36,7 +36,6 @@
 #include "scene/scene_reader.h"
 #include "transport/channels.h"
 #include "transport/lcm_connection.h"
-#include "transport/master_watch.h"
 #include "transport/ros_parameters.h"
 #include "transport/twin_namespace.h"
 
