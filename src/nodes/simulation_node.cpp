@@ -10,7 +10,6 @@
 #include <whirl_twin/MonitorStatus.h>
 
 #include <chrono>
-#include <cmath>
 
 #include "accuracy/step_choice.h"
 #include "messages/monitor_pulse.h"
