@@ -85,6 +85,34 @@ CampbellReport campbellReport(const RotorSystem& system, const SpeedRange& range
   return r;
 }
 
+CsvTables tables(const CampbellReport& r) {
+  const std::vector<std::string> point{"frequency",     "natural_frequency", "decay_rate",
+                                       "damping_ratio", "log_decrement",     "direction"};
+  const auto with_point = [&](std::vector<std::string> columns) {
+    columns.insert(columns.end(), point.begin(), point.end());
+    return columns;
+  };
+  CsvTable branches{"", with_point({"branch", "speed"})};
+  for (std::size_t i = 0; i < r.diagram.branches.size(); ++i) {
+    for (std::size_t k = 0; k < r.diagram.speeds.size(); ++k) {
+      Json row{{"branch", i + 1}, {"speed", r.diagram.speeds[k]}};
+      row.update(pointJson(r.diagram.branches[i][k]));
+      branches.rows.push_back(row);
+    }
+  }
+  CsvTable crossings{"crossings", with_point({"branch", "harmonic", "speed"})};
+  for (const CampbellCrossing& c : r.diagram.crossings) {
+    Json row{{"branch", c.branch + 1}, {"harmonic", c.harmonic}, {"speed", c.speed}};
+    row.update(pointJson(c.mode));
+    crossings.rows.push_back(row);
+  }
+  return {branches,
+          crossings,
+          {"peaks",
+           {"speed", "direction", "amplification_factor", "band_low", "band_high"},
+           json(r)["response_peaks"]}};
+}
+
 Json json(const CampbellReport& r) {
   Json json;
   json["model"] = r.system->model;

@@ -7,7 +7,7 @@
 #include "analysis/critical_speeds.h"
 #include "analysis/undamped_critical_speeds.h"
 #include "plots/chart.h"
-#include "reports/output.h"
+#include "reports/csv_table.h"
 #include "reports/rotor_systems.h"
 
 namespace whirl_twin {
@@ -28,6 +28,8 @@ CampbellReport campbellReport(const RotorSystem& system, const SpeedRange& range
 
 Json json(const CampbellReport& report);
 std::string text(const CampbellReport& report);
+/// Branches, crossings, peaks.
+CsvTables tables(const CampbellReport& report);
 Figure figure(const CampbellReport& report);
 
 }  // namespace whirl_twin

@@ -5,12 +5,14 @@
 
 #include "estimation/shooting_fit.h"
 #include "plots/chart.h"
-#include "reports/output.h"
+#include "reports/csv_table.h"
 
 namespace whirl_twin {
 
 std::string text(const FitStudy& study, const ShootingFit& fit);
 Json json(const FitStudy& study, const ShootingFit& fit);
+/// The parameters.
+CsvTables tables(const ShootingFit& fit);
 
 /// A run: measured and predicted over time, what is left between them, and its spectrum.
 Figure figure(const FitStudy& study, const ShootingFit& fit, std::size_t run);

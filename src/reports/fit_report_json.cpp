@@ -4,6 +4,19 @@
 
 namespace whirl_twin {
 
+CsvTables tables(const ShootingFit& fit) {
+  CsvTable table{"", {"parameter", "value", "standard_deviation", "unit", "at_bound"}};
+  for (std::size_t i = 0; i < fit.unknowns.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    table.rows.push_back({{"parameter", fit.unknowns[i].name},
+                          {"value", fit.theta[k]},
+                          {"standard_deviation", fit.information.deviation[k]},
+                          {"unit", fit.unknowns[i].unit},
+                          {"at_bound", static_cast<bool>(fit.at_bound[i])}});
+  }
+  return {table};
+}
+
 Json json(const FitStudy& study, const ShootingFit& fit) {
   Json json;
   json["scene"] = study.scene_path;

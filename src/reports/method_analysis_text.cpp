@@ -69,20 +69,21 @@ std::string text(const MethodAnalysis& m, const SystemAnalysis& a) {
     }
   }
   if (m.virtual_work.size() > 0) {
-    out += "  virtual work at rest where it starts, of a unit displacement, J\n";
+    out += "  generalized forces, at rest in that position\n";
     for (std::size_t i = 0; i < a.coordinates.size(); ++i) {
-      out += fmt::format("    {:<15} {:.6g}\n", a.coordinates[i].name,
-                         m.virtual_work[static_cast<Eigen::Index>(i)] + 0.0);
+      out += fmt::format("    {:<15} {:.6g} {}\n", a.coordinates[i].name,
+                         m.virtual_work[static_cast<Eigen::Index>(i)] + 0.0,
+                         a.coordinates[i].isAngle() ? "N m" : "N");
     }
   }
   if (!m.reactions.empty()) {
-    out += "  reactions at the start\n";
+    out += fmt::format("  reactions at t = {:g} s\n", a.moment.time);
     for (const Reaction& r : m.reactions) {
       out += fmt::format("    {:<15} {:.6g} {}\n", r.name, r.value, r.unit);
     }
   }
   if (!m.conditions.empty()) {
-    out += "  the equations hold while, at the start\n";
+    out += fmt::format("  the equations hold while, at t = {:g} s\n", a.moment.time);
     for (const Condition& c : m.conditions) {
       out += fmt::format("    {:<15} {:.6g} {} > 0; else {}\n", c.name, c.margin, c.unit, c.broken);
     }

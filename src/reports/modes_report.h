@@ -9,7 +9,7 @@
 
 #include "analysis/whirl_modes.h"
 #include "estimation/mode_pairing.h"
-#include "reports/output.h"
+#include "reports/csv_table.h"
 #include "reports/rotor_record.h"
 #include "reports/rotor_systems.h"
 #include "signal/ambient_modes.h"
@@ -49,5 +49,7 @@ ModesReport modesReport(const RotorSystem& system, const RotorRecord& record,
 
 Json json(const ModesReport& report);
 std::string text(const ModesReport& report);
+/// The model's modes, or those that were measured with the model's beside them.
+CsvTables tables(const ModesReport& report);
 
 }  // namespace whirl_twin

@@ -178,6 +178,36 @@ Json json(const ModesReport& report) {
   return json;
 }
 
+CsvTables tables(const ModesReport& report) {
+  CsvTable table{"",
+                 {"mode", "whirl", "frequency", "decay_rate", "damping_ratio", "log_decrement"}};
+  if (report.log.empty()) {
+    table.rows = json(report)["modes"];
+    return {table};
+  }
+  for (const char* column : {"frequency_deviation", "decay_rate_deviation", "model_frequency",
+                             "model_decay_rate", "assurance"}) {
+    table.columns.emplace_back(column);
+  }
+  for (const ComparedMode& one : report.modes) {
+    const Json measured = measuredJson(report, one);
+    Json row{{"whirl", measured["whirl"]}};
+    for (const char* key : {"frequency", "decay_rate", "damping_ratio", "log_decrement"}) {
+      row[key] = measured[key]["value"];
+    }
+    row["frequency_deviation"] = measured["frequency"]["standard_deviation"];
+    row["decay_rate_deviation"] = measured["decay_rate"]["standard_deviation"];
+    if (one.model) {
+      row["mode"] = measured["model"]["mode"];
+      row["model_frequency"] = measured["model"]["frequency"];
+      row["model_decay_rate"] = measured["model"]["decay_rate"];
+      row["assurance"] = measured["model"]["assurance"];
+    }
+    table.rows.push_back(row);
+  }
+  return {table};
+}
+
 std::string text(const ModesReport& report) {
   std::string out = report.system->title();
   if (report.log.empty()) {

@@ -11,7 +11,7 @@
 #include "messages/alert.h"
 #include "monitoring/alarm_settings.h"
 #include "plots/chart.h"
-#include "reports/output.h"
+#include "reports/csv_table.h"
 #include "reports/passed_resonance.h"
 #include "scene/built_scene.h"
 #include "signal/spectrum_cascade.h"
@@ -84,6 +84,8 @@ MonitoredLog monitorLog(const BuiltScene& scene, const AlarmSettings& settings,
 
 std::string text(const MonitoredLog& run);
 Json json(const MonitoredLog& run);
+/// The alerts; resonances that were passed.
+CsvTables tables(const MonitoredLog& run);
 /// Speed, whirl and margin of a system over one time axis, its alerts behind them.
 Figure figure(const MonitoredLog& run, const SystemCourse& system);
 /// A page with all of it, pictures inside: nothing else is needed to read or print it. Throws

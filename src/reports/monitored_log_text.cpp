@@ -214,4 +214,23 @@ Json json(const MonitoredLog& run) {
   return json;
 }
 
+CsvTables tables(const MonitoredLog& run) {
+  CsvTable resonances{"resonances",
+                      {"system", "time", "speed", "amplitude", "half_power_below",
+                       "half_power_above", "amplification_factor", "acceleration",
+                       "model_critical_speed", "model_amplification_factor"}};
+  for (const SystemCourse& system : run.systems) {
+    for (const PassedResonance& resonance : system.resonances) {
+      Json row = resonanceJson(resonance);
+      row["system"] = system.name;
+      resonances.rows.push_back(row);
+    }
+  }
+  return {{"",
+           {"id", "type", "system", "severity", "raised", "cleared", "first_out", "repeats", "text",
+            "why_cleared"},
+           json(run)["alerts"]},
+          resonances};
+}
+
 }  // namespace whirl_twin

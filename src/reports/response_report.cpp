@@ -38,10 +38,20 @@ Json orbitJson(const Orbit& orbit, double phase_mark) {
 }
 
 std::string orbitText(const std::string& start, const Orbit& orbit, double phase_mark) {
-  return fmt::format("    {:<14} {:>11.5g} {:>11.5g} {:>11.5g}  {:<9} {:>12.5g} {:>10.5g}\n", start,
-                     orbit.major(), orbit.minor(), orbit.inclination() * kDegrees,
-                     name(orbit.direction()), std::abs(orbit.forward),
-                     phaseLag(orbit, phase_mark) * kDegrees);
+  constexpr double kRound = 1.0e-6;  // of a circle: how far the axes may be apart
+  const bool circle = orbit.major() - orbit.minor() <= kRound * orbit.major();
+  return fmt::format(
+      "    {:<14} {:>11.5g} {:>11.5g} {:>13}  {:<9} {:>12.5g} {:>10.5g}\n", start, orbit.major(),
+      orbit.minor(), circle ? "circle" : fmt::format("{:.5g}", orbit.inclination() * kDegrees),
+      name(orbit.direction()), std::abs(orbit.forward), phaseLag(orbit, phase_mark) * kDegrees);
+}
+
+std::vector<std::string> withOrbit(std::vector<std::string> columns) {
+  for (const char* column :
+       {"major", "minor", "inclination", "direction", "forward", "backward", "phase_lag"}) {
+    columns.emplace_back(column);
+  }
+  return columns;
 }
 
 constexpr const char* kOrbitHead =
@@ -101,12 +111,29 @@ Json json(const ResponseReport& r) {
   return json;
 }
 
+CsvTables tables(const ResponseReport& r) {
+  CsvTable sweep{"", withOrbit({"station", "speed"})};
+  for (const std::size_t i : r.stations) {
+    for (const SynchronousResponse& response : r.sweep) {
+      Json row{{"station", r.system->stations[i].name}, {"speed", response.speed}};
+      row.update(orbitJson(response.orbits[i], r.system->dynamics->phaseMark()));
+      sweep.rows.push_back(row);
+    }
+  }
+  return {sweep,
+          {"peaks", {"speed", "major", "direction", "amplification_factor"}, json(r)["peaks"]}};
+}
+
 std::string text(const ResponseReport& r) {
   constexpr std::size_t kRows = 20;
+  const std::size_t stride = 1 + r.sweep.size() / kRows;
   std::string out = fmt::format("{}: response to its unbalance\n", r.system->title());
+  if (stride > 1) {
+    out += fmt::format("  one of {} of {} speeds; all of them with --json or --csv\n", stride,
+                       r.sweep.size());
+  }
   for (const std::size_t i : r.stations) {
     out += fmt::format("  at {}\n    speed, rad/s{}", r.system->stations[i].name, kOrbitHead);
-    const std::size_t stride = 1 + r.sweep.size() / kRows;
     for (std::size_t k = 0; k < r.sweep.size(); k += stride) {
       out += orbitText(fmt::format("{:.6g}", r.sweep[k].speed), r.sweep[k].orbits[i],
                        r.system->dynamics->phaseMark());
@@ -138,6 +165,17 @@ Json json(const OrbitReport& r) {
     json["stations"][station.name]["position"] = station.position;
   }
   return json;
+}
+
+CsvTables tables(const OrbitReport& r) {
+  CsvTable orbits{"", withOrbit({"station", "position"})};
+  for (std::size_t i = 0; i < r.response.orbits.size(); ++i) {
+    const Station& station = r.system->stations[i];
+    Json row{{"station", station.name}, {"position", station.position}};
+    row.update(orbitJson(r.response.orbits[i], r.system->dynamics->phaseMark()));
+    orbits.rows.push_back(row);
+  }
+  return {orbits};
 }
 
 std::string text(const OrbitReport& r) {

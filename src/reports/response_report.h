@@ -8,7 +8,7 @@
 #include "analysis/critical_speeds.h"
 #include "analysis/synchronous_response.h"
 #include "plots/chart.h"
-#include "reports/output.h"
+#include "reports/csv_table.h"
 #include "reports/rotor_systems.h"
 
 namespace whirl_twin {
@@ -26,6 +26,8 @@ ResponseReport responseReport(const RotorSystem& system, const SpeedRange& range
 
 Json json(const ResponseReport& report);
 std::string text(const ResponseReport& report);
+/// Every speed that was looked at, at each station; peaks.
+CsvTables tables(const ResponseReport& report);
 /// Bode plot, amplitude and phase lag over speed, and polar plot below.
 Figure figure(const ResponseReport& report);
 
@@ -38,6 +40,7 @@ OrbitReport orbitReport(const RotorSystem& system, double speed);
 
 Json json(const OrbitReport& report);
 std::string text(const OrbitReport& report);
+CsvTables tables(const OrbitReport& report);
 Figure figure(const OrbitReport& report);
 
 }  // namespace whirl_twin

@@ -15,7 +15,7 @@
 #include "messages/stability_margin.h"
 #include "monitoring/parameter_margins.h"
 #include "monitoring/spread_margin.h"
-#include "reports/output.h"
+#include "reports/csv_table.h"
 #include "reports/steady_speeds.h"
 #include "scene/built_scene.h"
 
@@ -62,5 +62,7 @@ SystemAnalysis analyze(const BuiltScene& scene, std::size_t system,
 
 Json json(const SystemAnalysis& analysis);
 std::string text(const SystemAnalysis& analysis);
+/// Modes, eigenvalues, critical speeds, and the numbers that stability is lost by.
+CsvTables tables(const SystemAnalysis& analysis);
 
 }  // namespace whirl_twin

@@ -123,6 +123,32 @@ Json spreadMarginJson(const SystemAnalysis& a) {
 
 }  // namespace
 
+CsvTables tables(const SystemAnalysis& a) {
+  CsvTable modes{"", {"mode", "natural_frequency", "damping_ratio"}};
+  const Stability& s = a.reduced_stability;
+  for (std::size_t i = 0; i < s.natural_frequencies.size(); ++i) {
+    modes.rows.push_back({{"mode", i + 1},
+                          {"natural_frequency", s.natural_frequencies[i]},
+                          {"damping_ratio", s.damping_ratios[i]}});
+  }
+  CsvTable eigenvalues{"eigenvalues", {"re", "im"}};
+  for (const auto& root : a.stability.eigenvalues) {
+    eigenvalues.rows.push_back({{"re", root.real()}, {"im", root.imag()}});
+  }
+  CsvTable critical_speeds{"critical_speeds",
+                           {"speed", "direction", "amplification_factor", "separation_margin",
+                            "required_separation_margin"}};
+  for (const auto& critical : a.critical_speeds) {
+    critical_speeds.rows.push_back(criticalSpeedJson(critical));
+  }
+  CsvTable parameters{"parameters",
+                      {"parameter", "value", "lost_at", "change", "loss", "frequency"}};
+  if (a.parameter_margins) {
+    parameters.rows = parameterMarginsJson(a)["parameters"];
+  }
+  return {modes, eigenvalues, critical_speeds, parameters};
+}
+
 Json json(const SystemAnalysis& a) {
   Json json;
   json["model"] = a.model->name;

@@ -28,7 +28,7 @@ std::string values(const SystemAnalysis& a, const Eigen::VectorXd& x, int deriva
 }
 
 std::string startText(const SystemAnalysis& a) {
-  std::string out = fmt::format("  at the start, t = {:g} s", a.moment.time);
+  std::string out = fmt::format("  at t = {:g} s", a.moment.time);
   if (a.speed) {
     out += fmt::format(", shaft at {:g} rad/s ({:.4g} rpm)", *a.speed, *a.speed * 30.0 / kPi);
   }

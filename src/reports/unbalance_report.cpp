@@ -229,6 +229,24 @@ Json json(const UnbalanceReport& report) {
   return json;
 }
 
+CsvTables tables(const UnbalanceReport& report) {
+  const Json all = json(report);
+  const auto rows = [](const char* key, const Json& by_name) {
+    Json list = Json::array();
+    for (const auto& [name, one] : by_name.items()) {
+      Json row{{key, name}};
+      row.update(one.is_null() ? Json::object() : one);
+      list.push_back(row);
+    }
+    return list;
+  };
+  return {
+      {"",
+       {"plane", "mass_radius", "angle", "mass_radius_deviation", "angle_deviation"},
+       rows("plane", all["correction"])},
+      {"run_out", {"probe", "amplitude", "phase_lag", "deviation"}, rows("probe", all["run_out"])}};
+}
+
 std::string text(const UnbalanceReport& report) {
   const UnbalanceEstimate& found = report.estimate;
   std::string out = fmt::format(

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "estimation/unbalance_fit.h"
-#include "reports/output.h"
+#include "reports/csv_table.h"
 #include "reports/rotor_record.h"
 #include "reports/rotor_systems.h"
 
@@ -35,5 +35,7 @@ UnbalanceReport unbalanceReport(const RotorSystem& system, const RotorRecord& re
 
 Json json(const UnbalanceReport& report);
 std::string text(const UnbalanceReport& report);
+/// The masses to add; run-outs of the probes.
+CsvTables tables(const UnbalanceReport& report);
 
 }  // namespace whirl_twin

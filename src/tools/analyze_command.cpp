@@ -1,6 +1,11 @@
+#include <fmt/format.h>
+
+#include <cmath>
 #include <memory>
 #include <optional>
+#include <utility>
 
+#include "messages/refusal.h"
 #include "reports/asked_cost.h"
 #include "reports/loop_report.h"
 #include "reports/method_analysis.h"
@@ -10,13 +15,15 @@
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/shipped_scenes.h"
+#include "tools/simulation.h"
 
 namespace whirl_twin {
 
 namespace {
 
 constexpr const char* kDescription =
-    "Judges each system of a scene at its start: energies, equilibria, natural frequencies and\n"
+    "Judges each system of a scene at its start, or where --speed and --at say: energies, "
+    "equilibria, natural frequencies and\n"
     "damping, stability by Routh's test and its margins, critical speeds and separation margins.";
 
 constexpr const char* kFooter =
@@ -34,21 +41,104 @@ constexpr const char* kFooter =
     "of instability narrower than a stride may be jumped over. In systems of more than eight\n"
     "coordinates, and in shafts of many elements, that takes minutes: with --parameters.\n"
     "\n"
+    "--speed holds every shaft at a speed; --at takes the motion after so many seconds, as "
+    "`twin\n"
+    "simulate` has it, with the shafts held at their speeds of then.\n"
+    "\n"
     "Examples:\n"
     "  twin analyze demo.yaml\n"
+    "  twin analyze oil_whip --speed 200\n"
     "  twin analyze demo.yaml --system rotor --json";
 
 struct Request {
   std::string scene;
-  std::optional<std::string> system;
+  std::optional<std::string> system, csv;
+  std::optional<double> speed;    // rad/s
+  std::optional<std::string> at;  // s, as typed
   ParameterSearch search = ParameterSearch::kWhereQuick;
   bool json = false;
   bool insist = false;
 };
 
+/// The scene with every shaft at this speed [rad/s]. Of a shaft on a motor it is part of the
+/// motion.
+Scene withSpeed(Scene scene, const std::vector<std::size_t>& shown, double speed) {
+  constexpr double kFastest = 1.0e6;
+  if (!(std::fabs(speed) <= kFastest)) {
+    throw Refusal("--speed: expected a shaft speed from -1e+06 to 1e+06 rad/s");
+  }
+  bool any = false;
+  for (const std::size_t i : shown) {
+    const SystemSpec& system = scene.systems[i];
+    if (system.drive && scene.drives[scene.driveOf(system)].motor) {
+      throw Refusal(fmt::format(
+          "--speed: {} is on a motor, which makes its speed; --at tells of a moment", system.name));
+    }
+    any = any || system.drive || system.speed;
+  }
+  if (!any) {
+    throw Refusal("--speed: there is no system on a shaft");
+  }
+  for (DriveSpec& drive : scene.drives) {
+    if (!drive.motor) {
+      drive.speed = speed;
+      drive.profile.clear();
+    }
+  }
+  for (SystemSpec& system : scene.systems) {
+    if (system.speed) {
+      system.speed = speed;
+    }
+  }
+  return scene;
+}
+
+/// The scene as it has come to be after so many seconds, its shafts held at their speeds of then.
+Scene sceneAt(const Request& request) {
+  SimulationRequest run;
+  run.scene = request.scene;
+  run.duration = request.at;
+  run.insist = request.insist;
+  const SimulationPlan plan = planSimulation(run);
+  Simulation simulation(plan);
+  simulation.run(nullptr, true);
+  if (!simulation.sound()) {
+    throw RunFailure("--at: there is no motion left of what has stopped");
+  }
+  const Json systems = simulation.json()["systems"];
+  const BuiltScene start = build(plan.scene);
+  const std::int64_t elapsed = plan.steps * plan.scene.step;  // ns
+  Scene scene = plan.scene;
+  for (std::size_t i = 0; i < scene.systems.size(); ++i) {
+    SystemSpec& system = scene.systems[i];
+    const std::vector<CoordinateInfo> coordinates = start.systems[i]->dynamics->coordinates();
+    for (std::size_t k = 0; k < coordinates.size(); ++k) {
+      system.q[k] = systems[system.name]["state"][coordinates[k].name];
+      system.v[k] = systems[system.name]["state"][coordinates[k].name + "_rate"];
+    }
+    if (system.drive) {
+      const ShaftMotion shaft =
+          start.driveOf(*start.systems[i]).at(static_cast<double>(elapsed) * 1.0e-9);
+      DriveSpec& drive = scene.drives[scene.driveOf(system)];
+      drive.speed = shaft.speed;
+      drive.angle = shaft.angle;
+      drive.profile.clear();
+    }
+  }
+  scene.time += elapsed;
+  return scene;
+}
+
 int analyzeScene(const Request& request) {
-  const Scene scene = readSceneFile(scenePath(request.scene));
+  requireCsvName(request.csv);
+  Scene scene = readSceneFile(scenePath(request.scene));
   const auto systems = selectedSystems(scene, request.system);
+  if (request.at) {
+    scene = sceneAt(request);
+  }
+  if (request.speed) {
+    scene = withSpeed(std::move(scene), systems, *request.speed);
+  }
   const BuiltScene built = build(scene);
   AskedCost cost;
   for (const std::size_t i : systems) {
@@ -58,17 +148,22 @@ int analyzeScene(const Request& request) {
   Json all;
   all["scene"] = scene.name;
   std::string report;
+  CsvTables csv;
   for (const std::size_t i : systems) {
     const SystemAnalysis analysis = analyze(built, i, request.search);
     const MethodAnalysis methods = analyzeMethods(*built.systems[i], analysis);
     all["systems"][analysis.name] = json(analysis);
     all["systems"][analysis.name]["methods"] = json(methods, analysis);
+    append(csv, analysis.name, tables(analysis));
     report += (report.empty() ? "" : "\n") + text(analysis) + text(methods, analysis);
   }
   if (!scene.controllers.empty()) {
     const LoopReport loops = loopReport(scene);
     all["controllers"] = json(loops)["controllers"];
     report += "\n" + text(loops);
+  }
+  if (request.csv) {
+    writeCsv(*request.csv, csv);
   }
   if (request.json) {
     printJson(all);
@@ -85,9 +180,14 @@ void addAnalyzeCommand(CLI::App& twin, int& status) {
   const auto request = std::make_shared<Request>();
   addSceneOption(command, request->scene);
   command->add_option("--system", request->system, "show this system only")->type_name("NAME");
+  command->add_option("--speed", request->speed, "rad/s, of the shafts; default: at the start")
+      ->type_name("W");
+  command->add_option("--at", request->at, "s, simulated, from the start to there; default: 0")
+      ->type_name("S");
   command->add_flag_callback(
       "--parameters", [request] { request->search = ParameterSearch::kOfAll; },
       "look for the numbers that stability is lost by where that takes minutes, too");
+  addCsvOption(command, request->csv);
   command->add_flag("--json", request->json, "print one JSON object");
   addInsistOption(command, request->insist);
   command->footer(kFooter);

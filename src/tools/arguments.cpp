@@ -22,6 +22,11 @@ void addInsistOption(CLI::App* command, bool& insist) {
                     "even if it takes more than a day or more memory than is free");
 }
 
+void addCsvOption(CLI::App* command, std::optional<std::string>& csv) {
+  command->add_option("--csv", csv, "write the tables, every row of them: FILE.csv, FILE_NAME.csv")
+      ->type_name("FILE.csv");
+}
+
 std::string inSeconds(std::int64_t nanoseconds) {
   return fmt::format("{} s", static_cast<double>(nanoseconds) / 1.0e9);
 }
@@ -54,16 +59,24 @@ std::vector<std::string> orderedArguments(int argc, const char* const* argv) {
   if (arguments.empty() || arguments.front() != "routh") {
     return arguments;
   }
-  const auto dashes = std::find(arguments.begin(), arguments.end(), "--");
-  const auto first_coefficient =
-      std::stable_partition(arguments.begin() + 1, dashes, [](const std::string& argument) {
-        return argument == "-h" || argument.compare(0, 2, "--") == 0;
-      });
-  if (dashes != arguments.end()) {
-    arguments.erase(dashes);
+  std::vector<std::string> options{"routh"};
+  std::vector<std::string> coefficients{"--"};
+  for (auto it = arguments.begin() + 1; it != arguments.end(); ++it) {
+    if (*it == "--") {
+      coefficients.insert(coefficients.end(), it + 1, arguments.end());
+      break;
+    }
+    if (*it != "-h" && it->compare(0, 2, "--") != 0) {
+      coefficients.push_back(*it);
+      continue;
+    }
+    options.push_back(*it);
+    if ((*it == "--parameter" || *it == "--csv") && it + 1 != arguments.end()) {
+      options.push_back(*++it);
+    }
   }
-  arguments.insert(first_coefficient, "--");
-  return arguments;
+  options.insert(options.end(), coefficients.begin(), coefficients.end());
+  return options;
 }
 
 }  // namespace whirl_twin

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,9 @@ void addSceneOption(CLI::App* command, std::string& scene);
 
 /// --insist: do what takes more than a day, or more memory than is free (reports/asked_cost.h).
 void addInsistOption(CLI::App* command, bool& insist);
+
+/// --csv: the command's tables, into files (reports/csv_table.h).
+void addCsvOption(CLI::App* command, std::optional<std::string>& csv);
 
 /// Seconds, as typed, as the nearest whole number of `unit`s [ns], in nanoseconds; from `low` to
 /// `high` [ns]. Exact: no binary fraction comes in between. What is not a whole number is said on

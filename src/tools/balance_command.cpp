@@ -5,10 +5,11 @@
 #include <optional>
 
 #include "messages/names.h"
-#include "reports/output.h"
+#include "reports/csv_table.h"
 #include "reports/rotor_record.h"
 #include "reports/unbalance_report.h"
 #include "scene/scene_reader.h"
+#include "tools/arguments.h"
 #include "tools/balancing_runs.h"
 #include "tools/commands.h"
 #include "tools/shipped_scenes.h"
@@ -51,7 +52,7 @@ constexpr double kRadian = 3.14159265358979323846 / 180.0;
 
 struct Request {
   std::string file;
-  std::optional<std::string> measured, system;
+  std::optional<std::string> measured, system, csv;
   UnbalanceRequest unbalance;
   std::string lcm_prefix = kDefaultLcmPrefix;
   bool json = false;
@@ -78,6 +79,24 @@ Json json(const BalancingRuns& runs, const BalanceCorrection& c) {
   return json;
 }
 
+/// The masses to add; what is left at the probes.
+CsvTables tables(const BalancingRuns& runs, const BalanceCorrection& c) {
+  CsvTable planes{"", {"plane", "mass_radius", "angle"}};
+  for (std::size_t i = 0; i < runs.planes.size(); ++i) {
+    const auto mass = c.mass_radius[static_cast<Eigen::Index>(i)];
+    planes.rows.push_back(
+        {{"plane", runs.planes[i]}, {"mass_radius", std::abs(mass)}, {"angle", degrees(mass)}});
+  }
+  CsvTable probes{"vibration", {"probe", "before", "after"}};
+  for (std::size_t i = 0; i < runs.probes.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    probes.rows.push_back({{"probe", runs.probes[i]},
+                           {"before", std::abs(runs.initial[k])},
+                           {"after", std::abs(c.residual[k])}});
+  }
+  return {planes, probes};
+}
+
 std::string text(const BalancingRuns& runs, const BalanceCorrection& c) {
   std::string out = "add                mass x radius, kg m   angle, deg\n";
   for (std::size_t i = 0; i < runs.planes.size(); ++i) {
@@ -101,6 +120,9 @@ int balanceRuns(const Request& request) {
   const BalanceCorrection correction = balance(
       influenceOfPlanes(runs.initial, runs.trials, static_cast<Eigen::Index>(runs.planes.size())),
       runs.initial, runs.weights);
+  if (request.csv) {
+    writeCsv(*request.csv, tables(runs, correction));
+  }
   if (request.json) {
     printJson(json(runs, correction));
   } else {
@@ -122,6 +144,9 @@ int balanceMeasured(const Request& request) {
   }
   const RotorRecord record(scene, systems.front(), *request.measured, request.lcm_prefix);
   const UnbalanceReport report = unbalanceReport(systems.front(), record, request.unbalance);
+  if (request.csv) {
+    writeCsv(*request.csv, tables(report));
+  }
   if (request.json) {
     printJson(json(report));
   } else {
@@ -159,9 +184,11 @@ void addBalanceCommand(CLI::App& twin, int& status) {
                ->add_option("--lcm-prefix", request->lcm_prefix,
                             "what the channels of the log begin with; default: TWIN_")
                ->type_name("PREFIX"));
+  addCsvOption(command, request->csv);
   command->add_flag("--json", request->json, "print one JSON object");
   command->footer(kFooter);
   command->callback([request, &status] {
+    requireCsvName(request->csv);
     status = request->measured ? balanceMeasured(*request) : balanceRuns(*request);
   });
 }

@@ -27,11 +27,11 @@ constexpr const char* kFooter =
     "\n"
     "Examples:\n"
     "  twin campbell demo.yaml --to 120 --plot campbell.svg\n"
-    "  twin campbell demo.yaml --system rotor --harmonic 1 2 --json";
+    "  twin campbell demo.yaml --system rotor --harmonic 1 2 --csv campbell.csv";
 
 struct Request {
   std::string scene;
-  std::optional<std::string> system, plot;
+  std::optional<std::string> system, plot, csv;
   SpeedRangeOptions range;
   std::vector<double> harmonics{1.0};
   int modes = 12;
@@ -53,6 +53,7 @@ void requireNumbers(const Request& request) {
 
 int campbellOf(const Request& request) {
   requirePictureName(request.plot);
+  requireCsvName(request.csv);
   requireNumbers(request);
   const BuiltScene scene = build(readSceneFile(scenePath(request.scene)));
   const auto systems = rotorSystems(scene, request.system);
@@ -64,14 +65,19 @@ int campbellOf(const Request& request) {
   Json all;
   all["scene"] = scene.scene.name;
   std::string report;
+  CsvTables csv;
   for (const RotorSystem& system : systems) {
     const CampbellReport one = campbellReport(system, request.range.of(system), request.harmonics,
                                               static_cast<std::size_t>(request.modes));
     all["systems"][system.name] = json(one);
+    append(csv, system.name, tables(one));
     report += (report.empty() ? "" : "\n") + text(one);
     if (request.plot) {
       writePicture(pictureName(*request.plot, system.name, systems.size() > 1), figure(one));
     }
+  }
+  if (request.csv) {
+    writeCsv(*request.csv, csv);
   }
   if (request.json) {
     printJson(all);
@@ -99,6 +105,7 @@ void addCampbellCommand(CLI::App& twin, int& status) {
       ->type_name("N");
   command->add_option("--plot", request->plot, "the diagram, FILE.svg or FILE.png")
       ->type_name("FILE");
+  addCsvOption(command, request->csv);
   command->add_flag("--json", request->json, "print one JSON object");
   addInsistOption(command, request->insist);
   command->footer(kFooter);

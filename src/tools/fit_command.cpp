@@ -53,7 +53,7 @@ constexpr const char* kFooter =
 struct Request {
   std::string study;
   std::optional<std::string> output;
-  std::optional<std::string> plot;
+  std::optional<std::string> plot, csv;
   std::string lcm_prefix = kDefaultLcmPrefix;
   bool validate_only = false;
   bool json = false;
@@ -80,6 +80,7 @@ void writeScene(const FitStudy& study, const ShootingFit& fit, const std::string
 int fit(const Request& request) {
   requirePictureName(request.plot);
   requireLcmPrefix(request.lcm_prefix);
+  requireCsvName(request.csv);
   const FitStudy study =
       readFitStudy(request.study, request.validate_only,
                    [&](const std::string& path, const std::string& time,
@@ -99,6 +100,9 @@ int fit(const Request& request) {
   }
   for (std::size_t run = 0; request.plot && run < study.runs.size(); ++run) {
     writePicture(pictureOf(*request.plot, study, run), figure(study, fit, run));
+  }
+  if (request.csv) {
+    writeCsv(*request.csv, tables(fit));
   }
   if (request.json) {
     printJson(json(study, fit));
@@ -130,6 +134,7 @@ void addFitCommand(CLI::App& twin, int& status) {
       ->type_name("PREFIX");
   command->add_flag("--validate-only", request->validate_only,
                     "find nothing but the starts of windows");
+  addCsvOption(command, request->csv);
   command->add_flag("--json", request->json, "print one JSON object");
   addInsistOption(command, request->insist);
   command->footer(kFooter);

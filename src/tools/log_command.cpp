@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "messages/refusal.h"
-#include "reports/output.h"
+#include "reports/csv_table.h"
+#include "tools/arguments.h"
 #include "tools/commands.h"
 #include "transport/bag_scan.h"
 #include "transport/lcm_event_log.h"
@@ -70,6 +72,18 @@ Json json(const LogSummary& log) {
   return json;
 }
 
+CsvTable channelTable(const LogSummary& log) {
+  CsvTable table{"",
+                 {"channel", "kind", "events", "bytes", "rejected", "first_time", "last_time",
+                  "stride", "gaps", "lost", "repeated", "backward"}};
+  for (const ChannelSummary& channel : log.channels) {
+    Json row = channelJson(channel);
+    row["channel"] = channel.channel;
+    table.rows.push_back(row);
+  }
+  return table;
+}
+
 std::string channelText(const ChannelSummary& channel) {
   std::string out =
       fmt::format("  {:<28} {:<10} {:>9} events", channel.channel, channel.kind, channel.events);
@@ -120,10 +134,12 @@ std::string text(const LogSummary& log) {
 struct Request {
   std::string file;
   std::string lcm_prefix = kDefaultLcmPrefix;
+  std::optional<std::string> csv;
   bool json = false;
 };
 
 int summarize(const Request& request) {
+  requireCsvName(request.csv);
   requireLcmPrefix(request.lcm_prefix);
   if (BagScan::isBag(request.file)) {
     throw Refusal(request.file +
@@ -137,6 +153,9 @@ int summarize(const Request& request) {
                       : fmt::format("{}: no event can be used; the twin's channels were expected "
                                     "to begin with {} (--lcm-prefix)",
                                     request.file, request.lcm_prefix));
+  }
+  if (request.csv) {
+    writeCsv(*request.csv, {channelTable(log)});
   }
   if (request.json) {
     printJson(json(log));
@@ -158,6 +177,7 @@ void addLogCommand(CLI::App& twin, int& status) {
       ->add_option("--lcm-prefix", request->lcm_prefix,
                    "what the channels of the recorded twin begin with; default: TWIN_")
       ->type_name("PREFIX");
+  addCsvOption(command, request->csv);
   command->add_flag("--json", request->json, "print one JSON object");
   command->footer(kFooter);
   command->callback([request, &status] { status = summarize(*request); });

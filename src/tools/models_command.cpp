@@ -1,12 +1,14 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
 #include "messages/names.h"
 #include "messages/refusal.h"
 #include "models/model_registry.h"
-#include "reports/output.h"
+#include "reports/csv_table.h"
+#include "reports/model_text.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 
@@ -22,6 +24,7 @@ constexpr const char* kFooter =
     "Examples:\n"
     "  twin models\n"
     "  twin models jeffcott_rotor\n"
+    "  twin models pendulum spinning_pendulum\n"
     "  twin models --json";
 
 /// The parameters of a model, its shaft speed included.
@@ -32,33 +35,6 @@ std::vector<ParameterInfo> allParameters(const ModelInfo& model) {
                    std::nullopt, ""});
   }
   return all;
-}
-
-std::vector<std::string> integratorsOf(const ModelVariant& variant) {
-  std::vector<std::string> all{"auto"};
-  all.insert(all.end(), variant.integrators.begin(), variant.integrators.end());
-  return all;
-}
-
-/// The names of a table's columns with their units; the words of a choice, its default first.
-std::string contents(const SettingInfo& s) {
-  if (s.kind == SettingKind::kChoice) {
-    return fmt::format("{} (default {})", fmt::join(s.choices, " | "), s.choices.front());
-  }
-  if (s.kind == SettingKind::kWordOrCount) {
-    return fmt::format("a whole number or {} (default {})", fmt::join(s.choices, " | "),
-                       s.choices.front());
-  }
-  std::vector<std::string> columns = s.word_columns;
-  for (const ColumnInfo& c : s.columns) {
-    columns.push_back(fmt::format("{} ({})", c.name, c.unit));
-  }
-  const std::string need = s.required ? "required" : "optional";
-  if (s.kind == SettingKind::kTable) {
-    return fmt::format("list of {{{}}}, {}", fmt::join(columns, ", "), need);
-  }
-  return s.kind == SettingKind::kMatrix ? fmt::format("rows of numbers ({}), {}", s.unit, need)
-                                        : fmt::format("list of names, {}", need);
 }
 
 std::string defaultText(const ParameterInfo& p) {
@@ -92,7 +68,7 @@ std::string text(const ModelInfo& model) {
                        describe(p.range), defaultText(p), p.meaning);
   }
   for (const SettingInfo& s : model.settings) {
-    out += fmt::format("  parameter   {:<18} {}: {}\n", s.name, contents(s), s.meaning);
+    out += fmt::format("  parameter   {:<18} {}: {}\n", s.name, contentsText(s), s.meaning);
   }
   return out +
          fmt::format("  integrators {}\n", fmt::join(integratorsOf(model.variants.front()), ", "));
@@ -163,23 +139,52 @@ Json json(const ModelInfo& model) {
 }
 
 struct Request {
-  std::optional<std::string> model;
+  std::vector<std::string> models;  // none: all of them
+  std::optional<std::string> csv;
   bool json = false;
 };
 
-int list(const Request& request) {
+bool isIn(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// Throws Refusal with every name that no model has.
+void requireModels(const std::vector<std::string>& asked) {
   std::vector<std::string> names;
-  Json all;
-  std::string texts;
   for (const ModelInfo& model : models()) {
     names.push_back(model.name);
-    if (!request.model || *request.model == model.name) {
-      all["models"][model.name] = json(model);
-      texts += (texts.empty() ? "" : "\n") + text(model);
+  }
+  std::vector<std::string> errors;
+  for (const std::string& name : asked) {
+    if (!isIn(names, name)) {
+      errors.push_back(fmt::format("no model '{}'{}", name, hint(name, names)));
     }
   }
-  if (texts.empty()) {
-    throw Refusal(fmt::format("no model '{}'{}", *request.model, hint(*request.model, names)));
+  if (!errors.empty()) {
+    throw Refusal(fmt::format("{}", fmt::join(errors, "\ntwin: ")));
+  }
+}
+
+int list(const Request& request) {
+  requireModels(request.models);
+  requireCsvName(request.csv);
+  Json all;
+  std::string texts;
+  CsvTable parameters{"",
+                      {"model", "parameter", "unit", "range", "default", "required", "meaning"}};
+  for (const ModelInfo& model : models()) {
+    if (request.models.empty() || isIn(request.models, model.name)) {
+      all["models"][model.name] = json(model);
+      texts += (texts.empty() ? "" : "\n") + text(model);
+      for (const ParameterInfo& p : allParameters(model)) {
+        Json row = parameterJson(p);
+        row.update({{"model", model.name}, {"parameter", p.name}});
+        parameters.rows.push_back(row);
+      }
+    }
+  }
+  if (request.csv) {
+    writeCsv(*request.csv, {parameters});
   }
   if (request.json) {
     printJson(all);
@@ -194,7 +199,8 @@ int list(const Request& request) {
 void addModelsCommand(CLI::App& twin, int& status) {
   CLI::App* command = twin.add_subcommand("models", kDescription);
   const auto request = std::make_shared<Request>();
-  command->add_option("MODEL", request->model, "this model only")->type_name("");
+  command->add_option("MODEL", request->models, "these models only")->type_name("");
+  addCsvOption(command, request->csv);
   command->add_flag("--json", request->json, "print one JSON object");
   command->footer(kFooter);
   command->callback([request, &status] { status = list(*request); });

@@ -32,7 +32,7 @@ constexpr const char* kFooter =
 
 struct Request {
   std::string scene;
-  std::optional<std::string> system, measured;
+  std::optional<std::string> system, measured, csv;
   std::optional<double> speed, limit;
   std::string lcm_prefix = kDefaultLcmPrefix;
   bool json = false;
@@ -46,6 +46,7 @@ void requireUse(const Request& request) {
   if (request.limit && !request.measured) {
     throw Refusal("--to: is for what is measured, with --measured LOG");
   }
+  requireCsvName(request.csv);
   requireLcmPrefix(request.lcm_prefix);
 }
 
@@ -59,6 +60,7 @@ int modesOf(const Request& request) {
   Json all;
   all["scene"] = scene.scene.name;
   std::string words;
+  CsvTables csv;
   for (const RotorSystem& system : systems) {
     const ModesReport report =
         request.measured
@@ -66,7 +68,11 @@ int modesOf(const Request& request) {
                           request.speed, request.limit)
             : modesReport(system, request.speed.value_or(system.highest_speed));
     all["systems"][system.name] = json(report);
+    append(csv, system.name, tables(report));
     words += (words.empty() ? "" : "\n") + text(report);
+  }
+  if (request.csv) {
+    writeCsv(*request.csv, csv);
   }
   if (request.json) {
     printJson(all);
@@ -99,6 +105,7 @@ void addModesCommand(CLI::App& twin, int& status) {
       ->add_option("--lcm-prefix", request->lcm_prefix,
                    "what the channels of the log begin with; default: TWIN_")
       ->type_name("PREFIX");
+  addCsvOption(command, request->csv);
   command->add_flag("--json", request->json, "print one JSON object");
   command->footer(kFooter);
   command->callback([request, &status] { status = modesOf(*request); });

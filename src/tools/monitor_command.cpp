@@ -38,7 +38,7 @@ struct Request {
   std::string scene;
   std::string log;
   std::optional<std::string> settings;
-  std::optional<std::string> output;
+  std::optional<std::string> output, csv;
   std::string lcm_prefix = kDefaultLcmPrefix;
   std::optional<double> spectrum_at;  // s
   bool json = false;
@@ -74,6 +74,7 @@ void writePage(const MonitoredLog& run, const std::string& path) {
 }
 
 int monitor(const Request& request) {
+  requireCsvName(request.csv);
   requireLcmPrefix(request.lcm_prefix);
   const BuiltScene scene = build(readSceneFile(scenePath(request.scene)));
   const AlarmSettings settings = settingsOf(scene, request.settings);
@@ -94,6 +95,9 @@ int monitor(const Request& request) {
   progress.clear();
   if (request.output) {
     writePage(run, *request.output);
+  }
+  if (request.csv) {
+    writeCsv(*request.csv, tables(run));
   }
   if (request.json) {
     printJson(json(run));
@@ -124,6 +128,7 @@ void addMonitorCommand(CLI::App& twin, int& status) {
       ->add_option("--spectrum-at", request->spectrum_at,
                    "where the window of the full spectrum ends, simulated; default: at the end")
       ->type_name("S");
+  addCsvOption(command, request->csv);
   command->add_flag("--json", request->json, "print one JSON object");
   addInsistOption(command, request->insist);
   command->footer(kFooter);

@@ -30,7 +30,7 @@ constexpr const char* kFooter =
     "  NAME_phase     the rate of each coordinate over it; of a rotor the orbit\n"
     "  NAME_energy    kinetic and potential energy, and h\n"
     "  NAME_ensemble  of a system with a count: percentiles over time, and the members' peaks\n"
-    "Files appear only when all of them are complete.\n"
+    "Files appear only when all of them are complete, and so does the folder.\n"
     "\n"
     "Examples:\n"
     "  twin plot double_pendulum --system absolute --duration 20\n"
@@ -73,13 +73,44 @@ class WaitingFile {
   std::string path_;
 };
 
+/// A folder to write into, made with those above it where it is not there. What was made goes again
+/// unless files come into it.
+class OutputFolder {
+ public:
+  /// Throws Refusal if there is something else of that name, RunFailure if it cannot be made.
+  explicit OutputFolder(const std::string& name) {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    for (fs::path folder = fs::absolute(name); !fs::exists(folder, error);
+         folder = folder.parent_path()) {
+      made_.push_back(folder);
+    }
+    fs::create_directories(name, error);
+    if (fs::exists(name) && !fs::is_directory(name)) {
+      throw Refusal(fmt::format("--output: must be a folder, found '{}'", name));
+    }
+    if (!fs::is_directory(name)) {
+      throw RunFailure(fmt::format("{}: cannot be made: {}", name, error.message()));
+    }
+  }
+  ~OutputFolder() {
+    for (const std::filesystem::path& folder : made_) {
+      std::error_code not_empty;
+      std::filesystem::remove(folder, not_empty);
+    }
+  }
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+
+ private:
+  std::vector<std::filesystem::path> made_;  // the innermost first
+};
+
 int plot(const PlotRequest& request) {
   const ImageFormat format = formatOf(request.format);
   SimulationPlan plan = planSimulation(request.run);
+  const OutputFolder made(request.folder);
   const std::filesystem::path folder = request.folder;
-  if (!std::filesystem::is_directory(folder)) {
-    throw Refusal(fmt::format("--output: must be a folder, found '{}'", request.folder));
-  }
   plan.stride = 1 + plan.steps / kMostSamples;
   Simulation simulation(plan);
   const std::int64_t samples = plan.steps / plan.stride;
@@ -113,7 +144,9 @@ void addPlotCommand(CLI::App& twin, int& status) {
           "--duration", request->run.duration,
           "s, simulated, to the nearest step; default: the longest drive profile, else 10 s")
       ->type_name("S");
-  command->add_option("--output", request->folder, "folder of the files; default: this one")
+  command
+      ->add_option("--output", request->folder,
+                   "folder of the files, made if need be; default: this one")
       ->type_name("FOLDER");
   command->add_option("--format", request->format, "svg or png; default: svg")->type_name("FORMAT");
   addInsistOption(command, request->run.insist);

@@ -21,7 +21,7 @@ constexpr const char* kResponseFooter =
     "\n"
     "Examples:\n"
     "  twin response demo.yaml --to 120 --plot bode.svg\n"
-    "  twin response demo.yaml --system rotor --station disc --json";
+    "  twin response demo.yaml --system rotor --station disc --csv response.csv";
 
 constexpr const char* kOrbitFooter =
     "In the picture a dot shows where each station is when the shaft's mark passes the x axis.\n"
@@ -31,29 +31,35 @@ constexpr const char* kOrbitFooter =
 
 struct Request {
   std::string scene;
-  std::optional<std::string> system, station, plot;
+  std::optional<std::string> system, station, plot, csv;
   SpeedRangeOptions range;
   double speed = 0.0;
   bool json = false;
   bool insist = false;
 };
 
-/// `report` of a rotor gives what json(), text() and figure() take.
+/// `report` of a rotor gives what json(), text(), tables() and figure() take.
 template <class Report>
 int show(const Request& request, const Report& report) {
   requirePictureName(request.plot);
+  requireCsvName(request.csv);
   const BuiltScene scene = build(readSceneFile(scenePath(request.scene)));
   const auto systems = rotorSystems(scene, request.system);
   Json all;
   all["scene"] = scene.scene.name;
   std::string words;
+  CsvTables csv;
   for (const RotorSystem& system : systems) {
     const auto one = report(system);
     all["systems"][system.name] = json(one);
+    append(csv, system.name, tables(one));
     words += (words.empty() ? "" : "\n") + text(one);
     if (request.plot) {
       writePicture(pictureName(*request.plot, system.name, systems.size() > 1), figure(one));
     }
+  }
+  if (request.csv) {
+    writeCsv(*request.csv, csv);
   }
   if (request.json) {
     printJson(all);
@@ -68,6 +74,7 @@ void addCommonOptions(CLI::App* command, const std::shared_ptr<Request>& request
   command->add_option("--system", request->system, "this rotor only")->type_name("NAME");
   command->add_option("--plot", request->plot, "a picture, FILE.svg or FILE.png")
       ->type_name("FILE");
+  addCsvOption(command, request->csv);
   command->add_flag("--json", request->json, "print one JSON object");
 }
 

@@ -1,17 +1,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <complex>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "analysis/polynomial_roots.h"
 #include "analysis/routh.h"
 #include "analysis/stability_margins.h"
 #include "messages/refusal.h"
 #include "reports/asked_cost.h"
-#include "reports/output.h"
+#include "reports/routh_report.h"
 #include "reports/verdict_text.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
@@ -22,21 +24,32 @@ namespace {
 
 constexpr const char* kDescription =
     "Tells how many roots of a polynomial lie right of, on and left of the imaginary axis, by the\n"
-    "Routh-Hurwitz test, exact for the numbers as typed, and how far it is from instability.";
+    "Routh-Hurwitz test, exact for the numbers as typed, and how far it is from instability; or, "
+    "with\n"
+    "a parameter, for which values of it the polynomial is stable.";
 
 constexpr const char* kFooter =
-    "Coefficients go highest power first, real (2, -0.1, 1e-3) or complex (3+2i, -i). Put -- "
+    "Coefficients go highest power first, real (2, -0.1, 1e-3, 1/3) or complex (3+2i, -i). Put -- "
     "before\n"
     "them if one could be taken for an option. Leading zeros are dropped. Where exact numbers "
     "become\n"
-    "too long, the verdict is `uncertain` and the counts are those of the roots as computed.\n"
+    "too long, the verdict is `uncertain` and the counts are those of the roots as computed. Of "
+    "real\n"
+    "ones the whole table is shown, and what is done where a row is zero, or begins with a zero.\n"
+    "\n"
+    "With --parameter K coefficients may have K in them (2K, \"(K+1)/3\", K^2). The bounds are "
+    "exact:\n"
+    "where a root passes 0, a pair the axis, or the degree falls; between them one exact test "
+    "tells.\n"
     "\n"
     "Examples:\n"
     "  twin routh 1 2 3 4               s^3 + 2 s^2 + 3 s + 4\n"
     "  twin routh --json -- 1 -2 3      s^2 - 2 s + 3\n"
+    "  twin routh 1 2 K 3 --parameter K\n"
     "  twin routh 1 0.2+3i 5-0.1i";
 
-constexpr double kExactBudget = 1.0e9;  // products of words: seconds
+constexpr double kExactBudget = 1.0e9;    // products of words: seconds
+constexpr std::size_t kWidestTable = 31;  // coefficients, whose table is shown
 
 struct Judgement {
   RouthResult routh;
@@ -47,12 +60,14 @@ struct Judgement {
   double log_decrement = 0.0;
 };
 
-std::vector<ComplexRational> parseCoefficients(const std::vector<std::string>& typed) {
-  std::vector<ComplexRational> coefficients;
+/// `parse` of what was typed; what it refuses is said of each.
+template <class Parse>
+auto parseCoefficients(const std::vector<std::string>& typed, const Parse& parse) {
+  std::vector<decltype(parse(typed.front()))> coefficients;
   std::vector<std::string> errors;
   for (std::size_t i = 0; i < typed.size(); ++i) {
     try {
-      coefficients.push_back(parseComplex(typed[i]));
+      coefficients.push_back(parse(typed[i]));
     } catch (const Refusal& error) {
       errors.push_back(
           fmt::format("coefficient {} (of s^{}): {}", i + 1, typed.size() - 1 - i, error.what()));
@@ -62,6 +77,11 @@ std::vector<ComplexRational> parseCoefficients(const std::vector<std::string>& t
     throw Refusal(fmt::format("{}", fmt::join(errors, "\ntwin: ")));
   }
   return coefficients;
+}
+
+ComplexRational parseNumber(const std::string& typed) {
+  const bool complex = !typed.empty() && (typed.back() == 'i' || typed.back() == 'j');
+  return complex ? parseComplex(typed) : ComplexRational{parseSymbolic(typed, "").at(0), 0};
 }
 
 /// Numbers beyond double, which roots() takes, are brought into its range; roots do not change.
@@ -162,6 +182,15 @@ Json json(const Judgement& j) {
   return json;
 }
 
+/// Routh's table, where there is one, and the roots.
+CsvTables tables(const Judgement& j, const std::optional<RouthTable>& table) {
+  CsvTable roots{"roots", {"re", "im"}};
+  for (const auto& root : j.roots) {
+    roots.rows.push_back({{"re", root.real()}, {"im", root.imag()}});
+  }
+  return table ? CsvTables{csv(*table, ""), roots} : CsvTables{roots};
+}
+
 std::string text(const Judgement& j) {
   std::string out = fmt::format(
       "{} (degree {})\n",
@@ -177,12 +206,56 @@ std::string text(const Judgement& j) {
 
 struct Request {
   std::vector<std::string> coefficients;
+  std::optional<std::string> parameter, csv;
   bool json = false;
   bool insist = false;
 };
 
+/// A name that no number can be taken for.
+void requireSymbol(const std::string& symbol) {
+  const auto letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
+  const bool name =
+      !symbol.empty() && std::isalpha(static_cast<unsigned char>(symbol[0])) != 0 &&
+      std::all_of(symbol.begin(), symbol.end(), [&](char c) { return letter(c) || c == '_'; });
+  if (!name || symbol == "e" || symbol == "E" || symbol == "s") {
+    throw Refusal(fmt::format(
+        "--parameter: expected a name such as K (letters and digits, not e or s), found '{}'",
+        symbol));
+  }
+}
+
+int testForParameter(const Request& request) {
+  const std::string& symbol = *request.parameter;
+  requireSymbol(symbol);
+  const std::vector<SymbolicPolynomial> coefficients = parseCoefficients(
+      request.coefficients, [&](const std::string& typed) { return parseSymbolic(typed, symbol); });
+  if (std::all_of(coefficients.begin(), coefficients.end(),
+                  [](const SymbolicPolynomial& c) { return c.constant(); })) {
+    throw Refusal(fmt::format("--parameter: no coefficient has {} in it", symbol));
+  }
+  ExactBudget budget(kExactBudget);
+  const StabilityRange range = stabilityRange(coefficients, budget);
+  const RouthTable table = routhTable(coefficients, symbol);
+  if (request.csv) {
+    writeCsv(*request.csv, {csv(table, symbol)});
+  }
+  if (request.json) {
+    Json all = json(range, symbol);
+    all["table"] = json(table, symbol);
+    printJson(all);
+  } else {
+    printText(text(range, symbol) + text(table, symbol));
+  }
+  return kDone;
+}
+
 int test(const Request& request) {
-  const auto coefficients = parseCoefficients(request.coefficients);
+  requireCsvName(request.csv);
+  if (request.parameter) {
+    return testForParameter(request);
+  }
+  const std::vector<ComplexRational> coefficients =
+      parseCoefficients(request.coefficients, parseNumber);
   if (std::all_of(coefficients.begin(), coefficients.end(),
                   [](const ComplexRational& c) { return c.re == 0 && c.im == 0; })) {
     throw Refusal("coefficients: expected at least one that is not zero, found none");
@@ -192,10 +265,23 @@ int test(const Request& request) {
   tell(costOfRoots(coefficients.size(), real), request.insist);
   Judgement judgement = judge(coefficients, real);
   addMargins(judgement);
+  std::optional<RouthTable> table;
+  if (real && coefficients.size() <= kWidestTable) {
+    std::vector<SymbolicPolynomial> numbers;
+    for (const ComplexRational& c : coefficients) {
+      numbers.emplace_back(c.re);
+    }
+    table = routhTable(numbers, "");
+  }
+  if (request.csv) {
+    writeCsv(*request.csv, tables(judgement, table));
+  }
   if (request.json) {
-    printJson(json(judgement));
+    Json all = json(judgement);
+    all["table"] = table ? json(*table, "") : Json();
+    printJson(all);
   } else {
-    printText(text(judgement));
+    printText(text(judgement) + (table ? text(*table, "") : ""));
   }
   return kDone;
 }
@@ -208,6 +294,11 @@ void addRouthCommand(CLI::App& twin, int& status) {
   command->add_option("COEFFICIENTS", request->coefficients, "A_N ... A_0, highest power first")
       ->required()
       ->type_name("");
+  command
+      ->add_option("--parameter", request->parameter,
+                   "a name: for which values of it is the polynomial stable")
+      ->type_name("K");
+  addCsvOption(command, request->csv);
   command->add_flag("--json", request->json, "print one JSON object");
   addInsistOption(command, request->insist);
   command->footer(kFooter);

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <iterator>
 #include <memory>
 #include <optional>
 
+#include "messages/names.h"
 #include "messages/refusal.h"
 #include "reports/output.h"
 #include "scene/scene_reader.h"
@@ -25,6 +27,7 @@ constexpr const char* kFooter =
     "\n"
     "Examples:\n"
     "  twin scenes\n"
+    "  twin scenes --show rod_slider > mine.yaml\n"
     "  twin scenes my_scenes --json";
 
 struct SceneEntry {
@@ -118,20 +121,49 @@ int listScenes(const std::optional<std::string>& folder, bool as_json) {
   return kDone;
 }
 
+/// The scene as it is written, comments and all, to read or to begin a scene of one's own with.
+int showScene(const std::string& name, bool as_json) {
+  const std::string path = scenePath(name);
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    std::vector<std::string> names;
+    for (const std::filesystem::path& file : sceneFiles(shippedSceneFolder())) {
+      names.push_back(file.stem());
+    }
+    throw Refusal(fmt::format("--show: no scene '{}'{}", name, hint(name, names)));
+  }
+  std::ifstream in(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (!in) {
+    throw Refusal(fmt::format("--show: {}: cannot be read", path));
+  }
+  if (as_json) {
+    printJson({{"path", path}, {"text", text}});
+  } else {
+    printText(text);
+  }
+  return kDone;
+}
+
 }  // namespace
 
 void addScenesCommand(CLI::App& twin, int& status) {
   struct Request {
-    std::optional<std::string> folder;
+    std::optional<std::string> folder, show;
     bool json = false;
   };
   CLI::App* command = twin.add_subcommand("scenes", kDescription);
   const auto request = std::make_shared<Request>();
   command->add_option("FOLDER", request->folder, "of scene files; default: the package's")
       ->type_name("");
+  command->add_option("--show", request->show, "print this scene as it is written, and list none")
+      ->type_name("NAME");
   command->add_flag("--json", request->json, "print one JSON object");
   command->footer(kFooter);
-  command->callback([request, &status] { status = listScenes(request->folder, request->json); });
+  command->callback([request, &status] {
+    status = request->show ? showScene(*request->show, request->json)
+                           : listScenes(request->folder, request->json);
+  });
 }
 
 }  // namespace whirl_twin

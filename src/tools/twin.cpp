@@ -93,10 +93,13 @@ int run(int argc, const char* const* argv) {
   int status = kDone;
   CLI::App twin(kDescription, "twin");
   twin.footer(kFooter);
+  twin.set_version_flag("--version", "twin (whirl_twin) " WHIRL_TWIN_VERSION,
+                        "print the version and exit");
   twin.require_subcommand(1);
   addCheckCommand(twin, status);
   addScenesCommand(twin, status);
   addModelsCommand(twin, status);
+  addNewCommand(twin, status);
   addSimulateCommand(twin, status);
   addPlotCommand(twin, status);
   addAnalyzeCommand(twin, status);
@@ -126,6 +129,10 @@ int run(int argc, const char* const* argv) {
   } catch (const CLI::CallForHelp&) {
     const auto given = twin.get_subcommands();
     printText(given.empty() ? twin.help() : given.front()->help("twin"));
+    finishStandardOutput();
+    return kDone;
+  } catch (const CLI::CallForVersion& version) {
+    printText(std::string(version.what()) + "\n");
     finishStandardOutput();
     return kDone;
   } catch (const CLI::ParseError& error) {

@@ -309,6 +309,48 @@ TEST(Analyze, ARotorOnAWeakMotorHasThreeSteadySpeeds) {
   EXPECT_TRUE(end.json()["systems"]["captured"]["cross_coupling_margin"].is_null());
 }
 
+// The demo's rotor is still where it starts, at 4 rad/s: beside 60 rad/s it is too near its
+// critical speed, and that is what --speed asks.
+TEST(Analyze, OfASpeedIsThatOfAShaftHeldThere) {
+  const Json held = twin({"analyze", kDemo, "--system", "rotor", "--speed", "62", "--json"}).json();
+  EXPECT_EQ(held["systems"]["rotor"]["speed"], 62.0);
+  const Json& critical = held["systems"]["rotor"]["critical_speeds"][0];
+  EXPECT_LT(critical["separation_margin"], critical["required_separation_margin"]);
+
+  // sqrt(w^2 - g/R) and so on: the spinning pendulum's own frequency at a speed below sqrt(g/l).
+  const Json pendulum =
+      twin({"analyze", kDemo, "--system", "pendulum", "--speed", "5", "--json"}).json();
+  const double frequency = pendulum["systems"]["pendulum"]["natural_frequencies"][0];
+  EXPECT_NEAR(frequency, std::sqrt(9.80665 / 0.2032 - 25.0), 1e-6);
+
+  EXPECT_EQ(twin({"analyze", "rod_slider", "--speed", "5"}).err,
+            "twin: --speed: there is no system on a shaft\n");
+  EXPECT_EQ(twin({"analyze", "sommerfeld", "--speed", "5"}).status, 2);
+}
+
+TEST(Analyze, OfAMomentIsThatOfTheMotionThen) {
+  const Json run = twin({"simulate", kDemo, "--duration", "9", "--json"}).json();
+  const Json then = twin({"analyze", kDemo, "--at", "9", "--json"}).json();
+  for (const char* system : {"rotor", "pendulum"}) {
+    EXPECT_EQ(then["systems"][system]["state"], run["systems"][system]["state"]) << system;
+    EXPECT_EQ(then["systems"][system]["time"], 9.0);
+    EXPECT_GT(then["systems"][system]["speed"], 20.0) << "in its run-up";
+    EXPECT_NEAR(then["systems"][system]["energy"]["potential"].get<double>(),
+                run["systems"][system]["energy"]["potential"].get<double>(), 1e-12);
+  }
+}
+
+TEST(Analyze, PrintsNoNoise) {
+  // Of a circle no axis is the long one; of a shaft's reduced matrices what is rounding is 0.
+  EXPECT_NE(twin({"orbit", kDemo, "--speed", "30"}).out.find("circle"), std::string::npos);
+  for (const std::string& line : linesOf(twin({"analyze", "balancing", "--speed", "70"}).out)) {
+    if (line.compare(0, 24, "                        ") == 0) {
+      EXPECT_EQ(line.find("e-17"), std::string::npos) << line;
+      EXPECT_EQ(line.find("e-19"), std::string::npos) << line;
+    }
+  }
+}
+
 TEST(Analyze, StartsWithTheDrive) {
   const Json pendulum = analyzed(
       "{model: spinning_pendulum, drive: shaft, parameters: {mass: 1, length: 1}}",

@@ -191,5 +191,22 @@ TEST(Check, LooksThroughAHundredThousandKeysInTime) {
   EXPECT_EQ(linesOf(end.err).size(), 100000u);
 }
 
+// A scene that README.md shows whole begins with its name.
+TEST(Check, TakesTheScenesOfTheReadme) {
+  const std::string readme = contentsOf(WHIRL_TWIN_SOURCE "/README.md");
+  const TemporaryDirectory folder;
+  int scenes = 0;
+  for (std::size_t at = readme.find("```yaml\nname: "); at != std::string::npos;
+       at = readme.find("```yaml\nname: ", at + 1)) {
+    const std::size_t begin = at + std::string("```yaml\n").size();
+    const std::string scene =
+        folder.write("scene.yaml", readme.substr(begin, readme.find("```", begin) - begin));
+    const Ending end = twin({"check", scene});
+    EXPECT_EQ(end.status, 0) << end.err;
+    ++scenes;
+  }
+  EXPECT_GE(scenes, 2);
+}
+
 }  // namespace
 }  // namespace whirl_twin

@@ -39,13 +39,30 @@ TEST(Models, OnlyOnesOnAShaftHaveASpeed) {
   const Json models = twin({"models", "--json"}).json()["models"];
   EXPECT_GE(models.size(), 3u);
   for (const auto& [name, model] : models.items()) {
-    EXPECT_EQ(model["parameters"].contains("speed"), model["shaft"].get<bool>()) << name;
+    EXPECT_EQ(model.value("parameters", Json::object()).contains("speed"),
+              model["shaft"].get<bool>())
+        << name;
     EXPECT_NE(model["summary"], "") << name;
     // A system given by matrices has as many as they have rows.
     EXPECT_EQ(model["coordinates"].empty(),
               name == "linear_system" || name == "cantilever_beam" || name == "flexible_rotor")
         << name;
   }
+}
+
+TEST(Models, AreToldOfSeveralNames) {
+  const Ending two = twin({"models", "spinning_pendulum", "pendulum", "--json"});
+  ASSERT_EQ(two.status, 0) << two.err;
+  const Json models = two.json()["models"];
+  EXPECT_EQ(models.size(), 2u);
+  EXPECT_TRUE(models.contains("pendulum") && models.contains("spinning_pendulum"));
+
+  const Ending wrong = twin({"models", "pendulm", "pendulum", "governer"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_EQ(wrong.out, "");
+  EXPECT_EQ(wrong.err,
+            "twin: no model 'pendulm'; did you mean 'pendulum'?\n"
+            "twin: no model 'governer'; did you mean 'governor'?\n");
 }
 
 TEST(Models, ListForReadersHasEveryModel) {
@@ -56,7 +73,8 @@ TEST(Models, ListForReadersHasEveryModel) {
     EXPECT_NE(list.out.find(name + ": "), std::string::npos) << name;
     const Ending one = twin({"models", name});
     EXPECT_NE(list.out.find(one.out), std::string::npos) << name;
-    for (const auto& [parameter, about] : model["parameters"].items()) {
+    const Json parameters = model.value("parameters", Json::object());
+    for (const auto& [parameter, about] : parameters.items()) {
       EXPECT_NE(one.out.find(parameter), std::string::npos) << name << " " << parameter;
     }
   }

@@ -66,14 +66,27 @@ TEST_P(RefusedOptions, SayWhatWasExpected) {
 
 INSTANTIATE_TEST_SUITE_P(
     Plot, RefusedOptions,
-    testing::Values(Refused{{"--format", "pdf"}, "twin: --format: must be svg or png, found 'pdf'"},
-                    Refused{{"--output", "/no/such/folder"},
-                            "twin: --output: must be a folder, found '/no/such/folder'"},
-                    Refused{{"--duration", "-1"},
-                            "twin: --duration: must be from 0 s to 1000000000 s, found -1 s"},
-                    Refused{{"--system", "rotar"},
-                            "twin: --system: no system 'rotar' in " + kDemo +
-                                "; did you mean 'rotor'?"}));
+    testing::Values(
+        Refused{{"--format", "pdf"}, "twin: --format: must be svg or png, found 'pdf'"},
+        Refused{{"--output", "/dev/null"}, "twin: --output: must be a folder, found '/dev/null'"},
+        Refused{{"--duration", "-1"},
+                "twin: --duration: must be from 0 s to 1000000000 s, found -1 s"},
+        Refused{{"--system", "rotar"},
+                "twin: --system: no system 'rotar' in " + kDemo + "; did you mean 'rotor'?"}));
+
+TEST(Plot, MakesTheFolder) {
+  const TemporaryDirectory folder;
+  const Ending end = twin({"plot", kDemo, "--system", "pendulum", "--duration", "0.1", "--output",
+                           folder.file("report/pictures")});
+  EXPECT_EQ(end.status, 0) << end.err;
+  EXPECT_TRUE(std::filesystem::is_regular_file(folder.file("report/pictures/pendulum_time.svg")));
+
+  // It cannot be made, or nothing comes into it.
+  EXPECT_EQ(twin({"plot", kDemo, "--output", "/proc/none"}).status, 1);
+  EXPECT_EQ(twin({"plot", kDemo, "--duration", "1e9", "--output", folder.file("long/run")}).status,
+            2);
+  EXPECT_EQ(folder.files(), Names{"report"});
+}
 
 TEST(Plot, ThatCannotBeWrittenLeavesNothingBehind) {
   const TemporaryDirectory folder;

@@ -124,6 +124,52 @@ TEST(Routh, NoPolynomialIsLeftOfZeros) {
   EXPECT_EQ(end.err, "twin: coefficients: expected at least one that is not zero, found none\n");
 }
 
+TEST(Routh, TakesFractions) {
+  // 3 s^2 + s + 1, divided by 3: the sum of three thirds is one.
+  EXPECT_EQ(judged({"1", "1/3", "1/3"})["first_column"], Json({1.0, 1.0 / 3.0, 1.0 / 3.0}));
+  EXPECT_EQ(judged({"1", "1/3", "1", "1/3"})["verdict"], "marginal");
+  EXPECT_EQ(twin({"routh", "1", "1/0"}).status, 2);
+}
+
+TEST(Routh, ShowsTheWholeTableAndWhatWasDoneToIt) {
+  const Json table = judged({"1", "2", "8", "12", "20", "16", "16"})["table"];
+  ASSERT_EQ(table.size(), 7u);
+  EXPECT_EQ(table[0]["power"], 6);
+  EXPECT_EQ(table[0]["entries"], Json({"1", "8", "20", "16"}));
+  EXPECT_TRUE(table[2]["note"].is_null());
+  const Ending end = twin({"routh", "1", "2", "8", "12", "20", "16", "16"});
+  EXPECT_NE(end.out.find("s^3 all zero: the row above is a factor, 2 s^4 + 12 s^2 + 16"),
+            std::string::npos)
+      << end.out;
+}
+
+TEST(Routh, TellsForWhichParameterItIsStable) {
+  const Words typed{"1", "2", "K", "3", "--parameter", "K"};
+  const Json range = judged(typed);
+  ASSERT_EQ(range["stable"].size(), 1u);
+  EXPECT_EQ(range["stable"][0]["from"], 1.5);
+  EXPECT_EQ(range["stable"][0]["from_exact"], "3/2");
+  EXPECT_TRUE(range["stable"][0]["to"].is_null());
+  EXPECT_EQ(range["table"][2]["entries"], Json({"(2 K - 3)/2"}));
+  const Ending end = twin({"routh", "1", "2", "K", "3", "--parameter", "K"});
+  EXPECT_EQ(linesOf(end.out).front(), "asymptotically stable for K > 3/2");
+  EXPECT_NE(end.out.find("K = 3/2 = 1.5  a pair on the axis at 1.22474 rad/s"), std::string::npos)
+      << end.out;
+  // The option may stand anywhere, and coefficients begin with a minus.
+  EXPECT_EQ(linesOf(twin({"routh", "--parameter", "K", "1", "2", "-K", "3"}).out).front(),
+            "asymptotically stable for K < -3/2");
+}
+
+TEST(Routh, RefusesAParameterThatIsNone) {
+  EXPECT_EQ(twin({"routh", "1", "2", "--parameter", "K"}).err,
+            "twin: --parameter: no coefficient has K in it\n");
+  EXPECT_EQ(twin({"routh", "1", "2K", "--parameter", "2"}).status, 2);
+  const Ending unknown = twin({"routh", "1", "2L", "--parameter", "K"});
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_EQ(unknown.err.find("twin: coefficient 2 (of s^0): expected a finite decimal number"), 0u)
+      << unknown.err;
+}
+
 TEST(Routh, ReportForReaders) {
   const Ending end = twin({"routh", "1", "1", "100"});
   EXPECT_EQ(end.status, 0);

@@ -52,6 +52,19 @@ TEST(Scenes, OfAFolderIncludeThoseThatCannotBeRead) {
   EXPECT_EQ(twin({"scenes", directory.file("none")}).status, 2);
 }
 
+TEST(Scenes, AreShownAsTheyAreWritten) {
+  const Ending shown = twin({"scenes", "--show", "rod_slider"});
+  ASSERT_EQ(shown.status, 0) << shown.err;
+  EXPECT_EQ(shown.out, contentsOf(WHIRL_TWIN_SOURCE "/config/scenes/rod_slider.yaml"));
+  const TemporaryDirectory folder;
+  EXPECT_EQ(twin({"check", folder.write("mine.yaml", shown.out)}).status, 0);
+  EXPECT_EQ(twin({"scenes", "--show", "rod_slider", "--json"}).json()["text"], shown.out);
+
+  const Ending none = twin({"scenes", "--show", "rod_slidr"});
+  EXPECT_EQ(none.status, 2);
+  EXPECT_EQ(none.err, "twin: --show: no scene 'rod_slidr'; did you mean 'rod_slider'?\n");
+}
+
 TEST(Scenes, AreTakenByNameByEveryCommandThatReadsOne) {
   EXPECT_EQ(twin({"check", "rod_slider"}).status, 0);
   EXPECT_EQ(twin({"analyze", "rod_slider", "--json"}).status, 0);

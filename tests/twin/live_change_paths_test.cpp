@@ -9,6 +9,7 @@
 #include "models/model_registry.h"
 #include "running_twin.h"
 #include "scene/parameter_paths.h"
+#include "scene/scene_reader.h"
 
 namespace whirl_twin {
 namespace {
@@ -39,6 +40,17 @@ TEST(LiveChange, WhatASceneWouldRefuseIsRefusedInItsWords) {
   EXPECT_FALSE(twin.parameters.set({"rotor", {"mass"}, {}, 0.0}).done);
   twin.observe();
   EXPECT_EQ(twin.observer.generation(0), 0) << "nothing was changed";
+}
+
+// The walk-through of docs/rotors.md: a trial mass is set while the shaft turns.
+TEST(LiveChange, ATrialMassIsSetIntoTheRotorOfTheBalancingScene) {
+  Running twin(readSceneFile(WHIRL_TWIN_SOURCE "/config/scenes/balancing.yaml"));
+  twin.cycle(10);
+  const ParameterAnswer answer = twin.set("rotor", "unbalances[0].magnitude", 5.0e-4);
+  EXPECT_TRUE(answer.done) << answer.message;
+  EXPECT_TRUE(twin.set("rotor", "unbalances[0].angle", 1.0).done);
+  twin.cycle(10);
+  EXPECT_EQ(twin.value(0, "unbalances[0].magnitude"), 5.0e-4);
 }
 
 TEST(LiveChange, TablesAndMatricesAreChangedByTheirPaths) {

@@ -1,0 +1,75 @@
+// `twin new`.
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "messages/names.h"
+#include "messages/refusal.h"
+#include "models/model_registry.h"
+#include "reports/new_scene.h"
+#include "reports/output.h"
+#include "scene/yaml_file.h"
+#include "tools/commands.h"
+#include "tools/shipped_scenes.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr const char* kDescription =
+    "Writes a scene to begin with, of one system of a model: every key with its unit and meaning,\n"
+    "numbers of a scene of the package, and defaults behind a #.";
+
+constexpr const char* kFooter =
+    "Examples:\n"
+    "  twin new double_pendulum > mine.yaml && twin check mine.yaml && twin plot mine.yaml\n"
+    "  twin new flexible_rotor > rotor.yaml";
+
+struct Example {
+  YAML::Node tree;
+  std::string system;
+  std::size_t length = 0;  // numbers and tables that it gives
+};
+
+/// Of the systems of this model in the package's scenes the one with the fewest parameters.
+Example plainest(const std::string& model) {
+  Example found;
+  for (const std::filesystem::path& file : sceneFiles(shippedSceneFolder())) {
+    const YAML::Node tree = readYamlFile(file, "a scene", "systems");
+    for (const auto& system : tree["systems"]) {
+      const YAML::Node& of = system.second;
+      const bool motor = of["drive"] && tree["drives"][of["drive"].Scalar()]["motor"];
+      const std::size_t length = (of["parameters"] ? of["parameters"].size() : 0) +
+                                 (of["initial"] ? of["initial"].size() : 0);
+      if (of["model"].Scalar() == model && !of["inputs"] && !motor &&
+          (found.system.empty() || length < found.length)) {
+        found = {tree, system.first.Scalar(), length};
+      }
+    }
+  }
+  return found;
+}
+
+int write(const std::string& name) {
+  const ModelInfo* const model = findModel(name);
+  if (model == nullptr) {
+    throw Refusal(fmt::format("no model '{}'{}", name, hint(name, modelNames())));
+  }
+  const Example example = plainest(name);
+  printText(newScene(*model, example.tree, example.system));
+  return kDone;
+}
+
+}  // namespace
+
+void addNewCommand(CLI::App& twin, int& status) {
+  CLI::App* command = twin.add_subcommand("new", kDescription);
+  const auto model = std::make_shared<std::string>();
+  command->add_option("MODEL", *model, "one of `twin models`")->required()->type_name("");
+  command->footer(kFooter);
+  command->callback([model, &status] { status = write(*model); });
+}
+
+}  // namespace whirl_twin
