@@ -150,6 +150,27 @@ TEST(Lqg, HasThePolesOfItsRegulatorAndOfItsFilter) {
   EXPECT_LT(all.eigenvalues().cwiseAbs().maxCoeff(), 1.0);
 }
 
+// What is cut off an output never reached the plant: the prediction is without it.
+TEST(Lqg, PredictsByWhatTheLimitsLeave) {
+  constexpr double kRate = 50.0;
+  ControllerPlan plan = planOfTwoMasses(kRate, 2);
+  plan.limits = {1.5, 0.5};
+  const Eigen::Vector2d limits(1.5, 0.5);
+  const MatrixXd b = sampledMasses(kRate).b;
+  const auto lqg = made("lqg", {}, regulatorOfTwoMasses("sampled", 2), plan);
+  const DiscreteStateSpace law = *lqg->linear(0.0);
+  VectorXd predicted = VectorXd::Zero(4);
+  for (int k = 0; k < 50; ++k) {
+    const Eigen::Vector2d y(std::sin(k), std::cos(3 * k));
+    Eigen::Vector2d u;
+    lqg->update(sampleOf(y.data(), k), u.data());
+    const Eigen::Vector2d expected = law.c * predicted + law.d * y;
+    ASSERT_LT((u - expected).norm(), 1e-10 * (1.0 + expected.norm()));
+    const Eigen::Vector2d cut = expected.cwiseMax(-limits).cwiseMin(limits);
+    predicted = (law.a * predicted + law.b * y + b * (cut - expected)).eval();
+  }
+}
+
 TEST(Lqg, KeepsToTheStatesUnderLimits) {
   constexpr double kRate = 50.0;
   ControllerPlan plan = planOfTwoMasses(kRate, 2);

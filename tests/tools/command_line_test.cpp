@@ -13,9 +13,10 @@ bool contains(const std::string& text, const std::string& part) {
 }
 
 /// In the order of `twin --help`.
-constexpr const char* kCommands[] = {
-    "check", "scenes", "models",  "new",      "simulate", "plot", "analyze", "campbell", "response",
-    "orbit", "loop", "modes",  "balance", "tradeoff", "routh",    "log",  "monitor", "fit",      "follow"};
+constexpr const char* kCommands[] = {"check", "scenes",  "models",   "new",      "simulate",
+                                     "plot",  "analyze", "campbell", "response", "orbit",
+                                     "loop",  "modes",   "balance",  "tradeoff", "routh",
+                                     "log",   "monitor", "fit",      "follow"};
 
 /// "; there are: check, scenes, ...", as it is said where a command is none.
 std::string thereAre() {
@@ -50,8 +51,8 @@ TEST_P(CommandHelp, TellsWhatItDoesWithAnExample) {
 // Without Ceres `fit` only says where to get it.
 INSTANTIATE_TEST_SUITE_P(Commands, CommandHelp,
                          testing::Values("check", "scenes", "models", "new", "simulate", "plot",
-                                         "analyze", "campbell", "response", "orbit", "loop", "modes",
-                                         "balance", "tradeoff", "routh", "log", "monitor",
+                                         "analyze", "campbell", "response", "orbit", "loop",
+                                         "modes", "balance", "tradeoff", "routh", "log", "monitor",
                                          "follow"));
 
 TEST(CommandLine, TheVersionIsThatOfThePackage) {
