@@ -31,6 +31,7 @@ if(TARGET twin)
   add_dependencies(whirl_twin_programs twin)
   set_target_properties(twin PROPERTIES INSTALL_RPATH "$ORIGIN/../${whirl_twin_library_dir}")
   install(TARGETS twin RUNTIME DESTINATION bin)
+  install(FILES config/completion/50.whirl_twin.bash DESTINATION share/bash-completion/completions RENAME twin)
 endif()
 
 install(TARGETS whirl_twin_core

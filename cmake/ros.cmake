@@ -29,6 +29,8 @@ catkin_package(
   CATKIN_DEPENDS roscpp std_msgs std_srvs sensor_msgs message_runtime
   CFG_EXTRAS whirl_twin-pluginlib.cmake whirl_twin-extras.cmake)
 
+catkin_add_env_hooks(50.whirl_twin SHELLS bash DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/config/completion)
+
 add_library(whirl_twin_ros INTERFACE)
 target_include_directories(whirl_twin_ros SYSTEM INTERFACE ${catkin_INCLUDE_DIRS}
   ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION})

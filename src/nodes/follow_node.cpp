@@ -1,17 +1,8 @@
 // follow_node: a twin that follows its machine. Measurements in, from ROS or LCM; out the topics
 // and channels of a simulation, so that monitor, rviz and logs need no change, with what was
 // measured and what has been learned beside them. The scene is the model, and its sensors say what
-// is measured. Private parameters:
-//   ~machine         namespace of the machine's topics measured/... (default /machine)
-//   ~input           ros or lcm (default ros): where measurements come from
-//   ~machine_prefix  what the machine's LCM channels begin with (default: its namespace in
-//                    capitals)
-//   ~publish_rate    Hz (default 0: every step of the scene)
-//   ~lcm_url, ~lcm_prefix  of the twin, as of simulation_node
-//   ~follow          what to follow beside the motion, as in the file of `twin follow --settings`
-//
-// Says what it has taken and what not on /diagnostics once a second. It has one thread: what it
-// tells depends on the messages and their order alone.
+// is measured. Says what it has taken and what not on /diagnostics once a second. It has one
+// thread: what it tells depends on the messages and their order alone.
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <fmt/format.h>
 #include <ros/ros.h>
@@ -41,6 +32,25 @@
 
 namespace whirl_twin {
 namespace {
+
+constexpr const char* kHelp =
+    "usage: follow_node [_PARAMETER:=VALUE...] [NAME:=VALUE...]\n"
+    "A twin that follows its machine: measurements in, from ROS or LCM; out what simulation_node "
+    "publishes, with what was\n"
+    "measured and learned beside it. The scene (on the parameter server) is the model, its sensors "
+    "say what is measured.\n"
+    "\n"
+    "private parameters (_NAME:=VALUE on the command line, or <param> in a launch file):\n"
+    "  ~machine         namespace of the machine's topics measured/..., default /machine\n"
+    "  ~input           ros or lcm, default ros: where measurements come from\n"
+    "  ~machine_prefix  what the machine's LCM channels begin with, default its namespace in "
+    "capitals\n"
+    "  ~publish_rate    Hz, default 0: every step of the scene\n"
+    "  ~lcm_url         default udpm://239.255.76.67:7667?ttl=0; empty: no LCM\n"
+    "  ~lcm_prefix      what its LCM channels begin with, default TWIN_, or its namespace in "
+    "capitals\n"
+    "  ~follow          what to follow beside the motion, as in the file of `twin follow "
+    "--settings`\n";
 
 const ros::WallDuration kReportPeriod(1.0);
 const ros::WallDuration kSilence(1.0);         // of the machine, from which on it is told
@@ -175,5 +185,5 @@ void run() {
 }  // namespace whirl_twin
 
 int main(int argc, char** argv) {
-  return whirl_twin::runNode(argc, argv, "follow_node", whirl_twin::run);
+  return whirl_twin::runNode(argc, argv, "follow_node", whirl_twin::kHelp, whirl_twin::run);
 }

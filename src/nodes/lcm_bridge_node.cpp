@@ -1,9 +1,6 @@
 // lcm_bridge_node: LCM channels TWIN_* to the ROS topics of a live twin, for logs being played back
-// and twins elsewhere. Needs no scene. Private parameters:
-//   ~lcm_url     where to listen (default: channels.h)
-//   ~lcm_prefix  what the channels begin with (default: TWIN_, or the node's namespace in capitals)
-//   ~derived   also publish recorded stability margins and alerts (default false: a monitor listens
-//              to the states and publishes its own)
+// and twins elsewhere. Needs no scene. Recorded stability margins and alerts only with
+// ~derived: a monitor listens to the states and publishes its own.
 // Says what it received, lost and rejected, and who else there is, on /diagnostics once a second,
 // and when it ends. The
 // service ~ready (std_srvs/Trigger) is there as soon as the bridge listens.
@@ -30,6 +27,16 @@
 
 namespace whirl_twin {
 namespace {
+
+constexpr const char* kHelp =
+    "usage: lcm_bridge_node [_PARAMETER:=VALUE...] [NAME:=VALUE...]\n"
+    "LCM channels of a twin to the ROS topics of a live one: for logs that are played, and twins "
+    "elsewhere. No scene.\n"
+    "\n"
+    "private parameters (_NAME:=VALUE on the command line, or <param> in a launch file):\n"
+    "  ~lcm_url     where to listen, default udpm://239.255.76.67:7667?ttl=0\n"
+    "  ~lcm_prefix  what the channels begin with, default TWIN_, or its namespace in capitals\n"
+    "  ~derived     true or false, default false: also publish recorded margins and alerts\n";
 
 constexpr std::chrono::milliseconds kPoll{50};
 const ros::WallDuration kReportPeriod(1.0);
@@ -135,5 +142,5 @@ void run() {
 }  // namespace whirl_twin
 
 int main(int argc, char** argv) {
-  return whirl_twin::runNode(argc, argv, "lcm_bridge_node", whirl_twin::run);
+  return whirl_twin::runNode(argc, argv, "lcm_bridge_node", whirl_twin::kHelp, whirl_twin::run);
 }

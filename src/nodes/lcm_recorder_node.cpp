@@ -1,9 +1,4 @@
 // lcm_recorder_node: records the LCM channels TWIN_* of a twin as an LCM log, until interrupted.
-// Private parameters:
-//   ~log         the file to write
-//   ~lcm_url     where to listen (default: channels.h)
-//   ~lcm_prefix  what the channels begin with (default: TWIN_, or the node's namespace in capitals)
-//   ~force       true: overwrite an existing file (default false)
 #include <fmt/format.h>
 #include <ros/ros.h>
 
@@ -21,6 +16,16 @@
 
 namespace whirl_twin {
 namespace {
+
+constexpr const char* kHelp =
+    "usage: lcm_recorder_node [_PARAMETER:=VALUE...] [NAME:=VALUE...]\n"
+    "Records the LCM channels of a twin as an LCM log, until it is interrupted.\n"
+    "\n"
+    "private parameters (_NAME:=VALUE on the command line, or <param> in a launch file):\n"
+    "  ~log         the file to write\n"
+    "  ~lcm_url     where to listen, default udpm://239.255.76.67:7667?ttl=0\n"
+    "  ~lcm_prefix  what the channels begin with, default TWIN_, or its namespace in capitals\n"
+    "  ~force       true or false, default false: overwrite an existing file\n";
 
 using std::chrono::milliseconds;
 
@@ -55,5 +60,5 @@ void run() {
 }  // namespace whirl_twin
 
 int main(int argc, char** argv) {
-  return whirl_twin::runNode(argc, argv, "lcm_recorder_node", whirl_twin::run);
+  return whirl_twin::runNode(argc, argv, "lcm_recorder_node", whirl_twin::kHelp, whirl_twin::run);
 }

@@ -34,6 +34,22 @@ namespace whirl_twin {
 
 namespace {
 
+constexpr const char* kHelp =
+    "usage: monitor_node [_PARAMETER:=VALUE...] [NAME:=VALUE...]\n"
+    "The monitor: live states in, by ROS or by LCM; stability margins and the list of alerts out. "
+    "It needs the scene on\n"
+    "the parameter server.\n"
+    "\n"
+    "private parameters (_NAME:=VALUE on the command line, or <param> in a launch file):\n"
+    "  ~source      ros or lcm, default ros: where all that it watches comes from\n"
+    "  ~lcm_url     default udpm://239.255.76.67:7667?ttl=0; empty: no LCM\n"
+    "  ~lcm_prefix  what the twin's LCM channels begin with, default TWIN_, or its namespace in "
+    "capitals\n"
+    "  ~history     a file: every change of its alarms is kept there, and read when it starts; "
+    "default: none\n"
+    "The limits of its alarms are those of config/monitor.yaml, where each is explained:\n"
+    "  <rosparam command=\"load\" file=\"$(find whirl_twin)/config/monitor.yaml\"/>\n";
+
 constexpr std::uint32_t kQueue = 5000;        // some seconds at 1 kHz
 constexpr std::uint32_t kPublishQueue = 100;  // ten seconds of margins
 constexpr double kReportPeriod = 1.0;         // s, wall time
@@ -372,5 +388,5 @@ void run() {
 }  // namespace whirl_twin
 
 int main(int argc, char** argv) {
-  return whirl_twin::runNode(argc, argv, "monitor_node", whirl_twin::run);
+  return whirl_twin::runNode(argc, argv, "monitor_node", whirl_twin::kHelp, whirl_twin::run);
 }

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "messages/refusal.h"
+#include "nodes/node_help.h"
 
 namespace whirl_twin {
 
@@ -46,7 +47,11 @@ bool stopRequested() {
   return stop_requested.load();
 }
 
-int runNode(int argc, char** argv, const char* name, const std::function<void()>& run) {
+int runNode(int argc, char** argv, const char* name, const char* help,
+            const std::function<void()>& run) {
+  if (toldHelp(argc, argv, help)) {
+    return 0;
+  }
   try {
     ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
     std::signal(SIGINT, requestStop);

@@ -36,6 +36,30 @@ namespace whirl_twin {
 
 namespace {
 
+constexpr const char* kHelp =
+    "usage: simulation_node [_PARAMETER:=VALUE...] [NAME:=VALUE...]\n"
+    "The simulation: reads the scene from the parameter server (scene, in the namespace of its "
+    "twin: /twin/scene for a\n"
+    "node in the root namespace), steps it at a fixed rate, publishes its states on ROS and LCM, "
+    "and serves changes.\n"
+    "\n"
+    "private parameters (_NAME:=VALUE on the command line, or <param> in a launch file):\n"
+    "  ~publish_rate      Hz, default 0: every step\n"
+    "  ~real_time_factor  simulated seconds in one of wall time, 0.01 to 1000, default 1; 0: as "
+    "fast as it goes\n"
+    "  ~lcm_url           default udpm://239.255.76.67:7667?ttl=0; empty: no LCM\n"
+    "  ~lcm_prefix        what its LCM channels begin with, default TWIN_, or its namespace in "
+    "capitals\n"
+    "  ~realtime          enforce, warn or ignore, default warn: what is done without real-time "
+    "priority\n"
+    "  ~priority          SCHED_FIFO priority, default 50\n"
+    "  ~overrun           skip, catch_up or stop, default skip: what is done about late steps\n"
+    "  ~clock             true or false, default false: publish simulated time on /clock and stamp "
+    "messages with it\n"
+    "  ~clock_rate        Hz, of /clock, default 250\n"
+    "  ~measure           true or false, default false: tell what the scene's sensors see, on "
+    "measured/SOURCE\n";
+
 constexpr double kClockRate = 250.0;            // Hz
 constexpr double kFastestClock = 1.0e5;         // Hz
 constexpr std::int64_t kShortestStep = 10'000;  // ns, that the fixed-rate loop takes
@@ -200,5 +224,5 @@ void run() {
 }  // namespace whirl_twin
 
 int main(int argc, char** argv) {
-  return whirl_twin::runNode(argc, argv, "simulation_node", whirl_twin::run);
+  return whirl_twin::runNode(argc, argv, "simulation_node", whirl_twin::kHelp, whirl_twin::run);
 }

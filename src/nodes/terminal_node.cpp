@@ -11,10 +11,17 @@
 
 #include "display/terminal_text.h"
 #include "display/twin_listener.h"
+#include "nodes/node_help.h"
 #include "transport/master_watch.h"
 
 namespace whirl_twin {
 namespace {
+
+constexpr const char* kHelp =
+    "usage: terminal_node [_PARAMETER:=VALUE...] [NAME:=VALUE...]\n"
+    "The state of a twin in a terminal: a line for each system, rewritten in place; alerts stay. "
+    "Into a file or a pipe\n"
+    "goes one line a second. It has no parameters.\n";
 
 class TerminalDisplay {
  public:
@@ -104,6 +111,9 @@ class TerminalDisplay {
 }  // namespace whirl_twin
 
 int main(int argc, char** argv) {
+  if (whirl_twin::toldHelp(argc, argv, whirl_twin::kHelp)) {
+    return 0;
+  }
   ros::init(argc, argv, "terminal_node", ros::init_options::AnonymousName);
   ros::NodeHandle node;  // keeps ROS up between the first topic and the last
   const whirl_twin::TerminalDisplay display;

@@ -3,11 +3,7 @@
 // Publishes markers (visualization_msgs/MarkerArray, frame `world`) and the tf frames
 // world -> <system> -> <system>_disc or <system>_body, as drawn, of the twin whose namespace it is
 // in, and world -> twin_view, which the camera of config/rviz/demo.rviz follows. The models are
-// those of its scene, if there is one. Private parameters:
-//   ~rate         [Hz]     frames a second, > 0 (default 30)
-//   ~whirl_scale  [-]      exaggeration of the whirl; 0 (default): a round number chosen to fit
-//   ~trail_turns  [turns]  length of the orbit's trail, > 0 (default 3)
-//   ~monitor               node whose limits are drawn (default monitor_node)
+// those of its scene, if there is one.
 #include <fmt/format.h>
 #include <ros/ros.h>
 #include <tf2_ros/transform_broadcaster.h>
@@ -25,6 +21,7 @@
 #include "display/twin_panel.h"
 #include "display/vibration_limits.h"
 #include "messages/refusal.h"
+#include "nodes/node_help.h"
 #include "nodes/private_parameter.h"
 #include "plugins/plugin_models.h"
 #include "transport/master_watch.h"
@@ -32,6 +29,16 @@
 
 namespace whirl_twin {
 namespace {
+
+constexpr const char* kHelp =
+    "usage: visualization_node [_PARAMETER:=VALUE...] [NAME:=VALUE...]\n"
+    "States of a twin to rviz: markers and tf frames of its systems, its margins and its alarms.\n"
+    "\n"
+    "private parameters (_NAME:=VALUE on the command line, or <param> in a launch file):\n"
+    "  ~rate         Hz, default 30: frames a second\n"
+    "  ~whirl_scale  how much larger the whirl is drawn, default 0: a round number chosen to fit\n"
+    "  ~trail_turns  turns, default 3: length of the orbit's trail\n"
+    "  ~monitor      the node whose limits are drawn, default monitor_node\n";
 
 const ros::WallDuration kMeasuredFor(1.0);  // what was measured is shown
 
@@ -260,6 +267,9 @@ class VisualizationNode {
 }  // namespace whirl_twin
 
 int main(int argc, char** argv) {
+  if (whirl_twin::toldHelp(argc, argv, whirl_twin::kHelp)) {
+    return 0;
+  }
   ros::init(argc, argv, "visualization_node");
   ros::NodeHandle node;  // keeps ROS up while the parameters are read
   try {
