@@ -51,7 +51,7 @@ TEST(New, WritesASoundSceneOfEveryModelWithEveryKey) {
 TEST(New, SaysUnitsRangesAndDefaults) {
   const std::string scene = twin({"new", "jeffcott_rotor"}).out;
   EXPECT_NE(scene.find("kg, > 0: "), std::string::npos) << scene;
-  EXPECT_NE(scene.find("# damping: 0"), std::string::npos) << scene;
+  EXPECT_NE(scene.find("# internal_damping: 0"), std::string::npos) << scene;
   EXPECT_NE(scene.find("# tolerance: 1.0e-6"), std::string::npos);
   EXPECT_NE(scene.find("drive: shaft"), std::string::npos);
 }
