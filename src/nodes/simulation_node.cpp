@@ -61,6 +61,7 @@ constexpr const char* kHelp =
     "measured/SOURCE\n";
 
 constexpr double kClockRate = 250.0;            // Hz
+constexpr double kSlowestClock = 1.0e-3;        // Hz
 constexpr double kFastestClock = 1.0e5;         // Hz
 constexpr std::int64_t kShortestStep = 10'000;  // ns, that the fixed-rate loop takes
 constexpr auto kReportPeriod = std::chrono::seconds(1);
@@ -91,8 +92,8 @@ Settings readSettings(const Scene& scene) {
     throw Refusal("clock: needs a scene whose time is >= 0 s");
   }
   s.clock_rate = privateParameter("clock_rate", "a number in Hz", kClockRate);
-  if (!(s.clock_rate >= kSlowestRate && s.clock_rate <= kFastestClock)) {
-    throw Refusal(fmt::format("clock_rate: must be from {} to {} Hz, found {}", kSlowestRate,
+  if (!(s.clock_rate >= kSlowestClock && s.clock_rate <= kFastestClock)) {
+    throw Refusal(fmt::format("clock_rate: must be from {} to {} Hz, found {}", kSlowestClock,
                               kFastestClock, s.clock_rate));
   }
   s.measure = privateParameter("measure", "true or false", false);
