@@ -18,19 +18,27 @@ namespace {
 
 constexpr double kMostFalseAlarms = 3600.0;  // 1/h
 constexpr double kLongestPatience = 10.0;    // s
+// In any unit; their squares are counted with.
+constexpr double kSmallest = 1.0e-30;
+constexpr double kLargest = 1.0e9;
+
+/// A standard deviation, 0 where none is given.
+double deviationOf(const MapReader& map, const std::string& name, const std::string& unit) {
+  return map.numberBetween(name, kSmallest, kLargest, unit, 0.0);
+}
 
 FollowedNumber followedNumber(const MapReader& map, const std::string& name,
                               const std::string& unit, Complaints& complaints) {
   FollowedNumber number;
   if (!map.at(name).IsMap()) {
-    number.deviation = map.number(name, Range::kPositive, unit, 0.0);
+    number.deviation = deviationOf(map, name, unit);
     return number;
   }
   const MapReader entry(map.at(name), map.key(name), {"deviation", "walk"},
                         "key of a number to be followed", complaints);
   if (entry.usable()) {
-    number.deviation = entry.number("deviation", Range::kPositive, unit, std::nullopt);
-    number.walk = entry.number("walk", Range::kNotNegative, unit + "/sqrt(s)", 0.0);
+    number.deviation = entry.numberBetween("deviation", kSmallest, kLargest, unit, std::nullopt);
+    number.walk = entry.numberBetween("walk", 0.0, kLargest, unit + "/sqrt(s)", 0.0);
   }
   return number;
 }
@@ -71,13 +79,13 @@ void readOffsets(const YAML::Node& given, const std::string& key,
   const MapReader offsets(given, key, known, kKey, complaints);
   for (const std::string& name : offsets.usable() ? offsets.names() : std::vector<std::string>{}) {
     if (!offsets.at(name).IsMap()) {
-      of.offset[name] = offsets.number(name, Range::kPositive, kUnit, 0.0);
+      of.offset[name] = deviationOf(offsets, name, kUnit);
       continue;
     }
     const MapReader source(offsets.at(name), offsets.key(name), sources[name], kKey, complaints);
     for (const std::string& channel :
          source.usable() ? source.names() : std::vector<std::string>{}) {
-      of.offset[name + "/" + channel] = source.number(channel, Range::kPositive, kUnit, 0.0);
+      of.offset[name + "/" + channel] = deviationOf(source, channel, kUnit);
     }
   }
 }
@@ -162,7 +170,7 @@ SystemFollowing readSystem(const MapReader& map, const BuiltSystem& system, cons
   const bool rotor = system.dynamics->isRotor();
   const std::string coordinate = system.dynamics->coordinates().front().unit;
   of.disturbance =
-      map.number("disturbance", Range::kNotNegative, coordinate + "/s^2/sqrt(Hz)", 0.0);
+      map.numberBetween("disturbance", 0.0, kLargest, coordinate + "/s^2/sqrt(Hz)", 0.0);
   if (map.has("parameters")) {
     const MapReader parameters(map.at("parameters"), map.key("parameters"),
                                system.parameters().names, "parameter of the system", complaints);
@@ -187,7 +195,7 @@ SystemFollowing readSystem(const MapReader& map, const BuiltSystem& system, cons
   if (map.has("unbalance")) {
     of.unbalance = followedNumber(map, "unbalance", "kg m", complaints);
   }
-  of.run_out = map.number("run_out", Range::kNotNegative, "m", 0.0);
+  of.run_out = map.numberBetween("run_out", 0.0, kLargest, "m", 0.0);
   if (map.has("inputs")) {
     readInputs(map, system, scene, of, complaints);
   }

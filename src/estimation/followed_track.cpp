@@ -59,7 +59,7 @@ FollowedTrack::FollowedTrack(const Twin& twin, std::size_t system, const SystemF
   told.channel_status.assign(n, static_cast<std::uint8_t>(state::ChannelStatus::kSilent));
   squares.assign(n, 0.0);
   counts.assign(n, 0);
-  heard.assign(n, std::numeric_limits<std::int64_t>::min());
+  heard.assign(n, 0);
   model = filter.model().system();
   forces = bearingForces(*model);
   for (const BearingForce& force : forces) {

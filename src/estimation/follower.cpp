@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -197,8 +196,7 @@ void Follower::begin(std::int64_t instant) {
     if (system) {
       system->runs = false;
       system->residuals.restart();
-      std::fill(system->heard.begin(), system->heard.end(),
-                std::numeric_limits<std::int64_t>::min());
+      std::fill(system->heard.begin(), system->heard.end(), instant);
       system->next_telling = instant;
       system->next_generation = instant + kNewParameters;
     }
@@ -272,6 +270,12 @@ void Follower::takeSample(const MeasuredSample& sample) {
   takeNextInputs(system);
   system.filter.goTo(there, shaft.deviation);
   const Innovation innovation = system.filter.take(channel.place, sample.value, sample.deviation);
+  if (!system.filter.isFinite()) {  // an estimate that ran away teaches nothing
+    system.filter.startOver();
+    system.runs = false;
+    ++restarts_;
+    return;
+  }
   told.residual[channel.place] = innovation.value;
   told.residual_deviation[channel.place] = innovation.deviation;
   if (innovation.used) {
@@ -328,6 +332,11 @@ ShaftEstimate Follower::shaftOf(const FollowedTrack& system, std::int64_t instan
 }
 
 void Follower::stepUntil(std::int64_t instant) {
+  if (instant - machineInstant(next_step_) > kClockJump) {  // set between two samples of a block
+    ++restarts_;
+    ++clock_settings_;
+    begin(instant);
+  }
   for (; machineInstant(next_step_) <= instant; ++next_step_) {
     if (next_step_ % every_ == 0) {
       writeRecord(next_step_);

@@ -12,8 +12,7 @@ namespace whirl_twin {
 namespace {
 
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::min();
-/// Further ahead of all others, or so many messages behind its own: the clock has been set.
-constexpr std::int64_t kJump = 60'000'000'000;  // ns
+/// So many messages behind its own: the clock has been set.
 constexpr int kBehind = 3;
 
 }  // namespace
@@ -43,7 +42,7 @@ bool MeasuredQueue::take(const state::Measurement& message) {
   const bool late = last <= std::max(given_, source.newest.value_or(kNever));
   const bool again = source.newest && message.at.step == source.newest_block;
   source.behind = late && !again ? source.behind + 1 : 0;
-  const bool ahead = newest() != kNever && first > newest() && first - newest() > kJump;
+  const bool ahead = newest() != kNever && first > newest() && first - newest() > kClockJump;
   const bool set = ahead || source.behind >= kBehind;
   if (set) {
     for (Source& other : sources_) {

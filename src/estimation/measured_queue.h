@@ -24,6 +24,9 @@ struct MeasuredSample {
   bool valid = true;        ///< false: not to be used, not finite, or in a unit of another kind
 };
 
+/// Further ahead no clock has gone: it has been set.
+inline constexpr std::int64_t kClockJump = 60'000'000'000;  // ns
+
 /// What has become of samples before they were of use.
 struct MeasuredCounts {
   std::int64_t late = 0;      ///< came after their turn

@@ -22,7 +22,7 @@ constexpr double kUneven = 0.2;         // of the usual step
 constexpr double kStuckSeconds = 0.25;  // at a value while the column moves elsewhere
 constexpr std::size_t kStuckRows = 20;  // likewise
 constexpr double kCoarse = 1.0e-3;      // of the range
-constexpr double kLatest = 8.0e9;       // s: 250 years in nanoseconds
+constexpr double kLatest = 4.2e9;       // s: stamps end in 2106
 
 double median(std::vector<double> x) {
   const auto middle = x.begin() + static_cast<std::ptrdiff_t>(x.size() / 2);

@@ -18,6 +18,8 @@ constexpr double kLongestTurn = 1.0;  // rad
 constexpr double kSameSpeed = 1.0e-3;
 /// Values further from what is expected, in its deviations, are not of this motion.
 constexpr double kGate = 6.0;
+/// From sample to sample: a shaft that turns by more has run away, and a vibration been missed.
+constexpr std::int64_t kMostParts = 10'000;
 /// Before, a motion is not known well enough to tell of parameters.
 constexpr double kSettling = 0.05;  // s
 /// Of the shaft's angle: with a larger deviation probes tell more of what turns with it.
@@ -91,13 +93,22 @@ SystemFilter::SystemFilter(const BuiltScene& scene, std::size_t system,
   for (const FollowedChannel& channel : channels_) {
     offset_of_.push_back(channel.offset > 0.0 ? next++ : -1);
   }
-
-  Eigen::VectorXd start = Eigen::VectorXd::Zero(next);
-  Eigen::VectorXd deviation = Eigen::VectorXd::Zero(next);
-  for (Eigen::Index i = 0; i < m_; ++i) {
-    deviation[2 * n_ + i] = settings.parameters[static_cast<std::size_t>(i)].number.deviation;
+  filter_ = KalmanFilter(Eigen::VectorXd::Zero(next), Eigen::VectorXd::Zero(next));
+  startOver();
+  by_parameter_ = Eigen::MatrixXd::Zero(n_, m_);
+  angles_ = Eigen::VectorXd::Zero(n_);
+  const std::vector<CoordinateInfo> coordinates = dynamics.coordinates();
+  for (Eigen::Index i = 0; i < n_; ++i) {
+    angles_[i] = coordinates[static_cast<std::size_t>(i)].isAngle() ? 1.0 : 0.0;
   }
-  deviation.segment(unbalance_, run_out_ - unbalance_).setConstant(settings.unbalance.deviation);
+}
+
+void SystemFilter::startOver() {
+  Eigen::VectorXd deviation = Eigen::VectorXd::Zero(filter_.size());
+  for (Eigen::Index i = 0; i < m_; ++i) {
+    deviation[2 * n_ + i] = settings_.parameters[static_cast<std::size_t>(i)].number.deviation;
+  }
+  deviation.segment(unbalance_, run_out_ - unbalance_).setConstant(settings_.unbalance.deviation);
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     if (run_out_of_[i] >= 0) {
       deviation.segment(run_out_of_[i], 2).setConstant(channels_[i].run_out);
@@ -106,13 +117,15 @@ SystemFilter::SystemFilter(const BuiltScene& scene, std::size_t system,
       deviation[offset_of_[i]] = channels_[i].offset;
     }
   }
-  filter_ = KalmanFilter(std::move(start), deviation);
-  by_parameter_ = Eigen::MatrixXd::Zero(n_, m_);
-  angles_ = Eigen::VectorXd::Zero(n_);
-  const std::vector<CoordinateInfo> coordinates = dynamics.coordinates();
-  for (Eigen::Index i = 0; i < n_; ++i) {
-    angles_[i] = coordinates[static_cast<std::size_t>(i)].isAngle() ? 1.0 : 0.0;
+  filter_ = KalmanFilter(Eigen::VectorXd::Zero(filter_.size()), deviation);
+}
+
+bool SystemFilter::isFinite() const {
+  bool finite = std::isfinite(filter_.state().sum()) && std::isfinite(filter_.covariance().trace());
+  for (std::size_t i = 0; i < static_cast<std::size_t>(m_); ++i) {
+    finite = finite && std::isfinite(parameter(i));
   }
+  return finite;
 }
 
 void SystemFilter::begin(const ShaftInstant& at, std::int64_t to_twin, double shaft_deviation) {
@@ -151,10 +164,10 @@ Moment<double> SystemFilter::moment() const {
 std::vector<ShaftInstant> SystemFilter::partsOf(const ShaftInstant& there) const {
   const ShaftPath path(now_, there, to_twin_);
   const std::int64_t all = there.time - now_.time;
-  const std::int64_t parts =
-      model_.system()->dynamics->linear()
-          ? static_cast<std::int64_t>(std::fabs(path.turned()) / kLongestTurn) + 1
-          : (all + longest_ - 1) / longest_;
+  const double turns = std::fmin(std::fabs(path.turned()) / kLongestTurn, kMostParts);
+  const std::int64_t parts = std::min(kMostParts, model_.system()->dynamics->linear()
+                                                      ? static_cast<std::int64_t>(turns) + 1
+                                                      : (all + longest_ - 1) / longest_);
   std::vector<std::int64_t> times;
   for (std::int64_t k = 1; k < parts; ++k) {
     times.push_back(now_.time + all / parts * k);

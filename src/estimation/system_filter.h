@@ -73,6 +73,10 @@ class SystemFilter {
   void takeInput(std::size_t channel, const InputSample& sample);
   /// The motion, not the rest, is as at the beginning again: what was believed of it is wrong.
   void forgetMotion();
+  /// Forgets all that was learned, too. The next is begin().
+  void startOver();
+  /// Are they numbers, all that it tells?
+  bool isFinite() const;
   /// Coordinates and rates [2 dof] further on, where nothing is measured.
   Eigen::VectorXd motionAt(const ShaftInstant& there);
 

@@ -13,6 +13,7 @@ constexpr double kTurn = 6.283185307179586;
 constexpr std::complex<double> kI(0.0, 1.0);
 constexpr double kLongestGap = 2.0;   // s: across it the shaft's motion is filled in
 constexpr double kFinestSteps = 1.5;  // of the usual distance, that is one step
+constexpr double kMostSteps = 20000.0;
 
 /// Of a unit of unbalance at a station.
 ShaftForce unitUnbalance(const Station& station) {
@@ -80,11 +81,12 @@ bool UnbalanceFit::turnTo(const ProbeReading& reading) {
     started_ = true;
     return false;
   }
-  if (step_ == 0.0 || time < step_) {
-    step_ = time;
-  }
-  const int steps =
-      time > kFinestSteps * step_ ? static_cast<int>(std::ceil(time / step_ - 1.0e-6)) : 1;
+  // A distance that is not the usual one, such as that of two stamps too near, is soon forgotten.
+  step_ = step_ == 0.0 ? time : step_;
+  const int steps = time > kFinestSteps * step_
+                        ? static_cast<int>(std::ceil(std::min(time / step_ - 1.0e-6, kMostSteps)))
+                        : 1;
+  step_ = std::clamp(time, 0.5 * step_, 2.0 * step_);
   const double part = 1.0 / steps;
   const double change = reading.speed - last_.speed;
   double turned = 0.0;

@@ -31,9 +31,10 @@ TEST(FollowSettings, TakesZerosByPathAndNestedAsAParameterServerHasThem) {
     const FollowSettings settings = settingsOf(std::string("offsets: ") + offsets);
     EXPECT_EQ(settings.of("pendulum").offset.at("encoders/theta"), 0.02) << offsets;
   }
-  for (const char* offsets : {"{encoders: 0.02}", "{encoders: {phi: 0.02}}", "{rig: {theta: 0.02}}",
-                              "{encoders: {theta: -1.0}}", "{encoders: {theta: {a: 1.0}}}",
-                              "{encoders/phi: 0.02}", "0.02", "[0.02]"}) {
+  for (const char* offsets :
+       {"{encoders: 0.02}", "{encoders: {phi: 0.02}}", "{rig: {theta: 0.02}}",
+        "{encoders: {theta: -1.0}}", "{encoders: {theta: {a: 1.0}}}", "{encoders/phi: 0.02}",
+        "{encoders/theta: 1.0e300}", "0.02", "[0.02]"}) {
     EXPECT_THROW(settingsOf(std::string("offsets: ") + offsets), Refusal) << offsets;
   }
 }

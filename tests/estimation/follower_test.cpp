@@ -506,5 +506,82 @@ TEST(Follower, RefusesASceneThatMeasuresNothing) {
   EXPECT_THROW(Follower(twin, std::make_shared<SystemGenerations>(twin), {}, 1, {}), Refusal);
 }
 
+/// One block in which the clock is set: three hours are not stepped through.
+TEST(Follower, GoesOnWhenTheClockIsSetWithinABlock) {
+  Machine machine(kRotor);
+  Twinned twin(kRotor, {});
+  constexpr std::int64_t kHours = 10'800'000'000'000;  // ns
+  std::int64_t by = 0;
+  for (int k = 0; k < 6'000; ++k) {
+    for (state::Measurement m : machine.step()) {
+      const bool probes = m.source == "probes";
+      if (probes && m.period > 0) {  // so that each sample has an instant
+        for (std::int64_t i = 0; i < m.samples; ++i) {
+          m.instant.push_back(m.first_instant + i * m.period);
+        }
+        m.period = 0;
+      }
+      const std::int64_t before = by;
+      by = probes && m.samples > 1 && machine.time() > 3.0 ? kHours : by;
+      m.first_instant += before;
+      for (std::size_t i = 0; i < m.instant.size(); ++i) {
+        m.instant[i] += i == 0 ? before : by;
+      }
+      twin.follower.take(m);
+    }
+  }
+  ASSERT_EQ(by, kHours);
+  EXPECT_GE(twin.follower.restarts(), 1);
+  EXPECT_GT(twin.recorded, 5.0);
+  EXPECT_LT(twin.recorded, 7.0);
+}
+
+/// One probe dies while the clock is set: what has not been heard of since is silent.
+TEST(Follower, TellsOfAChannelThatIsSilentSinceTheClockWasSet) {
+  Machine machine(kRotor);
+  Twinned twin(kRotor, {});
+  constexpr std::int64_t kHour = 3'600'000'000'000;
+  for (int k = 0; k < 5'000; ++k) {
+    const bool later = machine.time() > 2.0;
+    for (state::Measurement m : machine.step()) {
+      m.first_instant += later ? kHour : 0;
+      for (std::int64_t& instant : m.instant) {
+        instant += later ? kHour : 0;
+      }
+      if (later && m.source == "probes") {
+        m.channel = {"x", "other"};
+      }
+      twin.follower.take(m);
+    }
+  }
+  const auto status = [&](std::size_t c) {
+    return static_cast<state::ChannelStatus>(twin.last().channel_status[c]);
+  };
+  EXPECT_EQ(status(0), state::ChannelStatus::kUsed);
+  EXPECT_EQ(status(1), state::ChannelStatus::kSilent);
+}
+
+/// A follower that is told nonsense, here a disturbance beyond all numbers, begins anew, and tells
+/// nothing that is not a number.
+TEST(Follower, BeginsAnewWhenItsEstimateRunsAway) {
+  Machine machine(kRotor);
+  FollowSettings settings = followStiffness();
+  settings.systems["rotor"].disturbance = 1.0e160;
+  Twinned twin(kRotor, settings);
+  for (int k = 0; k < 2'000; ++k) {
+    for (const state::Measurement& m : machine.step()) {
+      twin.follower.take(m);
+    }
+  }
+  EXPECT_GT(twin.follower.restarts(), 0);
+  for (const state::FollowState& told : twin.told) {
+    EXPECT_TRUE(std::isfinite(told.value[0]) && std::isfinite(told.deviation[0]));
+  }
+  for (const double whirl : twin.whirl()) {
+    ASSERT_TRUE(std::isfinite(whirl));
+  }
+}
+
+
 }  // namespace
 }  // namespace whirl_twin

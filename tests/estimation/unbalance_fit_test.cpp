@@ -114,6 +114,27 @@ TEST(UnbalanceFit, FindsTheUnbalanceOfARunUpThroughTheCriticalSpeed) {
   EXPECT_LT(told.noise, 1e-12);
 }
 
+// Two stamps that are one but for rounding are not the distance of samples.
+TEST(UnbalanceFit, IsNotMisledByTwoStampsAtOneInstant) {
+  JeffcottRun run;
+  run.speed = [](double t) { return 10.0 * t; };
+  run.angle = [](double t) { return 5.0 * t * t; };
+  const std::vector<Complex> z = run.z(10.0);
+  UnbalanceFit fit(jeffcott(), {{"disc", kDisc}}, twoProbes(0.0));
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    const double t = static_cast<double>(i) * run.step;
+    const double angle = run.angle(t);
+    const auto index = static_cast<std::int64_t>(i);
+    fit.take(reading(index, t, angle, run.speed(t), shown(z[i], angle, 0.0)));
+    if (i == 1000) {
+      fit.take(reading(index, t + 1.0e-14, angle, run.speed(t), shown(z[i], angle, 0.0)));
+    }
+  }
+  const UnbalanceEstimate told = fit.told();
+  ASSERT_TRUE(told.planes[0].told);
+  EXPECT_LT(std::abs(told.planes[0].value - run.unbalance), 1e-6 * 2.0e-4);
+}
+
 // 3 um of noise, and ambient vibration that is not white: 2 % and 2 degrees, deviations that hold.
 TEST(UnbalanceFit, IsWithinTwoPercentAndTwoDegreesAfterTenSecondsOfANoisyRunUp) {
   JeffcottRun run;
