@@ -79,9 +79,12 @@ std::string systemText(const FollowedSystem& system) {
       out += fmt::format("  {:<24} acts on an input\n", system.last.channel[c]);
       continue;
     }
-    out +=
-        fmt::format("  {:<24} residual {:.3g} {} rms, expected {:.3g}", system.last.channel[c],
-                    system.rms[c], system.last.channel_unit[c], system.last.residual_deviation[c]);
+    // None of a motion that was followed for too short a time, or of a channel that was not used.
+    out += std::isnan(system.rms[c])
+               ? fmt::format("  {:<24} no residual", system.last.channel[c])
+               : fmt::format("  {:<24} residual {:.3g} {} rms, expected {:.3g}",
+                             system.last.channel[c], system.rms[c], system.last.channel_unit[c],
+                             system.last.residual_deviation[c]);
     if (!std::isnan(system.last.offset[c])) {
       out += fmt::format("; zero at {:.4g} {}", system.last.offset[c], system.last.channel_unit[c]);
     }

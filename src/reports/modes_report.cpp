@@ -13,10 +13,11 @@ namespace {
 
 constexpr double kTurn = 6.283185307179586;
 constexpr std::size_t kModesLookedAt = 6;
-constexpr double kBeyond = 1.25;      // of the last of them
-constexpr double kBeyondFirst = 3.0;  // of the first
-constexpr double kOfNyquist = 0.8;    // what probes can tell
-constexpr double kWellKnown = 0.25;   // deviation of a decay rate, of it
+constexpr double kBeyond = 1.25;       // of the last of them
+constexpr double kBeyondFirst = 3.0;   // of the first
+constexpr double kOfNyquist = 0.8;     // what probes can tell
+constexpr double kLeastTurn = 1.0e-4;  // rad from sample to sample, of the frequencies looked at
+constexpr double kWellKnown = 0.25;    // deviation of a decay rate, of it
 
 /// The frequencies to look at: as far as the model has its first modes, and the samples reach.
 double limitOf(const std::vector<WhirlMode>& model, double speed, double period) {
@@ -26,7 +27,7 @@ double limitOf(const std::vector<WhirlMode>& model, double speed, double period)
     limit = std::max(kBeyond * model[last].dampedFrequency(),
                      kBeyondFirst * model.front().dampedFrequency());
   }
-  return std::min(limit, kOfNyquist * 0.5 * kTurn / period);
+  return std::clamp(limit, kLeastTurn / period, kOfNyquist * 0.5 * kTurn / period);
 }
 
 /// One mode of the measured ones for each sense of the model's: the stronger stays.
@@ -133,11 +134,12 @@ ModesReport modesReport(const RotorSystem& system, const RotorRecord& record,
     report.one_probe.push_back(!station.whole());
   }
   const double highest = kOfNyquist * 0.5 * kTurn / record.period();
-  if (limit && !(*limit > 0.0 && *limit <= highest)) {
+  const double lowest = kLeastTurn / record.period();
+  if (limit && !(*limit >= lowest && *limit <= highest)) {
     throw Refusal(
-        fmt::format("--to: expected a frequency above 0 and up to {:.4g} rad/s, {:g} of "
-                    "half the sampling rate, found {:g}",
-                    highest, kOfNyquist, *limit));
+        fmt::format("--to: expected a frequency from {:.4g} to {:.4g} rad/s, {:g} of half the "
+                    "sampling rate, found {:g}",
+                    lowest, highest, kOfNyquist, *limit));
   }
   AmbientModes ambient(static_cast<Eigen::Index>(stations.size()), record.period(), report.speed,
                        limit.value_or(limitOf(report.model, report.speed, record.period())));

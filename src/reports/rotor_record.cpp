@@ -21,11 +21,13 @@ namespace {
 constexpr double kTurn = 6.283185307179586;
 constexpr double kNanosecond = 1.0e-9;  // s
 constexpr double kHalfPi = 0.25 * kTurn;
-constexpr double kSteady = 0.01;      // of a speed
-constexpr double kSurelyKnown = 0.1;  // rad, deviation of the shaft's angle
+constexpr double kSteady = 0.01;          // of a speed
+constexpr double kSurelyKnown = 0.1;      // rad, deviation of the shaft's angle
+constexpr double kLargestAngle = 1.0e15;  // rad; beyond, a double has no phase
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// The speed about which the most time was spent, of speeds and the times [s] spent at them.
+/// The speed about which the most time was spent, of speeds above 0 and the times [s] spent at
+/// them.
 double longestKept(std::vector<std::pair<double, double>> dwells) {
   std::sort(dwells.begin(), dwells.end());
   double longest = 0.0, time = 0.0, moment = 0.0, speed = 0.0;
@@ -49,7 +51,7 @@ double longestKept(std::vector<std::pair<double, double>> dwells) {
 /// A source of probes, or a keyphasor, and what the log has of it.
 struct Source {
   const SensorSpec* spec = nullptr;
-  std::int64_t samples = 0;
+  std::int64_t samples = 0;                      // each later than all before
   std::int64_t first = 0, last = 0;              // [ns]
   std::map<std::string, double> deviation = {};  // of its channels, as the first message says
 };
@@ -163,14 +165,18 @@ void RotorRecord::findProbes(const BuiltScene& scene, const RotorSystem& system)
     }
     Source& source = found->second;
     if (source.samples == 0) {
-      source.first = measured->first_instant;
+      source.first = source.last = measured->instantOf(0);
+      source.samples = 1;
       for (std::size_t c = 0; c < measured->channel.size(); ++c) {
         source.deviation[measured->channel[c]] =
             unitScale(measured->unit[c], "m") * measured->deviation[c];
       }
     }
-    source.samples += measured->samples;
-    source.last = measured->lastInstant();
+    for (std::int64_t i = 0; i < measured->samples; ++i) {
+      const std::int64_t instant = measured->instantOf(i);
+      source.samples += instant > source.last ? 1 : 0;
+      source.last = std::max(source.last, instant);
+    }
   });
   const Source* best = nullptr;
   for (const auto& [name, source] : sources) {
@@ -216,10 +222,11 @@ void RotorRecord::findWhirl(const RotorSystem& system) {
         times[whirl->system] = {whirl->at.time, whirl->at.time};
       }
       double& last = times[whirl->system].second;
-      if (whirl->system == system.name && whirl->at.time > last) {
+      if (whirl->system == system.name && whirl->at.time > last && whirl->speed > 0.0 &&
+          std::isfinite(whirl->speed)) {
         dwells.emplace_back(whirl->speed, whirl->at.time - last);
       }
-      last = whirl->at.time;
+      last = std::max(last, whirl->at.time);
     }
   });
   const std::int64_t count = states[system.name];
@@ -320,6 +327,10 @@ RecordCounts RotorRecord::readWhirl(const std::function<void(const ProbeReading&
     }
     const auto found = std::find(whirls_.begin(), whirls_.end(), whirl->system);
     if (found == whirls_.end() || (time && whirl->at.time < *time)) {
+      return;
+    }
+    if (!(std::fabs(whirl->shaft_angle) <= kLargestAngle) || !std::isfinite(whirl->speed)) {
+      ++counts.no_angle;
       return;
     }
     if (!time || whirl->at.time > *time) {

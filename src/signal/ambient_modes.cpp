@@ -142,7 +142,8 @@ AmbientModes::AmbientModes(Eigen::Index stations, double period, double speed, d
       period_(period),
       speed_(speed),
       limit_(limit),
-      orders_(std::clamp(static_cast<int>(1.5 * limit / std::fabs(speed)), 2, kMostOrders)),
+      orders_(static_cast<int>(
+          std::clamp(1.5 * limit / std::fabs(speed), 2.0, static_cast<double>(kMostOrders)))),
       decimator_(period, limit),
       covariance_(stations, decimator_.filters() ? kFirstFilteredLag : 1,
                   2 * blockRows(stations) - 1),

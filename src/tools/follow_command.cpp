@@ -26,7 +26,9 @@ constexpr const char* kDescription =
 
 constexpr const char* kFooter =
     "The scene's sensors say what is measured, where, and with how much noise. What the follower "
-    "does\nlive (follow_node) it does here, to the bit.\n"
+    "does\nlive (follow_node) it does here, to the bit. What there is none of, such as a drift, or "
+    "a "
+    "residual of\na channel that was not used, is null in the JSON.\n"
     "\n"
     "Examples:\n"
     "  twin simulate rig.yaml --measure sensors --output rig.lcmlog && twin follow rig.yaml "

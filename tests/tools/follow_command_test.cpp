@@ -127,6 +127,21 @@ TEST_F(FollowedArm, AColumnOfATableActsOnAnInput) {
   EXPECT_GT(without.json()["restarts"].get<int>(), 0);
 }
 
+TEST_F(FollowedArm, AMotionTooShortForResidualsHasNone) {
+  const std::string log = directory_.file("short.lcmlog");
+  ASSERT_EQ(
+      twin({"simulate", scene_, "--duration", "0.15", "--measure", "sensors", "--output", log})
+          .status,
+      0);
+  const Ending text = twin({"follow", scene_, log});
+  EXPECT_EQ(text.status, 0) << text.err;
+  EXPECT_NE(text.out.find("no residual"), std::string::npos) << text.out;
+  EXPECT_EQ(text.out.find("nan"), std::string::npos) << text.out;
+  const Json told = twin({"follow", scene_, log, "--json"}).json()["systems"]["arm"];
+  EXPECT_TRUE(told["found"]);
+  EXPECT_TRUE(told["channels"]["encoder/theta"]["residual_rms"].is_null());
+}
+
 TEST_F(FollowedArm, WhatIsWrongIsSaidAtItsPlaceAllAtOnce) {
   const std::string settings = directory_.write("follow.yaml", R"(systems:
   arm:

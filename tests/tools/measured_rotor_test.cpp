@@ -133,6 +133,28 @@ TEST(Modes, RefuseALogOfSomethingElse) {
   EXPECT_NE(end.err.find("expected displacement probes at 'rotor'"), std::string::npos) << end.err;
 }
 
+TEST(Modes, RefuseAShaftThatTurnsBackwards) {
+  const TemporaryDirectory folder;
+  std::string text = contentsOf(shakenRotor(folder, 2.0));
+  text.replace(text.find("speed: 90.0"), 11, "speed: -90.0");
+  const std::string scene = folder.write("backwards.yaml", text);
+  const Ending end = twin({"modes", scene, "--measured", logOf(folder, scene, 2.0, false)});
+  EXPECT_EQ(end.status, 2) << end.out;
+  EXPECT_NE(end.err.find("expected a shaft that turns forwards"), std::string::npos) << end.err;
+}
+
+TEST(Modes, RefuseFrequenciesThatNoRecordTells) {
+  const TemporaryDirectory folder;
+  const std::string scene = shakenRotor(folder, 2.0);
+  const std::string log = logOf(folder, scene, 1.0);
+  for (const char* to : {"0", "1e-9", "1e-300", "1e4"}) {
+    const Ending end = twin({"modes", scene, "--measured", log, "--to", to});
+    EXPECT_EQ(end.status, 2) << to;
+    EXPECT_NE(end.err.find("--to: expected a frequency from 0.05 to 1257 rad/s"), std::string::npos)
+        << end.err;
+  }
+}
+
 /// 6.0e-4 kg m at 0.9 rad and 9.0e-4 kg m at 3.6 rad, as the shipped scene hides them.
 void expectHiddenUnbalances(const nlohmann::json& told) {
   const double size[] = {6.0e-4, 9.0e-4};
