@@ -19,6 +19,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "control/drive.h"
 #include "integration/four_doubles.h"
@@ -36,6 +37,14 @@ class LateralExactStep {
 
   /// The motion is set anew.
   void restart() noexcept { turns_left_ = 0; }
+
+  /// Where the last step ended at the drive's begin() and the next may go on: the speed [rad/s].
+  std::optional<double> speedAt(const Drive& drive) const noexcept {
+    if (turns_left_ <= 0 || drive.nanoseconds() != next_ || drive.piece() != piece_) {
+      return std::nullopt;
+    }
+    return speed_;
+  }
 
   /// Advances by h [s] over a step that starts where the last one ended, at the same speed. False,
   /// with nothing done, where it does not, and once in a while. A motion that would not be finite

@@ -53,6 +53,35 @@ WHIRL_TWIN_INLINE void sineCosine(const Doubles& angle, Doubles& sine, Doubles& 
   cosine = (Doubles)((((Bits)s & odd) | ((Bits)c & ~odd)) ^ (((count + 1) & 2) << 62));
 }
 
+/// Keeps e^(i theta) at nodes, with a turn [rad] for each of them to its next place.
+template <int lanes, class Doubles = typename Vector<lanes>::Doubles>
+WHIRL_TWIN_INLINE void begin(NodePhasors& p, int i, const Doubles& turn, const Doubles& sine,
+                             const Doubles& cosine) {
+  Doubles turn_sine, turn_cosine;
+  sineCosine<lanes>(turn, turn_sine, turn_cosine);
+  reinterpret_cast<Doubles*>(p.sine.data())[i] = sine;
+  reinterpret_cast<Doubles*>(p.cosine.data())[i] = cosine;
+  reinterpret_cast<Doubles*>(p.turn_sine.data())[i] = turn_sine;
+  reinterpret_cast<Doubles*>(p.turn_cosine.data())[i] = turn_cosine;
+}
+
+/// Turns them on by a step.
+template <int lanes, class Doubles = typename Vector<lanes>::Doubles>
+WHIRL_TWIN_INLINE void goOn(NodePhasors& p, int i, Doubles& sine, Doubles& cosine) {
+  Doubles& s = reinterpret_cast<Doubles*>(p.sine.data())[i];
+  Doubles& c = reinterpret_cast<Doubles*>(p.cosine.data())[i];
+  Doubles& turn_s = reinterpret_cast<Doubles*>(p.turn_sine.data())[i];
+  Doubles& turn_c = reinterpret_cast<Doubles*>(p.turn_cosine.data())[i];
+  const Doubles by_s = turn_s;
+  const Doubles by_c = turn_c;
+  sine = s * by_c + c * by_s;
+  cosine = c * by_c - s * by_s;
+  s = sine;
+  c = cosine;
+  turn_s = by_s * p.growth_cosine + by_c * p.growth_sine;
+  turn_c = by_c * p.growth_cosine - by_s * p.growth_sine;
+}
+
 /// A matrix of two axes times a vector of two, column by column; the sums stay in registers.
 template <int lanes, int vectors>
 struct Sums {
@@ -100,13 +129,21 @@ WHIRL_TWIN_INLINE void take(const LateralGaussStep& step, LateralGaussResult& re
 #pragma GCC unroll 8
   for (int i = 0; i < kVectors; ++i) {
     const Doubles t = step.length * nodes[i];
-    const Doubles turned =
-        t * (shaft.speed + t * (0.5 * shaft.acceleration + t * (shaft.jerk * (1.0 / 6.0))));
     const Doubles speed = shaft.speed + t * (shaft.acceleration + t * (0.5 * shaft.jerk));
     const Doubles acceleration = shaft.acceleration + t * shaft.jerk;
     const Doubles square = speed * speed;
     Doubles sine, cosine;
-    sineCosine<lanes>(shaft.angle + turned, sine, cosine);
+    if (step.use == PhasorUse::kGoOn) {
+      goOn<lanes>(step.phasors, i, sine, cosine);
+    } else {
+      const Doubles turned =
+          t * (shaft.speed + t * (0.5 * shaft.acceleration + t * (shaft.jerk * (1.0 / 6.0))));
+      sineCosine<lanes>(shaft.angle + turned, sine, cosine);
+      if (step.use == PhasorUse::kBegin) {
+        begin<lanes>(step.phasors, i, step.length * (speed + 0.5 * step.length * acceleration),
+                     sine, cosine);
+      }
+    }
     const auto along = [&](std::size_t axis, Doubles & force) __attribute__((always_inline)) {
       const LateralRotor::Complex e = r.eccentricity[axis];
       const LateralRotor::Complex b = r.bow_force[axis];

@@ -1,6 +1,14 @@
 // One step of a rotor of two coordinates by Gauss-Legendre nodes, which lie side by side in
 // vectors: one polynomial for all sines and cosines, and for all else a product of a small matrix
 // with a vector (lateral_run_up.h).
+//
+// While the acceleration a is constant, steps of one length h go on with e^(i theta) at the nodes
+// where the last one had it, E, by two complex products (a chirp):
+//
+//   E <- E D,  D <- D e^(i a h^2),  D = e^(i (w h + a h^2 / 2)), w the speed at the node.
+//
+// Of so many such steps m the products leave some m^1.5 of rounding, and what the double of
+// e^(i a h^2) leaves out m^2 / 2 of it: NodePhasors::kSteps of them less than 1e-14.
 #pragma once
 
 #include <array>
@@ -24,6 +32,18 @@ struct LateralGaussWeights {
   alignas(32) std::array<double, kColumns * kMostGaussNodes> deflections;
 };
 
+/// e^(i theta) at the nodes of a step, and what turns it on to the next one.
+struct NodePhasors {
+  static constexpr int kSteps = 16;
+
+  alignas(32) std::array<double, kMostGaussNodes> cosine, sine;
+  alignas(32) std::array<double, kMostGaussNodes> turn_cosine, turn_sine;
+  double growth_cosine, growth_sine;  ///< of a turn, from step to step
+};
+
+/// What a step does with them: nothing, makes them, or goes on with those of the step before.
+enum class PhasorUse { kNone, kBegin, kGoOn };
+
 struct LateralGaussStep {
   const LateralRotor& rotor;
   const double* nodes;    ///< 0..1, aligned to 32 bytes
@@ -33,6 +53,8 @@ struct LateralGaussStep {
   ShaftMotion shaft;  ///< at its start
   int sweeps;         ///< for what couples the axes
   const std::array<double, 4>& y;
+  PhasorUse use;
+  NodePhasors& phasors;
 };
 
 /// What it makes of the motion.

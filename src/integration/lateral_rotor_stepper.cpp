@@ -143,10 +143,19 @@ void LateralRotorStepper::estimateError(const LateralMotion& end) noexcept {
   error_sum_ += kEstimateEvery * std::fmax(places, rates);
 }
 
+/// [rad/s], at the drive's begin(): without its angle, where that is not needed.
+double LateralRotorStepper::shaftSpeed() const noexcept {
+  std::optional<double> speed = exact_.speedAt(drive_);
+  if (!speed) {
+    speed = run_up_.speedAt(drive_);
+  }
+  return speed ? *speed : drive_.at(0.0).speed;
+}
+
 /// In T the motion of the unbalance, d/dt Re[E e^(i theta)], with the sign that it has in h; in V
 /// the bow that is B / k.
 double LateralRotorStepper::furtherEnergy() const noexcept {
-  const double speed = drive_.at(0.0).speed;
+  const double speed = shaftSpeed();
   if (!energy_turns_) {
     return -0.5 * rotor_.mass * speed * speed * std::norm(rotor_.eccentricity[0]);
   }
@@ -172,6 +181,7 @@ void LateralRotorStepper::set(const double* q, const double* v) noexcept {
   motion_ = {};
   motion_.y = {q[0], q[1], v[0], v[1]};
   exact_.restart();
+  run_up_.restart();
   last_energy_.reset();
   further_energy_ = furtherEnergy();
   steps_since_estimate_ = 0;

@@ -57,6 +57,7 @@ class LateralRotorStepper : public Stepper {
   StepStatus changingStep() noexcept;
   StepStatus advance(double offset, double h, LateralMotion& motion) noexcept;
   void estimateError(const LateralMotion& end) noexcept;
+  double shaftSpeed() const noexcept;
   double furtherEnergy() const noexcept;
 
   const Drive& drive_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "integration/free_oscillation.h"
+#include "mechanics/sine_cosine.h"
 
 namespace whirl_twin {
 
@@ -36,7 +37,11 @@ LateralRunUp::LateralRunUp(const LateralRotor& rotor, double h)
       h_(h),
       sets_(&sets()),
       fastest_(rotor.fastest()),
-      flexibility_(1.0 / std::sqrt(std::min(rotor.stiffness[0], rotor.stiffness[1]))) {
+      flexibility_(1.0 / std::sqrt(std::min(rotor.stiffness[0], rotor.stiffness[1]))),
+      nanoseconds_(std::llround(h * 1e9)) {
+  if (std::fabs(static_cast<double>(nanoseconds_) - h * 1e9) > 1e-9) {
+    nanoseconds_ = 0;
+  }
   for (std::size_t set = 0; set < kSets; ++set) {
     whole_[set] = std::make_unique<Weights>();
     prepare(*whole_[set], set, h);
@@ -122,9 +127,37 @@ double LateralRunUp::couplingWithin(double highest_speed, double length) const n
   return coupling * length * impulse;
 }
 
+void LateralRunUp::goTo(const Drive& drive) noexcept {
+  next_ = drive.nanoseconds() + nanoseconds_;
+  piece_ = drive.piece();
+}
+
+/// Of a step of h from the drive's begin(). The first of many does without phasors: steps may not
+/// follow one another.
+PhasorUse LateralRunUp::beginOrNot(const Drive& drive, const ShaftMotion& start,
+                                   std::size_t set) noexcept {
+  const bool follow = follows(drive) && nanoseconds_ > 0 && start.jerk == 0.0;
+  goTo(drive);
+  turns_left_ = 0;
+  if (!follow) {
+    return PhasorUse::kNone;
+  }
+  if (!(start.acceleration == begun_.acceleration)) {
+    const SineCosine growth = sineCosine(start.acceleration * h_ * h_);
+    phasors_.growth_cosine = growth.cosine;
+    phasors_.growth_sine = growth.sine;
+  }
+  begun_ = start;
+  of_set_ = set;
+  turns_left_ = NodePhasors::kSteps;
+  return PhasorUse::kBegin;
+}
+
 StepStatus LateralRunUp::advance(const Drive& drive, double offset, double length,
                                  LateralMotion& motion) noexcept {
-  const ShaftMotion start = drive.at(offset);
+  const bool whole = offset == 0.0 && length == h_;
+  const std::optional<double> speed = whole ? speedAt(drive) : std::nullopt;
+  ShaftMotion start = speed ? ShaftMotion{0.0, *speed, begun_.acceleration, 0.0} : drive.at(offset);
   const double fastest_turn =
       std::fabs(start.speed) +
       length * (std::fabs(start.acceleration) + 0.5 * length * std::fabs(start.jerk));
@@ -148,15 +181,21 @@ StepStatus LateralRunUp::advance(const Drive& drive, double offset, double lengt
   }
   const Set& nodes = (*sets_)[set];
   const Weights& weights = weightsFor(set, length / parts);
+  PhasorUse use = PhasorUse::kNone;
+  if (speed && parts == 1 && set == of_set_) {
+    use = PhasorUse::kGoOn;
+    --turns_left_;
+    goTo(drive);
+  } else {
+    start = drive.at(offset);
+    use = whole && parts == 1 ? beginOrNot(drive, start, set) : PhasorUse::kNone;
+  }
   for (int i = 0; i < parts; ++i) {
-    const LateralGaussStep step{rotor_,
-                                nodes.nodes.data(),
-                                nodes.weights.data(),
-                                weights.axes,
-                                weights.length,
-                                i == 0 ? start : drive.at(offset + i * weights.length),
-                                sweeps,
-                                motion.y};
+    const LateralGaussStep step{
+        rotor_,       nodes.nodes.data(), nodes.weights.data(),
+        weights.axes, weights.length,     i == 0 ? start : drive.at(offset + i * weights.length),
+        sweeps,       motion.y,           use,
+        phasors_};
     LateralGaussResult result;
     nodes.take(step, result);
     motion.advance(result.increment, result.work);

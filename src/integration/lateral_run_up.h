@@ -14,12 +14,16 @@
 // axes, n(w) (-y, x), is a force like the others, at deflections found by sweeps: each of them
 // leaves a small part of the last, n h^2 / 2 / (number of the sweep) or less.
 //
-// lateral_gauss_step.h takes the step.
+// lateral_gauss_step.h takes the step. Where steps of h follow one another at one acceleration it
+// turns the phasors of the nodes on from step to step.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <memory>
+#include <optional>
 
 #include "control/drive.h"
 #include "integration/gauss_nodes.h"
@@ -34,14 +38,29 @@ class LateralRunUp {
   /// Prepares steps of h [s].
   LateralRunUp(const LateralRotor& rotor, double h);
 
+  // Real-time safe.
+
+  /// The motion is set anew.
+  void restart() noexcept { turns_left_ = 0; }
+
+  /// Where the last step of h ended at the drive's begin(), and its phasors go on: the speed there
+  /// [rad/s], without waiting for the drive's angle.
+  std::optional<double> speedAt(const Drive& drive) const noexcept {
+    if (turns_left_ == 0 || !follows(drive)) {
+      return std::nullopt;
+    }
+    return begun_.speed + begun_.acceleration * ((NodePhasors::kSteps + 1 - turns_left_) * h_);
+  }
+
   /// Advances by a length [s] from offset [s] after the drive's begin(), with no corner of its
-  /// motion inside. Real-time safe; a length other than h is prepared for first. kOutOfRange where
-  /// the shaft turns too far for any number of parts that a step may take.
+  /// motion inside. A length other than h is prepared for first. kOutOfRange where the shaft turns
+  /// too far for any number of parts that a step may take.
   StepStatus advance(const Drive& drive, double offset, double length,
                      LateralMotion& motion) noexcept;
 
  private:
   static constexpr std::size_t kSets = 3;  // of nodes
+  static constexpr double kNoAcceleration = std::numeric_limits<double>::quiet_NaN();
 
   struct Weights {
     double length = 0.0;  ///< [s], prepared for
@@ -62,6 +81,11 @@ class LateralRunUp {
                double length) const noexcept;
   const Weights& weightsFor(std::size_t set, double length) noexcept;
   double couplingWithin(double highest_speed, double length) const noexcept;
+  bool follows(const Drive& drive) const noexcept {
+    return drive.nanoseconds() == next_ && drive.piece() == piece_;
+  }
+  PhasorUse beginOrNot(const Drive& drive, const ShaftMotion& start, std::size_t set) noexcept;
+  void goTo(const Drive& drive) noexcept;
 
   LateralRotor rotor_;
   double h_;  ///< [s]
@@ -69,8 +93,15 @@ class LateralRunUp {
   double fastest_;      ///< [1/s], of the free motion
   double flexibility_;  ///< [s], largest deflection after a unit impulse
   std::array<std::unique_ptr<Weights>, kSets> whole_;
-  std::array<std::unique_ptr<Weights>, 2> other_;  ///< lengths met on the way
-  std::size_t oldest_ = 0;                         ///< of those
+  std::array<std::unique_ptr<Weights>, 2> other_;      ///< lengths met on the way
+  std::size_t oldest_ = 0;                             ///< of those
+  NodePhasors phasors_;                                ///< of steps of h
+  std::int64_t nanoseconds_;                           ///< h, if it is whole
+  ShaftMotion begun_{0.0, 0.0, kNoAcceleration, 0.0};  ///< where they were made
+  std::int64_t next_ = 0;                              ///< [ns], where the last step of h ended
+  std::uint64_t piece_ = 0;                            ///< of the drive
+  std::size_t of_set_ = 0;                             ///< nodes that the phasors are for
+  int turns_left_ = 0;                                 ///< until they are made anew
 };
 
 }  // namespace whirl_twin

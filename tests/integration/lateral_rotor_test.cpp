@@ -245,6 +245,56 @@ TEST(LateralRotor, SeesWhenTheShaftIsElsewhere) {
   }
 }
 
+// While the speed changes a step that goes on turns the phasors of the one before. It must be the
+// step of a rotor that was only just put there: at any number of nodes, and where the shaft, its
+// acceleration or the rotor was put elsewhere.
+TEST(LateralRotor, GoesOnInARunUpAsOneThatBeginsAnew) {
+  const auto setup = jeffcott({{"mass", 2.0},
+                               {"stiffness", 2.0e4},
+                               {"damping", 10.0},
+                               {"internal_damping", 1.0},
+                               {"eccentricity", 2.0e-4}},
+                              {});
+  RunningSystem like(setup, "exponential", kMillisecond);
+  const auto rotor = like.dynamics().linearRotor();
+  for (const std::int64_t step : {kMillisecond, 24 * kMillisecond}) {
+    const double h = 1e-9 * static_cast<double>(step);
+    Drive drive(0.0, 0.3, {{280.0, 12.0, 0.0, 0.0}});
+    const auto stepper = LateralRotorStepper::of(rotor, drive, h, 1);
+    stepper->set(std::array<double, 2>{}.data(), std::array<double, 2>{}.data());
+    std::int64_t time = 0;
+    for (int i = 0; i < 900; ++i) {
+      drive.begin(time);
+      if (i % 100 == 37) {
+        time += step;  // by a step
+        drive.begin(time);
+      } else if (i % 100 == 63) {
+        ASSERT_TRUE(drive.setSpeed(280.0, i < 500 ? 9.0 : 7.0, 0.0));
+      } else if (i % 100 == 81) {
+        ASSERT_TRUE(drive.setSpeed(280.0, 11.0, 20.0));  // with a jerk at first
+      } else if (i == 590) {
+        drive.reset();
+        time = 0;
+      }
+      std::array<double, 5> before;
+      stepper->write(before.data());
+      const auto anew = LateralRotorStepper::of(rotor, drive, h, 1);
+      anew->set(before.data(), before.data() + 2);
+      ASSERT_EQ(stepper->step(0.0), StepStatus::kOk);
+      ASSERT_EQ(anew->step(0.0), StepStatus::kOk);
+      time += step;
+      drive.begin(time);
+      std::array<double, 5> after;
+      std::array<double, 5> expected;
+      stepper->write(after.data());
+      anew->write(expected.data());
+      for (std::size_t k = 0; k < 4; ++k) {
+        EXPECT_NEAR(after[k], expected[k], k < 2 ? 1e-16 : 1e-14) << i << " of " << step;
+      }
+    }
+  }
+}
+
 // The phase is that of the shaft at any speed, however large a part of a turn a step takes: what
 // forces of e w^2 leave beside a mass centre that hardly moves shows every digit of it.
 TEST(LateralRotor, TurnsAboutItsMassCentreAtAnySpeedFarAboveTheCriticalOne) {
