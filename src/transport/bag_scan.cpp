@@ -137,6 +137,30 @@ BagScan::BagScan(const std::string& path) : file_(path) {
     throw Refusal(fmt::format("{}: expected a bag that is not encrypted, found one by {}", path,
                               whirl_twin::text(first->fields, "encryptor")));
   }
+  readIndex(first);
+}
+
+/// The index at the end tells every connection again: without it the loss of the chunk that tells
+/// one first would be that of all its messages.
+void BagScan::readIndex(const std::optional<Record>& header) {
+  const std::string place = header ? whirl_twin::text(header->fields, "index_pos") : "";
+  const std::uint64_t begin = at_;
+  std::uint64_t index = 0;
+  if (place.size() == 8) {
+    index = littleEndian(place.data()) | std::uint64_t{littleEndian(place.data() + 4)} << 32;
+  }
+  if (index > begin && index < file_.size()) {
+    BagMessage none;
+    try {
+      for (at_ = index; at_ < file_.size() && chunk_.empty();) {
+        nextOfFile(none);
+      }
+    } catch (const Damage&) {
+      // The rest of it is not known.
+    }
+  }
+  chunk_.clear();
+  at_ = begin;
 }
 
 BagScan::Found BagScan::next(BagMessage& message) {

@@ -4,12 +4,13 @@
 // `name=value`, then data length, data. The field `op` says what it is: a chunk of records, maybe
 // compressed, a connection (topic, type and definition of messages), a message, or parts of an
 // index. rosbag's own library goes by the index, which a recording that was broken off has not, and
-// believes the lengths it reads; the reader here goes through the records themselves, needs no
-// index and no ROS, and says at which byte something is wrong.
+// believes the lengths it reads; the reader here goes through the records themselves, takes of an
+// index only which connections there are, needs no ROS, and says at which byte something is wrong.
 #pragma once
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,6 +61,7 @@ class BagScan {
 
  private:
   struct Record;
+  void readIndex(const std::optional<Record>& header);
   bool nextOfChunk(BagMessage& message);
   bool nextOfFile(BagMessage& message);
   bool take(const Record& record, const std::uint8_t* data, BagMessage& message);
