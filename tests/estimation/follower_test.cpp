@@ -582,6 +582,5 @@ TEST(Follower, BeginsAnewWhenItsEstimateRunsAway) {
   }
 }
 
-
 }  // namespace
 }  // namespace whirl_twin
