@@ -11,6 +11,8 @@ constexpr double kTurn = 6.283185307179586;
 constexpr std::size_t kMost = 4096;        // samples kept, before the oldest quarter goes
 constexpr double kSamplesPerTurn = 64.0;   // kept at least, where there are so many
 constexpr double kLongestPeriod = 5.0e-3;  // [s], for a whirl that is faster than the shaft
+/// Of indices: with damaged counts or stamps a sample seems to take no time.
+constexpr std::int64_t kWidest = std::int64_t{1} << 40;
 
 /// Of the highest speed in a window, below which its turns are not alike: what an unbalance does
 /// goes by the square of the speed.
@@ -50,7 +52,7 @@ void OrbitWindow::take(const OrbitSample& sample) {
     while (stride_ > 1 && static_cast<double>(stride_) * sampling_ > wanted) {
       stride_ /= 2;
     }
-    while (2.0 * static_cast<double>(stride_) * sampling_ <= 0.8 * wanted) {
+    while (stride_ < kWidest && 2.0 * static_cast<double>(stride_) * sampling_ <= 0.8 * wanted) {
       stride_ *= 2;
     }
   }

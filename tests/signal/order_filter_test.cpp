@@ -44,6 +44,25 @@ TEST(OrderFilter, TellsForwardBackwardOrdersAndTheMeanApartToRounding) {
   EXPECT_GT(e.precession, 0.5);
 }
 
+// A count that is damaged, or a stamp: it goes on, and knows the orders again.
+TEST(OrderFilter, IsNotHeldUpByACountThatJumps) {
+  const Complex forward = std::polar(1e-4, -0.7);
+  KnownMotion motion;
+  motion.z = [&](double, double angle, double) { return forward * std::polar(1.0, angle); };
+  motion.step = 1.0e-4;
+  OrderFilter filter;
+  motion.feed(filter, 0.1);
+  constexpr std::int64_t kFar = std::int64_t{1} << 62;
+  for (std::int64_t i = 1001; i < 30000; ++i) {
+    OrbitSample sample = motion.sample(i);
+    sample.index += kFar;
+    filter.take(sample);
+  }
+  const OrbitEstimate e = filter.estimate();
+  ASSERT_TRUE(e.valid);
+  EXPECT_LT(std::abs(e.orders[0].forward - forward), 1e-12);
+}
+
 /// Through a resonance of amplification factor 5 and on, at 20 rad/s^2.
 TEST(OrderFilter, FollowsARunUpAt20RadPerSecondSquaredToATenthOfAPercentAndOfADegree) {
   constexpr double kCritical = 100.0, kDamping = 0.1;
