@@ -49,7 +49,7 @@ TEST(LiveChange, ATrialMassIsSetIntoTheRotorOfTheBalancingScene) {
   const ParameterAnswer answer = twin.set("rotor", "unbalances[0].magnitude", 5.0e-4);
   EXPECT_TRUE(answer.done) << answer.message;
   EXPECT_TRUE(twin.set("rotor", "unbalances[0].angle", 1.0).done);
-  twin.cycle(10);
+  twin.observe();
   EXPECT_EQ(twin.value(0, "unbalances[0].magnitude"), 5.0e-4);
 }
 
