@@ -80,6 +80,14 @@ bool dearToPrepare(const Scene& one, const ModelSetup& setup) {
              (over_speed ? kMostInTables : kMostAtOneSpeed);
 }
 
+/// What a converter rounds comes out another step of it where the motion differs by rounding only:
+/// two trajectories of a loop with such a converter part, whatever the method.
+bool roundsInItsLoop(const Scene& one) {
+  return std::any_of(one.controllers.begin(), one.controllers.end(), [](const ControllerSpec& c) {
+    return c.sensor.resolution > 0.0 || c.actuator.resolution > 0.0;
+  });
+}
+
 /// How often the substeps have to be doubled for so many times the error allowed.
 int doublings(double times, int order) {
   const double missing = std::ceil(std::log2(std::min(times, kBelieved)) / (order > 0 ? order : 4));
@@ -284,12 +292,14 @@ StepChoice chooseStep(const Scene& given, double evaluations) {
   const ModelSetup& setup = built.systems.front()->setup();
   const IntegratorChoice structural = chooseIntegrator(setup, spec.drive.has_value());
   EvaluationBudget budget(evaluations, one, setup);
-  if (evaluations <= 0.0 || dearToPrepare(one, setup)) {
+  if (evaluations <= 0.0 || dearToPrepare(one, setup) || roundsInItsLoop(one)) {
     StepChoice plain;
     plain.integrator = structural.integrator;
     plain.substeps = spec.substeps;
     plain.reason = structural.reason + "; not calibrated: " +
-                   (evaluations <= 0.0 ? "too many systems" : "its steps take long to prepare");
+                   (evaluations <= 0.0       ? "too many systems"
+                    : roundsInItsLoop(one) ? "a converter of its controllers rounds"
+                                           : "its steps take long to prepare");
     return plain;
   }
   StepJudge judge(one, setup, budget);
@@ -322,7 +332,8 @@ StepChoice judgeStep(const Scene& given, double evaluations) {
   StepChoice named;
   named.integrator = built.systems.front()->integrator;
   named.substeps = built.scene.systems.front().substeps;
-  if (evaluations > 0.0 && !dearToPrepare(built.scene, built.systems.front()->setup())) {
+  if (evaluations > 0.0 && !roundsInItsLoop(built.scene) &&
+      !dearToPrepare(built.scene, built.systems.front()->setup())) {
     StepJudge judge(built.scene, built.systems.front()->setup(), budget);
     named.promise = judge.promise(settingOf(built.scene, named));
   }
