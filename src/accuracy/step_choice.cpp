@@ -297,7 +297,7 @@ StepChoice chooseStep(const Scene& given, double evaluations) {
     plain.integrator = structural.integrator;
     plain.substeps = spec.substeps;
     plain.reason = structural.reason + "; not calibrated: " +
-                   (evaluations <= 0.0       ? "too many systems"
+                   (evaluations <= 0.0     ? "too many systems"
                     : roundsInItsLoop(one) ? "a converter of its controllers rounds"
                                            : "its steps take long to prepare");
     return plain;
