@@ -62,6 +62,8 @@ class SlowSubscriber:
 class Survival(NodeTrial):
     def setUp(self):
         super().setUp()
+        if rospy.has_param('/simulation_node'):
+            rospy.delete_param('/simulation_node')  # what the test before gave its node stays there
         self.loops = []
         self.whirls = []
         self.alerts = []
