@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "integration/stepper.h"
+#include "scene/control_parts.h"
 #include "twin/stop_text.h"
 
 namespace whirl_twin {
@@ -17,6 +18,11 @@ constexpr int kSteps = 200;
 
 std::string whyItWouldStop(const BuiltScene& scene, const BuiltSystem& system,
                            std::optional<double> speed) {
+  for (std::size_t i = 0; i < scene.systems.size(); ++i) {
+    if (scene.systems[i]->spec.name == system.spec.name && isControlled(scene.scene, i)) {
+      return "";  // alone it moves otherwise
+    }
+  }
   Drive drive = speed ? Drive(*speed, 0.0) : scene.driveOf(system);
   Inputs inputs = scene.inputsOf(system);
   const SystemSpec& spec = system.spec;

@@ -11,7 +11,7 @@ namespace whirl_twin {
 
 /// Why `system`, one of the scene's as it is to be, would stop in the first 200 steps, on its drive
 /// or at a constant speed [rad/s]; "" if it goes on. Throws RunFailure where its steps cannot be
-/// prepared.
+/// prepared. A system with controllers is not tried: alone it moves otherwise.
 std::string whyItWouldStop(const BuiltScene& scene, const BuiltSystem& system,
                            std::optional<double> speed = std::nullopt);
 

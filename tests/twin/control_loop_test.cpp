@@ -12,6 +12,7 @@
 #include "../scene/scenes.h"
 #include "allocation_guard.h"
 #include "twin/observer.h"
+#include "twin/trial_steps.h"
 #include "twin/twin.h"
 
 namespace whirl_twin {
@@ -295,6 +296,18 @@ TEST(SampledLoop, OfARotorInARunUpGoesAsByAnotherMethod) {
     difference = std::max(difference, std::fabs(motionOf(exact).x - motionOf(other).x));
   }
   EXPECT_LT(difference, 1e-7 * largest);
+}
+
+// Alone it would be beyond all numbers within the trial steps of a change: that tells nothing of
+// it.
+TEST(SampledLoop, IsNotTriedWithoutItsControllers) {
+  BuiltScene built = build(sceneOf(
+      "{step: 0.001, systems: {s: {model: linear_system, parameters: {names: [x], mass: [[1.0]], "
+      "stiffness: [[-1.0e9]]}, initial: {x: 1.0e-6}}}, controllers: {pd: {type: pid, rate: 1.0e6, "
+      "measures: [s.x], acts_on: [s.force_x], parameters: {kp: 2.0e9, ki: 0.0, kd: 4.0e4}}}}"));
+  EXPECT_EQ(whyItWouldStop(built, *built.systems[0], std::nullopt), "");
+  built.scene.controllers.clear();
+  EXPECT_NE(whyItWouldStop(built, *built.systems[0], std::nullopt), "");
 }
 
 // Two systems tied by a controller: what one measures acts on the other, in the same parts.
