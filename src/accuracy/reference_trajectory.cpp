@@ -104,7 +104,8 @@ ReferenceTrajectory pair(const Scene& one, const StepSetting& setting, const Ste
   return now;
 }
 
-/// How far one goes astray that starts slightly off.
+/// How far one goes astray that starts slightly off: by parts of the largest coordinates, and in
+/// parts of them, for at the start there may be none.
 ErrorCurve disturbed(const Scene& one, const StepSetting& setting, std::int64_t interval,
                      const Trajectory& right) {
   std::vector<double> largest(right.dof);
@@ -117,7 +118,7 @@ ErrorCurve disturbed(const Scene& one, const StepSetting& setting, std::int64_t 
     off.systems.front().q[i] +=
         kDisturbance * (right.angular[i] ? std::min(largest[i], 1.0) : largest[i]);
   }
-  ErrorCurve curve;
+  ErrorCurve curve = ErrorCurve::inPartsOf(right);
   motion(off, interval, right.samples(), [&](const Trajectory& t) {
     return curve.take(t, right) && curve.position(curve.samples() - 1) < kParted;
   });

@@ -92,6 +92,18 @@ ErrorCurve::ErrorCurve(const Trajectory& trajectory, const Trajectory& reference
   }
 }
 
+ErrorCurve ErrorCurve::inPartsOf(const Trajectory& whole) {
+  ErrorCurve curve;
+  for (std::size_t i = 0; i < whole.coordinates.size(); ++i) {
+    const bool angular = whole.angular[i % whole.dof];
+    double& position = curve.position_scale_.of(angular);
+    position = std::max(position, std::fabs(whole.coordinates[i]));
+    double& rate = curve.rate_scale_.of(angular);
+    rate = std::max(rate, std::fabs(whole.rates[i]));
+  }
+  return curve;
+}
+
 bool ErrorCurve::take(const Trajectory& t, const Trajectory& reference) {
   const auto ratio = static_cast<std::size_t>(std::llround(t.interval / reference.interval));
   const std::size_t sample = samples();

@@ -30,6 +30,8 @@ class ErrorCurve {
   ErrorCurve() = default;
   /// As far as both go. The trajectory's interval is a multiple of the reference's.
   ErrorCurve(const Trajectory& trajectory, const Trajectory& reference);
+  /// To be taken in parts of the largest coordinates (and rates) of the whole motion.
+  static ErrorCurve inPartsOf(const Trajectory& whole);
 
   /// Takes the next sample of a trajectory. False: the trajectory or the reference ends before.
   bool take(const Trajectory& trajectory, const Trajectory& reference);
@@ -49,7 +51,8 @@ class ErrorCurve {
     double angle = 0.0;
     double& of(bool angular) { return angular ? angle : length; }
   };
-  ByUnit position_scale_, rate_scale_, position_error_, rate_error_;  // so far
+  ByUnit position_scale_, rate_scale_;  // so far, or of the whole motion
+  ByUnit position_error_, rate_error_;  // so far
   std::vector<double> position_, rate_;
 };
 

@@ -22,6 +22,18 @@ std::vector<std::size_t> systemsOf(const Scene& scene, const ControllerSpec& con
   return systems;
 }
 
+/// Without the states that nothing depends on and nobody measures: the angle of a shaft that only
+/// its speed matters of drifts, and is no part of what a loop holds.
+LoopPlant withoutCyclic(const LinearPlant& plant) {
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < plant.a.cols(); ++i) {
+    if (!plant.a.col(i).isZero(0.0) || !plant.c.col(i).isZero(0.0)) {
+      kept.push_back(i);
+    }
+  }
+  return {plant.a(kept, kept), plant.b(kept, Eigen::all), plant.c(Eigen::all, kept)};
+}
+
 }  // namespace
 
 ClosedLoop::ClosedLoop(const Scene& scene, std::vector<std::size_t> controllers)
@@ -70,8 +82,7 @@ std::optional<ClosedLoop::Parts> ClosedLoop::parts(const SmallMotions& small_mot
     }
     parts.controllers.push_back(std::move(controller));
   }
-  const LinearPlant plant = linearPlant(scene_, measures, acts_on, small_motions);
-  parts.plant = {plant.a, plant.b, plant.c};
+  parts.plant = withoutCyclic(linearPlant(scene_, measures, acts_on, small_motions));
   return parts;
 }
 

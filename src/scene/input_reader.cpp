@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "control/input_shaper.h"
 #include "messages/refusal.h"
 #include "scene/csv_columns.h"
 
@@ -15,11 +16,13 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kLargestTime = 1.0e9;  // s, of an instant
+constexpr double kLargestTime = 1.0e9;           // s, of an instant
+constexpr double kSlowestShaped = 1.0e-6;        // rad/s, of what a shaper leaves at rest
+constexpr double kLargestShapedDamping = 0.999;  // of that
 
 constexpr const char* kForms =
-    "must be a number ({0}), {{amplitude, frequency, phase}} or {{table, time, value, hold}}, "
-    "found {1}";
+    "must be a number ({0}), {{amplitude, frequency, phase}}, {{times, values, hold}} or {{table, "
+    "time, value, hold}}, found {1}";
 
 InputSignal readHarmonic(const MapReader& map, const std::string& unit) {
   const double amplitude = map.number("amplitude", Range::kAny, unit, std::nullopt);
@@ -29,11 +32,31 @@ InputSignal readHarmonic(const MapReader& map, const std::string& unit) {
   return InputSignal::harmonic(amplitude, frequency, phase);
 }
 
-InputSignal readTable(const MapReader& map, const std::string& folder, Complaints& complaints) {
+/// Times in s; `name` is theirs. Throws Refusal that names the row.
+InputSignal tableOf(const std::vector<double>& times, const std::vector<double>& values, bool hold,
+                    const std::string& name) {
+  std::vector<std::int64_t> instants;
+  for (std::size_t row = 0; row < times.size(); ++row) {
+    if (!(std::fabs(times[row]) <= kLargestTime)) {
+      throw Refusal(
+          fmt::format("row {}: {} must lie within +-1e9 s, found {} s", row + 1, name, times[row]));
+    }
+    instants.push_back(std::llround(times[row] * 1e9));
+  }
+  InputSignal signal = InputSignal::table(std::move(instants), values, hold);
+  const SignalFault fault = faultOf(signal);
+  if (fault.expected != nullptr) {
+    throw Refusal(fmt::format("row {}: {} {}, by a nanosecond or more, found {} s", fault.row + 1,
+                              name, fault.expected, times[fault.row]));
+  }
+  return signal;
+}
+
+InputSignal readFile(const MapReader& map, const std::string& folder, bool hold,
+                     Complaints& complaints) {
   const std::string name = map.text("table", "");
   const std::string time = map.text("time", "time");
   const std::string value = map.text("value", "value");
-  const bool hold = map.choice("hold", {"false", "true"}, "true or false", "false") == "true";
   std::filesystem::path path(name);
   if (path.is_relative()) {
     if (folder.empty()) {
@@ -46,26 +69,86 @@ InputSignal readTable(const MapReader& map, const std::string& folder, Complaint
   }
   try {
     const std::vector<std::vector<double>> columns = csvColumns(path.string(), {time, value});
-    std::vector<std::int64_t> instants;
-    for (std::size_t row = 0; row < columns[0].size(); ++row) {
-      const double seconds = columns[0][row];
-      if (!(std::fabs(seconds) <= kLargestTime)) {
-        throw Refusal(
-            fmt::format("row {}: {} must lie within +-1e9 s, found {} s", row + 1, time, seconds));
-      }
-      instants.push_back(std::llround(seconds * 1e9));
-    }
-    InputSignal signal = InputSignal::table(std::move(instants), columns[1], hold);
-    const SignalFault fault = faultOf(signal);
-    if (fault.expected != nullptr) {
-      throw Refusal(fmt::format("row {}: {} {}, by a nanosecond or more, found {} s", fault.row + 1,
-                                time, fault.expected, columns[0][fault.row]));
-    }
-    return signal;
+    return tableOf(columns[0], columns[1], hold, time);
   } catch (const Refusal& error) {
     complaints.add(map.key("table"), fmt::format("{}: {}", path.string(), error.what()));
     return {};
   }
+}
+
+/// Empty after a complaint.
+std::vector<double> readNumbers(const MapReader& map, const std::string& name,
+                                const std::string& unit, Complaints& complaints) {
+  const YAML::Node list = map.has(name) ? map.at(name) : YAML::Node();
+  if (!list.IsSequence() || list.size() == 0) {
+    complaints.add(map.key(name), fmt::format("must be a list of numbers in {}, found {}", unit,
+                                              list.IsSequence() ? "an empty one" : shown(list)));
+    return {};
+  }
+  std::vector<double> numbers;
+  bool sound = true;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::optional<double> number =
+        list[i].IsScalar() ? parseNumber(list[i].Scalar()) : std::nullopt;
+    if (!number) {
+      complaints.add(fmt::format("{}[{}]", map.key(name), i),
+                     fmt::format("must be a finite number in {}, found {}", unit, shown(list[i])));
+      sound = false;
+    }
+    numbers.push_back(number.value_or(0.0));
+  }
+  return sound ? numbers : std::vector<double>{};
+}
+
+InputSignal readLists(const MapReader& map, const std::string& unit, bool hold,
+                      Complaints& complaints) {
+  const std::vector<double> times = readNumbers(map, "times", "s", complaints);
+  const std::vector<double> values = readNumbers(map, "values", unit, complaints);
+  if (times.empty() || values.empty()) {
+    return {};
+  }
+  if (times.size() != values.size()) {
+    complaints.add(map.key("values"), fmt::format("must be as many as times, {}, found {}",
+                                                  times.size(), values.size()));
+    return {};
+  }
+  try {
+    return tableOf(times, values, hold, "the time");
+  } catch (const Refusal& error) {
+    complaints.add(map.key("times"), error.what());
+    return {};
+  }
+}
+
+/// The signal as its `shaper` gives it.
+InputSignal readShaped(const MapReader& table, const InputSignal& signal, Complaints& complaints) {
+  const MapReader map(table.at("shaper"), table.key("shaper"),
+                      {"type", "frequency", "damping_ratio"}, "key of a shaper", complaints);
+  if (!map.usable()) {
+    return signal;
+  }
+  const std::string type = map.choice("type", {"zv", "zvd"}, "a shaper", "zv");
+  const double frequency =
+      map.numberBetween("frequency", kSlowestShaped, kLargestFrequency, "rad/s", std::nullopt);
+  const double damping = map.numberBetween("damping_ratio", 0.0, kLargestShapedDamping, "-", 0.0);
+  if (signal.kind != InputSignal::Kind::kTable || !(frequency > 0.0)) {
+    return signal;
+  }
+  return shaped(signal, type == "zvd" ? zeroVibrationDerivative(frequency, damping)
+                                      : zeroVibration(frequency, damping));
+}
+
+InputSignal readTable(const YAML::Node& node, const std::string& key, const std::string& unit,
+                      const std::string& folder, Complaints& complaints) {
+  const bool file = node["table"].IsDefined();
+  const MapReader map(node, key,
+                      file ? std::vector<std::string>{"table", "time", "value", "hold", "shaper"}
+                           : std::vector<std::string>{"times", "values", "hold", "shaper"},
+                      "key of a table", complaints);
+  const bool hold = map.choice("hold", {"false", "true"}, "true or false", "false") == "true";
+  const InputSignal signal =
+      file ? readFile(map, folder, hold, complaints) : readLists(map, unit, hold, complaints);
+  return map.has("shaper") ? readShaped(map, signal, complaints) : signal;
 }
 
 InputSignal readSignal(const MapReader& inputs, const InputInfo& info, const std::string& folder,
@@ -79,10 +162,8 @@ InputSignal readSignal(const MapReader& inputs, const InputInfo& info, const std
     complaints.add(key, fmt::format(kForms, info.unit, shown(node)));
     return {};
   }
-  if (node["table"].IsDefined()) {
-    const MapReader map(node, key, {"table", "time", "value", "hold"}, "key of a table",
-                        complaints);
-    return readTable(map, folder, complaints);
+  if (node["table"].IsDefined() || node["times"].IsDefined() || node["values"].IsDefined()) {
+    return readTable(node, key, info.unit, folder, complaints);
   }
   const MapReader map(node, key, {"amplitude", "frequency", "phase"}, "key of a harmonic",
                       complaints);

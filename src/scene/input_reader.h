@@ -1,5 +1,5 @@
-// Reads what the inputs of a system follow: a number, a harmonic, or a table in a file of
-// comma-separated values.
+// Reads what the inputs of a system follow: a number, a harmonic, or a table, in the scene or in a
+// file of comma-separated values, as it is or through an input shaper.
 #pragma once
 
 #include <map>

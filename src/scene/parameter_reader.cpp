@@ -34,18 +34,23 @@ std::string rowKey(const MapReader& map, const std::string& name, std::size_t ro
   return fmt::format("{}[{}]", map.key(name), row);
 }
 
+/// A list of lists; a list of numbers is a matrix of one row.
 std::optional<Eigen::MatrixXd> readMatrix(const MapReader& map, const SettingInfo& info,
                                           Complaints& complaints) {
-  const auto rows =
+  const auto given =
       list(map, info.name, fmt::format("rows of numbers ({})", info.unit), complaints);
-  if (!rows) {
+  if (!given) {
     return std::nullopt;
   }
+  const bool one_row = given->size() > 0 && (*given)[0].IsScalar();
+  const std::vector<YAML::Node> rows = one_row
+                                           ? std::vector<YAML::Node>{*given}
+                                           : std::vector<YAML::Node>(given->begin(), given->end());
   const std::size_t before = complaints.all().size();
   Eigen::MatrixXd matrix;
-  for (std::size_t i = 0; i < rows->size(); ++i) {
-    const YAML::Node row = (*rows)[i];
-    const std::string key = rowKey(map, info.name, i);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const YAML::Node row = rows[i];
+    const std::string key = one_row ? map.key(info.name) : rowKey(map, info.name, i);
     if (!row.IsSequence()) {
       complaints.add(
           key, fmt::format("must be a list of numbers ({}), found {}", info.unit, shown(row)));
@@ -57,8 +62,7 @@ std::optional<Eigen::MatrixXd> readMatrix(const MapReader& map, const SettingInf
             key, fmt::format("must have 1 to {} numbers, found {}", kLargestMatrix, row.size()));
         return std::nullopt;
       }
-      matrix.setZero(static_cast<Eigen::Index>(rows->size()),
-                     static_cast<Eigen::Index>(row.size()));
+      matrix.setZero(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(row.size()));
     }
     if (static_cast<Eigen::Index>(row.size()) != matrix.cols()) {
       complaints.add(key, fmt::format("must have {} numbers like the first row, found {}",

@@ -143,6 +143,19 @@ systems:
   EXPECT_NE(choice.integrator, "semi_implicit_euler");
 }
 
+// The cart begins at 0, and what a small disturbance does to it is not told in parts of nothing.
+TEST(StepChoice, PromisesAMotionOfWhatBeginsAtRest) {
+  for (const char* start : {"initial: {theta: 0.2}", "inputs: {force: 3.0}",
+                            "inputs: {force: {times: [0, 1], values: [0, 3], hold: true}}"}) {
+    const StepChoice choice = chooseStep(sceneOf(
+        std::string("{step: 0.001, systems: {crane: {model: cart_pendulum, parameters: {cart_mass: "
+                    "20, rod_mass: 10, rod_length: 6, stiffness: 0}, ") +
+        start + "}}}"));
+    EXPECT_TRUE(choice.promise.kept) << start << ": " << choice.reason;
+    EXPECT_LT(choice.promise.reference_error, 1e-12) << start;
+  }
+}
+
 bool hasPast(const StepChoice& choice) {
   return stepMethod(choice.integrator).past > 0;
 }

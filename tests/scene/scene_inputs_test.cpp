@@ -103,10 +103,47 @@ TEST_F(SceneInputs, OneMayLackWhatItNeeds) {
                     "'torque1'?"}));
   EXPECT_EQ(errorsOf("{torque1: [1, 2]}"),
             (Errors{"systems.arms.inputs.torque1: must be a number (N m), {amplitude, frequency, "
-                    "phase} or {table, time, value, hold}, found a list"}));
+                    "phase}, {times, values, hold} or {table, time, value, hold}, found a list"}));
   EXPECT_EQ(errorsOf("{torque1: {amplitude: 1, frequncy: 2, frequency: 1}}"),
             (Errors{"systems.arms.inputs.torque1.frequncy: unknown key of a harmonic; did you mean "
                     "'frequency'?"}));
+}
+
+TEST_F(SceneInputs, TablesStandInTheSceneToo) {
+  const InputSignal table =
+      read("{torque1: {times: [0.5, 1, 2.25], values: [0, 3, -1]}}").inputs.at("torque1");
+  EXPECT_EQ(table.kind, InputSignal::Kind::kTable);
+  EXPECT_FALSE(table.hold);
+  EXPECT_EQ(table.instants, (std::vector<std::int64_t>{500000000, 1000000000, 2250000000}));
+  EXPECT_EQ(table.values, (std::vector<double>{0.0, 3.0, -1.0}));
+  const std::string at = "systems.arms.inputs.torque1.";
+  EXPECT_EQ(errorsOf("{torque1: {times: [0, x], values: []}}"),
+            (Errors{at + "times[1]: must be a finite number in s, found 'x'",
+                    at + "values: must be a list of numbers in N m, found an empty one"}));
+  EXPECT_EQ(errorsOf("{torque1: {times: [0, 1]}}"),
+            (Errors{at + "values: must be a list of numbers in N m, found nothing"}));
+  EXPECT_EQ(errorsOf("{torque1: {times: [0, 1], values: [1, 2, 3]}}"),
+            (Errors{at + "values: must be as many as times, 2, found 3"}));
+  EXPECT_EQ(errorsOf("{torque1: {times: [0, 1, 1], values: [1, 2, 3]}}"),
+            (Errors{at + "times: row 3: the time must grow from row to row, by a nanosecond or "
+                         "more, found 1 s"}));
+}
+
+// ZV without damping: half at once, half after half a period, pi / 2 s at 2 rad/s.
+TEST_F(SceneInputs, GoThroughAShaper) {
+  const std::string table = "{torque1: {times: [0, 1], values: [0, 4], hold: true, shaper: ";
+  const InputSignal shaped = read(table + "{type: zv, frequency: 2}}}").inputs.at("torque1");
+  EXPECT_EQ(shaped.instants, (std::vector<std::int64_t>{0, 1000000000, 1570796327, 2570796327}));
+  EXPECT_EQ(shaped.values, (std::vector<double>{0.0, 2.0, 2.0, 4.0}));
+  EXPECT_EQ(read(table + "{type: zvd, frequency: 2, damping_ratio: 0.1}}}")
+                .inputs.at("torque1")
+                .instants.size(),
+            6u);
+  const std::string at = "systems.arms.inputs.torque1.shaper.";
+  EXPECT_EQ(errorsOf(table + "{type: zw, damping_ratio: 1}}}"),
+            (Errors{at + "type: must be a shaper, found 'zw'; did you mean 'zv'?",
+                    at + "frequency: missing; must be from 1e-06 to 1e+06 rad/s",
+                    at + "damping_ratio: must be from 0 to 0.999, found 1"}));
 }
 
 TEST_F(SceneInputs, TableMayBeWrong) {

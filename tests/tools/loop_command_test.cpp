@@ -42,6 +42,16 @@ TEST(Loop, SpectralRadiiOfALevitatedMass) {
   EXPECT_NEAR(controllerOf(levitation(1.5, 1.0, 0.1, 0.2))["spectral_radius"], 0.959262159, 1e-9);
 }
 
+// Nothing depends on the angle of an engine's shaft: it drifts, and is no part of the loop.
+TEST(Loop, OfAShaftAtSpeedIsStableWhateverItsAngle) {
+  const Ending end = twin({"loop", WHIRL_TWIN_SOURCE "/config/scenes/throttle.yaml", "--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  const Json throttle = end.json()["controllers"]["throttle"];
+  EXPECT_EQ(throttle["verdict"], "asymptotically_stable");
+  EXPECT_LT(throttle["spectral_radius"], 0.999);
+  EXPECT_EQ(throttle["zone"], "A");
+}
+
 TEST(Loop, IsStableUpToALongestPeriod) {
   const double kd = std::sqrt(2.0);
   EXPECT_EQ(controllerOf(levitation(2.0, kd, 0.69, 0.0))["verdict"], "asymptotically_stable");
