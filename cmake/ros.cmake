@@ -18,11 +18,11 @@ add_service_files(DIRECTORY msg FILES ${whirl_twin_services})
 generate_messages(DEPENDENCIES std_msgs)
 
 # A plugin is compiled for the processor the library is for, so that both align matrices alike.
-set(whirl_twin_plugin_options "${whirl_twin_step_options}")
+string(REPLACE ";" " " whirl_twin_step_flags "${whirl_twin_step_options}")
+set(whirl_twin_native_option)
 if(WHIRL_TWIN_NATIVE)
-  list(APPEND whirl_twin_plugin_options -march=native)
+  set(whirl_twin_native_option -march=native)
 endif()
-string(REPLACE ";" " " whirl_twin_plugin_options "${whirl_twin_plugin_options}")
 catkin_package(
   INCLUDE_DIRS src
   LIBRARIES whirl_twin_core

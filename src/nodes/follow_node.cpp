@@ -23,7 +23,7 @@
 #include "nodes/publish_rate.h"
 #include "nodes/rival_report.h"
 #include "nodes/run_node.h"
-#include "plugins/plugin_models.h"
+#include "plugins/plugins.h"
 #include "scene/scene_reader.h"
 #include "transport/channels.h"
 #include "transport/lcm_connection.h"
@@ -87,7 +87,7 @@ void run() {
   requireKnownParameters(
       {"machine", "input", "machine_prefix", "publish_rate", "lcm_url", "lcm_prefix", "follow"});
   ros::NodeHandle node(twinNamespace());
-  usePluginModels();
+  usePlugins();
   const ParameterTree given = parameterTree(node, "scene");
   Twin twin(readScene(given.tree, given.source));
   const auto machine =

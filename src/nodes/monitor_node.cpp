@@ -20,7 +20,7 @@
 #include "nodes/private_parameter.h"
 #include "nodes/rival_report.h"
 #include "nodes/run_node.h"
-#include "plugins/plugin_models.h"
+#include "plugins/plugins.h"
 #include "scene/scene_reader.h"
 #include "scene/station_names.h"
 #include "transport/lcm_connection.h"
@@ -374,7 +374,7 @@ class MonitorNode {
 };
 
 void run() {
-  usePluginModels();
+  usePlugins();
   MonitorNode monitor{ros::NodeHandle(twinNamespace())};
   while (!stopRequested() && ros::ok()) {
     monitor.spinOnce();

@@ -23,7 +23,7 @@
 #include "nodes/run_node.h"
 #include "nodes/state_publisher.h"
 #include "nodes/twin_services.h"
-#include "plugins/plugin_models.h"
+#include "plugins/plugins.h"
 #include "realtime/fixed_rate_loop.h"
 #include "scene/scene_reader.h"
 #include "transport/channels.h"
@@ -120,7 +120,7 @@ Settings readSettings(const Scene& scene) {
 void run() {
   ros::NodeHandle node(twinNamespace());
   ros::NodeHandle private_node("~");
-  usePluginModels();
+  usePlugins();
   const ParameterTree given = parameterTree(node, "scene");
   const Scene scene = withStepsChosen(readScene(given.tree, given.source));
   const Settings settings = readSettings(scene);

@@ -23,7 +23,7 @@
 #include "messages/refusal.h"
 #include "nodes/node_help.h"
 #include "nodes/private_parameter.h"
-#include "plugins/plugin_models.h"
+#include "plugins/plugins.h"
 #include "transport/master_watch.h"
 #include "transport/twin_namespace.h"
 
@@ -273,7 +273,7 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "visualization_node");
   ros::NodeHandle node;  // keeps ROS up while the parameters are read
   try {
-    whirl_twin::usePluginModels();
+    whirl_twin::usePlugins();
     whirl_twin::requireKnownParameters({"whirl_scale", "trail_turns", "rate", "monitor"});
     whirl_twin::VisualizationNode visualization;
     const whirl_twin::MasterWatch master;

@@ -2,7 +2,28 @@
 
 #include <fmt/format.h>
 
+#include "models/model_registry.h"
+
 namespace whirl_twin {
+
+namespace {
+
+/// A shaft's speed may be that of a drive in its place.
+bool isRequired(const ParameterInfo& p) {
+  return !p.fallback && p.fallback_parameter.empty() && p.name != "speed";
+}
+
+std::string defaultText(const ParameterInfo& p) {
+  if (!p.fallback_parameter.empty()) {
+    return "default " + p.fallback_parameter;
+  }
+  if (p.fallback) {
+    return fmt::format("default {:g}", *p.fallback);
+  }
+  return isRequired(p) ? "required" : "or a drive";
+}
+
+}  // namespace
 
 std::vector<std::string> integratorsOf(const ModelVariant& variant) {
   std::vector<std::string> all{"auto"};
@@ -28,6 +49,46 @@ std::string contentsText(const SettingInfo& s) {
   }
   return s.kind == SettingKind::kMatrix ? fmt::format("rows of numbers ({}), {}", s.unit, need)
                                         : fmt::format("list of names, {}", need);
+}
+
+std::string parameterText(const ParameterInfo& p) {
+  return fmt::format("  parameter   {:<18} {:<9} {:<6} {:<18} {}\n", p.name, p.unit,
+                     describe(p.range), defaultText(p), p.meaning);
+}
+
+std::string settingText(const SettingInfo& s) {
+  return fmt::format("  parameter   {:<18} {}: {}\n", s.name, contentsText(s), s.meaning);
+}
+
+Json parameterJson(const ParameterInfo& p) {
+  Json json;
+  json["unit"] = p.unit;
+  json["range"] = describe(p.range);
+  json["default"] = p.fallback                     ? Json(*p.fallback)
+                    : p.fallback_parameter.empty() ? Json()
+                                                   : Json(p.fallback_parameter);
+  json["required"] = isRequired(p);
+  json["meaning"] = p.meaning;
+  return json;
+}
+
+Json settingJson(const SettingInfo& s) {
+  constexpr const char* kKinds[] = {"choice", "matrix", "names", "table", "word_or_count"};
+  Json json;
+  json["kind"] = kKinds[static_cast<int>(s.kind)];
+  json["required"] = s.required;
+  json["meaning"] = s.meaning;
+  if (s.kind == SettingKind::kChoice || s.kind == SettingKind::kWordOrCount) {
+    json["choices"] = s.choices;
+    json["default"] = s.choices.front();
+  }
+  for (const ColumnInfo& c : s.columns) {
+    json["columns"][c.name] = {{"unit", c.unit}, {"range", describe(c.range)}};
+  }
+  for (const std::string& c : s.word_columns) {
+    json["columns"][c] = {{"unit", "name"}};
+  }
+  return json;
 }
 
 }  // namespace whirl_twin

@@ -18,6 +18,7 @@ inline constexpr int kBadInput = 2;  ///< a scene, a file or an option is wrong
 void addCheckCommand(CLI::App& twin, int& status);
 void addScenesCommand(CLI::App& twin, int& status);
 void addModelsCommand(CLI::App& twin, int& status);
+void addControllersCommand(CLI::App& twin, int& status);
 void addNewCommand(CLI::App& twin, int& status);
 void addSimulateCommand(CLI::App& twin, int& status);
 void addPlotCommand(CLI::App& twin, int& status);

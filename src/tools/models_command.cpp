@@ -37,16 +37,6 @@ std::vector<ParameterInfo> allParameters(const ModelInfo& model) {
   return all;
 }
 
-std::string defaultText(const ParameterInfo& p) {
-  if (!p.fallback_parameter.empty()) {
-    return "default " + p.fallback_parameter;
-  }
-  if (p.fallback) {
-    return fmt::format("default {:g}", *p.fallback);
-  }
-  return p.name == "speed" ? "or a drive" : "required";
-}
-
 std::string text(const ModelInfo& model) {
   std::string out = fmt::format("{}: {}\n", model.name, model.summary);
   for (const ModelVariant& v : model.variants) {
@@ -64,45 +54,13 @@ std::string text(const ModelInfo& model) {
     }
   }
   for (const ParameterInfo& p : allParameters(model)) {
-    out += fmt::format("  parameter   {:<18} {:<9} {:<6} {:<18} {}\n", p.name, p.unit,
-                       describe(p.range), defaultText(p), p.meaning);
+    out += parameterText(p);
   }
   for (const SettingInfo& s : model.settings) {
-    out += fmt::format("  parameter   {:<18} {}: {}\n", s.name, contentsText(s), s.meaning);
+    out += settingText(s);
   }
   return out +
          fmt::format("  integrators {}\n", fmt::join(integratorsOf(model.variants.front()), ", "));
-}
-
-Json parameterJson(const ParameterInfo& p) {
-  Json json;
-  json["unit"] = p.unit;
-  json["range"] = describe(p.range);
-  json["default"] = p.fallback                     ? Json(*p.fallback)
-                    : p.fallback_parameter.empty() ? Json()
-                                                   : Json(p.fallback_parameter);
-  json["required"] = !p.fallback && p.fallback_parameter.empty() && p.name != "speed";
-  json["meaning"] = p.meaning;
-  return json;
-}
-
-Json settingJson(const SettingInfo& s) {
-  constexpr const char* kKinds[] = {"choice", "matrix", "names", "table", "word_or_count"};
-  Json json;
-  json["kind"] = kKinds[static_cast<int>(s.kind)];
-  json["required"] = s.required;
-  json["meaning"] = s.meaning;
-  if (s.kind == SettingKind::kChoice || s.kind == SettingKind::kWordOrCount) {
-    json["choices"] = s.choices;
-    json["default"] = s.choices.front();
-  }
-  for (const ColumnInfo& c : s.columns) {
-    json["columns"][c.name] = {{"unit", c.unit}, {"range", describe(c.range)}};
-  }
-  for (const std::string& c : s.word_columns) {
-    json["columns"][c] = {{"unit", "name"}};
-  }
-  return json;
 }
 
 /// What is said of one form of a model.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #ifdef WHIRL_TWIN_PLUGINS
-#include "plugins/plugin_models.h"
+#include "plugins/plugins.h"
 #endif
 #include "messages/names.h"
 #include "messages/refusal.h"
@@ -99,6 +99,7 @@ int run(int argc, const char* const* argv) {
   addCheckCommand(twin, status);
   addScenesCommand(twin, status);
   addModelsCommand(twin, status);
+  addControllersCommand(twin, status);
   addNewCommand(twin, status);
   addSimulateCommand(twin, status);
   addPlotCommand(twin, status);
@@ -148,7 +149,7 @@ int run(int argc, const char* const* argv) {
 int main(int argc, char** argv) {
   try {
 #ifdef WHIRL_TWIN_PLUGINS
-    whirl_twin::usePluginModels();
+    whirl_twin::usePlugins();
 #endif
     return whirl_twin::run(argc, argv);
   } catch (const whirl_twin::SceneError& error) {

@@ -1,4 +1,4 @@
-#include "plugins/plugin_models.h"
+#include "plugins/plugins.h"
 
 #include <rospack/rospack.h>
 
@@ -6,8 +6,11 @@
 #include <cstdio>
 #include <pluginlib/class_loader.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "controllers/controller_plugin.h"
+#include "controllers/controller_registry.h"
 #include "models/model_plugin.h"
 #include "models/model_registry.h"
 
@@ -16,7 +19,6 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kPackage = "whirl_twin";
-constexpr const char* kBaseClass = "whirl_twin::ModelPlugin";
 constexpr const char* kAttribute = "plugin";
 
 /// One line, whatever a loader says.
@@ -45,16 +47,18 @@ std::vector<std::string> descriptions() {
   return files;
 }
 
-std::vector<ModelInfo> pluginModels() {
-  using Loader = pluginlib::ClassLoader<ModelPlugin>;
-  std::vector<ModelInfo> all;
+/// What the plugins of a kind say of themselves: a ModelInfo each, or a ControllerInfo.
+template <class Plugin>
+auto infosOf(const char* base_class) {
+  using Loader = pluginlib::ClassLoader<Plugin>;
+  std::vector<decltype(std::declval<Plugin>().info())> all;
   const std::vector<std::string> files = descriptions();
   if (files.empty()) {
     return all;
   }
   try {
-    // Never destroyed, for with it would go the code that the models step with.
-    static Loader& loader = *new Loader(kPackage, kBaseClass, kAttribute, files);
+    // Never destroyed, for with it would go the code that the twin steps with.
+    static Loader& loader = *new Loader(kPackage, base_class, kAttribute, files);
     for (const std::string& name : loader.getDeclaredClasses()) {
       try {
         all.push_back(loader.createUniqueInstance(name)->info());
@@ -70,8 +74,10 @@ std::vector<ModelInfo> pluginModels() {
 
 }  // namespace
 
-void usePluginModels() {
-  setModelSource(pluginModels, warn);
+void usePlugins() {
+  setModelSource([] { return infosOf<ModelPlugin>("whirl_twin::ModelPlugin"); }, warn);
+  setControllerSource([] { return infosOf<ControllerPlugin>("whirl_twin::ControllerPlugin"); },
+                      warn);
 }
 
 }  // namespace whirl_twin

@@ -1,0 +1,12 @@
+// Models and controllers of other packages, by pluginlib: any package that depends on whirl_twin
+// and exports a class description to it (docs/own_systems.md, docs/own_controllers.md).
+#pragma once
+
+namespace whirl_twin {
+
+/// Makes scenes find the models and controllers of plugins beside the built-in ones. Nothing is
+/// searched or loaded before a scene names one that is not built in, or all are listed. What cannot
+/// be loaded costs one line on standard error; the rest is there.
+void usePlugins();
+
+}  // namespace whirl_twin

@@ -1,0 +1,39 @@
+// `twin controllers`: what a scene can name as the type of a controller.
+#include <gtest/gtest.h>
+
+#include "twin_program.h"
+
+namespace whirl_twin {
+namespace {
+
+using Json = nlohmann::json;
+
+TEST(Controllers, AreToldWithUnitsAndDefaults) {
+  const Ending end = twin({"controllers", "pid", "--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  const Json controllers = end.json()["controllers"];
+  ASSERT_EQ(controllers.size(), 1u);
+  const Json& pid = controllers["pid"];
+  EXPECT_EQ(pid["parameters"]["tracking_time"]["unit"], "s");
+  EXPECT_EQ(pid["parameters"]["tracking_time"]["range"], ">= 0");
+  EXPECT_EQ(pid["parameters"]["kp"]["default"], 0.0);
+  EXPECT_EQ(pid["settings"]["anti_windup"]["default"], "back_calculation");
+}
+
+TEST(Controllers, AllOfThemHaveAWordForThemselves) {
+  const Json controllers = twin({"controllers", "--json"}).json()["controllers"];
+  EXPECT_GE(controllers.size(), 7u);
+  for (const auto& [name, controller] : controllers.items()) {
+    EXPECT_NE(controller["summary"], "") << name;
+  }
+}
+
+TEST(Controllers, ANameThatNoneHasIsRefusedWithTheNearest) {
+  const Ending wrong = twin({"controllers", "pdi", "lqr"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_TRUE(wrong.out.empty());
+  EXPECT_NE(wrong.err.find("no controller 'pdi'"), std::string::npos) << wrong.err;
+}
+
+}  // namespace
+}  // namespace whirl_twin
