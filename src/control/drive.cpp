@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "messages/refusal.h"
 
@@ -12,13 +13,20 @@ namespace whirl_twin {
 namespace {
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
+constexpr double kNoneBefore = std::numeric_limits<double>::quiet_NaN();
+
+bool runsTooFast(const BandedChange& plan) noexcept {
+  return std::any_of(plan.speeds.begin(), plan.speeds.begin() + plan.count,
+                     [](double speed) { return !(std::abs(speed) <= kLargestSpeed); });
+}
 
 }  // namespace
 
 Drive::Drive(double speed, double angle) : Drive(speed, angle, {}) {}
 
 Drive::Drive(double speed, double angle, const std::vector<SpeedMove>& moves,
-             std::int64_t start_nanoseconds) {
+             std::int64_t start_nanoseconds, ExclusionBands avoid)
+    : avoid_(std::move(avoid)) {
   if (!(std::abs(speed) <= kLargestSpeed)) {
     throw Refusal(fmt::format("drive: speed must lie within +-1e6 rad/s, found {}", speed));
   }
@@ -45,15 +53,29 @@ Drive::Drive(double speed, double angle, const std::vector<SpeedMove>& moves,
       throw Refusal(fmt::format("drive: profile move {}: {}, found {}", i + 1, fault->expected,
                                 fault->found));
     }
-    const SpeedChange change = planSpeedChange(speed, 0.0, move);
-    total += change.duration + move.dwell;
+    const double allowed =
+        avoid_.allowed(move.speed, move.max_acceleration, move.max_jerk, kNoneBefore);
+    if (allowed != move.speed) {
+      throw Refusal(
+          fmt::format("drive: profile move {}: speed must not lie in a band to avoid, found {}, "
+                      "nearest edge {}",
+                      i + 1, move.speed, allowed));
+    }
+    const BandedChange plan = avoid_.plan(speed, 0.0, move);
+    if (runsTooFast(plan)) {
+      throw Refusal(fmt::format(
+          "drive: profile move {}: would run faster than 1e6 rad/s past a band to avoid", i + 1));
+    }
+    total += plan.duration + move.dwell;
     if (!(total <= kLongestDuration)) {
       throw Refusal(fmt::format(
           "drive: profile move {}: the profile up to its end must last at most 1e9 s, found {} s",
           i + 1, total));
     }
-    for (std::size_t k = 0; k < change.count; ++k) {
-      append(change.segments[k], move.speed);
+    for (std::size_t c = 0; c < plan.count; ++c) {
+      for (std::size_t k = 0; k < plan.changes[c].count; ++k) {
+        append(plan.changes[c].segments[k], move.speed);
+      }
     }
     speed = move.speed;
     if (move.dwell > 0.0) {
@@ -192,27 +214,33 @@ double Drive::cornerBeyond(double offset) const noexcept {
 }
 
 bool Drive::setSpeed(double speed, double max_acceleration, double max_jerk) noexcept {
-  const SpeedMove move{speed, max_acceleration, max_jerk, 0.0};
+  SpeedMove move{speed, max_acceleration, max_jerk, 0.0};
   if (faultOf(move) ||
       !(std::abs(stoppingSpeed(speed_, acceleration_, max_jerk)) <= kLargestSpeed)) {
     return false;
   }
-  const SpeedChange change = planSpeedChange(speed_, acceleration_, move);
-  if (!(change.duration <= kLongestDuration)) {
+  move.speed = avoid_.allowed(speed, max_acceleration, max_jerk, targetSpeed());
+  const BandedChange plan = avoid_.plan(speed_, acceleration_, move);
+  if (!(plan.duration <= kLongestDuration) || runsTooFast(plan)) {
     return false;
   }
 
   // time_ and angle() are those of begin(), so the new pieces start from the present state.
-  const auto moved = [&](std::size_t i) {
-    return i < change.count ? change.segments[i] : SpeedSegment{kForever, speed, 0.0, 0.0};
+  std::size_t count = 0;
+  const auto append = [&](const SpeedSegment& piece) {
+    live_[count] = count == 0 ? Segment{piece, move.speed, time_, 0.0, angle()}
+                              : following(live_[count - 1], piece, move.speed);
+    ++count;
   };
-  live_[0] = {moved(0), speed, time_, 0.0, angle()};
-  for (std::size_t i = 1; i <= change.count; ++i) {
-    live_[i] = following(live_[i - 1], moved(i), speed);
+  for (std::size_t c = 0; c < plan.count; ++c) {
+    for (std::size_t k = 0; k < plan.changes[c].count; ++k) {
+      append(plan.changes[c].segments[k]);
+    }
   }
-  live_count_ = change.count + 1;
+  append({kForever, move.speed, 0.0, 0.0});
+  live_count_ = count;
   cursor_ = 0;
-  move_duration_ = change.duration;
+  move_duration_ = plan.duration;
   enter(time_);
   begin(time_);
   return true;

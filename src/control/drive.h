@@ -8,6 +8,9 @@
 // and at(offset) within a few ulp of (2 pi + speed * offset). Speed and acceleration are continuous
 // from piece to piece up to a few ulp of the largest ones in the move, and the speed asked for is
 // reached exactly. A piece's limits are whole nanoseconds and a fraction, exact to 1e-16 ns.
+//
+// A drive may have bands of speeds to avoid: its moves cross them at full acceleration and do not
+// end in them (exclusion_bands.h).
 #pragma once
 
 #include <array>
@@ -17,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include "control/exclusion_bands.h"
 #include "control/shaft_angle.h"
 #include "control/speed_profile.h"
 
@@ -39,10 +43,13 @@ class Drive {
   /// A constant speed [rad/s]; angle [rad] at simulated time 0.
   Drive(double speed, double angle);
 
-  /// Moves that follow one another from `speed` and `angle` at simulated time `start_nanoseconds`.
-  /// Throws Refusal that names the move and the value.
+  /// Moves that follow one another from `speed` and `angle` at simulated time `start_nanoseconds`,
+  /// past the bands to avoid. Throws Refusal that names the move and the value.
   Drive(double speed, double angle, const std::vector<SpeedMove>& moves,
-        std::int64_t start_nanoseconds = 0);
+        std::int64_t start_nanoseconds = 0, ExclusionBands avoid = {});
+
+  /// They never change.
+  const ExclusionBands& avoid() const { return avoid_; }
 
   /// Lowest and highest speed [rad/s] of the profile, as far as its jerk-limited moves reach.
   std::pair<double, double> speedRange() const;
@@ -99,15 +106,15 @@ class Drive {
     return offset < remaining_ ? remaining_ : cornerBeyond(offset);
   }
 
-  /// Speed [rad/s] at which the present move ends.
+  /// Speed [rad/s] at which the present move ends, whatever it does on the way for a band.
   double targetSpeed() const noexcept { return segments()[cursor_].target; }
 
   /// From the instant of the last begin(), replaces what is left of the profile by one move to
-  /// `speed` [rad/s] within max_acceleration [rad/s^2] and max_jerk [rad/s^3]. Speed and
-  /// acceleration go on from their present values; only with max_jerk 0 may the acceleration jump.
-  /// False, with nothing changed, for bad arguments: not finite, a limit not positive (jerk:
-  /// negative), a speed beyond kLargestSpeed asked for or run through, a move that would last
-  /// longer than kLongestDuration.
+  /// `speed` [rad/s] within max_acceleration [rad/s^2] and max_jerk [rad/s^3], or to the edge of a
+  /// band that it is in. Speed and acceleration go on from their present values; only with max_jerk
+  /// 0 may the acceleration jump. False, with nothing changed, for bad arguments: not finite, a
+  /// limit not positive (jerk: negative), a speed beyond kLargestSpeed asked for or run through, a
+  /// move that would last longer than kLongestDuration.
   bool setSpeed(double speed, double max_acceleration, double max_jerk) noexcept;
 
   /// Duration [s] of the last setSpeed() move; 0 without one.
@@ -143,9 +150,11 @@ class Drive {
   static constexpr std::int64_t kLatest = std::numeric_limits<std::int64_t>::max();
   static constexpr double kAngleUnknown = -1.0;  // [s], less than any offset
 
+  ExclusionBands avoid_;
   std::vector<Segment> profile_;
-  std::array<Segment, 4> live_{};  // the last setSpeed() move and what follows it
-  std::size_t live_count_ = 0;     // 0: the profile holds
+  std::array<Segment, BandedChange::kMostPieces + 1>
+      live_{};                  // the last setSpeed() move, and after
+  std::size_t live_count_ = 0;  // 0: the profile holds
   std::size_t cursor_ = 0;
   double move_duration_ = 0.0;
 

@@ -114,9 +114,14 @@ std::optional<SpeedBand> ExclusionBands::around(double speed, double run_up) con
   return found;
 }
 
+std::optional<SpeedBand> ExclusionBands::bandOf(double target, double max_acceleration,
+                                                double max_jerk) const noexcept {
+  return around(target, runUpOf(max_acceleration, max_jerk));
+}
+
 double ExclusionBands::allowed(double target, double max_acceleration, double max_jerk,
                                double before) const noexcept {
-  const std::optional<SpeedBand> band = around(target, runUpOf(max_acceleration, max_jerk));
+  const std::optional<SpeedBand> band = bandOf(target, max_acceleration, max_jerk);
   if (!band) {
     return target;
   }

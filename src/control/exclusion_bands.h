@@ -22,17 +22,22 @@ namespace whirl_twin {
 
 /// Speeds [rad/s] between two edges, which do not belong to it; 0 < from < to.
 struct SpeedBand {
-  double from;
-  double to;
+  double from = 0.0;
+  double to = 0.0;
 
+  /// No speed is in it; also when an edge is not a number.
+  bool empty() const noexcept { return !(from < to); }
   double centre() const noexcept { return 0.5 * (from + to); }
   bool holds(double speed) const noexcept { return from < speed && speed < to; }
 };
 
 /// Changes of speed that follow one another, each from the end of that before.
 struct BandedChange {
-  std::array<SpeedChange, 4> changes;
-  std::array<double, 4> speeds;  ///< [rad/s], at which each ends
+  static constexpr std::size_t kMostChanges = 4;
+  static constexpr std::size_t kMostPieces = kMostChanges * SpeedChange::kMostPieces;
+
+  std::array<SpeedChange, kMostChanges> changes;
+  std::array<double, kMostChanges> speeds;  ///< [rad/s], at which each ends
   std::size_t count = 0;
   double duration = 0.0;  ///< [s]
 };
@@ -46,6 +51,7 @@ class ExclusionBands {
   /// Refusal for a band whose edges are not 0 < from < to, and for another hysteresis.
   explicit ExclusionBands(std::vector<SpeedBand> bands, double hysteresis = 0.1);
 
+  bool empty() const { return bands_.empty(); }
   /// As they are merged, of both senses, in rising order.
   const std::vector<SpeedBand>& bands() const { return bands_; }
 
@@ -55,6 +61,11 @@ class ExclusionBands {
   /// limit]; before: where the last one went, NaN without one.
   double allowed(double target, double max_acceleration, double max_jerk,
                  double before) const noexcept;
+
+  /// The band that `allowed` moves a target out of: with those that are one with it at this
+  /// acceleration and jerk.
+  std::optional<SpeedBand> bandOf(double target, double max_acceleration,
+                                  double max_jerk) const noexcept;
 
   /// From a speed and an acceleration to an allowed one: the least moves that cross each band at
   /// full acceleration. What is inside a band goes on if it is at full acceleration, or leaves by

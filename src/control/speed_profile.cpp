@@ -13,6 +13,23 @@ void append(SpeedChange& change, const SpeedSegment& segment) {
   }
 }
 
+/// target - stoppingSpeed(), as if it were rounded once: of two speeds far from 0 and near to each
+/// other little is left, and the time that the rest takes is to be right all the same.
+double missingSpeed(double speed, double acceleration, double max_jerk, double target) noexcept {
+  const double difference = target - speed;
+  if (max_jerk == 0.0) {
+    return difference;
+  }
+  const double part = difference - target;
+  const double difference_lost = (target - (difference - part)) - (speed + part);
+  const double square = acceleration * std::abs(acceleration);
+  const double square_lost = std::fma(acceleration, std::abs(acceleration), -square);
+  const double gained = square / (2.0 * max_jerk);
+  const double gained_lost =
+      (std::fma(-gained, 2.0 * max_jerk, square) + square_lost) / (2.0 * max_jerk);
+  return (difference - gained) + (difference_lost - gained_lost);
+}
+
 }  // namespace
 
 std::optional<MoveFault> faultOf(const SpeedMove& move) noexcept {
@@ -44,7 +61,7 @@ double stoppingSpeed(double speed, double acceleration, double max_jerk) noexcep
 SpeedChange planSpeedChange(double speed, double acceleration, const SpeedMove& move) noexcept {
   const double limit = move.max_acceleration;
   const double jerk = move.max_jerk;
-  const double missing = move.speed - stoppingSpeed(speed, acceleration, jerk);
+  const double missing = missingSpeed(speed, acceleration, jerk, move.speed);
   SpeedChange change;
   if (jerk == 0.0) {
     append(change, {std::abs(missing) / limit, speed, std::copysign(limit, missing), 0.0});

@@ -45,7 +45,9 @@ struct SpeedSegment {
 
 /// A planned change of speed: at most three pieces, none of them empty.
 struct SpeedChange {
-  std::array<SpeedSegment, 3> segments;
+  static constexpr std::size_t kMostPieces = 3;
+
+  std::array<SpeedSegment, kMostPieces> segments;
   std::size_t count = 0;
   double duration = 0.0;  ///< [s]
 };

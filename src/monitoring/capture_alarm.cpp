@@ -47,7 +47,7 @@ void CaptureAlarm::update(const state::DriveState& shaft, const std::vector<Capt
   }
   // What is behind it, by more than the hysteresis, holds it no more.
   const auto ahead = std::find_if(captures.begin(), captures.end(), [&](const CaptureSpeed& c) {
-    return speed <= (1.0 + settings_.hysteresis) * c.band.high;
+    return speed <= (1.0 + settings_.hysteresis) * c.band.to;
   });
   AlarmCondition condition = AlarmCondition::kClear;
   if (ahead != captures.end()) {
@@ -80,7 +80,7 @@ void CaptureAlarm::update(const state::DriveState& shaft, const std::vector<Capt
                      : fmt::format(
                            "{}: its motor gives less torque than {} takes, it will hang at {:.1f} "
                            "rad/s: stay below {:.1f} rad/s, or give it more torque",
-                           system_, where, ahead->speed, ahead->band.low);
+                           system_, where, ahead->speed, ahead->band.from);
     alerts.raise(std::move(alert), fmt::format("capture {}", ahead - captures.begin()));
   }
 }

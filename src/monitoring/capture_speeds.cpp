@@ -36,14 +36,14 @@ std::vector<CaptureSpeed> captureSpeeds(
   for (const state::CriticalSpeedMargin& critical : critical_speeds) {
     const SpeedBand band{critical.band_low, critical.band_high};
     const auto holds = std::find_if(steady.begin(), steady.end(), [&](const SteadySpeed& s) {
-      return s.stable && s.speed > passed && s.speed <= band.high;
+      return s.stable && s.speed > passed && s.speed <= band.to;
     });
-    if (!band.empty() && holds != steady.end() && passes(driven->motor, holds->speed, band.high)) {
+    if (!band.empty() && holds != steady.end() && passes(driven->motor, holds->speed, band.to)) {
       const auto next = holds + 1;
-      const double escape = next == steady.end() ? band.high : std::min(next->speed, band.high);
+      const double escape = next == steady.end() ? band.to : std::min(next->speed, band.to);
       captures.push_back({holds->speed, escape, critical.speed, band});
     }
-    passed = band.empty() ? passed : band.high;
+    passed = band.empty() ? passed : band.to;
   }
   return captures;
 }

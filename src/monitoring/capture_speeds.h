@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "monitoring/separation_margin.h"
+#include "analysis/separation_margin.h"
 #include "scene/built_system.h"
 
 namespace whirl_twin {

@@ -1,6 +1,6 @@
 #include "monitoring/judged_speeds.h"
 
-#include "monitoring/separation_margin.h"
+#include "analysis/separation_margin.h"
 #include "scene/held_rotor.h"
 
 namespace whirl_twin {

@@ -154,21 +154,31 @@ bool TwinServices::setSpeed(SetSpeed::Request& request, SetSpeed::Response& resp
   command.max_acceleration = request.max_acceleration;
   command.max_jerk = request.max_jerk;
   TwinAnswer answer;
-  response.message = parameters_.objectionToSpeed(command.drive, command.speed);
+  SpeedMove move{request.speed, request.max_acceleration, request.max_jerk, 0.0};
+  const std::optional<SpeedReach> reach = parameters_.reachOf(command.drive, move);
+  if (!reach) {
+    response.message = kEnded;
+    return true;
+  }
+  move.speed = command.speed = reach->target;
+  response.message = parameters_.objectionTo(command.drive, *reach);
   if (!response.message.empty()) {
     return true;
   }
-  if (!parameters_.prepareFor(command.drive, command.speed, command.max_jerk) ||
-      !carryOut(command, answer)) {
+  if (!parameters_.prepareFor(command.drive, move) || !carryOut(command, answer)) {
     response.message = kEnded;
     return true;
   }
   response.success = answer.done;
   response.duration = answer.duration;
+  response.speed = answer.done ? command.speed : std::nan("");
   response.message = answer.done
-                         ? fmt::format("{} goes to {} rad/s in {:.6g} s", request.drive,
-                                       request.speed, answer.duration)
+                         ? fmt::format("{} goes to {:.6g} rad/s in {:.6g} s", request.drive,
+                                       command.speed, answer.duration)
                          : "the move cannot be made: it would last too long or run too fast";
+  if (answer.done && command.speed != request.speed) {
+    response.message += fmt::format(": {} rad/s is in a band that it avoids", request.speed);
+  }
   return true;
 }
 

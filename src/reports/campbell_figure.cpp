@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "monitoring/separation_margin.h"
+#include "analysis/separation_margin.h"
 #include "reports/campbell_report.h"
 
 namespace whirl_twin {
@@ -99,7 +99,7 @@ void addBands(const CampbellReport& r, bool named, Chart& chart) {
     const SpeedBand band = criticalBand(peak.speed, peak.amplification_factor);
     if (!band.empty()) {
       chart.bands.push_back(
-          {first ? "separation margin" : "", band.low, band.high, paler(ink::kOrange, 0.65)});
+          {first ? "separation margin" : "", band.from, band.to, paler(ink::kOrange, 0.65)});
       first = false;
     }
   }

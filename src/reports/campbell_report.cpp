@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/separation_margin.h"
 #include "messages/refusal.h"
-#include "monitoring/separation_margin.h"
 #include "reports/matrix_json.h"
 #include "reports/verdict_text.h"
 
@@ -141,8 +141,8 @@ Json json(const CampbellReport& r) {
     json["response_peaks"].push_back({{"speed", peak.speed},
                                       {"direction", peak.forward ? "forward" : "backward"},
                                       {"amplification_factor", peak.amplification_factor},
-                                      {"band_low", band.low},
-                                      {"band_high", band.high}});
+                                      {"band_low", band.from},
+                                      {"band_high", band.to}});
   }
   return json;
 }
@@ -177,7 +177,7 @@ std::string text(const CampbellReport& r) {
     out += fmt::format(
         "    {:.6g}, amplification {}{}\n", peak.speed, defined(peak.amplification_factor, "-"),
         band.empty() ? std::string(": critically damped")
-                     : fmt::format(": keep out of {:.5g} to {:.5g}", band.low, band.high));
+                     : fmt::format(": keep out of {:.5g} to {:.5g}", band.from, band.to));
   }
   if (r.peaks.empty()) {
     out += "    none\n";

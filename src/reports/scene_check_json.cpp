@@ -28,6 +28,13 @@ Json driveJson(const DriveSpec& drive, const Published& published) {
                                {"dwell", move.dwell}});
   }
   json["duration"] = profileDuration(drive);
+  json["avoid"] = Json::array();
+  const ExclusionBands avoid(drive.avoid);
+  for (const SpeedBand& band : avoid.bands()) {
+    if (band.from > 0.0) {  // the others are these the other way round
+      json["avoid"].push_back({{"from", band.from}, {"to", band.to}});
+    }
+  }
   addPublished(published, json);
   return json;
 }

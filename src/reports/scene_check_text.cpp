@@ -33,6 +33,17 @@ std::string driveText(const DriveSpec& drive, const Published& published) {
                        move.max_jerk > 0.0 ? fmt::format(" and {:g} rad/s^3", move.max_jerk) : "",
                        move.dwell);
   }
+  const ExclusionBands avoid(drive.avoid);
+  std::vector<std::string> bands;
+  for (const SpeedBand& band : avoid.bands()) {
+    if (band.from > 0.0) {
+      bands.push_back(fmt::format("{:.6g} to {:.6g} rad/s", band.from, band.to));
+    }
+  }
+  if (!bands.empty()) {
+    out += fmt::format("    avoids {}, either way round: passed at full acceleration\n",
+                       fmt::join(bands, ", "));
+  }
   return out + publishedText(published);
 }
 

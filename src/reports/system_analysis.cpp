@@ -8,8 +8,8 @@
 #include "algebra/cholesky.h"
 #include "analysis/critical_speeds.h"
 #include "analysis/instability_speed.h"
+#include "analysis/separation_margin.h"
 #include "messages/refusal.h"
-#include "monitoring/separation_margin.h"
 #include "scene/held_rotor.h"
 
 namespace whirl_twin {

@@ -16,7 +16,7 @@ Drive constantDrive(const BuiltSystem& system) {
 }
 
 Drive prescribedDrive(const DriveSpec& spec, std::int64_t start) {
-  return {spec.speed, spec.angle, spec.profile, start};
+  return {spec.speed, spec.angle, spec.profile, start, ExclusionBands(spec.avoid)};
 }
 
 }  // namespace

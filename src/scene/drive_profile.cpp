@@ -1,14 +1,15 @@
 #include "scene/drive_profile.h"
 
-#include "control/speed_profile.h"
+#include "control/exclusion_bands.h"
 
 namespace whirl_twin {
 
 std::vector<double> changeDurations(const DriveSpec& drive) {
+  const ExclusionBands avoid(drive.avoid);
   std::vector<double> durations;
   double speed = drive.speed;
   for (const SpeedMove& move : drive.profile) {
-    durations.push_back(planSpeedChange(speed, 0.0, move).duration);
+    durations.push_back(avoid.plan(speed, 0.0, move).duration);
     speed = move.speed;
   }
   return durations;

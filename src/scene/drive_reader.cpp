@@ -99,7 +99,7 @@ DriveSpec readDrive(const YAML::Node& node, const std::string& key, const std::s
                     std::int64_t start, Complaints& complaints) {
   DriveSpec drive;
   drive.name = name;
-  const MapReader map(node, key, {"speed", "angle", "profile", "motor"}, "key of a drive",
+  const MapReader map(node, key, {"speed", "angle", "profile", "motor", "avoid"}, "key of a drive",
                       complaints);
   if (!map.usable()) {
     return drive;

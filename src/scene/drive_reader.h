@@ -1,5 +1,5 @@
 // Reads a drive of a scene: its speed and angle at the start, and the moves of its profile
-// or the law of its motor.
+// or the law of its motor. What it avoids is read when the systems have been (avoidance_reader.h).
 #pragma once
 
 #include <cstdint>

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "control/exclusion_bands.h"
 #include "control/input_signal.h"
 #include "control/motor.h"
 #include "control/speed_profile.h"
@@ -29,6 +30,7 @@ struct DriveSpec {
   std::vector<SpeedMove> profile;  ///< moves in order; empty: the speed stays
   /// It turns the shaft instead: speed and angle are a state of the one system that names it.
   std::optional<Motor> motor = std::nullopt;
+  std::vector<SpeedBand> avoid = {};  ///< that it passes and does not stay in; in no order
 };
 
 /// How one number differs from member to member of an ensemble, about what the scene gives; or,

@@ -12,6 +12,7 @@
 #include "analysis/mass_matrix.h"
 #include "messages/names.h"
 #include "models/model_registry.h"
+#include "scene/avoidance_reader.h"
 #include "scene/controller_reader.h"
 #include "scene/drive_reader.h"
 #include "scene/ensemble_reader.h"
@@ -196,6 +197,17 @@ SystemSpec readSystem(const YAML::Node& node, const std::string& key, const std:
   return spec;
 }
 
+/// What its drives avoid, which hangs on the systems that they turn.
+void readAvoided(const MapReader& map, Scene& scene, Complaints& complaints) {
+  for (std::size_t i = 0; i < scene.drives.size(); ++i) {
+    const YAML::Node drive = map.at("drives")[scene.drives[i].name];
+    if (drive.IsMap() && drive["avoid"]) {
+      readAvoidance(drive["avoid"], fmt::format("drives.{}.avoid", scene.drives[i].name), i, scene,
+                    complaints);
+    }
+  }
+}
+
 Scene readTree(const YAML::Node& tree, const std::string& source, Complaints& complaints) {
   Scene scene;
   scene.source = source;
@@ -235,6 +247,7 @@ Scene readTree(const YAML::Node& tree, const std::string& source, Complaints& co
         readSystem(systems.at(name), systems.key(name), name, scene, places, complaints));
   }
   checkMotors(scene, complaints);
+  readAvoided(map, scene, complaints);
   checkStations(scene, systems, complaints);
   if (map.has("sensors")) {
     scene.sensors = readSensors(map.at("sensors"), "sensors", scene, complaints);

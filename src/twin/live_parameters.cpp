@@ -193,7 +193,8 @@ std::vector<std::string> LiveParameters::continueRamps() {
   return given_up;
 }
 
-std::string LiveParameters::objectionToSpeed(std::size_t drive, double speed) const {
+std::string LiveParameters::objectionTo(std::size_t drive, const SpeedReach& reach) const {
+  const double speed = reach.target;
   for (std::size_t i = 0; i < systems_.size(); ++i) {
     if (systems_[i]->drive != drive) {
       continue;
@@ -201,11 +202,11 @@ std::string LiveParameters::objectionToSpeed(std::size_t drive, double speed) co
     const Ensemble* const ensemble = twin_.twin().ensemble(i);
     if (ensemble != nullptr) {
       const auto [low, high] = ensemble->steps().speeds();
-      if (speed < low || speed > high) {
+      if (reach.lowest < low || reach.highest > high) {
         return fmt::format(
             "speed: must be from {:g} to {:g} rad/s, which the ensemble of {} is prepared for, "
             "found {:g}",
-            low, high, systems_[i]->spec.name, speed);
+            low, high, systems_[i]->spec.name, reach.lowest < low ? reach.lowest : reach.highest);
       }
     }
     try {
@@ -220,20 +221,37 @@ std::string LiveParameters::objectionToSpeed(std::size_t drive, double speed) co
   return "";
 }
 
-bool LiveParameters::prepareFor(std::size_t drive, double speed, double max_jerk) {
+std::optional<SpeedReach> LiveParameters::reachOf(std::size_t drive, const SpeedMove& move) {
   TwinCommand look;
   look.kind = TwinCommand::Kind::kLook;
   look.drive = drive;
+  if (!twin_.send(look) || !wait_()) {
+    return std::nullopt;
+  }
+  const TwinAnswer now = twin_.answer();
+  const ExclusionBands& avoid = twin_.twin().drive(drive).avoid();
+  SpeedMove to = move;
+  to.speed = avoid.allowed(move.speed, move.max_acceleration, move.max_jerk, now.target_speed);
+  // An acceleration that is to be brought to nothing with limited jerk runs on.
+  const auto [low, high] =
+      std::minmax({now.speed, stoppingSpeed(now.speed, now.acceleration, move.max_jerk), to.speed});
+  SpeedReach reach{to.speed, low, high};
+  const BandedChange plan = avoid.plan(now.speed, now.acceleration, to);
+  for (std::size_t i = 0; i < plan.count; ++i) {
+    reach.lowest = std::min(reach.lowest, plan.speeds[i]);
+    reach.highest = std::max(reach.highest, plan.speeds[i]);
+  }
+  return reach;
+}
+
+bool LiveParameters::prepareFor(std::size_t drive, const SpeedMove& move) {
   SpeedRange& range = speed_ranges_[drive];
   for (int i = 0; i < kMostPreparations; ++i) {
-    if (!twin_.send(look) || !wait_()) {
+    const std::optional<SpeedReach> reach = reachOf(drive, move);
+    if (!reach) {
       return false;
     }
-    const TwinAnswer now = twin_.answer();
-    // An acceleration that is to be brought to nothing with limited jerk runs on by a^2 / 2 j.
-    const double run_on =
-        max_jerk > 0.0 ? now.acceleration * std::fabs(now.acceleration) / (2.0 * max_jerk) : 0.0;
-    const auto [low, high] = std::minmax({now.speed, now.speed + run_on, speed});
+    const auto [target, low, high] = *reach;
     const bool covered = low >= range.first && high <= range.second;
     if (covered && i > 0) {
       return true;
@@ -242,7 +260,7 @@ bool LiveParameters::prepareFor(std::size_t drive, double speed, double max_jerk
       const double margin = kSpeedMargin * std::max(std::fabs(low), std::fabs(high));
       range = {std::min(range.first, low - margin), std::max(range.second, high + margin)};
     }
-    targets_[drive] = speed;
+    targets_[drive] = target;
     for (std::size_t s = 0; s < systems_.size(); ++s) {
       if (systems_[s]->drive == drive && !prepare(s, covered)) {
         return false;

@@ -31,6 +31,13 @@ struct ParameterAnswer {
   std::int64_t step = 0;         ///< the step reached
 };
 
+/// How far a move of a drive takes it [rad/s].
+struct SpeedReach {
+  double target;  ///< where it ends
+  double lowest;
+  double highest;
+};
+
 class LiveParameters {
  public:
   /// [s], simulated: a ramp is a staircase of so long steps.
@@ -47,13 +54,20 @@ class LiveParameters {
   std::vector<std::string> continueRamps();
   bool ramping() const { return !ramps_.empty(); }
 
-  /// Why a drive cannot be sent to `speed` [rad/s]: an ensemble on it is not prepared for that, or
-  /// a system on it would stop there; "" if it can.
-  std::string objectionToSpeed(std::size_t drive, double speed) const;
+  /// Of a move that is sound (faultOf), were it to start now: to its speed, or to the edge of a
+  /// band that the drive avoids. Nothing: the loop ended.
+  std::optional<SpeedReach> reachOf(std::size_t drive, const SpeedMove& move);
 
-  /// Makes every system on a drive ready for its move to `speed` [rad/s] within max_jerk
-  /// [rad/s^3]; to be called before the command that sends it there. False: the loop ended.
-  bool prepareFor(std::size_t drive, double speed, double max_jerk);
+  /// Why a drive cannot be sent there: an ensemble on it is not prepared for that, or a system on
+  /// it would stop at the target; "" if it can.
+  std::string objectionTo(std::size_t drive, const SpeedReach& reach) const;
+  std::string objectionToSpeed(std::size_t drive, double speed) const {
+    return objectionTo(drive, {speed, speed, speed});
+  }
+
+  /// Makes every system on a drive ready for a move, to be called before the command that starts
+  /// it. False: the loop ended.
+  bool prepareFor(std::size_t drive, const SpeedMove& move);
 
   /// The loop has carried out a kReset: the scene's parameters hold again.
   void restored();

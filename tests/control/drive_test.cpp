@@ -279,6 +279,63 @@ TEST(Drive, CopiesAreIndependent) {
   EXPECT_EQ(drive.at(0.0).speed, -10.0);
 }
 
+// 5^2 / (2 * 2) = 6.25 rad/s of run-up before the band from 54 to 66 rad/s, and as much beyond it.
+TEST(Drive, GoesBackAndBeyondToCrossABandAtFullAcceleration) {
+  const ExclusionBands avoid({{54, 66}});
+  Drive drive(54.0, 0.0, {{66.0, 5.0, 2.0, 1.0}}, 0, avoid);
+  const auto [lowest, highest] = drive.speedRange();
+  EXPECT_NEAR(lowest, 54.0 - 6.25, 1e-12);
+  EXPECT_NEAR(highest, 66.0 + 6.25, 1e-12);
+  EXPECT_EQ(drive.targetSpeed(), 66.0) << "also while it goes back";
+  int crossing = 0;
+  double before = 54.0;
+  for (std::int64_t ms = 0; ms < 30000; ++ms) {
+    drive.begin(ms * kSecond / 1000);
+    const ShaftMotion motion = drive.at(0.0);
+    EXPECT_NEAR(motion.speed, before, 5.0 / 1000.0 + 1e-12) << ms;
+    before = motion.speed;
+    if (motion.speed > 54.0 + 1e-9 && motion.speed < 66.0 - 1e-9) {
+      ASSERT_NEAR(motion.acceleration, 5.0, 1e-12) << ms << " ms, " << motion.speed << " rad/s";
+      ++crossing;
+    }
+  }
+  EXPECT_NEAR(crossing, 2400, 1) << "12 rad/s at 5 rad/s^2";
+  EXPECT_EQ(before, 66.0);
+}
+
+TEST(Drive, SentIntoABandGoesToItsEdge) {
+  Drive drive(0.0, 0.0, {}, 0, ExclusionBands({{54, 66}}));
+  ASSERT_TRUE(drive.setSpeed(61.0, 5.0, 2.0));
+  EXPECT_EQ(drive.targetSpeed(), 66.0);
+  drive.begin(100 * kSecond);
+  EXPECT_EQ(drive.at(0.0).speed, 66.0);
+  ASSERT_TRUE(drive.setSpeed(59.5, 5.0, 2.0));
+  EXPECT_EQ(drive.targetSpeed(), 66.0) << "by the hysteresis";
+  ASSERT_TRUE(drive.setSpeed(56.0, 5.0, 2.0));
+  EXPECT_EQ(drive.targetSpeed(), 54.0);
+}
+
+// In the middle of a band, on its way up: it goes on, and comes back at full acceleration.
+TEST(Drive, StopsPastItsBands) {
+  Drive drive(0.0, 0.0, {{100.0, 5.0, 2.0, 0.0}}, 0, ExclusionBands({{54, 66}}));
+  std::int64_t ms = 0;
+  for (drive.begin(0); drive.at(0.0).speed < 60.0; drive.begin(++ms * kSecond / 1000)) {
+  }
+  ASSERT_TRUE(drive.setSpeed(0.0, 5.0, 2.0));
+  EXPECT_EQ(drive.targetSpeed(), 0.0);
+  double highest = 0.0;
+  for (const std::int64_t start = ms; drive.at(0.0).speed > 0.0; ++ms) {
+    ASSERT_LT(ms, start + 60000);
+    drive.begin(ms * kSecond / 1000);
+    const ShaftMotion motion = drive.at(0.0);
+    highest = std::max(highest, motion.speed);
+    if (motion.speed > 54.0 + 1e-9 && motion.speed < 66.0 - 1e-9) {
+      ASSERT_NEAR(std::abs(motion.acceleration), 5.0, 1e-12) << motion.speed;
+    }
+  }
+  EXPECT_NEAR(highest, 66.0 + 6.25, 1e-5);
+}
+
 TEST(Drive, BadProfilesAreNamed) {
   const auto message = [](double speed, double angle, const std::vector<SpeedMove>& moves) {
     try {
@@ -294,6 +351,7 @@ TEST(Drive, BadProfilesAreNamed) {
   EXPECT_EQ(message(2e6, 0.0, {}), "drive: speed must lie within +-1e6 rad/s, found 2000000");
   EXPECT_NE(message(0.0, NAN, {}).find("angle"), std::string::npos);
   EXPECT_NE(message(0.0, 0.0, {{1e5, 1e-5, 0.0, 0.0}}).find("at most 1e9 s"), std::string::npos);
+  EXPECT_THROW(Drive(0.0, 0.0, {{60.0, 1.0, 0.0, 0.0}}, 0, ExclusionBands({{54, 66}})), Refusal);
 }
 
 }  // namespace

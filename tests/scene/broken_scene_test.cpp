@@ -243,6 +243,30 @@ INSTANTIATE_TEST_SUITE_P(
             {"drives.shaft.profile[0].max_acceleration: must be > 0 rad/s^2, found 0",
              "drives.shaft.profile[1].max_jerk: must be > 0 rad/s^3, found -1",
              "drives.shaft.profile[1].dwell: must be from 0 to 1e+09 s, found -2"}},
+        Broken{"Avoid",
+               rotorScene(kNoSpeed, ", drive: shaft",
+                          ", drives: {shaft: {speed: 101, profile: [{speed: 20, max_acceleration: "
+                          "1}, {speed: 53, max_acceleration: 5, max_jerk: 2}], avoid: {bands: "
+                          "[{from: 100, to: 120}, {from: 40, to: 50}, {from: 56, to: 70}]}}}"),
+               {"drives.shaft.speed: must lie outside of the band from 100 to 120 rad/s that the "
+                "drive avoids, found 101",
+                "drives.shaft.profile[1].speed: must lie outside of the band from 40 to 70 rad/s "
+                "that the drive avoids, found 53"}},
+        Broken{"AvoidWhatIsNoBand",
+               rotorScene(kNoSpeed, ", drive: shaft",
+                          ", drives: {shaft: {avoid: {bands: [{from: 0, to: 5}, {from: 7, to: 6}, "
+                          "{from: 1}], margin: 2, critical_speed: true}}}"),
+               {"drives.shaft.avoid.critical_speed: unknown key of what to avoid; did you mean "
+                "'critical_speeds'?",
+                "drives.shaft.avoid.bands[0].from: must be > 0 rad/s, found 0",
+                "drives.shaft.avoid.bands[1].to: must be greater than from, 7 rad/s, found 6",
+                "drives.shaft.avoid.bands[2].to: missing; must be from 0 to 1e+06 rad/s",
+                "drives.shaft.avoid.margin: must be from 0.001 to 0.9 of a critical speed, found 2",
+                "drives.shaft.avoid.margin: is one about critical_speeds: true"}},
+        Broken{"MotorAvoids",
+               rotorScene(kNoSpeed + ", polar_inertia: 1", ", drive: shaft",
+                          ", drives: {shaft: {motor: {torque: 1}, avoid: {bands: []}}}"),
+               {"drives.shaft.avoid: a motor's speed is an outcome: it can avoid nothing"}},
         Broken{"Motor",
                rotorScene(kNoSpeed, ", drive: shaft", ", drives: {shaft: {motor: {torque: 1}}}"),
                {"systems.rotor.parameters.polar_inertia: must be > 0 kg m^2 with a motor"}},

@@ -89,6 +89,35 @@ systems:
   EXPECT_EQ(governor.v, (std::vector<double>{-1.0}));
 }
 
+/// One rotor, p = 100 rad/s, on a shaft that avoids something.
+Scene avoiding(const std::string& what, double damping) {
+  return sceneOf("{step: 0.001, drives: {shaft: {avoid: " + what +
+                 "}, other: {avoid: {critical_speeds: true}}}, systems: {rotor: {model: "
+                 "jeffcott_rotor, drive: shaft, parameters: {mass: 2, stiffness: 2.0e4, damping: " +
+                 std::to_string(damping) + "}}}}");
+}
+
+TEST(SceneReader, AvoidsTheCriticalSpeedsOfWhatAShaftTurns) {
+  // zeta = 0.02: the peak is at p / sqrt(1 - 2 zeta^2), 25 times the eccentricity high, so that API
+  // 617 asks for its whole 26 % below and 16 % above.
+  const double critical = 100.0 / std::sqrt(1.0 - 2.0 * 0.02 * 0.02);
+  const Scene scene = avoiding("{critical_speeds: true, bands: [{from: 7, to: 8}]}", 8.0);
+  ASSERT_EQ(scene.drives[0].avoid.size(), 2u);
+  EXPECT_EQ(scene.drives[0].avoid[0].from, 7.0);
+  EXPECT_NEAR(scene.drives[0].avoid[1].from, critical / 1.26, 1e-6);
+  EXPECT_NEAR(scene.drives[0].avoid[1].to, critical / 0.84, 1e-6);
+  EXPECT_TRUE(scene.drives[1].avoid.empty()) << "nothing hangs on it";
+
+  const Scene narrow = avoiding("{critical_speeds: true, margin: 0.05}", 8.0);
+  ASSERT_EQ(narrow.drives[0].avoid.size(), 1u);
+  EXPECT_NEAR(narrow.drives[0].avoid[0].from, 0.95 * critical, 1e-6);
+  EXPECT_NEAR(narrow.drives[0].avoid[0].to, 1.05 * critical, 1e-6);
+
+  EXPECT_TRUE(avoiding("{critical_speeds: true}", 160.0).drives[0].avoid.empty())
+      << "critically damped";
+  EXPECT_TRUE(avoiding("{}", 8.0).drives[0].avoid.empty());
+}
+
 TEST(SceneReader, TakesNumbersWrittenAsStrings) {
   // ROS parameters turn 1.0e4 into a string, for YAML 1.1 wants a sign in the exponent.
   const Scene scene = sceneOf(R"(

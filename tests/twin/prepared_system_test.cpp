@@ -99,8 +99,8 @@ class Prepared : public testing::Test {
     command.speed = speed;
     command.max_acceleration = max_acceleration;
     command.max_jerk = max_jerk;
-    return parameters_.prepareFor(0, speed, max_jerk) && live_.send(command) && carriedOut() &&
-           live_.answer().done;
+    return parameters_.prepareFor(0, {speed, max_acceleration, max_jerk, 0.0}) &&
+           live_.send(command) && carriedOut() && live_.answer().done;
   }
 
   LiveTwin live_;

@@ -11,21 +11,13 @@
 
 #include <string>
 
+#include "control/exclusion_bands.h"
 #include "messages/stability_margin.h"
 
 namespace whirl_twin {
 
 /// Below this amplification factor a mode counts as critically damped [-].
 inline constexpr double kCriticallyDampedAmplification = 2.5;
-
-/// Running speeds that violate the required margin around one critical speed [rad/s].
-struct SpeedBand {
-  double low = 0.0;
-  double high = 0.0;
-
-  /// No speed is to be avoided; also when an end is not a number.
-  bool empty() const { return !(low < high); }
-};
 
 /// Required margin [percent] of a running speed above the critical speed; 0 when critically damped
 /// or when the amplification factor [-] is undefined (NaN).
@@ -43,8 +35,8 @@ double separationMargin(double running_speed, double critical_speed);
 double requiredSeparationMargin(double running_speed, double critical_speed,
                                 double amplification_factor);
 
-/// The speeds to avoid: [Nc / (1 + SM_above/100), Nc / (1 - SM_below/100)]; empty, both ends at Nc,
-/// when critically damped.
+/// Running speeds that violate the required margin around one critical speed [rad/s]: [Nc / (1 +
+/// SM_above/100), Nc / (1 - SM_below/100)]; empty, both ends at Nc, when critically damped.
 SpeedBand criticalBand(double critical_speed, double amplification_factor);
 
 /// All of the above for one critical speed [rad/s] seen from the present speed [rad/s].

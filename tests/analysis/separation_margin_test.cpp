@@ -1,5 +1,5 @@
 // API 617/684 separation margins: reference numbers, caps, and bands that follow from them.
-#include "monitoring/separation_margin.h"
+#include "analysis/separation_margin.h"
 
 #include <gtest/gtest.h>
 
@@ -54,8 +54,8 @@ TEST(SeparationMargin, CriticallyDampedModesNeedNone) {
     EXPECT_EQ(requiredMarginAbove(amplification_factor), 0.0);
     const SpeedBand band = criticalBand(100.0, amplification_factor);
     EXPECT_TRUE(band.empty());
-    EXPECT_EQ(band.low, 100.0);
-    EXPECT_EQ(band.high, 100.0);
+    EXPECT_EQ(band.from, 100.0);
+    EXPECT_EQ(band.to, 100.0);
   }
   EXPECT_EQ(requiredMarginBelow(2.5), 0.0);
   EXPECT_EQ(requiredMarginAbove(2.5), 10.0);
@@ -64,15 +64,14 @@ TEST(SeparationMargin, CriticallyDampedModesNeedNone) {
 TEST(SeparationMargin, AtTheEdgesOfTheBandTheActualMarginIsTheRequiredOne) {
   for (const double amplification_factor : {2.6, 4.0, 9.9, 50.0}) {
     const SpeedBand band = criticalBand(100.0, amplification_factor);
-    ASSERT_LT(band.low, 100.0);
-    ASSERT_GT(band.high, 100.0);
-    EXPECT_NEAR(separationMargin(band.low, 100.0), requiredMarginAbove(amplification_factor),
+    ASSERT_LT(band.from, 100.0);
+    ASSERT_GT(band.to, 100.0);
+    EXPECT_NEAR(separationMargin(band.from, 100.0), requiredMarginAbove(amplification_factor),
                 1e-11);
-    EXPECT_NEAR(separationMargin(band.high, 100.0), requiredMarginBelow(amplification_factor),
-                1e-11);
-    EXPECT_LT(separationMargin(1.001 * band.low, 100.0), requiredMarginAbove(amplification_factor));
-    EXPECT_LT(separationMargin(0.999 * band.high, 100.0),
-              requiredMarginBelow(amplification_factor));
+    EXPECT_NEAR(separationMargin(band.to, 100.0), requiredMarginBelow(amplification_factor), 1e-11);
+    EXPECT_LT(separationMargin(1.001 * band.from, 100.0),
+              requiredMarginAbove(amplification_factor));
+    EXPECT_LT(separationMargin(0.999 * band.to, 100.0), requiredMarginBelow(amplification_factor));
   }
 }
 

@@ -1,4 +1,4 @@
-#include "monitoring/separation_margin.h"
+#include "analysis/separation_margin.h"
 
 #include <algorithm>
 #include <cmath>
@@ -61,8 +61,8 @@ state::CriticalSpeedMargin criticalSpeedMargin(double running_speed, double crit
   margin.separation_margin = separationMargin(running_speed, critical_speed);
   margin.required_separation_margin =
       requiredSeparationMargin(running_speed, critical_speed, amplification_factor);
-  margin.band_low = band.low;
-  margin.band_high = band.high;
+  margin.band_low = band.from;
+  margin.band_high = band.to;
   return margin;
 }
 

@@ -1,0 +1,155 @@
+#include "scene/avoidance_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <optional>
+#include <vector>
+
+#include "analysis/critical_speeds.h"
+#include "analysis/separation_margin.h"
+#include "control/drive.h"
+#include "control/exclusion_bands.h"
+#include "messages/refusal.h"
+#include "scene/built_system.h"
+#include "scene/held_rotor.h"
+#include "scene/surroundings.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kLeastMargin = 1.0e-3;  // [-], of a critical speed
+constexpr double kMostMargin = 0.9;
+constexpr int kDigits = 6;  // of an edge in a message
+
+/// An edge to kDigits digits, away from the band, so that it can be typed.
+double outward(double edge, bool upwards) {
+  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(edge))) + 1 - kDigits);
+  const double count = edge / unit;
+  const double whole = std::round(count);
+  return unit * (std::abs(count - whole) < 1.0e-6 ? whole
+                 : upwards                        ? std::ceil(count)
+                                                  : std::floor(count));
+}
+
+void readBands(const YAML::Node& list, const std::string& key, std::vector<SpeedBand>& bands,
+               Complaints& complaints) {
+  if (!list.IsSequence()) {
+    complaints.add(key, fmt::format("must be a list of bands of speed, found {}", shown(list)));
+    return;
+  }
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const MapReader map(list[i], fmt::format("{}[{}]", key, i), {"from", "to"}, "key of a band",
+                        complaints);
+    if (!map.usable()) {
+      continue;
+    }
+    const SpeedBand band{map.number("from", Range::kPositive, "rad/s", std::nullopt),
+                         map.numberBetween("to", 0.0, kLargestSpeed, "rad/s", std::nullopt)};
+    if (band.from > 0.0 && !band.empty()) {
+      bands.push_back(band);
+    } else if (band.from > 0.0 && band.to > 0.0) {
+      complaints.add(map.key("to"), fmt::format("must be greater than from, {} rad/s, found {}",
+                                                band.from, band.to));
+    }
+  }
+}
+
+/// About the critical speeds of what a drive turns: margin [-] of them on both sides; without one
+/// the separation that the monitor asks for.
+void findBands(const Scene& scene, std::size_t drive, std::optional<double> margin,
+               const std::string& key, std::vector<SpeedBand>& bands, Complaints& complaints) {
+  for (const SystemSpec& system : scene.systems) {
+    if (!system.setup || scene.driveOf(system) != drive) {
+      continue;
+    }
+    try {
+      const SharedSystem built = build(system, surroundingsOf(scene, system), drive);
+      for (const CriticalSpeed& critical : criticalSpeeds(*heldDynamics(*built))) {
+        SpeedBand band = criticalBand(critical.speed, critical.amplification_factor);
+        if (margin) {
+          band = {critical.speed * (1.0 - *margin), critical.speed * (1.0 + *margin)};
+        }
+        band.to = std::min(band.to, kLargestSpeed);
+        if (!band.empty() && band.from > 0.0) {
+          bands.push_back(band);
+        }
+      }
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& error) {
+      complaints.add(key, fmt::format("the critical speeds of systems.{} cannot be found: {}",
+                                      system.name, error.what()));
+    }
+  }
+}
+
+/// That a drive neither starts nor is sent where it must not stay.
+void checkSpeeds(const DriveSpec& drive, const std::string& key, std::int64_t start,
+                 Complaints& complaints) {
+  const ExclusionBands avoid(drive.avoid);
+  const auto check = [&](const std::string& at, double speed, double acceleration, double jerk) {
+    const std::optional<SpeedBand> band = avoid.bandOf(speed, acceleration, jerk);
+    if (band) {
+      complaints.add(
+          at, fmt::format("must lie outside of the band from {0:.{2}g} to {1:.{2}g} "
+                          "rad/s that the drive avoids, found {3}",
+                          outward(band->from, false), outward(band->to, true), kDigits, speed));
+    }
+    return !band;
+  };
+  bool fit = check(key + ".speed", drive.speed, 1.0, 0.0);
+  for (std::size_t i = 0; i < drive.profile.size(); ++i) {
+    const SpeedMove& move = drive.profile[i];
+    if (faultOf(move)) {
+      return;  // told already
+    }
+    fit = check(fmt::format("{}.profile[{}].speed", key, i), move.speed, move.max_acceleration,
+                move.max_jerk) &&
+          fit;
+  }
+  if (fit) {
+    try {  // what only the whole profile shows
+      static_cast<void>(Drive(drive.speed, drive.angle, drive.profile, start, avoid));
+    } catch (const Refusal& error) {
+      complaints.add(key, error.what());
+    }
+  }
+}
+
+}  // namespace
+
+void readAvoidance(const YAML::Node& node, const std::string& key, std::size_t drive, Scene& scene,
+                   Complaints& complaints) {
+  DriveSpec& spec = scene.drives[drive];
+  const MapReader map(node, key, {"bands", "critical_speeds", "margin"}, "key of what to avoid",
+                      complaints);
+  if (!map.usable()) {
+    return;
+  }
+  if (spec.motor) {
+    complaints.add(key, "a motor's speed is an outcome: it can avoid nothing");
+    return;
+  }
+  if (map.has("bands")) {
+    readBands(map.at("bands"), map.key("bands"), spec.avoid, complaints);
+  }
+  const bool critical =
+      map.choice("critical_speeds", {"false", "true"}, "true or false", "false") == "true";
+  std::optional<double> margin;
+  if (map.has("margin")) {
+    margin = map.numberBetween("margin", kLeastMargin, kMostMargin, "of a critical speed", 0.0);
+    if (!critical) {
+      complaints.add(map.key("margin"), "is one about critical_speeds: true");
+    }
+  }
+  if (critical) {
+    findBands(scene, drive, margin, map.key("critical_speeds"), spec.avoid, complaints);
+  }
+  checkSpeeds(spec, key.substr(0, key.rfind('.')), scene.time, complaints);
+}
+
+}  // namespace whirl_twin
