@@ -194,7 +194,8 @@ LoopMargins loopMargins(const LoopResponse& response) {
 double logSensitivityIntegral(const LoopResponse& response) {
   using Quadrature = boost::math::quadrature::gauss_kronrod<double, 15>;
   constexpr unsigned kDeepest = 10;
-  constexpr double kTolerance = 1e-10;
+  constexpr double kTolerance = 1e-10;  // of the integral of |ln|S||
+  constexpr double kNothing = 1e-13;    // likewise
   const auto logarithm = [&](double w) {
     // Of 1 + L, where L is small, to the digits of L.
     const Complex loop = response.open_loop(w);
@@ -210,11 +211,28 @@ double logSensitivityIntegral(const LoopResponse& response) {
       ends.end());
   ends.push_back(response.highest);
   std::sort(ends.begin(), ends.end());
-  double sum = 0.0;
+  struct Piece {
+    double begin, end;
+    double value = 0.0, size = 0.0;
+  };
+  std::vector<Piece> pieces;
+  double all = 0.0;
   for (std::size_t i = 1; i < ends.size(); ++i) {
     if (ends[i] > ends[i - 1]) {
-      sum += Quadrature::integrate(logarithm, ends[i - 1], ends[i], kDeepest, kTolerance);
+      Piece piece{ends[i - 1], ends[i]};
+      piece.value =
+          Quadrature::integrate(logarithm, piece.begin, piece.end, 0, 0.0, nullptr, &piece.size);
+      all += piece.size;
+      pieces.push_back(piece);
     }
+  }
+  double sum = 0.0;
+  for (const Piece& piece : pieces) {
+    // Between poles as good as the same, or before the first, there is nothing to be gained.
+    sum += piece.size <= kNothing * all
+               ? piece.value
+               : Quadrature::integrate(logarithm, piece.begin, piece.end, kDeepest,
+                                       kTolerance * all / std::fabs(piece.value));
   }
   return sum;
 }

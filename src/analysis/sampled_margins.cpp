@@ -1,7 +1,9 @@
 #include "analysis/sampled_margins.h"
 
 #include <cmath>
+#include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include "algebra/eigenvalues.h"
 #include "analysis/balanced_matrix.h"
@@ -46,61 +48,105 @@ void addPoles(const Eigen::VectorXcd& eigenvalues, double period, int samples,
   }
 }
 
-/// What a tap is shown of a motion z^k that is added there: output (z - F)^-1 input + direct, with
-/// F = U T U^H in Schur's form, so that one z takes a substitution.
-class ShownByTap {
- public:
-  ShownByTap(const MatrixXd& transition, const LoopTap& tap) : direct_(tap.direct) {
+/// F = D U T U^H D^-1 in Schur's form, D balancing units.
+struct SchurForm {
+  explicit SchurForm(const MatrixXd& transition) {
     if (transition.size() == 0) {
       return;
     }
-    const Eigen::VectorXd units = balancingUnits(transition);
     const Eigen::ComplexSchur<MatrixXd> schur(balanced(transition));
-    triangle_ = schur.matrixT();
-    input_ = schur.matrixU().adjoint() * units.cwiseInverse().asDiagonal() * tap.input;
-    output_ = tap.output * units.asDiagonal() * schur.matrixU();
+    triangle = schur.matrixT();
+    to = schur.matrixU().adjoint() * balancingUnits(transition).cwiseInverse().asDiagonal();
+    from = balancingUnits(transition).asDiagonal() * schur.matrixU();
+  }
+  Eigen::MatrixXcd triangle, to, from;
+};
+
+/// What a tap is shown of a motion z^k that is added there: output (z - F)^-1 input + direct, one z
+/// a substitution.
+class ShownByTap {
+ public:
+  ShownByTap(std::shared_ptr<const SchurForm> schur, const LoopTap& tap)
+      : schur_(std::move(schur)), direct_(tap.direct) {
+    if (schur_->triangle.size() > 0) {
+      input_ = schur_->to * tap.input;
+      output_ = tap.output * schur_->from;
+    }
   }
 
   Eigen::MatrixXcd at(const Complex& z) const {
-    if (triangle_.size() == 0) {
-      return direct_;
+    Eigen::MatrixXcd shown = direct_;
+    const Eigen::MatrixXcd& t = schur_->triangle;
+    Eigen::VectorXcd rest;
+    for (Index column = 0; column < input_.cols(); ++column) {
+      rest = input_.col(column);
+      for (Index k = t.rows() - 1; k >= 0; --k) {
+        const Complex away = z - t(k, k);
+        rest[k] *= std::conj(away) / std::norm(away);
+        rest.head(k) += rest[k] * t.col(k).head(k);
+      }
+      shown.col(column).noalias() += output_ * rest;
     }
-    Eigen::MatrixXcd shifted = -triangle_;
-    shifted.diagonal().array() += z;
-    return direct_ + output_ * shifted.triangularView<Eigen::Upper>().solve(input_);
+    return shown;
   }
 
  private:
-  Eigen::MatrixXcd direct_, triangle_, input_, output_;
+  std::shared_ptr<const SchurForm> schur_;
+  Eigen::MatrixXcd direct_, input_, output_;
 };
+
+struct Response : LoopResponse {
+  /// sum of ln|p| over the unstable poles of the open loop
+  double unstable = 0.0;
+  int samples = 1;  ///< in a period
+};
+
+std::vector<Response> responses(const LoopPlant& plant,
+                                const std::vector<LoopController>& controllers,
+                                std::size_t controller) {
+  const SampledLoop loop = sampledLoop(plant, controllers);
+  const int samples = loop.samples.at(controller);
+  const double step = loop.period / samples;
+  const auto schur = std::make_shared<const SchurForm>(loop.transition);
+  std::vector<Complex> closed{Complex(-1.0 / step, 0.0)};
+  addPoles(schur->triangle.diagonal(), loop.period, samples, closed);
+  std::vector<Response> all(controllers[controller].measures.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto measure = static_cast<Index>(i);
+    Response& response = all[i];
+    response.samples = samples;
+    response.highest = kPi / step;
+    response.poles = closed;
+    const SampledLoop open = sampledLoop(plant, opened(controllers, controller, measure));
+    const Eigen::VectorXcd poles = eigenvaluesOf(open.transition);
+    addPoles(poles, loop.period, samples, response.poles);
+    for (const Complex& z : poles) {
+      response.unstable += std::fmax(0.0, std::log(std::abs(z)));
+    }
+    const LoopTap tap = loopTap(plant, controllers, controller, measure);
+    response.open_loop = [shown = ShownByTap(schur, tap), period = loop.period, step,
+                          samples](double w) {
+      const Eigen::MatrixXcd lifted = shown.at(std::polar(1.0, w * period));
+      Complex sensitivity = 0.0;
+      for (Index to = 0; to < samples; ++to) {
+        for (Index from = 0; from < samples; ++from) {
+          sensitivity += std::polar(1.0 / samples, w * step * static_cast<double>(from - to)) *
+                         lifted(to, from);
+        }
+      }
+      return 1.0 / sensitivity - 1.0;
+    };
+  }
+  return all;
+}
 
 }  // namespace
 
-LoopResponse sampledResponse(const LoopPlant& plant, const std::vector<LoopController>& controllers,
-                             std::size_t controller, Index measure) {
-  const SampledLoop loop = sampledLoop(plant, controllers);
-  const LoopTap tap = loopTap(plant, controllers, controller, measure);
-  const int samples = loop.samples[controller];
-  const double step = loop.period / samples;
-  LoopResponse response;
-  response.highest = kPi / step;
-  response.poles.emplace_back(-1.0 / step, 0.0);
-  addPoles(eigenvaluesOf(loop.transition), loop.period, samples, response.poles);
-  const SampledLoop open = sampledLoop(plant, opened(controllers, controller, measure));
-  addPoles(eigenvaluesOf(open.transition), loop.period, samples, response.poles);
-  response.open_loop = [shown = ShownByTap(loop.transition, tap), period = loop.period, step,
-                        samples](double w) {
-    const Eigen::MatrixXcd lifted = shown.at(std::polar(1.0, w * period));
-    Complex sensitivity = 0.0;
-    for (Index i = 0; i < samples; ++i) {
-      for (Index j = 0; j < samples; ++j) {
-        sensitivity +=
-            std::polar(1.0 / samples, w * step * static_cast<double>(j - i)) * lifted(i, j);
-      }
-    }
-    return 1.0 / sensitivity - 1.0;
-  };
-  return response;
+std::vector<LoopResponse> sampledResponses(const LoopPlant& plant,
+                                           const std::vector<LoopController>& controllers,
+                                           std::size_t controller) {
+  const std::vector<Response> all = responses(plant, controllers, controller);
+  return {all.begin(), all.end()};
 }
 
 std::vector<SampledMargins> sampledMargins(const LoopPlant& plant,
@@ -110,28 +156,25 @@ std::vector<SampledMargins> sampledMargins(const LoopPlant& plant,
     throw std::logic_error("sampled loop: there is no such controller");
   }
   std::vector<SampledMargins> all(controllers[controller].measures.size());
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    SampledMargins& margins = all[i];
-    if (verdict != Verdict::kAsymptoticallyStable) {
+  if (verdict != Verdict::kAsymptoticallyStable) {
+    for (SampledMargins& margins : all) {
       margins.sensitivity_peak = kInfinity;
       margins.gain_reduction = margins.gain_margin = 1.0;
       margins.bode_error = kNotANumber;
-      continue;
     }
-    const auto measure = static_cast<Index>(i);
-    const LoopResponse response = sampledResponse(plant, controllers, controller, measure);
-    static_cast<LoopMargins&>(margins) = loopMargins(response);
-    const SampledLoop open = sampledLoop(plant, opened(controllers, controller, measure));
-    if (open.samples[controller] > 1) {
+    return all;
+  }
+  const std::vector<Response> open = responses(plant, controllers, controller);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    SampledMargins& margins = all[i];
+    static_cast<LoopMargins&>(margins) = loopMargins(open[i]);
+    if (open[i].samples > 1) {
       margins.gain_margin = margins.gain_reduction = margins.phase_margin = kNotANumber;
       margins.phase_crossover = margins.delay_margin = margins.bode_error = kNotANumber;
       continue;
     }
-    double unstable = 0.0;
-    for (const Complex& z : eigenvaluesOf(open.transition)) {
-      unstable += std::fmax(0.0, std::log(std::abs(z)));
-    }
-    margins.bode_error = std::fabs(logSensitivityIntegral(response) / response.highest - unstable);
+    margins.bode_error =
+        std::fabs(logSensitivityIntegral(open[i]) / open[i].highest - open[i].unstable);
   }
   return all;
 }

@@ -8,12 +8,13 @@
 
 namespace whirl_twin {
 
-/// The loop opened where a controller is shown one of its measures, in z = exp(i w T), T its own
-/// period: 1 + L = 1 / S. With controllers faster than it the response is that of its samples;
-/// with one whose rate is no whole multiple of its own, what goes round comes back at other
-/// frequencies, too, and S is the part that keeps its own. Errors as loopTap().
-LoopResponse sampledResponse(const LoopPlant& plant, const std::vector<LoopController>& controllers,
-                             std::size_t controller, Eigen::Index measure);
+/// Of each measure of a controller in turn the loop opened where it is shown, in z = exp(i w T), T
+/// its own period: 1 + L = 1 / S. With controllers faster than it the response is that of its
+/// samples; with one whose rate is no whole multiple of its own, what goes round comes back at
+/// other frequencies, too, and S is the part that keeps its own. Errors as loopTap().
+std::vector<LoopResponse> sampledResponses(const LoopPlant& plant,
+                                           const std::vector<LoopController>& controllers,
+                                           std::size_t controller);
 
 struct SampledMargins : LoopMargins {
   /// |integral of ln|S| - (pi / T) sum ln|p|| over pi / T, of what Bode's integral says: rounding.
@@ -23,7 +24,7 @@ struct SampledMargins : LoopMargins {
 /// Of each measure of a controller in turn; `verdict` is that of sampledStability(). Not stable: no
 /// margins, and a sensitivity without bound. The delay is the phase over the frequency: exact in
 /// whole samples, for delays between them to the second order of the period. Where S is only the
-/// part at the same frequency (sampledResponse) gain, phase and delay margin and Bode's integral
+/// part at the same frequency (sampledResponses) gain, phase and delay margin and Bode's integral
 /// are NaN. Errors as loopMargins() and loopTap().
 std::vector<SampledMargins> sampledMargins(const LoopPlant& plant,
                                            const std::vector<LoopController>& controllers,

@@ -39,6 +39,7 @@ std::vector<LoopedController> judged(const Scene& scene, const ClosedLoop& loop,
     for (std::size_t i = 0; i < controllers.size(); ++i) {
       controllers[i].margins =
           sampledMargins(parts->plant, parts->controllers, i, all.stability->verdict);
+      controllers[i].responses = sampledResponses(parts->plant, parts->controllers, i);
     }
     return controllers;
   } catch (const RunFailure& failure) {

@@ -8,6 +8,7 @@
 
 #include "analysis/sampled_margins.h"
 #include "analysis/sampled_stability.h"
+#include "plots/chart.h"
 #include "reports/output.h"
 #include "scene/scene.h"
 
@@ -23,7 +24,9 @@ struct LoopedController {
   double period = 0.0;  ///< [s], that the spectral radius is of: of a sample, or, of several
                         ///< rates, after which they come again
   std::vector<SampledMargins> margins;  ///< at each of its sensors, all other loops closed
-  std::string objection;                ///< why nothing can be said; else ""
+  /// Loops opened at each of them, for pictures.
+  std::vector<LoopResponse> responses;
+  std::string objection;  ///< why nothing can be said; else ""
 };
 
 struct LoopReport {
@@ -37,5 +40,8 @@ LoopReport loopReport(const Scene& scene, std::optional<double> speed = std::nul
 
 Json json(const LoopReport& report);
 std::string text(const LoopReport& report);
+/// Bode and Nyquist diagrams of the loop opened at each of its sensors, and the sensitivity there
+/// over the zones of ISO 14839-3. Of a controller whose loop has been judged.
+Figure figure(const LoopedController& controller);
 
 }  // namespace whirl_twin

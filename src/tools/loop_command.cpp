@@ -3,6 +3,7 @@
 
 #include "messages/refusal.h"
 #include "reports/loop_report.h"
+#include "reports/picture_file.h"
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
@@ -22,14 +23,17 @@ constexpr const char* kFooter =
     "again). Its characteristic polynomial goes through Routh's test, exactly, on w with\n"
     "z = (1 + w)/(1 - w); the eigenvalues stand beside it. What a linear law does not show,\n"
     "limits, slew and resolution, is not in it.\n"
+    "In the picture: Bode and Nyquist diagrams of the loop opened at each sensor, and the\n"
+    "sensitivity there over the zones of ISO 14839-3.\n"
     "\n"
     "Examples:\n"
-    "  twin loop my_rotor.yaml\n"
+    "  twin loop my_rotor.yaml --plot loop.svg\n"
     "  twin loop my_rotor.yaml --speed 300 --json";
 
 struct Request {
   std::string scene;
   std::optional<double> speed;
+  std::optional<std::string> plot;
   bool json = false;
 };
 
@@ -38,11 +42,18 @@ int loopsOf(const Request& request) {
   if (request.speed && !(*request.speed >= -kFastest && *request.speed <= kFastest)) {
     throw Refusal("--speed: expected a shaft speed from -1e+06 to 1e+06 rad/s");
   }
+  requirePictureName(request.plot);
   const Scene scene = readSceneFile(scenePath(request.scene));
   if (scene.controllers.empty()) {
     throw Refusal(request.scene + ": controllers: expected at least one, found none");
   }
   const LoopReport report = loopReport(scene, request.speed);
+  for (const LoopedController& controller : report.controllers) {
+    if (request.plot && !controller.responses.empty()) {
+      writePicture(pictureName(*request.plot, controller.spec->name, report.controllers.size() > 1),
+                   figure(controller));
+    }
+  }
   if (request.json) {
     printJson(json(report));
   } else {
@@ -61,6 +72,8 @@ void addLoopCommand(CLI::App& twin, int& status) {
       ->add_option("--speed", request->speed,
                    "of all shafts [rad/s], in place of that at the start")
       ->type_name("W");
+  command->add_option("--plot", request->plot, "the diagrams, FILE.svg or FILE.png")
+      ->type_name("FILE");
   command->add_flag("--json", request->json, "print one JSON object");
   command->footer(kFooter);
   command->callback([request, &status] { status = loopsOf(*request); });

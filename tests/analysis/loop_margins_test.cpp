@@ -209,7 +209,7 @@ TEST(SampledMargins, NoLightlyDampedPeakIsMissed) {
   EXPECT_GT(m.sensitivity_peak, 20.0);
   EXPECT_NEAR(m.peak_frequency, 17.0, 1e-5);
   // Nothing is higher where one looks as closely as the peak is narrow.
-  const LoopResponse response = sampledResponse(plant, {controller}, 0, 0);
+  const LoopResponse response = sampledResponses(plant, {controller}, 0).front();
   for (int i = -10000; i <= 10000; ++i) {
     const double w = m.peak_frequency + 1e-10 * i;
     ASSERT_LE(1.0 / std::abs(1.0 + response.open_loop(w)), m.sensitivity_peak * (1.0 + 1e-9));

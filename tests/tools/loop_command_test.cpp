@@ -86,6 +86,19 @@ TEST(Loop, IsPartOfAnalyze) {
   EXPECT_EQ(end.json()["controllers"]["pd"], controllerOf(scene));
 }
 
+TEST(Loop, IsDrawn) {
+  const TemporaryDirectory folder;
+  const std::string scene = folder.write("scene.yaml", levitation(2.0, 1.4, 0.1, 0.03));
+  const std::string picture = folder.file("loop.svg");
+  const Ending end = twin({"loop", scene, "--plot", picture});
+  ASSERT_EQ(end.status, 0) << end.err;
+  const std::string svg = contentsOf(picture);
+  for (const char* words : {"sensitivity, zones of ISO 14839-3", "Nyquist", "phase of L"}) {
+    EXPECT_NE(svg.find(words), std::string::npos) << words;
+  }
+  EXPECT_EQ(twin({"loop", scene, "--plot", "loop.txt"}).status, 2);
+}
+
 TEST(Loop, NeedsAController) {
   const Ending end = twin({"loop", "demo"});
   EXPECT_EQ(end.status, 2);
