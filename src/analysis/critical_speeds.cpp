@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "algebra/lu.h"
+#include "analysis/banded_rotor.h"
 #include "analysis/bracketed_root.h"
 #include "analysis/cyclic_coordinates.h"
 #include "analysis/equilibrium_branch.h"
@@ -20,8 +21,6 @@ namespace whirl_twin {
 namespace {
 
 using Complex = std::complex<double>;
-using Eigen::MatrixXcd;
-using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 
 constexpr double kHalfPower = 0.707;       // of the peak, as API RP 684 has it
@@ -47,7 +46,7 @@ class Probe {
  public:
   /// `speed` [rad/s]: one at which it has matrices.
   Probe(LinearRotor rotor, Station station, double speed)
-      : rotor_(std::move(rotor)), station_(std::move(station)) {
+      : rotor_(std::move(rotor)), banded_(rotor_), station_(std::move(station)) {
     if (!hasSynchronousForce(rotor_)) {
       const VectorXcd shape =
           station_.along_x.cast<Complex>() - Complex(0.0, 1.0) * station_.along_y.cast<Complex>();
@@ -57,8 +56,8 @@ class Probe {
 
   const LinearRotor& rotor() const { return rotor_; }
   double major(double speed) const {
-    const VectorXcd x = factor(rotor_.matrices(speed), speed).solve(rotor_.synchronousForce(speed));
-    return orbit(x).major();
+    const Factor lu(synchronousStiffness(banded_.matrices(speed), speed));
+    return orbit(lu.solve(rotor_.synchronousForce(speed))).major();
   }
   UnbalanceResponse response(double speed) const;
   /// [m] of the unbalance, or the unit, seen as an eccentricity of what mass moves with it.
@@ -70,9 +69,8 @@ class Probe {
   }
 
  private:
-  static Eigen::PartialPivLU<MatrixXcd> factor(const Linearization& l, double speed) {
-    return Eigen::PartialPivLU<MatrixXcd>(synchronousStiffness(l, speed));
-  }
+  using Factor = BandedLU<Complex>;
+
   Orbit orbit(const VectorXcd& x) const {
     return {station_.along_x.cast<Complex>().dot(x), station_.along_y.cast<Complex>().dot(x)};
   }
@@ -87,26 +85,28 @@ class Probe {
   }
 
   LinearRotor rotor_;
+  BandedRotor banded_;
   Station station_;
 };
 
 UnbalanceResponse Probe::response(double speed) const {
-  const Linearization l = rotor_.matrices(speed);
+  const BandedLinearization l = banded_.matrices(speed);
+  const BandedMatrix<Complex> stiffness = synchronousStiffness(l, speed);
   // Matrices that are polynomials of degree two in the speed: this difference is their derivative.
   const double delta = speed / 1024.0;
-  const Linearization above = rotor_.matrices(speed + delta);
-  const Linearization below = rotor_.matrices(speed - delta);
-  const MatrixXd stiffness_slope =
-      (above.stiffness + above.circulatory - below.stiffness - below.circulatory) / (2.0 * delta);
-  const MatrixXd damping_slope =
-      (above.damping + above.gyroscopic - below.damping - below.gyroscopic) / (2.0 * delta);
-  const auto lu = factor(l, speed);
+  const auto stiffnessAt =
+      [&](double there) {  // with the terms that have w of their own at `speed`
+        return synchronousStiffness(banded_.matrices(there), speed);
+      };
+  BandedMatrix<Complex> slope = stiffnessAt(speed + delta);
+  slope.add(-1.0, stiffnessAt(speed - delta));
+  const Factor lu(stiffness);
   const VectorXcd x = lu.solve(rotor_.synchronousForce(speed));
-  MatrixXcd slope_matrix(l.mass.rows(), l.mass.cols());
-  slope_matrix.real() = stiffness_slope - 2.0 * speed * l.mass;
-  slope_matrix.imag() = l.damping + l.gyroscopic + speed * damping_slope;
+  VectorXcd change_of_force = slope.times(x) / (2.0 * delta);
+  change_of_force -= 2.0 * speed * l.mass.times(x);
+  change_of_force += Complex(0.0, 1.0) * l.byRate().times(x);
   const Orbit now = orbit(x);
-  const Orbit change = orbit(lu.solve(forceSlope(speed) - slope_matrix * x));
+  const Orbit change = orbit(lu.solve(forceSlope(speed) - change_of_force));
   const auto rate = [](const Complex& z, const Complex& dz) {
     return z == 0.0 ? std::abs(dz) : (std::conj(z) * dz).real() / std::abs(z);
   };

@@ -42,6 +42,37 @@ void add(const BearingCoefficients& b, const MatrixXd& place, Linearization& l) 
   l.gyroscopic += place * (0.5 * (c - c.transpose())) * place.transpose();
 }
 
+/// The same of matrices near their diagonals.
+void add(const BearingCoefficients& b, const MatrixXd& place, BandedLinearization& l) {
+  std::vector<Index> coordinates;
+  for (Index i = 0; i < place.rows(); ++i) {
+    if (!place.row(i).isZero(0.0)) {
+      coordinates.push_back(i);
+    }
+  }
+  const auto at = static_cast<Index>(coordinates.size());
+  MatrixXd there(at, 2);
+  for (Index i = 0; i < at; ++i) {
+    there.row(i) = place.row(coordinates[static_cast<std::size_t>(i)]);
+  }
+  const MatrixXd zero = MatrixXd::Zero(at, at);
+  Linearization own{zero, zero, zero, zero, zero};
+  add(b, there, own);
+  const auto put = [&](const MatrixXd& from, BandedMatrix<double>& to) {
+    to.widen(coordinates.back() - coordinates.front());
+    for (Index i = 0; i < at; ++i) {
+      for (Index j = 0; j < at; ++j) {
+        to(coordinates[static_cast<std::size_t>(i)], coordinates[static_cast<std::size_t>(j)]) +=
+            from(i, j);
+      }
+    }
+  };
+  put(own.stiffness, l.stiffness);
+  put(own.circulatory, l.circulatory);
+  put(own.damping, l.damping);
+  put(own.gyroscopic, l.gyroscopic);
+}
+
 void requireNodes(const FlexibleShaft& shaft) {
   const auto require = [&](int node, const char* what) {
     if (node < 0 || node >= shaft.nodes()) {
@@ -141,6 +172,13 @@ RotorAssembly::RotorAssembly(const FlexibleShaft& shaft) {
                          Eigen::VectorXd::Unit(n, firstOf(node) + 1)});
   }
   load_ = -shaft.gravity * (constant_.mass * along_y);
+  makeBands();
+}
+
+void RotorAssembly::makeBands() {
+  banded_ = banded(constant_);
+  banded_gyroscopic_ = BandedMatrix<double>::of(gyroscopic_per_speed_);
+  banded_circulatory_ = BandedMatrix<double>::of(circulatory_per_speed_);
 }
 
 Linearization RotorAssembly::matrices(double speed) const {
@@ -151,6 +189,20 @@ Linearization RotorAssembly::matrices(double speed) const {
     add(placed.bearing.coefficients(speed), placed.place, l);
   }
   return l;
+}
+
+BandedLinearization RotorAssembly::bandedMatrices(double speed) const {
+  BandedLinearization l = banded_;
+  l.gyroscopic.add(speed, banded_gyroscopic_);
+  l.circulatory.add(speed, banded_circulatory_);
+  for (const PlacedBearing& placed : speed_bearings_) {
+    add(placed.bearing.coefficients(speed), placed.place, l);
+  }
+  return l;
+}
+
+bool RotorAssembly::onlyGyroscopic() const {
+  return speed_bearings_.empty() && banded_circulatory_.isZero() && banded_.circulatory.isZero();
 }
 
 Station RotorAssembly::station(int node) const {
@@ -195,12 +247,13 @@ RotorAssembly RotorAssembly::in(const MatrixXd& shapes) const {
     station.along_x = shapes.transpose() * station.along_x;
     station.along_y = shapes.transpose() * station.along_y;
   }
+  r.makeBands();
   return r;
 }
 
 LinearRotor RotorAssembly::linearRotor() const {
   LinearRotor rotor;
-  rotor.matrices = [assembly = *this](double speed) { return assembly.matrices(speed); };
+  rotor.matrices = AssembledMatrices{std::make_shared<const RotorAssembly>(*this)};
   rotor.speed_dependent = !speed_bearings_.empty() ||
                           (gyroscopic_per_speed_.array() != 0.0).any() ||
                           (circulatory_per_speed_.array() != 0.0).any();

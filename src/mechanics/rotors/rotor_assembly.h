@@ -13,8 +13,10 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <memory>
 #include <vector>
 
+#include "mechanics/banded_linearization.h"
 #include "mechanics/linear_rotor.h"
 #include "mechanics/rotors/shaft_element.h"
 #include "mechanics/rotors/short_journal_bearing.h"
@@ -69,6 +71,10 @@ class RotorAssembly {
   Eigen::Index dof() const { return constant_.mass.rows(); }
   /// At a constant speed [rad/s]: only adds the parts up.
   Linearization matrices(double speed) const;
+  /// The same near the diagonals: in all coordinates work in proportion to the nodes.
+  BandedLinearization bandedMatrices(double speed) const;
+  /// Nothing changes with the speed but gyroscopic moments, and nothing circulates.
+  bool onlyGyroscopic() const;
   /// x and y of a node, as x = along_x . q.
   Station station(int node) const;
   std::vector<Station> stations() const { return stations_; }
@@ -83,12 +89,23 @@ class RotorAssembly {
     Eigen::MatrixXd place;  ///< [dof x 2], of x and y
   };
 
+  void makeBands();
+
   Linearization constant_;
   Eigen::MatrixXd gyroscopic_per_speed_, circulatory_per_speed_;
   std::vector<PlacedBearing> speed_bearings_;
   std::vector<ShaftForce> forces_;
   Eigen::VectorXd load_;
   std::vector<Station> stations_;
+  BandedLinearization banded_;  // constant_ and both per speed
+  BandedMatrix<double> banded_gyroscopic_, banded_circulatory_;
+};
+
+/// What LinearRotor::matrices of a RotorAssembly is: whoever finds this in it
+/// (std::function::target) can have its matrices near their diagonals.
+struct AssembledMatrices {
+  std::shared_ptr<const RotorAssembly> assembly;
+  Linearization operator()(double speed) const { return assembly->matrices(speed); }
 };
 
 }  // namespace whirl_twin
