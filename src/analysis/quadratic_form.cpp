@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "algebra/banded_matrix.h"
 #include "algebra/eigenvalues.h"
 #include "messages/refusal.h"
 
@@ -46,12 +47,20 @@ ScaledForm unitDiagonal(const Eigen::MatrixXd& form) {
 
 Definiteness definiteness(const Eigen::MatrixXd& form, const std::string& name) {
   requireSymmetric(form, name);
-  const double lowest = scaledEigenvalues(form)[0];
-  if (lowest > kZeroEigenvalue) {
+  // By Cholesky factorizations of the form without and with so much stiffness more: of a chain
+  // they cost no more than in proportion to its length.
+  auto shifted = BandedMatrix<double>::of(unitDiagonal(form).form);
+  const auto shift = [&](double by) {
+    for (Eigen::Index i = 0; i < shifted.size(); ++i) {
+      shifted(i, i) += by;
+    }
+  };
+  shift(-kZeroEigenvalue);
+  if (hasCholesky(shifted)) {
     return Definiteness::kPositiveDefinite;
   }
-  return lowest >= -kZeroEigenvalue ? Definiteness::kPositiveSemidefinite
-                                    : Definiteness::kIndefinite;
+  shift(2.0 * kZeroEigenvalue);
+  return hasCholesky(shifted) ? Definiteness::kPositiveSemidefinite : Definiteness::kIndefinite;
 }
 
 void requirePositiveDefinite(const Eigen::MatrixXd& form, const std::string& name) {

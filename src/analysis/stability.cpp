@@ -226,7 +226,16 @@ std::vector<std::complex<double>> eigenvalues(const Linearization& l) {
 }
 
 std::vector<std::complex<double>> eigenvalues(const Linearization& l, std::size_t zeros) {
-  const Eigen::MatrixXd a = stateMatrix(l, zeros).matrix;
+  // The last ones are kept: equilibria, operating point, verdict and searches begin with the same.
+  struct Solved {
+    Eigen::MatrixXd matrix;
+    std::vector<std::complex<double>> roots;
+  };
+  thread_local Solved last;
+  Eigen::MatrixXd a = stateMatrix(l, zeros).matrix;
+  if (last.matrix.rows() == a.rows() && last.matrix == a) {
+    return last.roots;
+  }
   // Overdamped motions beside slow ones keep the iteration busy for longer than Eigen waits.
   Eigen::EigenSolver<Eigen::MatrixXd> solver(a.rows());
   solver.setMaxIterations(kMostIterations * a.rows()).compute(a, false);
@@ -240,6 +249,7 @@ std::vector<std::complex<double>> eigenvalues(const Linearization& l, std::size_
     const double ay = std::abs(y);
     return ax != ay ? ax < ay : x.imag() < y.imag();
   });
+  last = {std::move(a), roots};
   return roots;
 }
 
