@@ -28,9 +28,10 @@ const ControllerInfo* find(const std::vector<ControllerInfo>& list, const std::s
 
 const std::vector<ControllerInfo>& builtInControllers() {
   static const std::vector<ControllerInfo> built_in{
-      withNotch(leadInfo()), withNotch(linearInfo()), withNotch(lqgInfo()),
-      withNotch(lqrInfo()),  withNotch(pidInfo()),    withNotch(stateFeedbackInfo()),
-      swingUpInfo()};
+      withNotch(leadInfo()), withNotch(linearInfo()),
+      withNotch(lqgInfo()),  withNotch(lqrInfo()),
+      withNotch(pidInfo()),  withNotch(stateFeedbackInfo()),
+      speedInfo(),           swingUpInfo()};
   return built_in;
 }
 

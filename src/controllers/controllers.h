@@ -10,6 +10,7 @@ ControllerInfo linearInfo();
 ControllerInfo lqgInfo();
 ControllerInfo lqrInfo();
 ControllerInfo pidInfo();
+ControllerInfo speedInfo();
 ControllerInfo stateFeedbackInfo();
 ControllerInfo swingUpInfo();
 

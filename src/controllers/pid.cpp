@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "control/transfer_function.h"
+#include "controllers/anti_windup.h"
 #include "controllers/controller_settings.h"
 #include "controllers/controllers.h"
 #include "controllers/speed_table.h"
@@ -29,20 +30,17 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-enum class AntiWindup { kBackCalculation, kClamping, kNone };
-
 struct Gains {
   double kp, ki, kd;
 };
 
 class Pid final : public Controller {
  public:
-  Pid(SpeedTable gains, const ParameterValues& values, AntiWindup anti_windup,
+  Pid(SpeedTable gains, const ParameterValues& values, const AntiWindup& anti_windup,
       const ControllerPlan& plan)
       : gains_(std::move(gains)),
         setpoint_(values.at("setpoint")),
         period_(1.0 / plan.rate),
-        tracking_time_(values.at("tracking_time")),
         anti_windup_(anti_windup),
         limits_(plan.limits),
         axes_(plan.outputs) {
@@ -69,7 +67,8 @@ class Pid final : public Controller {
       axis.slope = remembered_ * axis.slope + slope_gain_ * (y - last);
       axis.last = y;
       const double u = g.kp * e + axis.integral - g.kd * axis.slope;
-      axis.integral += period_ * integrand(g, e, u, limits_[i]);
+      axis.integral += period_ * anti_windup_.integrand(g.kp, g.ki, e, u,
+                                                        std::clamp(u, -limits_[i], limits_[i]));
       outputs[i] = u;
     }
     started_ = true;
@@ -105,31 +104,11 @@ class Pid final : public Controller {
     return {gains_.at(speed, 0), gains_.at(speed, 1), gains_.at(speed, 2)};
   }
 
-  double integrand(const Gains& g, double e, double u, double limit) const noexcept {
-    if (g.ki == 0.0) {
-      return 0.0;
-    }
-    const double beyond = u - std::clamp(u, -limit, limit);
-    const double wanted = g.ki * e;
-    switch (anti_windup_) {
-      case AntiWindup::kBackCalculation: {
-        const double time = tracking_time_ > 0.0 ? tracking_time_ : std::abs(g.kp / g.ki);
-        return wanted - beyond / std::max(time, period_);
-      }
-      case AntiWindup::kClamping:
-        return beyond * wanted > 0.0 ? 0.0 : wanted;
-      case AntiWindup::kNone:
-        break;
-    }
-    return wanted;
-  }
-
   SpeedTable gains_;  // kp, ki, kd
   double setpoint_;
-  double period_;         // [s]
-  double remembered_;     // [-], of the last slope
-  double slope_gain_;     // [1/s], of a difference
-  double tracking_time_;  // [s]; 0: kp / ki
+  double period_;      // [s]
+  double remembered_;  // [-], of the last slope
+  double slope_gain_;  // [1/s], of a difference
   AntiWindup anti_windup_;
   std::vector<double> limits_;
   std::vector<Axis> axes_;
@@ -150,12 +129,8 @@ SpeedTable gainsOf(const ParameterValues& values, const Settings& settings) {
 std::unique_ptr<Controller> makePid(const ParameterValues& values, const Settings& settings,
                                     const ControllerPlan& plan) {
   requireAxes(plan, "kp");
-  const std::string& way = settings.choices.at("anti_windup");
   return std::make_unique<Pid>(gainsOf(values, settings), values,
-                               way == "clamping" ? AntiWindup::kClamping
-                               : way == "none"   ? AntiWindup::kNone
-                                                 : AntiWindup::kBackCalculation,
-                               plan);
+                               antiWindupOf(values, settings, plan.rate), plan);
 }
 
 }  // namespace
@@ -171,13 +146,9 @@ ControllerInfo pidInfo() {
       {"derivative_time", "s", Range::kNotNegative,
        "time constant of the derivative's filter; 0: backward difference", 0.0, ""},
       {"setpoint", "measured", Range::kAny, "of what is measured", 0.0, ""},
-      {"tracking_time", "s", Range::kNotNegative,
-       "in which back_calculation unwinds the integral; 0: kp/ki", 0.0, ""},
+      trackingTimeInfo(),
   };
-  SettingInfo anti_windup{"anti_windup", SettingKind::kChoice, "",
-                          "what keeps the integral from growing while the output is at its limit"};
-  anti_windup.choices = {"back_calculation", "clamping", "none"};
-  info.settings = {anti_windup,
+  info.settings = {antiWindupSetting(),
                    speedTableSetting("gains", "in place of kp, ki and kd, over the shaft's speed",
                                      {{"kp", "output/measured", Range::kAny, 0.0},
                                       {"ki", "output/measured/s", Range::kAny, 0.0},

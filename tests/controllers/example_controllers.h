@@ -33,6 +33,13 @@ inline Eigen::MatrixXd row(const std::vector<double>& numbers) {
                                               static_cast<Eigen::Index>(numbers.size()));
 }
 
+/// Of a motor of constant torque [N m].
+inline Settings motorTable(double torque) {
+  Settings settings;
+  settings.tables["motor"] = {{{{"speed", 0.0}, {"torque", torque}}, {}}};
+  return settings;
+}
+
 inline ControllerPlan planOf(double rate, std::size_t measured, std::size_t outputs) {
   ControllerPlan plan = planOf(rate, outputs);
   plan.measured = measured;
@@ -104,6 +111,23 @@ inline const std::map<std::string, std::vector<ExampleController>>& exampleContr
          {},
          planOf(100.0, 4)},
         {{{"kp", 4.0}, {"notch_rate", 3.0}}, choice("notch_axes", "single"), planOf(100.0, 3)}}},
+      {"speed",
+       {{{{"speed", 50.0},
+          {"max_acceleration", 20.0},
+          {"max_jerk", 90.0},
+          {"inertia", 0.1},
+          {"drag", 0.2},
+          {"kp", 3.0},
+          {"ki", 0.7}},
+         motorTable(1e9),
+         planOf(100.0, 1)},
+        {{{"speed", -5.0},
+          {"max_acceleration", 2.0},
+          {"max_jerk", 9.0},
+          {"inertia", 0.1},
+          {"kp", 3.0}},
+         motorTable(1e9),
+         planOf(1000.0, 1)}}},
       {"state_feedback",
        {{{}, matrices({{"gain", row({3, -1, 2, 0.5})}}), planOf(100.0, 4, 1)},
         {{}, matrices({{"gain", b}, {"setpoint", row({1, 2})}}), planOf(100.0, 2, 3)}}},
