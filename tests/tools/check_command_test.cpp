@@ -100,7 +100,7 @@ drives:
     profile:
       - {speed: 10.0, max_acceleration: 2.0, max_jerk: 4.0, dwell: 1.5}
       - {speed: -10.0, max_acceleration: 5.0}
-  b: {speed: 3.0}
+  b: {speed: 3.0, avoid: {bands: [{from: 7.0, to: 8.0}, {from: 5.0, to: 7.5}]}}
 systems:
   p: {model: spinning_pendulum, drive: a, parameters: {mass: 1.0, length: 1.0}}
 )");
@@ -112,6 +112,10 @@ systems:
   EXPECT_TRUE(a["profile"][1]["max_jerk"].is_null());
   EXPECT_DOUBLE_EQ(a["duration"], 5.5 + 1.5 + 4.0);
   EXPECT_EQ(check["drives"]["b"]["duration"], 0.0);
+  EXPECT_TRUE(a["avoid"].empty());
+  EXPECT_EQ(check["drives"]["b"]["avoid"], Json::parse(R"([{"from": 5.0, "to": 8.0}])"));
+  EXPECT_NE(twin({"check", scene}).out.find("avoids 5 to 8 rad/s, either way round"),
+            std::string::npos);
 }
 
 TEST(Check, ShowsOneSystemOnly) {

@@ -58,6 +58,36 @@ TEST(LiveChange, SpeedsThatWouldStopASystemAreRefused) {
   EXPECT_EQ(refused.find("speed: at 1e+06 rad/s governor would stop in step "), 0u) << refused;
 }
 
+// A band of 40 to 60 rad/s, and 10 rad/s of run-up: from 38 rad/s it goes back to 30 before it
+// crosses, and on to 70 before it comes back to the edge.
+TEST(LiveChange, AShaftSentIntoABandGoesToItsEdgePastWhatItTakes) {
+  Running twin(sceneOf(
+      "{step: 0.001, drives: {shaft: {speed: 38, avoid: {bands: [{from: 40, to: 60}]}}}, systems: "
+      "{rotor: {model: jeffcott_rotor, drive: shaft, parameters: {mass: 2, stiffness: 800}}}}"));
+  const SpeedMove move{51.0, 20.0, 20.0, 0.0};
+  const SpeedReach reach = twin.parameters.reachOf(0, move).value();
+  EXPECT_EQ(reach.target, 60.0);
+  EXPECT_DOUBLE_EQ(reach.lowest, 30.0);
+  EXPECT_DOUBLE_EQ(reach.highest, 70.0);
+  ASSERT_TRUE(twin.parameters.prepareFor(0, move));
+  TwinCommand command;
+  command.kind = TwinCommand::Kind::kSetSpeed;
+  command.speed = move.speed;
+  command.max_acceleration = move.max_acceleration;
+  command.max_jerk = move.max_jerk;
+  ASSERT_TRUE(twin.live.send(command));
+  {
+    const AllocationGuard guard;
+    twin.live.cycle(0);
+    EXPECT_EQ(guard.allocations(), 0u);
+  }
+  ASSERT_TRUE(twin.live.answer().done);
+  twin.cycle(static_cast<int>(1000.0 * twin.live.answer().duration) + 2);
+  EXPECT_EQ(twin.live.twin().drive(0).at(0.0).speed, 60.0);
+  twin.observe();
+  EXPECT_EQ(twin.observer.status(0), StepStatus::kOk) << "it was ready for all of the way";
+}
+
 TEST(LiveChange, TheMotionGoesOnAsATwinThatStartsThereWithTheNewParameters) {
   Running twin(sceneOf(kTwoSystems));
   twin.cycle(731);
