@@ -53,14 +53,22 @@ std::vector<Station> publishedFirst(std::vector<Station> stations, int node,
   return stations;
 }
 
-/// Along x and y at every node.
-std::vector<InputInfo> forcesAt(const std::vector<Station>& stations) {
+/// Forces along x and y at every node, and the control currents of magnets.
+std::vector<InputInfo> inputsAt(const std::vector<Station>& stations,
+                                const std::vector<RotorMagnet>& magnets) {
   std::vector<InputInfo> all;
   for (std::size_t node = 0; node < stations.size(); ++node) {
     all.push_back({fmt::format("force_x_{}", node), "N", stations[node].along_x,
                    fmt::format("on node {}, along x", node)});
     all.push_back({fmt::format("force_y_{}", node), "N", stations[node].along_y,
                    fmt::format("on node {}, along y", node)});
+  }
+  for (const RotorMagnet& magnet : magnets) {
+    const Station& station = stations[static_cast<std::size_t>(magnet.node)];
+    all.push_back({fmt::format("current_x_{}", magnet.node), "A", magnet.ki * station.along_x,
+                   fmt::format("of the magnet at node {}, along x", magnet.node)});
+    all.push_back({fmt::format("current_y_{}", magnet.node), "A", magnet.ki * station.along_y,
+                   fmt::format("of the magnet at node {}, along y", magnet.node)});
   }
   return all;
 }
@@ -166,7 +174,7 @@ ModelSetup setUpFlexibleRotor(const ParameterValues& values, const Settings& set
   }
   description.stations =
       publishedFirst(assembly.stations(), probe, publishedNodes(settings, shaft));
-  description.inputs = forcesAt(assembly.stations());
+  description.inputs = inputsAt(assembly.stations(), rotorMagnets(settings, shaft.nodes()));
   description.sketch = FlexibleRotorPicture(shaft, assembly.stations(), probe);
   LinearRotor rotor = assembly.linearRotor();
   rotor.highest_speed = highest_speed;
@@ -209,7 +217,9 @@ ModelInfo flexibleRotorInfo() {
                            {"auto"}});
   info.variants = {{"", {}, true, true, {Exponential<1>::kName}}};
   info.variants[0].inputs = {{"force_x_NODE", "N", {}, "on a node, along x"},
-                             {"force_y_NODE", "N", {}, "on a node, along y"}};
+                             {"force_y_NODE", "N", {}, "on a node, along y"},
+                             {"current_x_NODE", "A", {}, "of a magnet, along x"},
+                             {"current_y_NODE", "A", {}, "of a magnet, along y"}};
   info.has_shaft = true;
   info.setUp = setUpFlexibleRotor;
   return info;

@@ -106,6 +106,11 @@ void addBearings(const Settings& settings, FlexibleShaft& shaft) {
       shaft.speed_bearings.push_back(tabulatedBearing(bearing.node, tables[i]));
     }
   }
+  for (const RotorMagnet& magnet : rotorMagnets(settings, shaft.nodes())) {
+    BearingCoefficients coefficients;
+    coefficients.kxx = coefficients.kyy = -magnet.ks;
+    shaft.bearings.push_back({magnet.node, coefficients});
+  }
   const std::vector<TableRow>& journals = table(settings, "journal_bearings");
   for (std::size_t i = 0; i < journals.size(); ++i) {
     const auto& n = journals[i].numbers;
@@ -158,6 +163,12 @@ std::vector<SettingInfo> flexibleShaftSettings() {
             {"clearance", "m", Range::kPositive, kRequired},
             {"viscosity", "Pa s", Range::kPositive, kRequired},
             {"load", "N", Range::kPositive, kRequired}}),
+      rows("magnets",
+           "magnetic bearings about their bias, force ki current + ks displacement; inputs "
+           "current_x_NODE, current_y_NODE [A]",
+           {node,
+            {"ki", "N/A", Range::kPositive, kRequired},
+            {"ks", "N/m", Range::kNotNegative, kRequired}}),
       rows("unbalances", "at nodes",
            {node,
             {"magnitude", "kg m", Range::kNotNegative, kRequired},
@@ -207,6 +218,21 @@ FlexibleShaft flexibleShaft(const ParameterValues& values, const Settings& setti
          n.at("angle")});
   }
   return shaft;
+}
+
+std::vector<RotorMagnet> rotorMagnets(const Settings& settings, int nodes) {
+  std::vector<RotorMagnet> magnets;
+  const std::vector<TableRow>& rows = table(settings, "magnets");
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::string key = fmt::format("magnets[{}]", i);
+    const int node = indexIn(rows[i], key, "node", nodes - 1);
+    if (std::any_of(magnets.begin(), magnets.end(),
+                    [node](const RotorMagnet& other) { return other.node == node; })) {
+      throw SetupError(key + ".node", fmt::format("stands twice, found {}", node));
+    }
+    magnets.push_back({node, rows[i].numbers.at("ki"), rows[i].numbers.at("ks")});
+  }
+  return magnets;
 }
 
 std::vector<int> publishedNodes(const Settings& settings, const FlexibleShaft& shaft) {

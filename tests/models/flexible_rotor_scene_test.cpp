@@ -8,6 +8,7 @@
 
 #include "../scene/scenes.h"
 #include "algebra/lu.h"
+#include "analysis/equilibria.h"
 #include "models/model_registry.h"
 #include "twin/observer.h"
 #include "twin/twin.h"
@@ -77,6 +78,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "elements[0].length: must be > 0 m, found 0"},
         Refusal{withShaft("discs: [{node: 7, mass: 1}]"),
                 "discs[0].node: must be a whole number from 0 to 6, found 7"},
+        Refusal{withShaft("magnets: [{node: 7, ki: 100, ks: 1.0e+5}]"),
+                "magnets[0].node: must be a whole number from 0 to 6, found 7"},
+        Refusal{withShaft("magnets: [{node: 1, ki: 100, ks: 1}, {node: 1, ki: 100, ks: 1}]"),
+                "magnets[1].node: stands twice, found 1"},
         Refusal{withShaft("bearings: [{node: 0, kxx: 1}, {node: 2.5, kxx: 1}]"),
                 "bearings[1].node: must be a whole number from 0 to 6, found 2.5"},
         Refusal{withShaft("unbalances: [{node: 9, magnitude: 1}]"),
@@ -180,6 +185,36 @@ TEST(FlexibleRotorScene, BearingsFollowTheSpeed) {
 }
 
 // The run at constant speed, from rest, ends in the whirl that its matrices predict.
+const InputInfo& inputOf(const std::vector<InputInfo>& inputs, const std::string& name) {
+  return *std::find_if(inputs.begin(), inputs.end(),
+                       [&](const InputInfo& input) { return input.name == name; });
+}
+
+// f = ki i + ks x: a current is a force of ki times it, and the displacement is pulled on.
+TEST(FlexibleRotorScene, MagnetsPullAwayFromTheMiddleAndObeyTheirCurrents) {
+  for (const char* modes : {"0", "6"}) {
+    const std::string kept = std::string("modes: ") + modes + ", ";
+    const ModelSetup magnets = setupOf(withShaft(
+        kept + "magnets: [{node: 1, ki: 120, ks: 3.0e+5}, {node: 5, ki: 80, ks: 2.0e+5}]"));
+    const ModelSetup springs =
+        setupOf(withShaft(
+            kept + "bearings: [{node: 1, kxx: -3.0e+5, kyy: -3.0e+5}, {node: 5, kxx: -2.0e+5, kyy: "
+                   "-2.0e+5}]"));
+    const auto stiffness = [](const ModelSetup& setup) {
+      const Eigen::VectorXd rest = Eigen::VectorXd::Zero(setup.dynamics->dof());
+      return linearizationAbout(*setup.dynamics, rest, rest, 100.0).stiffness;
+    };
+    EXPECT_EQ(stiffness(magnets), stiffness(springs)) << modes;
+    const std::vector<InputInfo> inputs = magnets.dynamics->inputs();
+    for (const char* along : {"x", "y"}) {
+      const std::string axis = along;
+      const InputInfo& current = inputOf(inputs, "current_" + axis + "_5");
+      EXPECT_EQ(current.unit, "A");
+      EXPECT_EQ(current.direction, 80.0 * inputOf(inputs, "force_" + axis + "_5").direction);
+    }
+  }
+}
+
 TEST(FlexibleRotorScene, WhirlsAsItsMatricesSay) {
   Twin twin(sceneOf(
       sceneText(std::string(kRotor) +
