@@ -3,7 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
+#include <map>
+#include <regex>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "twin_program.h"
 
@@ -84,6 +89,59 @@ TEST(Loop, IsPartOfAnalyze) {
   const Ending end = twin({"analyze", folder.write("scene.yaml", scene), "--json"});
   ASSERT_EQ(end.status, 0) << end.err;
   EXPECT_EQ(end.json()["controllers"]["pd"], controllerOf(scene));
+}
+
+/// [A], at the shaft's speed: the forward part of the current of the first magnet of the shipped
+/// scene at a constant speed [rad/s], its sensors without noise, from `from` to `to` [s].
+double currentAtSpeed(double speed, bool notch, double from, double to) {
+  std::string scene = contentsOf(WHIRL_TWIN_SOURCE "/config/scenes/levitation.yaml");
+  scene = std::regex_replace(scene, std::regex("shaft: \\{.*"),
+                             fmt::format("shaft: {{speed: {}}}", speed));
+  scene = std::regex_replace(scene, std::regex("sensor: .*"), "");
+  if (!notch) {
+    scene = scene.substr(0, scene.find("      notch_rate"));
+  }
+  const TemporaryDirectory folder;
+  const std::string table = folder.file("run.csv");
+  const Ending end = twin({"simulate", folder.write("scene.yaml", scene), "--duration",
+                           fmt::format("{}", to), "--output", table});
+  EXPECT_EQ(end.status, 0) << end.err;
+  std::istringstream rows(contentsOf(table));
+  std::string row;
+  std::getline(rows, row);
+  std::vector<std::string> names;
+  std::istringstream header(row);
+  for (std::string name; std::getline(header, name, ',');) {
+    names.push_back(name);
+  }
+  const double whole = std::floor((to - from) * speed / (2.0 * M_PI)) * 2.0 * M_PI / speed;
+  std::complex<double> sum = 0.0;
+  int count = 0;
+  while (std::getline(rows, row)) {
+    std::map<std::string, double> value;
+    std::istringstream cells(row);
+    std::size_t column = 0;
+    for (std::string cell; std::getline(cells, cell, ',');) {
+      value[names.at(column++)] = std::stod(cell);
+    }
+    const double time = value["time"];
+    if (time >= from && time < from + whole) {
+      sum +=
+          std::polar(1.0, -speed * time) * std::complex<double>(value["magnets.rotor.current_x_1"],
+                                                                value["magnets.rotor.current_y_1"]);
+      ++count;
+    }
+  }
+  return std::abs(sum) / count;
+}
+
+// Below the rotor's critical speeds, where a plain notch is unstable, between them and above.
+TEST(Loop, TheNotchOfLevitationTakesTheCurrentAtTheShaftsSpeedAway) {
+  for (const double speed : {200.0, 450.0, 1500.0}) {
+    const double before = currentAtSpeed(speed, false, 3.0, 4.0);
+    EXPECT_GT(before, 5e-3) << speed;
+    EXPECT_LT(currentAtSpeed(speed, true, 8.0, 9.0), 1e-3 * before) << speed;
+  }
 }
 
 TEST(Loop, IsDrawn) {
