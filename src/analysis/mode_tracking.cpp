@@ -8,6 +8,7 @@
 
 #include "algebra/cholesky.h"
 #include "algebra/qr.h"
+#include "analysis/mode_continuation.h"
 
 namespace whirl_twin {
 
@@ -22,6 +23,8 @@ constexpr double kSame = 0.9;         // correlation of one mode at two speeds
 constexpr double kAtAll = 0.5;        // the least that is accepted where a step is no longer halved
 constexpr double kRepeated = 1.0e-6;  // of an eigenvalue
 constexpr int kMostHalvings = 8;
+/// Of more coordinates all modes at a speed cost more than Newton's method for those followed.
+constexpr Index kFewCoordinates = 40;
 
 /// Square root of the energy: the scalar product of states scaled by it is that of the energy.
 class EnergyScale {
@@ -92,6 +95,32 @@ WhirlMode nearestIn(const Space& space, std::size_t member, const VectorXcd& sta
   return mode;
 }
 
+/// Each mode by Newton's method from where it was; nothing unless all are found, each a mode of
+/// its own.
+std::optional<ModeTracker::Modes> continued(const ModeTracker::Modes& modes,
+                                            const Linearization& matrices,
+                                            const std::vector<Station>& stations) {
+  const ModeContinuation continuation(banded(matrices));
+  ModeTracker::Modes found(modes.size());
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    if (!modes[i]) {
+      continue;
+    }
+    found[i] = continuation.from(*modes[i], kSame);
+    if (!found[i]) {
+      return std::nullopt;
+    }
+    for (std::size_t k = 0; k < i; ++k) {
+      if (found[k] && std::abs(found[k]->eigenvalue - found[i]->eigenvalue) <=
+                          kRepeated * std::abs(found[i]->eigenvalue)) {
+        return std::nullopt;
+      }
+    }
+    normalise(*found[i], stations);
+  }
+  return found;
+}
+
 }  // namespace
 
 ModeTracker::ModeTracker(System system, std::vector<Station> stations)
@@ -110,6 +139,11 @@ ModeTracker::Modes ModeTracker::follow(const Modes& modes, double from, double t
 ModeTracker::Modes ModeTracker::follow(const Modes& modes, double from, double to,
                                        int halvings) const {
   const Linearization matrices = system_(to);
+  if (matrices.mass.rows() > kFewCoordinates) {
+    if (auto found = continued(modes, matrices, stations_)) {
+      return *found;
+    }
+  }
   const EnergyScale scale(matrices);
   const std::vector<WhirlMode> there = whirlModes(matrices, stations_).modes;
   std::vector<Space> spaces = there.empty() ? std::vector<Space>() : spacesOf(there, scale);

@@ -29,9 +29,9 @@ constexpr double kLong = 10.0;  // s
 // cube of the coordinates, as products and eigenvalues of their matrices go.
 constexpr double kTable = 6.6e-6;        // two tables over speed, of a step and of its halves
 constexpr double kOneSpeed = 2.2e-7;     // two maps for one constant speed
-constexpr double kAnalysis = 2.4e-6;     // critical speeds and the loss of stability
-constexpr double kCampbell = 3.6e-6;     // the same, followed,
-constexpr double kPoint = 3.6e-8;        // and eigenvalues at a speed
+constexpr double kAnalysis = 2.5e-7;     // critical speeds and the loss of stability
+constexpr double kCampbell = 2.7e-7;     // the same, followed,
+constexpr double kPoint = 4.0e-10;       // and eigenvalues at a speed
 constexpr double kResponse = 2.5e-6;     // peaks,
 constexpr double kResponsePoint = 4e-9;  // and a response
 constexpr double kTableMemory = 9600.0;  // bytes, for the square
