@@ -48,5 +48,6 @@ if(WHIRL_TWIN_ROS)
   install(DIRECTORY launch config DESTINATION ${whirl_twin_share_dir})
   install(DIRECTORY msg DESTINATION ${whirl_twin_share_dir} FILES_MATCHING PATTERN *.lcm)
   # launch/follow.launch plays a record with it; in the devel space it is found where it lies.
-  install(PROGRAMS examples/acquisition/csv_to_ros.py DESTINATION ${whirl_twin_node_dir})
+  install(PROGRAMS examples/acquisition/csv_to_ros.py examples/external_controller/pd_by_ros.py
+    DESTINATION ${whirl_twin_node_dir})
 endif()

@@ -28,10 +28,9 @@ const ControllerInfo* find(const std::vector<ControllerInfo>& list, const std::s
 
 const std::vector<ControllerInfo>& builtInControllers() {
   static const std::vector<ControllerInfo> built_in{
-      withNotch(leadInfo()), withNotch(linearInfo()),
-      withNotch(lqgInfo()),  withNotch(lqrInfo()),
-      withNotch(pidInfo()),  withNotch(stateFeedbackInfo()),
-      speedInfo(),           swingUpInfo()};
+      withNotch(leadInfo()), withNotch(linearInfo()), withNotch(lqgInfo()),
+      withNotch(lqrInfo()),  withNotch(pidInfo()),    withNotch(stateFeedbackInfo()),
+      speedInfo(),           swingUpInfo(),           externalInfo()};
   return built_in;
 }
 

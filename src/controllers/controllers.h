@@ -5,6 +5,7 @@
 
 namespace whirl_twin {
 
+ControllerInfo externalInfo();
 ControllerInfo leadInfo();
 ControllerInfo linearInfo();
 ControllerInfo lqgInfo();

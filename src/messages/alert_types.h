@@ -23,6 +23,7 @@ inline constexpr char kAccuracyLost[] = "ACCURACY_LOST";
 inline constexpr char kNotFinite[] = "NOT_FINITE";
 inline constexpr char kStopped[] = "STOPPED";  // for any other cause
 inline constexpr char kModelInvalid[] = "MODEL_INVALID";
+inline constexpr char kControllerLost[] = "CONTROLLER_LOST";
 inline constexpr char kDataLost[] = "DATA_LOST";
 inline constexpr char kLcmLost[] = "LCM_LOST";
 
@@ -46,6 +47,7 @@ inline constexpr const char* kAll[] = {kCriticalSpeedApproach,
                                        kNotFinite,
                                        kStopped,
                                        kModelInvalid,
+                                       kControllerLost,
                                        kDataLost,
                                        kLcmLost};
 

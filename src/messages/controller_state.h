@@ -26,6 +26,8 @@ struct ControllerState {
   std::int64_t samples = 0;    ///< since the start
   std::int64_t saturated = 0;  ///< outputs that an actuator could not give
   std::int64_t missed = 0;     ///< samples without an output that is a number
+  std::int64_t age = -1;       ///< [samples], of what one in another process gave last; -1: nothing
+  bool lost = false;           ///< it has not answered for its time-out
 
   template <class Visit>
   static void fields(Visit& visit) {
@@ -42,6 +44,8 @@ struct ControllerState {
     visit(TWIN_FIELD(samples), "", count);
     visit(TWIN_FIELD(saturated), "", count);
     visit(TWIN_FIELD(missed), "", count);
+    visit(TWIN_FIELD(age), "", between(-1, std::numeric_limits<std::int64_t>::max()));
+    visit(TWIN_FIELD(lost), "", requireFlag);
   }
 };
 

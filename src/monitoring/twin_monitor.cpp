@@ -44,6 +44,9 @@ TwinMonitor::TwinMonitor(const BuiltScene& scene, const AlarmSettings& settings,
       lcm_lost_alarm_(settings),
       alerts_(settings.latch),
       restored_(settings) {
+  for (const ControllerSpec& controller : scene.scene.controllers) {
+    controller_alarms_.emplace(controller.name, ControllerAlarm(controller.name, settings_));
+  }
   for (std::size_t i = 0; i < scene.systems.size(); ++i) {
     watches_.emplace_back(scene.systems[i], judging_.speedsOf(i), settings_);
     if (const auto orbit = measuredOrbitOf(scene, i)) {
@@ -63,6 +66,9 @@ void TwinMonitor::restart(double time, double wall_time) {
   }
   data_lost_alarm_ = DataLostAlarm(systemNames(), settings_);
   lcm_lost_alarm_ = LcmLostAlarm(settings_);
+  for (auto& [name, alarm] : controller_alarms_) {
+    alarm = ControllerAlarm(name, settings_);
+  }
   for (auto& [source, clock] : clocks_) {
     clock.restartAt(time, wall_time);
   }
@@ -78,6 +84,9 @@ void TwinMonitor::set(const AlarmSettings& settings) {
   }
   data_lost_alarm_.set(settings_);
   lcm_lost_alarm_.set(settings_);
+  for (auto& [name, alarm] : controller_alarms_) {
+    alarm.set(settings_);
+  }
   restored_.set(settings_);
   alerts_.setLatch(settings_.latch);
 }
@@ -338,6 +347,14 @@ void TwinMonitor::take(const state::FollowState& follow, double wall_time) {
   // By a clock of its own: where no states come any more it says why.
   if (watch != nullptr && arrived("follow/" + follow.system, follow.at, wall_time)) {
     watch->following_alarm.update(follow, watch->decay_alarm.active(), alerts_);
+  }
+}
+
+void TwinMonitor::take(const state::ControllerState& controller, double wall_time) {
+  const auto alarm = controller_alarms_.find(controller.controller);
+  if (alarm != controller_alarms_.end() &&
+      arrived("controllers/" + controller.controller, controller.at, wall_time)) {
+    alarm->second.update(controller.at.time, controller.lost, alerts_);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "messages/controller_state.h"
 #include "messages/follow_state.h"
 #include "messages/loop_statistics.h"
 #include "messages/measurement.h"
@@ -17,6 +18,7 @@
 #include "monitoring/alarm_memory.h"
 #include "monitoring/alarm_settings.h"
 #include "monitoring/alert_list.h"
+#include "monitoring/controller_alarm.h"
 #include "monitoring/data_lost_alarm.h"
 #include "monitoring/judging.h"
 #include "monitoring/lcm_lost_alarm.h"
@@ -45,6 +47,7 @@ class TwinMonitor {
   void take(const state::FollowState& follow, double wall_time);
   /// Of a system that the scene's sensors measure (measured_signal.h): from its first message on
   /// the alarms on its motion act on it instead of on the twin's.
+  void take(const state::ControllerState& controller, double wall_time);
   void take(const state::Measurement& measurement, double wall_time);
   /// The parameters of a system are others now, and it is judged with them at once, where it was
   /// last. False for a set that the system does not have, or cannot have.
@@ -115,6 +118,7 @@ class TwinMonitor {
   std::vector<SystemWatch> watches_;
   DataLostAlarm data_lost_alarm_;
   LcmLostAlarm lcm_lost_alarm_;
+  std::map<std::string, ControllerAlarm> controller_alarms_;
   AlertList alerts_;
   RestoredAlerts restored_;
   std::map<std::string, double> inhibited_until_;  ///< [s, wall]

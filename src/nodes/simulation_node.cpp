@@ -14,6 +14,7 @@
 #include "accuracy/step_choice.h"
 #include "messages/monitor_pulse.h"
 #include "nodes/changed_parameters.h"
+#include "nodes/external_controllers.h"
 #include "nodes/input_commands.h"
 #include "nodes/loop_report.h"
 #include "nodes/private_parameter.h"
@@ -151,6 +152,8 @@ void run() {
 
   InputCommands commands(live, services, node, settings.lcm_url, settings.lcm_prefix);
 
+  const ExternalControllers external(live, node, settings.lcm_url, settings.lcm_prefix);
+
   MonitorPulse pulse;
   const ros::Subscriber monitor = node.subscribe<MonitorStatus>(
       topicName(state::MonitorStatus::kKind), 10,
@@ -165,6 +168,9 @@ void run() {
     const std::string silence = pulse.silence(ros::WallTime::now().toSec());
     if (!silence.empty()) {
       status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, silence);
+    }
+    if (external.any()) {
+      status.add("refused commands of controllers", external.refused());
     }
     if (commands.any()) {
       status.add("commands to inputs", commands.taken());

@@ -168,6 +168,26 @@ void checkLaw(const MapReader& map, const ControllerInfo& info, const Scene& sce
   }
 }
 
+/// What is said of a controller in another process, in place of parameters.
+void readExternal(const MapReader& map, const ControllerInfo& info, const Scene& scene,
+                  ControllerSpec& controller, Complaints& complaints) {
+  controller.parameters["timeout"] = map.numberBetween("timeout", 1.0e-6, 1.0e3, "s", std::nullopt);
+  for (const SettingInfo& setting : info.settings) {
+    controller.settings.choices[setting.name] =
+        map.choice(setting.name, setting.choices, "a word", setting.choices.front());
+  }
+  if (map.has("parameters")) {
+    complaints.add(map.key("parameters"),
+                   "must not be given: it is the other process that has them");
+  }
+  if (controller.settings.choices["mode"] == "lockstep" && controller.delay < scene.step) {
+    complaints.add(map.key("delay"),
+                   fmt::format("must be at least a step, {:g} s, in lockstep: simulated time waits "
+                               "for answers between steps, found {:g} s",
+                               scene.stepSeconds(), static_cast<double>(controller.delay) / 1e9));
+  }
+}
+
 /// What cannot have controllers.
 void checkSystems(const MapReader& map, const Scene& scene, const ControllerSpec& controller,
                   Complaints& complaints) {
@@ -187,10 +207,10 @@ ControllerSpec readController(const YAML::Node& node, const std::string& key,
                               Complaints& complaints) {
   ControllerSpec controller;
   controller.name = name;
-  const MapReader map(
-      node, key,
-      {"type", "rate", "measures", "acts_on", "delay", "sensor", "actuator", "parameters"},
-      "key of a controller", complaints);
+  const MapReader map(node, key,
+                      {"type", "rate", "measures", "acts_on", "delay", "sensor", "actuator",
+                       "parameters", "mode", "timeout", "on_timeout"},
+                      "key of a controller", complaints);
   if (!map.usable()) {
     return controller;
   }
@@ -213,7 +233,16 @@ ControllerSpec readController(const YAML::Node& node, const std::string& key,
   readMeasured(map, signals, controller, complaints);
   readActedOn(map, scene, controller, complaints);
   readSurroundings(map, controller, complaints);
-  if (info != nullptr) {
+  const bool external = info != nullptr && info->name == "external";
+  for (const char* const own : {"mode", "timeout", "on_timeout"}) {
+    if (!external && map.has(own)) {
+      complaints.add(map.key(own), "is for a controller in another process, of type external");
+    }
+  }
+  if (external) {
+    readExternal(map, *info, scene, controller, complaints);
+    checkSystems(map, scene, controller, complaints);
+  } else if (info != nullptr) {
     readParameterValues(map, info->name, info->parameters, info->settings, {},
                         controller.parameters, controller.settings, complaints);
     checkSystems(map, scene, controller, complaints);

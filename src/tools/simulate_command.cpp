@@ -6,6 +6,7 @@
 
 #include "messages/refusal.h"
 #include "reports/members_table.h"
+#include "reports/output.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/simulation.h"
@@ -61,6 +62,18 @@ void requireOneEnsemble(const SimulationPlan& plan) {
   }
 }
 
+/// A run without the processes that a scene's controllers are in is another one.
+void sayWhatIsMissing(const Scene& scene) {
+  for (const ControllerSpec& controller : scene.controllers) {
+    if (controller.type == "external") {
+      complain(
+          fmt::format("twin: controllers.{}: is in another process and acts live only; here it "
+                      "gives 0\n",
+                      controller.name));
+    }
+  }
+}
+
 int simulate(const SimulationRequest& request) {
   if (request.output) {
     extensionOf(*request.output);
@@ -75,6 +88,7 @@ int simulate(const SimulationRequest& request) {
     throw Refusal("--members: must be another file than --output");
   }
   const SimulationPlan plan = planSimulation(request);
+  sayWhatIsMissing(plan.scene);
   if (request.members) {
     requireOneEnsemble(plan);
   }

@@ -26,6 +26,8 @@ RunningController::RunningController(const ControllerSpec& spec, const BuiltScen
                                      std::vector<Inputs>& inputs)
     : law_(findController(spec.type)->make(spec.parameters, spec.settings,
                                            planOf(built.scene, spec))),
+      external_(dynamic_cast<ExternalController*>(law_.get())),
+      lockstep_(external_ != nullptr && external_->rules().lockstep),
       instants_(spec, built.scene.time),
       at_once_(spec.delay == 0),
       filtered_(spec.sensor.bandwidth > 0.0),
@@ -45,6 +47,9 @@ RunningController::RunningController(const ControllerSpec& spec, const BuiltScen
                          {row.along.data(), row.along.data() + row.along.size()},
                          Sensor(spec.sensor, spec.seed, static_cast<std::uint32_t>(i))});
     motion_.resize(std::max(motion_.size(), 2 * channels_.back().dof));
+  }
+  if (lockstep_) {
+    external_->keep(under_way_);
   }
   for (const ActedInput& acted : spec.acts_on) {
     acted_.push_back(
@@ -112,7 +117,9 @@ void RunningController::follow(std::int64_t time, const std::vector<Stepper*>& r
 
 void RunningController::actAt(std::int64_t time) noexcept {
   while (instants_.outputTime() <= time) {
-    if (!at_once_ && instants_.output() >= first_) {
+    if (lockstep_ && instants_.output() >= first_) {
+      giveAnswer(external_->answer(instants_.output()));
+    } else if (!at_once_ && instants_.output() >= first_) {
       const auto place = static_cast<std::size_t>((instants_.output() - first_) %
                                                   static_cast<std::int64_t>(under_way_));
       give(outputs_.data() + place * acted_.size());
@@ -143,9 +150,13 @@ void RunningController::sampleAt(std::int64_t time, double offset,
   }
   const auto place = static_cast<std::size_t>((k - first_) % static_cast<std::int64_t>(under_way_));
   double* const outputs = outputs_.data() + place * acted_.size();
+  const bool was_lost = external_ != nullptr && external_->lost();
   law_->update({shown_.data(), k, time, turned.angle, turned.speed}, outputs);
   ++count_.samples;
-  if (!std::all_of(outputs, outputs + acted_.size(), [](double u) { return std::isfinite(u); })) {
+  if (external_ != nullptr && external_->lost() && !was_lost && external_->rules().zero) {
+    giveNothing();
+  }
+  if (!lockstep_ && !isNumber(outputs)) {
     ++count_.missed;
     for (std::size_t i = 0; i < acted_.size(); ++i) {
       outputs[i] = acted_[i].actuator.value();
@@ -155,6 +166,50 @@ void RunningController::sampleAt(std::int64_t time, double offset,
     give(outputs);
   }
   instants_.passSample();
+}
+
+bool RunningController::isNumber(const double* outputs) const noexcept {
+  return std::all_of(outputs, outputs + acted_.size(), [](double u) { return std::isfinite(u); });
+}
+
+/// nullptr: none has come, and the last one stays.
+void RunningController::giveAnswer(const double* outputs) noexcept {
+  if (outputs == nullptr) {
+    return;
+  }
+  if (isNumber(outputs)) {
+    give(outputs);
+  } else {
+    ++count_.missed;
+  }
+}
+
+/// 0, also of all that is under way.
+void RunningController::giveNothing() noexcept {
+  std::fill(outputs_.begin(), outputs_.end(), 0.0);
+  give(outputs_.data());
+}
+
+bool RunningController::mayGoOn(std::int64_t until, std::int64_t elapsed) noexcept {
+  if (!lockstep_) {
+    return true;
+  }
+  external_->listen();
+  bool awaited = false;
+  for (ControlInstants ahead = instants_; ahead.outputTime() < until; ahead.passOutput()) {
+    awaited = awaited || (ahead.output() >= first_ && external_->isAwaited(ahead.output()));
+  }
+  if (!awaited) {
+    external_->waitsNoMore();
+    return true;
+  }
+  if (!external_->waitsTooLong(elapsed)) {
+    return false;
+  }
+  if (external_->rules().zero) {
+    giveNothing();
+  }
+  return true;
 }
 
 void RunningController::give(const double* outputs) noexcept {
@@ -198,6 +253,14 @@ void ControlLoop::act(std::int64_t time, double offset, const std::vector<Steppe
   for (RunningController& controller : controllers_) {
     controller.sampleAt(time, offset, running, drives[controller.drive()]);
   }
+}
+
+bool ControlLoop::mayGoOn(std::int64_t until, std::int64_t elapsed) noexcept {
+  bool may = true;
+  for (RunningController& controller : controllers_) {
+    may = controller.mayGoOn(until, elapsed) && may;
+  }
+  return may;
 }
 
 void ControlLoop::follow(std::int64_t time, const std::vector<Stepper*>& running) noexcept {

@@ -15,6 +15,7 @@
 #include "control/inputs.h"
 #include "control/sensor.h"
 #include "controllers/controller.h"
+#include "controllers/external.h"
 #include "integration/stepper.h"
 #include "scene/built_scene.h"
 #include "scene/control_parts.h"
@@ -46,11 +47,16 @@ class RunningController {
   /// after the start of the step.
   void sampleAt(std::int64_t time, double offset, const std::vector<Stepper*>& running,
                 const Drive& drive) noexcept;
+  /// May simulated time go on to `until` [ns], or does it wait for an answer of another process,
+  /// `elapsed` [ns] of wall time after this was asked last? Without one that is in lockstep it may.
+  bool mayGoOn(std::int64_t until, std::int64_t elapsed) noexcept;
   /// The state has gone on to an instant: what is between samples passes the sensors' filters.
   void follow(std::int64_t time, const std::vector<Stepper*>& running) noexcept;
 
   std::size_t drive() const { return drive_; }  ///< of Twin::drive()
   const ControlCount& count() const noexcept { return count_; }
+  /// nullptr: it is of this process.
+  ExternalController* external() const noexcept { return external_; }
   std::size_t measured() const { return channels_.size(); }
   std::size_t outputs() const { return acted_.size(); }
   /// What the last sample showed, and what acts.
@@ -74,8 +80,13 @@ class RunningController {
 
   void read(const std::vector<Stepper*>& running) noexcept;
   void give(const double* outputs) noexcept;
+  void giveAnswer(const double* outputs) noexcept;
+  bool isNumber(const double* outputs) const noexcept;
+  void giveNothing() noexcept;
 
   std::unique_ptr<Controller> law_;
+  ExternalController* external_;  ///< law_, if it is one
+  bool lockstep_ = false;
   ControlInstants instants_;
   bool at_once_;   ///< no delay
   bool filtered_;  ///< its sensors have filters
@@ -109,6 +120,8 @@ class ControlLoop {
   /// Everything that is due at an instant, `offset` [s] after the start of the step.
   void act(std::int64_t time, double offset, const std::vector<Stepper*>& running,
            const std::vector<Drive>& drives) noexcept;
+  /// As RunningController::mayGoOn(), for all.
+  bool mayGoOn(std::int64_t until, std::int64_t elapsed) noexcept;
   /// The systems have gone on to an instant.
   void follow(std::int64_t time, const std::vector<Stepper*>& running) noexcept;
 

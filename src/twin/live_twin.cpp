@@ -23,10 +23,12 @@ bool LiveTwin::cycle(std::int64_t scheduled) noexcept {
   carryOutCommands();
   if (at_start_) {
     at_start_ = false;
+    asked_ = scheduled;
     publish(scheduled);
     return true;
   }
   if (holds()) {
+    asked_ = scheduled;  // a pause is no waiting
     return true;
   }
   if (steps_to_do_ > 0 || pace_.factor() == Pace::kAsFastAsItGoes) {
@@ -40,6 +42,9 @@ bool LiveTwin::cycle(std::int64_t scheduled) noexcept {
       if (holds() || at_start_) {
         break;
       }
+    }
+    if (!mayStep(scheduled)) {
+      break;
     }
     step(scheduled + i * twin_.scene().step / due);
   }
@@ -69,6 +74,12 @@ bool LiveTwin::holds() const noexcept {
   return paused_.load(std::memory_order_relaxed) && steps_to_do_ == 0;
 }
 
+bool LiveTwin::mayStep(std::int64_t now) noexcept {
+  const std::int64_t elapsed = now - asked_;
+  asked_ = now;
+  return twin_.mayStep(elapsed);
+}
+
 void LiveTwin::step(std::int64_t scheduled) noexcept {
   twin_.step();
   step_.store(twin_.stepCount(), std::memory_order_relaxed);
@@ -86,7 +97,7 @@ void LiveTwin::stepWhileThereIsTime(std::int64_t scheduled) noexcept {
            (steps_to_do_ > 0 || pace_.factor() == Pace::kAsFastAsItGoes);
   };
   do {
-    if (!ring_.hasRoomFor(7 * ring_.capacity() / 8)) {
+    if (!ring_.hasRoomFor(7 * ring_.capacity() / 8) || !mayStep(now)) {
       return;
     }
     step(now);

@@ -108,6 +108,7 @@ class LiveTwin {
   void carryOutCommands() noexcept;
   void pauseNow() noexcept;
   bool holds() const noexcept;
+  bool mayStep(std::int64_t now) noexcept;
   void step(std::int64_t scheduled) noexcept;
   void stepWhileThereIsTime(std::int64_t scheduled) noexcept;
   void carryOut(const TwinCommand& command) noexcept;
@@ -131,7 +132,8 @@ class LiveTwin {
   std::unique_ptr<Stepper> retired_;  ///< by the last kReplace; deleted outside of the loop
   std::uint64_t steps_to_do_ = 0;     ///< of a kStep under way
   Pace pace_;
-  bool at_start_ = true;  ///< the state at step 0 has not been published
+  std::int64_t asked_ = 0;  ///< [ns], the twin last whether it may step
+  bool at_start_ = true;    ///< the state at step 0 has not been published
 };
 
 }  // namespace whirl_twin

@@ -95,6 +95,8 @@ state::ControllerState controllerState(const ControllerSpec& spec, const Scene& 
   state.samples = controller.samples();
   state.saturated = controller.saturated();
   state.missed = controller.missed();
+  state.age = controller.age();
+  state.lost = controller.lost();
   return state;
 }
 

@@ -116,6 +116,9 @@ class ControllerPlace {
   std::int64_t samples() const noexcept { return unpacked(place_[kSamples]); }
   std::int64_t saturated() const noexcept { return unpacked(place_[kSaturated]); }
   std::int64_t missed() const noexcept { return unpacked(place_[kMissed]); }
+  /// Of one in another process: ExternalController::age(), lost().
+  std::int64_t age() const noexcept { return unpacked(place_[kAge]); }
+  bool lost() const noexcept { return unpacked(place_[kLost]) != 0; }
   Number* values() const noexcept { return place_ + kValues; }      ///< of the signals
   Number* outputs() const noexcept { return values() + signals_; }  ///< of the inputs
 
@@ -124,9 +127,13 @@ class ControllerPlace {
     place_[kSaturated] = packed(saturated);
     place_[kMissed] = packed(missed);
   }
+  void setAnswers(std::int64_t age, bool lost) const noexcept {
+    place_[kAge] = packed(age);
+    place_[kLost] = packed(lost ? 1 : 0);
+  }
 
  private:
-  enum { kSamples, kSaturated, kMissed, kValues };
+  enum { kSamples, kSaturated, kMissed, kAge, kLost, kValues };
   Number* place_;
   std::size_t signals_;
 };

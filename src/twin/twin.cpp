@@ -226,6 +226,9 @@ void Twin::write(double* record) const noexcept {
     const ControllerPlace<double> place = layout_.controller(record, i);
     const ControlCount& count = controller.count();
     place.setCount(count.samples, count.saturated, count.missed);
+    const ExternalController* const external = controller.external();
+    place.setAnswers(external != nullptr ? external->age() : ExternalController::kNoAge,
+                     external != nullptr && external->lost());
     std::copy_n(controller.shown(), controller.measured(), place.values());
     for (std::size_t k = 0; k < controller.outputs(); ++k) {
       place.outputs()[k] = controller.acting(k);

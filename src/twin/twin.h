@@ -49,6 +49,11 @@ class Twin {
 
   // Real-time safe.
 
+  /// May it step, or does simulated time wait for a controller in another process, `elapsed` [ns]
+  /// of wall time after this was asked last? Who does not ask has none.
+  bool mayStep(std::int64_t elapsed) noexcept {
+    return !control_.any() || control_.mayGoOn(now() + scene().step, elapsed);
+  }
   /// One step of everything that has not stopped.
   void step() noexcept;
   /// Back to the scene's start, with the scene's own systems.

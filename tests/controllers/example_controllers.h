@@ -83,6 +83,7 @@ inline const std::map<std::string, std::vector<ExampleController>>& exampleContr
       (Eigen::MatrixXd(3, 3) << 0.5, 0.2, 0, -0.1, 0.9, 0.3, 0, 0.4, -0.2).finished();
   const Eigen::MatrixXd b = (Eigen::MatrixXd(3, 2) << 1, 2, 3, 4, 5, 6).finished();
   static const std::map<std::string, std::vector<ExampleController>> examples{
+      {"external", {{{{"timeout", 0.01}}, choice("mode", "free_running"), planOf(100.0, 2)}}},
       {"lead",
        {{{{"gain", 3.0}, {"zero", 20.0}, {"pole", 200.0}}, {}, planOf(1000.0, 2)},
         {{{"gain", 3.0}, {"zero", 20.0}, {"pole", 2.0}, {"prewarp", 6.0}, {"setpoint", 0.1}},

@@ -78,7 +78,7 @@ class StateSamples {
     s.value = numbers(s.signal.size());
     s.input_unit.assign(s.input.size(), "N m");
     s.output = numbers(s.input.size());
-    for (std::int64_t* const count : {&s.samples, &s.saturated, &s.missed}) {
+    for (std::int64_t* const count : {&s.samples, &s.saturated, &s.missed, &s.age}) {
       *count = static_cast<std::int64_t>(below(std::uint64_t{1} << 62));
     }
     return s;

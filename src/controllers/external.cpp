@@ -1,0 +1,148 @@
+#include "controllers/external.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "controllers/controllers.h"
+
+namespace whirl_twin {
+
+ExternalController::ExternalController(const Rules& rules, std::size_t measured,
+                                       std::size_t outputs)
+    : rules_(rules),
+      link_(std::make_unique<ExternalLink>(measured, outputs)),
+      newest_(outputs),
+      answers_(outputs),
+      answered_(1, kNone) {
+  command_.values.resize(outputs);
+}
+
+void ExternalController::keep(std::size_t samples) {
+  answers_.assign(samples * newest_.size(), 0.0);
+  answered_.assign(samples, kNone);
+}
+
+/// The other process stays where it is: in lockstep the first sample waits for it already.
+void ExternalController::reset() noexcept {
+  ++run_;
+  told_ = heard_ = kNone;
+  std::fill(newest_.begin(), newest_.end(), 0.0);
+  std::fill(answered_.begin(), answered_.end(), kNone);
+  awaited_from_ = connected_ ? kNone + 1 : kNone;
+  waiting_ = false;
+}
+
+/// False for what is no answer to a sample of this run.
+bool ExternalController::take(const ExternalSample& command) noexcept {
+  if ((command.run != 0 && command.run != run_) || command.sample > told_) {
+    return false;
+  }
+  heard_ = std::max(heard_, command.sample);
+  connected_ = true;
+  lost_ = false;
+  return true;
+}
+
+void ExternalController::update(const ControlSample& sample, double* outputs) noexcept {
+  told_ = sample.index;
+  link_->tell(run_, sample.index, static_cast<double>(sample.time) / 1e9, sample.values);
+  if (rules_.lockstep) {
+    return;
+  }
+  while (link_->hear(command_)) {
+    const std::int64_t before = heard_;
+    if (take(command_) && command_.sample >= before) {
+      std::copy(command_.values.begin(), command_.values.end(), newest_.begin());
+      heard_at_ = sample.time;
+    }
+  }
+  // Nothing is missed of what has never been there.
+  if (connected_ && heard_ == kNone && sample.time < heard_at_) {
+    heard_at_ = sample.time;  // after a reset
+  }
+  if (connected_ && sample.time - heard_at_ >= rules_.timeout) {
+    connected_ = false;
+    lost_ = true;
+    if (rules_.zero) {
+      std::fill(newest_.begin(), newest_.end(), 0.0);
+    }
+  }
+  std::copy(newest_.begin(), newest_.end(), outputs);
+}
+
+void ExternalController::listen() noexcept {
+  while (link_->hear(command_)) {
+    const bool anew = !connected_;
+    if (!take(command_)) {
+      continue;
+    }
+    if (anew) {
+      awaited_from_ = command_.sample;
+    }
+    const std::size_t place = placeOf(command_.sample);
+    if (command_.sample >= answered_[place]) {
+      answered_[place] = command_.sample;
+      std::copy(command_.values.begin(), command_.values.end(),
+                answers_.begin() + static_cast<std::ptrdiff_t>(place * newest_.size()));
+    }
+  }
+}
+
+const double* ExternalController::answer(std::int64_t sample) const noexcept {
+  const std::size_t place = placeOf(sample);
+  return answered_[place] == sample ? answers_.data() + place * newest_.size() : nullptr;
+}
+
+bool ExternalController::isAwaited(std::int64_t sample) const noexcept {
+  return awaited_from_ != kNone && sample >= awaited_from_ && answer(sample) == nullptr;
+}
+
+bool ExternalController::waitsTooLong(std::int64_t elapsed) noexcept {
+  waited_ = waiting_ ? waited_ + elapsed : 0;
+  waiting_ = true;
+  if (waited_ < rules_.timeout) {
+    return false;
+  }
+  waiting_ = connected_ = false;
+  awaited_from_ = kNone;
+  lost_ = true;
+  return true;
+}
+
+namespace {
+
+std::unique_ptr<Controller> makeExternal(const ParameterValues& values, const Settings& settings,
+                                         const ControllerPlan& plan) {
+  ExternalController::Rules rules;
+  rules.lockstep = settings.choices.at("mode") == "lockstep";
+  rules.timeout = std::llround(values.at("timeout") * 1e9);
+  rules.zero = settings.choices.at("on_timeout") == "zero";
+  if (!(values.at("timeout") >= 1e-6 && values.at("timeout") <= 1e3)) {
+    throw SetupError("timeout", "must be from 1e-6 to 1000 s");
+  }
+  return std::make_unique<ExternalController>(rules, plan.measured, plan.outputs);
+}
+
+}  // namespace
+
+ControllerInfo externalInfo() {
+  ControllerInfo info;
+  info.name = "external";
+  info.summary = "in another process, by ROS or LCM: acts live only";
+  info.parameters = {
+      {"timeout", "s", Range::kPositive,
+       "without an answer, after which on_timeout holds: of wall time in lockstep, of "
+       "simulated time else",
+       std::nullopt, ""}};
+  SettingInfo mode{"mode", SettingKind::kChoice, "",
+                   "simulated time waits for each answer, or the newest command acts"};
+  mode.choices = {"lockstep", "free_running"};
+  SettingInfo on_timeout{"on_timeout", SettingKind::kChoice, "",
+                         "what it gives when no answer has come: what it gave last, or 0"};
+  on_timeout.choices = {"hold", "zero"};
+  info.settings = {mode, on_timeout};
+  info.make = makeExternal;
+  return info;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,90 @@
+// A controller in another process: samples go out, commands come in, each the answer to a sample.
+//
+// Free-running, what acts is the newest command that has come. In lockstep the output of a sample
+// is its answer, and simulated time waits for it: not before the first answer of all, and not after
+// none has come for `timeout` of wall time, until one comes again.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "controllers/controller.h"
+#include "controllers/controller_info.h"
+#include "controllers/external_link.h"
+
+namespace whirl_twin {
+
+class ExternalController final : public Controller {
+ public:
+  struct Rules {
+    bool lockstep = false;
+    std::int64_t timeout = 0;  ///< [ns]
+    bool zero = false;         ///< after the time-out it gives 0; else what it gave last
+  };
+  static constexpr std::int64_t kNoAge = -1;
+
+  ExternalController(const Rules& rules, std::size_t measured, std::size_t outputs);
+
+  const Rules& rules() const { return rules_; }
+  /// For the thread that talks to the other process; lives as long as the controller.
+  ExternalLink& link() const { return *link_; }
+  /// Answers to so many samples are kept.
+  void keep(std::size_t samples);
+
+  // Real-time safe.
+
+  void reset() noexcept override;
+  /// Tells the sample. Free-running it gives the newest command; in lockstep nothing.
+  void update(const ControlSample& sample, double* outputs) noexcept override;
+  /// No answer within the time-out, and none since.
+  bool lost() const noexcept { return lost_; }
+  /// [samples], of the newest command at the newest sample; kNoAge: none has come.
+  std::int64_t age() const noexcept { return heard_ == kNone ? kNoAge : told_ - heard_; }
+
+  // Of lockstep.
+
+  /// Takes the answers that have come.
+  void listen() noexcept;
+  /// nullptr: there is none.
+  const double* answer(std::int64_t sample) const noexcept;
+  /// Simulated time is to wait for the answer to a sample.
+  bool isAwaited(std::int64_t sample) const noexcept;
+  /// There is something to wait for, and `elapsed` [ns] have gone since this was said last. True
+  /// once it has lasted too long: the controller is lost.
+  bool waitsTooLong(std::int64_t elapsed) noexcept;
+  void waitsNoMore() noexcept { waiting_ = false; }
+
+  // Not real-time safe.
+
+  std::optional<DiscreteStateSpace> linear(double) const override { return std::nullopt; }
+
+ private:
+  static constexpr std::int64_t kNone = INT64_MIN;
+
+  std::size_t placeOf(std::int64_t sample) const noexcept {
+    const auto places = static_cast<std::int64_t>(answered_.size());
+    return static_cast<std::size_t>((sample % places + places) % places);
+  }
+  bool take(const ExternalSample& command) noexcept;
+
+  Rules rules_;
+  std::unique_ptr<ExternalLink> link_;
+  ExternalSample command_;       // room for one
+  std::vector<double> newest_;   // free-running: what acts
+  std::vector<double> answers_;  // lockstep
+  std::vector<std::int64_t> answered_;
+  std::int64_t run_ = 0;
+  std::int64_t told_ = 0;              // newest sample
+  std::int64_t heard_ = kNone;         // newest sample that was answered in this run
+  std::int64_t awaited_from_ = kNone;  // lockstep: the first to wait for; kNone: not at present
+  bool connected_ = false;             // something has come since it was lost, or the start
+  bool lost_ = false;
+  bool waiting_ = false;
+  std::int64_t waited_ = 0;    // [ns]
+  std::int64_t heard_at_ = 0;  // [ns], simulated
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,142 @@
+#include "nodes/external_controllers.h"
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "controllers/external.h"
+#include "whirl_twin/ControllerCommand.h"
+#include "whirl_twin/ControllerMeasurement.h"
+#include "whirl_twin/controller_measurement_t.hpp"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr std::uint32_t kQueue = 1000;
+constexpr const char* kCommandEnding = "_COMMAND";
+constexpr int kMostAtOnce = 1000;
+constexpr std::chrono::microseconds kPoll{100};
+
+std::string upper(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
+
+}  // namespace
+
+ExternalControllers::ExternalControllers(const LiveTwin& twin, ros::NodeHandle node,
+                                         const std::string& lcm_url,
+                                         const std::string& lcm_prefix) {
+  const Twin& running = twin.twin();
+  node.setCallbackQueue(&queue_);
+  for (std::size_t i = 0; i < running.scene().controllers.size(); ++i) {
+    if (ExternalController* const external = running.control().controllers()[i].external()) {
+      const std::string& name = running.scene().controllers[i].name;
+      controllers_.push_back(std::make_unique<Connection>());
+      *controllers_.back() = {name, lcm_prefix + upper(name), &external->link(), {}, {}};
+      advertise(*controllers_.back(), node);
+    }
+  }
+  if (!any()) {
+    return;
+  }
+  if (!lcm_url.empty()) {
+    listenOnLcm(lcm_url);
+  }
+  thread_ = std::thread([this] { run(); });
+}
+
+ExternalControllers::~ExternalControllers() {
+  ending_.store(true);
+  if (thread_.joinable()) {
+    thread_.join();
+  }
+}
+
+void ExternalControllers::advertise(Connection& connection, ros::NodeHandle& node) {
+  const std::string topic = "controllers/" + connection.name;
+  connection.measurement = node.advertise<ControllerMeasurement>(topic + "/measurement", kQueue);
+  const boost::function<void(const ControllerCommand::ConstPtr&)> callback =
+      [this, &connection](const ControllerCommand::ConstPtr& message) {
+        take(connection, {message->run, message->sample, message->time, message->values});
+      };
+  connection.command =
+      node.subscribe<ControllerCommand>(topic + "/command", kQueue, callback, ros::VoidConstPtr(),
+                                        ros::TransportHints().tcpNoDelay());
+}
+
+void ExternalControllers::listenOnLcm(const std::string& lcm_url) {
+  try {
+    lcm_ = openLcm(lcm_url);
+  } catch (const LcmNotAvailable& problem) {
+    ROS_WARN("%s; controllers in other processes are heard on ROS only", problem.what());
+    return;
+  }
+  for (const auto& connection : controllers_) {
+    lcm_->subscribe(connection->lcm_channel + kCommandEnding, &ExternalControllers::takeFromLcm,
+                    this)
+        ->setQueueCapacity(kQueue);
+  }
+}
+
+void ExternalControllers::takeFromLcm(const lcm::ReceiveBuffer*, const std::string& channel,
+                                      const controller_command_t* message) {
+  for (const auto& connection : controllers_) {
+    if (connection->lcm_channel + kCommandEnding == channel) {
+      take(*connection, {message->run, message->sample, message->time, message->values});
+    }
+  }
+}
+
+void ExternalControllers::run() {
+  ExternalSample sample;
+  while (!ending_.load()) {
+    for (const auto& connection : controllers_) {
+      while (connection->link->take(sample)) {
+        tell(*connection, sample);
+      }
+    }
+    queue_.callAvailable(ros::WallDuration(0.0));
+    if (lcm_) {
+      handleArrived(*lcm_, std::chrono::microseconds(0), kMostAtOnce);
+    }
+    std::this_thread::sleep_for(kPoll);
+  }
+}
+
+void ExternalControllers::take(const Connection& connection, const ExternalSample& command) {
+  if (!connection.link->answer(command)) {
+    refused_.fetch_add(1, std::memory_order_relaxed);
+    ROS_WARN_THROTTLE(5.0,
+                      "controller %s: a command is refused: %zu values were expected, found %zu",
+                      connection.name.c_str(), connection.link->outputs(), command.values.size());
+  }
+}
+
+void ExternalControllers::tell(const Connection& connection, const ExternalSample& sample) {
+  ControllerMeasurement message;
+  message.header.stamp.fromNSec(static_cast<std::uint64_t>(ros::WallTime::now().toNSec()));
+  message.header.frame_id = connection.name;
+  message.sample = sample.sample;
+  message.time = sample.time;
+  message.values = sample.values;
+  message.run = sample.run;
+  connection.measurement.publish(message);
+  if (lcm_) {
+    controller_measurement_t told;
+    told.utime = std::llround(sample.time * 1e6);
+    told.controller = connection.name;
+    told.sample = sample.sample;
+    told.time = sample.time;
+    told.count = static_cast<std::int32_t>(sample.values.size());
+    told.values = sample.values;
+    told.run = sample.run;
+    lcm_->publish(connection.lcm_channel + "_SAMPLE", &told);
+  }
+}
+
+}  // namespace whirl_twin

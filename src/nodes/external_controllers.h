@@ -1,0 +1,57 @@
+// The controllers of a scene that are in other processes: samples go out on ROS and LCM, commands
+// come in on either and go to the loop.
+#pragma once
+
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "transport/lcm_connection.h"
+#include "twin/live_twin.h"
+#include "whirl_twin/controller_command_t.hpp"
+
+namespace whirl_twin {
+
+class ExternalControllers {
+ public:
+  /// controllers/<name>/measurement and /command, PREFIX<NAME>_SAMPLE and _COMMAND; lcm_url "": ROS
+  /// alone, as where LCM is not available.
+  ExternalControllers(const LiveTwin& twin, ros::NodeHandle node, const std::string& lcm_url,
+                      const std::string& lcm_prefix);
+  ~ExternalControllers();
+
+  bool any() const { return !controllers_.empty(); }
+  /// Commands that were of another length than its outputs, or found no room.
+  std::uint64_t refused() const { return refused_.load(std::memory_order_relaxed); }
+
+ private:
+  struct Connection {
+    std::string name, lcm_channel;
+    ExternalLink* link;
+    ros::Publisher measurement;
+    ros::Subscriber command;
+  };
+
+  void advertise(Connection& connection, ros::NodeHandle& node);
+  void listenOnLcm(const std::string& lcm_url);
+  void takeFromLcm(const lcm::ReceiveBuffer* buffer, const std::string& channel,
+                   const controller_command_t* message);
+  void run();
+  void take(const Connection& connection, const ExternalSample& command);
+  void tell(const Connection& connection, const ExternalSample& sample);
+
+  std::vector<std::unique_ptr<Connection>> controllers_;
+  ros::CallbackQueue queue_;  // that answers wait for no service
+  std::shared_ptr<lcm::LCM> lcm_;
+  std::atomic<std::uint64_t> refused_{0};
+  std::atomic<bool> ending_{false};
+  std::thread thread_;
+};
+
+}  // namespace whirl_twin
