@@ -174,7 +174,7 @@ class Replay {
     orders.deviation.push_back(told.deviation[place]);
     orders.lag.push_back(before + std::remainder(told.forward_lag[place] - before, kTurn));
   }
-  void draw(const state::FollowState&) {}  // its alerts tell it
+  void draw(const state::FollowState&) {}      // its alerts tell it
   void draw(const state::ControllerState&) {}  // likewise
   void draw(const state::DriveState& drive) { speeds_[drive.drive] = drive.speed; }
 
