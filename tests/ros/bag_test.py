@@ -134,7 +134,11 @@ class Bags(unittest.TestCase):
         for recorder in recorders:
             recorder.wait(timeout=20)
         publisher.unregister()
-        return [self.path(bag) for bag in bags]
+        paths = [self.path(bag) for bag in bags]
+        end = time.monotonic() + PATIENCE  # what writes a bag may outlive what started it
+        while not all(os.path.exists(path) for path in paths) and time.monotonic() < end:
+            time.sleep(0.1)
+        return paths
 
     def test_a_bag_is_followed_like_the_lcm_log_of_the_run(self):
         log = self.path('run.lcmlog')

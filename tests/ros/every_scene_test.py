@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Every shipped scene runs live, loaded as demo.launch loads it: each system publishes finite states,
-rotors their orders, and a stability margin, with no alert that its model does not hold."""
+rotors their orders, and a stability margin, with no alert that its model does not hold. The verdict is
+uncertain of what is being swung up, and of nothing else."""
 import glob
 import math
 import os
@@ -19,6 +20,12 @@ from whirl_twin.msg import AlertArray, OrderState, PendulumState, StabilityMargi
 SCENES = os.path.join(rospkg.RosPack().get_path('whirl_twin'), 'config', 'scenes', '*.yaml')
 ROTORS = ['flexible_rotor', 'jeffcott_rotor', 'rigid_disc_rotor']
 START = ['_lcm_url:=', '_realtime:=ignore']
+
+
+def swung_up(scene):
+    """Systems under a law that has no small motions to be judged by."""
+    return {acted.split('.')[0] for law in scene.get('controllers', {}).values()
+            if law['type'] == 'swing_up' for acted in law['acts_on']}
 
 
 class EveryScene(unittest.TestCase):
@@ -50,7 +57,8 @@ class EveryScene(unittest.TestCase):
                     self.assertEqual(len(orders.forward_lag), len(orders.order), name)
                 margin = rospy.wait_for_message('/twin/%s/stability' % name, StabilityMargin, 10)
                 self.assertEqual(margin.model, system['model'])
-                self.assertNotEqual(margin.verdict_name, 'uncertain', name)
+                if name not in swung_up(scene):
+                    self.assertNotEqual(margin.verdict_name, 'uncertain', name)
             alerts = rospy.wait_for_message('/twin/alerts', AlertArray, 10).alerts
             self.assertFalse([a.text for a in alerts if a.type == 'MODEL_INVALID'])
         finally:
