@@ -22,8 +22,6 @@ class BandedRotor {
   BandedLinearization matrices(double speed) const {
     return assembly_ ? assembly_->bandedMatrices(speed) : banded(dense_(speed));
   }
-  /// It is known that its stiffness and damping follow no speed and that nothing circulates.
-  bool onlyGyroscopic() const { return assembly_ && assembly_->onlyGyroscopic(); }
 
  private:
   std::function<Linearization(double)> dense_;

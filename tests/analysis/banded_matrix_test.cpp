@@ -101,7 +101,6 @@ TEST(BandedRotor, HasTheMatricesOfItsRotorAtAnySpeed) {
     EXPECT_EQ(b.circulatory.dense(), l.circulatory);
     EXPECT_LE(b.stiffness.width(), 7);
   }
-  EXPECT_FALSE(found.onlyGyroscopic());
 }
 
 }  // namespace

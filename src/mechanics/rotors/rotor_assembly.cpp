@@ -201,10 +201,6 @@ BandedLinearization RotorAssembly::bandedMatrices(double speed) const {
   return l;
 }
 
-bool RotorAssembly::onlyGyroscopic() const {
-  return speed_bearings_.empty() && banded_circulatory_.isZero() && banded_.circulatory.isZero();
-}
-
 Station RotorAssembly::station(int node) const {
   return stations_.at(static_cast<std::size_t>(node));
 }

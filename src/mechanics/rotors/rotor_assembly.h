@@ -73,8 +73,6 @@ class RotorAssembly {
   Linearization matrices(double speed) const;
   /// The same near the diagonals: in all coordinates work in proportion to the nodes.
   BandedLinearization bandedMatrices(double speed) const;
-  /// Nothing changes with the speed but gyroscopic moments, and nothing circulates.
-  bool onlyGyroscopic() const;
   /// x and y of a node, as x = along_x . q.
   Station station(int node) const;
   std::vector<Station> stations() const { return stations_; }
