@@ -6,25 +6,6 @@
 
 namespace whirl_twin {
 
-namespace {
-
-/// A shaft's speed may be that of a drive in its place.
-bool isRequired(const ParameterInfo& p) {
-  return !p.fallback && p.fallback_parameter.empty() && p.name != "speed";
-}
-
-std::string defaultText(const ParameterInfo& p) {
-  if (!p.fallback_parameter.empty()) {
-    return "default " + p.fallback_parameter;
-  }
-  if (p.fallback) {
-    return fmt::format("default {:g}", *p.fallback);
-  }
-  return isRequired(p) ? "required" : "or a drive";
-}
-
-}  // namespace
-
 std::vector<std::string> integratorsOf(const ModelVariant& variant) {
   std::vector<std::string> all{"auto"};
   all.insert(all.end(), variant.integrators.begin(), variant.integrators.end());
@@ -51,9 +32,12 @@ std::string contentsText(const SettingInfo& s) {
                                         : fmt::format("list of names, {}", need);
 }
 
-std::string parameterText(const ParameterInfo& p) {
+std::string parameterText(const ParameterInfo& p, const std::string& without) {
+  const std::string fallback = !p.fallback_parameter.empty() ? "default " + p.fallback_parameter
+                               : p.fallback ? fmt::format("default {:g}", *p.fallback)
+                                            : without;
   return fmt::format("  parameter   {:<18} {:<9} {:<6} {:<18} {}\n", p.name, p.unit,
-                     describe(p.range), defaultText(p), p.meaning);
+                     describe(p.range), fallback, p.meaning);
 }
 
 std::string settingText(const SettingInfo& s) {
@@ -67,7 +51,7 @@ Json parameterJson(const ParameterInfo& p) {
   json["default"] = p.fallback                     ? Json(*p.fallback)
                     : p.fallback_parameter.empty() ? Json()
                                                    : Json(p.fallback_parameter);
-  json["required"] = isRequired(p);
+  json["required"] = json["default"].is_null();
   json["meaning"] = p.meaning;
   return json;
 }

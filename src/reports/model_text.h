@@ -13,8 +13,8 @@ namespace whirl_twin {
 /// default first.
 std::string contentsText(const SettingInfo& setting);
 
-/// A line each, of `twin models` and `twin controllers`.
-std::string parameterText(const ParameterInfo& parameter);
+/// A line each, of `twin models` and `twin controllers`; without: what one without a default is.
+std::string parameterText(const ParameterInfo& parameter, const std::string& without = "required");
 std::string settingText(const SettingInfo& setting);
 
 /// {"unit", "range", "default", "required", "meaning"}

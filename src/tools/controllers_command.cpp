@@ -1,16 +1,9 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <memory>
-#include <optional>
-
 #include "controllers/controller_registry.h"
-#include "messages/names.h"
-#include "messages/refusal.h"
-#include "reports/csv_table.h"
 #include "reports/model_text.h"
-#include "tools/arguments.h"
 #include "tools/commands.h"
+#include "tools/listing.h"
 
 namespace whirl_twin {
 
@@ -25,12 +18,6 @@ constexpr const char* kFooter =
     "  twin controllers\n"
     "  twin controllers pid\n"
     "  twin controllers --json";
-
-struct Request {
-  std::vector<std::string> controllers;  // none: all of them
-  std::optional<std::string> csv;
-  bool json = false;
-};
 
 std::string text(const ControllerInfo& controller) {
   std::string out = fmt::format("{}: {}\n", controller.name, controller.summary);
@@ -56,60 +43,18 @@ Json json(const ControllerInfo& controller) {
   return json;
 }
 
-/// Throws Refusal with every name that no controller has.
-void requireControllers(const std::vector<std::string>& asked) {
-  std::vector<std::string> errors;
-  for (const std::string& name : asked) {
-    if (findController(name) == nullptr) {
-      errors.push_back(fmt::format("no controller '{}'{}", name, hint(name, controllerNames())));
-    }
-  }
-  if (!errors.empty()) {
-    throw Refusal(fmt::format("{}", fmt::join(errors, "\ntwin: ")));
-  }
-}
-
-int list(const Request& request) {
-  requireControllers(request.controllers);
-  requireCsvName(request.csv);
-  const auto& asked = request.controllers;
-  Json all;
-  std::string texts;
-  CsvTable parameters{
-      "", {"controller", "parameter", "unit", "range", "default", "required", "meaning"}};
+std::vector<ListedThing> all() {
+  std::vector<ListedThing> things;
   for (const ControllerInfo& controller : controllers()) {
-    if (!asked.empty() && std::find(asked.begin(), asked.end(), controller.name) == asked.end()) {
-      continue;
-    }
-    all["controllers"][controller.name] = json(controller);
-    texts += (texts.empty() ? "" : "\n") + text(controller);
-    for (const ParameterInfo& p : controller.parameters) {
-      Json row = parameterJson(p);
-      row.update({{"controller", controller.name}, {"parameter", p.name}});
-      parameters.rows.push_back(row);
-    }
+    things.push_back({controller.name, text(controller), json(controller)});
   }
-  if (request.csv) {
-    writeCsv(*request.csv, {parameters});
-  }
-  if (request.json) {
-    printJson(all);
-  } else {
-    printText(texts);
-  }
-  return kDone;
+  return things;
 }
 
 }  // namespace
 
 void addControllersCommand(CLI::App& twin, int& status) {
-  CLI::App* command = twin.add_subcommand("controllers", kDescription);
-  const auto request = std::make_shared<Request>();
-  command->add_option("CONTROLLER", request->controllers, "these controllers only")->type_name("");
-  addCsvOption(command, request->csv);
-  command->add_flag("--json", request->json, "print one JSON object");
-  command->footer(kFooter);
-  command->callback([request, &status] { status = list(*request); });
+  addListing(twin, status, {"controller", kDescription, kFooter, all});
 }
 
 }  // namespace whirl_twin

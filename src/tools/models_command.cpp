@@ -1,16 +1,9 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <memory>
-#include <optional>
-
-#include "messages/names.h"
-#include "messages/refusal.h"
 #include "models/model_registry.h"
-#include "reports/csv_table.h"
 #include "reports/model_text.h"
-#include "tools/arguments.h"
 #include "tools/commands.h"
+#include "tools/listing.h"
 
 namespace whirl_twin {
 
@@ -27,14 +20,10 @@ constexpr const char* kFooter =
     "  twin models pendulum spinning_pendulum\n"
     "  twin models --json";
 
-/// The parameters of a model, its shaft speed included.
-std::vector<ParameterInfo> allParameters(const ModelInfo& model) {
-  std::vector<ParameterInfo> all = model.parameters;
-  if (model.has_shaft) {
-    all.push_back({"speed", "rad/s", Range::kAny, "of the shaft, constant, unless it has a drive",
-                   std::nullopt, ""});
-  }
-  return all;
+/// A shaft's speed is a parameter of a system that has no drive.
+ParameterInfo shaftSpeed() {
+  return {"speed",      "rad/s", Range::kAny, "of the shaft, constant, unless it has a drive",
+          std::nullopt, ""};
 }
 
 std::string text(const ModelInfo& model) {
@@ -53,8 +42,11 @@ std::string text(const ModelInfo& model) {
       out += fmt::format("  input       {:<18} {:<9} {}\n", input.name, input.unit, input.meaning);
     }
   }
-  for (const ParameterInfo& p : allParameters(model)) {
+  for (const ParameterInfo& p : model.parameters) {
     out += parameterText(p);
+  }
+  if (model.has_shaft) {
+    out += parameterText(shaftSpeed(), "or a drive");
   }
   for (const SettingInfo& s : model.settings) {
     out += settingText(s);
@@ -87,8 +79,13 @@ Json json(const ModelInfo& model) {
   for (std::size_t i = 1; i < model.variants.size(); ++i) {
     json["variants"][model.variants[i].when] = variantJson(model.variants[i]);
   }
-  for (const ParameterInfo& p : allParameters(model)) {
+  for (const ParameterInfo& p : model.parameters) {
     json["parameters"][p.name] = parameterJson(p);
+  }
+  if (model.has_shaft) {
+    Json speed = parameterJson(shaftSpeed());
+    speed["required"] = false;
+    json["parameters"]["speed"] = speed;
   }
   for (const SettingInfo& s : model.settings) {
     json["settings"][s.name] = settingJson(s);
@@ -96,72 +93,18 @@ Json json(const ModelInfo& model) {
   return json;
 }
 
-struct Request {
-  std::vector<std::string> models;  // none: all of them
-  std::optional<std::string> csv;
-  bool json = false;
-};
-
-bool isIn(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-/// Throws Refusal with every name that no model has.
-void requireModels(const std::vector<std::string>& asked) {
-  std::vector<std::string> names;
+std::vector<ListedThing> all() {
+  std::vector<ListedThing> things;
   for (const ModelInfo& model : models()) {
-    names.push_back(model.name);
+    things.push_back({model.name, text(model), json(model)});
   }
-  std::vector<std::string> errors;
-  for (const std::string& name : asked) {
-    if (!isIn(names, name)) {
-      errors.push_back(fmt::format("no model '{}'{}", name, hint(name, names)));
-    }
-  }
-  if (!errors.empty()) {
-    throw Refusal(fmt::format("{}", fmt::join(errors, "\ntwin: ")));
-  }
-}
-
-int list(const Request& request) {
-  requireModels(request.models);
-  requireCsvName(request.csv);
-  Json all;
-  std::string texts;
-  CsvTable parameters{"",
-                      {"model", "parameter", "unit", "range", "default", "required", "meaning"}};
-  for (const ModelInfo& model : models()) {
-    if (request.models.empty() || isIn(request.models, model.name)) {
-      all["models"][model.name] = json(model);
-      texts += (texts.empty() ? "" : "\n") + text(model);
-      for (const ParameterInfo& p : allParameters(model)) {
-        Json row = parameterJson(p);
-        row.update({{"model", model.name}, {"parameter", p.name}});
-        parameters.rows.push_back(row);
-      }
-    }
-  }
-  if (request.csv) {
-    writeCsv(*request.csv, {parameters});
-  }
-  if (request.json) {
-    printJson(all);
-  } else {
-    printText(texts);
-  }
-  return kDone;
+  return things;
 }
 
 }  // namespace
 
 void addModelsCommand(CLI::App& twin, int& status) {
-  CLI::App* command = twin.add_subcommand("models", kDescription);
-  const auto request = std::make_shared<Request>();
-  command->add_option("MODEL", request->models, "these models only")->type_name("");
-  addCsvOption(command, request->csv);
-  command->add_flag("--json", request->json, "print one JSON object");
-  command->footer(kFooter);
-  command->callback([request, &status] { status = list(*request); });
+  addListing(twin, status, {"model", kDescription, kFooter, all});
 }
 
 }  // namespace whirl_twin

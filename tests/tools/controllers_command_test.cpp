@@ -20,6 +20,16 @@ TEST(Controllers, AreToldWithUnitsAndDefaults) {
   EXPECT_EQ(pid["settings"]["anti_windup"]["default"], "back_calculation");
 }
 
+// A model's shaft has no speed of its own where it has a drive; a speed to be brought to has none.
+TEST(Controllers, ASpeedThatIsAskedForIsRequired) {
+  const Json speed = twin({"controllers", "speed", "--json"}).json()["controllers"]["speed"];
+  EXPECT_EQ(speed["parameters"]["speed"]["required"], true);
+  const Ending said = twin({"controllers", "speed"});
+  EXPECT_EQ(said.out.find("or a drive"), std::string::npos) << said.out;
+  const Json rotor = twin({"models", "jeffcott_rotor", "--json"}).json()["models"];
+  EXPECT_EQ(rotor["jeffcott_rotor"]["parameters"]["speed"]["required"], false);
+}
+
 TEST(Controllers, AllOfThemHaveAWordForThemselves) {
   const Json controllers = twin({"controllers", "--json"}).json()["controllers"];
   EXPECT_GE(controllers.size(), 7u);
