@@ -179,4 +179,23 @@ std::vector<SampledMargins> sampledMargins(const LoopPlant& plant,
   return all;
 }
 
+LoopMargins leastMargins(const std::vector<SampledMargins>& margins) {
+  LoopMargins all = margins.front();
+  for (const LoopMargins& one : margins) {
+    if (one.sensitivity_peak > all.sensitivity_peak) {
+      all.sensitivity_peak = one.sensitivity_peak;
+      all.peak_frequency = one.peak_frequency;
+      all.zone = one.zone;
+    }
+    if (one.phase_margin < all.phase_margin) {
+      all.phase_margin = one.phase_margin;
+      all.phase_crossover = one.phase_crossover;
+    }
+    all.gain_margin = std::fmin(all.gain_margin, one.gain_margin);
+    all.gain_reduction = std::fmax(all.gain_reduction, one.gain_reduction);
+    all.delay_margin = std::fmin(all.delay_margin, one.delay_margin);
+  }
+  return all;
+}
+
 }  // namespace whirl_twin

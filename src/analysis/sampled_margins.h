@@ -30,4 +30,7 @@ std::vector<SampledMargins> sampledMargins(const LoopPlant& plant,
                                            const std::vector<LoopController>& controllers,
                                            std::size_t controller, Verdict verdict);
 
+/// The least of each margin, and the highest peak with its zone; of one at least.
+LoopMargins leastMargins(const std::vector<SampledMargins>& margins);
+
 }  // namespace whirl_twin

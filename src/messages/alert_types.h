@@ -24,6 +24,8 @@ inline constexpr char kNotFinite[] = "NOT_FINITE";
 inline constexpr char kStopped[] = "STOPPED";  // for any other cause
 inline constexpr char kModelInvalid[] = "MODEL_INVALID";
 inline constexpr char kControllerLost[] = "CONTROLLER_LOST";
+inline constexpr char kLoopSensitivity[] = "LOOP_SENSITIVITY";
+inline constexpr char kActuatorSaturated[] = "ACTUATOR_SATURATED";
 inline constexpr char kDataLost[] = "DATA_LOST";
 inline constexpr char kLcmLost[] = "LCM_LOST";
 
@@ -48,6 +50,8 @@ inline constexpr const char* kAll[] = {kCriticalSpeedApproach,
                                        kStopped,
                                        kModelInvalid,
                                        kControllerLost,
+                                       kLoopSensitivity,
+                                       kActuatorSaturated,
                                        kDataLost,
                                        kLcmLost};
 

@@ -51,6 +51,11 @@ std::vector<std::string> settingErrors(const AlarmSettings& settings) {
   positive("dwell_limit", settings.dwell_limit, "> 0 s");
   not_negative("decay_rate_alarm", settings.decay_rate_alarm, ">= 0 1/s");
   not_negative("log_decrement_warning", settings.log_decrement_warning, ">= 0 (dimensionless)");
+  check("sensitivity_warning", settings.sensitivity_warning,
+        settings.sensitivity_warning == 0.0 || settings.sensitivity_warning > 1.0,
+        "0, or > 1 (dimensionless)");
+  check("saturation_time", settings.saturation_time,
+        settings.saturation_time == 0.0 || settings.saturation_time >= 1.0, "0, or >= 1 s");
   check("members_beyond", settings.members_beyond,
         settings.members_beyond >= 0.0 && settings.members_beyond <= 1.0, "from 0 to 1 (a part)");
   check("lowest_decay_rate", settings.lowest_decay_rate, std::isfinite(settings.lowest_decay_rate),

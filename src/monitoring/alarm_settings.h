@@ -74,6 +74,9 @@ struct AlarmSettings {
   double dwell_limit = 3.0;            ///< [s], in a critical band before it is danger
   double decay_rate_alarm = 0.0;       ///< [1/s], warn when decay is slower; 0: do not
   double log_decrement_warning = 0.1;  ///< [-], warn below (API 617 stability); 0: do not
+  // Of the loops of controllers:
+  double sensitivity_warning = 4.0;  ///< [-], warn above (ISO 14839-3: zone B ends); 0: do not
+  double saturation_time = 10.0;     ///< [s], warn when saturated for longer; 0: do not
   // Of a system with a `spread` and no count:
   double members_beyond = 0.0;      ///< [-], warn when a larger part of its members is beyond
   double lowest_decay_rate = 0.0;   ///< [1/s], warn when the slowest decay within it is slower

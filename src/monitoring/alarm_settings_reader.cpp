@@ -165,6 +165,8 @@ AlarmSettings readAlarmSettings(const YAML::Node& tree, const std::string& sourc
       {"dwell_limit", &s.dwell_limit},
       {"decay_rate_alarm", &s.decay_rate_alarm},
       {"log_decrement_warning", &s.log_decrement_warning},
+      {"sensitivity_warning", &s.sensitivity_warning},
+      {"saturation_time", &s.saturation_time},
       {"members_beyond", &s.members_beyond},
       {"lowest_decay_rate", &s.lowest_decay_rate},
       {"energy_residual", &s.energy_residual},

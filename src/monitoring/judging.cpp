@@ -41,15 +41,14 @@ void Judging::ask(JudgementRequest request) {
   const std::size_t system = request.system;
   Waiting waiting{std::move(request), now()};
   if (!thread_.joinable()) {
-    done_.push_back(judge(waiting, Speeds::kAll));
+    done_.push_back(judge(waiting, true));
     busy_ += now() - waiting.since;
     return;
   }
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     const std::optional<Waiting>& older = waiting_[system];
-    waiting.with_speeds =
-        older && older->with_speeds && older->request.built == waiting.request.built;
+    waiting.complete = older && older->complete && older->request.built == waiting.request.built;
     waiting_[system] = std::move(waiting);
   }
   asked_.notify_one();
@@ -71,7 +70,7 @@ double Judging::busy() {
   return busy_;
 }
 
-Judgement Judging::judge(const Waiting& waiting, Speeds speeds) {
+Judgement Judging::judge(const Waiting& waiting, bool complete) {
   const JudgementRequest& request = waiting.request;
   Seat& seat = seats_[request.system];
   if (seat.built != request.built) {
@@ -86,13 +85,17 @@ Judgement Judging::judge(const Waiting& waiting, Speeds speeds) {
   judgement.of_loop = seat.loop != nullptr;
   judgement.margin = seat.judge->judge(request.at, request.q, request.v, request.speed);
   judgement.motion = seat.judge->motion();
-  if (speeds == Speeds::kAll && seat.judge->lacksSpeeds()) {
-    seat.judge->findSpeeds(request.speed, judgement.margin);
+  if (complete && seat.judge->isPartial()) {
+    seat.judge->complete(request.speed, judgement.margin);
   }
-  if (!seat.judge->lacksSpeeds()) {
+  if (!seat.judge->isPartial()) {
     judgement.speeds = seat.judge->speeds();
   }
   judgement.margin.age = now() - waiting.since;
+  judgement.loop = seat.judge->loopMargins(request.at);
+  for (state::ControllerMargins& margins : judgement.loop) {
+    margins.age = judgement.margin.age;
+  }
   return judgement;
 }
 
@@ -110,7 +113,7 @@ void Judging::run() {
     judging_ = true;
     lock.unlock();
     const double begun = now();
-    Judgement judgement = judge(*waiting, waiting->with_speeds ? Speeds::kAll : Speeds::kKnown);
+    Judgement judgement = judge(*waiting, waiting->complete);
     const double taken = now() - begun;
     lock.lock();
     judging_ = false;
@@ -120,7 +123,7 @@ void Judging::run() {
       if (!newer) {
         newer = std::move(waiting);
       }
-      newer->with_speeds = newer->request.built == judgement.built;
+      newer->complete = newer->request.built == judgement.built;
     }
     done_.push_back(std::move(judgement));
   }

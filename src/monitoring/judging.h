@@ -2,8 +2,8 @@
 // alarm waits behind a judgement that takes long. There the newest question about a system replaces
 // one that still waits, and all systems have their turn: however slow it is, a verdict is about
 // the newest state there was when it was begun. A verdict takes well below a millisecond for a few
-// coordinates, the critical and threshold speeds of new parameters a hundred times that: there it
-// goes first, without them, and comes again with them.
+// coordinates, the critical and threshold speeds of new parameters, or margins of a loop, a hundred
+// times that: there it goes first, without them, and comes again with them.
 #pragma once
 
 #include <condition_variable>
@@ -34,11 +34,12 @@ struct Judgement {
   std::uint64_t run = 0;
   double arrived_at = 0.0;
   SharedSystem built;
-  state::StabilityMargin margin;       ///< age: wall time since it was asked for
-  std::optional<SteadyMotion> motion;  ///< that it is about
-  double speed = 0.0;                  ///< [rad/s]
-  std::optional<JudgedSpeeds> speeds;  ///< not of a verdict that went before them
-  bool of_loop = false;                ///< a system with its controllers
+  state::StabilityMargin margin;               ///< age: wall time since it was asked for
+  std::optional<SteadyMotion> motion;          ///< that it is about
+  double speed = 0.0;                          ///< [rad/s]
+  std::optional<JudgedSpeeds> speeds;          ///< not of a verdict that went before them
+  bool of_loop = false;                        ///< a system with its controllers
+  std::vector<state::ControllerMargins> loop;  ///< of them
 };
 
 class Judging {
@@ -71,12 +72,12 @@ class Judging {
   };
   struct Waiting {
     JudgementRequest request;
-    double since;              ///< [s], of a clock that only goes forward
-    bool with_speeds = false;  ///< the verdict alone has been given
+    double since;           ///< [s], of a clock that only goes forward
+    bool complete = false;  ///< the verdict alone has been given
   };
-  enum class Speeds { kKnown, kAll };
 
-  Judgement judge(const Waiting& waiting, Speeds speeds);
+  /// complete: with what takes long.
+  Judgement judge(const Waiting& waiting, bool complete);
   void run();
   std::optional<Waiting> next();  ///< mutex_ is held
 

@@ -25,6 +25,7 @@ RestoredAlerts::RestoredAlerts(const AlarmSettings& settings) {
 }
 
 void RestoredAlerts::set(const AlarmSettings& settings) {
+  saturation_time_ = settings.saturation_time;
   patience_ = kSlowest + settings.clear_delay;
   for (const auto& [type, delays] : settings.delays) {
     patience_ = std::max(patience_, kSlowest + delays.set + delays.clear);
@@ -37,19 +38,24 @@ void RestoredAlerts::begin(const AlarmMemory& memory, AlertList& alerts) {
   any_ = !memory.alerts.empty();
 }
 
-bool RestoredAlerts::longEnough(const std::string& source, double time) {
+double RestoredAlerts::heardFor(const std::string& source, double time) {
   double& since = heard_since_.try_emplace(source, time).first->second;
   since = std::min(since, time);
-  return time - since >= patience_;
+  return time - since;
+}
+
+double RestoredAlerts::patienceOf(const std::string& type) const {
+  return patience_ + (type == alert_type::kActuatorSaturated ? saturation_time_ : 0.0);
 }
 
 void RestoredAlerts::heard(const std::string& source, double time, AlertList& alerts) {
-  if (!any_ || !longEnough(source, time)) {
+  if (!any_) {
     return;
   }
+  const double heard_for = heardFor(source, time);
   for (const state::Alert& alert : alerts.inDoubt()) {
     const bool about_it = alert.system == source || alert.system == alert_type::kEverybody;
-    if (about_it && !isToldByLoop(alert.type)) {
+    if (about_it && !isToldByLoop(alert.type) && heard_for >= patienceOf(alert.type)) {
       alerts.clear(alert.system, alert.type, time,
                    fmt::format("{}: its cause had gone when the monitor came back", alert.system));
     }
@@ -70,12 +76,12 @@ void RestoredAlerts::heard(const state::LoopStatistics& loop, AlertList& alerts)
       return;
     }
   }
-  const bool long_enough = longEnough(kLoop, loop.at.time);
+  const double heard_for = heardFor(kLoop, loop.at.time);
   for (const state::Alert& alert : alerts.inDoubt()) {
     if (another) {
       alerts.clear(alert.system, alert.type, loop.at.time,
                    fmt::format("{}: the simulation began anew meanwhile", alert.system));
-    } else if (long_enough && isToldByLoop(alert.type)) {
+    } else if (isToldByLoop(alert.type) && heard_for >= patienceOf(alert.type)) {
       alerts.clear(alert.system, alert.type, loop.at.time,
                    fmt::format("{}: its cause had gone when the monitor came back", alert.system));
     }

@@ -34,9 +34,13 @@ class RestoredAlerts {
   void restart() { heard_since_.clear(); }
 
  private:
-  bool longEnough(const std::string& source, double time);
+  /// [s], simulated, without a break.
+  double heardFor(const std::string& source, double time);
+  /// [s], simulated, after which a cause that is there would have been seen.
+  double patienceOf(const std::string& type) const;
 
-  double patience_ = 0.0;  ///< [s], simulated
+  double patience_ = 0.0;         ///< [s], without what follows
+  double saturation_time_ = 0.0;  ///< [s]
   std::optional<TwinRun> run_;
   std::optional<TwinRun> other_run_;  ///< as said once
   std::map<std::string, double> heard_since_;

@@ -1,14 +1,11 @@
 #include "monitoring/system_judge.h"
 
 #include <cmath>
-#include <complex>
 #include <exception>
 #include <limits>
 #include <utility>
 
 #include "analysis/equilibria.h"
-#include "analysis/sampled_stability.h"
-#include "messages/refusal.h"
 
 namespace whirl_twin {
 
@@ -17,28 +14,15 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// The threshold of an equilibrium that moves with speed is searched anew this often [s].
 constexpr double kSearchPeriod = 1.0;
-constexpr double kTwoPi = 6.283185307179586;
-
-/// With these roots: highest power first.
-std::vector<double> polynomialOf(const std::vector<std::complex<double>>& roots) {
-  std::vector<std::complex<double>> product{1.0};
-  for (const std::complex<double>& root : roots) {
-    product.emplace_back(0.0);
-    for (std::size_t i = product.size() - 1; i > 0; --i) {
-      product[i] -= root * product[i - 1];
-    }
-  }
-  std::vector<double> real;
-  for (const std::complex<double>& coefficient : product) {
-    real.push_back(coefficient.real());
-  }
-  return real;
-}
 
 }  // namespace
 
 SystemJudge::SystemJudge(SharedSystem system, std::shared_ptr<const ClosedLoop> loop)
-    : system_(std::move(system)), loop_(std::move(loop)), steady_motions_(system_->dynamics) {}
+    : system_(std::move(system)), steady_motions_(system_->dynamics) {
+  if (loop) {
+    loop_.emplace(system_, std::move(loop));
+  }
+}
 
 const JudgedSpeeds& SystemJudge::speeds() {
   if (!speeds_) {
@@ -55,6 +39,22 @@ void SystemJudge::checkThresholds(double time, double speed, Verdict verdict) {
       (verdict == Verdict::kUnstable) == (speeds_ && speeds_->thresholds.unstableAt(speed));
   lacks_thresholds_ =
       !searched_at_ || (!expected && std::fabs(time - *searched_at_) >= kSearchPeriod);
+}
+
+void SystemJudge::complete(double speed, state::StabilityMargin& margin) {
+  if (loop_) {
+    loop_->findMargins();
+  } else {
+    findSpeeds(speed, margin);
+  }
+}
+
+std::vector<state::ControllerMargins> SystemJudge::loopMargins(const state::Instant& at) const {
+  auto margins = loop_ ? loop_->margins() : std::vector<state::ControllerMargins>{};
+  for (state::ControllerMargins& one : margins) {
+    one.at = at;
+  }
+  return margins;
 }
 
 void SystemJudge::findSpeeds(double speed, state::StabilityMargin& margin) {
@@ -107,38 +107,6 @@ Stability SystemJudge::openStability(const state::Instant& at, const Eigen::Vect
   return s;
 }
 
-Stability SystemJudge::loopStability(const Eigen::VectorXd& present, double speed,
-                                     Eigen::VectorXd& about) {
-  if (loop_->systems().size() > 1) {
-    throw RunFailure("its loop goes through other systems, whose state is not known here");
-  }
-  const Dynamics& dynamics = *system_->dynamics;
-  if (dynamics.linear()) {
-    about.setZero();
-  } else {
-    about = equilibriumNear(dynamics, present, speed).value_or(present);
-  }
-  const auto parts =
-      loop_->parts([&](std::size_t) { return linearizationAtRest(dynamics, about, speed); }, speed);
-  if (!parts) {
-    throw RunFailure("a law of the loop is not linear");
-  }
-  const SampledLoop sampled = sampledLoop(parts->plant, parts->controllers);
-  const SampledStability loop = sampledStability(sampled);
-  Stability s;
-  s.routh = loop.routh;
-  s.routh.verdict = loop.verdict;
-  s.polynomial = polynomialOf(loop.eigenvalues);
-  s.right_by_eigenvalues = loop.routh.right;
-  // The slowest in continuous time: z = e^(s T).
-  const std::complex<double> slowest = std::log(loop.eigenvalues.front()) / sampled.period;
-  s.decay_rate = -slowest.real();
-  s.damping_ratio = std::abs(slowest) > 0.0 ? s.decay_rate / std::abs(slowest) : 0.0;
-  s.log_decrement =
-      slowest.imag() != 0.0 ? kTwoPi * s.decay_rate / std::fabs(slowest.imag()) : kNaN;
-  return s;
-}
-
 state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::vector<double>& q,
                                           const std::vector<double>& v, double speed) {
   const Dynamics& dynamics = *system_->dynamics;
@@ -153,7 +121,7 @@ state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::v
   motion_.reset();
   lacks_thresholds_ = false;
   try {
-    s = loop_ ? loopStability(present, shaft_speed, about)
+    s = loop_ ? loop_->judge(at.time, present, shaft_speed, about)
               : openStability(at, present, rates, shaft_speed, about);
   } catch (const std::exception&) {
     // Numbers beyond the range of double, or a singular mass: uncertain. The others are watched on.

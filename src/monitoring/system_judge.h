@@ -2,10 +2,8 @@
 // it operates at, applies Routh's test, and measures the distance to its critical and threshold
 // speeds.
 //
-// A system with controllers is judged as they sample it (analysis/sampled_stability.h): about the
-// equilibrium nearest to where it is, stable by itself or not, by the roots of its loop inside the
-// unit circle (`left`), on it and outside (`right`). Critical and threshold speeds of such a loop
-// are not looked for.
+// A system with controllers is judged by its loop (loop_judge.h): no critical and threshold speeds
+// of it are looked for.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,6 +16,7 @@
 #include "analysis/steady_motion.h"
 #include "messages/stability_margin.h"
 #include "monitoring/judged_speeds.h"
+#include "monitoring/loop_judge.h"
 #include "scene/built_system.h"
 #include "scene/closed_loop.h"
 
@@ -30,14 +29,17 @@ class SystemJudge {
 
   /// The verdict with coordinates q and rates v at shaft speed [rad/s] (ignored without a shaft):
   /// of the equilibrium or steady motion it operates about, its conserved momenta as they are.
-  /// With the speeds that are known; those that are to be looked for take a hundred times as long.
+  /// With the speeds and margins of loops that are known: those that are to be looked for take a
+  /// hundred times as long.
   state::StabilityMargin judge(const state::Instant& at, const std::vector<double>& q,
                                const std::vector<double>& v, double speed);
-  /// Are they: critical speeds before the first time, thresholds where the last verdict was not
-  /// that which they foretold?
-  bool lacksSpeeds() const { return !loop_ && (!speeds_ || lacks_thresholds_); }
-  /// Looks for them, about what was judged last at `speed` [rad/s], and puts them into its verdict.
-  void findSpeeds(double speed, state::StabilityMargin& margin);
+  /// Something is to be looked for: critical speeds before the first time, thresholds where the
+  /// last verdict was not that which they foretold, margins of its loop.
+  bool isPartial() const { return loop_ ? loop_->lacksMargins() : !speeds_ || lacks_thresholds_; }
+  /// Looks for it, about what was judged last at `speed` [rad/s], and puts speeds into its verdict.
+  void complete(double speed, state::StabilityMargin& margin);
+  /// Of the controllers around it, as of the last verdict at `at`.
+  std::vector<state::ControllerMargins> loopMargins(const state::Instant& at) const;
   /// Its critical speeds, and its thresholds as of the last search; those that follow from its
   /// parameters alone are looked for if they have not been.
   const JudgedSpeeds& speeds();
@@ -51,10 +53,11 @@ class SystemJudge {
 
   Stability openStability(const state::Instant& at, const Eigen::VectorXd& present,
                           const Eigen::VectorXd& rates, double speed, Eigen::VectorXd& about);
-  Stability loopStability(const Eigen::VectorXd& present, double speed, Eigen::VectorXd& about);
+
+  void findSpeeds(double speed, state::StabilityMargin& margin);
 
   SharedSystem system_;
-  std::shared_ptr<const ClosedLoop> loop_;
+  std::optional<LoopJudge> loop_;
   std::optional<JudgedSpeeds> speeds_;
   KnownSteadyMotions steady_motions_;
   std::optional<SteadyMotion> motion_;

@@ -45,7 +45,7 @@ TwinMonitor::TwinMonitor(const BuiltScene& scene, const AlarmSettings& settings,
       alerts_(settings.latch),
       restored_(settings) {
   for (const ControllerSpec& controller : scene.scene.controllers) {
-    controller_alarms_.emplace(controller.name, ControllerAlarm(controller.name, settings_));
+    controller_alarms_.emplace(controller.name, ControllerAlarms(controller.name, settings_));
   }
   for (std::size_t i = 0; i < scene.systems.size(); ++i) {
     watches_.emplace_back(scene.systems[i], judging_.speedsOf(i), settings_);
@@ -66,8 +66,8 @@ void TwinMonitor::restart(double time, double wall_time) {
   }
   data_lost_alarm_ = DataLostAlarm(systemNames(), settings_);
   lcm_lost_alarm_ = LcmLostAlarm(settings_);
-  for (auto& [name, alarm] : controller_alarms_) {
-    alarm = ControllerAlarm(name, settings_);
+  for (auto& [name, alarms] : controller_alarms_) {
+    alarms = ControllerAlarms(name, settings_);
   }
   for (auto& [source, clock] : clocks_) {
     clock.restartAt(time, wall_time);
@@ -84,8 +84,10 @@ void TwinMonitor::set(const AlarmSettings& settings) {
   }
   data_lost_alarm_.set(settings_);
   lcm_lost_alarm_.set(settings_);
-  for (auto& [name, alarm] : controller_alarms_) {
-    alarm.set(settings_);
+  for (auto& [name, alarms] : controller_alarms_) {
+    alarms.lost.set(settings_);
+    alarms.loop.set(settings_);
+    alarms.saturation.set(settings_);
   }
   restored_.set(settings_);
   alerts_.setLatch(settings_.latch);
@@ -257,7 +259,18 @@ void TwinMonitor::takeJudgements() {
       watch.stability_alarm.update(judgement.margin, alerts_);
       watch.decay_alarm.update(judgement.margin);
       margins_.push_back(std::move(judgement.margin));
+      takeLoop(std::move(judgement.loop));
     }
+  }
+}
+
+void TwinMonitor::takeLoop(std::vector<state::ControllerMargins> judged) {
+  for (state::ControllerMargins& margins : judged) {
+    ControllerAlarms& alarms = controller_alarms_.at(margins.controller);
+    margins.saturated = alarms.saturation.saturated();
+    margins.missed = alarms.saturation.missed();
+    alarms.loop.update(margins, alerts_);
+    loop_margins_.push_back(std::move(margins));
   }
 }
 
@@ -351,10 +364,12 @@ void TwinMonitor::take(const state::FollowState& follow, double wall_time) {
 }
 
 void TwinMonitor::take(const state::ControllerState& controller, double wall_time) {
-  const auto alarm = controller_alarms_.find(controller.controller);
-  if (alarm != controller_alarms_.end() &&
+  const auto alarms = controller_alarms_.find(controller.controller);
+  if (alarms != controller_alarms_.end() &&
       arrived("controllers/" + controller.controller, controller.at, wall_time)) {
-    alarm->second.update(controller.at.time, controller.lost, alerts_);
+    alarms->second.lost.update(controller.at.time, controller.lost, alerts_);
+    alarms->second.saturation.update(controller, alerts_);
+    restored_.heard(controller.controller, controller.at.time, alerts_);
   }
 }
 

@@ -22,9 +22,11 @@
 #include "monitoring/data_lost_alarm.h"
 #include "monitoring/judging.h"
 #include "monitoring/lcm_lost_alarm.h"
+#include "monitoring/loop_alarm.h"
 #include "monitoring/margin_search.h"
 #include "monitoring/reset_watch.h"
 #include "monitoring/restored_alerts.h"
+#include "monitoring/saturation_alarm.h"
 #include "monitoring/source_clock.h"
 #include "monitoring/system_watch.h"
 #include "scene/built_scene.h"
@@ -65,6 +67,10 @@ class TwinMonitor {
   /// changed by a hundredth, at once but for a break that goes with what a verdict costs
   /// (newsBreak).
   std::vector<state::StabilityMargin> takeMargins();
+  /// Of the controllers' loops, with the verdicts, since last asked.
+  std::vector<state::ControllerMargins> takeLoopMargins() {
+    return std::exchange(loop_margins_, {});
+  }
   /// Orders of what was measured, since last asked; of each system as SYSTEM_measured.
   std::vector<state::OrderState> takeOrders() { return std::exchange(orders_, {}); }
   bool measures(const std::string& system) const;
@@ -103,6 +109,7 @@ class TwinMonitor {
   /// What came can be judged, or holds the alarms.
   bool isFit(SystemWatch& watch, bool fit, double time);
   void takeJudgements();
+  void takeLoop(std::vector<state::ControllerMargins> judged);
   void judge(SystemWatch& watch, const state::Instant& at, const std::vector<double>& q,
              const std::vector<double>& v, double wall_time);
   /// Where it was last told to be.
@@ -118,11 +125,23 @@ class TwinMonitor {
   std::vector<SystemWatch> watches_;
   DataLostAlarm data_lost_alarm_;
   LcmLostAlarm lcm_lost_alarm_;
-  std::map<std::string, ControllerAlarm> controller_alarms_;
+  /// Of each controller.
+  struct ControllerAlarms {
+    ControllerAlarm lost;
+    LoopAlarm loop;
+    SaturationAlarm saturation;
+    ControllerAlarms(const std::string& controller, const AlarmSettings& settings)
+        : lost(controller, settings),
+          loop(controller, settings),
+          saturation(controller, settings) {}
+  };
+
+  std::map<std::string, ControllerAlarms> controller_alarms_;
   AlertList alerts_;
   RestoredAlerts restored_;
   std::map<std::string, double> inhibited_until_;  ///< [s, wall]
   std::vector<state::StabilityMargin> margins_;
+  std::vector<state::ControllerMargins> loop_margins_;
   std::vector<state::OrderState> orders_;
   std::map<std::string, SourceClock> clocks_;  ///< of each source
   SourceClock loop_clock_;

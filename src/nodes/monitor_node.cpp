@@ -110,6 +110,9 @@ class MonitorNode {
     for (const SharedSystem& system : scene_.systems) {
       topics_.advertise<state::StabilityMargin>(system->spec.name);
     }
+    for (const ControllerSpec& controller : scene_.scene.controllers) {
+      topics_.advertise<state::ControllerMargins>(controller.name);
+    }
     for (std::size_t i = 0; i < scene_.systems.size(); ++i) {
       if (measuredOrbitOf(scene_, i)) {
         topics_.advertise<state::OrderState>(scene_.systems[i]->spec.name + "_measured");
@@ -294,6 +297,10 @@ class MonitorNode {
     for (const state::StabilityMargin& margin : monitor_.takeMargins()) {
       lcm_.publish(margin);
       topics_.publish(margin);
+    }
+    for (const state::ControllerMargins& margins : monitor_.takeLoopMargins()) {
+      lcm_.publish(margins);
+      topics_.publish(margins);
     }
     for (const state::OrderState& orders : monitor_.takeOrders()) {
       lcm_.publish(orders);

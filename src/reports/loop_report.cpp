@@ -59,26 +59,6 @@ Json marginsJson(const LoopMargins& margins) {
           {"delay_margin", margins.delay_margin}};
 }
 
-/// The least margins of all axes; there is one at least.
-LoopMargins worst(const std::vector<SampledMargins>& axes) {
-  LoopMargins all = axes.front();
-  for (const LoopMargins& axis : axes) {
-    if (axis.sensitivity_peak > all.sensitivity_peak) {
-      all.sensitivity_peak = axis.sensitivity_peak;
-      all.peak_frequency = axis.peak_frequency;
-      all.zone = axis.zone;
-    }
-    if (axis.phase_margin < all.phase_margin) {
-      all.phase_margin = axis.phase_margin;
-      all.phase_crossover = axis.phase_crossover;
-    }
-    all.gain_margin = std::min(all.gain_margin, axis.gain_margin);
-    all.gain_reduction = std::max(all.gain_reduction, axis.gain_reduction);
-    all.delay_margin = std::min(all.delay_margin, axis.delay_margin);
-  }
-  return all;
-}
-
 Json controllerJson(const LoopedController& controller) {
   Json json{{"type", controller.spec->type},
             {"rate", controller.spec->rate},
@@ -99,7 +79,7 @@ Json controllerJson(const LoopedController& controller) {
   json["on_circle"] = stability.routh.imaginary;
   json["outside"] = stability.routh.right;
   if (!controller.margins.empty()) {
-    json.update(marginsJson(worst(controller.margins)));
+    json.update(marginsJson(leastMargins(controller.margins)));
     for (std::size_t i = 0; i < controller.margins.size(); ++i) {
       Json axis{{"signal", controller.spec->measured[i]}};
       axis.update(marginsJson(controller.margins[i]));

@@ -20,7 +20,11 @@ class ClosedLoop {
   ClosedLoop(const Scene& scene, std::vector<std::size_t> controllers);
 
   const std::vector<std::size_t>& controllers() const { return controllers_; }
-  std::vector<std::size_t> systems() const;  ///< ascending
+  std::vector<std::size_t> systems() const;                ///< ascending
+  const ControllerSpec& controller(std::size_t i) const {  ///< i-th of controllers()
+    return scene_.controllers[controllers_[i]];
+  }
+  const std::string& firstSystem() const { return scene_.systems[systems().front()].name; }
 
   /// The plant and the laws that close the loop around it.
   struct Parts {

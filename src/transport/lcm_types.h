@@ -4,6 +4,7 @@
 #include "messages/message.h"
 #include "whirl_twin/alarm_command_t.hpp"
 #include "whirl_twin/alert_t.hpp"
+#include "whirl_twin/controller_margins_t.hpp"
 #include "whirl_twin/controller_state_t.hpp"
 #include "whirl_twin/drive_state_t.hpp"
 #include "whirl_twin/ensemble_state_t.hpp"
@@ -38,6 +39,7 @@ order_state_t lcmTypeOf(const state::OrderState&);
 alarm_command_t lcmTypeOf(const state::AlarmCommand&);
 follow_state_t lcmTypeOf(const state::FollowState&);
 controller_state_t lcmTypeOf(const state::ControllerState&);
+controller_margins_t lcmTypeOf(const state::ControllerMargins&);
 
 template <class State>
 using LcmType = decltype(lcmTypeOf(std::declval<State>()));

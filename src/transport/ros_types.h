@@ -8,6 +8,7 @@
 #include "messages/message.h"
 #include "whirl_twin/AlarmCommand.h"
 #include "whirl_twin/AlertArray.h"
+#include "whirl_twin/ControllerMargins.h"
 #include "whirl_twin/ControllerState.h"
 #include "whirl_twin/DriveState.h"
 #include "whirl_twin/EnsembleState.h"
@@ -41,6 +42,7 @@ OrderState rosTypeOf(const state::OrderState&);
 AlarmCommand rosTypeOf(const state::AlarmCommand&);
 FollowState rosTypeOf(const state::FollowState&);
 ControllerState rosTypeOf(const state::ControllerState&);
+ControllerMargins rosTypeOf(const state::ControllerMargins&);
 Alert rosTypeOf(const state::Alert&);  // one of an AlertArray
 
 template <class State>

@@ -19,6 +19,8 @@ TEST(AlarmSettings, TheFileHoldsTheDefaults) {
   EXPECT_EQ(file["dwell_limit"].as<double>(), defaults.dwell_limit);
   EXPECT_EQ(file["decay_rate_alarm"].as<double>(), defaults.decay_rate_alarm);
   EXPECT_EQ(file["log_decrement_warning"].as<double>(), defaults.log_decrement_warning);
+  EXPECT_EQ(file["sensitivity_warning"].as<double>(), defaults.sensitivity_warning);
+  EXPECT_EQ(file["saturation_time"].as<double>(), defaults.saturation_time);
   EXPECT_EQ(file["members_beyond"].as<double>(), defaults.members_beyond);
   EXPECT_EQ(file["lowest_decay_rate"].as<double>(), defaults.lowest_decay_rate);
   EXPECT_EQ(file["energy_residual"].as<double>(), defaults.energy_residual);

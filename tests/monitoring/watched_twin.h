@@ -41,6 +41,12 @@ struct WatchedTwin {
         monitor.take(observer.pendulum(s), wall);
       }
     }
+    for (std::size_t c = 0; c < twin.scene().controllers.size(); ++c) {
+      monitor.take(observer.controller(c), wall);
+    }
+    for (auto& margin : monitor.takeLoopMargins()) {
+      loop_margins.push_back(margin);
+    }
     for (auto& margin : monitor.takeMargins()) {
       margins.push_back(margin);
     }
@@ -70,6 +76,7 @@ struct WatchedTwin {
   state::LoopStatistics loop;
   std::int64_t announcements = 0;
   std::vector<state::StabilityMargin> margins;
+  std::vector<state::ControllerMargins> loop_margins;
   std::vector<state::Alert> events;
 };
 

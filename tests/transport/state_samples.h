@@ -84,6 +84,14 @@ class StateSamples {
     return s;
   }
 
+  state::ControllerMargins margins() {
+    auto s = sample<state::ControllerMargins>();
+    s.verdict = static_cast<std::uint8_t>(below(5));
+    s.signal_peak = numbers(s.signal.size());
+    s.signal_frequency = numbers(s.signal.size());
+    return s;
+  }
+
   state::ParameterChange change() {
     auto s = sample<state::ParameterChange>();
     s.names.emplace_back("bearings[0].kxx");
@@ -264,6 +272,7 @@ class StateSamples {
   auto of(KindOf<state::OrderState>) { return orders(); }
   auto of(KindOf<state::FollowState>) { return follow(); }
   auto of(KindOf<state::ControllerState>) { return controller(); }
+  auto of(KindOf<state::ControllerMargins>) { return margins(); }
 
   double time() { return static_cast<double>(below(1000000000)) * 1e-3; }
 

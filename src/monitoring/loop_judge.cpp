@@ -1,0 +1,165 @@
+#include "monitoring/loop_judge.h"
+
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <utility>
+
+#include "analysis/equilibria.h"
+#include "analysis/sampled_margins.h"
+#include "messages/refusal.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kTwoPi = 6.283185307179586;
+constexpr double kSearchPeriod = 1.0;  // s, simulated
+constexpr double kSpeedNews = 0.01;    // of a speed
+constexpr double kMovedNews = 1.0e-6;  // of coordinates, or m or rad
+
+/// With these roots: highest power first.
+std::vector<double> polynomialOf(const std::vector<std::complex<double>>& roots) {
+  std::vector<std::complex<double>> product{1.0};
+  for (const std::complex<double>& root : roots) {
+    product.emplace_back(0.0);
+    for (std::size_t i = product.size() - 1; i > 0; --i) {
+      product[i] -= root * product[i - 1];
+    }
+  }
+  std::vector<double> real;
+  for (const std::complex<double>& coefficient : product) {
+    real.push_back(coefficient.real());
+  }
+  return real;
+}
+
+void put(const std::vector<SampledMargins>& found, state::ControllerMargins& margins) {
+  const LoopMargins least = leastMargins(found);
+  margins.sensitivity_peak = least.sensitivity_peak;
+  margins.peak_frequency = least.peak_frequency;
+  margins.zone = name(least.zone);
+  margins.gain_margin = least.gain_margin;
+  margins.gain_reduction = least.gain_reduction;
+  margins.phase_margin = least.phase_margin;
+  margins.phase_crossover = least.phase_crossover;
+  margins.delay_margin = least.delay_margin;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    margins.signal_peak[i] = found[i].sensitivity_peak;
+    margins.signal_frequency[i] = found[i].peak_frequency;
+  }
+}
+
+/// As before anything is known.
+state::ControllerMargins unknown(const ControllerSpec& controller) {
+  state::ControllerMargins margins;
+  margins.controller = controller.name;
+  margins.verdict_name = name(Verdict::kUncertain);
+  margins.signal = controller.measured;
+  margins.signal_peak.assign(controller.measured.size(), kNaN);
+  margins.signal_frequency = margins.signal_peak;
+  return margins;
+}
+
+}  // namespace
+
+LoopJudge::LoopJudge(SharedSystem system, std::shared_ptr<const ClosedLoop> loop)
+    : system_(std::move(system)), loop_(std::move(loop)) {}
+
+Stability LoopJudge::judge(double time, const Eigen::VectorXd& present, double speed,
+                           Eigen::VectorXd& about) {
+  parts_.reset();
+  try {
+    return judgeOrSayWhy(time, present, speed, about);
+  } catch (const std::exception& failure) {
+    found_.reset();
+    margins_.clear();
+    for (std::size_t i = 0; i < loop_->controllers().size(); ++i) {
+      margins_.push_back(unknown(loop_->controller(i)));
+      margins_.back().objection = failure.what();
+    }
+    throw;
+  }
+}
+
+Stability LoopJudge::judgeOrSayWhy(double time, const Eigen::VectorXd& present, double speed,
+                                   Eigen::VectorXd& about) {
+  if (loop_->systems().size() > 1) {
+    throw RunFailure("its loop goes through other systems, whose state is not known here");
+  }
+  const Dynamics& dynamics = *system_->dynamics;
+  if (dynamics.linear()) {
+    about.setZero();
+  } else {
+    about = equilibriumNear(dynamics, present, speed).value_or(present);
+  }
+  auto parts =
+      loop_->parts([&](std::size_t) { return linearizationAtRest(dynamics, about, speed); }, speed);
+  if (!parts) {
+    throw RunFailure("a law of the loop is not linear");
+  }
+  const SampledLoop sampled = sampledLoop(parts->plant, parts->controllers);
+  const SampledStability loop = sampledStability(sampled);
+  parts_ = std::move(parts);
+  last_ = {time, speed, about, loop.verdict};
+  if (!found_) {
+    margins_.clear();
+    for (std::size_t i = 0; i < loop_->controllers().size(); ++i) {
+      margins_.push_back(unknown(loop_->controller(i)));
+    }
+  }
+  for (state::ControllerMargins& margins : margins_) {
+    margins.verdict = static_cast<std::uint8_t>(loop.verdict);
+    margins.verdict_name = name(loop.verdict);
+    margins.speed = dynamics.hasShaft() ? speed : kNaN;
+    margins.spectral_radius = loop.spectral_radius;
+    margins.period = sampled.period;
+  }
+
+  Stability s;
+  s.routh = loop.routh;
+  s.routh.verdict = loop.verdict;
+  s.polynomial = polynomialOf(loop.eigenvalues);
+  s.right_by_eigenvalues = loop.routh.right;
+  // The slowest in continuous time: z = e^(s T).
+  const std::complex<double> slowest = std::log(loop.eigenvalues.front()) / sampled.period;
+  s.decay_rate = -slowest.real();
+  s.damping_ratio = std::abs(slowest) > 0.0 ? s.decay_rate / std::abs(slowest) : 0.0;
+  s.log_decrement =
+      slowest.imag() != 0.0 ? kTwoPi * s.decay_rate / std::fabs(slowest.imag()) : kNaN;
+  return s;
+}
+
+bool LoopJudge::lacksMargins() const {
+  if (!parts_ || !found_ || found_->verdict != last_.verdict) {
+    return parts_.has_value();
+  }
+  const double since = last_.time - found_->time;  // back after a reset
+  const bool news =
+      std::fabs(last_.speed - found_->speed) > kSpeedNews * std::fabs(found_->speed) ||
+      !((last_.about - found_->about).norm() <= kMovedNews * (1.0 + found_->about.norm()));
+  return news && (since < 0.0 || since >= kSearchPeriod);
+}
+
+void LoopJudge::findMargins() {
+  found_ = last_;
+  for (std::size_t i = 0; i < margins_.size(); ++i) {
+    try {
+      put(sampledMargins(parts_->plant, parts_->controllers, i, last_.verdict), margins_[i]);
+    } catch (const RunFailure& failure) {
+      const state::ControllerMargins verdict = margins_[i];
+      margins_[i] = unknown(loop_->controller(i));
+      margins_[i].verdict = verdict.verdict;
+      margins_[i].verdict_name = verdict.verdict_name;
+      margins_[i].objection = failure.what();
+    }
+  }
+}
+
+std::vector<state::ControllerMargins> LoopJudge::margins() const {
+  const bool speaks = system_->spec.name == loop_->firstSystem();
+  return speaks ? margins_ : std::vector<state::ControllerMargins>{};
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,58 @@
+// Judges the loop that controllers close around a system, as they sample it
+// (analysis/sampled_stability.h): about the equilibrium nearest to where the system is, stable by
+// itself or not. Margins take up to a hundred times as long as the verdict: they are found apart,
+// and anew where the verdict changes, and at most once a second of simulated time where the speed
+// has changed by a hundredth or the equilibrium has moved.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/sampled_stability.h"
+#include "analysis/stability.h"
+#include "messages/controller_margins.h"
+#include "scene/built_system.h"
+#include "scene/closed_loop.h"
+
+namespace whirl_twin {
+
+class LoopJudge {
+ public:
+  LoopJudge(SharedSystem system, std::shared_ptr<const ClosedLoop> loop);
+
+  /// With the system at `present` and its shaft at a speed [rad/s], at a simulated time [s];
+  /// `about`: the equilibrium judged. Roots inside the unit circle are `left`. Throws RunFailure
+  /// where the loop cannot be judged, and what else linearizing throws.
+  Stability judge(double time, const Eigen::VectorXd& present, double speed,
+                  Eigen::VectorXd& about);
+  /// The margins are not those of what was judged last.
+  bool lacksMargins() const;
+  void findMargins();
+  /// Of each controller: the last verdict, with the margins found last. Without `at`. Of a loop
+  /// through several systems its first one tells.
+  std::vector<state::ControllerMargins> margins() const;
+
+ private:
+  /// What was judged.
+  struct Case {
+    double time = 0.0;   ///< [s], simulated
+    double speed = 0.0;  ///< [rad/s]
+    Eigen::VectorXd about;
+    Verdict verdict = Verdict::kUncertain;
+  };
+
+  Stability judgeOrSayWhy(double time, const Eigen::VectorXd& present, double speed,
+                          Eigen::VectorXd& about);
+
+  SharedSystem system_;
+  std::shared_ptr<const ClosedLoop> loop_;
+  std::vector<state::ControllerMargins> margins_;
+  std::optional<ClosedLoop::Parts> parts_;  ///< of `last_`; nothing: not judged
+  Case last_;
+  std::optional<Case> found_;  ///< what margins_ are of
+};
+
+}  // namespace whirl_twin
