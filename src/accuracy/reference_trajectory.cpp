@@ -24,10 +24,23 @@ constexpr double kHopeless = 0.25;
 constexpr double kDisturbance = 1.0e-13;
 constexpr double kRounding = 2.0e-15;
 constexpr std::size_t kFewSamples = 16;
+constexpr std::int64_t kFinerSensing = 8;
 
 /// The methods' order is six at least, where the motion is smooth.
 int doublingsFor(double times) {
   return static_cast<int>(std::clamp(std::ceil(std::log2(times) / 6.0), 1.0, 3.0));
+}
+
+/// [ns]: the filter of a controller's sensor sees a motion as the twin's steps show it
+/// (control/sensor.h), whatever goes on in them: a reference needs shorter ones.
+std::int64_t referenceStep(const Scene& one) {
+  const bool filters = std::any_of(one.controllers.begin(), one.controllers.end(),
+                                   [](const auto& c) { return c.sensor.bandwidth > 0.0; });
+  std::int64_t parts = filters ? kFinerSensing : 1;
+  while (one.step % parts != 0) {
+    --parts;
+  }
+  return one.step / parts;
 }
 
 }  // namespace
@@ -143,18 +156,19 @@ ReferenceTrajectory referenceTrajectory(const Scene& one, const std::string& met
                                         std::int64_t interval, std::size_t samples, double wanted,
                                         EvaluationBudget& budget) {
   const double all = budget.left();
+  const std::int64_t step = referenceStep(one);
   ReferenceTrajectory best;
   std::size_t asked = samples;
   bool parted = true;
   const auto settingOf = [&](const std::string& other, int substeps) {
-    return StepSetting{other, one.step, substeps * (stepMethod(other).order == 4 ? 2 : 1)};
+    return StepSetting{other, step, substeps * (stepMethod(other).order == 4 ? 2 : 1)};
   };
   const auto costOfOne = [&](int substeps) {
-    return budget.cost({method, one.step, substeps / 2 * 3}, interval, 1) +
+    return budget.cost({method, step, substeps / 2 * 3}, interval, 1) +
            budget.cost(settingOf(others.front(), substeps), interval, 1);
   };
   for (int substeps = 2 * one.systems.front().substeps; substeps <= kMostSubsteps;) {
-    const StepSetting setting{method, one.step, substeps / 2 * 3};
+    const StepSetting setting{method, step, substeps / 2 * 3};
     const double of_one = costOfOne(substeps);
     const bool first = best.trajectory.samples() == 0;
     // Of the first, leaving room for shorter steps; of what has parted as much as can be had.

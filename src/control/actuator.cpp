@@ -20,8 +20,9 @@ Actuator::Actuator(const ActuatorSettings& settings, double period)
 bool Actuator::take(double told) noexcept {
   const double wanted = resolution_ > 0.0 ? resolution_ * std::nearbyint(told / resolution_) : told;
   const double within = std::clamp(wanted, -limit_, limit_);
-  value_ += std::clamp(within - value_, -most_, most_);
-  if (std::fabs(within - value_) <= 1.0e-15 * std::fabs(within)) {
+  const double change = within - value_;
+  value_ += std::copysign(most_, change);
+  if (std::fabs(change) <= most_ || std::fabs(within - value_) <= 1.0e-15 * std::fabs(within)) {
     value_ = within;  // what it is told, not that but for rounding
   }
   return value_ == wanted;

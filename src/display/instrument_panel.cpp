@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "display/scale_bar.h"
+
 namespace whirl_twin {
 namespace {
 
-constexpr double kWidth = 1.3;                // m, of a scale
 constexpr double kLive = 3.0;                 // s, that a verdict may be old
 constexpr double kLeast = -0.2, kMost = 0.6;  // log decrements at the ends of the scale
 constexpr std::size_t kRanges = 4;            // of either kind that are drawn at most
@@ -18,7 +19,6 @@ constexpr Color kGrey{0.55F, 0.58F, 0.62F};
 constexpr Color kRed{0.80F, 0.20F, 0.17F};
 constexpr Color kOrange{0.90F, 0.60F, 0.10F};
 constexpr Color kGreen{0.22F, 0.55F, 0.42F};
-constexpr Color kPointer{1.0F, 1.0F, 1.0F};
 constexpr Color kWords{0.90F, 0.92F, 0.94F};
 
 /// The next of 1, 1.2, 1.5, 2, 3, 4, 5, 6, 8, 10 times a power of ten.
@@ -31,41 +31,6 @@ double roundUp(double number) {
   }
   return 10.0 * decade;
 }
-
-/// A bar of a scale, between places 0 to 1 of its length.
-class Scale {
- public:
-  Scale(std::string part, double middle, double height, MarkerCanvas& board)
-      : part_(std::move(part)), middle_(middle), height_(height), board_(board) {}
-
-  void range(const std::string& name, double from, double to, const Color& color, int layer) {
-    from = std::clamp(from, 0.0, 1.0);
-    to = std::clamp(to, 0.0, 1.0);
-    if (!(to > from)) {
-      board_.gone(part_ + "_" + name);
-      return;
-    }
-    board_.box(part_ + "_" + name, at(0.5 * (from + to), layer),
-               {(to - from) * kWidth, height_, kThick}, color);
-  }
-  void pointer(double place) {
-    board_.box(part_ + "_pointer", at(std::clamp(place, 0.0, 1.0), 4),
-               {0.024, 1.6 * height_, kThick}, kPointer);
-  }
-  void noPointer() { board_.gone(part_ + "_pointer"); }
-
- private:
-  static constexpr double kThick = 0.004;
-
-  Eigen::Isometry3d at(double place, int layer) const {
-    return Eigen::Isometry3d(Eigen::Translation3d((place - 0.5) * kWidth, middle_, 0.006 * layer));
-  }
-
-  std::string part_;
-  double middle_;
-  double height_;
-  MarkerCanvas& board_;
-};
 
 bool stable(const StabilityMargin& margin) {
   return margin.verdict != StabilityMargin::UNSTABLE &&
@@ -93,7 +58,7 @@ std::vector<SpeedRange> unstableRanges(const StabilityMargin& margin, double end
 
 void drawSpeed(double speed, const LiveMargin& live, double middle, double height,
                MarkerCanvas& board) {
-  Scale bar("speed", middle, height, board);
+  ScaleBar bar("speed", middle, height, board);
   const SpeedScale scale = speedScale(speed, live.margin.get());
   const bool shaft = std::isfinite(speed);
   bar.range("track", 0.0, shaft ? 1.0 : 0.0, live.margin ? kGreen : kTrack, 0);
@@ -114,7 +79,7 @@ void drawSpeed(double speed, const LiveMargin& live, double middle, double heigh
 }
 
 void drawMargin(const LiveMargin& live, double middle, double height, MarkerCanvas& board) {
-  Scale bar("margin", middle, height, board);
+  ScaleBar bar("margin", middle, height, board);
   const auto place = live.margin ? marginPlace(*live.margin) : std::nullopt;
   const double asked = decrementPlace(live.least_decrement);
   bar.range("track", 0.0, 1.0, kTrack, 0);

@@ -3,6 +3,7 @@
 #include <ros/ros.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -25,6 +26,7 @@ bool SceneDynamics::refresh() {
   tree_ = found;
   systems_.clear();
   measured_.clear();
+  actuator_limits_.clear();
   if (tree_.empty()) {
     return true;
   }
@@ -35,6 +37,11 @@ bool SceneDynamics::refresh() {
       systems_[system->spec.name] = system;
       if (const auto place = MeasuredPlace::of(built, system->spec.name)) {
         measured_.emplace(system->spec.name, *place);
+      }
+    }
+    for (const ControllerSpec& controller : built.scene.controllers) {
+      if (controller.actuator.limit > 0.0) {
+        actuator_limits_[controller.name] = controller.actuator.limit;
       }
     }
   } catch (const Refusal& error) {
@@ -80,6 +87,11 @@ std::string SceneDynamics::systemOf(const std::string& published) const {
 std::string SceneDynamics::driveOf(const std::string& system) const {
   const auto found = systems_.find(system);
   return found == systems_.end() ? "" : found->second->spec.drive.value_or("");
+}
+
+double SceneDynamics::actuatorLimit(const std::string& controller) const {
+  const auto found = actuator_limits_.find(controller);
+  return found == actuator_limits_.end() ? std::numeric_limits<double>::infinity() : found->second;
 }
 
 std::optional<MeasuredPlace> SceneDynamics::measuredPlace(const std::string& system) const {

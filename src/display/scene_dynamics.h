@@ -33,6 +33,10 @@ class SceneDynamics {
   /// Name of the drive that turns a system; "" without one.
   std::string driveOf(const std::string& system) const;
 
+  /// What the actuators of a controller can give, in the unit of its outputs; infinite: there is no
+  /// limit, or no such controller.
+  double actuatorLimit(const std::string& controller) const;
+
   /// How sensors of the scene show where a system is; none: they do not.
   std::optional<MeasuredPlace> measuredPlace(const std::string& system) const;
 
@@ -44,6 +48,7 @@ class SceneDynamics {
   std::string tree_;                             // of parameters, as they were read last
   std::map<std::string, SharedSystem> systems_;  // with their parameters as they are now
   std::map<std::string, MeasuredPlace> measured_;
+  std::map<std::string, double> actuator_limits_;  // of each controller
 };
 
 }  // namespace whirl_twin

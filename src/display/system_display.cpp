@@ -50,7 +50,9 @@ void TextStack::add(const std::string& part, const std::vector<std::string>& lin
 void drawStatus(const std::string& headline, const std::vector<std::string>& lines, double speed,
                 const SystemStatus& status, const Eigen::Vector3d& foot, MarkerCanvas& canvas) {
   MarkerCanvas board = canvas.turned(foot, boardAxes());
-  const double instruments = drawInstruments(status.live, speed, status.compact, board);
+  const double margins = drawInstruments(status.live, speed, status.compact, board);
+  const double instruments =
+      drawCommands(status.commands, status.loops, status.compact, margins, board);
   TextStack stack({0.0, instruments, 0.0}, board);
   const Color color = severityColor(status.alerts, kText);
   if (status.compact) {

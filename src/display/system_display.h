@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "display/command_bars.h"
 #include "display/instrument_panel.h"
 #include "display/marker_canvas.h"
 #include "display/vibration_limits.h"
@@ -22,6 +23,8 @@ struct SystemStatus {
   FollowState::ConstPtr follow;        ///< of a twin that follows its machine, else null
   std::vector<Alert> alerts;           ///< active, most severe first
   std::vector<VibrationLimit> limits;  ///< of a rotor
+  std::vector<Command> commands;       ///< of controllers that act on it
+  std::vector<std::string> loops;      ///< how far their loops are from instability
   bool compact = false;                ///< there is little room: its name, instruments, one alert
 };
 

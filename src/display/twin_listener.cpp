@@ -37,9 +37,15 @@ std::vector<TwinTopic> twinTopics(const ros::master::V_TopicInfo& all,
          isType<LoopStatistics>(info.datatype)) &&
         slash == std::string::npos) {
       topics.push_back({info.name, info.datatype, ""});
-    } else if (slash == std::string::npos || rest.find('/', slash + 1) != std::string::npos) {
       continue;
-    } else if (isType<DriveState>(info.datatype) || isType<Measurement>(info.datatype)) {
+    }
+    const std::size_t second = slash == std::string::npos ? slash : rest.find('/', slash + 1);
+    if (isType<ControllerMargins>(info.datatype) && second != std::string::npos) {
+      topics.push_back({info.name, info.datatype, rest.substr(slash + 1, second - slash - 1)});
+    } else if (slash == std::string::npos || second != std::string::npos) {
+      continue;
+    } else if (isType<DriveState>(info.datatype) || isType<Measurement>(info.datatype) ||
+               isType<ControllerState>(info.datatype)) {
       topics.push_back({info.name, info.datatype, rest.substr(slash + 1)});
     } else if (isType<WhirlState>(info.datatype) || isType<PendulumState>(info.datatype) ||
                isType<StabilityMargin>(info.datatype) || isType<ParameterChange>(info.datatype) ||
@@ -121,6 +127,21 @@ ros::Subscriber TwinListener::subscribe(const TwinTopic& topic) {
         measurement_handler_(subject, *block);
       }
     });
+  }
+  if (isType<ControllerState>(topic.type)) {
+    return listen<ControllerState>(topic, [this, subject](const ControllerState::ConstPtr& state) {
+      if (controller_handler_) {
+        controller_handler_(subject, *state);
+      }
+    });
+  }
+  if (isType<ControllerMargins>(topic.type)) {
+    return listen<ControllerMargins>(topic,
+                                     [this, subject](const ControllerMargins::ConstPtr& margins) {
+                                       if (controller_margins_handler_) {
+                                         controller_margins_handler_(subject, margins);
+                                       }
+                                     });
   }
   if (isType<ParameterChange>(topic.type)) {
     return listen<ParameterChange>(topic, [this](const ParameterChange::ConstPtr& change) {

@@ -12,6 +12,8 @@
 
 #include "messages/monitor_pulse.h"
 #include "whirl_twin/AlertArray.h"
+#include "whirl_twin/ControllerMargins.h"
+#include "whirl_twin/ControllerState.h"
 #include "whirl_twin/DriveState.h"
 #include "whirl_twin/FollowState.h"
 #include "whirl_twin/LoopStatistics.h"
@@ -39,7 +41,7 @@ struct SystemReadout {
 struct TwinTopic {
   std::string topic;
   std::string type;
-  std::string subject;  ///< also a source of measurements; empty for what is about all of the twin
+  std::string subject;  ///< also a source or a controller; empty for what is about all of the twin
 };
 
 /// The topics of the twin in a namespace, such as /twin, among all that the master knows.
@@ -52,6 +54,10 @@ class TwinListener {
   using PendulumHandler = std::function<void(const std::string& system, const PendulumState&)>;
   using ParameterHandler = std::function<void(const ParameterChange&)>;
   using MeasurementHandler = std::function<void(const std::string& source, const Measurement&)>;
+  using ControllerHandler =
+      std::function<void(const std::string& controller, const ControllerState&)>;
+  using ControllerMarginsHandler =
+      std::function<void(const std::string& controller, const ControllerMargins::ConstPtr&)>;
   using LoopHandler = std::function<void(const LoopStatistics&)>;
   using AlertHandler = std::function<void(const AlertArray&)>;
 
@@ -60,6 +66,10 @@ class TwinListener {
   void onPendulum(PendulumHandler handler) { pendulum_handler_ = std::move(handler); }
   void onParameters(ParameterHandler handler) { parameter_handler_ = std::move(handler); }
   void onMeasurement(MeasurementHandler handler) { measurement_handler_ = std::move(handler); }
+  void onController(ControllerHandler handler) { controller_handler_ = std::move(handler); }
+  void onControllerMargins(ControllerMarginsHandler handler) {
+    controller_margins_handler_ = std::move(handler);
+  }
   void onLoop(LoopHandler handler) { loop_handler_ = std::move(handler); }
   void onAlerts(AlertHandler handler) { alert_handler_ = std::move(handler); }
 
@@ -99,6 +109,8 @@ class TwinListener {
   PendulumHandler pendulum_handler_;
   ParameterHandler parameter_handler_;
   MeasurementHandler measurement_handler_;
+  ControllerHandler controller_handler_;
+  ControllerMarginsHandler controller_margins_handler_;
   LoopHandler loop_handler_;
   AlertHandler alert_handler_;
   struct Subscription {

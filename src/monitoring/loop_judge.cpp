@@ -103,7 +103,8 @@ Stability LoopJudge::judgeOrSayWhy(double time, const Eigen::VectorXd& present, 
   const SampledStability loop = sampledStability(sampled);
   parts_ = std::move(parts);
   last_ = {time, speed, about, loop.verdict};
-  if (!found_) {
+  if (!found_ || found_->verdict != loop.verdict) {
+    found_.reset();
     margins_.clear();
     for (std::size_t i = 0; i < loop_->controllers().size(); ++i) {
       margins_.push_back(unknown(loop_->controller(i)));
@@ -132,8 +133,11 @@ Stability LoopJudge::judgeOrSayWhy(double time, const Eigen::VectorXd& present, 
 }
 
 bool LoopJudge::lacksMargins() const {
-  if (!parts_ || !found_ || found_->verdict != last_.verdict) {
-    return parts_.has_value();
+  if (!parts_ || last_.verdict == Verdict::kUncertain) {
+    return false;
+  }
+  if (!found_) {
+    return true;
   }
   const double since = last_.time - found_->time;  // back after a reset
   const bool news =

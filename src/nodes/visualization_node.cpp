@@ -8,6 +8,7 @@
 #include <ros/ros.h>
 #include <tf2_ros/transform_broadcaster.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -98,6 +99,13 @@ class VisualizationNode {
     listener_.onMeasurement([this](const std::string& source, const Measurement& block) {
       takeMeasurement(source, block);
     });
+    listener_.onController([this](const std::string& controller, const ControllerState& state) {
+      controllers_[controller].take(state, scene_.actuatorLimit(controller));
+    });
+    listener_.onControllerMargins(
+        [this](const std::string& controller, const ControllerMargins::ConstPtr& margins) {
+          controllers_[controller].take(margins);
+        });
     listener_.onLoop(
         [this](const LoopStatistics& loop) { loop_.take(loop, ros::WallTime::now().toSec()); });
     listener_.onParameters([this](const ParameterChange& change) { takeParameters(change); });
@@ -146,6 +154,7 @@ class VisualizationNode {
     }
     if (scene_.refresh()) {
       mechanisms_.clear();
+      controllers_.clear();
       for (const auto& [system, change] : parameters_) {  // latched: they came before
         scene_.take(change);
       }
@@ -232,6 +241,21 @@ class VisualizationNode {
         liveMargin(of.margin, ros::WallTime::now().toSec() - of.margin_heard, held, silence);
     status.live.least_decrement = settings_.log_decrement_warning;
     status.alerts = listener_.alertsOf(name);
+    for (const auto& [controller, live] : controllers_) {
+      const std::vector<Command> commands = live.commandsOn(name);
+      status.commands.insert(status.commands.end(), commands.begin(), commands.end());
+      if (commands.empty()) {
+        continue;
+      }
+      if (const std::string loop = live.loopText(); silence.empty() && !loop.empty()) {
+        status.loops.push_back(controller + ": " + loop);
+      }
+      for (const Alert& alert : listener_.alertsOf(controller)) {
+        status.alerts.push_back(alert);
+      }
+    }
+    std::stable_sort(status.alerts.begin(), status.alerts.end(),
+                     [](const Alert& a, const Alert& b) { return a.severity > b.severity; });
     if (!silence.empty()) {
       Alert silent;
       silent.severity = Alert::WARNING;
@@ -254,6 +278,7 @@ class VisualizationNode {
   SceneDynamics scene_;
   std::map<std::string, ParameterChange> parameters_;  // the latest of each system
   std::map<std::string, MechanismDisplay> mechanisms_;
+  std::map<std::string, LiveController> controllers_;
   std::map<std::string, ros::WallTime> measured_at_;  // where each was measured last
   std::vector<std::string> drawn_;                    // systems in the order of the last frame
   ros::Publisher publisher_;

@@ -7,6 +7,26 @@
 
 namespace whirl_twin {
 
+namespace {
+
+std::vector<CommandHistory> commandsOn(const Twin& twin, std::size_t system) {
+  std::vector<CommandHistory> commands;
+  const std::vector<ControllerSpec>& controllers = twin.scene().controllers;
+  const std::vector<InputInfo> inputs = twin.systems()[system]->dynamics->inputs();
+  for (std::size_t c = 0; c < controllers.size(); ++c) {
+    for (std::size_t k = 0; k < controllers[c].acts_on.size(); ++k) {
+      const ActedInput& acted = controllers[c].acts_on[k];
+      if (acted.system == system) {
+        const InputInfo& input = inputs[acted.input];
+        commands.push_back({c, k, input.name, input.unit, controllers[c].actuator.limit, {}});
+      }
+    }
+  }
+  return commands;
+}
+
+}  // namespace
+
 PlotHistoryWriter::PlotHistoryWriter(const Twin& twin, std::vector<std::size_t> systems,
                                      std::int64_t ensemble_stride)
     : twin_(twin),
@@ -17,6 +37,7 @@ PlotHistoryWriter::PlotHistoryWriter(const Twin& twin, std::vector<std::size_t> 
     const std::size_t n = twin_.systems()[systems_[i]]->spec.q.size();
     histories_[i].coordinates.resize(n);
     histories_[i].rates.resize(n);
+    histories_[i].commands = commandsOn(twin_, systems_[i]);
   }
 }
 
@@ -42,6 +63,10 @@ void PlotHistoryWriter::write(const Observer& observer) {
       history.whirl_y.push_back(running ? observer.whirlOf(system).y : kNaN);
       history.whirl_radius.push_back(running ? observer.whirlRadius(system) : kNaN);
       history.whirl_phase.push_back(running ? observer.whirlPhase(system) : kNaN);
+    }
+    for (CommandHistory& command : history.commands) {
+      command.values.push_back(
+          running ? observer.controller(command.controller).output[command.output] : kNaN);
     }
     if (twin_.ensemble(system) != nullptr && samples_ % ensemble_stride_ == 0) {
       writeEnsemble(system, history);

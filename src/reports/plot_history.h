@@ -3,11 +3,22 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "reports/sample_writer.h"
 
 namespace whirl_twin {
+
+/// An output of a controller, as it acts.
+struct CommandHistory {
+  std::size_t controller = 0;  ///< of the scene
+  std::size_t output = 0;      ///< of it
+  std::string name;            ///< "force_x", of its system
+  std::string unit;
+  double limit = 0.0;  ///< [unit], of the actuator; 0: none
+  std::vector<double> values;
+};
 
 /// Of one system, a value for each sample; NaN after it has stopped.
 struct PlotHistory {
@@ -18,6 +29,7 @@ struct PlotHistory {
   std::vector<double> speed;                            ///< [rad/s], of the shaft
   std::vector<double> whirl_x, whirl_y;                 ///< [m], where a rotor's whirl is seen
   std::vector<double> whirl_radius, whirl_phase;        ///< [m], [rad]; of a rotor
+  std::vector<CommandHistory> commands;                 ///< of controllers that act on it
   std::vector<state::EnsembleState> ensemble;           ///< at some of the samples
 };
 

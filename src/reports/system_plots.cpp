@@ -73,6 +73,30 @@ std::vector<Chart> coordinateCharts(const BuiltSystem& system, const PlotHistory
   return charts;
 }
 
+/// A chart for the outputs of each controller that have one unit, under the limit that they reach.
+std::vector<Chart> commandCharts(const PlotHistory& history) {
+  std::vector<Chart> charts;
+  const CommandHistory* before = nullptr;
+  for (const CommandHistory& command : history.commands) {
+    if (before == nullptr || before->controller != command.controller ||
+        before->unit != command.unit) {
+      charts.push_back(historyChart(history, command.name, command.unit, command.values));
+    } else {
+      charts.back().y.label = fmt::format("command ({})", command.unit);
+      charts.back().series.push_back({command.name, history.time, command.values});
+    }
+    const bool reached =
+        std::any_of(command.values.begin(), command.values.end(), [&](double value) {
+          return command.limit > 0.0 && std::fabs(value) >= command.limit * (1.0 - 1.0e-9);
+        });
+    if (reached && charts.back().horizontal.empty()) {
+      charts.back().horizontal = {{command.limit, "limit"}, {-command.limit, "limit"}};
+    }
+    before = &command;
+  }
+  return charts;
+}
+
 /// The phase lag within half a turn of 90 degrees: broken where it passes from one end to the
 /// other, and where the shaft hardly turns, so that no unbalance leads the whirl.
 std::vector<double> phaseLag(const PlotHistory& history) {
@@ -104,6 +128,9 @@ Figure timeFigure(const BuiltSystem& system, const PlotHistory& history) {
   }
   if (system.dynamics->hasShaft() && (system.dynamics->isRotor() || spread(history.speed) > 0.0)) {
     figure.charts.push_back(historyChart(history, "shaft speed", "rad/s", history.speed));
+  }
+  for (const Chart& chart : commandCharts(history)) {
+    figure.charts.push_back(chart);
   }
   for (std::size_t i = 0; i + 1 < figure.charts.size(); ++i) {
     figure.charts[i].x.label.clear();  // they share the lowest one's

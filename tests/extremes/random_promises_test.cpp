@@ -5,12 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <random>
 #include <string>
 
 #include "../accuracy/independent_motion.h"
 #include "accuracy/step_choice.h"
+#include "dice.h"
 #include "general_position.h"
 #include "measured.h"
 #include "models/model_registry.h"
@@ -23,24 +22,6 @@ namespace {
 constexpr std::uint64_t kSeed = 12;    // or WHIRL_TWIN_SEED of the environment: other scenes
 constexpr double kRounding = 1.0e-12;  // below, errors are not told apart
 constexpr double kSamples = 250.0;
-
-class Dice {
- public:
-  explicit Dice(std::uint64_t seed) : generator_(seed) {}
-  double uniform(double low, double high) {
-    return low + (high - low) * static_cast<double>(generator_() >> 11) * 0x1p-53;
-  }
-  /// As likely in any decade.
-  double anySize(double low, double high) {
-    return std::exp(uniform(std::log(low), std::log(high)));
-  }
-  std::size_t below(std::size_t count) {
-    return static_cast<std::size_t>(uniform(0.0, static_cast<double>(count)));
-  }
-
- private:
-  std::mt19937_64 generator_;
-};
 
 void giveAProfile(Scene& one, Dice& dice) {
   DriveSpec& drive = one.drives.front();
@@ -163,13 +144,8 @@ Scene withDefaults(Scene one, Dice& dice) {
   return one;
 }
 
-std::uint64_t seed() {
-  const char* given = std::getenv("WHIRL_TWIN_SEED");
-  return given == nullptr ? kSeed : std::stoull(given);
-}
-
 Scene randomScene(std::uint64_t number) {
-  Dice dice(seed() + 1000003 * number);
+  Dice dice(seedOr(kSeed) + 1000003 * number);
   switch (number % 8) {
     case 0:
       return withDefaults(friction(dice), dice);

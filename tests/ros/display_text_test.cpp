@@ -192,6 +192,8 @@ TEST(TwinTopics, AreKnownByTheirTypeAndName) {
                                   {"/twin/drives/shaft", "whirl_twin/DriveState"},
                                   {"/twin/alerts", "whirl_twin/AlertArray"},
                                   {"/twin/loop", "whirl_twin/LoopStatistics"},
+                                  {"/twin/controllers/pd", "whirl_twin/ControllerState"},
+                                  {"/twin/controllers/pd/margins", "whirl_twin/ControllerMargins"},
                                   {"/twin/rotor/joint_states", "sensor_msgs/JointState"},
                                   {"/other/rotor/whirl", "whirl_twin/WhirlState"},
                                   {"/rosout", "rosgraph_msgs/Log"}},
@@ -200,7 +202,8 @@ TEST(TwinTopics, AreKnownByTheirTypeAndName) {
   for (const auto& topic : topics) {
     subjects.push_back(topic.subject);
   }
-  EXPECT_EQ(subjects, (std::vector<std::string>{"rotor", "arm", "rotor", "shaft", "", ""}));
+  EXPECT_EQ(subjects,
+            (std::vector<std::string>{"rotor", "arm", "rotor", "shaft", "", "", "pd", "pd"}));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "display/command_bars.h"
 #include "display/instrument_panel.h"
 #include "display/layout.h"
 #include "display/rotor_display.h"
@@ -288,6 +289,85 @@ TEST(TwinPanel, ASilentMonitorsAlarmsAreNotPassedOffAsTheLatest) {
   EXPECT_EQ(title(""), "1 alarm, 1 of them danger");
   EXPECT_EQ(title("the monitor is silent for 5 s: nothing is being watched"),
             "alarms not known: 1 alarm, 1 of them danger before");
+}
+
+ControllerState controllerOf(std::vector<double> output) {
+  ControllerState state;
+  state.input = {"rotor.current_x", "rotor.current_y", "other.force_x"};
+  state.input_unit = {"A", "A", "N"};
+  state.output = std::move(output);
+  return state;
+}
+
+TEST(CommandBars, ReachFromTheMiddleToWhatActs) {
+  LiveController controller;
+  controller.take(controllerOf({1.0, -2.0, 0.5}), 4.0);
+  const std::vector<Command> commands = controller.commandsOn("rotor");
+  ASSERT_EQ(commands.size(), 2u);
+  EXPECT_EQ(commandText(commands[0]), "current_x 1 of 4 A");
+  visualization_msgs::MarkerArray markers;
+  MarkerCanvas board(markers, "system", Eigen::Isometry3d::Identity());
+  const double height = drawCommands(commands, {}, false, 0.2, board);
+  EXPECT_GT(height, 0.3);
+  std::vector<double> ends;
+  for (const Marker& marker : markers.markers) {
+    if (marker.ns == "system/command_bar" && isShown(marker)) {
+      ends.push_back(marker.pose.position.x - 0.5 * marker.scale.x);
+      ends.push_back(marker.pose.position.x + 0.5 * marker.scale.x);
+    }
+  }
+  ASSERT_EQ(ends.size(),
+            4u);  // a quarter of half a scale of 1.3 m to the right, a half to the left
+  EXPECT_NEAR(ends[0], 0.0, 1e-9);
+  EXPECT_NEAR(ends[1], 0.25 * 0.65, 1e-9);
+  EXPECT_NEAR(ends[2], -0.5 * 0.65, 1e-9);
+  EXPECT_NEAR(ends[3], 0.0, 1e-9);
+}
+
+TEST(CommandBars, AreRedWhereTheActuatorGivesNoMore) {
+  LiveController controller;
+  controller.take(controllerOf({4.0, 3.99, 0.0}), 4.0);
+  EXPECT_TRUE(controller.commandsOn("rotor")[0].at_limit);
+  EXPECT_FALSE(controller.commandsOn("rotor")[1].at_limit);
+}
+
+TEST(CommandBars, WithoutALimitReachToARoundNumberBeyondTheLargest) {
+  LiveController controller;
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  controller.take(controllerOf({0.0, 0.0, -3.0}), kNone);
+  controller.take(controllerOf({0.0, 0.0, 0.1}), kNone);
+  const std::vector<Command> commands = controller.commandsOn("other");
+  ASSERT_EQ(commands.size(), 1u);
+  EXPECT_EQ(commands[0].end, 5.0);
+  EXPECT_EQ(controller.commandsOn("rotor")[0].end, 1.0);  // nothing so far
+}
+
+TEST(CommandBars, AMessageThatIsNotWholeIsLeft) {
+  LiveController controller;
+  controller.take(controllerOf({1.0}), 4.0);
+  EXPECT_TRUE(controller.commandsOn("rotor").empty());
+}
+
+TEST(CommandBars, GoWithTheirController) {
+  visualization_msgs::MarkerArray markers;
+  MarkerCanvas board(markers, "system", Eigen::Isometry3d::Identity());
+  EXPECT_EQ(drawCommands({}, {}, false, 0.2, board), 0.2);
+  EXPECT_TRUE(std::none_of(markers.markers.begin(), markers.markers.end(), isShown));
+}
+
+TEST(CommandBars, TellHowFarTheLoopIsFromInstability) {
+  LiveController controller;
+  EXPECT_EQ(controller.loopText(), "");
+  auto margins = boost::make_shared<ControllerMargins>();
+  margins->sensitivity_peak = 2.314;
+  margins->zone = "A";
+  margins->saturated = 0.12;
+  controller.take(margins);
+  EXPECT_EQ(controller.loopText(), "sensitivity 2.31, zone A; 12 % saturated");
+  margins->sensitivity_peak = std::numeric_limits<double>::infinity();
+  margins->zone = "unbounded";
+  margins->verdict_name = "unstable";
+  EXPECT_EQ(controller.loopText(), "loop unstable");
 }
 
 }  // namespace

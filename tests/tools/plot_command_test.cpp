@@ -49,6 +49,15 @@ TEST(Plot, OfNoDurationShowsTheStart) {
   EXPECT_EQ(folder.files().size(), 7u);
 }
 
+TEST(Plot, DrawsWhatControllersGiveBesideTheStates) {
+  const TemporaryDirectory folder;
+  const Ending end = twin({"plot", WHIRL_TWIN_SOURCE "/config/scenes/swing_up.yaml", "--duration",
+                           "2", "--output", folder.file("")});
+  EXPECT_EQ(end.status, 0) << end.err;
+  const std::string picture = contentsOf(folder.file("arm_time.svg"));
+  EXPECT_NE(picture.find("torque (N m) over time (s)"), std::string::npos);
+}
+
 struct Refused {
   Names options;
   std::string message;
