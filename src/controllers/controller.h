@@ -29,6 +29,11 @@ class Controller {
   virtual void reset() noexcept = 0;
   /// Writes as many outputs as it has, in their units.
   virtual void update(const ControlSample& sample, double* outputs) noexcept = 0;
+  /// Goes on, with its own parameters, from where another of the same kind and plan is: its outputs
+  /// do not jump where there is a way. One that has nothing to take over begins anew.
+  virtual void takeOver(const Controller& /*before*/) noexcept {}
+  /// The law behind what is put before it, as a notch is; itself, where there is nothing.
+  virtual const Controller& law() const noexcept { return *this; }
 
   // Not real-time safe.
 

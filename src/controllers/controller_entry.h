@@ -8,11 +8,12 @@
 //     void prepare(const ControllerPlan& plan);                        // optional
 //     void reset(const ControllerPlan& plan) noexcept;
 //     void update(const ControlSample& sample, double* outputs) noexcept;
+//     void takeOver(const MyLaw& before) noexcept;                     // optional
 //     DiscreteStateSpace linear(double shaft_speed) const;             // optional
 //   };
 //
 // prepare() is called once, with its parameters set and before all else: it makes room, and throws
-// SetupError for what does not fit. reset() and update() are real-time safe
+// SetupError for what does not fit. reset(), update() and takeOver() are real-time safe
 // (controllers/controller.h).
 #pragma once
 
@@ -31,6 +32,11 @@ template <class Law, class = void>
 struct HasPrepare : std::false_type {};
 template <class Law>
 struct HasPrepare<Law, std::void_t<decltype(&Law::prepare)>> : std::true_type {};
+
+template <class Law, class = void>
+struct HasTakeOver : std::false_type {};
+template <class Law>
+struct HasTakeOver<Law, std::void_t<decltype(&Law::takeOver)>> : std::true_type {};
 
 template <class Law, class = void>
 struct HasLinear : std::false_type {};
@@ -56,6 +62,15 @@ class LawController final : public Controller {
   void reset() noexcept override { law_.reset(plan_); }
   void update(const ControlSample& sample, double* outputs) noexcept override {
     law_.update(sample, outputs);
+  }
+  void takeOver([[maybe_unused]] const Controller& before) noexcept override {
+    if constexpr (HasTakeOver<Law>::value) {
+      static_assert(noexcept(std::declval<Law&>().takeOver(std::declval<const Law&>())),
+                    "takeOver() runs in the real-time loop: it is to be noexcept");
+      if (const auto* const same = dynamic_cast<const LawController*>(&before)) {
+        law_.takeOver(same->law_);
+      }
+    }
   }
   std::optional<DiscreteStateSpace> linear([[maybe_unused]] double shaft_speed) const override {
     if constexpr (HasLinear<Law>::value) {

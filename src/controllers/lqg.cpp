@@ -52,6 +52,12 @@ class Lqg final : public Controller {
     predicted_.noalias() += gains_.b * cut_;
   }
 
+  void takeOver(const Controller& before) noexcept override {
+    if (const auto* const other = dynamic_cast<const Lqg*>(&before.law())) {
+      predicted_ = other->predicted_;
+    }
+  }
+
   std::optional<DiscreteStateSpace> linear(double) const override {
     const Index n = gains_.a.rows();
     const MatrixXd closed = gains_.a - gains_.b * gains_.feedback;

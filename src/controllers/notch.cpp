@@ -46,6 +46,15 @@ class NotchedController final : public Controller {
     controller_->reset();
   }
 
+  void takeOver(const Controller& before) noexcept override {
+    if (const auto* const other = dynamic_cast<const NotchedController*>(&before)) {
+      parts_ = other->parts_;
+      last_speed_ = other->last_speed_;
+    }
+    controller_->takeOver(before);
+  }
+  const Controller& law() const noexcept override { return controller_->law(); }
+
   void update(const ControlSample& sample, double* outputs) noexcept override {
     const double speed = sample.shaft_speed;
     ControlSample shown = sample;

@@ -12,7 +12,9 @@
 // further beyond the limit.
 //
 // Gains may be given over the speed of a shaft. The integral is kept in units of the output, so
-// that it has no jump where they change.
+// that it has no jump where they change. Where gains are changed while it runs, I takes what kp and
+// kd give otherwise of the last sample, so that u has no jump; without an integral, which would
+// wear that off, I stays what it is.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -72,6 +74,24 @@ class Pid final : public Controller {
       outputs[i] = u;
     }
     started_ = true;
+  }
+
+  void takeOver(const Controller& before) noexcept override {
+    const auto* const other = dynamic_cast<const Pid*>(&before.law());
+    if (other == nullptr) {
+      return;
+    }
+    axes_ = other->axes_;
+    started_ = other->started_;
+    speed_ = other->speed_;
+    const Gains had = other->gainsAt(speed_);
+    const Gains has = gainsAt(speed_);
+    if (started_ && has.ki != 0.0) {
+      for (Axis& axis : axes_) {
+        axis.integral +=
+            (had.kp - has.kp) * (other->setpoint_ - axis.last) - (had.kd - has.kd) * axis.slope;
+      }
+    }
   }
 
   /// States, of each axis: I, then what is known of the next D before its sample.

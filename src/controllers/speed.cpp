@@ -8,6 +8,8 @@
 // cut() is what the motor can give at that speed, and the limit of the actuator; cut(u) is given.
 // The set-point starts at the speed of the first sample, at rest in its acceleration, and keeps to
 // what the motor can do less a reserve. Where no plan leads to the speed wanted, it stays there.
+// Where parameters are changed while it runs, it is planned anew from the speed and acceleration
+// that it has.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -48,14 +50,15 @@ class SpeedControl final : public Controller {
   void update(const ControlSample& sample, double* outputs) noexcept override {
     const double speed = sample.values[0];
     if (!started_ && std::isfinite(speed)) {
-      begin(speed, sample.index);
+      begin(speed, 0.0, sample.index);
     }
     if (!started_) {
       outputs[0] = speed;  // no number, and not taken for one
       return;
     }
     const double now = next_;
-    next_ = cursor_.at(set_points_, period_ * static_cast<double>(sample.index + 1 - first_)).speed;
+    last_ = sample.index;
+    next_ = cursor_.at(set_points_, planTime(last_ + 1)).speed;
     const double e = now - speed;
     const double wanted = limits_.inertia * (next_ - now) / period_ + limits_.motor.drag * now;
     const double u = wanted + kp_ * e + integral_;
@@ -63,6 +66,19 @@ class SpeedControl final : public Controller {
     const double cut = std::clamp(u, -most, most);
     integral_ += period_ * anti_windup_.integrand(kp_, ki_, e, u, cut);
     outputs[0] = cut;
+  }
+
+  /// The set-point goes on from where it is, speed and acceleration.
+  void takeOver(const Controller& before) noexcept override {
+    const auto* const other = dynamic_cast<const SpeedControl*>(&before.law());
+    if (other == nullptr || !other->started_) {
+      return;
+    }
+    const SpeedSegment next =
+        PlanCursor{}.at(other->set_points_, other->planTime(other->last_ + 1));
+    begin(next.speed, next.acceleration, other->last_ + 1);
+    last_ = other->last_;
+    integral_ = other->integral_;
   }
 
   /// Where the motor can give what is asked, about a set-point that stays.
@@ -74,13 +90,18 @@ class SpeedControl final : public Controller {
   }
 
  private:
-  void begin(double speed, std::int64_t index) noexcept {
+  /// [s], of a sample, since the set-points begin.
+  double planTime(std::int64_t index) const noexcept {
+    return period_ * static_cast<double>(index - first_);
+  }
+
+  void begin(double speed, double acceleration, std::int64_t index) noexcept {
     started_ = true;
     first_ = index;
     integral_ = 0.0;
     next_ = speed;
     cursor_ = {};
-    if (!planner_.plan(speed, 0.0, target_, set_points_)) {
+    if (!planner_.plan(speed, acceleration, target_, set_points_)) {
       set_points_.count = 0;
       set_points_.target = speed;
     }
@@ -98,6 +119,7 @@ class SpeedControl final : public Controller {
   PlanCursor cursor_;
   bool started_ = false;
   std::int64_t first_ = 0;  // sample
+  std::int64_t last_ = 0;   // likewise
   double next_ = 0.0;       // [rad/s], set-point of the next sample
   double integral_ = 0.0;   // [N m]
 };

@@ -26,4 +26,11 @@ void StateSpaceController::update(const ControlSample& sample, double* outputs) 
   state_.swap(next_);
 }
 
+void StateSpaceController::takeOver(const Controller& before) noexcept {
+  const auto* const other = dynamic_cast<const StateSpaceController*>(&before.law());
+  if (other != nullptr && other->state_.size() == state_.size()) {
+    state_ = other->state_;
+  }
+}
+
 }  // namespace whirl_twin

@@ -17,6 +17,8 @@ class StateSpaceController final : public Controller {
 
   void reset() noexcept override { state_.setZero(); }
   void update(const ControlSample& sample, double* outputs) noexcept override;
+  /// The state of one with as many.
+  void takeOver(const Controller& before) noexcept override;
   std::optional<DiscreteStateSpace> linear(double) const override { return law_; }
 
  private:

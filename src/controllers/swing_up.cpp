@@ -38,6 +38,12 @@ class SwingUp final : public Controller {
 
   void reset() noexcept override { caught_ = false; }
 
+  void takeOver(const Controller& before) noexcept override {
+    if (const auto* const other = dynamic_cast<const SwingUp*>(&before.law())) {
+      caught_ = other->caught_;
+    }
+  }
+
   void update(const ControlSample& sample, double* outputs) noexcept override {
     const double* y = sample.values;
     const double from_upright = std::remainder(y[0] - kPi, 2.0 * kPi);

@@ -48,7 +48,8 @@ void Judging::ask(JudgementRequest request) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     const std::optional<Waiting>& older = waiting_[system];
-    waiting.complete = older && older->complete && older->request.built == waiting.request.built;
+    waiting.complete = older && older->complete && older->request.built == waiting.request.built &&
+                       older->request.loop == waiting.request.loop;
     waiting_[system] = std::move(waiting);
   }
   asked_.notify_one();
@@ -73,8 +74,9 @@ double Judging::busy() {
 Judgement Judging::judge(const Waiting& waiting, bool complete) {
   const JudgementRequest& request = waiting.request;
   Seat& seat = seats_[request.system];
-  if (seat.built != request.built) {
-    seat = {request.built, seat.loop, std::make_unique<SystemJudge>(request.built, seat.loop)};
+  if (seat.built != request.built || seat.loop != request.loop) {
+    seat = {request.built, request.loop,
+            std::make_unique<SystemJudge>(request.built, request.loop)};
   }
   Judgement judgement;
   judgement.system = request.system;

@@ -27,6 +27,8 @@ struct JudgementRequest {
   double speed = 0.0;       ///< [rad/s], of its shaft
   std::uint64_t run = 0;    ///< of simulated time: comes back with the verdict
   double arrived_at = 0.0;  ///< [s], wall time of the state, likewise
+  /// What its controllers close around it, with their parameters as they are; nullptr: none do.
+  std::shared_ptr<const ClosedLoop> loop = nullptr;
 };
 
 struct Judgement {

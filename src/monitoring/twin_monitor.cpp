@@ -38,7 +38,8 @@ std::vector<std::shared_ptr<const ClosedLoop>> loopsOf(const Scene& scene) {
 
 TwinMonitor::TwinMonitor(const BuiltScene& scene, const AlarmSettings& settings, Judging::Mode mode)
     : settings_(settings),
-      judging_(scene.systems, mode, loopsOf(scene.scene)),
+      loops_(loopsOf(scene.scene)),
+      judging_(scene.systems, mode, loops_),
       margin_search_(scene.systems.size(), mode),
       data_lost_alarm_(namesOf(scene.systems), settings),
       lcm_lost_alarm_(settings),
@@ -95,7 +96,10 @@ void TwinMonitor::set(const AlarmSettings& settings) {
 
 bool TwinMonitor::take(const state::ParameterChange& change) {
   SystemWatch* watch = find(change.system);
-  SharedSystem changed = watch == nullptr ? nullptr : watch->system->with(change);
+  if (watch == nullptr) {
+    return takeOfController(change);
+  }
+  SharedSystem changed = watch->system->with(change);
   if (changed == nullptr) {
     return false;
   }
@@ -105,6 +109,31 @@ bool TwinMonitor::take(const state::ParameterChange& change) {
     watch->decay_alarm.hold();
     if (watch->judged) {
       askFor(*watch);
+    }
+  }
+  return true;
+}
+
+bool TwinMonitor::takeOfController(const state::ParameterChange& change) {
+  const auto loop = std::find_if(loops_.begin(), loops_.end(), [&](const auto& around) {
+    return around != nullptr && around->has(change.system);
+  });
+  if (loop == loops_.end()) {
+    return false;
+  }
+  const std::shared_ptr<const ClosedLoop> before = *loop;
+  std::optional<ClosedLoop> next = before->with(change);
+  if (!next) {
+    return false;
+  }
+  if (before->parametersOf(change.system).values == change.values) {  // told again
+    return true;
+  }
+  const auto changed = std::make_shared<const ClosedLoop>(std::move(*next));
+  for (const std::size_t system : changed->systems()) {
+    loops_[system] = changed;
+    if (watches_[system].judged) {
+      askFor(watches_[system]);
     }
   }
   return true;
@@ -241,7 +270,7 @@ void TwinMonitor::askFor(SystemWatch& watch) {
   watch.judged_speed = watch.speed;
   const auto place = static_cast<std::size_t>(&watch - watches_.data());
   judging_.ask({place, watch.system, watch.last.at, watch.last.q, watch.last.v, watch.speed, run_,
-                watch.last.arrived_at});
+                watch.last.arrived_at, loops_[place]});
   takeJudgements();
 }
 

@@ -51,8 +51,8 @@ class TwinMonitor {
   /// the alarms on its motion act on it instead of on the twin's.
   void take(const state::ControllerState& controller, double wall_time);
   void take(const state::Measurement& measurement, double wall_time);
-  /// The parameters of a system are others now, and it is judged with them at once, where it was
-  /// last. False for a set that the system does not have, or cannot have.
+  /// The parameters of a system or a controller are others now, and what hangs on them is judged
+  /// with them at once, where it was last. False for a set that it does not have, or cannot have.
   bool take(const state::ParameterChange& change);
   /// Wall time passes though nothing may arrive, to be called a few times a second; paused: the
   /// simulation says that it is held.
@@ -101,6 +101,7 @@ class TwinMonitor {
  private:
   void restart(double time, double wall_time);
   SystemWatch* find(const std::string& system);
+  bool takeOfController(const state::ParameterChange& change);
   /// A system asks this source, which may be a station of one.
   bool votes(const std::string& source) const;
   /// False for a state that is not to be believed.
@@ -119,6 +120,8 @@ class TwinMonitor {
   void takeMeasured(SystemWatch& watch, double wall_time);
 
   AlarmSettings settings_;
+  /// Around each system, with the parameters of its controllers as they are; null: none.
+  std::vector<std::shared_ptr<const ClosedLoop>> loops_;
   Judging judging_;
   MarginSearch margin_search_;
   std::uint64_t run_ = 0;  ///< of simulated time: resets so far

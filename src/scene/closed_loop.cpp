@@ -4,9 +4,9 @@
 #include <set>
 #include <utility>
 
-#include "controllers/controller_registry.h"
+#include "messages/refusal.h"
+#include "scene/changed_controller.h"
 #include "scene/control_parts.h"
-#include "scene/controller_reader.h"
 
 namespace whirl_twin {
 
@@ -39,9 +39,7 @@ LoopPlant withoutCyclic(const LinearPlant& plant) {
 ClosedLoop::ClosedLoop(const Scene& scene, std::vector<std::size_t> controllers)
     : scene_(scene), controllers_(std::move(controllers)) {
   for (const std::size_t i : controllers_) {
-    const ControllerSpec& spec = scene.controllers[i];
-    laws_.push_back(
-        findController(spec.type)->make(spec.parameters, spec.settings, planOf(scene, spec)));
+    laws_.push_back(lawOf(scene, scene.controllers[i]));
   }
 }
 
@@ -53,6 +51,39 @@ std::vector<std::size_t> ClosedLoop::systems() const {
     }
   }
   return {systems.begin(), systems.end()};
+}
+
+bool ClosedLoop::has(const std::string& controller) const {
+  return std::any_of(controllers_.begin(), controllers_.end(),
+                     [&](std::size_t i) { return scene_.controllers[i].name == controller; });
+}
+
+state::ParameterChange ClosedLoop::parametersOf(const std::string& controller) const {
+  const auto found =
+      std::find_if(scene_.controllers.begin(), scene_.controllers.end(),
+                   [&](const ControllerSpec& spec) { return spec.name == controller; });
+  return whirl_twin::parametersOf(*found);
+}
+
+std::optional<ClosedLoop> ClosedLoop::with(const state::ParameterChange& set) const {
+  ClosedLoop next = *this;
+  for (std::size_t k = 0; k < controllers_.size(); ++k) {
+    ControllerSpec& spec = next.scene_.controllers[controllers_[k]];
+    if (spec.name != set.system || !hasParameters(spec) ||
+        set.names != whirl_twin::parametersOf(spec).names ||
+        set.values.size() != set.names.size()) {
+      continue;
+    }
+    try {
+      ChangedController changed = withParameters(scene_, spec, set.names, set.values, "parameters");
+      spec = std::move(changed.spec);
+      next.laws_[k] = std::move(changed.law);
+      return next;
+    } catch (const Refusal&) {
+      return std::nullopt;
+    }
+  }
+  return std::nullopt;
 }
 
 std::optional<ClosedLoop::Parts> ClosedLoop::parts(const SmallMotions& small_motions,

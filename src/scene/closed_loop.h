@@ -9,6 +9,7 @@
 
 #include "analysis/sampled_loop.h"
 #include "controllers/controller.h"
+#include "messages/states.h"
 #include "scene/controlled_plant.h"
 #include "scene/scene.h"
 
@@ -25,6 +26,13 @@ class ClosedLoop {
     return scene_.controllers[controllers_[i]];
   }
   const std::string& firstSystem() const { return scene_.systems[systems().front()].name; }
+  bool has(const std::string& controller) const;
+  /// The numbers of one that it has.
+  state::ParameterChange parametersOf(const std::string& controller) const;
+
+  /// With the complete set of numbers that a twin told of one of its controllers; nothing where it
+  /// has none of that name, or one that cannot have them.
+  std::optional<ClosedLoop> with(const state::ParameterChange& set) const;
 
   /// The plant and the laws that close the loop around it.
   struct Parts {

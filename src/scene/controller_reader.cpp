@@ -277,12 +277,6 @@ void readControllers(const YAML::Node& node, const std::string& key, Scene& scen
   const MapReader map(node, key, {}, "", complaints);
   const SignalNames signals(scene);
   for (const std::string& name : map.names()) {
-    if (!isLegalName(name)) {
-      complaints.add(map.key(name),
-                     fmt::format("a controller is named by up to {} letters, digits and _, a "
-                                 "letter first",
-                                 kMaxNameLength));
-    }
     scene.controllers.push_back(
         readController(map.at(name), map.key(name), name, signals, scene, complaints));
   }

@@ -12,12 +12,13 @@ namespace whirl_twin {
 
 namespace {
 
-template <class Visit>
-void eachNumber(const ModelInfo& model, const SystemSpec& spec, const Visit& visit) {
-  for (const ParameterInfo& p : model.parameters) {
+/// Of a model and a system, or of a kind of controller and a controller.
+template <class Info, class Spec, class Visit>
+void eachNumber(const Info& info, const Spec& spec, const Visit& visit) {
+  for (const ParameterInfo& p : info.parameters) {
     visit(p.name, spec.parameters.at(p.name));
   }
-  for (const SettingInfo& setting : model.settings) {
+  for (const SettingInfo& setting : info.settings) {
     const auto table = spec.settings.tables.find(setting.name);
     const auto matrix = spec.settings.matrices.find(setting.name);
     if (table != spec.settings.tables.end()) {
@@ -76,14 +77,21 @@ struct Place {
   std::string objection;
 };
 
-/// Spec is SystemSpec, const or not.
-template <class Spec>
+bool turnsShaft(const ModelInfo& model) {
+  return model.has_shaft;
+}
+bool turnsShaft(const ControllerInfo&) {
+  return false;
+}
+
+/// As eachNumber(); Spec const or not.
+template <class Info, class Spec>
 class Search {
  public:
   using Number = std::conditional_t<std::is_const_v<Spec>, const double, double>;
 
-  Search(const std::string& text, const ModelInfo& model, Spec& spec)
-      : text_(text), model_(model), spec_(spec) {}
+  Search(const std::string& text, const Info& info, Spec& spec)
+      : text_(text), info_(info), spec_(spec) {}
 
   Place<Number> found() const {
     const std::optional<Path> path = parsed(text_);
@@ -91,9 +99,9 @@ class Search {
       return none(text_, "must be a name such as damping, bearings[0].kxx or stiffness[0][1]");
     }
     const auto setting =
-        std::find_if(model_.settings.begin(), model_.settings.end(),
+        std::find_if(info_.settings.begin(), info_.settings.end(),
                      [&](const SettingInfo& info) { return info.name == path->name; });
-    return setting == model_.settings.end() ? ofParameter(*path) : ofSetting(*path, *setting);
+    return setting == info_.settings.end() ? ofParameter(*path) : ofSetting(*path, *setting);
   }
 
  private:
@@ -102,23 +110,23 @@ class Search {
   }
 
   Place<Number> ofParameter(const Path& path) const {
-    if (path.name == "speed" && model_.has_shaft) {
+    if (path.name == "speed" && turnsShaft(info_)) {
       return none("speed",
                   "belongs to the shaft: turn it by a drive of the scene, whose speed set_speed "
                   "changes");
     }
     const auto parameter =
-        std::find_if(model_.parameters.begin(), model_.parameters.end(),
+        std::find_if(info_.parameters.begin(), info_.parameters.end(),
                      [&](const ParameterInfo& p) { return p.name == path.name; });
-    if (parameter == model_.parameters.end()) {
+    if (parameter == info_.parameters.end()) {
       std::vector<std::string> known;
-      for (const ParameterInfo& p : model_.parameters) {
+      for (const ParameterInfo& p : info_.parameters) {
         known.push_back(p.name);
       }
-      for (const SettingInfo& s : model_.settings) {
+      for (const SettingInfo& s : info_.settings) {
         known.push_back(s.name);
       }
-      return none(path.name, objectionToName(path.name, known, "parameter of " + model_.name));
+      return none(path.name, objectionToName(path.name, known, "parameter of " + info_.name));
     }
     if (!path.indices.empty() || !path.column.empty()) {
       return none(text_, "is one number: leave out what follows the name");
@@ -185,26 +193,57 @@ class Search {
   }
 
   const std::string& text_;
-  const ModelInfo& model_;
+  const Info& info_;
   Spec& spec_;
 };
 
-}  // namespace
-
-state::ParameterChange parametersOf(const ModelInfo& model, const SystemSpec& spec) {
+template <class Info, class Spec>
+state::ParameterChange allNumbers(const Info& info, const Spec& spec) {
   state::ParameterChange set;
   set.system = spec.name;
-  eachNumber(model, spec, [&](const std::string& path, double value) {
+  eachNumber(info, spec, [&](const std::string& path, double value) {
     set.names.push_back(path);
     set.values.push_back(value);
   });
   return set;
 }
 
+template <class Info, class Spec>
+std::optional<double> numberAt(const std::string& path, const Info& info, const Spec& spec) {
+  const double* const number = Search(path, info, spec).found().number;
+  return number == nullptr ? std::nullopt : std::optional(*number);
+}
+
+template <class Info, class Spec>
+bool setNumber(const std::string& path, double value, const Info& info, Spec& spec,
+               const std::string& key, Complaints& complaints) {
+  const Place<double> place = Search(path, info, spec).found();
+  const std::string why =
+      place.number == nullptr ? place.objection : objection(place.range, place.unit, value);
+  if (!why.empty()) {
+    complaints.add(fmt::format("{}.{}.parameters.{}", key, spec.name, place.path), why);
+    return false;
+  }
+  *place.number = value;
+  return true;
+}
+
+}  // namespace
+
+state::ParameterChange parametersOf(const ModelInfo& model, const SystemSpec& spec) {
+  return allNumbers(model, spec);
+}
+state::ParameterChange parametersOf(const ControllerInfo& info, const ControllerSpec& spec) {
+  return allNumbers(info, spec);
+}
+
 std::optional<double> parameterAt(const std::string& path, const ModelInfo& model,
                                   const SystemSpec& spec) {
-  const double* const number = Search(path, model, spec).found().number;
-  return number == nullptr ? std::nullopt : std::optional(*number);
+  return numberAt(path, model, spec);
+}
+std::optional<double> parameterAt(const std::string& path, const ControllerInfo& info,
+                                  const ControllerSpec& spec) {
+  return numberAt(path, info, spec);
 }
 
 std::string unitAt(const std::string& path, const ModelInfo& model, const SystemSpec& spec) {
@@ -214,15 +253,11 @@ std::string unitAt(const std::string& path, const ModelInfo& model, const System
 
 bool setParameter(const std::string& path, double value, const ModelInfo& model, SystemSpec& spec,
                   Complaints& complaints) {
-  const Place<double> place = Search(path, model, spec).found();
-  const std::string why =
-      place.number == nullptr ? place.objection : objection(place.range, place.unit, value);
-  if (!why.empty()) {
-    complaints.add(fmt::format("systems.{}.parameters.{}", spec.name, place.path), why);
-    return false;
-  }
-  *place.number = value;
-  return true;
+  return setNumber(path, value, model, spec, "systems", complaints);
+}
+bool setParameter(const std::string& path, double value, const ControllerInfo& info,
+                  ControllerSpec& spec, Complaints& complaints) {
+  return setNumber(path, value, info, spec, "controllers", complaints);
 }
 
 }  // namespace whirl_twin

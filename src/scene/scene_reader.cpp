@@ -45,9 +45,10 @@ void checkNames(const MapReader& map, const std::string& what, Complaints& compl
       complaints.add(map.key(name),
                      fmt::format("a {} is named by up to {} letters, digits and _, a letter first",
                                  what, kMaxNameLength));
-    } else if (what == "system" && name == "drives") {
-      complaints.add(map.key(name),
-                     "a system cannot be named so: the drives have their topics there");
+    } else if (what != "drive" && name == "drives") {
+      complaints.add(
+          map.key(name),
+          fmt::format("a {} cannot be named so: the drives have their topics there", what));
     } else if (!channels.insert(upper(name)).second) {
       complaints.add(map.key(name),
                      fmt::format("another {} has this name but for upper and lower case", what));
@@ -143,6 +144,28 @@ void checkStations(const Scene& scene, const MapReader& systems, Complaints& com
                                    "other system or station has",
                                    name, kMaxNameLength));
       }
+    }
+  }
+}
+
+/// The parameters of a controller are told under its name, as those of a system are.
+void checkControllerNames(const Scene& scene, const MapReader& controllers,
+                          Complaints& complaints) {
+  checkNames(controllers, "controller", complaints);
+  std::set<std::string> taken;
+  for (const SystemSpec& system : scene.systems) {
+    taken.insert(upper(system.name));
+    if (system.setup) {
+      for (const std::string& name : publishedStations(system.name, *system.setup->made.dynamics)) {
+        taken.insert(upper(name));
+      }
+    }
+  }
+  for (const std::string& name : controllers.names()) {
+    if (taken.count(upper(name)) > 0) {
+      complaints.add(controllers.key(name),
+                     "a system or a station of one has this name: the parameters of both would be "
+                     "told under it");
     }
   }
 }
@@ -253,7 +276,12 @@ Scene readTree(const YAML::Node& tree, const std::string& source, Complaints& co
     scene.sensors = readSensors(map.at("sensors"), "sensors", scene, complaints);
   }
   if (map.has("controllers")) {
-    readControllers(map.at("controllers"), "controllers", scene, complaints);
+    const YAML::Node controllers = map.at("controllers");
+    if (controllers.IsMap()) {
+      checkControllerNames(scene, MapReader(controllers, "controllers", {}, "", complaints),
+                           complaints);
+    }
+    readControllers(controllers, "controllers", scene, complaints);
   }
   return scene;
 }

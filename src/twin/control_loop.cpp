@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "controllers/controller_registry.h"
+#include "scene/changed_controller.h"
 #include "scene/controlled_plant.h"
-#include "scene/controller_reader.h"
 
 namespace whirl_twin {
 
@@ -24,8 +23,8 @@ std::size_t mostUnderWay(const ControllerSpec& spec) {
 
 RunningController::RunningController(const ControllerSpec& spec, const BuiltScene& built,
                                      std::vector<Inputs>& inputs)
-    : law_(findController(spec.type)->make(spec.parameters, spec.settings,
-                                           planOf(built.scene, spec))),
+    : law_(lawOf(built.scene, spec)),
+      running_(law_.get()),
       external_(dynamic_cast<ExternalController*>(law_.get())),
       lockstep_(external_ != nullptr && external_->rules().lockstep),
       instants_(spec, built.scene.time),
@@ -58,7 +57,9 @@ RunningController::RunningController(const ControllerSpec& spec, const BuiltScen
 }
 
 void RunningController::start(std::int64_t time, const std::vector<Stepper*>& running) noexcept {
-  law_->reset();
+  running_ = law_.get();
+  running_->reset();
+  generation_ = 0;
   instants_.start(time);
   first_ = instants_.sample();
   count_ = {};
@@ -151,7 +152,7 @@ void RunningController::sampleAt(std::int64_t time, double offset,
   const auto place = static_cast<std::size_t>((k - first_) % static_cast<std::int64_t>(under_way_));
   double* const outputs = outputs_.data() + place * acted_.size();
   const bool was_lost = external_ != nullptr && external_->lost();
-  law_->update({shown_.data(), k, time, turned.angle, turned.speed}, outputs);
+  running_->update({shown_.data(), k, time, turned.angle, turned.speed}, outputs);
   ++count_.samples;
   if (external_ != nullptr && external_->lost() && !was_lost && external_->rules().zero) {
     giveNothing();
@@ -166,6 +167,15 @@ void RunningController::sampleAt(std::int64_t time, double offset,
     give(outputs);
   }
   instants_.passSample();
+}
+
+std::unique_ptr<Controller> RunningController::replace(std::unique_ptr<Controller> next,
+                                                       std::int64_t generation) noexcept {
+  next->takeOver(*running_);
+  running_ = next.get();
+  generation_ = generation;
+  replacement_.swap(next);
+  return next;
 }
 
 bool RunningController::isNumber(const double* outputs) const noexcept {

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "control/actuator.h"
@@ -53,7 +54,14 @@ class RunningController {
   /// The state has gone on to an instant: what is between samples passes the sensors' filters.
   void follow(std::int64_t time, const std::vector<Stepper*>& running) noexcept;
 
+  /// Another law of the same kind goes on in the place of its own, known from now on by a
+  /// generation > 0, until the next start(). Returns the one it has no more use for.
+  std::unique_ptr<Controller> replace(std::unique_ptr<Controller> next,
+                                      std::int64_t generation) noexcept;
+
   std::size_t drive() const { return drive_; }  ///< of Twin::drive()
+  /// 0: with the scene's parameters.
+  std::int64_t generation() const noexcept { return generation_; }
   const ControlCount& count() const noexcept { return count_; }
   /// nullptr: it is of this process.
   ExternalController* external() const noexcept { return external_; }
@@ -84,8 +92,11 @@ class RunningController {
   bool isNumber(const double* outputs) const noexcept;
   void giveNothing() noexcept;
 
-  std::unique_ptr<Controller> law_;
-  ExternalController* external_;  ///< law_, if it is one
+  std::unique_ptr<Controller> law_;          ///< the scene's
+  std::unique_ptr<Controller> replacement_;  ///< the latest; null: none yet
+  Controller* running_;                      ///< law_ or replacement_
+  std::int64_t generation_ = 0;              ///< of running_
+  ExternalController* external_;             ///< law_, if it is one
   bool lockstep_ = false;
   ControlInstants instants_;
   bool at_once_;   ///< no delay
@@ -116,6 +127,11 @@ class ControlLoop {
   // Real-time safe.
 
   void start(std::int64_t time, const std::vector<Stepper*>& running) noexcept;
+  /// As RunningController::replace(), of one of them.
+  std::unique_ptr<Controller> replace(std::size_t controller, std::unique_ptr<Controller> next,
+                                      std::int64_t generation) noexcept {
+    return controllers_[controller].replace(std::move(next), generation);
+  }
   std::int64_t nextInstant() const noexcept;  ///< [ns], simulated
   /// Everything that is due at an instant, `offset` [s] after the start of the step.
   void act(std::int64_t time, double offset, const std::vector<Stepper*>& running,

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "controllers/controller_registry.h"
 #include "messages/names.h"
 #include "messages/refusal.h"
+#include "scene/parameter_paths.h"
 #include "twin/trial_steps.h"
 
 namespace whirl_twin {
@@ -30,6 +32,15 @@ std::vector<double> valuesOf(const BuiltSystem& system, const std::vector<std::s
   return values;
 }
 
+std::vector<double> valuesOf(const ControllerSpec& controller,
+                             const std::vector<std::string>& names) {
+  std::vector<double> values;
+  for (const std::string& name : names) {
+    values.push_back(parameterAt(name, *findController(controller.type), controller).value_or(0.0));
+  }
+  return values;
+}
+
 std::vector<std::pair<double, double>> profileRanges(const Twin& twin) {
   std::vector<std::pair<double, double>> ranges;
   for (std::size_t i = 0; i < twin.driveCount(); ++i) {
@@ -44,6 +55,7 @@ LiveParameters::LiveParameters(LiveTwin& twin, std::function<bool()> wait)
     : twin_(twin),
       wait_(std::move(wait)),
       systems_(twin.twin().systems()),
+      controllers_(twin.twin().scene().controllers),
       scene_speed_ranges_(profileRanges(twin.twin())),
       speed_ranges_(scene_speed_ranges_),
       targets_(scene_speed_ranges_.size()) {}
@@ -54,6 +66,7 @@ double LiveParameters::time() const {
 
 void LiveParameters::restored() {
   systems_ = twin_.twin().systems();
+  controllers_ = twin_.twin().scene().controllers;
   speed_ranges_ = scene_speed_ranges_;
   std::fill(targets_.begin(), targets_.end(), std::nullopt);
   ramps_.clear();
@@ -84,17 +97,40 @@ bool LiveParameters::change(std::size_t system, SharedSystem changed,
   return takeOver(system, std::move(next), std::move(generation));
 }
 
+bool LiveParameters::change(std::size_t controller, ChangedController next,
+                            const std::vector<std::string>& names) {
+  SystemGeneration generation{nullptr, parametersOf(next.spec)};
+  generation.parameters.changed = names;
+  generation.parameters.previous = valuesOf(controllers_[controller], names);
+  controllers_[controller] = std::move(next.spec);
+  const std::int64_t number =
+      twin_.generations()->add(systems_.size() + controller, std::move(generation));
+  return wait_() && twin_.replaceLaw(controller, next.law, number) && wait_();
+}
+
+ChangedController LiveParameters::changedController(Which which,
+                                                    const std::vector<std::string>& names,
+                                                    const std::vector<double>& values) {
+  return withParameters(twin_.twin().scene(), controller(which), names, values, kService);
+}
+
+std::vector<std::string> LiveParameters::names() const {
+  std::vector<std::string> names;
+  for (const SharedSystem& system : systems_) {
+    names.push_back(system->spec.name);
+  }
+  for (const ControllerSpec& controller : controllers_) {
+    names.push_back(controller.name);
+  }
+  return names;
+}
+
 std::string LiveParameters::objectionTo(const ParameterRequest& request) const {
-  const auto is_named = [&](const SharedSystem& system) {
-    return system->spec.name == request.system;
-  };
-  if (std::none_of(systems_.begin(), systems_.end(), is_named)) {
-    std::vector<std::string> names;
-    for (const SharedSystem& system : systems_) {
-      names.push_back(system->spec.name);
-    }
-    const std::string near = nearestName(request.system, names);
-    return fmt::format("system: must be a system of the scene, found '{}'{}", request.system,
+  const std::vector<std::string> known = names();
+  if (std::find(known.begin(), known.end(), request.system) == known.end()) {
+    const std::string near = nearestName(request.system, known);
+    return fmt::format("system: must be a system{} of the scene, found '{}'{}",
+                       controllers_.empty() ? "" : " or a controller", request.system,
                        near.empty() ? "" : fmt::format("; did you mean '{}'?", near));
   }
   if (!(request.ramp >= 0.0 && request.ramp <= kLongestRamp)) {
@@ -112,32 +148,47 @@ std::string LiveParameters::objectionTo(const ParameterRequest& request) const {
   return "";
 }
 
+/// What is to be done at once; a message that is not empty: it is refused. Where a ramp ends has to
+/// be possible; on the way there it is seen.
+ParameterAnswer LiveParameters::begin(Which which, const ParameterRequest& request) {
+  ParameterAnswer answer;
+  const bool at_once = request.ramp == 0.0;
+  try {
+    if (isSystem(which)) {
+      SharedSystem changed = systems_[which]->with(request.names, request.values, kService);
+      answer.message = whyItWouldStop(twin_.twin().built(), *changed);
+      if (!answer.message.empty()) {
+        return answer;
+      }
+      answer.previous = valuesOf(*systems_[which], request.names);
+      answer.done = !at_once || change(which, std::move(changed), request.names);
+    } else {
+      ChangedController changed = changedController(which, request.names, request.values);
+      answer.previous = valuesOf(controller(which), request.names);
+      answer.done = !at_once || change(which - systems_.size(), std::move(changed), request.names);
+    }
+  } catch (const std::exception& error) {
+    answer.message = error.what();
+  }
+  return answer;
+}
+
 ParameterAnswer LiveParameters::set(const ParameterRequest& request) {
   ParameterAnswer answer;
   answer.message = objectionTo(request);
   if (!answer.message.empty()) {
     return answer;
   }
-  const auto found =
-      std::find_if(systems_.begin(), systems_.end(),
-                   [&](const SharedSystem& system) { return system->spec.name == request.system; });
-  const auto system = static_cast<std::size_t>(found - systems_.begin());
-  try {
-    // Where a ramp ends has to be possible; on the way there it is seen.
-    SharedSystem changed = (*found)->with(request.names, request.values, kService);
-    answer.message = whyItWouldStop(twin_.twin().built(), *changed);
-    if (!answer.message.empty()) {
-      return answer;
-    }
-    answer.previous = valuesOf(**found, request.names);
-    answer.done = request.ramp > 0.0 || change(system, std::move(changed), request.names);
-  } catch (const std::exception& error) {
-    answer.message = error.what();
+  const std::vector<std::string> known = names();
+  const auto which =
+      static_cast<Which>(std::find(known.begin(), known.end(), request.system) - known.begin());
+  answer = begin(which, request);
+  if (!answer.message.empty()) {
     return answer;
   }
   answer.step = request.ramp > 0.0 ? twin_.stepCount() : twin_.answer().step;
   const auto replaced = [&](const Ramp& ramp) {
-    return ramp.system == system &&
+    return ramp.which == which &&
            std::count(request.names.begin(), request.names.end(), ramp.name) > 0;
   };
   ramps_.erase(std::remove_if(ramps_.begin(), ramps_.end(), replaced), ramps_.end());
@@ -148,26 +199,30 @@ ParameterAnswer LiveParameters::set(const ParameterRequest& request) {
     answer.message += fmt::format("{}{}.{} from {} to {}", i == 0 ? "" : ", ", request.system,
                                   request.names[i], from, to);
     if (request.ramp > 0.0) {
-      ramps_.push_back({system, request.names[i], from, to, time(), request.ramp});
+      ramps_.push_back({which, request.names[i], from, to, time(), request.ramp});
       answer.message += fmt::format(" in {:g} s", request.ramp);
     }
   }
   return answer;
 }
 
-void LiveParameters::continueRamps(std::size_t system, double now) {
+void LiveParameters::continueRamps(Which which, double now) {
   std::vector<std::string> names;
   std::vector<double> values;
   for (const Ramp& ramp : ramps_) {
-    if (ramp.system == system) {
+    if (ramp.which == which) {
       const double part = std::clamp((now - ramp.start) / ramp.duration, 0.0, 1.0);
       names.push_back(ramp.name);
       values.push_back(part < 1.0 ? ramp.from + part * (ramp.to - ramp.from) : ramp.to);
     }
   }
-  if (!names.empty()) {
-    static_cast<void>(change(system, systems_[system]->with(names, values, kService), names));
+  if (names.empty()) {
+    return;
   }
+  static_cast<void>(
+      isSystem(which)
+          ? change(which, systems_[which]->with(names, values, kService), names)
+          : change(which - systems_.size(), changedController(which, names, values), names));
 }
 
 std::vector<std::string> LiveParameters::continueRamps() {
@@ -177,11 +232,11 @@ std::vector<std::string> LiveParameters::continueRamps() {
     return given_up;
   }
   ramped_at_ = now;
-  for (std::size_t i = 0; i < systems_.size(); ++i) {
+  for (Which i = 0; i < systems_.size() + controllers_.size(); ++i) {
     const auto over = [&](const Ramp& ramp) {
-      return ramp.system == i && now >= ramp.start + ramp.duration;
+      return ramp.which == i && now >= ramp.start + ramp.duration;
     };
-    const auto of_this = [&](const Ramp& ramp) { return ramp.system == i; };
+    const auto of_this = [&](const Ramp& ramp) { return ramp.which == i; };
     try {
       continueRamps(i, now);
       ramps_.erase(std::remove_if(ramps_.begin(), ramps_.end(), over), ramps_.end());

@@ -1,5 +1,6 @@
-// Changes of parameters while the twin runs: checked in the words of a scene file, built beside the
-// loop, swapped in between two steps with coordinates and rates as they are. A change may go in a
+// Changes of parameters while the twin runs, of its systems and of its controllers: checked in the
+// words of a scene file, built beside the loop, swapped in between two steps with coordinates and
+// rates as they are; a controller takes over from the one before. A change may go in a
 // ramp: linear in simulated time, in updates kRampUpdate apart. Belongs to the thread that sends
 // the commands.
 #pragma once
@@ -12,15 +13,16 @@
 #include <utility>
 #include <vector>
 
+#include "scene/changed_controller.h"
 #include "twin/live_twin.h"
 
 namespace whirl_twin {
 
-/// Which numbers of a system to change, all at the same instant.
+/// Which numbers of a system or a controller to change, all at the same instant.
 struct ParameterRequest {
-  std::string system;
+  std::string system;              ///< or controller: no two have the same name
   std::vector<std::string> names;  ///< paths: `damping`, `discs[1].mass`
-  std::vector<double> values;      ///< in the units of the model
+  std::vector<double> values;      ///< in the units of the model or the controller
   double ramp = 0.0;               ///< [s], simulated; 0: at once
 };
 
@@ -73,8 +75,10 @@ class LiveParameters {
   void restored();
 
  private:
+  /// Systems of the scene first, then its controllers.
+  using Which = std::size_t;
   struct Ramp {
-    std::size_t system;
+    Which which;
     std::string name;
     double from;
     double to;
@@ -87,13 +91,22 @@ class LiveParameters {
   std::string objectionTo(const ParameterRequest& request) const;
   /// Puts the system as changed in its place. Throws where its steps cannot be prepared.
   bool change(std::size_t system, SharedSystem next, const std::vector<std::string>& names);
+  bool change(std::size_t controller, ChangedController next,
+              const std::vector<std::string>& names);
   bool takeOver(std::size_t system, std::unique_ptr<Stepper> next, SystemGeneration generation);
-  void continueRamps(std::size_t system, double now);
+  std::vector<std::string> names() const;
+  bool isSystem(Which which) const { return which < systems_.size(); }
+  ControllerSpec& controller(Which which) { return controllers_[which - systems_.size()]; }
+  ChangedController changedController(Which which, const std::vector<std::string>& names,
+                                      const std::vector<double>& values);
+  ParameterAnswer begin(Which which, const ParameterRequest& request);
+  void continueRamps(Which which, double now);
   bool prepare(std::size_t system, bool range_covered);
 
   LiveTwin& twin_;
   std::function<bool()> wait_;
-  std::vector<SharedSystem> systems_;  // as they are now
+  std::vector<SharedSystem> systems_;        // as they are now
+  std::vector<ControllerSpec> controllers_;  // likewise
   std::vector<SpeedRange> scene_speed_ranges_;
   std::vector<SpeedRange> speed_ranges_;        // of the drives since the start
   std::vector<std::optional<double>> targets_;  // [rad/s], of their last moves beyond the scene

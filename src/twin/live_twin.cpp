@@ -16,6 +16,7 @@ LiveTwin::~LiveTwin() {
   TwinCommand command;
   while (commands_.pop(command)) {  // of a loop that ended first
     delete command.replacement;
+    delete command.law;
   }
 }
 
@@ -129,6 +130,8 @@ void LiveTwin::carryOut(const TwinCommand& command) noexcept {
       return look(command.drive);
     case TwinCommand::Kind::kReplace:
       return replaceNow(command);
+    case TwinCommand::Kind::kReplaceLaw:
+      return replaceLawNow(command);
     case TwinCommand::Kind::kSetInput:
       return finish(twin_.setInput(command.system, command.input, command.value, command.duration),
                     0.0);
@@ -153,8 +156,18 @@ void LiveTwin::look(std::size_t drive) noexcept {
 void LiveTwin::replaceNow(const TwinCommand& command) noexcept {
   retired_ = twin_.replace(command.system, std::unique_ptr<Stepper>(command.replacement),
                            command.generation);
+  tellChange();
+}
+
+void LiveTwin::replaceLawNow(const TwinCommand& command) noexcept {
+  retired_law_ = twin_.replaceLaw(command.controller, std::unique_ptr<Controller>(command.law),
+                                  command.generation);
+  tellChange();
+}
+
+/// So that it is seen at its step, and in a pause too.
+void LiveTwin::tellChange() noexcept {
   if (!at_start_) {
-    // So that the change is seen at its step, and in a pause too.
     publish(RecordLayout::scheduled(record_.data()));
   }
   finish(true, 0.0);
@@ -192,6 +205,24 @@ bool LiveTwin::replace(std::size_t system, std::unique_ptr<Stepper>& next,
   command.kind = TwinCommand::Kind::kReplace;
   command.system = system;
   command.replacement = next.get();
+  command.generation = generation;
+  if (!send(command)) {
+    return false;
+  }
+  static_cast<void>(next.release());  // the loop's now
+  return true;
+}
+
+bool LiveTwin::replaceLaw(std::size_t controller, std::unique_ptr<Controller>& next,
+                          std::int64_t generation) {
+  if (carriedOut() < sent()) {
+    return false;
+  }
+  retired_law_.reset();
+  TwinCommand command;
+  command.kind = TwinCommand::Kind::kReplaceLaw;
+  command.controller = controller;
+  command.law = next.get();
   command.generation = generation;
   if (!send(command)) {
     return false;

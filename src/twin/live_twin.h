@@ -22,7 +22,16 @@ namespace whirl_twin {
 
 /// A command from outside the loop.
 struct TwinCommand {
-  enum class Kind : std::uint8_t { kResume, kReset, kStep, kSetSpeed, kSetInput, kLook, kReplace };
+  enum class Kind : std::uint8_t {
+    kResume,
+    kReset,
+    kStep,
+    kSetSpeed,
+    kSetInput,
+    kLook,
+    kReplace,
+    kReplaceLaw
+  };
   Kind kind = Kind::kResume;
   std::uint64_t steps = 0;        ///< kStep: how many
   std::size_t drive = 0;          ///< kSetSpeed, kLook: of twin().drive()
@@ -35,6 +44,8 @@ struct TwinCommand {
   std::int64_t duration = 0;      ///< [ns], simulated, until its own value returns
   Stepper* replacement = nullptr;
   std::int64_t generation = 0;
+  std::size_t controller = 0;  ///< kReplaceLaw, which replaceLaw() makes
+  Controller* law = nullptr;
 };
 
 /// What became of a command.
@@ -71,6 +82,9 @@ class LiveTwin {
   /// carry the generation from then on, and one of the step reached is made at once. False, with
   /// `next` left alone, while another command is under way.
   bool replace(std::size_t system, std::unique_ptr<Stepper>& next, std::int64_t generation);
+  /// The same for the law of a controller, which takes over from the one before.
+  bool replaceLaw(std::size_t controller, std::unique_ptr<Controller>& next,
+                  std::int64_t generation);
   /// Commands sent and carried out. A kStep counts when its last step is done.
   std::uint64_t sent() const { return sent_; }
   std::uint64_t carriedOut() const { return carried_out_.load(std::memory_order_acquire); }
@@ -114,6 +128,8 @@ class LiveTwin {
   void carryOut(const TwinCommand& command) noexcept;
   void look(std::size_t drive) noexcept;
   void replaceNow(const TwinCommand& command) noexcept;
+  void replaceLawNow(const TwinCommand& command) noexcept;
+  void tellChange() noexcept;
   void finish(bool done, double duration) noexcept;
   void publish(std::int64_t scheduled) noexcept;
 
@@ -129,8 +145,9 @@ class LiveTwin {
   std::atomic<std::int64_t> step_{0};
   std::atomic<std::uint64_t> resets_{0};
   TwinAnswer answer_;
-  std::unique_ptr<Stepper> retired_;  ///< by the last kReplace; deleted outside of the loop
-  std::uint64_t steps_to_do_ = 0;     ///< of a kStep under way
+  std::unique_ptr<Stepper> retired_;         ///< by the last kReplace; deleted outside of the loop
+  std::unique_ptr<Controller> retired_law_;  ///< likewise, kReplaceLaw
+  std::uint64_t steps_to_do_ = 0;            ///< of a kStep under way
   Pace pace_;
   std::int64_t asked_ = 0;  ///< [ns], the twin last whether it may step
   bool at_start_ = true;    ///< the state at step 0 has not been published

@@ -29,6 +29,7 @@ Observer::Observer(const Twin& twin, std::shared_ptr<SystemGenerations> generati
                                : std::make_shared<SystemGenerations>(twin)),
       record_(twin.layout().size),
       tracks_(twin.systems().size()),
+      controller_tracks_(twin.scene().controllers.size()),
       stations_(twin.systems().size()),
       motors_(twin.scene().drives.size()),
       looked_errors_(twin.systems().size(), std::numeric_limits<double>::quiet_NaN()),
@@ -65,6 +66,7 @@ void Observer::observe(const double* record) {
     }
     follow(i, anew);
   }
+  changed = takeControllers() || changed;
   followMotors(record_.data());
   tells_only_change_ = changed && step() == before;
 }
@@ -90,6 +92,21 @@ bool Observer::takeGeneration(std::size_t system) {
                                                              l.stiffness(1, 1) / l.mass(1, 1)));
   }
   return true;
+}
+
+bool Observer::takeControllers() {
+  bool changed = false;
+  for (std::size_t i = 0; i < controller_tracks_.size(); ++i) {
+    ControllerTrack& track = controller_tracks_[i];
+    const std::int64_t generation = twin_.layout().controller(record_.data(), i).generation();
+    if (generation != track.generation) {
+      const std::size_t which = tracks_.size() + i;
+      track = {generation, generations_->at(which, generation)->parameters};
+      generations_->forgetBefore(which, generation);
+      changed = true;
+    }
+  }
+  return changed;
 }
 
 /// The published stations, where the dynamics of now have them; their phases go on.

@@ -92,6 +92,13 @@ class Observer {
   }
   /// Of the newest record; another number, perhaps other parameters.
   std::int64_t generation(std::size_t system) const { return tracks_[system].generation; }
+  /// Likewise, of a controller.
+  const state::ParameterChange& controllerParameters(std::size_t controller) const {
+    return controller_tracks_[controller].parameters;
+  }
+  std::int64_t controllerGeneration(std::size_t controller) const {
+    return controller_tracks_[controller].generation;
+  }
   /// The newest record has the step of the one before: it tells of a change of parameters, at the
   /// state that is known.
   bool tellsOnlyChange() const { return tells_only_change_; }
@@ -113,10 +120,16 @@ class Observer {
     std::int64_t motor_generation = -1;  // that the motor's work is counted from
   };
 
+  struct ControllerTrack {
+    std::int64_t generation = -1;
+    state::ParameterChange parameters;
+  };
+
   SystemView view(std::size_t system) const;
   ShaftView shaft(std::size_t drive) const;
   ShaftView shaftOf(std::size_t system) const;
   bool takeGeneration(std::size_t system);
+  bool takeControllers();
   void takeStations(std::size_t system);
   /// anew: its sums have begun again since the last record.
   void follow(std::size_t system, bool anew);
@@ -128,6 +141,7 @@ class Observer {
   std::shared_ptr<SystemGenerations> generations_;
   std::vector<double> record_;
   std::vector<Track> tracks_;
+  std::vector<ControllerTrack> controller_tracks_;
   std::vector<std::vector<std::string>> stations_;  // names, as at the start
   std::vector<MotorTrack> motors_;                  // of each drive
   std::vector<std::size_t> rotors_;                 // systems

@@ -64,6 +64,11 @@ bool Observer::look(const double* record) {
       return false;
     }
   }
+  for (std::size_t i = 0; i < controller_tracks_.size(); ++i) {
+    if (twin_.layout().controller(record, i).generation() != controllerGeneration(i)) {
+      return false;
+    }
+  }
   const double h = twin_.scene().stepSeconds();
   for (const std::size_t i : rotors_) {
     if (status(i) != StepStatus::kOk) {

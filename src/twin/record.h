@@ -119,6 +119,8 @@ class ControllerPlace {
   /// Of one in another process: ExternalController::age(), lost().
   std::int64_t age() const noexcept { return unpacked(place_[kAge]); }
   bool lost() const noexcept { return unpacked(place_[kLost]) != 0; }
+  /// 0: as the scene says (system_generations.h).
+  std::int64_t generation() const noexcept { return unpacked(place_[kGeneration]); }
   Number* values() const noexcept { return place_ + kValues; }      ///< of the signals
   Number* outputs() const noexcept { return values() + signals_; }  ///< of the inputs
 
@@ -131,9 +133,12 @@ class ControllerPlace {
     place_[kAge] = packed(age);
     place_[kLost] = packed(lost ? 1 : 0);
   }
+  void setGeneration(std::int64_t generation) const noexcept {
+    place_[kGeneration] = packed(generation);
+  }
 
  private:
-  enum { kSamples, kSaturated, kMissed, kAge, kLost, kValues };
+  enum { kSamples, kSaturated, kMissed, kAge, kLost, kGeneration, kValues };
   Number* place_;
   std::size_t signals_;
 };

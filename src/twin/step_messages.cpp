@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "scene/changed_controller.h"
 #include "scene/control_parts.h"
 
 namespace whirl_twin {
@@ -28,15 +29,18 @@ StepMessages::StepMessages(const BuiltScene& scene, std::vector<std::size_t> sys
     : built_(scene.systems),
       scene_drives_(scene.scene.drives),
       turned_by_(scene_drives_.size(), Twin::kNoSystem),
-      systems_(std::move(systems)),
-      told_(systems_.size()) {
+      systems_(std::move(systems)) {
   for (const ControllerSpec& controller : scene.scene.controllers) {
     if (std::any_of(systems_.begin(), systems_.end(),
                     [&](std::size_t system) { return involves(controller, system); })) {
       controllers_.push_back(controller_names_.size());
+      if (hasParameters(controller)) {
+        tunable_.push_back(controller_names_.size());
+      }
     }
     controller_names_.push_back(controller.name);
   }
+  told_.resize(systems_.size() + tunable_.size());
   for (std::size_t i = 0; i < built_.size(); ++i) {
     if (built_[i]->drive < turned_by_.size()) {
       turned_by_[built_[i]->drive] = i;

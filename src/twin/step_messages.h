@@ -42,6 +42,9 @@ class StepMessages {
         announce(KindOf<state::EnsembleState>{}, nameOf(system));
       }
     }
+    for (const std::size_t controller : tunable_) {
+      announce(KindOf<state::ParameterChange>{}, controller_names_[controller]);
+    }
   }
 
   /// Tells `sink` of the step that the observer stands at. A system that has stopped is silent.
@@ -52,7 +55,12 @@ class StepMessages {
   template <class Sink>
   void tell(const Observer& observer, bool all, Sink&& sink) {
     for (std::size_t i = 0; i < systems_.size(); ++i) {
-      tellParameters(observer, systems_[i], told_[i], sink);
+      tellParameters(observer.instant(), observer.generation(systems_[i]),
+                     observer.parameters(systems_[i]), told_[i], sink);
+    }
+    for (std::size_t i = 0; i < tunable_.size(); ++i) {
+      tellParameters(observer.instant(), observer.controllerGeneration(tunable_[i]),
+                     observer.controllerParameters(tunable_[i]), told_[systems_.size() + i], sink);
     }
     if (!all) {
       return;
@@ -121,21 +129,20 @@ class StepMessages {
   }
 
   template <class Sink>
-  void tellParameters(const Observer& observer, std::size_t system, Told& told, Sink& sink) const {
-    const double time = observer.moment(system).time;
-    if (observer.generation(system) != told.generation) {
-      told.generation = observer.generation(system);
-      const state::ParameterChange& now = observer.parameters(system);
+  static void tellParameters(const state::Instant& at, std::int64_t generation,
+                             const state::ParameterChange& now, Told& told, Sink& sink) {
+    if (generation != told.generation) {
+      told.generation = generation;
       // A system made ready for other speeds is a new generation with the same parameters.
       if (told.parameters.system.empty() || now.values != told.parameters.values) {
         told.parameters = now;
-        told.parameters.at = observer.instant();
-        told.time = time;
+        told.parameters.at = at;
+        told.time = at.time;
         sink.change(told.parameters);
       }
     }
-    if (std::fabs(time - told.time) >= kAgain) {
-      told.time = time;
+    if (std::fabs(at.time - told.time) >= kAgain) {
+      told.time = at.time;
       sink.again(told.parameters);
     }
   }
@@ -147,7 +154,8 @@ class StepMessages {
   std::set<std::size_t> drives_;
   std::vector<std::string> controller_names_;  // of all of the scene
   std::vector<std::size_t> controllers_;       // those that measure or act on systems_
-  std::vector<Told> told_;                     // of systems_
+  std::vector<std::size_t> tunable_;           // of these, those with parameters
+  std::vector<Told> told_;                     // of systems_, then of tunable_
 };
 
 }  // namespace whirl_twin

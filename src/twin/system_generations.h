@@ -1,6 +1,7 @@
-// What each system of a running twin has been: its dynamics and parameters, generation by
-// generation. A change of parameters makes a new generation before the loop takes it over; the
-// records say which one they are of. Safe to use from several threads, none of them the loop's.
+// What each system and each controller of a running twin has been: its dynamics, if it is a system,
+// and its parameters, generation by generation. A change of parameters makes a new generation
+// before the loop takes it over; the records say which one they are of. Safe to use from several
+// threads, none of them the loop's.
 #pragma once
 
 #include <cstdint>
@@ -15,27 +16,28 @@
 
 namespace whirl_twin {
 
-/// A system from one change of its parameters to the next.
+/// A system or a controller from one change of its parameters to the next.
 struct SystemGeneration {
-  std::shared_ptr<const Dynamics> dynamics;
-  state::ParameterChange parameters;  ///< without its instant
+  std::shared_ptr<const Dynamics> dynamics;  ///< null: a controller's
+  state::ParameterChange parameters;         ///< without its instant
 };
 
+/// `which` counts the systems of the scene first, then its controllers.
 class SystemGenerations {
  public:
-  /// Generation 0 of every system: as the scene says.
+  /// Generation 0 of each: as the scene says.
   explicit SystemGenerations(const Twin& twin);
 
-  /// Takes a further generation of a system, and returns its number.
-  std::int64_t add(std::size_t system, SystemGeneration generation);
+  /// Takes a further generation, and returns its number.
+  std::int64_t add(std::size_t which, SystemGeneration generation);
   /// A generation that was added and not forgotten.
-  std::shared_ptr<const SystemGeneration> at(std::size_t system, std::int64_t generation) const;
+  std::shared_ptr<const SystemGeneration> at(std::size_t which, std::int64_t generation) const;
   /// Forgets generations before this one, but not 0, to which a reset returns.
-  void forgetBefore(std::size_t system, std::int64_t generation);
+  void forgetBefore(std::size_t which, std::int64_t generation);
 
  private:
   mutable std::mutex mutex_;
-  std::vector<std::map<std::int64_t, std::shared_ptr<const SystemGeneration>>> systems_;
+  std::vector<std::map<std::int64_t, std::shared_ptr<const SystemGeneration>>> known_;
   std::int64_t newest_ = 0;
 };
 

@@ -226,6 +226,7 @@ void Twin::write(double* record) const noexcept {
     const ControllerPlace<double> place = layout_.controller(record, i);
     const ControlCount& count = controller.count();
     place.setCount(count.samples, count.saturated, count.missed);
+    place.setGeneration(controller.generation());
     const ExternalController* const external = controller.external();
     place.setAnswers(external != nullptr ? external->age() : ExternalController::kNoAge,
                      external != nullptr && external->lost());

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "control/drive.h"
@@ -62,6 +63,11 @@ class Twin {
   /// now on by a generation > 0. Returns the one it has no more use for.
   std::unique_ptr<Stepper> replace(std::size_t system, std::unique_ptr<Stepper> next,
                                    std::int64_t generation) noexcept;
+  /// Lets a controller go on with another law of its kind (RunningController::replace()).
+  std::unique_ptr<Controller> replaceLaw(std::size_t controller, std::unique_ptr<Controller> next,
+                                         std::int64_t generation) noexcept {
+    return control_.replace(controller, std::move(next), generation);
+  }
   std::int64_t stepCount() const noexcept { return steps_; }
   /// [s], simulated: start + steps x step, from a whole number of nanoseconds.
   double time() const noexcept { return seconds(steps_); }

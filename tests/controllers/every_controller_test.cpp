@@ -1,5 +1,6 @@
 // What holds for every controller: it says what a scene needs to name it, its linear law is what it
-// does to small changes, a reset forgets, and a sample allocates nothing.
+// does to small changes, a reset forgets, another takes over from it, and a sample allocates
+// nothing.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -118,6 +119,31 @@ TEST_P(EveryController, ForgetsByAReset) {
         ASSERT_EQ(u, first[k]) << "sample " << k;
       }
       controller->reset();
+    }
+  }
+}
+
+TEST_P(EveryController, OneThatTakesOverGoesOnAsItWould) {
+  for (const ExampleController& example : examples()) {
+    const auto controller = build(example);
+    const auto next = build(example);
+    RandomSamples samples(example.plan);
+    std::vector<double> u(example.plan.outputs);
+    std::vector<double> taken_over(example.plan.outputs);
+    for (int k = 0; k < 60; ++k) {
+      const ControlSample sample = samples.next();
+      if (k == 30) {
+        const AllocationGuard guard;
+        next->takeOver(*controller);
+        EXPECT_EQ(guard.allocations(), 0u);
+      }
+      controller->update(sample, u.data());
+      if (k >= 30) {
+        next->update(sample, taken_over.data());
+        for (std::size_t i = 0; i < u.size(); ++i) {
+          ASSERT_NEAR(taken_over[i], u[i], 1e-10 * (1.0 + std::abs(u[i]))) << "sample " << k;
+        }
+      }
     }
   }
 }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 #include "made_controller.h"
 
@@ -179,6 +181,56 @@ TEST(Pid, RefusesUnequalCounts) {
   plan.measured = 3;
   EXPECT_NE(refusal("pid", {{"kp", 1.0}}, {}, plan).second.find("3 measured, 2 acted on"),
             std::string::npos);
+}
+
+/// What a law would give of sample 400, and what it gives after other numbers are put in.
+std::pair<double, double> acrossChange(const ParameterValues& before, const ParameterValues& after,
+                                       const std::function<double(int)>& measured) {
+  const ControllerPlan plan = planOf(100.0, 1);
+  const auto kept = made("pid", before, {}, plan);
+  const auto left = made("pid", before, {}, plan);
+  const auto changed = made("pid", after, {}, plan);
+  double u = 0.0;
+  for (int k = 0; k < 400; ++k) {
+    const double y = measured(k);
+    kept->update(sampleOf(&y, k), &u);
+    left->update(sampleOf(&y, k), &u);
+  }
+  changed->takeOver(*left);
+  const double y = measured(400);
+  double expected = 0.0;
+  kept->update(sampleOf(&y, 400), &expected);
+  changed->update(sampleOf(&y, 400), &u);
+  return {expected, u};
+}
+
+// In the middle of a motion, shown the same once more; of the derivative, on a ramp.
+TEST(Pid, HasNoBumpWhereItsGainsAreChanged) {
+  const ParameterValues before{
+      {"kp", 2.0}, {"ki", 5.0}, {"kd", 0.1}, {"derivative_time", 0.05}, {"setpoint", 0.3}};
+  const auto with = [&](const ParameterValues& other) {
+    ParameterValues after = before;
+    for (const auto& [name, value] : other) {
+      after[name] = value;
+    }
+    return after;
+  };
+  const auto waving = [](int k) { return std::sin(0.1 * std::min(k, 399)); };
+  const auto ramp = [](int k) { return 0.02 * k; };
+  for (const ParameterValues& other :
+       {ParameterValues{{"kp", 9.0}}, {{"ki", 50.0}}, {{"kp", -1.0}, {"ki", 0.5}}}) {
+    const auto [expected, found] = acrossChange(before, with(other), waving);
+    EXPECT_NEAR(found, expected, 1e-12);
+  }
+  const auto [expected, found] = acrossChange(before, with({{"kd", 3.0}}), ramp);
+  EXPECT_NEAR(found, expected, 1e-12);
+}
+
+// Without an integral nothing would wear a compensation off: the output is that of the new gain.
+TEST(Pid, WithoutAnIntegralANewGainActsAtOnce) {
+  const auto [expected, found] = acrossChange(
+      {{"kp", 2.0}}, {{"kp", 6.0}}, [](int k) { return std::sin(0.1 * std::min(k, 399)); });
+  EXPECT_NEAR(found, 3.0 * expected, 1e-13);
 }
 
 }  // namespace

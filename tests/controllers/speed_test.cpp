@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "../scene/scenes.h"
 #include "made_controller.h"
@@ -65,6 +66,30 @@ TEST(Speed, AsksForNoMoreThanTheMotorHasAndUnwinds) {
   EXPECT_GT(at_limit, 1000);
   EXPECT_LT(highest, 110.0) << "the integral has not run away";
   EXPECT_NEAR(shaft.speed, 100.0, 1e-3);
+}
+
+// In the middle of a run-up: no torque but that of the largest jerk from sample to sample.
+TEST(Speed, GoesOnToAnotherSpeedFromWhereItsSetPointIs) {
+  ParameterValues values = kShaft;
+  values["kp"] = values["ki"] = values["drag"] = 0.0;
+  const ControllerPlan plan = planOf(1000.0, 1);
+  auto controller = made("speed", values, motor(1.0), plan);
+  Shaft shaft{0.02, 1e-9};
+  double u = 0.0;
+  double before = 0.0;
+  for (int k = 0; k < 12000; ++k) {
+    if (k == 2000) {
+      values["speed"] = -30.0;
+      auto next = made("speed", values, motor(1.0), plan);
+      next->takeOver(*controller);
+      controller = std::move(next);
+    }
+    controller->update(sampleOf(&shaft.speed, k), &u);
+    ASSERT_LE(std::abs(u - before), 0.02 * 50.0 * 1e-3 * (1.0 + 1e-6)) << "sample " << k;
+    before = u;
+    shaft.go(u, 1e-3);
+  }
+  EXPECT_NEAR(shaft.speed, -30.0, 1e-3);
 }
 
 TEST(Speed, SaysWhatCannotBe) {

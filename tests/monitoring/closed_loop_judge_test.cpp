@@ -2,11 +2,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
 #include "monitoring/system_judge.h"
 #include "scene/built_scene.h"
+#include "scene/changed_controller.h"
 #include "watched_twin.h"
 
 namespace whirl_twin {
@@ -46,6 +48,29 @@ TEST(ClosedLoopJudge, TooLateItIsUnstable) {
   EXPECT_EQ(margin.verdict_name, "unstable");
   EXPECT_GT(margin.right, 0u);
   EXPECT_LT(margin.decay_rate, 0.0);
+}
+
+// kp = 0.9 is less than the magnet's negative stiffness.
+TEST(ClosedLoopJudge, TheVerdictFollowsParametersOfAController) {
+  const BuiltScene scene = levitated(0.1);
+  WatchedTwin watched(scene.scene);
+  watched.run(0.2);
+  ASSERT_FALSE(watched.margins.empty());
+  EXPECT_EQ(watched.margins.back().verdict_name, "asymptotically_stable");
+  state::ParameterChange change = parametersOf(scene.scene.controllers[0]);
+  EXPECT_TRUE(watched.monitor.take(change)) << "as they are";
+  EXPECT_TRUE(watched.monitor.takeMargins().empty()) << "it is judged already";
+  *std::find(change.values.begin(), change.values.end(), 2.0) = 0.9;
+  ASSERT_TRUE(watched.monitor.take(change));
+  const auto margins = watched.monitor.takeMargins();
+  ASSERT_EQ(margins.size(), 1u) << "at once";
+  EXPECT_EQ(margins[0].verdict_name, "unstable");
+  EXPECT_EQ(margins[0].right, 1u);
+  change.names.pop_back();
+  change.values.pop_back();
+  EXPECT_FALSE(watched.monitor.take(change)) << "not a set of this controller";
+  change.system = "pp";
+  EXPECT_FALSE(watched.monitor.take(change));
 }
 
 }  // namespace

@@ -41,9 +41,10 @@ class LiveChange : public testing::Test {
     subscribers_ = {node_.subscribe<WhirlState>("rotor/whirl", 100000, on_whirl),
                     node_.subscribe<ParameterChange>("rotor/parameters", 100, on_change),
                     node_.subscribe<ParameterChange>("swing/parameters", 100, on_change),
+                    node_.subscribe<ParameterChange>("pd/parameters", 100, on_change),
                     node_.subscribe<AlertArray>("alerts", 100, on_alerts),
                     node_.subscribe<StabilityMargin>("rotor/stability", 100, on_margin)};
-    ASSERT_TRUE(waitUntil([this] { return !whirls_.empty() && changes_.size() == 2; }));
+    ASSERT_TRUE(waitUntil([this] { return !whirls_.empty() && changes_.size() == 3; }));
   }
 
   std_srvs::Trigger::Response trigger(const std::string& service) {
@@ -126,6 +127,18 @@ TEST_F(LiveChange, theMonitorFollowsInternalDampingIntoInstabilityAndOut) {
   }));
   ASSERT_TRUE(set("rotor", "internal_damping", 0.0).success);
   ASSERT_TRUE(waitUntil([&] { return !alerted("UNSTABLE"); }));
+}
+
+// Less than the magnet's negative stiffness, and more again.
+TEST_F(LiveChange, theMonitorFollowsTheGainOfAController) {
+  EXPECT_EQ(value("pd", "kp"), 2.0);
+  const SetParameter::Response weaker = set("pd", "kp", 0.9);
+  ASSERT_TRUE(weaker.success) << weaker.message;
+  EXPECT_EQ(weaker.previous, 2.0);
+  ASSERT_TRUE(waitUntil([&] { return value("pd", "kp") == 0.9 && alerted("UNSTABLE"); }));
+  ASSERT_TRUE(set("pd", "kp", 2.0, 0.5).success);
+  ASSERT_TRUE(waitUntil([&] { return value("pd", "kp") == 2.0 && !alerted("UNSTABLE"); }));
+  EXPECT_NE(set("pd", "kpp", 2.0).message.find("did you mean 'kp'"), std::string::npos);
 }
 
 TEST_F(LiveChange, aResetBringsBackTheScenesParameters) {

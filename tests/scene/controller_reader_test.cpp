@@ -62,6 +62,7 @@ TEST(ControllerReader, SaysAllThatIsWrongAtOnce) {
           "measures: [s.x], acts_on: [r.force_y], delay: 1.0, parameters: {kp: 1.0}}}",
           ", inputs: {force_x: 1.0}")),
       testing::ElementsAre(
+          testing::HasSubstr("controllers.2x: a controller is named by"),
           testing::HasSubstr("controllers.pd.type: must be the name of a kind of controller, found "
                              "'pidd'; did you mean 'pid'?"),
           testing::HasSubstr("controllers.pd.rate: must be from 0.001 to 1e+07 Hz, found 0.0"),
@@ -75,7 +76,6 @@ TEST(ControllerReader, SaysAllThatIsWrongAtOnce) {
           testing::HasSubstr("controllers.pd.acts_on[1]: must be an input of a system, found "
                              "'s.force_y'; did you mean 's.force_x'?"),
           testing::HasSubstr("controllers.pd.actuator.limits: unknown key of actuator"),
-          testing::HasSubstr("controllers.2x: a controller is named by"),
           testing::HasSubstr("controllers.2x.type: missing; must be one of"),
           testing::HasSubstr("controllers.2x.measures: must be a list of 1 to 64 signals"),
           testing::HasSubstr("controllers.2x.acts_on: must be a list of 1 to 64 inputs, found 0"),
@@ -83,6 +83,17 @@ TEST(ControllerReader, SaysAllThatIsWrongAtOnce) {
           testing::HasSubstr("controllers.w.acts_on[0]: 'r.force_x' is acted on by a controller "
                              "already"),
           testing::HasSubstr("controllers.late.delay: must be at most 10000 samples")));
+}
+
+TEST(ControllerReader, NoneIsNamedAsASystem) {
+  const std::string law =
+      ": {type: pid, rate: 20.0, measures: [s.x], acts_on: [s.force_x], parameters: {kp: 1.0}}";
+  EXPECT_THAT(complaintsOf(withControllers("{S" + law + "}")),
+              testing::ElementsAre(testing::HasSubstr(
+                  "controllers.S: a system or a station of one has this name: the parameters of "
+                  "both would be told under it")));
+  EXPECT_THAT(complaintsOf(withControllers("{drives" + law + "}")),
+              testing::ElementsAre(testing::HasSubstr("controllers.drives: a controller cannot")));
 }
 
 TEST(ControllerReader, MembersOfAnEnsembleHaveNone) {

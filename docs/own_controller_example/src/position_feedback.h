@@ -68,6 +68,9 @@ struct PositionFeedback {
     }
   }
 
+  /// The filter goes on with what it has seen.
+  void takeOver(const PositionFeedback& before) noexcept { axes = before.axes; }
+
   /// States, of each axis: e, then r.
   DiscreteStateSpace linear(double) const {
     const double push = period * frequency * frequency;
