@@ -63,7 +63,7 @@ void ExternalController::update(const ControlSample& sample, double* outputs) no
   if (connected_ && sample.time - heard_at_ >= rules_.timeout) {
     connected_ = false;
     lost_ = true;
-    if (rules_.zero) {
+    if (givesNothing()) {
       std::fill(newest_.begin(), newest_.end(), 0.0);
     }
   }
@@ -116,7 +116,10 @@ std::unique_ptr<Controller> makeExternal(const ParameterValues& values, const Se
   ExternalController::Rules rules;
   rules.lockstep = settings.choices.at("mode") == "lockstep";
   rules.timeout = std::llround(values.at("timeout") * 1e9);
-  rules.zero = settings.choices.at("on_timeout") == "zero";
+  const std::string& then = settings.choices.at("on_timeout");
+  rules.on_timeout = then == "zero"   ? ExternalController::OnTimeout::kZero
+                     : then == "stop" ? ExternalController::OnTimeout::kStop
+                                      : ExternalController::OnTimeout::kHold;
   return std::make_unique<ExternalController>(rules, plan.measured, plan.outputs);
 }
 
@@ -135,8 +138,9 @@ ControllerInfo externalInfo() {
                    "simulated time waits for each answer, or the newest command acts"};
   mode.choices = {"lockstep", "free_running"};
   SettingInfo on_timeout{"on_timeout", SettingKind::kChoice, "",
-                         "what it gives when no answer has come: what it gave last, or 0"};
-  on_timeout.choices = {"hold", "zero"};
+                         "when no answer has come: it gives what it gave last, or 0, or the "
+                         "systems that it acts on stop"};
+  on_timeout.choices = {"hold", "zero", "stop"};
   info.settings = {mode, on_timeout};
   info.make = makeExternal;
   return info;

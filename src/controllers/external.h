@@ -19,10 +19,13 @@ namespace whirl_twin {
 
 class ExternalController final : public Controller {
  public:
+  /// What becomes of it after the time-out: it gives what it gave last, or 0, or what it acts on
+  /// stops.
+  enum class OnTimeout { kHold, kZero, kStop };
   struct Rules {
     bool lockstep = false;
     std::int64_t timeout = 0;  ///< [ns]
-    bool zero = false;         ///< after the time-out it gives 0; else what it gave last
+    OnTimeout on_timeout = OnTimeout::kHold;
   };
   static constexpr std::int64_t kNoAge = -1;
 
@@ -41,6 +44,9 @@ class ExternalController final : public Controller {
   void update(const ControlSample& sample, double* outputs) noexcept override;
   /// No answer within the time-out, and none since.
   bool lost() const noexcept { return lost_; }
+  /// It is, and gives 0 then, or stops what it acts on.
+  bool givesNothing() const noexcept { return lost_ && rules_.on_timeout == OnTimeout::kZero; }
+  bool stops() const noexcept { return lost_ && rules_.on_timeout == OnTimeout::kStop; }
   /// [samples], of the newest command at the newest sample; kNoAge: none has come.
   std::int64_t age() const noexcept { return heard_ == kNone ? kNoAge : told_ - heard_; }
 

@@ -38,7 +38,7 @@ struct LoopStatistics {
   std::vector<std::string> integrator;
   std::vector<double> error_estimate;    ///< [-], NaN: not estimated
   std::vector<double> tolerance;         ///< [-], what integrator: auto promises; else NaN
-  std::vector<std::uint8_t> stopped;     ///< 0: running, 1 to 3: as in the message
+  std::vector<std::uint8_t> stopped;     ///< 0: running, 1 to 4: as in the message
   std::vector<std::string> stopped_why;  ///< empty while running
   // Which run of simulated time this is. A reset is announced by a higher epoch, a simulation that
   // was started again by a later start; 0: not told.
@@ -75,7 +75,7 @@ struct LoopStatistics {
     visit.along(system, TWIN_FIELD(integrator), "", each(requireText));
     visit.along(system, TWIN_FIELD(error_estimate), "-");
     visit.along(system, TWIN_FIELD(tolerance), "-");
-    visit.along(system, TWIN_FIELD(stopped), "", each(between(0, 3)));
+    visit.along(system, TWIN_FIELD(stopped), "", each(between(0, 4)));
     visit.along(system, TWIN_FIELD(stopped_why), "", each(requireText));
     visit(TWIN_FIELD(started), "ns", between(0, kMaxStamp));
     visit(TWIN_FIELD(epoch), "", count);

@@ -5,6 +5,7 @@
 
 #include "scene/changed_controller.h"
 #include "scene/controlled_plant.h"
+#include "twin/record.h"
 
 namespace whirl_twin {
 
@@ -51,8 +52,8 @@ RunningController::RunningController(const ControllerSpec& spec, const BuiltScen
     external_->keep(under_way_);
   }
   for (const ActedInput& acted : spec.acts_on) {
-    acted_.push_back(
-        {&inputs[acted.system], acted.input, Actuator(spec.actuator, 1.0 / spec.rate)});
+    acted_.push_back({acted.system, &inputs[acted.system], acted.input,
+                      Actuator(spec.actuator, 1.0 / spec.rate)});
   }
 }
 
@@ -154,7 +155,7 @@ void RunningController::sampleAt(std::int64_t time, double offset,
   const bool was_lost = external_ != nullptr && external_->lost();
   running_->update({shown_.data(), k, time, turned.angle, turned.speed}, outputs);
   ++count_.samples;
-  if (external_ != nullptr && external_->lost() && !was_lost && external_->rules().zero) {
+  if (external_ != nullptr && external_->givesNothing() && !was_lost) {
     giveNothing();
   }
   if (!lockstep_ && !isNumber(outputs)) {
@@ -216,10 +217,21 @@ bool RunningController::mayGoOn(std::int64_t until, std::int64_t elapsed) noexce
   if (!external_->waitsTooLong(elapsed)) {
     return false;
   }
-  if (external_->rules().zero) {
+  if (external_->givesNothing()) {
     giveNothing();
   }
   return true;
+}
+
+void RunningController::stop(std::vector<StepStatus>& status) const noexcept {
+  if (external_ == nullptr || !external_->stops()) {
+    return;
+  }
+  for (const Acted& acted : acted_) {
+    if (status[acted.system] == StepStatus::kOk) {
+      status[acted.system] = kControllerLost;
+    }
+  }
 }
 
 void RunningController::give(const double* outputs) noexcept {
@@ -244,6 +256,12 @@ ControlLoop::ControlLoop(const BuiltScene& built, std::vector<Inputs>& inputs) {
 void ControlLoop::start(std::int64_t time, const std::vector<Stepper*>& running) noexcept {
   for (RunningController& controller : controllers_) {
     controller.start(time, running);
+  }
+}
+
+void ControlLoop::stop(std::vector<StepStatus>& status) const noexcept {
+  for (const RunningController& controller : controllers_) {
+    controller.stop(status);
   }
 }
 

@@ -51,6 +51,8 @@ class RunningController {
   /// May simulated time go on to `until` [ns], or does it wait for an answer of another process,
   /// `elapsed` [ns] of wall time after this was asked last? Without one that is in lockstep it may.
   bool mayGoOn(std::int64_t until, std::int64_t elapsed) noexcept;
+  /// Stops the systems that it acts on, by their status, where it is lost and is to do that.
+  void stop(std::vector<StepStatus>& status) const noexcept;
   /// The state has gone on to an instant: what is between samples passes the sensors' filters.
   void follow(std::int64_t time, const std::vector<Stepper*>& running) noexcept;
 
@@ -81,6 +83,7 @@ class RunningController {
     double value = 0.0, rate = 0.0;  ///< at `followed_`
   };
   struct Acted {
+    std::size_t system;
     Inputs* inputs;
     std::size_t input;
     Actuator actuator;
@@ -138,6 +141,8 @@ class ControlLoop {
            const std::vector<Drive>& drives) noexcept;
   /// As RunningController::mayGoOn(), for all.
   bool mayGoOn(std::int64_t until, std::int64_t elapsed) noexcept;
+  /// As RunningController::stop(), for all.
+  void stop(std::vector<StepStatus>& status) const noexcept;
   /// The systems have gone on to an instant.
   void follow(std::int64_t time, const std::vector<Stepper*>& running) noexcept;
 

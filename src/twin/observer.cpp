@@ -60,7 +60,8 @@ void Observer::observe(const double* record) {
     changed = anew || changed;
     if (status(i) != StepStatus::kOk) {
       if (track.stop_reason.empty()) {
-        track.stop_reason = stopText(*twin_.systems()[i], view(i), step(), twin_.seconds(step()));
+        track.stop_reason =
+            stopText(*twin_.systems()[i], view(i), whyStopped(i), step(), twin_.seconds(step()));
       }
       continue;
     }
@@ -69,6 +70,21 @@ void Observer::observe(const double* record) {
   changed = takeControllers() || changed;
   followMotors(record_.data());
   tells_only_change_ = changed && step() == before;
+}
+
+std::string Observer::whyStopped(std::size_t system) const {
+  if (status(system) != kControllerLost) {
+    return describe(status(system));
+  }
+  // It may have answered again since.
+  std::string why;
+  for (std::size_t i = 0; i < controller_tracks_.size(); ++i) {
+    const std::string own = describeLost(twin_.scene().controllers[i], system);
+    if (!own.empty() && (why.empty() || twin_.layout().controller(record_.data(), i).lost())) {
+      why = own;
+    }
+  }
+  return why;
 }
 
 bool Observer::takeGeneration(std::size_t system) {

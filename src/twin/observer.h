@@ -128,6 +128,7 @@ class Observer {
   SystemView view(std::size_t system) const;
   ShaftView shaft(std::size_t drive) const;
   ShaftView shaftOf(std::size_t system) const;
+  std::string whyStopped(std::size_t system) const;
   bool takeGeneration(std::size_t system);
   bool takeControllers();
   void takeStations(std::size_t system);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace whirl_twin {
@@ -20,8 +21,19 @@ const char* describe(StepStatus status) {
   return "";
 }
 
-std::string stopText(const BuiltSystem& system, const SystemView& view, std::int64_t step,
-                     double time) {
+std::string describeLost(const ControllerSpec& controller, std::size_t system) {
+  const auto is_it = [&](const ActedInput& acted) { return acted.system == system; };
+  if (controller.type != "external" || controller.settings.choices.at("on_timeout") != "stop" ||
+      std::none_of(controller.acts_on.begin(), controller.acts_on.end(), is_it)) {
+    return "";
+  }
+  return fmt::format("controller {} has not answered for {:g} s of {} time (on_timeout: stop)",
+                     controller.name, controller.parameters.at("timeout"),
+                     controller.settings.choices.at("mode") == "lockstep" ? "wall" : "simulated");
+}
+
+std::string stopText(const BuiltSystem& system, const SystemView& view, const std::string& why,
+                     std::int64_t step, double time) {
   const std::vector<CoordinateInfo> coordinates = system.dynamics->coordinates();
   std::string values;
   for (std::size_t i = 0; i < view.dof(); ++i) {
@@ -30,7 +42,7 @@ std::string stopText(const BuiltSystem& system, const SystemView& view, std::int
                           view.q()[i], c.unit, c.name, view.v()[i], c.unit);
   }
   return fmt::format("{}: stopped in step {} (t = {:.9g} s), {}; last good state: {}",
-                     system.spec.name, step, time, describe(view.status()), values);
+                     system.spec.name, step, time, why, values);
 }
 
 }  // namespace whirl_twin

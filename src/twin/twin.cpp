@@ -123,6 +123,7 @@ void Twin::step() noexcept {
 
 /// From instant to instant of the controllers, what they measure and act on; the others whole.
 [[gnu::noinline]] void Twin::stepControlled(double time) noexcept {
+  control_.stop(status_);
   const std::int64_t start = now();
   const std::int64_t length = scene().step;
   for (std::int64_t from = 0; from < length;) {

@@ -10,6 +10,7 @@
 #include "allocation_guard.h"
 #include "controllers/external.h"
 #include "twin/live_twin.h"
+#include "twin/observer.h"
 
 namespace whirl_twin {
 namespace {
@@ -241,6 +242,44 @@ TEST(ExternalController, FreeRunningLostItMayGiveZero) {
   live.cycle(60);
   EXPECT_TRUE(live.external().lost());
   EXPECT_EQ(live.acting(), 0.0);
+}
+
+// What it holds stands still; what a built-in law holds, and what nobody does, goes on.
+TEST(ExternalController, LostItMayStopWhatItActsOnAndNothingElse) {
+  for (const char* const mode : {"lockstep", "free_running"}) {
+    Live live(sceneText(fmt::format("mode: {}, timeout: 0.05, on_timeout: stop", mode)));
+    Observer observer(live.twin().twin(), live.twin().generations());
+    Process process;
+    live.cycle(20);
+    for (int i = 0; i < 200; ++i) {
+      process.answer(live.link());
+      live.cycle();
+    }
+    EXPECT_EQ(live.twin().twin().status(1), StepStatus::kOk) << mode;
+    live.cycle(70);  // the time-out, a sample and what lockstep waits for
+    ASSERT_EQ(live.twin().twin().status(1), kControllerLost) << mode;
+    const std::vector<double> stopped = live.motion(1);
+    const std::int64_t step = live.step();
+    process.answer(live.link());
+    live.cycle();
+    std::vector<double> record(live.twin().twin().layout().size);
+    while (live.twin().pop(record.data())) {
+      observer.observe(record.data());
+    }
+    const std::string& why = observer.stopReason(1);
+    EXPECT_EQ(why.find("b: stopped in step "), 0u) << why;
+    EXPECT_NE(why.find("controller other has not answered for 0.05 s of "), std::string::npos)
+        << why;
+    const std::vector<double> own = live.motion(0);
+    live.cycle(30);
+    EXPECT_GT(live.step(), step) << mode;
+    EXPECT_EQ(live.motion(1), stopped) << "until a reset, though it answers again";
+    EXPECT_NE(live.motion(0), own);
+    EXPECT_EQ(live.twin().twin().status(0), StepStatus::kOk);
+    EXPECT_EQ(live.twin().twin().status(2), StepStatus::kOk);
+    live.reset();
+    EXPECT_EQ(live.twin().twin().status(1), StepStatus::kOk);
+  }
 }
 
 TEST(ExternalController, AllocatesNothingInTheLoop) {
