@@ -26,6 +26,7 @@ void ExternalController::keep(std::size_t samples) {
 void ExternalController::reset() noexcept {
   ++run_;
   told_ = heard_ = kNone;
+  ages_.reset();
   std::fill(newest_.begin(), newest_.end(), 0.0);
   std::fill(answered_.begin(), answered_.end(), kNone);
   awaited_from_ = connected_ ? kNone + 1 : kNone;
@@ -46,21 +47,27 @@ bool ExternalController::take(const ExternalSample& command) noexcept {
 void ExternalController::update(const ControlSample& sample, double* outputs) noexcept {
   told_ = sample.index;
   link_->tell(run_, sample.index, static_cast<double>(sample.time) / 1e9, sample.values);
-  if (rules_.lockstep) {
-    return;
+  if (!rules_.lockstep) {
+    giveNewest(sample.time, outputs);
   }
+  if (heard_ != kNone) {
+    ages_.add(age());
+  }
+}
+
+void ExternalController::giveNewest(std::int64_t time, double* outputs) noexcept {
   while (link_->hear(command_)) {
     const std::int64_t before = heard_;
     if (take(command_) && command_.sample >= before) {
       std::copy(command_.values.begin(), command_.values.end(), newest_.begin());
-      heard_at_ = sample.time;
+      heard_at_ = time;
     }
   }
   // Nothing is missed of what has never been there.
-  if (connected_ && heard_ == kNone && sample.time < heard_at_) {
-    heard_at_ = sample.time;  // after a reset
+  if (connected_ && heard_ == kNone && time < heard_at_) {
+    heard_at_ = time;  // after a reset
   }
-  if (connected_ && sample.time - heard_at_ >= rules_.timeout) {
+  if (connected_ && time - heard_at_ >= rules_.timeout) {
     connected_ = false;
     lost_ = true;
     if (givesNothing()) {

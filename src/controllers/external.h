@@ -14,6 +14,7 @@
 #include "controllers/controller.h"
 #include "controllers/controller_info.h"
 #include "controllers/external_link.h"
+#include "realtime/timing_histogram.h"
 
 namespace whirl_twin {
 
@@ -50,6 +51,9 @@ class ExternalController final : public Controller {
   /// [samples], of the newest command at the newest sample; kNoAge: none has come.
   std::int64_t age() const noexcept { return heard_ == kNone ? kNoAge : told_ - heard_; }
 
+  /// age() [samples] at each sample since the start, from the first command on. Any thread.
+  const TimingHistogram& ages() const noexcept { return ages_; }
+
   // Of lockstep.
 
   /// Takes the answers that have come.
@@ -75,6 +79,7 @@ class ExternalController final : public Controller {
     return static_cast<std::size_t>((sample % places + places) % places);
   }
   bool take(const ExternalSample& command) noexcept;
+  void giveNewest(std::int64_t time, double* outputs) noexcept;
 
   Rules rules_;
   std::unique_ptr<ExternalLink> link_;
@@ -89,6 +94,7 @@ class ExternalController final : public Controller {
   bool connected_ = false;             // something has come since it was lost, or the start
   bool lost_ = false;
   bool waiting_ = false;
+  TimingHistogram ages_;
   std::int64_t waited_ = 0;    // [ns]
   std::int64_t heard_at_ = 0;  // [ns], simulated
 };

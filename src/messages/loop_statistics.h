@@ -51,6 +51,12 @@ struct LoopStatistics {
   double achieved_factor = std::numeric_limits<double>::quiet_NaN();   ///< since the last message
   std::uint64_t ros_lost = 0;  ///< messages that subscribers on ROS were too slow for
   std::string sender;          ///< which process says so, as people find it; empty: not told
+  // One entry a controller in another process: the age of its newest command at each sample, since
+  // the start or the last reset [samples]; NaN: there was none.
+  std::vector<std::string> external;
+  std::vector<double> age_p50;
+  std::vector<double> age_p99;
+  std::vector<double> age_max;
 
   template <class Visit>
   static void fields(Visit& visit) {
@@ -84,6 +90,11 @@ struct LoopStatistics {
     visit.numbers("-", TWIN_FIELD(real_time_factor), TWIN_FIELD(achieved_factor));
     visit(TWIN_FIELD(ros_lost), "", count);
     visit(TWIN_FIELD(sender), "", requireText);
+    const auto external = TWIN_FIELD(external);
+    visit.array(TWIN_FIELD(externals), external, "", each(requireName), Stays::kSame);
+    visit.along(external, TWIN_FIELD(age_p50), "");
+    visit.along(external, TWIN_FIELD(age_p99), "");
+    visit.along(external, TWIN_FIELD(age_max), "");
   }
 };
 

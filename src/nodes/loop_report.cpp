@@ -1,5 +1,7 @@
 #include "nodes/loop_report.h"
 
+#include <fmt/format.h>
+
 #include <limits>
 
 namespace whirl_twin {
@@ -45,6 +47,21 @@ state::LoopStatistics loopStatistics(const Twin& twin, const Observer& observer,
     m.stopped.push_back(static_cast<std::uint8_t>(observer.status(i)));
     m.stopped_why.push_back(observer.stopReason(i));
   }
+  for (const RunningController& controller : twin.control().controllers()) {
+    if (const ExternalController* const external = controller.external()) {
+      const auto place =
+          static_cast<std::size_t>(&controller - twin.control().controllers().data());
+      const TimingHistogram ages = external->ages();
+      const auto told = [&](std::int64_t age) {
+        return ages.count() > 0 ? static_cast<double>(age)
+                                : std::numeric_limits<double>::quiet_NaN();
+      };
+      m.external.push_back(twin.scene().controllers[place].name);
+      m.age_p50.push_back(told(ages.percentile(50.0)));
+      m.age_p99.push_back(told(ages.percentile(99.0)));
+      m.age_max.push_back(told(ages.max()));
+    }
+  }
   return m;
 }
 
@@ -89,6 +106,10 @@ void LoopDiagnostics::summarize(const state::LoopStatistics& loop, double time,
   status.add("wake-up latency p99 [s]", loop.wakeup_latency_p99);
   status.add("wake-up latency max [s]", loop.wakeup_latency_max);
   status.add("execution p99 [s]", loop.execution_p99);
+  for (std::size_t i = 0; i < loop.external.size(); ++i) {
+    status.add(loop.external[i] + ": age of commands p50, p99, max [samples]",
+               fmt::format("{}, {}, {}", loop.age_p50[i], loop.age_p99[i], loop.age_max[i]));
+  }
 }
 
 }  // namespace whirl_twin

@@ -16,11 +16,16 @@ struct EarlierForm {
   std::string_view later;     ///< the fields since: the end of the layout (payload_layout.h)
 };
 
-/// [bytes] that later fields take while nothing has set them: a string is its length and a zero.
+/// [bytes] that later fields take while nothing has set them: a string is its length and a zero, an
+/// array its length.
 constexpr std::size_t sizeUnset(std::string_view later) {
   std::size_t size = 0;
   for (const char field : later) {
-    size += field == 'b' ? 1 : field == 'i' ? 4 : field == 's' ? 5 : 8;
+    size += field == 'b'                                   ? 1
+            : field == 'i' || field == 'n'                 ? 4
+            : field == 's'                                 ? 5
+            : field == 'S' || field == 'D' || field == 'B' ? 0
+                                                           : 8;
   }
   return size;
 }
@@ -35,8 +40,11 @@ inline constexpr std::array<EarlierForm, 4> kEarlierForms<state::StabilityMargin
      {0x4058c40523023a98, "iidbsd"},
      {0x2dc55037686885d0, "sd"}}};
 template <>
-inline constexpr std::array<EarlierForm, 3> kEarlierForms<state::LoopStatistics>{
-    {{0xe676f1d3c287e44f, "llllddls"}, {0x9af8de11c53ac49c, "ddls"}, {0x2a3f5309642532d1, "ls"}}};
+inline constexpr std::array<EarlierForm, 4> kEarlierForms<state::LoopStatistics>{
+    {{0xe676f1d3c287e44f, "llllddlsnSDDD"},
+     {0x9af8de11c53ac49c, "ddlsnSDDD"},
+     {0x2a3f5309642532d1, "lsnSDDD"},
+     {0x221db61304d694dd, "nSDDD"}}};
 template <>
 inline constexpr std::array<EarlierForm, 1> kEarlierForms<state::Alert>{
     {{0x966688c34b63f52f, "bbbidd"}}};

@@ -12,7 +12,7 @@ import rospkg
 import rospy
 import rostest
 from std_srvs.srv import Trigger
-from whirl_twin.msg import AlertArray, ControllerState, PendulumState
+from whirl_twin.msg import AlertArray, ControllerState, LoopStatistics, PendulumState
 
 from node_trial import NodeTrial, load_scene, wait_until
 
@@ -26,6 +26,7 @@ class ExternalController(NodeTrial):
         self.states = collections.defaultdict(dict)
         self.controller = ControllerState()
         self.alerts = {}
+        self.loop = LoopStatistics()
 
     def take_state(self, state):
         if state.step < self.states[state.header.frame_id].get('newest', -1):
@@ -38,6 +39,10 @@ class ExternalController(NodeTrial):
 
     def take_alerts(self, message):
         self.alerts = {(alert.type, alert.system) for alert in message.alerts}
+        self.texts = [alert.text for alert in message.alerts]
+
+    def take_loop(self, loop):
+        self.loop = loop
 
     def begin(self, mode):
         with open(os.path.join(EXAMPLES, 'levitated.yaml')) as file:
@@ -48,6 +53,7 @@ class ExternalController(NodeTrial):
         load_scene(scene)
         self.listen('/twin/controllers/pd', ControllerState, self.take_controller)
         self.listen('/twin/alerts', AlertArray, self.take_alerts)
+        self.listen('/twin/loop', LoopStatistics, self.take_loop)
         for system in ('inside', 'outside', 'pendulum'):
             self.listen('/twin/%s/pendulum' % system, PendulumState, self.take_state)
         self.simulation = self.start('simulation_node')
@@ -99,7 +105,20 @@ class ExternalController(NodeTrial):
         self.begin('free_running')
         process = self.control(os.path.join(EXAMPLES, 'pd_by_ros.py'), 'pd', '50', '2', '1')
         self.assertTrue(wait_until(lambda: self.controller.age >= 1), 'its age is told')
+        self.assertTrue(wait_until(lambda: self.loop.external == ['pd'] and self.loop.age_max[0] >= 1.0), self.loop)
+        self.assertLessEqual(self.loop.age_p50[0], self.loop.age_p99[0])
+        self.assertLessEqual(self.loop.age_p99[0], self.loop.age_max[0])
         self.assert_killed_it_is_named(process)
+
+    def test_lost_it_stops_what_it_acts_on(self):
+        self.begin('free_running, on_timeout: stop')
+        process = self.control(os.path.join(EXAMPLES, 'pd_by_ros.py'), 'pd', '50', '2', '1')
+        self.assert_killed_it_is_named(process)
+        self.assertTrue(wait_until(lambda: ('STOPPED', 'outside') in self.alerts), self.alerts)
+        self.assertTrue(any('controller pd has not answered for 0.5 s' in text for text in self.texts), self.texts)
+        self.assertNotIn(('STOPPED', 'inside'), self.alerts)
+        reached = self.newest('inside')
+        self.assertTrue(wait_until(lambda: self.newest('inside') > reached + 100), 'nothing else stops')
 
 
 if __name__ == '__main__':

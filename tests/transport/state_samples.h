@@ -109,6 +109,9 @@ class StateSamples {
     s.tolerance = numbers(systems);
     s.stopped.assign(systems, static_cast<std::uint8_t>(below(4)));
     s.stopped_why.assign(systems, "why");
+    s.age_p50 = numbers(s.external.size());
+    s.age_p99 = numbers(s.external.size());
+    s.age_max = numbers(s.external.size());
     s.started = static_cast<std::int64_t>(below(kMaxStamp));
     return s;
   }

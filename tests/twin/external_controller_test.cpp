@@ -218,6 +218,12 @@ TEST(ExternalController, FreeRunningTheNewestActsAndItsAgeIsKnown) {
   EXPECT_EQ(live.step(), 299) << "it waits for nothing";
   EXPECT_GE(live.external().age(), 2);
   EXPECT_LE(live.external().age(), 3);
+  const TimingHistogram ages = live.external().ages();
+  EXPECT_GT(ages.count(), 80u);
+  EXPECT_LE(ages.count(), 90u) << "one a sample";
+  EXPECT_GE(ages.percentile(50.0), 2);
+  EXPECT_LE(ages.percentile(50.0), 3);
+  EXPECT_LE(ages.max(), 3);
   const double held = live.acting();
   ASSERT_NE(held, 0.0);
   // Killed: 0.05 s, and a sample.
@@ -226,9 +232,12 @@ TEST(ExternalController, FreeRunningTheNewestActsAndItsAgeIsKnown) {
   live.cycle(20);
   EXPECT_TRUE(live.external().lost());
   EXPECT_NE(live.acting(), 0.0) << "it holds";
+  EXPECT_GE(live.external().ages().max(), 15) << "of the time that it was lost";
   const std::int64_t step = live.step();
   live.cycle(10);
   EXPECT_EQ(live.step(), step + 10);
+  live.reset();
+  EXPECT_EQ(live.external().ages().count(), 0u);
 }
 
 TEST(ExternalController, FreeRunningLostItMayGiveZero) {
