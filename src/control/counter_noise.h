@@ -15,6 +15,8 @@ class CounterNoise {
   /// Number k of a standard normal distribution: at most 6.7 standard deviations out, by the
   /// resolution of 32 bits. Real-time safe.
   double normal(std::int64_t k) const noexcept;
+  /// Number k of an even distribution from -1 to 1, neither of them reached. Real-time safe.
+  double even(std::int64_t k) const noexcept;
 
  private:
   std::uint32_t seed_;

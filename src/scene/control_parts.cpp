@@ -1,6 +1,7 @@
 #include "scene/control_parts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <numeric>
@@ -13,13 +14,15 @@ namespace {
 
 constexpr std::int64_t kMostParts = 20000;  // looked at, in search of a pattern
 constexpr std::size_t kMostLengths = 16;    // each takes a map of its own to prepare
+/// Of the noise of a seed: channels below are those of sensors.
+constexpr std::uint32_t kJitterChannel = 0xFFFFFFFF;
 
 /// After which the instants come again [ns]; nothing: not before kMostParts parts, or never.
 std::optional<std::int64_t> hyperperiod(const Scene& scene) {
   std::int64_t all = scene.step;
   for (const ControllerSpec& controller : scene.controllers) {
     const std::int64_t period = SampleInstants(controller.rate).period();
-    if (period == 0) {
+    if (period == 0 || controller.jitter > 0) {
       return std::nullopt;
     }
     const std::int64_t times = period / std::gcd(all, period);
@@ -34,15 +37,27 @@ std::optional<std::int64_t> hyperperiod(const Scene& scene) {
 }  // namespace
 
 ControlInstants::ControlInstants(const ControllerSpec& controller, std::int64_t start)
-    : instants_(controller.rate), delay_(controller.delay) {
+    : instants_(controller.rate),
+      delay_(controller.delay),
+      jitter_(controller.jitter),
+      noise_(controller.jitter_seed, kJitterChannel) {
   this->start(start);
 }
 
 void ControlInstants::start(std::int64_t start) noexcept {
   sample_ = instants_.firstFrom(start);
-  output_ = instants_.firstFrom(start - delay_);
+  output_ = instants_.firstFrom(start - delay_ - jitter_);
+  while (dueAt(output_) < start) {
+    ++output_;
+  }
   sample_time_ = instants_.at(sample_);
-  output_time_ = instants_.at(output_) + delay_;
+  output_time_ = dueAt(output_);
+}
+
+std::int64_t ControlInstants::dueAt(std::int64_t output) const noexcept {
+  const std::int64_t due = instants_.at(output) + delay_;
+  return jitter_ == 0 ? due
+                      : due + std::llround(static_cast<double>(jitter_) * noise_.even(output));
 }
 
 std::vector<std::int64_t> partLengths(const Scene& scene) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "control/counter_noise.h"
 #include "control/sample_instants.h"
 #include "scene/scene.h"
 
@@ -12,7 +13,7 @@ namespace whirl_twin {
 
 /// When a controller samples and when its outputs begin to act, one instant after the other; also
 /// the outputs of samples that were never taken, before the start, are among them, so that the
-/// parts are the same throughout.
+/// parts are the same throughout. Where the delay has jitter, no output overtakes the one before.
 class ControlInstants {
  public:
   static constexpr std::int64_t kNever = INT64_MAX;
@@ -32,11 +33,18 @@ class ControlInstants {
     return sample_time_ < output_time_ ? sample_time_ : output_time_;
   }
   void passSample() noexcept { sample_time_ = instants_.at(++sample_); }
-  void passOutput() noexcept { output_time_ = instants_.at(++output_) + delay_; }
+  void passOutput() noexcept {
+    const std::int64_t due = dueAt(++output_);
+    output_time_ = due > output_time_ ? due : output_time_;
+  }
 
  private:
+  std::int64_t dueAt(std::int64_t output) const noexcept;
+
   SampleInstants instants_;
-  std::int64_t delay_;  ///< [ns]
+  std::int64_t delay_;   ///< [ns]
+  std::int64_t jitter_;  ///< [ns]
+  CounterNoise noise_;
   std::int64_t sample_ = 0, output_ = 0;
   std::int64_t sample_time_ = 0, output_time_ = 0;
 };

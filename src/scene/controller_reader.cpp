@@ -156,6 +156,35 @@ void readSurroundings(const MapReader& map, ControllerSpec& controller, Complain
   controller.actuator.resolution = actuator.number("resolution", Range::kNotNegative, acted, 0.0);
 }
 
+/// A number, or {mean, jitter, seed}.
+void readDelay(const MapReader& map, ControllerSpec& controller, Complaints& complaints) {
+  const bool parts = map.has("delay") && map.at("delay").IsMap();
+  double delay = 0.0;
+  double jitter = 0.0;
+  if (parts) {
+    const MapReader given(map.at("delay"), map.key("delay"), {"mean", "jitter", "seed"},
+                          "key of delay", complaints);
+    delay = given.numberBetween("mean", 0.0, kLongestDelay, "s", std::nullopt);
+    jitter = given.numberBetween("jitter", 0.0, kLongestDelay, "s", 0.0);
+    controller.jitter_seed = static_cast<std::uint32_t>(given.integer("seed", 0, 2147483647, 1));
+    if (jitter > delay) {
+      complaints.add(given.key("jitter"),
+                     fmt::format("must be at most the mean, {:g} s: no output comes before its "
+                                 "sample, found {:g}",
+                                 delay, jitter));
+    }
+  } else {
+    delay = map.numberBetween("delay", 0.0, kLongestDelay, "s", 0.0);
+  }
+  controller.delay = std::llround(delay * 1.0e9);
+  controller.jitter = std::llround(jitter * 1.0e9);
+  if ((delay + jitter) * controller.rate > kMostUnderWay) {
+    complaints.add(map.key("delay"),
+                   fmt::format("must be at most {:g} samples, found {:g}", kMostUnderWay,
+                               (delay + jitter) * controller.rate));
+  }
+}
+
 /// A law that cannot be made of its parameters.
 void checkLaw(const MapReader& map, const ControllerInfo& info, const Scene& scene,
               const ControllerSpec& controller, Complaints& complaints) {
@@ -180,11 +209,12 @@ void readExternal(const MapReader& map, const ControllerInfo& info, const Scene&
     complaints.add(map.key("parameters"),
                    "must not be given: it is the other process that has them");
   }
-  if (controller.settings.choices["mode"] == "lockstep" && controller.delay < scene.step) {
+  const std::int64_t shortest = controller.delay - controller.jitter;
+  if (controller.settings.choices["mode"] == "lockstep" && shortest < scene.step) {
     complaints.add(map.key("delay"),
                    fmt::format("must be at least a step, {:g} s, in lockstep: simulated time waits "
                                "for answers between steps, found {:g} s",
-                               scene.stepSeconds(), static_cast<double>(controller.delay) / 1e9));
+                               scene.stepSeconds(), static_cast<double>(shortest) / 1e9));
   }
 }
 
@@ -224,12 +254,7 @@ ControllerSpec readController(const YAML::Node& node, const std::string& key,
                    fmt::format("missing; must be one of {}", fmt::join(controllerNames(), ", ")));
   }
   controller.rate = map.numberBetween("rate", 1.0e-3, kHighestRate, "Hz", std::nullopt);
-  const double delay = map.numberBetween("delay", 0.0, kLongestDelay, "s", 0.0);
-  controller.delay = std::llround(delay * 1.0e9);
-  if (delay * controller.rate > kMostUnderWay) {
-    complaints.add(map.key("delay"), fmt::format("must be at most {:g} samples, found {:g}",
-                                                 kMostUnderWay, delay * controller.rate));
-  }
+  readDelay(map, controller, complaints);
   readMeasured(map, signals, controller, complaints);
   readActedOn(map, scene, controller, complaints);
   readSurroundings(map, controller, complaints);

@@ -21,9 +21,11 @@ struct ActedInput {
 
 struct ControllerSpec {
   std::string name;
-  std::string type;                   ///< of controllerNames()
-  double rate = 0.0;                  ///< [Hz]; sample k at k / rate after simulated time 0
-  std::int64_t delay = 0;             ///< [ns], from a sample to its output
+  std::string type;         ///< of controllerNames()
+  double rate = 0.0;        ///< [Hz]; sample k at k / rate after simulated time 0
+  std::int64_t delay = 0;   ///< [ns], from a sample to its output, on average
+  std::int64_t jitter = 0;  ///< [ns], that it is more or less at most, evenly distributed
+  std::uint32_t jitter_seed = 1;
   std::vector<std::string> measured;  ///< "rotor.x", as the scene names them
   std::vector<SignalSpec> measures;
   std::vector<std::string> acted_on;  ///< "rotor.force_x"

@@ -16,7 +16,7 @@ constexpr double kNanosecond = 1.0e-9;  // s
 /// Samples whose outputs may be under way at once.
 std::size_t mostUnderWay(const ControllerSpec& spec) {
   return static_cast<std::size_t>(
-             std::ceil(static_cast<double>(spec.delay) * kNanosecond * spec.rate)) +
+             std::ceil(static_cast<double>(spec.delay + spec.jitter) * kNanosecond * spec.rate)) +
          2;
 }
 

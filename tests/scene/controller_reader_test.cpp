@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -127,6 +129,67 @@ TEST(ControlParts, AreSumsOfPowersOfTwoWhereTheyNeverDo) {
   for (std::int64_t power = 1; power < 1'000'000; power *= 2) {
     EXPECT_THAT(lengths, testing::Contains(power));
   }
+}
+
+ControlInstants instantsOf(const std::string& delay) {
+  const Scene scene =
+      sceneOf(withControllers("{pd: {type: pid, rate: 1000.0, delay: " + delay +
+                              ", measures: [s.x], acts_on: [s.force_x], parameters: {kp: 1.0}}}"));
+  return ControlInstants(scene.controllers[0], scene.time);
+}
+
+std::vector<std::int64_t> delaysOf(const std::string& delay, std::int64_t from = 0) {
+  ControlInstants instants = instantsOf(delay);
+  instants.start(from * 1'000'000);
+  std::vector<std::int64_t> delays;
+  for (; instants.output() < from + 10'000; instants.passOutput()) {
+    if (instants.output() >= from) {
+      delays.push_back(instants.outputTime() - instants.output() * 1'000'000);
+    }
+  }
+  return delays;
+}
+
+TEST(ControlInstants, JitterIsEvenAboutTheMeanAndTheSameOnEveryRun) {
+  const std::vector<std::int64_t> delays = delaysOf("{mean: 8.0e-4, jitter: 3.0e-4, seed: 5}");
+  ASSERT_EQ(delays.size(), 10'000u);
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const std::int64_t delay : delays) {
+    ASSERT_GE(delay, 500'000);
+    ASSERT_LE(delay, 1'100'000);
+    sum += static_cast<double>(delay);
+    squares += std::pow(static_cast<double>(delay) - 8.0e5, 2);
+  }
+  // Of an even distribution: standard deviation jitter / sqrt(3), a hundredth of it that of the
+  // mean.
+  EXPECT_NEAR(sum / 1e4, 8.0e5, 4.0 * 3.0e5 / std::sqrt(3.0) / 100.0);
+  EXPECT_NEAR(std::sqrt(squares / 1e4), 3.0e5 / std::sqrt(3.0), 3.0e3);
+  EXPECT_EQ(delaysOf("{mean: 8.0e-4, jitter: 3.0e-4, seed: 5}"), delays);
+  EXPECT_NE(delaysOf("{mean: 8.0e-4, jitter: 3.0e-4, seed: 6}"), delays);
+  const std::vector<std::int64_t> later = delaysOf("{mean: 8.0e-4, jitter: 3.0e-4, seed: 5}", 5000);
+  EXPECT_TRUE(std::equal(delays.begin() + 5000, delays.end(), later.begin()))
+      << "of its sample, whenever it began";
+}
+
+TEST(ControlInstants, NoOutputOvertakesTheOneBefore) {
+  ControlInstants instants = instantsOf("{mean: 4.0e-3, jitter: 4.0e-3}");
+  std::int64_t before = instants.outputTime();
+  for (int k = 0; k < 10'000; ++k) {
+    instants.passOutput();
+    ASSERT_GE(instants.outputTime(), before);
+    before = instants.outputTime();
+  }
+  EXPECT_GT(before, 9'990'000'000) << "and none is left behind";
+}
+
+TEST(ControllerReader, JitterIsNoMoreThanTheMean) {
+  EXPECT_THAT(complaintsOf(withControllers(
+                  "{pd: {type: pid, rate: 100.0, delay: {mean: 0.01, jitter: 0.02, sed: 1}, "
+                  "measures: [s.x], acts_on: [s.force_x], parameters: {kp: 1.0}}}")),
+              testing::ElementsAre(testing::HasSubstr("controllers.pd.delay.sed: unknown key"),
+                                   testing::HasSubstr("controllers.pd.delay.jitter: must be at "
+                                                      "most the mean, 0.01 s")));
 }
 
 TEST(PartOfAScene, KeepsTheControllersThatHaveToDoWithNothingElse) {

@@ -335,5 +335,35 @@ TEST(SampledLoop, TiesSystemsTogether) {
   EXPECT_LT(motionOf(tied, 0).x, -0.0008);
 }
 
+/// 2 s of a levitated mass whose outputs come when they do; x and its rate.
+std::vector<double> withJitter(std::int64_t step, int resets = 0) {
+  Twin twin(sceneOf(fmt::format(
+      "{{step: {:.9f}, systems: {{s: {{model: linear_system, integrator: exponential, parameters: "
+      "{{names: [x], mass: [[1.0]], stiffness: [[-1.0]]}}, initial: {{x: 1.0e-3}}}}}}, "
+      "controllers: {{pd: {{type: pid, rate: 300.0, measures: [s.x], acts_on: [s.force_x], delay: "
+      "{{mean: 0.004, jitter: 0.003, seed: 7}}, parameters: {{kp: 2.0, kd: 1.0}}}}}}}}",
+      static_cast<double>(step) / 1e9)));
+  const std::int64_t steps = 2'000'000'000 / step;
+  for (int run = 0; run <= resets; ++run) {
+    twin.reset();
+    for (std::int64_t i = 0; i < steps; ++i) {
+      twin.step();
+    }
+  }
+  std::vector<double> motion(2);
+  twin.running(0).motion(motion.data());
+  return motion;
+}
+
+// Each output is a corner where it falls: the exact step does not see how long a step is.
+TEST(ControlLoop, OutputsWithJitterActAtTheirInstants) {
+  const std::vector<double> coarse = withJitter(4'000'000);
+  const std::vector<double> fine = withJitter(500'000);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_NEAR(coarse[i], fine[i], 1e-15);
+  }
+  EXPECT_EQ(withJitter(4'000'000, 1), coarse) << "a reset gives the same bytes";
+}
+
 }  // namespace
 }  // namespace whirl_twin
