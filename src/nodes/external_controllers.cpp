@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "controllers/external.h"
+#include "std_msgs/Float64.h"
 #include "whirl_twin/ControllerCommand.h"
 #include "whirl_twin/ControllerMeasurement.h"
 #include "whirl_twin/controller_measurement_t.hpp"
@@ -37,8 +38,14 @@ ExternalControllers::ExternalControllers(const LiveTwin& twin, ros::NodeHandle n
     if (ExternalController* const external = running.control().controllers()[i].external()) {
       const std::string& name = running.scene().controllers[i].name;
       controllers_.push_back(std::make_unique<Connection>());
-      *controllers_.back() = {name, lcm_prefix + upper(name), &external->link(), {}, {}};
-      advertise(*controllers_.back(), node);
+      Connection& connection = *controllers_.back();
+      connection.name = name;
+      connection.lcm_channel = lcm_prefix + upper(name);
+      connection.link = &external->link();
+      advertise(connection, node);
+      if (connection.link->outputs() == 1) {
+        advertiseValue(connection, node);
+      }
     }
   }
   if (!any()) {
@@ -67,6 +74,19 @@ void ExternalControllers::advertise(Connection& connection, ros::NodeHandle& nod
   connection.command =
       node.subscribe<ControllerCommand>(topic + "/command", kQueue, callback, ros::VoidConstPtr(),
                                         ros::TransportHints().tcpNoDelay());
+}
+
+/// A number that says no more: it is taken to answer the newest sample.
+void ExternalControllers::advertiseValue(Connection& connection, ros::NodeHandle& node) {
+  const boost::function<void(const std_msgs::Float64::ConstPtr&)> callback =
+      [this, &connection](const std_msgs::Float64::ConstPtr& message) {
+        ExternalSample command = connection.newest;
+        command.values = {message->data};
+        take(connection, command);
+      };
+  connection.value = node.subscribe<std_msgs::Float64>(
+      "controllers/" + connection.name + "/command_value", kQueue, callback, ros::VoidConstPtr(),
+      ros::TransportHints().tcpNoDelay());
 }
 
 void ExternalControllers::listenOnLcm(const std::string& lcm_url) {
@@ -117,7 +137,8 @@ void ExternalControllers::take(const Connection& connection, const ExternalSampl
   }
 }
 
-void ExternalControllers::tell(const Connection& connection, const ExternalSample& sample) {
+void ExternalControllers::tell(Connection& connection, const ExternalSample& sample) {
+  connection.newest = sample;
   ControllerMeasurement message;
   message.header.stamp.fromNSec(static_cast<std::uint64_t>(ros::WallTime::now().toNSec()));
   message.header.frame_id = connection.name;

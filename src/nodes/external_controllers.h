@@ -20,8 +20,8 @@ namespace whirl_twin {
 
 class ExternalControllers {
  public:
-  /// controllers/<name>/measurement and /command, PREFIX<NAME>_SAMPLE and _COMMAND; lcm_url "": ROS
-  /// alone, as where LCM is not available.
+  /// controllers/<name>/measurement and /command, of one with a single output also /command_value,
+  /// PREFIX<NAME>_SAMPLE and _COMMAND; lcm_url "": ROS alone, as where LCM is not available.
   ExternalControllers(const LiveTwin& twin, ros::NodeHandle node, const std::string& lcm_url,
                       const std::string& lcm_prefix);
   ~ExternalControllers();
@@ -36,15 +36,18 @@ class ExternalControllers {
     ExternalLink* link;
     ros::Publisher measurement;
     ros::Subscriber command;
+    ros::Subscriber value;     // of one with a single output
+    ExternalSample newest{};  // told
   };
 
   void advertise(Connection& connection, ros::NodeHandle& node);
+  void advertiseValue(Connection& connection, ros::NodeHandle& node);
   void listenOnLcm(const std::string& lcm_url);
   void takeFromLcm(const lcm::ReceiveBuffer* buffer, const std::string& channel,
                    const controller_command_t* message);
   void run();
   void take(const Connection& connection, const ExternalSample& command);
-  void tell(const Connection& connection, const ExternalSample& sample);
+  void tell(Connection& connection, const ExternalSample& sample);
 
   std::vector<std::unique_ptr<Connection>> controllers_;
   ros::CallbackQueue queue_;  // that answers wait for no service

@@ -11,6 +11,7 @@ import sys
 import rospkg
 import rospy
 import rostest
+from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 from whirl_twin.msg import AlertArray, ControllerState, LoopStatistics, PendulumState
 
@@ -109,6 +110,13 @@ class ExternalController(NodeTrial):
         self.assertLessEqual(self.loop.age_p50[0], self.loop.age_p99[0])
         self.assertLessEqual(self.loop.age_p99[0], self.loop.age_max[0])
         self.assert_killed_it_is_named(process)
+
+    def test_plain_numbers_are_commands(self):
+        self.begin('free_running')
+        numbers = rospy.Publisher('/twin/controllers/pd/command_value', Float64, queue_size=10)
+        self.assertTrue(wait_until(lambda: numbers.get_num_connections() > 0))
+        self.assertTrue(wait_until(lambda: numbers.publish(0.0025) or list(self.controller.output) == [0.0025]))
+        self.assertIn(self.controller.age, (0, 1, 2))
 
     def test_lost_it_stops_what_it_acts_on(self):
         self.begin('free_running, on_timeout: stop')
