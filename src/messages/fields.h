@@ -9,6 +9,9 @@
 //
 //   visit.head(field)               when it is about, and whom: LCM's utime, stamp, step, NAME and
 //                                   time, ROS's header, step and time; head(): about nobody
+//   visit.sampled(field)            of a sample, and whom it is about: LCM's utime, NAME, sample
+//   and
+//                                   time, ROS's header, sample and time
 //   visit.stamped()                 utime and stamp of a message with a `time` of its own; no
 //   header visit(field, unit, check)       a value visit.array(length, field, ...) an array, and
 //   LCM's field that says how long it is visit.along(first, field, ...)  another array, as long as
@@ -157,6 +160,12 @@ class MemberVisit : public FieldVisit<MemberVisit<State, Take>> {
   template <class F>
   void head(F field) {
     head();
+    take_(field.name, field.of(state_), Stays::kSubject);
+  }
+  template <class F>
+  void sampled(F field) {
+    take_("sample", state_.at.step, Stays::kNot);
+    take_("time", state_.at.time, Stays::kNot);
     take_(field.name, field.of(state_), Stays::kSubject);
   }
   void stamped() { take_("stamp", state_.stamp, Stays::kNot); }

@@ -6,6 +6,7 @@
 #include "messages/alarm_command.h"
 #include "messages/alert.h"
 #include "messages/controller_margins.h"
+#include "messages/controller_exchange.h"
 #include "messages/controller_state.h"
 #include "messages/follow_state.h"
 #include "messages/input_command.h"
@@ -24,7 +25,8 @@ using Message =
                  state::EnsembleState, state::StabilityMargin, state::ParameterChange,
                  state::LoopStatistics, state::Measurement, state::InputCommand, state::Alert,
                  state::MonitorStatus, state::OrderState, state::AlarmCommand, state::FollowState,
-                 state::ControllerState, state::ControllerMargins>;
+                 state::ControllerState, state::ControllerMargins, state::ControllerMeasurement,
+                 state::ControllerCommand>;
 
 /// A kind as a value: typename decltype(kind)::State.
 template <class T>

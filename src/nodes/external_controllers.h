@@ -36,7 +36,7 @@ class ExternalControllers {
     ExternalLink* link;
     ros::Publisher measurement;
     ros::Subscriber command;
-    ros::Subscriber value;     // of one with a single output
+    ros::Subscriber value;    // of one with a single output
     ExternalSample newest{};  // told
   };
 

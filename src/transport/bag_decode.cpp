@@ -26,7 +26,9 @@ const RosValue* find(const RosValues& values, const char* name) {
 template <class State>
 class BagFill : public FieldVisit<BagFill<State>> {
  public:
-  BagFill(const RosValues& values, LcmType<State>& message) : values_(values), message_(message) {}
+  /// subject: whom a message is about by its topic.
+  BagFill(const RosValues& values, const std::string& subject, LcmType<State>& message)
+      : values_(values), subject_(subject), message_(message) {}
 
   void head() {
     put("step", message_.step);
@@ -37,7 +39,14 @@ class BagFill : public FieldVisit<BagFill<State>> {
   template <class F>
   void head(F name) {
     head();
-    put("header.frame_id", name.in(message_));
+    putSubject(name.in(message_));
+  }
+  template <class F>
+  void sampled(F name) {
+    put("sample", message_.sample);
+    put("time", message_.time);
+    putSubject(name.in(message_));
+    message_.utime = utimeOf(message_.time);
   }
   template <class F, class Check>
   void value(F field, const char*, Check, Stays) {
@@ -77,6 +86,14 @@ class BagFill : public FieldVisit<BagFill<State>> {
       count = count < 0 ? static_cast<int>(field.in(fill.message_).size()) : count;
     }
   };
+
+  /// A command need not say it.
+  void putSubject(std::string& to) const {
+    put("header.frame_id", to);
+    if (State::kKind.has(MessageKind::kCommand) && to.empty()) {
+      to = subject_;
+    }
+  }
 
   static std::size_t sizeOf(const RosValue& value) {
     return value.whole.size() + value.real.size() + value.text.size();
@@ -125,8 +142,17 @@ class BagFill : public FieldVisit<BagFill<State>> {
   }
 
   const RosValues& values_;
+  const std::string& subject_;
   LcmType<State>& message_;
 };
+
+/// What stands in a topic where one `like` it has a *; "" where it has none.
+std::string subjectIn(const std::string& topic, const std::string& like) {
+  const std::size_t star = like.find('*');
+  return star == std::string::npos || topic.size() < like.size()
+             ? ""
+             : topic.substr(star, topic.size() + 1 - like.size());
+}
 
 /// A topic in two: its last parts, as many as `like` has, and the namespace above them.
 std::pair<std::string, std::string> apart(const std::string& topic, const std::string& like) {
@@ -173,7 +199,8 @@ Message BagDecoder::decode(const BagMessage& message) {
     using State = typename decltype(kind)::State;
     if (kind_ == &State::kKind) {
       LcmType<State> of_lcm = toLcm(State{});
-      BagFill<State> fill(values, of_lcm);
+      const std::string subject = subjectIn(topic_, kind_->topic);
+      BagFill<State> fill(values, subject, of_lcm);
       State::fields(fill);
       const State state = fromLcm<State>(of_lcm);
       if (topicOf(state) != topic_) {

@@ -27,6 +27,13 @@ class LcmPut : public PutFields<LcmPut<State>, State, LcmType<State>> {
     head();
     name.in(this->message_) = name.of(this->state_);
   }
+  template <class F>
+  void sampled(F name) {
+    this->message_.utime = utimeOf(this->state_.at.time);
+    name.in(this->message_) = name.of(this->state_);
+    this->message_.sample = this->state_.at.step;
+    this->message_.time = this->state_.at.time;
+  }
   void stamped() {
     this->message_.utime = utimeOf(this->state_.time);
     this->message_.stamp = this->state_.stamp;
@@ -59,6 +66,13 @@ class LcmTake : public TakeFields<LcmTake<State>, State, LcmType<State>> {
   void head(F name) {
     this->value(name, "", requireName, Stays::kSubject);
     head();
+  }
+  /// What utime an answer has is its sender's.
+  template <class F>
+  void sampled(F name) {
+    this->value(name, "", requireName, Stays::kSubject);
+    requireTime("time", this->message_.time);
+    this->state_.at = {this->message_.sample, this->message_.time, 0};
   }
   void stamped() {
     requireUtimeAndStamp();

@@ -5,6 +5,8 @@
 #include "whirl_twin/alarm_command_t.hpp"
 #include "whirl_twin/alert_t.hpp"
 #include "whirl_twin/controller_margins_t.hpp"
+#include "whirl_twin/controller_command_t.hpp"
+#include "whirl_twin/controller_measurement_t.hpp"
 #include "whirl_twin/controller_state_t.hpp"
 #include "whirl_twin/drive_state_t.hpp"
 #include "whirl_twin/ensemble_state_t.hpp"
@@ -40,6 +42,8 @@ alarm_command_t lcmTypeOf(const state::AlarmCommand&);
 follow_state_t lcmTypeOf(const state::FollowState&);
 controller_state_t lcmTypeOf(const state::ControllerState&);
 controller_margins_t lcmTypeOf(const state::ControllerMargins&);
+controller_measurement_t lcmTypeOf(const state::ControllerMeasurement&);
+controller_command_t lcmTypeOf(const state::ControllerCommand&);
 
 template <class State>
 using LcmType = decltype(lcmTypeOf(std::declval<State>()));

@@ -27,6 +27,10 @@ class LayoutVisit : public FieldVisit<LayoutVisit<State>> {
   void head(F) {
     layout_ += "lllsd";
   }
+  template <class F>
+  void sampled(F) {
+    layout_ += "lsld";
+  }
   void stamped() { layout_ += "ll"; }
   template <class F, class Check>
   void value(F field, const char*, Check, Stays) {

@@ -33,6 +33,13 @@ class RosPut : public PutFields<RosPut<State>, State, RosType<State>> {
     head();
     this->message_.header.frame_id = name.of(this->state_);
   }
+  template <class F>
+  void sampled(F name) {
+    this->message_.header.stamp = toRosTime(this->state_.at.stamp);
+    this->message_.header.frame_id = name.of(this->state_);
+    this->message_.sample = this->state_.at.step;
+    this->message_.time = this->state_.at.time;
+  }
 };
 
 template <class State>
@@ -51,6 +58,14 @@ class RosTake : public TakeFields<RosTake<State>, State, RosType<State>> {
   void head(F name) {
     head();
     requireName("header.frame_id", this->message_.header.frame_id);
+    name.of(this->state_) = this->message_.header.frame_id;
+  }
+  template <class F>
+  void sampled(F name) {
+    requireTime("time", this->message_.time);
+    requireName("header.frame_id", this->message_.header.frame_id);
+    this->state_.at = {this->message_.sample, this->message_.time,
+                       static_cast<std::int64_t>(this->message_.header.stamp.toNSec())};
     name.of(this->state_) = this->message_.header.frame_id;
   }
 };

@@ -9,6 +9,8 @@
 #include "whirl_twin/AlarmCommand.h"
 #include "whirl_twin/AlertArray.h"
 #include "whirl_twin/ControllerMargins.h"
+#include "whirl_twin/ControllerCommand.h"
+#include "whirl_twin/ControllerMeasurement.h"
 #include "whirl_twin/ControllerState.h"
 #include "whirl_twin/DriveState.h"
 #include "whirl_twin/EnsembleState.h"
@@ -43,6 +45,8 @@ AlarmCommand rosTypeOf(const state::AlarmCommand&);
 FollowState rosTypeOf(const state::FollowState&);
 ControllerState rosTypeOf(const state::ControllerState&);
 ControllerMargins rosTypeOf(const state::ControllerMargins&);
+ControllerMeasurement rosTypeOf(const state::ControllerMeasurement&);
+ControllerCommand rosTypeOf(const state::ControllerCommand&);
 Alert rosTypeOf(const state::Alert&);  // one of an AlertArray
 
 template <class State>

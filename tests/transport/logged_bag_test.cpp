@@ -100,6 +100,24 @@ TEST(LoggedBag, AMessageAboutAnotherThanItsTopicIsRejected) {
   EXPECT_EQ(read(bag.bytes()).log.rejected, 1u);
 }
 
+TEST(LoggedBag, ACommandNeedNotSayToWhom) {
+  BagSample bag;
+  ControllerCommand command;
+  command.sample = 7;
+  command.values = {0.25};
+  bag.write("/machine/controllers/pd/command", 0, command);
+  InputCommand input;
+  input.duration = 1.0;
+  bag.write("/machine/rotor/inputs", 1, input);
+  const Read found = read(bag.bytes());
+  ASSERT_EQ(found.messages.size(), 2u);
+  const auto& answer = std::get<state::ControllerCommand>(found.messages[0]);
+  EXPECT_EQ(answer.controller, "pd");
+  EXPECT_EQ(answer.at.step, 7);
+  EXPECT_EQ(answer.values, std::vector<double>{0.25});
+  EXPECT_EQ(std::get<state::InputCommand>(found.messages[1]).system, "rotor");
+}
+
 TEST(LoggedBag, JointStatesAreMeasurements) {
   sensor_msgs::JointState joints;
   joints.header.stamp = ros::Time(100, 5);

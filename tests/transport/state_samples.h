@@ -276,6 +276,17 @@ class StateSamples {
   auto of(KindOf<state::FollowState>) { return follow(); }
   auto of(KindOf<state::ControllerState>) { return controller(); }
   auto of(KindOf<state::ControllerMargins>) { return margins(); }
+  auto of(KindOf<state::ControllerMeasurement>) {
+    return exchanged<state::ControllerMeasurement>();
+  }
+  auto of(KindOf<state::ControllerCommand>) { return exchanged<state::ControllerCommand>(); }
+
+  template <class State>
+  State exchanged() {
+    auto s = sample<State>();
+    s.run = static_cast<std::int64_t>(below(1000));
+    return s;
+  }
 
   double time() { return static_cast<double>(below(1000000000)) * 1e-3; }
 
