@@ -5,8 +5,8 @@
 
 #include "messages/alarm_command.h"
 #include "messages/alert.h"
-#include "messages/controller_margins.h"
 #include "messages/controller_exchange.h"
+#include "messages/controller_margins.h"
 #include "messages/controller_state.h"
 #include "messages/follow_state.h"
 #include "messages/input_command.h"
