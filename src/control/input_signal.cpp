@@ -12,9 +12,10 @@ InputSignal InputSignal::constant(double value) {
   return signal;
 }
 
-InputSignal InputSignal::controlled() {
+InputSignal InputSignal::controlled(double pole) {
   InputSignal signal;
   signal.kind = Kind::kControlled;
+  signal.pole = pole;
   return signal;
 }
 
@@ -49,6 +50,9 @@ SignalFault faultOf(const InputSignal& signal) {
   }
   if (!(std::fabs(signal.phase) <= kLargestPhase)) {
     return {"phase", "must lie within +-1e15 rad", 0};
+  }
+  if (!(signal.pole >= 0.0 && std::isfinite(signal.pole))) {
+    return {"pole", "must be finite and not negative", 0};
   }
   if (signal.kind != InputSignal::Kind::kTable) {
     return {nullptr, nullptr, 0};

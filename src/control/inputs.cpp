@@ -95,6 +95,11 @@ std::size_t Inputs::passedAt(const Channel& channel, std::int64_t time) noexcept
   return passed;
 }
 
+double Inputs::lagging(const Channel& channel, std::int64_t time) noexcept {
+  return channel.lagging - (channel.held - channel.lagging) *
+                               std::expm1(-channel.signal.pole * seconds(time - channel.since));
+}
+
 std::int64_t Inputs::cornerAfter(std::int64_t offset) const noexcept {
   const std::int64_t time = time_ + offset;
   std::int64_t corner = kNever;
@@ -112,7 +117,10 @@ std::int64_t Inputs::cornerAfter(std::int64_t offset) const noexcept {
 SignalPiece Inputs::piece(std::size_t input, std::int64_t offset) const noexcept {
   const Channel& channel = channels_[input];
   if (channel.signal.kind != InputSignal::Kind::kTable) {
-    return {0.0, channel.held, 0.0};
+    const double pole = channel.signal.pole;
+    return pole > 0.0 ? SignalPiece{seconds(channel.since - time_), channel.lagging,
+                                    pole * (channel.held - channel.lagging), pole}
+                      : SignalPiece{0.0, channel.held, 0.0};
   }
   const std::vector<std::int64_t>& instants = channel.signal.instants;
   const std::vector<double>& values = channel.signal.values;

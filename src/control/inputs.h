@@ -7,7 +7,9 @@
 // constant is the same over a whole step.
 //
 // What a controller acts with changes at its instants, inside steps too: the twin then takes a step
-// in parts from instant to instant (Stepper::stepPart).
+// in parts from instant to instant (Stepper::stepPart). Behind a lag it goes on from instant to
+// instant as e^(-t / lag): what it was at the last instant and the time since are all that it is,
+// so that no step adds to its error.
 #pragma once
 
 #include <cstddef>
@@ -62,8 +64,24 @@ class Inputs {
   /// then its own again. False, with nothing changed, for a value that is not finite, for an input
   /// that there is not, and for one that is a harmonic, a table or does not act.
   bool set(std::size_t input, double value, std::int64_t until) noexcept;
-  /// What a controller acts with, from now on.
-  void control(std::size_t input, double value) noexcept { channels_[input].held = value; }
+  /// What a controller acts with, or has its actuator follow, from simulated time `time` [ns] on.
+  void control(std::size_t input, double value, std::int64_t time) noexcept {
+    Channel& channel = channels_[input];
+    if (channel.signal.pole > 0.0) {
+      channel.lagging = lagging(channel, time);
+      channel.since = time;
+    }
+    channel.held = value;
+  }
+  /// It acts with nothing, and has done so before.
+  void release(std::size_t input) noexcept {
+    channels_[input].held = channels_[input].lagging = 0.0;
+    channels_[input].since = time_;
+  }
+  /// [ns], of the last begin().
+  std::int64_t begun() const noexcept { return time_; }
+  /// [1/s], at which it follows what it is held at; 0: at once.
+  double pole(std::size_t input) const noexcept { return channels_[input].signal.pole; }
   /// Has a command that still holds.
   bool commanded(std::size_t input) const noexcept {
     return channels_[input].command_until > time_;
@@ -86,6 +104,8 @@ class Inputs {
     InputSignal signal;
     SteadyTurn turn;  // of a harmonic, from simulated time 0
     double held = 0.0;
+    double lagging = 0.0;    // behind it, at the instant
+    std::int64_t since = 0;  // [ns]
     double command = 0.0;
     std::int64_t command_until = std::numeric_limits<std::int64_t>::min();
     // At begin().
@@ -93,6 +113,7 @@ class Inputs {
     std::size_t passed = 0;  // of a table: how many of its instants
   };
   std::int64_t cornerAfter(std::int64_t offset) const noexcept;
+  static double lagging(const Channel& channel, std::int64_t time) noexcept;
   static std::size_t passedAt(const Channel& channel, std::int64_t time) noexcept;
 
   std::vector<Channel> channels_;

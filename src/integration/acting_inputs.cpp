@@ -8,21 +8,33 @@ namespace whirl_twin {
 
 using Eigen::Index;
 
-ActingInputs::ActingInputs(const Inputs* inputs, const Eigen::MatrixXd& directions)
-    : inputs_(inputs), directions_(directions.rows(), 0) {
-  if (inputs == nullptr) {
-    return;
+ActingInputs::ActingInputs(const Inputs* inputs, const Eigen::MatrixXd& directions,
+                           const Eigen::MatrixXd& pushes)
+    : inputs_(inputs),
+      directions_(directions.rows(), 0),
+      pushes_(static_cast<std::size_t>(pushes.cols())) {
+  if (inputs != nullptr) {
+    takeInputs(*inputs, directions);
   }
-  if (static_cast<Index>(inputs->count()) != directions.cols()) {
+  for (Index k = 0; k < pushes.cols(); ++k) {
+    channels_.push_back({kPush, false, 0.0, 0.0, 0.0, 0.0, {}, {}});
+    directions_.conservativeResize(Eigen::NoChange, directions_.cols() + 1);
+    directions_.rightCols(1) = pushes.col(k);
+  }
+}
+
+void ActingInputs::takeInputs(const Inputs& inputs, const Eigen::MatrixXd& directions) {
+  if (static_cast<Index>(inputs.count()) != directions.cols()) {
     throw std::logic_error("a system has been given inputs that its model does not have");
   }
-  for (std::size_t i = 0; i < inputs->count(); ++i) {
-    if (inputs->acts(i)) {
-      const InputSignal& signal = inputs->signal(i);
-      channels_.push_back({i, inputs->isHarmonic(i), signal.amplitude, signal.frequency, 0.0, {}});
+  for (std::size_t i = 0; i < inputs.count(); ++i) {
+    if (inputs.acts(i)) {
+      const InputSignal& signal = inputs.signal(i);
+      channels_.push_back(
+          {i, inputs.isHarmonic(i), signal.amplitude, signal.frequency, signal.pole, 0.0, {}, {}});
       directions_.conservativeResize(Eigen::NoChange, directions_.cols() + 1);
       directions_.rightCols(1) = directions.col(static_cast<Index>(i));
-      tables_ = tables_ || inputs->isTable(i);
+      tables_ = tables_ || inputs.isTable(i);
     }
   }
 }
@@ -33,7 +45,7 @@ Eigen::Matrix2d ActingInputs::generator(Index k, double unit) const {
   if (isHarmonic(k)) {
     g << 0.0, -w, w, 0.0;
   } else {
-    g << 0.0, 1.0 / unit, 0.0, 0.0;
+    g << 0.0, 1.0 / unit, 0.0, -channel(k).pole;
   }
   return g;
 }
@@ -48,17 +60,20 @@ void ActingInputs::writePairs(double offset, std::int64_t piece, double unit,
     } else {
       const SignalPiece line = inputs_->piece(c.input, piece);
       *out++ = line.at(offset);
-      *out++ = line.slope * unit;
+      *out++ = line.slopeAt(offset) * unit;
     }
   }
 }
 
 void ActingInputs::follow(double offset, double h) noexcept {
   h_ = h;
+  offset_ = offset;
   for (Channel& c : channels_) {
     if (c.harmonic) {
       c.phase = inputs_->phase(c.input) + c.frequency * offset;
-    } else {
+    } else if (c.pole > 0.0) {
+      c.lag = inputs_->piece(c.input, 0);
+    } else if (c.input != kPush) {
       project(c, offset);
     }
   }
@@ -109,6 +124,9 @@ void ActingInputs::writeCourses(double* out) const noexcept {
     if (c.harmonic) {
       *out++ = c.amplitude * std::cos(c.phase);
       *out++ = c.amplitude * std::sin(c.phase);
+    } else if (c.pole > 0.0) {
+      *out++ = c.lag.at(offset_);
+      *out++ = c.lag.slopeAt(offset_) * h_;
     } else {
       out = std::copy(c.course.begin(), c.course.end(), out);
     }
@@ -120,6 +138,9 @@ double ActingInputs::value(Index k, double tau) const noexcept {
   if (c.harmonic) {
     return c.amplitude * std::cos(c.phase + c.frequency * h_ * tau);
   }
+  if (c.pole > 0.0) {
+    return c.lag.at(offset_ + h_ * tau);
+  }
   return c.course[0] + tau * (c.course[1] + tau * (c.course[2] + tau * c.course[3]));
 }
 
@@ -127,6 +148,9 @@ double ActingInputs::rate(Index k, double tau) const noexcept {
   const Channel& c = channel(k);
   if (c.harmonic) {
     return -c.amplitude * c.frequency * std::sin(c.phase + c.frequency * h_ * tau);
+  }
+  if (c.pole > 0.0) {
+    return c.lag.slopeAt(offset_ + h_ * tau);
   }
   return (c.course[1] + tau * (2.0 * c.course[2] + tau * 3.0 * c.course[3])) / h_;
 }

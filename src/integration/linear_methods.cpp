@@ -303,7 +303,9 @@ MatrixXd LinearEquation::stage(const MatrixXd& dq, const MatrixXd& dv, double of
     const double s = std::sin(g(1, 0) * offset);
     auto pair = z.block<2, 2>(2 * (dof() + k), 2 * (dof() + k));
     if (g(1, 0) == 0.0) {
-      pair(0, 1) = g(0, 1) * offset;
+      const double decay = -g(1, 1);
+      pair(0, 1) = g(0, 1) * (decay == 0.0 ? offset : -std::expm1(-decay * offset) / decay);
+      pair(1, 1) = std::exp(-decay * offset);
     } else {
       pair << c, -s, s, c;
     }

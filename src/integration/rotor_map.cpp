@@ -40,7 +40,7 @@ std::vector<ForceChannel> forceChannels(const LinearRotor& rotor) {
 Index RotorMap::inputs(Index dof, std::size_t channels, const ActingInputs& acting, int degree) {
   Index size = 2 * dof + 2 * static_cast<Index>(channels) * (degree + 1) + 1;
   for (Index k = 0; k < acting.count(); ++k) {
-    size += degree == 0 ? 2 : acting.courseSize(k);
+    size += acting.columns(k, degree);
   }
   return size;
 }
@@ -98,11 +98,11 @@ RotorMap::RotorMap(const LinearRotor& rotor, const std::vector<ForceChannel>& ch
   for (Index k = 0; k < acting.count(); ++k) {
     const Eigen::VectorXd force = to_q.transpose() * acting.directions().col(k);
     const double size_of_it = powerOfTwo(force.cwiseAbs().maxCoeff() / (rate * rate));
-    const Index columns = degree == 0 ? 2 : acting.courseSize(k);
+    const Index columns = acting.columns(k, degree);
     scale_.diagonal().segment(input, columns).setConstant(size_of_it);
     unscale_.diagonal().segment(input, columns).setConstant(1.0 / size_of_it);
     a_.block(n_, input, n_, 1) = force / (rate * size_of_it);
-    if (acting.isHarmonic(k)) {
+    if (acting.isPair(k)) {
       a_.block(input, input, 2, 2) = acting.generator(k, h);
     } else {
       for (Index power = 0; power + 1 < columns; ++power) {
@@ -136,7 +136,7 @@ MatrixXd RotorMap::power() const {
   for (Index k = 0; k < acting_.count(); ++k) {
     s.block(n_, input, n_, 1) = 0.5 * acting_.directions().col(k);
     s.block(input, n_, 1, n_) = s.block(n_, input, n_, 1).transpose();
-    input += degree_ == 0 ? 2 : acting_.courseSize(k);
+    input += acting_.columns(k, degree_);
   }
   return s;
 }

@@ -6,7 +6,8 @@
 // (k+1)/h psi_(k+1), psi_k(0) = g_k, it is Re[F psi_0], so that states and forcing are one linear
 // system with constant coefficients and the step is e^(A h): exact for any h, stiff or not, damped
 // or not, in resonance or not. Inputs (acting_inputs.h) come in likewise: a harmonic as a pair of
-// phasors of its own frequency, any other as a real polynomial.
+// phasors of its own frequency, one behind a lag as a pair of its own, any other as a real
+// polynomial.
 #pragma once
 
 #include <Eigen/Core>
@@ -37,8 +38,8 @@ struct RotorStepMatrices {
 class RotorMap {
  public:
   /// What a step starts from, y: q, v, then for every channel Re g_0, Im g_0, Re g_1 ..., then 1,
-  /// then the inputs that act: pairs where `degree` is 0 (straight lines in units of h), else their
-  /// courses over the step.
+  /// then the inputs that act: pairs where `degree` is 0 (straight lines in units of h), else, and
+  /// where the rotor is pushed besides, their courses over the step.
   static Eigen::Index inputs(Eigen::Index dof, std::size_t channels, const ActingInputs& acting,
                              int degree);
 

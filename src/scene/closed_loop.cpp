@@ -103,6 +103,7 @@ std::optional<ClosedLoop::Parts> ClosedLoop::parts(const SmallMotions& small_mot
     controller.delay = static_cast<double>(spec.delay) / 1e9;
     controller.law = *law;
     controller.sensor_bandwidth = spec.sensor.bandwidth;
+    controller.actuator_bandwidth = spec.actuator.bandwidth;
     for (const SignalSpec& signal : spec.measures) {
       controller.measures.push_back(static_cast<Eigen::Index>(measures.size()));
       measures.push_back(signal);

@@ -20,6 +20,7 @@ namespace {
 
 constexpr double kHighestRate = 1.0e7;   // Hz
 constexpr double kLongestDelay = 1.0e3;  // s
+constexpr double kTwoPi = 6.283185307179586;
 constexpr double kMostUnderWay = 1.0e4;  // outputs
 constexpr std::size_t kMostSignals = 64;
 
@@ -137,7 +138,8 @@ void readActedOn(const MapReader& map, Scene& scene, ControllerSpec& controller,
   }
 }
 
-void readSurroundings(const MapReader& map, ControllerSpec& controller, Complaints& complaints) {
+void readSurroundings(const MapReader& map, Scene& scene, ControllerSpec& controller,
+                      Complaints& complaints) {
   const auto part = [&](const char* name, const std::vector<std::string>& keys) {
     return MapReader(map.has(name) ? map.at(name) : YAML::Node(YAML::NodeType::Map), map.key(name),
                      keys, fmt::format("key of {}", name), complaints);
@@ -149,11 +151,17 @@ void readSurroundings(const MapReader& map, ControllerSpec& controller, Complain
   controller.sensor.range = sensor.number("range", Range::kNotNegative, unit, 0.0);
   controller.sensor.bandwidth = sensor.number("bandwidth", Range::kNotNegative, "Hz", 0.0);
   controller.seed = static_cast<std::uint32_t>(sensor.integer("seed", 0, 2147483647, 1));
-  const MapReader actuator = part("actuator", {"limit", "slew", "resolution"});
+  const MapReader actuator = part("actuator", {"limit", "slew", "resolution", "bandwidth"});
   const std::string acted = "in the unit of the input";
   controller.actuator.limit = actuator.number("limit", Range::kNotNegative, acted, 0.0);
   controller.actuator.slew = actuator.number("slew", Range::kNotNegative, acted + ", 1/s", 0.0);
   controller.actuator.resolution = actuator.number("resolution", Range::kNotNegative, acted, 0.0);
+  controller.actuator.bandwidth = actuator.number("bandwidth", Range::kNotNegative, "Hz", 0.0);
+  for (const ActedInput& on : controller.acts_on) {
+    SystemSpec& system = scene.systems[on.system];
+    system.inputs.at(system.setup->made.dynamics->inputs()[on.input].name).pole =
+        kTwoPi * controller.actuator.bandwidth;
+  }
 }
 
 /// A number, or {mean, jitter, seed}.
@@ -257,7 +265,7 @@ ControllerSpec readController(const YAML::Node& node, const std::string& key,
   readDelay(map, controller, complaints);
   readMeasured(map, signals, controller, complaints);
   readActedOn(map, scene, controller, complaints);
-  readSurroundings(map, controller, complaints);
+  readSurroundings(map, scene, controller, complaints);
   const bool external = info != nullptr && info->name == "external";
   for (const char* const own : {"mode", "timeout", "on_timeout"}) {
     if (!external && map.has(own)) {

@@ -67,7 +67,7 @@ void RunningController::start(std::int64_t time, const std::vector<Stepper*>& ru
   std::fill(outputs_.begin(), outputs_.end(), 0.0);
   for (Acted& acted : acted_) {
     acted.actuator.reset();
-    acted.inputs->control(acted.input, 0.0);
+    acted.inputs->release(acted.input);
   }
   read(running);
   for (std::size_t i = 0; i < channels_.size(); ++i) {
@@ -120,11 +120,11 @@ void RunningController::follow(std::int64_t time, const std::vector<Stepper*>& r
 void RunningController::actAt(std::int64_t time) noexcept {
   while (instants_.outputTime() <= time) {
     if (lockstep_ && instants_.output() >= first_) {
-      giveAnswer(external_->answer(instants_.output()));
+      giveAnswer(external_->answer(instants_.output()), time);
     } else if (!at_once_ && instants_.output() >= first_) {
       const auto place = static_cast<std::size_t>((instants_.output() - first_) %
                                                   static_cast<std::int64_t>(under_way_));
-      give(outputs_.data() + place * acted_.size());
+      give(outputs_.data() + place * acted_.size(), time);
     }
     instants_.passOutput();
   }
@@ -156,7 +156,7 @@ void RunningController::sampleAt(std::int64_t time, double offset,
   running_->update({shown_.data(), k, time, turned.angle, turned.speed}, outputs);
   ++count_.samples;
   if (external_ != nullptr && external_->givesNothing() && !was_lost) {
-    giveNothing();
+    giveNothing(time);
   }
   if (!lockstep_ && !isNumber(outputs)) {
     ++count_.missed;
@@ -165,7 +165,7 @@ void RunningController::sampleAt(std::int64_t time, double offset,
     }
   }
   if (at_once_) {
-    give(outputs);
+    give(outputs, time);
   }
   instants_.passSample();
 }
@@ -184,21 +184,21 @@ bool RunningController::isNumber(const double* outputs) const noexcept {
 }
 
 /// nullptr: none has come, and the last one stays.
-void RunningController::giveAnswer(const double* outputs) noexcept {
+void RunningController::giveAnswer(const double* outputs, std::int64_t time) noexcept {
   if (outputs == nullptr) {
     return;
   }
   if (isNumber(outputs)) {
-    give(outputs);
+    give(outputs, time);
   } else {
     ++count_.missed;
   }
 }
 
 /// 0, also of all that is under way.
-void RunningController::giveNothing() noexcept {
+void RunningController::giveNothing(std::int64_t time) noexcept {
   std::fill(outputs_.begin(), outputs_.end(), 0.0);
-  give(outputs_.data());
+  give(outputs_.data(), time);
 }
 
 bool RunningController::mayGoOn(std::int64_t until, std::int64_t elapsed) noexcept {
@@ -218,7 +218,7 @@ bool RunningController::mayGoOn(std::int64_t until, std::int64_t elapsed) noexce
     return false;
   }
   if (external_->givesNothing()) {
-    giveNothing();
+    giveNothing(acted_.front().inputs->begun());
   }
   return true;
 }
@@ -234,12 +234,12 @@ void RunningController::stop(std::vector<StepStatus>& status) const noexcept {
   }
 }
 
-void RunningController::give(const double* outputs) noexcept {
+void RunningController::give(const double* outputs, std::int64_t time) noexcept {
   bool all = true;
   for (std::size_t i = 0; i < acted_.size(); ++i) {
     Acted& acted = acted_[i];
     all = acted.actuator.take(outputs[i]) && all;
-    acted.inputs->control(acted.input, acted.actuator.value());
+    acted.inputs->control(acted.input, acted.actuator.value(), time);
   }
   count_.saturated += all ? 0 : 1;
 }

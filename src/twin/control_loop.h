@@ -69,9 +69,11 @@ class RunningController {
   ExternalController* external() const noexcept { return external_; }
   std::size_t measured() const { return channels_.size(); }
   std::size_t outputs() const { return acted_.size(); }
-  /// What the last sample showed, and what acts.
+  /// What the last sample showed, and what acts, at the start of the step.
   const double* shown() const noexcept { return shown_.data(); }
-  double acting(std::size_t output) const noexcept { return acted_[output].actuator.value(); }
+  double acting(std::size_t output) const noexcept {
+    return acted_[output].inputs->value(acted_[output].input, 0.0);
+  }
 
  private:
   struct Channel {
@@ -90,10 +92,10 @@ class RunningController {
   };
 
   void read(const std::vector<Stepper*>& running) noexcept;
-  void give(const double* outputs) noexcept;
-  void giveAnswer(const double* outputs) noexcept;
+  void give(const double* outputs, std::int64_t time) noexcept;
+  void giveAnswer(const double* outputs, std::int64_t time) noexcept;
   bool isNumber(const double* outputs) const noexcept;
-  void giveNothing() noexcept;
+  void giveNothing(std::int64_t time) noexcept;
 
   std::unique_ptr<Controller> law_;          ///< the scene's
   std::unique_ptr<Controller> replacement_;  ///< the latest; null: none yet

@@ -130,6 +130,9 @@ TEST(SampledMargins, HaveBodesIntegral) {
   LoopController filtered = levitation(2.0, std::sqrt(2.0), 0.1, 0.3);
   filtered.sensor_bandwidth = filtered.actuator_bandwidth = 5.0;
   EXPECT_LT(marginsOf(filtered).bode_error, 1e-11);
+  LoopController amplified = levitation(2.0, std::sqrt(2.0), 0.1, 0.0);
+  amplified.actuator_bandwidth = 1.0 / (0.1 * 2.0 * kPi);  // a lag of 0.1 s
+  EXPECT_LT(marginsOf(amplified).bode_error, 1e-12);
 }
 
 TEST(SampledMargins, OfFastSamplesAreThoseOfContinuousTime) {

@@ -70,6 +70,30 @@ TEST(Inputs, LinearTableGoesStraightFromInstantToInstant) {
   EXPECT_DOUBLE_EQ(inputs.piece(0, kSecond).slope, 2.0);
 }
 
+// i' = 100 (held - i): as far as the times since go, whatever steps begin in between.
+TEST(Inputs, BehindALagGoesOnFromInstantToInstant) {
+  Inputs inputs({InputSignal::controlled(100.0)});
+  inputs.begin(0);
+  inputs.control(0, 2.0, 3'000'000);
+  for (std::int64_t step = 1; step <= 20; ++step) {
+    inputs.begin(1'000'000 * step);
+    const double now = step < 3 ? 0.0 : 2.0 - 2.0 * std::exp(-0.1 * static_cast<double>(step - 3));
+    if (step >= 3) {
+      EXPECT_NEAR(inputs.value(0, 0.0), now, 1e-15) << step;
+      EXPECT_NEAR(inputs.piece(0, 0).slopeAt(0.0), 100.0 * (2.0 - now), 1e-12) << step;
+      EXPECT_NEAR(inputs.value(0, 0.02), 2.0 - (2.0 - now) * std::exp(-2.0), 1e-15) << step;
+    }
+  }
+  inputs.control(0, -1.0, 20'500'000);
+  const double then = 2.0 - 2.0 * std::exp(-1.75);
+  EXPECT_NEAR(inputs.value(0, 0.0005), then, 1e-15) << "it does not jump";
+  EXPECT_NEAR(inputs.value(0, 0.0105), -1.0 + (then + 1.0) * std::exp(-1.0), 1e-15);
+  inputs.release(0);
+  inputs.begin(0);
+  EXPECT_EQ(inputs.value(0, 0.0), 0.0);
+  EXPECT_EQ(inputs.value(0, 0.4), 0.0);
+}
+
 TEST(Inputs, CornersAreThoseOfAllTables) {
   std::vector<std::int64_t> many;
   std::vector<double> values;

@@ -11,6 +11,8 @@
 
 #include "../scene/scenes.h"
 #include "allocation_guard.h"
+#include "analysis/sampled_loop.h"
+#include "scene/closed_loop.h"
 #include "twin/observer.h"
 #include "twin/trial_steps.h"
 #include "twin/twin.h"
@@ -167,7 +169,7 @@ TEST(SampledLoop, GivesNothingBeforeItsFirstOutput) {
 TEST(SampledLoop, GivesTheSameNumbersAgainAfterAReset) {
   const std::string noisy =
       ", sensor: {noise: 1.0e-5, resolution: 1.0e-6, range: 1.0, bandwidth: 40.0, seed: 7}, "
-      "actuator: {limit: 1.0e-3, slew: 0.1, resolution: 1.0e-6}";
+      "actuator: {limit: 1.0e-3, slew: 0.1, resolution: 1.0e-6, bandwidth: 30.0}";
   Twin twin(levitated(Levitation{3'000'000, 200.0, 7'000'000}, noisy));
   std::vector<double> first;
   for (int run = 0; run < 2; ++run) {
@@ -205,9 +207,63 @@ TEST(SampledLoop, ActsAsItsActuatorCan) {
   }
 }
 
+// What is within its limit it gives, to the last bit: rounding is no saturation.
+TEST(SampledLoop, CountsOnlyWhatItsActuatorCannotGive) {
+  Twin twin(levitated(Levitation{10'000'000, 100.0, 0},
+                      ", sensor: {noise: 1.0e-5}, actuator: {limit: 100.0}"));
+  for (int i = 0; i < 1000; ++i) {
+    twin.step();
+  }
+  EXPECT_EQ(twin.control().controllers()[0].count().samples, 1000);
+  EXPECT_EQ(twin.control().controllers()[0].count().saturated, 0);
+}
+
+/// x'' = -k x + u behind a lag, under a PD law, off the steps and a fraction of a sample late.
+struct Lagged {
+  double stiffness, kp, kd, bandwidth;
+  int periods;  // of 7 samples and 3 steps
+};
+
+// What the twin runs and what its loop is judged by are one loop: from sample to sample the one
+// goes as the powers of the other's matrix, the state of the actuator's lag among theirs.
+TEST(SampledLoop, BehindALagGoesAsThePowersOfItsMatrix) {
+  for (const Lagged& l : {Lagged{-1.0, 2.0, std::sqrt(2.0), 1.6, 500},
+                          Lagged{1.0, 1.0e-3, 3.0e-3, 0.5, 14300}}) {  // 1e5 samples
+    const double period = 0.03;
+    const Scene scene = sceneOf(fmt::format(
+        "{{step: 0.07, systems: {{s: {{model: linear_system, integrator: exponential, parameters: "
+        "{{names: [x], mass: [[1.0]], stiffness: [[{}]]}}, initial: {{x: 1.0e-3}}}}}}, "
+        "controllers: {{pd: {{type: linear, rate: {:.17g}, measures: [s.x], acts_on: [s.force_x], "
+        "delay: 0.017, actuator: {{bandwidth: {}}}, parameters: {{a: [[0.0]], b: [[1.0]], c: "
+        "[[{:.17g}]], d: [[{:.17g}]]}}}}}}}}",
+        l.stiffness, 1.0 / period, l.bandwidth, l.kd / period, -l.kp - l.kd / period));
+    const ClosedLoop::Parts parts = *closedLoops(scene).front().parts(
+        [&](std::size_t system) { return smallMotionAtStart(scene, system); }, 0.0);
+    const Eigen::MatrixXd sample = sampledLoop(parts.plant, parts.controllers).transition;
+    ASSERT_EQ(sample.rows(), 5);  // x and its rate, the lag, the law's state, an output on its way
+    Eigen::VectorXd state = 1.0e-3 * Eigen::VectorXd::Unit(5, 0);
+    Twin twin(scene);
+    double largest = 1.0e-3;
+    for (int i = 0; i < l.periods; ++i) {
+      for (int k = 0; k < 7; ++k) {
+        state = sample * state;
+      }
+      for (int k = 0; k < 3; ++k) {
+        twin.step();
+      }
+      largest = std::max(largest, state.norm());
+      const Motion motion = motionOf(twin);
+      ASSERT_NEAR(motion.x, state[0], 1e-12 * largest) << "period " << i;
+      ASSERT_NEAR(motion.v, state[1], 1e-12 * largest) << "period " << i;
+      ASSERT_NEAR(twin.control().controllers()[0].acting(0), state[2], 1e-12 * largest);
+    }
+  }
+}
+
 TEST(SampledLoop, AllocatesNothing) {
-  Twin twin(levitated(Levitation{7'000'000, 100.0, 23'000'000},
-                      ", sensor: {noise: 1.0e-6, bandwidth: 40.0}, actuator: {limit: 1.0}"));
+  Twin twin(levitated(
+      Levitation{7'000'000, 100.0, 23'000'000},
+      ", sensor: {noise: 1.0e-6, bandwidth: 40.0}, actuator: {limit: 1.0, bandwidth: 9.0}"));
   const AllocationGuard guard;
   for (int i = 0; i < 100; ++i) {
     twin.step();
@@ -231,24 +287,27 @@ double residualOf(const Scene& scene, int steps) {
 }
 
 TEST(SampledLoop, ClosesTheEnergyBalance) {
-  EXPECT_LT(residualOf(levitated(Levitation{10'000'000, 43.0, 12'000'000}), 1000), 1e-9);
+  for (const char* const lag : {"", ", actuator: {bandwidth: 5.0}"}) {
+    EXPECT_LT(residualOf(levitated(Levitation{10'000'000, 43.0, 12'000'000}, lag), 1000), 1e-9);
+  }
 }
 
 /// A pendulum held aside by a torque that is sampled off its steps.
-std::string heldPendulum(const std::string& integrator, std::int64_t step) {
+std::string heldPendulum(const std::string& integrator, std::int64_t step, double bandwidth) {
   return fmt::format(
       "{{step: {:.9f}, systems: {{p: {{model: pendulum, integrator: {}, parameters: {{mass: 1.0, "
       "length: 0.5, inertia: 0.25, damping: 0.02}}, initial: {{theta: 1.2}}}}}}, controllers: "
       "{{hold: {{type: "
-      "pid, rate: 37.0, measures: [p.theta], acts_on: [p.torque], delay: 0.011, parameters: {{kp: "
-      "6.0, ki: 0.0, kd: 0.4}}}}}}}}",
-      static_cast<double>(step) / 1e9, integrator);
+      "pid, rate: 37.0, measures: [p.theta], acts_on: [p.torque], delay: 0.011, actuator: "
+      "{{bandwidth: "
+      "{}}}, parameters: {{kp: 6.0, ki: 0.0, kd: 0.4}}}}}}}}",
+      static_cast<double>(step) / 1e9, integrator, bandwidth);
 }
 
 /// The error of an angle after a second.
-double errorOf(const std::string& integrator, std::int64_t step) {
-  const auto angle = [](const std::string& method, std::int64_t of_step) {
-    Twin twin(sceneOf(heldPendulum(method, of_step)));
+double errorOf(const std::string& integrator, std::int64_t step, double bandwidth) {
+  const auto angle = [&](const std::string& method, std::int64_t of_step) {
+    Twin twin(sceneOf(heldPendulum(method, of_step, bandwidth)));
     for (std::int64_t i = 0; i < 1'000'000'000 / of_step; ++i) {
       twin.step();
     }
@@ -265,9 +324,11 @@ TEST(SampledLoop, KeepsTheOrderOfAMethod) {
                                      {"gauss_legendre_4", 4.0},
                                      {"velocity_verlet", 2.0},
                                      {"implicit_midpoint", 2.0}}) {
-    const double coarse = errorOf(integrator, 3'125'000);
-    const double fine = errorOf(integrator, 781'250);
-    EXPECT_GT(std::log2(coarse / fine) / 2.0, order - 0.4) << integrator;
+    for (const double bandwidth : {0.0, 12.0}) {
+      const double coarse = errorOf(integrator, 3'125'000, bandwidth);
+      const double fine = errorOf(integrator, 781'250, bandwidth);
+      EXPECT_GT(std::log2(coarse / fine) / 2.0, order - 0.4) << integrator << ", " << bandwidth;
+    }
   }
 }
 
@@ -281,7 +342,7 @@ TEST(SampledLoop, OfARotorInARunUpGoesAsByAnotherMethod) {
         "integrator: {}, parameters: {{mass: 1.0, stiffness: 4900.0, damping: 20.0, "
         "internal_damping: 5.0, eccentricity: 1.0e-4}}}}}}, controllers: {{more: {{type: pid, "
         "rate: 1300.0, measures: [r.x, r.y], acts_on: [r.force_x, r.force_y], delay: 3.0e-4, "
-        "parameters: {{kp: 2000.0, ki: 0.0, kd: 6.0}}}}}}}}",
+        "actuator: {{bandwidth: 400.0}}, parameters: {{kp: 2000.0, ki: 0.0, kd: 6.0}}}}}}}}",
         static_cast<double>(step) / 1e9, integrator));
   };
   Twin exact(rotor("exponential", 1'000'000));
