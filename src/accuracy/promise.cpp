@@ -30,7 +30,7 @@ const char* const kExact = "exponential";
 
 bool stepsAreExact(const Scene& one, const ModelSetup& setup) {
   const bool on_drive = one.systems.front().drive.has_value();
-  return chooseIntegrator(setup, on_drive).integrator == kExact &&
+  return setup.dynamics->linear() && chooseIntegrator(setup, on_drive).integrator == kExact &&
          (one.drives.empty() || one.drives.front().profile.empty());
 }
 

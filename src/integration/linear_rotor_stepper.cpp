@@ -11,15 +11,17 @@ namespace whirl_twin {
 
 LinearRotorStepper::LinearRotorStepper(std::shared_ptr<const Dynamics> dynamics,
                                        JacobiIntegral jacobi, const Excitation& excitation,
-                                       double step, int substeps)
+                                       double step, int substeps, std::vector<LocalForce> forces)
     : LinearRotorStepper(std::move(dynamics), std::move(jacobi), excitation, step, substeps,
-                         excitation.drive.speedRange(), excitation.drive.constantSpeeds()) {}
+                         excitation.drive.speedRange(), excitation.drive.constantSpeeds(),
+                         std::move(forces)) {}
 
 LinearRotorStepper::LinearRotorStepper(std::shared_ptr<const Dynamics> dynamics,
                                        JacobiIntegral jacobi, const Excitation& excitation,
                                        double step, int substeps,
                                        const std::pair<double, double>& speeds,
-                                       std::vector<double> constant_speeds)
+                                       std::vector<double> constant_speeds,
+                                       std::vector<LocalForce> forces)
     : dynamics_(std::move(dynamics)),
       jacobi_(std::move(jacobi)),
       excitation_(excitation),
@@ -28,7 +30,9 @@ LinearRotorStepper::LinearRotorStepper(std::shared_ptr<const Dynamics> dynamics,
       constant_speeds_(std::move(constant_speeds)),
       audited_(dynamics_->linearRotor().matrices(speeds.first)),
       load_(dynamics_->linearRotor().load),
-      inputs_(excitation.inputs, directionsOf(dynamics_->inputs(), dynamics_->dof())),
+      forces_(std::move(forces), excitation.inputs, dynamics_->dof()),
+      inputs_(excitation.inputs, directionsOf(dynamics_->inputs(), dynamics_->dof()),
+              forces_.directions()),
       method_(dynamics_->linearRotor(), step / substeps, speeds, constant_speeds_, inputs_),
       halves_(dynamics_->linearRotor(), 0.5 * step / substeps, speeds, constant_speeds_, inputs_),
       parts_(excitation.inputs,
@@ -61,6 +65,12 @@ double LinearRotorStepper::furtherEnergy() const noexcept {
   return energy;
 }
 
+StepStatus LinearRotorStepper::advance(RotorStep& method, double offset, double h,
+                                       LinearMotion& motion) noexcept {
+  return forces_.any() ? forces_.advance(method, excitation_.drive, offset, h, motion)
+                       : method.advance(excitation_.drive, offset, motion);
+}
+
 StepStatus LinearRotorStepper::step(double) noexcept {
   next_ = state_;
   bool corner = false;
@@ -72,7 +82,8 @@ StepStatus LinearRotorStepper::step(double) noexcept {
   }
   if (!corner || !method_.advanceInParts(excitation_.drive, 0, length, next_)) {
     for (int i = 0; i < substeps_; ++i) {
-      const StepStatus status = method_.advance(excitation_.drive, i * (step_ / substeps_), next_);
+      const double h = step_ / substeps_;
+      const StepStatus status = advance(method_, i * h, h, next_);
       if (status != StepStatus::kOk) {
         return status;
       }
@@ -96,10 +107,11 @@ StepStatus LinearRotorStepper::stepPart(double, std::int64_t from, std::int64_t 
   next_ = state_;
   if (!(inputs_.nextCorner(from) < to &&
         method_.advanceInParts(excitation_.drive, from, to, next_))) {
-    const StepStatus status = parts_.advance(from, to, [&](RotorStep& part, double offset) {
-      part.restart();
-      return part.advance(excitation_.drive, offset, next_);
-    });
+    const StepStatus status =
+        parts_.advance(from, to, [&](RotorStep& part, double offset, double h) {
+          part.restart();
+          return advance(part, offset, h, next_);
+        });
     if (status != StepStatus::kOk) {
       return status;
     }
@@ -117,7 +129,7 @@ void LinearRotorStepper::estimateError() noexcept {
   halves_.restart();
   const double h = 0.5 * (step_ / substeps_);
   for (int i = 0; i < 2 * substeps_; ++i) {
-    if (halves_.advance(excitation_.drive, i * h, finer_) != StepStatus::kOk) {
+    if (advance(halves_, i * h, h, finer_) != StepStatus::kOk) {
       errors_.passOver();
       return;
     }
@@ -158,8 +170,9 @@ std::unique_ptr<Stepper> LinearRotorStepper::readyFor(double lowest_speed,
   }
   const std::pair<double, double> speeds{std::min(lowest_speed, method_.lowestSpeed()),
                                          std::max(highest_speed, method_.highestSpeed())};
-  return std::unique_ptr<Stepper>(new LinearRotorStepper(
-      dynamics_, jacobi_, excitation_, step_, substeps_, speeds, std::move(constant_speeds)));
+  return std::unique_ptr<Stepper>(
+      new LinearRotorStepper(dynamics_, jacobi_, excitation_, step_, substeps_, speeds,
+                             std::move(constant_speeds), forces_.all()));
 }
 
 }  // namespace whirl_twin

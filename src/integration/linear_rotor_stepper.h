@@ -1,4 +1,5 @@
-// A linear rotor given by its matrices, stepped exactly.
+// A linear rotor given by its matrices, stepped exactly; forces at places along it that are not
+// linear are stepped with it (local_forces.h).
 #pragma once
 
 #include <functional>
@@ -9,6 +10,7 @@
 #include "integration/acting_inputs.h"
 #include "integration/excitation.h"
 #include "integration/jacobi_integral.h"
+#include "integration/local_forces.h"
 #include "integration/rotor_step.h"
 #include "integration/step_error_sum.h"
 #include "integration/step_parts.h"
@@ -24,7 +26,8 @@ class LinearRotorStepper final : public Stepper {
   /// dynamics have another Jacobi integral, with the motion of the unbalance in it, `jacobi` is
   /// that, and what it changes by besides is added to the work.
   LinearRotorStepper(std::shared_ptr<const Dynamics> dynamics, JacobiIntegral jacobi,
-                     const Excitation& excitation, double step, int substeps);
+                     const Excitation& excitation, double step, int substeps,
+                     std::vector<LocalForce> forces = {});
 
   StepStatus step(double time) noexcept override;
   StepStatus stepPart(double time, std::int64_t from, std::int64_t to) noexcept override;
@@ -38,7 +41,9 @@ class LinearRotorStepper final : public Stepper {
  private:
   LinearRotorStepper(std::shared_ptr<const Dynamics> dynamics, JacobiIntegral jacobi,
                      const Excitation& excitation, double step, int substeps,
-                     const std::pair<double, double>& speeds, std::vector<double> constant_speeds);
+                     const std::pair<double, double>& speeds, std::vector<double> constant_speeds,
+                     std::vector<LocalForce> forces);
+  StepStatus advance(RotorStep& method, double offset, double h, LinearMotion& motion) noexcept;
   double furtherEnergy() const noexcept;
   void estimateError() noexcept;
 
@@ -51,6 +56,7 @@ class LinearRotorStepper final : public Stepper {
   Linearization audited_;                ///< whose h = T + V the step audits
   Eigen::VectorXd load_;
   double further_energy_ = 0.0;  ///< [J], at the start
+  LocalForces forces_;
   ActingInputs inputs_;
   RotorStep method_;
   RotorStep halves_;  ///< of half the length

@@ -73,7 +73,7 @@ StepStatus LinearStepper::stepPart(double time, std::int64_t from, std::int64_t 
   if (inputs_.nextCorner(from) < to) {
     method_.advanceInParts(time, from, to, next_);
   } else {
-    parts_.advance(from, to, [&](LinearStep& part, double offset) {
+    parts_.advance(from, to, [&](LinearStep& part, double offset, double) {
       part.advance(time + offset, next_, offset);
       return StepStatus::kOk;
     });

@@ -18,6 +18,8 @@ enum class StepStatus : std::uint8_t {
   kNotFinite = 1,     ///< the new state has an infinity or a NaN
   kNotConverged = 2,  ///< an implicit step found no solution
   kOutOfRange = 3,    ///< the shaft runs at a speed that the step was not prepared for
+  // 4: its controller is lost, which is no matter of a step (twin/record.h)
+  kNoGap = 5,  ///< a magnetic bearing has no gap left: the rotor touches its poles
 };
 
 /// sum + increment without losing what does not fit: sum.high is the nearest double.

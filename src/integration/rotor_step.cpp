@@ -264,7 +264,11 @@ void RotorStep::constantStep(PackedMatrix& map, const ShaftMotion& shaft, double
     y_[input++] = size * sine;
   }
   y_[input++] = 1.0;
-  if (acting_.count() > 0) {
+  if (acting_.arePushed()) {
+    acting_.follow(offset, h_);
+    acting_.writeCourses(y_.data() + input);
+    input = RotorMap::inputs(n_, channels_.size(), acting_, 0);
+  } else if (acting_.count() > 0) {
     acting_.writePairs(offset, piece, h_, y_.data() + input);
     input += 2 * acting_.count();
   }

@@ -25,6 +25,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -55,6 +56,11 @@ class RotorStep {
   /// The motion is set anew: nothing follows from the last step.
   void restart() noexcept { work_.restart(); }
 
+  /// The course over the next step of one of the forces that are no inputs (ActingInputs::push()).
+  /// Real-time safe.
+  void push(std::size_t force, const std::array<double, 4>& course) noexcept {
+    acting_.push(force, course);
+  }
   /// Advances by h from offset [s] after the drive's begin(). Real-time safe. kOutOfRange, with the
   /// motion left as it was, where the mean speed is not between those prepared for.
   StepStatus advance(const Drive& drive, double offset, LinearMotion& motion) noexcept;

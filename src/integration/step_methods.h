@@ -38,8 +38,9 @@
 //         As asked for: comparison, `twin tradeoff`.
 //
 //     matrices as functions of speed, of any size:    exponential,     LinearRotorStepper
-//     flexible_rotor                                  no other         (RotorStep)
-//         Fixed sizes at compile time end at a few coordinates. linearRotorSetup().
+//     flexible_rotor; any rotor on magnets            no other         (RotorStep)
+//         Fixed sizes at compile time end at a few coordinates. linearRotorSetup(). Forces at
+//         places that are not linear go along as cubics of each step (local_forces.h).
 //
 //     matrices and harmonic forces: linear_system,    any but          LinearStepper
 //     cantilever_beam, hinged_beam (geometry: small)  stoermer         (LinearStep)

@@ -26,14 +26,14 @@ class StepParts {
     }
   }
 
-  /// From one instant to another [ns]: take(map, offset [s]) for each part, until one is not kOk.
-  /// Real-time safe.
+  /// From one instant to another [ns]: take(map, offset [s], length [s]) for each part, until one
+  /// is not kOk. Real-time safe.
   template <class Take>
   StepStatus advance(std::int64_t from, std::int64_t to, const Take& take) noexcept {
     StepStatus status = StepStatus::kOk;
     for (auto& [length, map] : parts_) {
       for (; status == StepStatus::kOk && to - from >= length; from += length) {
-        status = take(map, static_cast<double>(from) / 1e9);
+        status = take(map, static_cast<double>(from) / 1e9, static_cast<double>(length) / 1e9);
       }
     }
     return status;

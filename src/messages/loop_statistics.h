@@ -81,7 +81,7 @@ struct LoopStatistics {
     visit.along(system, TWIN_FIELD(integrator), "", each(requireText));
     visit.along(system, TWIN_FIELD(error_estimate), "-");
     visit.along(system, TWIN_FIELD(tolerance), "-");
-    visit.along(system, TWIN_FIELD(stopped), "", each(between(0, 4)));
+    visit.along(system, TWIN_FIELD(stopped), "", each(between(0, 5)));
     visit.along(system, TWIN_FIELD(stopped_why), "", each(requireText));
     visit(TWIN_FIELD(started), "ns", between(0, kMaxStamp));
     visit(TWIN_FIELD(epoch), "", count);

@@ -55,7 +55,7 @@ std::vector<Station> publishedFirst(std::vector<Station> stations, int node,
 
 /// Forces along x and y at every node, and the control currents of magnets.
 std::vector<InputInfo> inputsAt(const std::vector<Station>& stations,
-                                const std::vector<RotorMagnet>& magnets) {
+                                const std::vector<PlacedMagnet>& magnets) {
   std::vector<InputInfo> all;
   for (std::size_t node = 0; node < stations.size(); ++node) {
     all.push_back({fmt::format("force_x_{}", node), "N", stations[node].along_x,
@@ -63,12 +63,21 @@ std::vector<InputInfo> inputsAt(const std::vector<Station>& stations,
     all.push_back({fmt::format("force_y_{}", node), "N", stations[node].along_y,
                    fmt::format("on node {}, along y", node)});
   }
-  for (const RotorMagnet& magnet : magnets) {
-    const Station& station = stations[static_cast<std::size_t>(magnet.node)];
-    all.push_back({fmt::format("current_x_{}", magnet.node), "A", magnet.ki * station.along_x,
-                   fmt::format("of the magnet at node {}, along x", magnet.node)});
-    all.push_back({fmt::format("current_y_{}", magnet.node), "A", magnet.ki * station.along_y,
-                   fmt::format("of the magnet at node {}, along y", magnet.node)});
+  for (const PlacedMagnet& magnet : magnets) {
+    for (const InputInfo& current : currentsOf(magnet)) {
+      all.push_back(current);
+    }
+  }
+  return all;
+}
+
+/// Named by their nodes.
+std::vector<PlacedMagnet> placed(const std::vector<NodeMagnet>& magnets,
+                                 const std::vector<Station>& stations) {
+  std::vector<PlacedMagnet> all;
+  for (const NodeMagnet& at : magnets) {
+    const Station& station = stations[static_cast<std::size_t>(at.node)];
+    all.push_back({at.magnet, std::to_string(at.node), station.along_x, station.along_y});
   }
   return all;
 }
@@ -174,11 +183,15 @@ ModelSetup setUpFlexibleRotor(const ParameterValues& values, const Settings& set
   }
   description.stations =
       publishedFirst(assembly.stations(), probe, publishedNodes(settings, shaft));
-  description.inputs = inputsAt(assembly.stations(), rotorMagnets(settings, shaft.nodes()));
+  const std::vector<PlacedMagnet> magnets =
+      placed(nodeMagnets(settings, shaft.nodes()), assembly.stations());
+  description.inputs = inputsAt(assembly.stations(), magnets);
+  const std::size_t first_current = description.inputs.size() - 2 * magnets.size();
   description.sketch = FlexibleRotorPicture(shaft, assembly.stations(), probe);
   LinearRotor rotor = assembly.linearRotor();
   rotor.highest_speed = highest_speed;
-  ModelSetup setup = linearRotorSetup(dynamicsOf(std::move(description), std::move(rotor)));
+  ModelSetup setup = linearRotorSetup(dynamicsOf(std::move(description), std::move(rotor)),
+                                      localForcesOf(magnets, first_current));
   setup.note = note;
   return setup;
 }

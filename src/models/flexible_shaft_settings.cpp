@@ -106,10 +106,10 @@ void addBearings(const Settings& settings, FlexibleShaft& shaft) {
       shaft.speed_bearings.push_back(tabulatedBearing(bearing.node, tables[i]));
     }
   }
-  for (const RotorMagnet& magnet : rotorMagnets(settings, shaft.nodes())) {
+  for (const NodeMagnet& at : nodeMagnets(settings, shaft.nodes())) {
     BearingCoefficients coefficients;
-    coefficients.kxx = coefficients.kyy = -magnet.ks;
-    shaft.bearings.push_back({magnet.node, coefficients});
+    coefficients.kxx = coefficients.kyy = -at.magnet.ks;
+    shaft.bearings.push_back({at.node, coefficients});
   }
   const std::vector<TableRow>& journals = table(settings, "journal_bearings");
   for (std::size_t i = 0; i < journals.size(); ++i) {
@@ -163,12 +163,7 @@ std::vector<SettingInfo> flexibleShaftSettings() {
             {"clearance", "m", Range::kPositive, kRequired},
             {"viscosity", "Pa s", Range::kPositive, kRequired},
             {"load", "N", Range::kPositive, kRequired}}),
-      rows("magnets",
-           "magnetic bearings about their bias, force ki current + ks displacement; inputs "
-           "current_x_NODE, current_y_NODE [A]",
-           {node,
-            {"ki", "N/A", Range::kPositive, kRequired},
-            {"ks", "N/m", Range::kNotNegative, kRequired}}),
+      magnetsSetting({node}, "current_x_NODE, current_y_NODE"),
       rows("unbalances", "at nodes",
            {node,
             {"magnitude", "kg m", Range::kNotNegative, kRequired},
@@ -220,17 +215,17 @@ FlexibleShaft flexibleShaft(const ParameterValues& values, const Settings& setti
   return shaft;
 }
 
-std::vector<RotorMagnet> rotorMagnets(const Settings& settings, int nodes) {
-  std::vector<RotorMagnet> magnets;
-  const std::vector<TableRow>& rows = table(settings, "magnets");
+std::vector<NodeMagnet> nodeMagnets(const Settings& settings, int nodes) {
+  std::vector<NodeMagnet> magnets;
+  const std::vector<TableRow>& rows = magnetRows(settings);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::string key = fmt::format("magnets[{}]", i);
     const int node = indexIn(rows[i], key, "node", nodes - 1);
     if (std::any_of(magnets.begin(), magnets.end(),
-                    [node](const RotorMagnet& other) { return other.node == node; })) {
+                    [node](const NodeMagnet& other) { return other.node == node; })) {
       throw SetupError(key + ".node", fmt::format("stands twice, found {}", node));
     }
-    magnets.push_back({node, rows[i].numbers.at("ki"), rows[i].numbers.at("ks")});
+    magnets.push_back({node, rotorMagnet(rows[i], key)});
   }
   return magnets;
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "mechanics/rotors/rotor_assembly.h"
+#include "models/magnet_settings.h"
 #include "models/model_info.h"
 
 namespace whirl_twin {
@@ -15,16 +16,14 @@ std::vector<SettingInfo> flexibleShaftSettings();
 FlexibleShaft flexibleShaft(const ParameterValues& values, const Settings& settings,
                             double gravity);
 
-/// A magnetic bearing, linear about its bias: a force ki i + ks x along x, and so along y.
-struct RotorMagnet {
+struct NodeMagnet {
   int node = 0;
-  double ki = 0.0;  ///< [N/A], of its control current
-  double ks = 0.0;  ///< [N/m], of the displacement: it pulls away from the middle
+  RotorMagnet magnet;
 };
 
 /// Of each what it adds to the shaft, its negative stiffness, is among the shaft's bearings.
 /// Throws SetupError.
-std::vector<RotorMagnet> rotorMagnets(const Settings& settings, int nodes);
+std::vector<NodeMagnet> nodeMagnets(const Settings& settings, int nodes);
 
 /// The nodes that have a whirl of their own. Throws SetupError for one that is not there, or twice.
 std::vector<int> publishedNodes(const Settings& settings, const FlexibleShaft& shaft);

@@ -1,6 +1,12 @@
 #include "mechanics/rotors/jeffcott_rotor.h"
 
+#include <fmt/format.h>
+
+#include <memory>
+#include <vector>
+
 #include "models/jeffcott_forms.h"
+#include "models/levitated_rotor.h"
 #include "models/linear_rotor_setup.h"
 #include "models/model_entry.h"
 #include "models/models.h"
@@ -58,6 +64,25 @@ void check(const ParameterValues& values, const Surroundings& around) {
   }
 }
 
+/// On a magnet at the disc.
+ModelSetup setUpLevitated(const ParameterValues& values, const Settings& settings,
+                          const Surroundings& around) {
+  const std::vector<TableRow>& rows = magnetRows(settings);
+  if (rows.size() != 1) {
+    throw SetupError("magnets", fmt::format("must be one map, at the disc, found {}", rows.size()));
+  }
+  if (around.motor || isNonlinear(values) || given(values, "bearing_length")) {
+    throw SetupError("magnets",
+                     "a rotor on a magnet has neither a motor, a loss_factor, a rub nor journal "
+                     "bearings");
+  }
+  const std::shared_ptr<const Dynamics> plain = std::make_shared<LagrangianDynamics<JeffcottRotor>>(
+      makeModel<JeffcottRotor>(values, around.gravity));
+  const Station disc = plain->stations().front();
+  return levitatedRotorSetup(
+      plain, {{rotorMagnet(rows[0], "magnets[0]"), "", disc.along_x, disc.along_y}});
+}
+
 ModelSetup setUpLinear(const ParameterValues& values, const Surroundings& around) {
   if (around.motor) {
     return setUpSpinningJeffcott(values, around);
@@ -79,6 +104,7 @@ ModelInfo jeffcottRotorInfo() {
                            false,
                            {},
                            {}});
+  info.settings.push_back(magnetsSetting({}, "current_x, current_y"));
   info.variants.push_back(nonlinearJeffcottVariant("loss_factor > 0"));
   info.variants.push_back(nonlinearJeffcottVariant("rub_stiffness > 0"));
   info.variants.push_back(journalJeffcottVariant("bearing_length > 0"));
@@ -90,6 +116,9 @@ ModelInfo jeffcottRotorInfo() {
     Surroundings felt = around;
     if (gravity_on == settings.choices.end() || gravity_on->second != "true") {
       felt.gravity = 0.0;
+    }
+    if (!magnetRows(settings).empty()) {
+      return setUpLevitated(values, settings, felt);
     }
     ModelSetup setup = isNonlinear(values)               ? setUpNonlinearJeffcott(values, felt)
                        : given(values, "bearing_length") ? setUpJournalJeffcott(values, felt)

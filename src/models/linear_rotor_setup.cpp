@@ -5,25 +5,10 @@
 #include "integration/exponential.h"
 #include "integration/lateral_rotor_stepper.h"
 #include "integration/linear_rotor_stepper.h"
+#include "mechanics/locally_forced_rotor.h"
 #include "models/exact_stepper.h"
 
 namespace whirl_twin {
-
-namespace {
-
-ModelSetup exactSetup(std::shared_ptr<const Dynamics> dynamics, const JacobiIntegral& jacobi) {
-  ModelSetup setup;
-  setup.dynamics = dynamics;
-  setup.integrators = {Exponential<1>::kName};
-  setup.system = [dynamics, jacobi](const std::string&, const Excitation& excitation, double step,
-                                    int substeps) {
-    return exactStepper(dynamics, jacobi, excitation, step, substeps);
-  };
-  setup.exact_run_ups = true;
-  return setup;
-}
-
-}  // namespace
 
 std::unique_ptr<Stepper> exactStepper(std::shared_ptr<const Dynamics> dynamics,
                                       JacobiIntegral jacobi, const Excitation& excitation,
@@ -32,8 +17,21 @@ std::unique_ptr<Stepper> exactStepper(std::shared_ptr<const Dynamics> dynamics,
                                               step, substeps);
 }
 
-ModelSetup linearRotorSetup(std::shared_ptr<const Dynamics> dynamics) {
-  return exactSetup(std::move(dynamics), {});
+ModelSetup linearRotorSetup(std::shared_ptr<const Dynamics> dynamics,
+                            std::vector<LocalForce> forces) {
+  if (!forces.empty()) {
+    dynamics = std::make_shared<LocallyForcedRotor>(std::move(dynamics), forces);
+  }
+  ModelSetup setup;
+  setup.dynamics = dynamics;
+  setup.integrators = {Exponential<1>::kName};
+  setup.system = [dynamics, forces = std::move(forces)](
+                     const std::string&, const Excitation& excitation, double step, int substeps) {
+    return std::make_unique<LinearRotorStepper>(dynamics, JacobiIntegral(), excitation, step,
+                                                substeps, forces);
+  };
+  setup.exact_run_ups = true;
+  return setup;
 }
 
 ModelSetup withExactRunUps(ModelSetup setup, JacobiIntegral jacobi) {

@@ -2,16 +2,20 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "integration/jacobi_integral.h"
 #include "mechanics/dynamics.h"
+#include "mechanics/local_force.h"
 #include "models/model_info.h"
 
 namespace whirl_twin {
 
 /// The setup of a model whose dynamics are a linear rotor: it steps with `exponential`, at constant
-/// and at changing speed.
-ModelSetup linearRotorSetup(std::shared_ptr<const Dynamics> dynamics);
+/// and at changing speed. With local forces it is the rotor of what is linear in them, and the
+/// setup's dynamics have them all.
+ModelSetup linearRotorSetup(std::shared_ptr<const Dynamics> dynamics,
+                            std::vector<LocalForce> forces = {});
 
 /// A setup of a linear model with a shaft, in the fixed frame, whose `exponential` follows a
 /// changing speed: of two coordinates without inputs by LateralRotorStepper, else by that step.

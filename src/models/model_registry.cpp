@@ -138,6 +138,9 @@ IntegratorChoice chooseIntegrator(const ModelSetup& setup, bool speed_changes) {
   if (dynamics.linear()) {
     return {"gauss_legendre_6", "its matrices change with the drive's speed"};
   }
+  if (setup.integrators == std::vector<std::string>{"exponential"}) {
+    return {"exponential", "its linear part by the exact step, local forces by order 4"};
+  }
   return {"gauss_legendre_6", "nonlinear: order 6, symplectic, stable at any step"};
 }
 

@@ -1,6 +1,13 @@
 #include "mechanics/rotors/rigid_disc_rotor.h"
 
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
 #include "mechanics/rotors/turning_rigid_disc_rotor.h"
+#include "models/levitated_rotor.h"
 #include "models/linear_rotor_setup.h"
 #include "models/model_entry.h"
 #include "models/models.h"
@@ -35,8 +42,12 @@ ParameterValues withShaft(ParameterValues values, const Settings& settings) {
     k12 = -6.0 * ei / (l * l);
     k22 = 4.0 * ei / l;
   }
+  if (!magnetRows(settings).empty() && k11 == 0.0 && k12 == 0.0 && k22 == 0.0) {
+    return values;  // a free rotor, that the magnets hold
+  }
   if (!(k11 > 0.0)) {
-    throw SetupError("stiffness_displacement", "must be > 0 N/m, unless the shaft is overhung");
+    throw SetupError("stiffness_displacement",
+                     "must be > 0 N/m, unless the shaft is overhung or magnets hold the rotor");
   }
   if (!(k22 > 0.0)) {
     throw SetupError("stiffness_rotation", "must be > 0 N m, unless the shaft is overhung");
@@ -47,6 +58,20 @@ ParameterValues withShaft(ParameterValues values, const Settings& settings) {
                      "no shaft has such a stiffness");
   }
   return values;
+}
+
+/// Numbered from 1 on, along the shaft: place = displacement + position times slope.
+std::vector<PlacedMagnet> placed(const Settings& settings) {
+  std::vector<PlacedMagnet> magnets;
+  for (const TableRow& row : magnetRows(settings)) {
+    const std::string key = fmt::format("magnets[{}]", magnets.size());
+    const double position = row.numbers.at("position");
+    PlacedMagnet at{rotorMagnet(row, key), std::to_string(magnets.size() + 1), {}, {}};
+    at.along_x = Eigen::Vector4d(1.0, 0.0, 0.0, position);
+    at.along_y = Eigen::Vector4d(0.0, 1.0, -position, 0.0);
+    magnets.push_back(at);
+  }
+  return magnets;
 }
 
 SettingInfo choiceOf(const char* name, const char* meaning, std::vector<std::string> words) {
@@ -73,6 +98,8 @@ ModelInfo rigidDiscRotorInfo() {
                            {{"length", "m", Range::kPositive, needed},
                             {"bending_stiffness", "N m^2", Range::kPositive, needed}},
                            {}});
+  info.settings.push_back(magnetsSetting({{"position", "m", Range::kAny, 0.0}},
+                                         "current_x_1, current_y_1, current_x_2 ... in order"));
   info.setUp = [](const ParameterValues& values, const Settings& settings,
                   const Surroundings& around) {
     const bool turning = choice(settings, "frame", "fixed") == "rotating";
@@ -89,7 +116,16 @@ ModelInfo rigidDiscRotorInfo() {
     const ParameterValues complete = withShaft(values, settings);
     const double gravity = heavy ? around.gravity : 0.0;
     if (turning) {
+      if (!magnetRows(settings).empty()) {
+        throw SetupError("magnets", "need frame: fixed, where they stand");
+      }
       return setUp<TurningRigidDiscRotor>(complete, gravity);
+    }
+    const std::vector<PlacedMagnet> magnets = placed(settings);
+    if (!magnets.empty()) {
+      return levitatedRotorSetup(std::make_shared<LagrangianDynamics<RigidDiscRotor>>(
+                                     makeModel<RigidDiscRotor>(complete, gravity)),
+                                 magnets);
     }
     const RigidDiscRotor rotor = makeModel<RigidDiscRotor>(complete, gravity);
     return withExactRunUps(setUp(rotor), jacobiIntegral(rotor));

@@ -15,6 +15,8 @@ const char* describe(StepStatus status) {
       return "implicit step did not converge";
     case StepStatus::kOutOfRange:
       return "its shaft runs at a speed that it was not prepared for";
+    case StepStatus::kNoGap:
+      return "it touches the poles of a magnetic bearing";
     case StepStatus::kOk:
       break;
   }

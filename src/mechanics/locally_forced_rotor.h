@@ -1,0 +1,79 @@
+// A linear rotor with forces at places along its shaft that are not linear (local_force.h),
+//
+//   M q'' + (C + G) q' + (K + N) q = f + sum of along_x F_x + along_y F_y.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "algebra/cholesky.h"
+#include "mechanics/dynamics.h"
+#include "mechanics/local_force.h"
+
+namespace whirl_twin {
+
+class LocallyForcedRotor final : public Dynamics {
+ public:
+  /// The rotor with what of the forces is linear.
+  LocallyForcedRotor(std::shared_ptr<const Dynamics> linear, std::vector<LocalForce> forces);
+
+  std::string model() const override { return linear_->model(); }
+  int dof() const override { return linear_->dof(); }
+  std::vector<CoordinateInfo> coordinates() const override { return linear_->coordinates(); }
+  std::vector<InputInfo> inputs() const override { return linear_->inputs(); }
+  bool linear() const override { return false; }
+  bool hasShaft() const override { return linear_->hasShaft(); }
+  bool isRotor() const override { return linear_->isRotor(); }
+  bool speedDependent() const override { return linear_->speedDependent(); }
+  double phaseMark() const override { return linear_->phaseMark(); }
+  double naturalLength() const override;
+  const Dynamics& atMeanLoad() const override { return balanced_ ? *balanced_ : *this; }
+  std::vector<Station> stations() const override { return linear_->stations(); }
+  /// Without what is not linear.
+  LinearRotor linearRotor() const override { return linear_->linearRotor(); }
+
+  // Where a law has no place for the rotor its forces are no numbers.
+
+  Eigen::VectorXd acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                               const Moment<double>& at) const override;
+  Eigen::VectorXd unbalancedForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                  const Moment<double>& at) const override;
+  Eigen::VectorXd appliedForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                               const Moment<double>& at) const override;
+  Eigen::MatrixXd massMatrix(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                             const Moment<double>& at) const override {
+    return linear_->massMatrix(q, v, at);
+  }
+  Eigen::VectorXd momenta(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                          const Moment<double>& at) const override {
+    return linear_->momenta(q, v, at);
+  }
+  Energies energies(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                    const Moment<double>& at) const override;
+  Linearization linearization(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                              const Eigen::VectorXd& a, const Moment<double>& at) const override;
+  std::vector<Reaction> reactions(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                  const Eigen::VectorXd& a,
+                                  const Moment<double>& at) const override {
+    return linear_->reactions(q, v, a, at);
+  }
+  /// That there is room at each force.
+  std::vector<Condition> conditions(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                    const Eigen::VectorXd& a,
+                                    const Moment<double>& at) const override;
+  std::string singularMass() const override { return linear_->singularMass(); }
+  Sketch sketch(const Eigen::VectorXd& q, const Moment<double>& at) const override {
+    return linear_->sketch(q, at);
+  }
+
+ private:
+  Eigen::VectorXd localForce(const Eigen::VectorXd& q) const;
+
+  std::shared_ptr<const Dynamics> linear_;
+  std::vector<LocalForce> forces_;
+  Eigen::LLT<Eigen::MatrixXd> mass_;
+  std::unique_ptr<const LocallyForcedRotor> balanced_;  // none: nothing turns with the shaft
+};
+
+}  // namespace whirl_twin

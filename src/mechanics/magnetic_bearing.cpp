@@ -1,0 +1,51 @@
+#include "mechanics/magnetic_bearing.h"
+
+#include <cmath>
+
+namespace whirl_twin {
+
+MagneticBearing::MagneticBearing(double ki, double bias, double gap, double saturation)
+    : ki_(ki), bias_(bias), gap_(gap), saturation_(saturation), k_(0.25 * ki * gap * gap / bias) {}
+
+MagneticBearing::Pole MagneticBearing::pole(double current, double gap) const noexcept {
+  if (!(current > 0.0)) {
+    return {0.0, 0.0, 0.0};
+  }
+  const double force = k_ * (current / gap) * (current / gap);
+  if (force >= saturation_) {
+    return {saturation_, 0.0, 0.0};
+  }
+  return {force, 2.0 * force / current, 2.0 * force / gap};
+}
+
+MagneticBearing::Force MagneticBearing::axis(double current, double place) const noexcept {
+  const Pole ahead = pole(bias_ + current, gap_ - place);
+  const Pole behind = pole(bias_ - current, gap_ + place);
+  return {ahead.force - behind.force, ahead.by_current + behind.by_current,
+          ahead.by_gap + behind.by_gap, ahead.force + behind.force};
+}
+
+bool MagneticBearing::push(const LocalMotion& at, LocalPush& out) const noexcept {
+  if (!(std::fabs(at.place[0]) < gap_ && std::fabs(at.place[1]) < gap_)) {
+    return false;
+  }
+  out.size = 0.0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Force f = axis(at.input[i], at.place[i]);
+    out.force[i] = f.force - ki_ * at.input[i] - ks() * at.place[i];
+    out.rate[i] = (f.by_current - ki_) * at.input_rate[i] + (f.by_place - ks()) * at.rate[i];
+    out.size += f.both;
+  }
+  return true;
+}
+
+Eigen::Matrix2d MagneticBearing::stiffness(const Eigen::Vector2d& place) const {
+  return Eigen::Vector2d(ks() - axis(0.0, place.x()).by_place, ks() - axis(0.0, place.y()).by_place)
+      .asDiagonal();
+}
+
+double MagneticBearing::room(const Eigen::Vector2d& place) const {
+  return gap_ - place.cwiseAbs().maxCoeff();
+}
+
+}  // namespace whirl_twin
