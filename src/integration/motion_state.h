@@ -15,11 +15,11 @@ namespace whirl_twin {
 
 enum class StepStatus : std::uint8_t {
   kOk = 0,
-  kNotFinite = 1,     ///< the new state has an infinity or a NaN
-  kNotConverged = 2,  ///< an implicit step found no solution
-  kOutOfRange = 3,    ///< the shaft runs at a speed that the step was not prepared for
-  // 4: its controller is lost, which is no matter of a step (twin/record.h)
-  kNoGap = 5,  ///< a magnetic bearing has no gap left: the rotor touches its poles
+  kNotFinite = 1,       ///< the new state has an infinity or a NaN
+  kNotConverged = 2,    ///< an implicit step found no solution
+  kOutOfRange = 3,      ///< the shaft runs at a speed that the step was not prepared for
+  kControllerLost = 4,  ///< one in another process, and what it acts on was to stop then
+  kNoGap = 5,           ///< a magnetic bearing has no gap left: the rotor touches its poles
 };
 
 /// sum + increment without losing what does not fit: sum.high is the nearest double.

@@ -38,7 +38,7 @@ struct LoopStatistics {
   std::vector<std::string> integrator;
   std::vector<double> error_estimate;    ///< [-], NaN: not estimated
   std::vector<double> tolerance;         ///< [-], what integrator: auto promises; else NaN
-  std::vector<std::uint8_t> stopped;     ///< 0: running, 1 to 4: as in the message
+  std::vector<std::uint8_t> stopped;     ///< 0: running, 1 to 5: as in the message
   std::vector<std::string> stopped_why;  ///< empty while running
   // Which run of simulated time this is. A reset is announced by a higher epoch, a simulation that
   // was started again by a later start; 0: not told.

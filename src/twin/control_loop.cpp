@@ -229,7 +229,7 @@ void RunningController::stop(std::vector<StepStatus>& status) const noexcept {
   }
   for (const Acted& acted : acted_) {
     if (status[acted.system] == StepStatus::kOk) {
-      status[acted.system] = kControllerLost;
+      status[acted.system] = StepStatus::kControllerLost;
     }
   }
 }

@@ -73,7 +73,7 @@ void Observer::observe(const double* record) {
 }
 
 std::string Observer::whyStopped(std::size_t system) const {
-  if (status(system) != kControllerLost) {
+  if (status(system) != StepStatus::kControllerLost) {
     return describe(status(system));
   }
   // It may have answered again since.

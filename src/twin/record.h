@@ -25,10 +25,6 @@ inline std::int64_t unpacked(double bits) noexcept {
   return value;
 }
 
-/// Beside what a step itself says: a controller in another process was lost, and what it acts on
-/// was to stop then.
-inline constexpr auto kControllerLost = static_cast<StepStatus>(4);
-
 /// A drive in a record. Of a motor the jerk is 0 and the target the present speed: it has none.
 /// Number is double where it is written, const double where it is read.
 template <class Number>

@@ -17,6 +17,8 @@ const char* describe(StepStatus status) {
       return "its shaft runs at a speed that it was not prepared for";
     case StepStatus::kNoGap:
       return "it touches the poles of a magnetic bearing";
+    case StepStatus::kControllerLost:
+      return "its controller was lost";
     case StepStatus::kOk:
       break;
   }
