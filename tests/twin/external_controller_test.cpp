@@ -266,7 +266,7 @@ TEST(ExternalController, LostItMayStopWhatItActsOnAndNothingElse) {
     }
     EXPECT_EQ(live.twin().twin().status(1), StepStatus::kOk) << mode;
     live.cycle(70);  // the time-out, a sample and what lockstep waits for
-    ASSERT_EQ(live.twin().twin().status(1), kControllerLost) << mode;
+    ASSERT_EQ(live.twin().twin().status(1), StepStatus::kControllerLost) << mode;
     const std::vector<double> stopped = live.motion(1);
     const std::int64_t step = live.step();
     process.answer(live.link());
