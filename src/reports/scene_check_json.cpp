@@ -64,6 +64,7 @@ Json controllerJson(const ControllerSpec& controller, const Published& published
   Json json{{"type", controller.type},
             {"rate", controller.rate},
             {"delay", static_cast<double>(controller.delay) / 1e9},
+            {"jitter", static_cast<double>(controller.jitter) / 1e9},
             {"measures", controller.measured},
             {"acts_on", controller.acted_on}};
   addPublished(published, json);

@@ -77,12 +77,17 @@ std::string inputText(const InputCheck& check) {
 }
 
 std::string controllerText(const ControllerSpec& controller, const Published& published) {
-  return fmt::format("  {}: {} at {:g} Hz, {}\n    measures {}, acts on {}\n", controller.name,
+  const std::string jitter = controller.jitter == 0
+                                 ? ""
+                                 : fmt::format(", more or less by up to {:g} s",
+                                               static_cast<double>(controller.jitter) / 1e9);
+  return fmt::format("  {}: {} at {:g} Hz, {}{}\n    measures {}, acts on {}\n", controller.name,
                      controller.type, controller.rate,
                      controller.delay == 0
                          ? "without delay"
                          : fmt::format("{:g} s late", static_cast<double>(controller.delay) / 1e9),
-                     fmt::join(controller.measured, ", "), fmt::join(controller.acted_on, ", ")) +
+                     jitter, fmt::join(controller.measured, ", "),
+                     fmt::join(controller.acted_on, ", ")) +
          publishedText(published);
 }
 
