@@ -34,6 +34,32 @@ if(TARGET twin)
   install(FILES config/completion/50.whirl_twin.bash DESTINATION share/bash-completion/completions RENAME twin)
 endif()
 
+# Man pages of twin and of the nodes, from what they answer to --help; beside the bin of the devel space, where `man`
+# looks for them.
+find_program(whirl_twin_python NAMES python3)
+if(TARGET twin AND whirl_twin_python AND NOT CMAKE_CROSSCOMPILING)
+  set(whirl_twin_man_dir ${PROJECT_BINARY_DIR}/share/man/man1)
+  if(WHIRL_TWIN_ROS)
+    set(whirl_twin_man_dir ${CATKIN_DEVEL_PREFIX}/share/man/man1)
+  endif()
+  set(whirl_twin_explained twin)
+  foreach(node ${whirl_twin_node_names})
+    if(TARGET ${node})
+      list(APPEND whirl_twin_explained ${node})
+    endif()
+  endforeach()
+  set(whirl_twin_explained_files)
+  foreach(program ${whirl_twin_explained})
+    list(APPEND whirl_twin_explained_files $<TARGET_FILE:${program}>)
+  endforeach()
+  add_custom_command(OUTPUT ${whirl_twin_man_dir}/twin.1
+    COMMAND ${whirl_twin_python} ${PROJECT_SOURCE_DIR}/cmake/man_pages ${whirl_twin_man_dir} ${whirl_twin_explained_files}
+    DEPENDS ${whirl_twin_explained} ${PROJECT_SOURCE_DIR}/cmake/man_pages VERBATIM)
+  add_custom_target(whirl_twin_man ALL DEPENDS ${whirl_twin_man_dir}/twin.1)
+  install(DIRECTORY ${whirl_twin_man_dir}/ DESTINATION share/man/man1 OPTIONAL
+    FILES_MATCHING PATTERN "twin*.1" PATTERN "whirl_twin-*.1")
+endif()
+
 install(TARGETS whirl_twin_core
   ARCHIVE DESTINATION ${whirl_twin_library_dir}
   LIBRARY DESTINATION ${whirl_twin_library_dir})
