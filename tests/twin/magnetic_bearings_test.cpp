@@ -7,9 +7,11 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "../scene/scenes.h"
+#include "algebra/eigenvalues.h"
 #include "allocation_guard.h"
 #include "analysis/sampled_stability.h"
 #include "analysis/validity.h"
@@ -246,6 +248,61 @@ TEST(MagneticBearings, HoldARigidRotorAtTheirPlaces) {
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_LT(std::fabs(settled[i]), 1.0e-7) << i;
   }
+}
+
+/// A rigid rotor of unit mass and tilting inertia, polar inertia 1.2, on magnets 1 m to both sides
+/// whose negative stiffness is 1 in displacement and in tilt. Both are held by 2 z + sqrt(2) z' of
+/// samples that are `late` [s] in all; to the rates of the tilt a quarter turn on a torque of
+/// `cross` times them is added.
+std::string tilting(double speed, double late, double cross) {
+  constexpr double kPeriod = 0.01;
+  Eigen::Matrix4d rates = std::sqrt(0.5) * Eigen::Matrix4d::Identity();
+  const double c = 0.25 * cross;  // of x1, y1, x2, y2
+  rates(0, 1) -= c, rates(0, 3) += c, rates(1, 0) += c, rates(1, 2) -= c;
+  rates(2, 1) += c, rates(2, 3) -= c, rates(3, 0) -= c, rates(3, 2) += c;
+  const auto rows = [](const Eigen::Matrix4d& m) {
+    std::string text;
+    for (int i = 0; i < 4; ++i) {
+      text += fmt::format("{}[{:.17g}, {:.17g}, {:.17g}, {:.17g}]", i == 0 ? "[" : ", ", m(i, 0),
+                          m(i, 1), m(i, 2), m(i, 3));
+    }
+    return text + "]";
+  };
+  const Eigen::Matrix4d none = Eigen::Matrix4d::Zero();
+  const Eigen::Matrix4d one = Eigen::Matrix4d::Identity();
+  // Outputs are held for a period, and differences are of a period: half of each is late.
+  return fmt::format(
+      "{{step: 0.01, systems: {{r: {{model: rigid_disc_rotor, parameters: {{mass: 1.0, "
+      "polar_inertia: 1.2, transverse_inertia: 1.0, speed: {:.17g}, magnets: [{{position: -1.0, "
+      "ki: 1.0, ks: 0.5}}, {{position: 1.0, ki: 1.0, ks: 0.5}}]}}, initial: {{beta: 1.0e-3}}}}}}, "
+      "controllers: {{tilt: {{type: linear, rate: 100.0, measures: [r.magnet_1.x, r.magnet_1.y, "
+      "r.magnet_2.x, r.magnet_2.y], acts_on: [r.current_x_1, r.current_y_1, r.current_x_2, "
+      "r.current_y_2], delay: {:.9f}, parameters: {{a: {}, b: {}, c: {}, d: {}}}}}}}}}",
+      speed, late - kPeriod, rows(none), rows(one), rows(rates / kPeriod),
+      rows(-one - rates / kPeriod));
+}
+
+// The faster a rotor turns the faster it nutates, until its controller comes too late. Without a
+// delay it is stable at any speed; the thresholds of so late a continuous law are exact. A torque a
+// quarter turn on, against the gyroscopic effect, holds it beyond.
+TEST(MagneticBearings, HoldATiltingRotorUpToASpeedAndWithCrossCouplingBeyond) {
+  const auto radius = [](double speed, double late, double cross) {
+    const Scene scene = sceneOf(tilting(speed, late, cross));
+    const ClosedLoop::Parts parts = *closedLoops(scene).front().parts(
+        [&](std::size_t system) { return smallMotionAtStart(scene, system); }, speed);
+    const Eigen::EigenSolver<Eigen::MatrixXd> solver(
+        sampledLoop(parts.plant, parts.controllers).transition, false);
+    return solver.eigenvalues().cwiseAbs().maxCoeff();
+  };
+  for (const auto& [late, threshold] :
+       {std::pair{0.05, 24.254970788536}, {0.1, 11.166108253016}, {0.2, 4.613163688883}}) {
+    EXPECT_LT(radius(0.98 * threshold, late, 0.0), 1.0) << late;
+    EXPECT_GT(radius(1.02 * threshold, late, 0.0), 1.0) << late;
+  }
+  const double beyond = 1.5 * 11.166108253016;
+  EXPECT_LT(radius(beyond, 0.1, 1.5), 1.0);
+  EXPECT_LT(std::fabs(motionAfter(sceneOf(tilting(beyond, 0.1, 1.5)), 200.0)[3]), 2.0e-4);
+  EXPECT_GT(std::fabs(motionAfter(sceneOf(tilting(beyond, 0.1, 0.0)), 200.0)[3]), 1.0);
 }
 
 struct Refused {
