@@ -178,7 +178,23 @@ typename BandedLU<Scalar>::Dense BandedLU<Scalar>::solve(const Dense& b) const {
 }
 
 template <class Scalar>
-bool hasCholesky(const BandedMatrix<Scalar>& a) {
+Complex BandedLU<Scalar>::determinantPhase() const {
+  if (singular_) {
+    return 0.0;
+  }
+  Complex phase = 1.0;
+  for (Index j = 0; j < factors_.cols(); ++j) {
+    const Scalar pivot = factors_(2 * width_, j);
+    phase = product(phase, Complex(pivot) / std::abs(pivot));
+    if (pivots_[static_cast<std::size_t>(j)] != j) {
+      phase = -phase;
+    }
+  }
+  return phase;
+}
+
+template <class Scalar>
+bool hasCholesky(const BandedMatrix<Scalar>& a, double least) {
   const Index n = a.size();
   const Index width = a.width();
   typename BandedMatrix<Scalar>::Dense lower = a.columns().bottomRows(width + 1);
@@ -186,7 +202,7 @@ bool hasCholesky(const BandedMatrix<Scalar>& a) {
   for (Index j = 0; j < n; ++j) {
     Scalar* const column = lower.data() + j * rows;  // column[i]: entry (j + i, j)
     const double pivot = realOf(column[0]);
-    if (!(pivot > 0.0)) {
+    if (!(pivot > least)) {
       return false;
     }
     const double inverse = 1.0 / std::sqrt(pivot);
@@ -209,7 +225,7 @@ template class BandedMatrix<double>;
 template class BandedMatrix<Complex>;
 template class BandedLU<double>;
 template class BandedLU<Complex>;
-template bool hasCholesky(const BandedMatrix<double>&);
-template bool hasCholesky(const BandedMatrix<Complex>&);
+template bool hasCholesky(const BandedMatrix<double>&, double);
+template bool hasCholesky(const BandedMatrix<Complex>&, double);
 
 }  // namespace whirl_twin

@@ -89,6 +89,8 @@ class BandedLU {
   bool singular() const { return singular_; }
   /// A^-1 b, of columns b. Not finite of a singular matrix.
   Dense solve(const Dense& b) const;
+  /// det A / |det A|; 0 of a singular matrix.
+  std::complex<double> determinantPhase() const;
 
  private:
   Index width_ = 0;
@@ -97,15 +99,16 @@ class BandedLU {
   bool singular_ = false;
 };
 
-/// Has a Hermitian matrix a Cholesky factorization? Looks at its lower half.
+/// Has a Hermitian matrix a Cholesky factorization, with squared pivots above `least`? Looks at its
+/// lower half.
 template <class Scalar>
-bool hasCholesky(const BandedMatrix<Scalar>& a);
+bool hasCholesky(const BandedMatrix<Scalar>& a, double least = 0.0);
 
 extern template class BandedMatrix<double>;
 extern template class BandedMatrix<std::complex<double>>;
 extern template class BandedLU<double>;
 extern template class BandedLU<std::complex<double>>;
-extern template bool hasCholesky(const BandedMatrix<double>&);
-extern template bool hasCholesky(const BandedMatrix<std::complex<double>>&);
+extern template bool hasCholesky(const BandedMatrix<double>&, double);
+extern template bool hasCholesky(const BandedMatrix<std::complex<double>>&, double);
 
 }  // namespace whirl_twin

@@ -7,7 +7,6 @@
 #include <optional>
 #include <utility>
 
-#include "algebra/lu.h"
 #include "analysis/banded_rotor.h"
 #include "analysis/bracketed_root.h"
 #include "analysis/cyclic_coordinates.h"
@@ -62,9 +61,9 @@ class Probe {
   UnbalanceResponse response(double speed) const;
   /// [m] of the unbalance, or the unit, seen as an eccentricity of what mass moves with it.
   double eccentricity(double speed) const {
-    const Linearization l = rotor_.matrices(speed);
-    const VectorXcd force = rotor_.synchronousForce(speed);
-    return l.mass.cast<Complex>().eval().partialPivLu().solve(force).cwiseAbs().maxCoeff() /
+    BandedMatrix<Complex> mass(rotor_.dof(), 0);
+    mass.add(1.0, banded_.matrices(speed).mass);
+    return Factor(mass).solve(rotor_.synchronousForce(speed)).cwiseAbs().maxCoeff() /
            (speed * speed);
   }
 
@@ -181,6 +180,7 @@ struct Search {
   Probe probe;
   double low = 0.0;   ///< [rad/s]
   double high = 0.0;  ///< [rad/s]
+  bool whole = true;  ///< no critical speed lies higher
 };
 
 std::optional<Search> searchOf(const Dynamics& dynamics) {
@@ -202,15 +202,16 @@ std::optional<Search> searchOf(const Dynamics& dynamics) {
   if (at_rest.natural_frequencies.empty()) {
     return std::nullopt;
   }
+  const bool whole = at_rest.omitted == 0;
   return Search{std::move(probe), 0.02 * at_rest.natural_frequencies.front(),
-                kReach * at_rest.natural_frequencies.back()};
+                (whole ? kReach : 1.0) * at_rest.natural_frequencies.back(), whole};
 }
 
 }  // namespace
 
 CriticalSpeedSearch searchCriticalSpeeds(const Dynamics& dynamics) {
   CriticalSpeedSearch search;
-  search.highest_speed = kInfinity;
+  search.highest_speed = search.searched_to = kInfinity;
   const std::optional<Search> over = searchOf(dynamics);
   if (!over) {
     return search;
@@ -219,6 +220,7 @@ CriticalSpeedSearch searchCriticalSpeeds(const Dynamics& dynamics) {
   const double low = over->low;
   const double high = over->high;
   search.highest_speed = probe.rotor().highest_speed;
+  search.searched_to = over->whole ? kInfinity : high;
   const auto poles = synchronousPoles(probe.rotor(), low, high);
   double last = low;
   double before = probe.response(low).slope;

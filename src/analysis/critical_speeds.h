@@ -32,6 +32,9 @@ struct CriticalSpeedSearch {
   std::vector<CriticalSpeed> found;  ///< ascending, up to the rotor's highest speed
   std::size_t beyond = 0;            ///< of a reduced rotor: how many more its equations would have
   double highest_speed = 0.0;        ///< [rad/s], that a reduced rotor holds to; else infinity
+  /// [rad/s], the highest natural frequency at rest of those looked at (Stability::omitted); else
+  /// infinity.
+  double searched_to = 0.0;
 };
 
 /// Empty for models that are not rotors on a shaft; of one whose spin is free it is the rotor with

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "algebra/banded_matrix.h"
 #include "algebra/cholesky.h"
 #include "algebra/lu.h"
 #include "algebra/svd.h"
@@ -67,9 +68,7 @@ bool surelyDefinite(const Eigen::MatrixXd& symmetric) {
   if (!(symmetric.diagonal().array() > 0.0).all() || !symmetric.allFinite()) {
     return false;
   }
-  const Eigen::LLT<Eigen::MatrixXd> llt(unitDiagonal(symmetric).form);
-  return llt.info() == Eigen::Success &&
-         llt.matrixLLT().diagonal().cwiseAbs2().minCoeff() > kSurelyDefinite;
+  return hasCholesky(BandedMatrix<double>::of(unitDiagonal(symmetric).form), kSurelyDefinite);
 }
 
 /// A turn of the columns of all images among themselves, those that some image keeps first and
@@ -210,9 +209,10 @@ std::size_t zeroEigenvalues(const Linearization& linearization, const CyclicCoor
   return zeros + static_cast<std::size_t>((svd.singularValues().array() <= none).count());
 }
 
-Stability reducedStability(const Linearization& linearization, const CyclicCoordinates& cyclic) {
+Stability reducedStability(const Linearization& linearization, const CyclicCoordinates& cyclic,
+                           std::size_t modes) {
   if (!cyclic.any()) {
-    return stability(linearization);
+    return stability(linearization, 0, modes);
   }
   if (cyclic.shape.empty() && cyclic.driven.empty()) {
     Stability free;  // nothing is left that could move otherwise
@@ -220,15 +220,15 @@ Stability reducedStability(const Linearization& linearization, const CyclicCoord
     free.damping_ratio = free.log_decrement = std::numeric_limits<double>::quiet_NaN();
     return free;
   }
-  return stability(atFixedMomenta(linearization, cyclic), cyclic.driven.size());
+  return stability(atFixedMomenta(linearization, cyclic), cyclic.driven.size(), modes);
 }
 
 Stability stabilityWithRigidBodyModes(const Linearization& linearization,
-                                      const CyclicCoordinates& cyclic) {
+                                      const CyclicCoordinates& cyclic, std::size_t modes) {
   if (!cyclic.any()) {
-    return stability(linearization);
+    return stability(linearization, 0, modes);
   }
-  Stability s = reducedStability(linearization, cyclic);
+  Stability s = reducedStability(linearization, cyclic, modes);
   const std::size_t set_aside = 2 * cyclic.conserved.size() + cyclic.driven.size();
   if (s.eigenvalues.empty() && linearization.mass.rows() <= kMostExactCoordinates) {
     s.polynomial = {1.0};

@@ -42,7 +42,8 @@ CyclicCoordinates rigidBodyMotions(const Linearization& linearization);
 Linearization atFixedMomenta(const Linearization& linearization, const CyclicCoordinates& cyclic);
 
 /// Stability of that motion, the zero eigenvalue of each driven coordinate set aside.
-Stability reducedStability(const Linearization& linearization, const CyclicCoordinates& cyclic);
+Stability reducedStability(const Linearization& linearization, const CyclicCoordinates& cyclic,
+                           std::size_t modes = kLowestModes);
 
 /// Eigenvalues at zero of a linear system with these rigid-body motions, a drift's counted twice.
 std::size_t zeroEigenvalues(const Linearization& linearization, const CyclicCoordinates& cyclic);
@@ -51,6 +52,7 @@ std::size_t zeroEigenvalues(const Linearization& linearization, const CyclicCoor
 /// its rigid-body motions, which rounding would scatter to both sides of the axis. A drift grows
 /// like t: kRepeatedImaginary.
 Stability stabilityWithRigidBodyModes(const Linearization& linearization,
-                                      const CyclicCoordinates& cyclic);
+                                      const CyclicCoordinates& cyclic,
+                                      std::size_t modes = kLowestModes);
 
 }  // namespace whirl_twin

@@ -6,9 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/banded_rotor.h"
+#include "analysis/bracketed_root.h"
 #include "analysis/cyclic_coordinates.h"
 #include "analysis/equilibria.h"
 #include "analysis/equilibrium_branch.h"
+#include "analysis/growth_radius.h"
+#include "analysis/lowest_eigenvalues.h"
 #include "analysis/small_motion.h"
 #include "analysis/stability.h"
 
@@ -20,6 +24,7 @@ constexpr double kReach = 1000.0;           // times the lowest natural frequenc
 constexpr double kNearStandstill = 1.0e-2;  // of it
 constexpr int kStrides = 240;
 constexpr int kFewerStrides = 120;  // where each costs milliseconds
+constexpr double kGrows = 1.0e-9;   // of a frequency: no rounding
 
 /// At a speed, without the rigid-body modes of a linear rotor, whose zeros rounding would scatter.
 SmallMotion motionAt(const Dynamics& dynamics, const Eigen::VectorXd& q, double speed) {
@@ -57,6 +62,65 @@ int stridesFor(const Dynamics& dynamics) {
   return dynamics.dof() <= kMostExactCoordinates ? kStrides : kFewerStrides;
 }
 
+/// How fast motions of a long rotor grow, in parts of their frequency, by the lowest eigenvalues.
+class LowestGrowth {
+ public:
+  explicit LowestGrowth(const LinearRotor& rotor) : rotor_(rotor) {}
+
+  /// At a speed [rad/s], negative where none grows. Nothing where lowestRoots() tells nothing.
+  std::optional<double> at(double speed) {
+    const BandedLinearization l = rotor_.matrices(speed);
+    const auto radius = growthRadius(l);
+    if (radius == 0.0) {
+      return -1.0;
+    }
+    const BandedPencil<double> pencil = pencilOf(l);
+    // No growing motion lies beyond the radius: where that holds few roots they are all it takes.
+    const bool few = radius && *radius <= reach_;
+    const auto found = few ? rootsWithin(pencil, *radius) : lowestRoots(pencil, 2 * kLowestModes);
+    if (!found) {
+      return std::nullopt;
+    }
+    reach_ = few ? reach_ : found->radius;
+    double fastest = -1.0;
+    for (const PencilRoot& root : found->roots) {
+      fastest = std::max(fastest, root.value.real() / std::abs(root.value));
+    }
+    return fastest;
+  }
+
+ private:
+  BandedRotor rotor_;
+  double reach_ = 0.0;  // [1/s], of the lowest eigenvalues
+};
+
+/// That of a linear rotor of more than kMostCompleteCoordinates, by its lowest eigenvalues. Nothing
+/// at all where they cannot be told.
+std::optional<std::optional<double>> ofLongRotor(const LinearRotor& rotor, double lowest) {
+  LowestGrowth growth(rotor);
+  const double first = kNearStandstill * lowest;
+  const double last = kReach * lowest;
+  double before = 0.0;
+  std::optional<double> grew = growth.at(0.0);
+  for (int i = 0; i <= kFewerStrides && grew; ++i) {
+    const double speed = first * std::pow(last / first, static_cast<double>(i) / kFewerStrides);
+    const std::optional<double> grows = growth.at(speed);
+    if (!grows) {
+      return std::nullopt;
+    }
+    if (*grows > kGrows) {
+      if (*grew >= 0.0) {
+        return std::optional<double>(before);
+      }
+      const auto at = [&](double there) { return growth.at(there).value_or(*grows); };
+      return std::optional<double>(bracketedRoot(at, before, speed, *grew, *grows));
+    }
+    before = speed;
+    grew = grows;
+  }
+  return grew ? std::optional<std::optional<double>>(std::in_place) : std::nullopt;
+}
+
 /// Where the verdict changes between two speeds of which one is unstable.
 double thresholdBetween(const Dynamics& dynamics, GrowthTest& test, const RestAt& below,
                         double high, bool unstable_above) {
@@ -81,6 +145,11 @@ std::optional<double> instabilitySpeed(const Dynamics& dynamics, const Eigen::Ve
   const double lowest = lowestFrequency(dynamics, q, from);
   if (std::isnan(lowest)) {
     return std::nullopt;
+  }
+  if (dynamics.linear() && dynamics.dof() > kMostCompleteCoordinates) {
+    if (const auto found = ofLongRotor(dynamics.linearRotor(), lowest)) {
+      return *found;
+    }
   }
   const double first = std::max(from, kNearStandstill * lowest);
   const double last = kReach * lowest;

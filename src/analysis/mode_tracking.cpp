@@ -9,6 +9,7 @@
 #include "algebra/cholesky.h"
 #include "algebra/qr.h"
 #include "analysis/mode_continuation.h"
+#include "analysis/stability.h"
 
 namespace whirl_twin {
 
@@ -25,6 +26,7 @@ constexpr double kRepeated = 1.0e-6;  // of an eigenvalue
 constexpr int kMostHalvings = 8;
 /// Of more coordinates all modes at a speed cost more than Newton's method for those followed.
 constexpr Index kFewCoordinates = 40;
+constexpr std::size_t kMoreModes = 12;  // than are followed, where others may come in between
 
 /// Square root of the energy: the scalar product of states scaled by it is that of the energy.
 class EnergyScale {
@@ -95,6 +97,20 @@ WhirlMode nearestIn(const Space& space, std::size_t member, const VectorXcd& sta
   return mode;
 }
 
+/// At least the `count` lowest, or as many as there are.
+std::vector<WhirlMode> modesOf(const Linearization& matrices, const std::vector<Station>& stations,
+                               std::size_t count) {
+  if (matrices.mass.rows() > kMostCompleteCoordinates &&
+      2 * count < static_cast<std::size_t>(matrices.mass.rows())) {
+    if (auto lowest = lowestWhirlModes(banded(matrices), stations, count)) {
+      if (lowest->modes.size() >= count) {
+        return std::move(lowest->modes);
+      }
+    }
+  }
+  return whirlModes(matrices, stations).modes;
+}
+
 /// Each mode by Newton's method from where it was; nothing unless all are found, each a mode of
 /// its own.
 std::optional<ModeTracker::Modes> continued(const ModeTracker::Modes& modes,
@@ -127,9 +143,9 @@ ModeTracker::ModeTracker(System system, std::vector<Station> stations)
     : system_(std::move(system)), stations_(std::move(stations)) {}
 
 ModeTracker::Modes ModeTracker::lowest(double parameter, std::size_t count) const {
-  const WhirlModes all = whirlModes(system_(parameter), stations_);
-  const std::size_t found = std::min(count, all.modes.size());
-  return {all.modes.begin(), all.modes.begin() + static_cast<std::ptrdiff_t>(found)};
+  const std::vector<WhirlMode> all = modesOf(system_(parameter), stations_, count);
+  const std::size_t found = std::min(count, all.size());
+  return {all.begin(), all.begin() + static_cast<std::ptrdiff_t>(found)};
 }
 
 ModeTracker::Modes ModeTracker::follow(const Modes& modes, double from, double to) const {
@@ -145,7 +161,7 @@ ModeTracker::Modes ModeTracker::follow(const Modes& modes, double from, double t
     }
   }
   const EnergyScale scale(matrices);
-  const std::vector<WhirlMode> there = whirlModes(matrices, stations_).modes;
+  const std::vector<WhirlMode> there = modesOf(matrices, stations_, modes.size() + kMoreModes);
   std::vector<Space> spaces = there.empty() ? std::vector<Space>() : spacesOf(there, scale);
 
   std::vector<VectorXcd> states(modes.size());

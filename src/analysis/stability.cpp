@@ -11,6 +11,7 @@
 #include "algebra/lu.h"
 #include "algebra/svd.h"
 #include "analysis/characteristic_polynomial.h"
+#include "analysis/lowest_eigenvalues.h"
 #include "analysis/quadratic_form.h"
 #include "analysis/rigid_body_modes.h"
 #include "analysis/routh.h"
@@ -200,6 +201,42 @@ void judgeByDefiniteness(const Linearization& l, Stability& s) {
   }
 }
 
+/// Decay and damping by the eigenvalues; a verdict that rests on less than their rounding is none.
+void setMargins(Stability& s) {
+  double rightmost = -std::numeric_limits<double>::infinity();
+  double ratio = std::numeric_limits<double>::quiet_NaN();
+  const double largest = std::abs(s.eigenvalues.back());
+  for (const auto& root : s.eigenvalues) {
+    rightmost = std::max(rightmost, root.real());
+    if (std::abs(root) > kRounding * largest) {
+      ratio = std::fmin(ratio, -root.real() / std::abs(root));
+    }
+  }
+  const bool on_axis =
+      s.routh.verdict == Verdict::kMarginal || s.routh.verdict == Verdict::kRepeatedImaginary;
+  if (!on_axis && std::fabs(rightmost) < kRounding * largest) {
+    s.routh.verdict = Verdict::kUncertain;
+  }
+  s.decay_rate = on_axis ? 0.0 : -rightmost;
+  s.damping_ratio = on_axis && !std::isnan(ratio) ? 0.0 : ratio;
+  s.log_decrement = logDecrement(s.damping_ratio);
+}
+
+/// What the lowest eigenvalues say, and the proof of what the others do.
+void judgeLowest(const LowestEigenvalues& lowest, Stability& s) {
+  s.eigenvalues = lowest.roots;
+  s.omitted = lowest.omitted;
+  for (const auto& root : s.eigenvalues) {
+    ++(root.real() > 0.0 ? s.routh.right : root.real() < 0.0 ? s.routh.left : s.routh.imaginary);
+  }
+  s.right_by_eigenvalues = s.routh.right;
+  s.routh.verdict = s.routh.right > 0          ? Verdict::kUnstable
+                    : !lowest.omitted_are_sure ? Verdict::kUncertain
+                    : s.routh.imaginary == 0   ? Verdict::kAsymptoticallyStable
+                    : lowest.undamped          ? Verdict::kMarginal
+                                               : Verdict::kUncertain;
+}
+
 }  // namespace
 
 bool cannotGrow(const Linearization& l) {
@@ -257,8 +294,17 @@ Stability stability(const Linearization& linearization) {
   return stability(linearization, 0);
 }
 
-Stability stability(const Linearization& linearization, std::size_t zeros) {
+Stability stability(const Linearization& linearization, std::size_t zeros, std::size_t modes_told) {
   Stability s;
+  if (linearization.mass.rows() > kMostCompleteCoordinates && zeros == 0 &&
+      modes_told < static_cast<std::size_t>(linearization.mass.rows())) {
+    if (const auto lowest = lowestEigenvalues(banded(linearization), modes_told)) {
+      judgeLowest(*lowest, s);
+      modes(s.eigenvalues, s);
+      setMargins(s);
+      return s;
+    }
+  }
   s.eigenvalues = eigenvalues(linearization, zeros);
   const bool bounded_energy = cannotGrow(linearization);
   if (bounded_energy && linearization.damping.isZero(0.0)) {
@@ -286,24 +332,7 @@ Stability stability(const Linearization& linearization, std::size_t zeros) {
   s.right_by_eigenvalues =
       judged ? rightByEigenvalues(linearization, zeros, s.eigenvalues, s.routh.right)
              : s.routh.right;
-
-  double rightmost = -std::numeric_limits<double>::infinity();
-  double ratio = std::numeric_limits<double>::quiet_NaN();
-  const double largest = std::abs(s.eigenvalues.back());
-  for (const auto& root : s.eigenvalues) {
-    rightmost = std::max(rightmost, root.real());
-    if (std::abs(root) > kRounding * largest) {
-      ratio = std::fmin(ratio, -root.real() / std::abs(root));
-    }
-  }
-  const bool on_axis =
-      s.routh.verdict == Verdict::kMarginal || s.routh.verdict == Verdict::kRepeatedImaginary;
-  if (!on_axis && std::fabs(rightmost) < kRounding * largest) {
-    s.routh.verdict = Verdict::kUncertain;
-  }
-  s.decay_rate = on_axis ? 0.0 : -rightmost;
-  s.damping_ratio = on_axis && !std::isnan(ratio) ? 0.0 : ratio;
-  s.log_decrement = logDecrement(s.damping_ratio);
+  setMargins(s);
   return s;
 }
 

@@ -10,8 +10,16 @@
 
 namespace whirl_twin {
 
+/// The modes that are looked at of more than kMostCompleteCoordinates.
+constexpr std::size_t kLowestModes = 24;
+constexpr std::size_t kAllModes = static_cast<std::size_t>(-1);
+constexpr Eigen::Index kMostCompleteCoordinates = 100;
+
 struct Stability {
-  std::vector<std::complex<double>> eigenvalues;  ///< [1/s], by rising |s|, then Im; size 2 dof
+  std::vector<std::complex<double>> eigenvalues;  ///< [1/s], by rising |s|, then Im
+  /// How many more there are, all of larger modulus: of none of them do the numbers below tell. The
+  /// verdict covers them by a proof (growth_radius.h), or is kUncertain.
+  std::size_t omitted = 0;
   /// One entry per vibrating (or overdamped) mode, ascending: |s| [rad/s] and -Re s / |s| [-]. A
   /// pair of real roots s1, s2 < 0 is the mode of frequency sqrt(s1 s2); a saddle has none.
   std::vector<double> natural_frequencies;
@@ -50,8 +58,10 @@ bool cannotGrow(const Linearization& linearization);
 Stability stability(const Linearization& linearization);
 
 /// The same with `zeros` roots at 0 set aside: those of the last coordinates, whose position does
-/// not matter (their columns of K + N are exactly zero).
-Stability stability(const Linearization& linearization, std::size_t zeros);
+/// not matter (their columns of K + N are exactly zero). Of more than kMostCompleteCoordinates with
+/// no zeros the lowest `modes` only, two eigenvalues each, unless they cannot be told for sure.
+Stability stability(const Linearization& linearization, std::size_t zeros,
+                    std::size_t modes = kLowestModes);
 
 /// How many of the eigenvalues of this system lie right of the axis, where Routh's test counts
 /// `by_routh`. A count of one computation is that of a system next to it, as far off as rounding

@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "algebra/eigenvalues.h"
 #include "algebra/lu.h"
+#include "analysis/banded_rotor.h"
+#include "analysis/lowest_roots.h"
+#include "analysis/stability.h"
 
 namespace whirl_twin {
 
@@ -20,18 +24,72 @@ constexpr double kPolynomial = 1.0e-9;  // third difference of a polynomial of d
 constexpr double kPiece = 3.0;          // ratio of the ends of a piece
 constexpr double kNarrowest = 1.0e-5;   // of a speed: nearer to a pole the response is rounding
 constexpr double kWidest = 0.9;         // of a speed: no resonance
+constexpr double kRoundPiece = 0.6;     // of a piece: radius of the circle about it
 
 /// Do the matrices follow polynomials of degree two from `speed` to four times it?
-bool polynomial(const LinearRotor& rotor, double speed) {
-  const std::array<Linearization, 4> l{rotor.matrices(speed), rotor.matrices(2.0 * speed),
-                                       rotor.matrices(3.0 * speed), rotor.matrices(4.0 * speed)};
-  const auto straight = [&](const MatrixXd Linearization::*m) {
-    const MatrixXd difference = l[3].*m - 3.0 * l[2].*m + 3.0 * l[1].*m - l[0].*m;
-    const double size = std::max((l[0].*m).cwiseAbs().maxCoeff(), (l[3].*m).cwiseAbs().maxCoeff());
-    return difference.cwiseAbs().maxCoeff() <= kPolynomial * size;
+bool polynomial(const BandedRotor& rotor, double speed) {
+  const std::array<BandedLinearization, 4> l{rotor.matrices(speed), rotor.matrices(2.0 * speed),
+                                             rotor.matrices(3.0 * speed),
+                                             rotor.matrices(4.0 * speed)};
+  const auto straight = [&](BandedMatrix<double> BandedLinearization::*m) {
+    BandedMatrix<double> difference = l[3].*m;
+    difference.add(-3.0, l[2].*m);
+    difference.add(3.0, l[1].*m);
+    difference.add(-1.0, l[0].*m);
+    const double size = std::max((l[0].*m).largest(), (l[3].*m).largest());
+    return difference.largest() <= kPolynomial * size;
   };
-  return straight(&Linearization::damping) && straight(&Linearization::gyroscopic) &&
-         straight(&Linearization::stiffness) && straight(&Linearization::circulatory);
+  return straight(&BandedLinearization::damping) && straight(&BandedLinearization::gyroscopic) &&
+         straight(&BandedLinearization::stiffness) && straight(&BandedLinearization::circulatory);
+}
+
+/// K + N - w^2 M + i w (C + G) in w - middle, its matrices polynomials through the speeds from,
+/// middle and to.
+BandedPencil<Complex> pencilOfPiece(const BandedRotor& rotor, double from, double to) {
+  const double middle = 0.5 * (from + to);
+  const double half = 0.5 * (to - from);
+  const BandedLinearization below = rotor.matrices(from);
+  const BandedLinearization there = rotor.matrices(middle);
+  const BandedLinearization above = rotor.matrices(to);
+  BandedPencil<Complex> p{BandedMatrix<Complex>(there.size(), 0),
+                          BandedMatrix<Complex>(there.size(), 0),
+                          BandedMatrix<Complex>(there.size(), 0)};
+  const auto add = [&](BandedMatrix<double> (BandedLinearization::*of)() const,
+                       const Complex& constant, const Complex& linear) {
+    const BandedMatrix<double> value = (there.*of)();
+    BandedMatrix<double> slope = (above.*of)();
+    slope.add(-1.0, (below.*of)());
+    BandedMatrix<double> curvature = (above.*of)();
+    curvature.add(-2.0, value);
+    curvature.add(1.0, (below.*of)());
+    // (constant + linear x) (value + slope x / 2 h + curvature x^2 / 2 h^2)
+    p.a0.add(constant, value);
+    p.a1.add(linear, value);
+    p.a1.add(constant / (2.0 * half), slope);
+    p.a2.add(linear / (2.0 * half), slope);
+    p.a2.add(constant / (2.0 * half * half), curvature);
+  };
+  add(&BandedLinearization::byPlace, 1.0, 0.0);
+  add(&BandedLinearization::byRate, Complex(0.0, middle), Complex(0.0, 1.0));
+  p.a0.add(-middle * middle, there.mass);
+  p.a1.add(-2.0 * middle, there.mass);
+  p.a2.add(-1.0, there.mass);
+  return p;
+}
+
+/// Poles of a piece of a long rotor: those of resonances (kWidest) and some others. Nothing where
+/// rootsWithin() tells nothing.
+std::optional<std::vector<Complex>> lowestPolesOfPiece(const BandedRotor& rotor, double from,
+                                                       double to) {
+  const auto found = rootsWithin(pencilOfPiece(rotor, from, to), kRoundPiece * (to - from));
+  if (!found) {
+    return std::nullopt;
+  }
+  std::vector<Complex> poles;
+  for (const PencilRoot& root : found->roots) {
+    poles.push_back(0.5 * (from + to) + root.value);
+  }
+  return poles;
 }
 
 /// Poles of the polynomial through the speeds from, to/2 + from/2 and to: with w = from + scale /
@@ -73,9 +131,10 @@ MatrixXcd synchronousStiffness(const Linearization& l, double speed) {
 }
 
 std::vector<Complex> synchronousPoles(const LinearRotor& rotor, double low, double high) {
+  const BandedRotor chain(rotor);
   bool simple = rotor.knots.empty();
   for (double speed = low; simple && speed < high; speed *= 10.0) {
-    simple = polynomial(rotor, speed);
+    simple = polynomial(chain, speed);
   }
   std::vector<double> ends{low};
   if (!simple) {
@@ -91,7 +150,11 @@ std::vector<Complex> synchronousPoles(const LinearRotor& rotor, double low, doub
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
     // Of the whole range every piece of the polynomial tells the same: a short one tells it best.
     const double to = simple ? std::min(high, 100.0 * low) : ends[i + 1];
-    for (const Complex& pole : polesOfPiece(rotor, ends[i], to, to)) {
+    std::optional<std::vector<Complex>> poles;
+    if (rotor.dof() > kMostCompleteCoordinates) {
+      poles = lowestPolesOfPiece(chain, ends[i], ends[i + 1]);
+    }
+    for (const Complex& pole : poles ? *poles : polesOfPiece(rotor, ends[i], to, to)) {
       if (pole.real() >= 0.98 * ends[i] && pole.real() <= 1.02 * ends[i + 1]) {
         found.push_back(pole);
       }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <complex>
 
-#include "algebra/lu.h"
+#include "analysis/banded_rotor.h"
 #include "analysis/synchronous_poles.h"
 #include "analysis/whirl_modes.h"
 
@@ -27,9 +27,9 @@ SynchronousResponse synchronousResponse(const LinearRotor& rotor,
                                         const std::vector<Station>& stations, double speed) {
   SynchronousResponse response;
   response.speed = speed;
-  response.q =
-      Eigen::PartialPivLU<Eigen::MatrixXcd>(synchronousStiffness(rotor.matrices(speed), speed))
-          .solve(rotor.synchronousForce(speed));
+  response.q = BandedLU<std::complex<double>>(
+                   synchronousStiffness(BandedRotor(rotor).matrices(speed), speed))
+                   .solve(rotor.synchronousForce(speed));
   response.orbits = orbitsOf(response.q, stations);
   return response;
 }

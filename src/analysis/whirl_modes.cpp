@@ -8,6 +8,8 @@
 #include "algebra/lu.h"
 #include "algebra/qr.h"
 #include "analysis/cyclic_coordinates.h"
+#include "analysis/growth_radius.h"
+#include "analysis/lowest_eigenvalues.h"
 #include "analysis/stability_margins.h"
 #include "messages/refusal.h"
 
@@ -25,6 +27,7 @@ constexpr double kRepeated = 1.0e-7;     // of an eigenvalue: nearer ones are on
 constexpr double kStandsStill = 1.0e-6;  // of the widest orbit
 constexpr double kZero = 1.0e-13;        // of the largest eigenvalue: rounding
 constexpr double kRounding = 1.0e-12;    // of the largest: a real part that may be rounding
+constexpr double kDoubtful = 1.0e-8;     // of an eigenvalue: a real part that the energy tells
 constexpr double kNoDamping = 1.0e-18;   // damping ratio: a shape's rounding, squared, is damped
 
 /// Eigenvalues and the upper half, the displacement, of the eigenvectors of the state matrix.
@@ -95,7 +98,47 @@ void separateRepeated(std::vector<WhirlMode>& modes, const std::vector<Station>&
   }
 }
 
+/// In order, their shapes told apart and normalised.
+void finish(WhirlModes& all, const std::vector<Station>& stations) {
+  std::sort(all.modes.begin(), all.modes.end(), [](const WhirlMode& a, const WhirlMode& b) {
+    return a.eigenvalue.imag() < b.eigenvalue.imag();
+  });
+  std::sort(all.real_roots.begin(), all.real_roots.end());
+  separateRepeated(all.modes, stations);
+  for (WhirlMode& mode : all.modes) {
+    normalise(mode, stations);
+  }
+}
+
 }  // namespace
+
+std::optional<WhirlModes> lowestWhirlModes(const BandedLinearization& at_speed,
+                                           const std::vector<Station>& stations,
+                                           std::size_t count) {
+  const auto found = lowestRoots(pencilOf(at_speed), 2 * count);
+  if (!found) {
+    return std::nullopt;
+  }
+  const bool cannot_grow = growthRadius(at_speed) == 0.0;
+  WhirlModes all;
+  for (const PencilRoot& root : found->roots) {
+    const Complex s = root.value;
+    if (std::fabs(s.imag()) <= kZero * std::abs(s)) {
+      all.real_roots.push_back(s.real());
+    } else if (s.imag() > 0.0) {
+      WhirlMode mode;
+      mode.eigenvalue = s;
+      mode.shape = root.shape;
+      if (cannot_grow && std::fabs(s.real()) <= kDoubtful * std::abs(s)) {
+        const double decay = decayByEnergy(at_speed, root);
+        mode.eigenvalue = {decay > kNoDamping * std::abs(s) ? -decay : 0.0, s.imag()};
+      }
+      all.modes.push_back(mode);
+    }
+  }
+  finish(all, stations);
+  return all;
+}
 
 double WhirlMode::logDecrement() const {
   return whirl_twin::logDecrement(dampingRatio());
@@ -191,14 +234,7 @@ WhirlModes whirlModes(const Linearization& at_speed, const std::vector<Station>&
       all.real_roots.push_back(s.real());
     }
   }
-  std::sort(all.modes.begin(), all.modes.end(), [](const WhirlMode& a, const WhirlMode& b) {
-    return a.eigenvalue.imag() < b.eigenvalue.imag();
-  });
-  std::sort(all.real_roots.begin(), all.real_roots.end());
-  separateRepeated(all.modes, stations);
-  for (WhirlMode& mode : all.modes) {
-    normalise(mode, stations);
-  }
+  finish(all, stations);
   return all;
 }
 

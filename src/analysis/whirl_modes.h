@@ -10,9 +10,11 @@
 
 #include <Eigen/Core>
 #include <complex>
+#include <optional>
 #include <vector>
 
 #include "analysis/orbit.h"
+#include "mechanics/banded_linearization.h"
 #include "mechanics/linear_rotor.h"
 
 namespace whirl_twin {
@@ -41,6 +43,11 @@ struct WhirlModes {
 WhirlModes whirlModes(const Linearization& at_speed, const std::vector<Station>& stations);
 /// At a speed [rad/s].
 WhirlModes whirlModes(const LinearRotor& rotor, const std::vector<Station>& stations, double speed);
+
+/// The `count` of lowest frequency or more, and the real roots among as many, without a dense
+/// solution. Nothing where lowestRoots() tells nothing.
+std::optional<WhirlModes> lowestWhirlModes(const BandedLinearization& at_speed,
+                                           const std::vector<Station>& stations, std::size_t count);
 
 /// Gives the shape its length and its instant, and works out the orbits and the direction.
 void normalise(WhirlMode& mode, const std::vector<Station>& stations);

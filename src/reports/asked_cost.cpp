@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "accuracy/trajectory.h"
+#include "analysis/stability.h"
 #include "messages/refusal.h"
 #include "reports/output.h"
 #include "scene/control_parts.h"
@@ -27,15 +28,16 @@ constexpr double kLong = 10.0;  // s
 
 // Measured on one core at 2.x GHz, g++ 12, on shafts of 44, 84 and 164 coordinates. [s] for the
 // cube of the coordinates, as products and eigenvalues of their matrices go.
-constexpr double kTable = 6.6e-6;        // two tables over speed, of a step and of its halves
-constexpr double kOneSpeed = 2.2e-7;     // two maps for one constant speed
-constexpr double kAnalysis = 2.5e-7;     // critical speeds and the loss of stability
-constexpr double kCampbell = 2.7e-7;     // the same, followed,
-constexpr double kPoint = 4.0e-10;       // and eigenvalues at a speed
-constexpr double kResponse = 2.5e-6;     // peaks,
-constexpr double kResponsePoint = 4e-9;  // and a response
-constexpr double kTableMemory = 9600.0;  // bytes, for the square
-constexpr double kMatrices = 400.0;      // bytes, likewise
+constexpr double kTable = 6.6e-6;          // two tables over speed, of a step and of its halves
+constexpr double kOneSpeed = 2.2e-7;       // two maps for one constant speed
+constexpr double kAnalysis = 2.5e-7;       // critical speeds and the loss of stability
+constexpr double kLowestModesOf = 3.0e-3;  // the same by the lowest modes: s a coordinate
+constexpr double kCampbell = 2.7e-7;       // the same, followed,
+constexpr double kPoint = 4.0e-10;         // and eigenvalues at a speed
+constexpr double kResponse = 2.5e-6;       // peaks,
+constexpr double kResponsePoint = 4e-9;    // and a response
+constexpr double kTableMemory = 9600.0;    // bytes, for the square
+constexpr double kMatrices = 400.0;        // bytes, likewise
 
 constexpr double kRealRoots = 7.0e-7;      // s, for the square of the coefficients
 constexpr double kComplexRoots = 8.5e-10;  // s, for their cube
@@ -143,7 +145,12 @@ AskedCost costOfRun(const BuiltScene& scene) {
   return cost;
 }
 
-AskedCost costOfAnalysis(const std::string& system, int coordinates) {
+AskedCost costOfAnalysis(const std::string& system, int coordinates, std::size_t modes) {
+  if (coordinates > kMostCompleteCoordinates && modes < static_cast<std::size_t>(coordinates)) {
+    AskedCost cost = bySize(system, coordinates, 0.0);
+    cost.seconds = kLowestModesOf * coordinates;
+    return cost;
+  }
   return bySize(system, coordinates, kAnalysis);
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/stability.h"
 #include "scene/built_scene.h"
 
 namespace whirl_twin {
@@ -30,7 +31,8 @@ AskedCost costOfMembers(const BuiltScene& scene, std::size_t system);
 AskedCost costOfRun(const BuiltScene& scene);
 
 /// What looks at eigenvalues and responses of a system of so many coordinates.
-AskedCost costOfAnalysis(const std::string& system, int coordinates);
+AskedCost costOfAnalysis(const std::string& system, int coordinates,
+                         std::size_t modes = kLowestModes);
 AskedCost costOfCampbell(const std::string& system, int coordinates, int points);
 AskedCost costOfResponse(const std::string& system, int coordinates, int points);
 /// The roots of a polynomial with so many coefficients.

@@ -15,7 +15,6 @@
 #include "analysis/rigid_body_modes.h"
 #include "analysis/routh_conditions.h"
 #include "analysis/validity.h"
-#include "analysis/virtual_work.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {
@@ -174,10 +173,7 @@ MethodAnalysis analyzeMethods(const BuiltSystem& system, const SystemAnalysis& a
   m.reactions = dynamics.reactions(a.q, a.v, a.acceleration, a.moment);
   m.conditions = validity(dynamics, a.q, a.v, a.moment);
   m.responses = steadyResponses(system, a);
-  m.virtual_work.resize(a.q.size());
-  for (Eigen::Index i = 0; i < a.q.size(); ++i) {
-    m.virtual_work[i] = virtualWork(dynamics, a.q, Eigen::VectorXd::Unit(a.q.size(), i), a.moment);
-  }
+  m.virtual_work = dynamics.unbalancedForce(a.q, Eigen::VectorXd::Zero(a.q.size()), a.moment);
   m.conservative_form = a.at_equilibrium && !a.speed && l.gyroscopic.isZero(0.0) &&
                         l.circulatory.isZero(0.0) && a.about_v.isZero(0.0);
   if (!m.conservative_form) {

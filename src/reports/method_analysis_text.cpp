@@ -7,16 +7,24 @@ namespace whirl_twin {
 
 namespace {
 
+constexpr Eigen::Index kFewCoordinates = 6;  // as many are shown one by one, with their matrices
+
+/// A matrix of few coordinates; of many there is --json.
+std::string shown(const char* title, const Eigen::MatrixXd& m) {
+  return m.rows() <= kFewCoordinates ? matrixText(title, m)
+                                     : fmt::format("    {:<15} --json\n", title);
+}
+
 std::string stiffnessText(const MethodAnalysis& m) {
   if (m.flexibility) {
     return fmt::format("  stiffness is {}; influence coefficients\n", m.stiffness_form) +
-           matrixText("flexibility", *m.flexibility);
+           shown("flexibility", *m.flexibility);
   }
   if (m.rigid_body_modes.cols() == 0) {
     return fmt::format("  stiffness is {}\n", m.stiffness_form);
   }
   return fmt::format("  stiffness is {}: rigid-body modes, in columns\n", m.stiffness_form) +
-         matrixText("modes", m.rigid_body_modes);
+         shown("modes", m.rigid_body_modes);
 }
 
 std::string boundsText(const FrequencyBounds& b) {
@@ -32,7 +40,7 @@ std::string boundsText(const FrequencyBounds& b) {
   } else {
     out += fmt::format("    exact {:.8g}; no lower bound: {}\n", b.exact[0], b.refusal);
   }
-  return out + "  undamped mode shapes, in columns\n" + matrixText("shapes", b.shapes);
+  return out + "  undamped mode shapes, in columns\n" + shown("shapes", b.shapes);
 }
 
 std::string responseText(const SteadyResponse& r, const SystemAnalysis& a) {
@@ -68,7 +76,9 @@ std::string text(const MethodAnalysis& m, const SystemAnalysis& a) {
                          c.holds ? "" : "  does not hold");
     }
   }
-  if (m.virtual_work.size() > 0) {
+  if (m.virtual_work.size() > kFewCoordinates) {
+    out += "  generalized forces, at rest in that position: --json\n";
+  } else if (m.virtual_work.size() > 0) {
     out += "  generalized forces, at rest in that position\n";
     for (std::size_t i = 0; i < a.coordinates.size(); ++i) {
       out += fmt::format("    {:<15} {:.6g} {}\n", a.coordinates[i].name,

@@ -45,7 +45,7 @@ Eigen::VectorXd inputForce(const BuiltScene& scene, const BuiltSystem& system) {
 }
 
 SystemAnalysis analyzeSystem(const BuiltScene& scene, const BuiltSystem& system,
-                             ParameterSearch search) {
+                             ParameterSearch search, std::size_t modes) {
   const Dynamics& dynamics = *system.dynamics;
   const ShaftMotion shaft = scene.driveOf(system).at(0.0);
   SystemAnalysis a;
@@ -69,9 +69,10 @@ SystemAnalysis analyzeSystem(const BuiltScene& scene, const BuiltSystem& system,
   a.cyclic = cyclicCoordinates(dynamics, shaft.speed);
   a.equilibria = equilibria(dynamics, shaft.speed, a.q, a.v);
   linearize(dynamics, shaft.speed, a);
-  a.stability = dynamics.linear() ? stabilityWithRigidBodyModes(a.linearization, a.cyclic)
-                                  : stability(a.linearization);
-  a.reduced_stability = a.cyclic.any() ? reducedStability(a.linearization, a.cyclic) : a.stability;
+  a.stability = dynamics.linear() ? stabilityWithRigidBodyModes(a.linearization, a.cyclic, modes)
+                                  : stability(a.linearization, 0, modes);
+  a.reduced_stability =
+      a.cyclic.any() ? reducedStability(a.linearization, a.cyclic, modes) : a.stability;
   for (const double coefficient : a.stability.polynomial) {
     if (std::fabs(coefficient) == std::numeric_limits<double>::max()) {  // it has been capped
       throw std::overflow_error("a coefficient of the characteristic polynomial");
@@ -81,6 +82,7 @@ SystemAnalysis analyzeSystem(const BuiltScene& scene, const BuiltSystem& system,
   const CriticalSpeedSearch critical_speeds = searchCriticalSpeeds(*heldDynamics(system));
   a.critical_speeds_beyond = critical_speeds.beyond;
   a.highest_speed = critical_speeds.highest_speed;
+  a.critical_speeds_to = critical_speeds.searched_to;
   for (const CriticalSpeed& critical : critical_speeds.found) {
     a.critical_speeds.push_back(criticalSpeedMargin(shaft.speed, critical.speed,
                                                     critical.forward ? "forward" : "backward",
@@ -100,10 +102,11 @@ SystemAnalysis analyzeSystem(const BuiltScene& scene, const BuiltSystem& system,
 
 }  // namespace
 
-SystemAnalysis analyze(const BuiltScene& scene, std::size_t place, ParameterSearch search) {
+SystemAnalysis analyze(const BuiltScene& scene, std::size_t place, ParameterSearch search,
+                       std::size_t modes) {
   const BuiltSystem& system = *scene.systems[place];
   try {
-    return analyzeSystem(scene, system, search);
+    return analyzeSystem(scene, system, search, modes);
   } catch (const std::exception& error) {  // an overflow: exact numbers refuse infinities
     throw RunFailure(
         fmt::format("{}: cannot be analysed, a number is beyond the range of a double: {}",

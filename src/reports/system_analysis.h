@@ -43,6 +43,7 @@ struct SystemAnalysis {
   Stability reduced_stability;              ///< of the shape with its momenta as they are
   std::optional<double> instability_speed;  ///< [rad/s]
   std::vector<state::CriticalSpeedMargin> critical_speeds;  ///< seen from the initial speed
+  double critical_speeds_to = 0.0;                          ///< [rad/s], looked for; infinity: all
   std::size_t critical_speeds_beyond = 0;  ///< that its equations have, where they do not hold
   double highest_speed = 0.0;              ///< [rad/s], that a reduced rotor holds to
   std::optional<CrossCouplingMargin> cross_coupling;  ///< at the initial speed
@@ -56,9 +57,11 @@ struct SystemAnalysis {
 /// Which systems have the margins of their numbers looked for (isQuickToSearch).
 enum class ParameterSearch { kWhereQuick, kOfAll };
 
-/// Throws RunFailure where the numbers of the scene are too large to be analysed.
+/// `modes`: how many are looked at of more than kMostCompleteCoordinates. Throws RunFailure where
+/// the numbers of the scene are too large to be analysed.
 SystemAnalysis analyze(const BuiltScene& scene, std::size_t system,
-                       ParameterSearch search = ParameterSearch::kWhereQuick);
+                       ParameterSearch search = ParameterSearch::kWhereQuick,
+                       std::size_t modes = kLowestModes);
 
 Json json(const SystemAnalysis& analysis);
 std::string text(const SystemAnalysis& analysis);

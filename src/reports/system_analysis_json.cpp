@@ -180,6 +180,7 @@ Json json(const SystemAnalysis& a) {
   for (const auto& root : a.stability.eigenvalues) {
     json["eigenvalues"].push_back({root.real() + 0.0, root.imag() + 0.0});
   }
+  json["omitted"] = a.stability.omitted;
   json["natural_frequencies"] = arrayJson(a.reduced_stability.natural_frequencies);
   json["damping_ratios"] = arrayJson(a.reduced_stability.damping_ratios);
   json["characteristic_polynomial"] = arrayJson(a.stability.polynomial);
@@ -202,6 +203,7 @@ Json json(const SystemAnalysis& a) {
     json["critical_speeds"].push_back(criticalSpeedJson(critical));
   }
   json["critical_speeds_beyond_reduction"] = a.critical_speeds_beyond;
+  json["critical_speeds_searched_to"] = a.critical_speeds_to;  // infinite, and so null: all
   json["cross_coupling_margin"] = crossCouplingJson(a);
   json["parameter_margins"] = parameterMarginsJson(a);
   json["spread_margin"] = spreadMarginJson(a);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/stability_margins.h"
 #include "reports/matrix_text.h"
 #include "reports/system_analysis.h"
 #include "reports/verdict_text.h"
@@ -12,12 +13,44 @@ namespace whirl_twin {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr std::size_t kMostShown = 10;  // numbers that stability is lost by
+constexpr std::size_t kMostShown = 10;      // numbers that stability is lost by
+constexpr std::size_t kFewCoordinates = 6;  // as many are shown one by one, with their matrices
 
-/// "x = 0 m, y = 1e-05 m": values of the coordinates, or of their `derivative`-th time derivative.
+constexpr const char* kPrime[] = {"", "'", "''"};
+constexpr const char* kPer[] = {"", "/s", "/s^2"};
+
+/// "22 coordinates, at most node_3_y'' = -9.8 m/s^2, ...": the largest of each unit.
+std::string largestValues(const SystemAnalysis& a, const Eigen::VectorXd& x, int derivative) {
+  if (x.isZero(0.0)) {
+    return fmt::format("0 in all {} coordinates", a.coordinates.size());
+  }
+  std::vector<std::size_t> largest;  // of each unit
+  for (std::size_t i = 0; i < a.coordinates.size(); ++i) {
+    const auto size = [&](std::size_t k) { return std::fabs(x[static_cast<Eigen::Index>(k)]); };
+    const auto alike = std::find_if(largest.begin(), largest.end(), [&](std::size_t k) {
+      return a.coordinates[k].unit == a.coordinates[i].unit;
+    });
+    if (alike == largest.end()) {
+      largest.push_back(i);
+    } else if (size(i) > size(*alike)) {
+      *alike = i;
+    }
+  }
+  std::string out;
+  for (const std::size_t i : largest) {
+    out += fmt::format("{}{}{} = {:.6g} {}{}", out.empty() ? "largest " : ", ",
+                       a.coordinates[i].name, kPrime[derivative], x[static_cast<Eigen::Index>(i)],
+                       a.coordinates[i].unit, kPer[derivative]);
+  }
+  return out;
+}
+
+/// "x = 0 m, y = 1e-05 m": values of the coordinates, or of their `derivative`-th time derivative;
+/// of many the largest.
 std::string values(const SystemAnalysis& a, const Eigen::VectorXd& x, int derivative) {
-  static constexpr const char* kPrime[] = {"", "'", "''"};
-  static constexpr const char* kPer[] = {"", "/s", "/s^2"};
+  if (a.coordinates.size() > kFewCoordinates) {
+    return largestValues(a, x, derivative);
+  }
   std::string out;
   for (std::size_t i = 0; i < a.coordinates.size(); ++i) {
     out += fmt::format("{}{}{} = {:.6g} {}{}", i == 0 ? "" : ", ", a.coordinates[i].name,
@@ -98,10 +131,24 @@ std::string equilibriaText(const SystemAnalysis& a) {
 
 std::string modesText(const SystemAnalysis& a) {
   const Stability& s = a.reduced_stability;
-  std::string out = "  modes           rad/s          Hz   damping ratio\n";
-  for (std::size_t i = 0; i < s.natural_frequencies.size(); ++i) {
-    out += fmt::format("    {:<6} {:>12.6g} {:>11.6g} {:>15.6g}\n", i + 1, s.natural_frequencies[i],
-                       s.natural_frequencies[i] / (2.0 * kPi), s.damping_ratios[i]);
+  const std::size_t count = s.natural_frequencies.size();
+  const bool few = a.coordinates.size() <= kFewCoordinates;
+  const std::size_t shown = few || s.omitted > 0 ? count : std::min(count, kLowestModes);
+  std::string out = "  modes           rad/s          Hz   damping ratio   log decrement\n";
+  for (std::size_t i = 0; i < shown; ++i) {
+    out += fmt::format("    {:<6} {:>12.6g} {:>11.6g} {:>15.6g} {:>15}\n", i + 1,
+                       s.natural_frequencies[i], s.natural_frequencies[i] / (2.0 * kPi),
+                       s.damping_ratios[i], defined(logDecrement(s.damping_ratios[i]), "-"));
+  }
+  if (shown < count) {
+    out += fmt::format("    and {} more (--json)\n", count - shown);
+  }
+  if (s.omitted > 0) {
+    out += fmt::format("    {} eigenvalues of higher modes are omitted (--modes N or all)\n",
+                       s.omitted);
+  }
+  if (!few) {
+    return out;
   }
   out += "  eigenvalues, 1/s\n";
   for (const auto& root : a.stability.eigenvalues) {
@@ -135,6 +182,12 @@ std::string stabilityText(const SystemAnalysis& a) {
              ? fmt::format("    polynomial      left out beyond {} coordinates\n",
                            kMostExactCoordinates)
              : fmt::format("    polynomial      {:.6g}\n", fmt::join(s.polynomial, "  "));
+  if (s.omitted > 0) {
+    out +=
+        s.routh.verdict == Verdict::kUncertain
+            ? "    omitted         not proved that none of them grows: --modes all looks at each\n"
+            : "    omitted         of none of them do the numbers below tell\n";
+  }
   out += routhText(s.routh);
   out += marginsText(s.decay_rate, s.damping_ratio, s.log_decrement);
   out += decrementText(a);
@@ -147,11 +200,14 @@ std::string stabilityText(const SystemAnalysis& a) {
 }
 
 std::string criticalSpeedsText(const SystemAnalysis& a) {
-  const std::string beyond =
+  std::string beyond =
       a.critical_speeds_beyond == 0
           ? ""
           : fmt::format("    {} more left out: the reduced rotor holds up to {:g} rad/s only\n",
                         a.critical_speeds_beyond, a.highest_speed);
+  if (std::isfinite(a.critical_speeds_to)) {
+    beyond += fmt::format("    looked for up to {:.6g} rad/s\n", a.critical_speeds_to);
+  }
   if (a.critical_speeds.empty()) {
     return a.dynamics->isRotor() ? "  critical speeds: none\n" + beyond : "";
   }
@@ -261,10 +317,13 @@ std::string text(const SystemAnalysis& a) {
                      a.at_equilibrium ? "the operating point" : "the initial state",
                      values(a, a.about, 0),
                      a.at_equilibrium ? steadyRates(a, a.about_v) : ", " + values(a, a.about_v, 1));
-  out += matrixText("mass", a.linearization.mass) + matrixText("damping", a.linearization.damping) +
-         matrixText("gyroscopic", a.linearization.gyroscopic) +
-         matrixText("stiffness", a.linearization.stiffness) +
-         matrixText("circulatory", a.linearization.circulatory);
+  out += a.coordinates.size() <= kFewCoordinates
+             ? matrixText("mass", a.linearization.mass) +
+                   matrixText("damping", a.linearization.damping) +
+                   matrixText("gyroscopic", a.linearization.gyroscopic) +
+                   matrixText("stiffness", a.linearization.stiffness) +
+                   matrixText("circulatory", a.linearization.circulatory)
+             : "    its matrices    --json\n";
   return out + modesText(a) + stabilityText(a) + criticalSpeedsText(a) + crossCouplingText(a) +
          parameterMarginsText(a) + spreadMarginText(a) + steadySpeedsText(a);
 }

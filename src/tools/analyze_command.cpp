@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -41,6 +42,12 @@ constexpr const char* kFooter =
     "of instability narrower than a stride may be jumped over. In systems of more than eight\n"
     "coordinates, and in shafts of many elements, that takes minutes: with --parameters.\n"
     "\n"
+    "Of more than 100 coordinates the lowest modes are told. That none of the others grows is "
+    "proved\n"
+    "from the definiteness of the matrices, or the verdict is uncertain: --modes all looks at "
+    "each.\n"
+    "Critical speeds are then those up to the highest natural frequency that is told.\n"
+    "\n"
     "--speed holds every shaft at a speed; --at takes the motion after so many seconds, as "
     "`twin\n"
     "simulate` has it, with the shafts held at their speeds of then.\n"
@@ -56,6 +63,7 @@ struct Request {
   std::optional<double> speed;    // rad/s
   std::optional<std::string> at;  // s, as typed
   ParameterSearch search = ParameterSearch::kWhereQuick;
+  std::string modes = std::to_string(kLowestModes);  // as typed
   bool json = false;
   bool insist = false;
 };
@@ -129,8 +137,26 @@ Scene sceneAt(const Request& request) {
   return scene;
 }
 
+/// "all", or a number.
+std::size_t modesOf(const Request& request) {
+  if (request.modes == "all") {
+    return kAllModes;
+  }
+  constexpr std::size_t kMostDigits = 6;
+  const bool number = !request.modes.empty() && request.modes.size() <= kMostDigits &&
+                      std::all_of(request.modes.begin(), request.modes.end(),
+                                  [](char c) { return c >= '0' && c <= '9'; });
+  const std::size_t modes = number ? std::stoul(request.modes) : 0;
+  if (modes == 0) {
+    throw Refusal(fmt::format(
+        "--modes: expected how many of the lowest, 1 or more, or all, found {}", request.modes));
+  }
+  return modes;
+}
+
 int analyzeScene(const Request& request) {
   requireCsvName(request.csv);
+  const std::size_t modes = modesOf(request);
   Scene scene = readSceneFile(scenePath(request.scene));
   const auto systems = selectedSystems(scene, request.system);
   if (request.at) {
@@ -142,7 +168,7 @@ int analyzeScene(const Request& request) {
   const BuiltScene built = build(scene);
   AskedCost cost;
   for (const std::size_t i : systems) {
-    cost += costOfAnalysis(scene.systems[i].name, built.systems[i]->dynamics->dof());
+    cost += costOfAnalysis(scene.systems[i].name, built.systems[i]->dynamics->dof(), modes);
   }
   tell(cost, request.insist);
   Json all;
@@ -150,7 +176,7 @@ int analyzeScene(const Request& request) {
   std::string report;
   CsvTables csv;
   for (const std::size_t i : systems) {
-    const SystemAnalysis analysis = analyze(built, i, request.search);
+    const SystemAnalysis analysis = analyze(built, i, request.search, modes);
     const MethodAnalysis methods = analyzeMethods(*built.systems[i], analysis);
     all["systems"][analysis.name] = json(analysis);
     all["systems"][analysis.name]["methods"] = json(methods, analysis);
@@ -184,6 +210,12 @@ void addAnalyzeCommand(CLI::App& twin, int& status) {
       ->type_name("W");
   command->add_option("--at", request->at, "s, simulated, from the start to there; default: 0")
       ->type_name("S");
+  command
+      ->add_option("--modes", request->modes,
+                   fmt::format("how many of the lowest, or all, of more than {} coordinates; "
+                               "default: {}",
+                               kMostCompleteCoordinates, kLowestModes))
+      ->type_name("N");
   command->add_flag_callback(
       "--parameters", [request] { request->search = ParameterSearch::kOfAll; },
       "look for the numbers that stability is lost by where that takes minutes, too");

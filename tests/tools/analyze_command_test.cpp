@@ -385,5 +385,78 @@ TEST(Analyze, ReportForReaders) {
   EXPECT_EQ(end.out.find("nan"), std::string::npos) << end.out;
 }
 
+/// A shaft of 26 elements with all its 108 coordinates; `bearing` and `seal`: coefficients.
+std::string longShaft(const std::string& bearing, const std::string& seal) {
+  return "{model: flexible_rotor, speed: 400, parameters: {modes: 0, youngs_modulus: 2.11e11, "
+         "shear_modulus: 8.12e10, density: 7810, elements: [{count: 26, length: 0.05, "
+         "outer_diameter: 0.05}], discs: [{node: 9, mass: 32.0, transverse_inertia: 0.178, "
+         "polar_inertia: 0.329}], bearings: [{node: 0, " +
+         bearing + "}, {node: 26, " + bearing + "}, {node: 13, " + seal + "}]}}";
+}
+
+Json analyzedAll(const std::string& system) {
+  const TemporaryDirectory folder;
+  const std::string scene =
+      folder.write("scene.yaml", "step: 0.001\nsystems:\n  it: " + system + "\n");
+  const Ending end = twin({"analyze", scene, "--json", "--modes", "all"});
+  EXPECT_EQ(end.status, 0) << end.err;
+  return end.json()["systems"]["it"];
+}
+
+TEST(Analyze, OfALongShaftTheLowestModesAreThoseOfAll) {
+  const std::string shaft = longShaft("kxx: 1e6, kyy: 2e6, cxx: 100, cyy: 100", "kxx: 0");
+  const Json lowest = analyzed(shaft);
+  const Json all = analyzedAll(shaft);
+  EXPECT_EQ(all["omitted"], 0);
+  EXPECT_EQ(all["eigenvalues"].size(), 216u);
+  EXPECT_EQ(lowest["eigenvalues"].size(), 48u);
+  EXPECT_EQ(lowest["omitted"], 216 - 48);
+  ASSERT_EQ(lowest["natural_frequencies"].size(), 24u);
+  for (std::size_t i = 0; i < 24; ++i) {
+    const double frequency = all["natural_frequencies"][i];
+    EXPECT_NEAR(lowest["natural_frequencies"][i].get<double>(), frequency, 1.0e-7 * frequency);
+  }
+  EXPECT_EQ(lowest["routh"]["verdict"], "asymptotically_stable");
+  EXPECT_EQ(all["routh"]["verdict"], "asymptotically_stable");
+  const double highest = lowest["natural_frequencies"].back();
+  EXPECT_NEAR(lowest["critical_speeds_searched_to"].get<double>(), highest, 0.1 * highest);
+  EXPECT_EQ(lowest["critical_speeds"].size(), all["critical_speeds"].size());
+}
+
+// Nothing bounds what a seal feeds beyond the damping of the bearings: no verdict without a proof.
+TEST(Analyze, OfALongShaftTheVerdictIsUncertainWhereNothingIsProvedOfTheOmitted) {
+  const std::string shaft =
+      longShaft("kxx: 1e6, kyy: 1e6, cxx: 5000, cyy: 5000", "kxy: 100.0, kyx: -100.0");
+  EXPECT_EQ(analyzed(shaft)["routh"]["verdict"], "uncertain");
+  EXPECT_EQ(analyzedAll(shaft)["routh"]["verdict"], "asymptotically_stable");
+  const std::string damped = longShaft("kxx: 1e6, kyy: 1e6, cxx: 5000, cyy: 5000",
+                                       "kxy: 100.0, kyx: -100.0, cxx: 10.0, cyy: 10.0");
+  EXPECT_EQ(analyzed(damped)["routh"]["verdict"], "asymptotically_stable");
+}
+
+// Cross-coupling of bearings: where the first forward whirl grows, all say so and at which speed.
+TEST(Analyze, OfALongShaftThatGrowsTheVerdictIsThatOfAll) {
+  const std::string shaft =
+      longShaft("kxx: 1e6, kyy: 1e6, cxx: 100, cyy: 100, kxy: 4e4, kyx: -4e4", "kxx: 0");
+  EXPECT_EQ(analyzed(shaft)["routh"]["verdict"], "unstable");
+  EXPECT_EQ(analyzed(shaft)["routh"]["right"], analyzedAll(shaft)["routh"]["right"]);
+}
+
+TEST(Analyze, OfManyCoordinatesTheReportShowsNoMatrices) {
+  const TemporaryDirectory folder;
+  const std::string scene = folder.write(
+      "scene.yaml", "step: 0.001\nsystems:\n  it: " +
+                        longShaft("kxx: 1e6, kyy: 1e6, cxx: 9, cyy: 9", "kxx: 0") + "\n");
+  const Ending end = twin({"analyze", scene, "--modes", "5"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  EXPECT_LT(linesOf(end.out).size(), 50u) << end.out;
+  for (const std::string& line : linesOf(end.out)) {
+    EXPECT_LE(line.size(), 120u) << line;
+  }
+  EXPECT_NE(end.out.find("206 eigenvalues of higher modes are omitted"), std::string::npos)
+      << end.out;
+  EXPECT_EQ(twin({"analyze", scene, "--modes", "none"}).status, 2);
+}
+
 }  // namespace
 }  // namespace whirl_twin

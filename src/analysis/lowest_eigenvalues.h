@@ -1,0 +1,33 @@
+// The lowest eigenvalues of a long rotor, and what can be said of the others without them.
+#pragma once
+
+#include <complex>
+#include <optional>
+#include <vector>
+
+#include "analysis/lowest_roots.h"
+#include "mechanics/banded_linearization.h"
+
+namespace whirl_twin {
+
+struct LowestEigenvalues {
+  std::vector<std::complex<double>> roots;  ///< [1/s], by rising |s|, then Im
+  std::size_t omitted = 0;                  ///< all of larger modulus
+  bool omitted_are_sure = false;            ///< it is proved that none of them grows
+  bool undamped = false;  ///< nothing dissipates and nothing feeds: all lie on the axis
+};
+
+/// s^2 M + s (C + G) + K + N.
+BandedPencil<double> pencilOf(const BandedLinearization& matrices);
+
+/// -Re s [1/s] by the energy that the shape dissipates and is fed (growth_radius.h), which has no
+/// part in the rounding of s.
+double decayByEnergy(const BandedLinearization& matrices, const PencilRoot& root);
+
+/// Of the lowest `modes`, two of each; of more where that is what it takes to prove that no other
+/// grows and one of them does. Real parts that are small are those of the energy; without damping
+/// and circulatory forces, exactly 0. Nothing where lowestRoots() tells nothing.
+std::optional<LowestEigenvalues> lowestEigenvalues(const BandedLinearization& matrices,
+                                                   std::size_t modes);
+
+}  // namespace whirl_twin

@@ -1,0 +1,511 @@
+#include "analysis/lowest_roots.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <type_traits>
+
+#include "algebra/eigenvalues.h"
+
+namespace whirl_twin {
+
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::Index;
+using Eigen::VectorXcd;
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr Index kBlock = 2;
+constexpr Index kMostDimensions = 330;
+constexpr Index kNarrow = 6;           // widths, of a matrix that is worth it
+constexpr double kConverged = 1.0e-8;  // of 1/s: near enough for Newton's method
+constexpr double kMoved = 1.0e-5;      // of s, by Newton's method: it would be another root
+constexpr double kSettled = 1.0e-14;   // of s
+constexpr int kMostSteps = 4;
+constexpr double kApart = 1.0e-3;      // of the radius, at least, from root to circle
+constexpr std::size_t kMostMore = 12;  // roots, for a wide gap to lay the circle through
+constexpr double kReach = 4.0;         // radii, of the roots divided out
+constexpr double kFineTurn = 0.5;      // rad, of the phase from point to point
+constexpr int kMostHalvings = 12;
+
+/// A root as the Krylov space has it.
+struct Ritz {
+  Complex root;
+  double residual = 0.0;  ///< of 1/s, in parts of it
+  VectorXcd parts;        ///< of the basis
+};
+
+/// Block Krylov space of the inverse linearization.
+template <class Scalar>
+class KrylovSpace {
+ public:
+  using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+
+  explicit KrylovSpace(const BandedPencil<Scalar>& pencil)
+      : pencil_(pencil), inverse_(pencil.a0), order_(pencil.a0.size()) {
+    std::mt19937_64 numbers(1);
+    random_ = numbers;
+    next_ = Matrix::Zero(2 * order_, kBlock);
+    basis_.resize(2 * order_, 0);
+    refill(next_.col(0));
+    refill(next_.col(1));
+    orthonormalise(nullptr);
+  }
+
+  bool singular() const { return inverse_.singular(); }
+  Index dimension() const { return basis_.cols(); }
+
+  void grow(Index dimension) {
+    const Index from = basis_.cols();
+    basis_.conservativeResize(Eigen::NoChange, dimension);
+    // Rows and columns that come are zero.
+    Matrix wider = Matrix::Zero(dimension + kBlock, dimension);
+    wider.topLeftCorner(projected_.rows(), projected_.cols()) = projected_;
+    projected_ = std::move(wider);
+    for (Index at = from; at < dimension; at += kBlock) {
+      basis_.middleCols(at, kBlock) = next_;
+      next_ = image(next_);
+      const Index known = at + kBlock;
+      for (int pass = 0; pass < 2; ++pass) {
+        const Matrix along = basis_.leftCols(known).adjoint() * next_;
+        next_.noalias() -= basis_.leftCols(known) * along;
+        projected_.block(0, at, known, kBlock) += along;
+      }
+      known_ = known;
+      Eigen::Matrix<Scalar, kBlock, kBlock> rest;
+      orthonormalise(&rest);
+      projected_.block(known, at, kBlock, kBlock) = rest;
+    }
+  }
+
+  /// By rising modulus of the root.
+  std::vector<Ritz> ritz() const {
+    const Index m = dimension();
+    using Solver = std::conditional_t<std::is_same_v<Scalar, double>, Eigen::EigenSolver<Matrix>,
+                                      Eigen::ComplexEigenSolver<Matrix>>;
+    const Solver solver(Matrix(projected_.topRows(m)));
+    if (solver.info() != Eigen::Success) {
+      return {};
+    }
+    const Eigen::VectorXcd values = solver.eigenvalues();
+    const Eigen::MatrixXcd vectors = solver.eigenvectors();
+    const Eigen::MatrixXcd rest =
+        projected_.bottomRows(kBlock).rightCols(kBlock).template cast<Complex>() *
+        vectors.bottomRows(kBlock);
+    std::vector<Ritz> all;
+    for (Index i = 0; i < m; ++i) {
+      if (values[i] != 0.0) {
+        all.push_back({1.0 / values[i], rest.col(i).norm() / std::abs(values[i]), vectors.col(i)});
+      }
+    }
+    std::sort(all.begin(), all.end(), [](const Ritz& a, const Ritz& b) {
+      const double x = std::abs(a.root);
+      const double y = std::abs(b.root);
+      return x != y ? x < y : a.root.imag() < b.root.imag();
+    });
+    return all;
+  }
+  VectorXcd shape(const Ritz& ritz) const {
+    return (basis_.topRows(order_).template cast<Complex>() * ritz.parts).normalized();
+  }
+
+ private:
+  Matrix image(const Matrix& state) const {
+    const Matrix force =
+        pencil_.a1.times(state.topRows(order_)) + pencil_.a2.times(state.bottomRows(order_));
+    Matrix next(2 * order_, state.cols());
+    next.topRows(order_) = -inverse_.solve(force);
+    next.bottomRows(order_) = state.topRows(order_);
+    return next;
+  }
+  template <class Column>
+  void refill(Column column) {
+    std::uniform_real_distribution<double> number(-1.0, 1.0);
+    for (Index i = 0; i < column.size(); ++i) {
+      column[i] = number(random_);
+    }
+  }
+  /// The next block's columns, each at right angles to all; what was left of them in `rest`.
+  void orthonormalise(Eigen::Matrix<Scalar, kBlock, kBlock>* rest) {
+    if (rest != nullptr) {
+      rest->setZero();
+    }
+    for (Index j = 0; j < kBlock; ++j) {
+      auto column = next_.col(j);
+      const double before = column.norm();
+      for (int pass = 0; pass < 2; ++pass) {
+        for (Index i = 0; i < j; ++i) {
+          const Scalar along = next_.col(i).dot(column);
+          column -= along * next_.col(i);
+          if (rest != nullptr) {
+            (*rest)(i, j) += along;
+          }
+        }
+      }
+      double length = column.norm();
+      const bool spent = !(length > 1.0e-14 * before);
+      if (rest != nullptr) {
+        (*rest)(j, j) = spent ? 0.0 : length;
+      }
+      if (spent) {  // an invariant space: go on with another direction
+        refill(column);
+        for (int pass = 0; pass < 2; ++pass) {
+          column -= basis_.leftCols(known_) * (basis_.leftCols(known_).adjoint() * column);
+          for (Index i = 0; i < j; ++i) {
+            column -= next_.col(i).dot(column) * next_.col(i);
+          }
+        }
+        length = column.norm();
+      }
+      column /= length;
+    }
+  }
+
+  BandedPencil<Scalar> pencil_;
+  BandedLU<Scalar> inverse_;
+  Index order_;
+  Index known_ = 0;
+  std::mt19937_64 random_;
+  Matrix basis_, next_, projected_;
+};
+
+/// A pencil in other units of its coordinates and of s.
+template <class Scalar>
+struct Scaled {
+  BandedPencil<Scalar> pencil;
+  Eigen::VectorXd scale;
+  double rate = 1.0;
+};
+
+template <class Scalar>
+Scaled<Scalar> inUnits(const BandedPencil<Scalar>& p, const Eigen::VectorXd& scale, double rate) {
+  Scaled<Scalar> s{{p.a0.scaled(scale), BandedMatrix<Scalar>(p.a0.size(), 0),
+                    BandedMatrix<Scalar>(p.a0.size(), 0)},
+                   scale,
+                   rate};
+  s.pencil.a1.add(rate, p.a1.scaled(scale));
+  s.pencil.a2.add(rate * rate, p.a2.scaled(scale));
+  return s;
+}
+
+/// Coordinates of unit inertia.
+template <class Scalar>
+Eigen::VectorXd unitInertia(const BandedPencil<Scalar>& p) {
+  const Eigen::ArrayXd diagonal = p.a2.diagonal().array().abs();
+  return (diagonal > 0.0).select(diagonal.max(1e-300).rsqrt(), 1.0);
+}
+
+/// About the lowest root's modulus: by inverse iteration without A1. 0 of a singular A0.
+template <class Scalar>
+double lowestRate(const BandedPencil<Scalar>& p) {
+  const BandedLU<Scalar> inverse(p.a0);
+  if (inverse.singular()) {
+    return 0.0;
+  }
+  Eigen::Matrix<Scalar, Eigen::Dynamic, 1> x(p.a0.size());
+  for (Index i = 0; i < x.size(); ++i) {
+    x[i] = std::cos(1.0 + 2.0 * static_cast<double>(i * i));
+  }
+  double gain = 0.0;
+  for (int step = 0; step < 4; ++step) {
+    x.normalize();
+    x = inverse.solve(p.a2.times(x));
+    gain = x.norm();
+  }
+  return gain > 0.0 && std::isfinite(gain) ? 1.0 / std::sqrt(gain) : 0.0;
+}
+
+using Long = long double;
+using LongComplex = std::complex<Long>;
+
+/// (A0 + s A1 + s^2 A2) x, its cancellation in more digits than those of the entries: the lowest
+/// roots of a fine shaft are small beside its entries.
+template <class Scalar>
+VectorXcd residual(const BandedPencil<Scalar>& p, const Complex& s, const VectorXcd& x) {
+  const LongComplex rate(s.real(), s.imag());
+  const LongComplex squared(rate.real() * rate.real() - rate.imag() * rate.imag(),
+                            2.0L * rate.real() * rate.imag());
+  const Index n = x.size();
+  std::vector<LongComplex> sum(static_cast<std::size_t>(n));
+  const auto addTo = [](LongComplex& to, const LongComplex& a, const LongComplex& b) {
+    to += LongComplex(a.real() * b.real() - a.imag() * b.imag(),
+                      a.real() * b.imag() + a.imag() * b.real());
+  };
+  for (Index j = 0; j < n; ++j) {
+    const LongComplex at(x[j].real(), x[j].imag());
+    LongComplex by_rate = 0.0L;
+    LongComplex by_square = 0.0L;
+    addTo(by_rate, rate, at);
+    addTo(by_square, squared, at);
+    const auto part = [&](const BandedMatrix<Scalar>& m, const LongComplex& by) {
+      const Index last = std::min(n - 1, j + m.width());
+      for (Index i = std::max<Index>(0, j - m.width()); i <= last; ++i) {
+        const Complex entry = m(i, j);
+        addTo(sum[static_cast<std::size_t>(i)], LongComplex(entry.real(), entry.imag()), by);
+      }
+    };
+    part(p.a0, at);
+    part(p.a1, by_rate);
+    part(p.a2, by_square);
+  }
+  VectorXcd rounded(n);
+  for (Index i = 0; i < n; ++i) {
+    const LongComplex& of = sum[static_cast<std::size_t>(i)];
+    rounded[i] = {static_cast<double>(of.real()), static_cast<double>(of.imag())};
+  }
+  return rounded;
+}
+
+/// Newton's method (mode_continuation.h) from a root that is nearly one, ended by two steps from
+/// what it leaves of the equation. Nothing if it leaves the root.
+template <class Scalar>
+std::optional<PencilRoot> polished(const BandedPencil<Scalar>& p, const Complex& from,
+                                   const VectorXcd& shape) {
+  Complex s = from;
+  VectorXcd x = shape;
+  double last = kMoved * std::abs(s);
+  for (int step = 0; step < kMostSteps; ++step) {
+    const VectorXcd slope = p.a1.times(x) + 2.0 * s * p.a2.times(x);
+    const BandedLU<Complex> lu(p.at(s));
+    if (lu.singular()) {
+      break;  // there to the last digit
+    }
+    const VectorXcd y = lu.solve(slope);
+    const Complex change = 1.0 / x.dot(y);
+    const double size = std::abs(change);
+    if (!std::isfinite(size) || !(std::abs(s - change - from) <= kMoved * std::abs(from))) {
+      return std::nullopt;
+    }
+    if (step > 0 && size > 0.5 * last) {
+      break;  // rounding lets it come no nearer
+    }
+    s -= change;
+    x = y.normalized();
+    if (size <= kSettled * std::abs(s)) {
+      break;
+    }
+    last = size;
+  }
+  for (int step = 0; step < 2; ++step) {
+    const VectorXcd slope = p.a1.times(x) + 2.0 * s * p.a2.times(x);
+    Eigen::MatrixXcd sides(x.size(), 2);
+    sides << residual(p, s, x), slope;
+    const BandedLU<Complex> lu(p.at(s));
+    if (lu.singular()) {
+      break;
+    }
+    const Eigen::MatrixXcd y = lu.solve(sides);
+    const Complex change = x.dot(y.col(0)) / x.dot(y.col(1));
+    if (!(std::abs(s - change - from) <= kMoved * std::abs(from))) {
+      return std::nullopt;
+    }
+    s -= change;
+    x = (x - y.col(0) + change * y.col(1)).normalized();
+  }
+  return PencilRoot{s, x};
+}
+
+/// The phase along a circle.
+template <class Scalar>
+class Winding {
+ public:
+  Winding(const BandedPencil<Scalar>& pencil, double radius, std::vector<Complex> divided)
+      : pencil_(pencil), radius_(radius), divided_(std::move(divided)) {}
+
+  /// By how much it turns from one angle to another [rad]; NaN where it cannot be followed.
+  double turn(double from, double to, int pieces) const {
+    double sum = 0.0;
+    Complex before = phase(from);
+    for (int i = 1; i <= pieces; ++i) {
+      const double start = from + (to - from) * (i - 1) / pieces;
+      const double end = from + (to - from) * i / pieces;
+      const Complex after = phase(end);
+      sum += between(start, end, before, after, 0);
+      before = after;
+    }
+    return sum;
+  }
+
+ private:
+  Complex phase(double angle) const {
+    const Complex s = std::polar(radius_, angle);
+    Complex turned = BandedLU<Complex>(pencil_.at(s)).determinantPhase();
+    for (const Complex& root : divided_) {
+      const Complex to = s - root;
+      turned *= std::conj(to) / std::abs(to);
+    }
+    return turned;
+  }
+  double between(double start, double end, const Complex& before, const Complex& after,
+                 int halvings) const {
+    const double turned = std::arg(after * std::conj(before));
+    if (std::fabs(turned) <= kFineTurn) {
+      return turned;
+    }
+    if (halvings == kMostHalvings || std::isnan(turned)) {
+      return std::nan("");
+    }
+    const double middle = 0.5 * (start + end);
+    const Complex there = phase(middle);
+    return between(start, middle, before, there, halvings + 1) +
+           between(middle, end, there, after, halvings + 1);
+  }
+
+  const BandedPencil<Scalar>& pencil_;
+  double radius_;
+  std::vector<Complex> divided_;
+};
+
+/// Of the roots known, those within a circle through a gap between them.
+struct Cut {
+  std::size_t inside = 0;
+  double radius = 0.0;
+};
+
+/// Nothing where too few are known.
+std::optional<Cut> widestGap(const std::vector<Ritz>& all, std::size_t least, double radius) {
+  const std::size_t known = all.size();
+  std::size_t first = least;
+  while (first < known && std::abs(all[first].root) <= radius) {
+    ++first;
+  }
+  std::optional<Cut> best;
+  double widest = 1.0 + 2.0 * kApart;
+  for (std::size_t i = first; i < known && i <= first + kMostMore; ++i) {
+    const double below = std::max(radius, i == 0 ? 0.0 : std::abs(all[i - 1].root));
+    const double above = std::abs(all[i].root);
+    const double ratio = below > 0.0 ? above / below : 2.0;
+    if (ratio > widest) {
+      widest = ratio;
+      best = Cut{i, below > 0.0 ? std::sqrt(above * below) : 0.5 * above};
+    }
+  }
+  return best;
+}
+
+/// The polished roots within the cut; nothing if they cannot be all.
+template <class Scalar>
+std::optional<LowestRoots> confirmed(const Scaled<Scalar>& scaled, const KrylovSpace<Scalar>& space,
+                                     const std::vector<Ritz>& all, const Cut& cut) {
+  constexpr bool kReal = std::is_same_v<Scalar, double>;
+  LowestRoots found;
+  found.radius = cut.radius * scaled.rate;
+  std::vector<Complex> divided;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Complex about = all[i].root;
+    if (i >= cut.inside) {
+      if (std::abs(about) <= kReach * cut.radius) {
+        divided.push_back(about);
+      }
+      continue;
+    }
+    if (kReal && about.imag() < 0.0) {
+      continue;  // with the other of its pair
+    }
+    auto root = polished(scaled.pencil, about, space.shape(all[i]));
+    if (!root) {
+      return std::nullopt;
+    }
+    divided.push_back(root->value);
+    root->value *= scaled.rate;
+    root->shape = scaled.scale.template cast<Complex>().cwiseProduct(root->shape).normalized();
+    if (kReal && about.imag() > 0.0) {
+      divided.push_back(std::conj(divided.back()));
+      found.roots.push_back({std::conj(root->value), root->shape.conjugate()});
+    }
+    found.roots.push_back(std::move(*root));
+  }
+  if (found.roots.size() != cut.inside) {
+    return std::nullopt;
+  }
+  const Winding<Scalar> winding(scaled.pencil, cut.radius, std::move(divided));
+  const double turned = kReal ? winding.turn(0.0, kPi, 12) : winding.turn(-kPi, kPi, 24);
+  if (!(std::fabs(turned) < 1.0)) {
+    return std::nullopt;
+  }
+  std::sort(found.roots.begin(), found.roots.end(), [](const PencilRoot& a, const PencilRoot& b) {
+    const double x = std::abs(a.value);
+    const double y = std::abs(b.value);
+    return x != y ? x < y : a.value.imag() < b.value.imag();
+  });
+  return found;
+}
+
+/// At least so many roots, and all within the radius.
+template <class Scalar>
+std::optional<LowestRoots> search(const BandedPencil<Scalar>& pencil, std::size_t count,
+                                  double radius) {
+  const Index width = std::max({pencil.a0.width(), pencil.a1.width(), pencil.a2.width()});
+  if (width * kNarrow > pencil.a0.size()) {
+    return std::nullopt;
+  }
+  const Eigen::VectorXd inertia = unitInertia(pencil);
+  const double lowest = lowestRate(inUnits(pencil, inertia, 1.0).pencil);
+  if (!(lowest > 0.0)) {
+    return std::nullopt;
+  }
+  const double rate = std::max(radius, 3.0 * lowest);
+  const Scaled<Scalar> scaled = inUnits(pencil, inertia, rate);
+  KrylovSpace<Scalar> space(scaled.pencil);
+  const Index most = std::min(kMostDimensions, 2 * pencil.a0.size() * 3 / 4);
+  for (Index m = 24 + 3 * static_cast<Index>(count) / 2; !space.singular(); m += m / 2) {
+    m = std::min(m, most) / kBlock * kBlock;
+    if (m <= space.dimension()) {
+      return std::nullopt;
+    }
+    space.grow(m);
+    // Values that are none yet, or never, stand among the others: the check tells of a root missed.
+    std::vector<Ritz> all = space.ritz();
+    all.erase(std::remove_if(all.begin(), all.end(),
+                             [](const Ritz& one) { return one.residual > kConverged; }),
+              all.end());
+    const auto cut = widestGap(all, count, radius / rate);
+    if (!cut) {
+      continue;
+    }
+    if (auto found = confirmed(scaled, space, all, *cut)) {
+      return found;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+template <class Scalar>
+BandedMatrix<Complex> BandedPencil<Scalar>::at(Complex s) const {
+  BandedMatrix<Complex> sum(a0.size(), std::max({a0.width(), a1.width(), a2.width()}));
+  sum.add(1.0, a0);
+  sum.add(s, a1);
+  sum.add(s * s, a2);
+  return sum;
+}
+
+template <class Scalar>
+BandedPencil<Scalar> BandedPencil<Scalar>::about(const Scalar& centre) const {
+  BandedPencil moved = *this;
+  moved.a0.add(centre, a1);
+  moved.a0.add(centre * centre, a2);
+  moved.a1.add(2.0 * centre, a2);
+  return moved;
+}
+
+template <class Scalar>
+std::optional<LowestRoots> lowestRoots(const BandedPencil<Scalar>& pencil, std::size_t count) {
+  return search(pencil, count, 0.0);
+}
+
+template <class Scalar>
+std::optional<LowestRoots> rootsWithin(const BandedPencil<Scalar>& pencil, double radius) {
+  return search(pencil, 0, radius);
+}
+
+template struct BandedPencil<double>;
+template struct BandedPencil<Complex>;
+template std::optional<LowestRoots> lowestRoots(const BandedPencil<double>&, std::size_t);
+template std::optional<LowestRoots> lowestRoots(const BandedPencil<Complex>&, std::size_t);
+template std::optional<LowestRoots> rootsWithin(const BandedPencil<double>&, double);
+template std::optional<LowestRoots> rootsWithin(const BandedPencil<Complex>&, double);
+
+}  // namespace whirl_twin
