@@ -7,6 +7,7 @@
 
 #include "control/discrete_state_space.h"
 #include "control/shaft_angle.h"
+#include "messages/controller_state.h"
 
 namespace whirl_twin {
 
@@ -34,6 +35,8 @@ class Controller {
   virtual void takeOver(const Controller& /*before*/) noexcept {}
   /// The law behind what is put before it, as a notch is; itself, where there is nothing.
   virtual const Controller& law() const noexcept { return *this; }
+  /// Of one that brings a shaft through resonances.
+  virtual state::Supervision supervision() const noexcept { return state::Supervision::kNone; }
 
   // Not real-time safe.
 

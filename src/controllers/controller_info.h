@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "control/exclusion_bands.h"
 #include "controllers/controller.h"
 #include "models/model_info.h"
 
@@ -31,6 +32,10 @@ struct ControllerPlan {
   std::vector<double> limits;
   /// Of small motions; nothing where there is no telling.
   std::optional<LinearPlant> plant = std::nullopt;
+  /// About the critical speeds of what a shaft turns, where a speed controller is to avoid them.
+  std::vector<SpeedBand> critical_bands = {};
+  /// The first band that its motor is known not to bring a shaft through.
+  std::optional<SpeedBand> impassable = std::nullopt;
 };
 
 struct ControllerInfo {

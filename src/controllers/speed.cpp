@@ -10,6 +10,9 @@
 // what the motor can do less a reserve. Where no plan leads to the speed wanted, it stays there.
 // Where parameters are changed while it runs, it is planned anew from the speed and acceleration
 // that it has.
+//
+// A shaft that a resonance holds is freed and tries again (capture_supervisor.h), then without the
+// reserve; one whose motor is known not to bring it through a band stays below.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,8 +22,10 @@
 
 #include "control/speed_planner.h"
 #include "controllers/anti_windup.h"
+#include "controllers/capture_supervisor.h"
 #include "controllers/controller_settings.h"
 #include "controllers/controllers.h"
+#include "controllers/speed_way.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {
@@ -31,31 +36,49 @@ using Eigen::MatrixXd;
 
 constexpr double kRequired = std::numeric_limits<double>::quiet_NaN();
 
+/// Plans of set-points.
+struct SpeedPlanners {
+  SpeedPlanner first;    ///< to the speed wanted, past the bands
+  SpeedPlanner retreat;  ///< through anything
+  SpeedPlanner again;    ///< past the bands after a capture
+};
+
 class SpeedControl final : public Controller {
  public:
-  SpeedControl(const ShaftLimits& limits, SpeedPlanner planner, const ParameterValues& values,
-               const AntiWindup& anti_windup, const ControllerPlan& plan)
+  SpeedControl(const ShaftLimits& limits, SpeedPlanners planners, CaptureSupervisor supervisor,
+               const ParameterValues& values, const AntiWindup& anti_windup,
+               const ControllerPlan& plan)
       : limits_(limits),
-        planner_(std::move(planner)),
-        target_(values.at("speed")),
+        planners_(std::move(planners)),
+        supervisor_(std::move(supervisor)),
+        impassable_(plan.impassable),
+        wanted_(values.at("speed")),
         kp_(values.at("kp")),
         ki_(values.at("ki")),
         period_(1.0 / plan.rate),
         limit_(plan.limits[0]),
-        anti_windup_(anti_windup),
-        set_points_(planner_.staying(0.0)) {}
+        anti_windup_(anti_windup) {
+    for (const SpeedPlanner* planner : {&planners_.first, &planners_.retreat, &planners_.again}) {
+      const SpeedPlan room = planner->staying(0.0);
+      set_points_.pieces.resize(std::max(set_points_.pieces.size(), room.pieces.size()));
+    }
+  }
 
-  void reset() noexcept override { started_ = false; }
+  void reset() noexcept override {
+    started_ = false;
+    supervisor_.reset(false);
+  }
 
   void update(const ControlSample& sample, double* outputs) noexcept override {
     const double speed = sample.values[0];
-    if (!started_ && std::isfinite(speed)) {
-      begin(speed, 0.0, sample.index);
-    }
-    if (!started_) {
+    if (!std::isfinite(speed)) {
       outputs[0] = speed;  // no number, and not taken for one
       return;
     }
+    if (!started_) {
+      begin(speed, 0.0, sample.index);
+    }
+    supervise(speed, sample.index);
     const double now = next_;
     last_ = sample.index;
     next_ = cursor_.at(set_points_, planTime(last_ + 1)).speed;
@@ -63,12 +86,14 @@ class SpeedControl final : public Controller {
     const double wanted = limits_.inertia * (next_ - now) / period_ + limits_.motor.drag * now;
     const double u = wanted + kp_ * e + integral_;
     const double most = std::min(limit_, limits_.torque(speed));
-    const double cut = std::clamp(u, -most, most);
+    const double upwards = supervisor_.unloads() ? 0.0 : most;
+    const double cut = up_ > 0.0 ? std::clamp(u, -most, upwards) : std::clamp(u, -upwards, most);
+    at_limit_ = up_ * u >= most;
     integral_ += period_ * anti_windup_.integrand(kp_, ki_, e, u, cut);
     outputs[0] = cut;
   }
 
-  /// The set-point goes on from where it is, speed and acceleration.
+  /// The set-point goes on from where it is, speed and acceleration; captures are counted anew.
   void takeOver(const Controller& before) noexcept override {
     const auto* const other = dynamic_cast<const SpeedControl*>(&before.law());
     if (other == nullptr || !other->started_) {
@@ -81,6 +106,8 @@ class SpeedControl final : public Controller {
     integral_ = other->integral_;
   }
 
+  state::Supervision supervision() const noexcept override { return supervisor_.state(); }
+
   /// Where the motor can give what is asked, about a set-point that stays.
   std::optional<DiscreteStateSpace> linear(double) const override {
     const Eigen::Index states = ki_ == 0.0 ? 0 : 1;
@@ -90,6 +117,10 @@ class SpeedControl final : public Controller {
   }
 
  private:
+  struct SetPoint {
+    double speed = 0.0, acceleration = 0.0;  // [rad/s], [rad/s^2]
+  };
+
   /// [s], of a sample, since the set-points begin.
   double planTime(std::int64_t index) const noexcept {
     return period_ * static_cast<double>(index - first_);
@@ -97,19 +128,52 @@ class SpeedControl final : public Controller {
 
   void begin(double speed, double acceleration, std::int64_t index) noexcept {
     started_ = true;
-    first_ = index;
     integral_ = 0.0;
-    next_ = speed;
+    at_limit_ = false;
+    up_ = std::copysign(1.0, wanted_);
+    target_ = wanted_;
+    const bool refused =
+        impassable_ && up_ * wanted_ > impassable_->from && up_ * speed < impassable_->to;
+    supervisor_.reset(refused);
+    if (refused) {
+      target_ = up_ * supervisor_.runUpOf(*impassable_);
+    }
+    follow(planners_.first, {speed, acceleration}, target_, index);
+  }
+
+  void supervise(double speed, std::int64_t index) noexcept {
+    switch (supervisor_.look({up_ * speed, up_ * target_, limits_.rise(speed), at_limit_,
+                              cursor_.piece == set_points_.count})) {
+      case CaptureSupervisor::Order::kNone:
+        break;
+      case CaptureSupervisor::Order::kUnload:
+      case CaptureSupervisor::Order::kReturn:
+        integral_ = 0.0;
+        follow(planners_.retreat, {speed, 0.0}, up_ * supervisor_.runUpOf(supervisor_.band()), index);
+        break;
+      case CaptureSupervisor::Order::kRetry:
+        follow(planners_.again, {next_, 0.0}, target_, index);
+        break;
+    }
+  }
+
+  /// A new plan, from the set-point of this sample on; one that stays, where there is none.
+  void follow(const SpeedPlanner& planner, const SetPoint& from, double to,
+              std::int64_t index) noexcept {
+    first_ = index;
+    next_ = from.speed;
     cursor_ = {};
-    if (!planner_.plan(speed, acceleration, target_, set_points_)) {
+    if (!planner.plan(from.speed, from.acceleration, to, set_points_)) {
       set_points_.count = 0;
-      set_points_.target = speed;
+      set_points_.target = from.speed;
     }
   }
 
   ShaftLimits limits_;
-  SpeedPlanner planner_;
-  double target_;  // [rad/s]
+  SpeedPlanners planners_;
+  CaptureSupervisor supervisor_;
+  std::optional<SpeedBand> impassable_;
+  double wanted_;  // [rad/s]
   double kp_;      // [N m s/rad]
   double ki_;      // [N m/rad]
   double period_;  // [s]
@@ -118,6 +182,9 @@ class SpeedControl final : public Controller {
   SpeedPlan set_points_;
   PlanCursor cursor_;
   bool started_ = false;
+  bool at_limit_ = false;   // of its torque, in the direction up_, at the sample before
+  double up_ = 1.0;         // sign of the speed wanted
+  double target_ = 0.0;     // [rad/s], to where it goes
   std::int64_t first_ = 0;  // sample
   std::int64_t last_ = 0;   // likewise
   double next_ = 0.0;       // [rad/s], set-point of the next sample
@@ -144,8 +211,9 @@ Motor motorOf(const Settings& settings, double drag) {
   return motor;
 }
 
-ExclusionBands bandsOf(const Settings& settings) {
-  std::vector<SpeedBand> bands;
+/// Those of its parameters and those about critical speeds.
+ExclusionBands bandsOf(const Settings& settings, const ControllerPlan& plan) {
+  std::vector<SpeedBand> bands = plan.critical_bands;
   const auto given = settings.tables.find("avoid");
   if (given != settings.tables.end()) {
     for (const TableRow& row : given->second) {
@@ -159,38 +227,99 @@ ExclusionBands bandsOf(const Settings& settings) {
   }
 }
 
-std::unique_ptr<Controller> makeSpeed(const ParameterValues& values, const Settings& settings,
-                                      const ControllerPlan& plan) {
+ShaftLimits limitsOf(const ParameterValues& values, const Settings& settings) {
+  return {motorOf(settings, values.at("drag")), values.at("inertia"), values.at("reserve"),
+          values.at("max_acceleration")};
+}
+
+/// After a capture: with all the torque that there is.
+ShaftLimits limitsAgain(ShaftLimits limits, const ParameterValues& values) {
+  limits.reserve = 0.0;
+  limits.max_acceleration = values.at("retry_acceleration");
+  return limits;
+}
+
+double runUpOf(const ParameterValues& values) {
+  const double acceleration = values.at("retry_acceleration");
+  return acceleration * acceleration / (2.0 * values.at("max_jerk"));
+}
+
+/// The bands of the way up; those with less than a run-up between them as one.
+std::vector<SpeedBand> upwardBands(const ExclusionBands& avoid, double run_up) {
+  std::vector<SpeedBand> bands;
+  for (const SpeedBand& band : avoid.bands()) {
+    if (band.from < 0.0) {
+      continue;
+    }
+    if (!bands.empty() && band.from - bands.back().to < run_up) {
+      bands.back().to = band.to;
+    } else {
+      bands.push_back(band);
+    }
+  }
+  return bands;
+}
+
+/// What does not hang on bands.
+void check(const ParameterValues& values, const ControllerPlan& plan) {
   if (plan.measured != 1 || plan.outputs != 1) {
     throw SetupError("speed", fmt::format("is of one shaft: its speed is measured, a torque on it "
                                           "acted on, found {} measured, {} acted on",
                                           plan.measured, plan.outputs));
   }
-  const ShaftLimits limits{motorOf(settings, values.at("drag")), values.at("inertia"),
-                           values.at("reserve"), values.at("max_acceleration")};
-  if (!(limits.reserve < 1.0)) {
-    throw SetupError("reserve", fmt::format("must be < 1, found {}", limits.reserve));
+  if (!(values.at("reserve") < 1.0)) {
+    throw SetupError("reserve", fmt::format("must be < 1, found {}", values.at("reserve")));
   }
-  const SpeedPlanner planner(limits, values.at("max_jerk"), bandsOf(settings));
-  const double speed = values.at("speed");
+  if (values.at("retry_acceleration") < values.at("max_acceleration")) {
+    throw SetupError("retry_acceleration",
+                     fmt::format("must be at least max_acceleration, {} rad/s^2, found {}",
+                                 values.at("max_acceleration"), values.at("retry_acceleration")));
+  }
+}
+
+/// The speed that is wanted is one that a planner leads to, from rest.
+void checkSpeed(const SpeedPlanner& planner, double speed, const std::string& for_what) {
   const double allowed = planner.allowed(speed, kRequired);
   if (allowed != speed) {
-    throw SetupError("speed", fmt::format("must lie outside of the bands to avoid, found {}; "
+    throw SetupError("speed", fmt::format("must lie outside of the bands to avoid{}, found {}; "
                                           "nearest edge {:g}",
-                                          speed, allowed));
+                                          for_what, speed, allowed));
   }
   SpeedPlan set_points = planner.staying(0.0);
   if (!planner.plan(0.0, 0.0, speed, set_points)) {
     throw SetupError("speed",
                      fmt::format("must be one that the motor reaches, with what it takes to cross "
-                                 "the bands to avoid: up to {:.6g} rad/s, found {}",
-                                 planner.highest(), speed));
+                                 "the bands to avoid{}: up to {:.6g} rad/s, found {}",
+                                 for_what, planner.highest(), speed));
   }
-  return std::make_unique<SpeedControl>(limits, planner, values,
+}
+
+std::unique_ptr<Controller> makeSpeed(const ParameterValues& values, const Settings& settings,
+                                      const ControllerPlan& plan) {
+  check(values, plan);
+  const ShaftLimits limits = limitsOf(values, settings);
+  const ShaftLimits again = limitsAgain(limits, values);
+  const ExclusionBands avoid = bandsOf(settings, plan);
+  const double jerk = values.at("max_jerk");
+  const SpeedPlanners planners{{limits, jerk, avoid}, {again, jerk, {}}, {again, jerk, avoid}};
+  checkSpeed(planners.first, values.at("speed"), "");
+  checkSpeed(planners.again, values.at("speed"), " at retry_acceleration");
+  const CaptureSupervisor supervisor({upwardBands(avoid, runUpOf(values)), runUpOf(values),
+                                      values.at("retry_acceleration"), values.at("tries"),
+                                      1.0 / plan.rate});
+  return std::make_unique<SpeedControl>(limits, planners, supervisor, values,
                                         antiWindupOf(values, settings, plan.rate), plan);
 }
 
 }  // namespace
+
+SpeedWay speedWayOf(const ParameterValues& values, const Settings& settings,
+                    const ControllerPlan& plan) {
+  check(values, plan);
+  const double run_up = runUpOf(values);
+  return {limitsOf(values, settings), plan.limits[0], values.at("speed"), run_up,
+          upwardBands(bandsOf(settings, plan), run_up)};
+}
 
 ControllerInfo speedInfo() {
   ControllerInfo info;
@@ -209,6 +338,22 @@ ControllerInfo speedInfo() {
       {"ki", "N m/rad", Range::kNotNegative, "integral gain", 0.0, ""},
       trackingTimeInfo(),
   };
+  info.parameters.push_back({"retry_acceleration", "rad/s^2", Range::kPositive,
+                             "of the set-point, once a resonance has captured the shaft",
+                             std::nullopt, "max_acceleration"});
+  info.parameters.push_back({"tries", "-", Range::kCount,
+                             "of a band that captures the shaft, before it stays below", 3.0, ""});
+  info.parameters.push_back({"margin", "-", Range::kNotNegative,
+                             "of a critical speed, that its band reaches on both sides; 0: what "
+                             "API 617 asks for",
+                             0.0, ""});
+  SettingInfo critical{"critical_speeds", SettingKind::kChoice, "",
+                       "it avoids bands about the critical speeds of what it turns, too"};
+  critical.choices = {"false", "true"};
+  SettingInfo weak{"weak_motor", SettingKind::kChoice, "",
+                   "a band that its motor is known not to bring the shaft through: stay below, or "
+                   "try all the same"};
+  weak.choices = {"refuse", "try"};
   SettingInfo motor{"motor", SettingKind::kTable, "",
                     "the most torque it gives, either way, over the speed: straight lines between "
                     "rows, constant beyond"};
@@ -220,7 +365,7 @@ ControllerInfo speedInfo() {
                     "in"};
   avoid.columns = {{"from", "rad/s", Range::kPositive, kRequired},
                    {"to", "rad/s", Range::kPositive, kRequired}};
-  info.settings = {antiWindupSetting(), motor, avoid};
+  info.settings = {antiWindupSetting(), motor, avoid, critical, weak};
   info.make = makeSpeed;
   return info;
 }

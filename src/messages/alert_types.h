@@ -26,6 +26,7 @@ inline constexpr char kModelInvalid[] = "MODEL_INVALID";
 inline constexpr char kControllerLost[] = "CONTROLLER_LOST";
 inline constexpr char kLoopSensitivity[] = "LOOP_SENSITIVITY";
 inline constexpr char kActuatorSaturated[] = "ACTUATOR_SATURATED";
+inline constexpr char kResonanceNotPassed[] = "RESONANCE_NOT_PASSED";
 inline constexpr char kDataLost[] = "DATA_LOST";
 inline constexpr char kLcmLost[] = "LCM_LOST";
 
@@ -52,6 +53,7 @@ inline constexpr const char* kAll[] = {kCriticalSpeedApproach,
                                        kControllerLost,
                                        kLoopSensitivity,
                                        kActuatorSaturated,
+                                       kResonanceNotPassed,
                                        kDataLost,
                                        kLcmLost};
 

@@ -11,6 +11,15 @@
 
 namespace whirl_twin::state {
 
+/// What a speed controller does about a resonance that holds its shaft.
+enum class Supervision : std::uint8_t {
+  kNone = 0,         ///< nothing holds it
+  kRetreating = 1,   ///< captured: it is unloaded and goes back below the band
+  kTryingAgain = 2,  ///< in the band, or on its way
+  kGivenUp = 3,      ///< after its tries it stays below
+  kRefused = 4,      ///< known beforehand: it stays below
+};
+
 struct ControllerState {
   static constexpr MessageKind kKind{"controller", "ControllerState", "controllers/*",
                                      MessageKind::kSeries};
@@ -28,6 +37,7 @@ struct ControllerState {
   std::int64_t missed = 0;     ///< samples without an output that is a number
   std::int64_t age = -1;       ///< [samples], of what one in another process gave last; -1: nothing
   bool lost = false;           ///< it has not answered for its time-out
+  Supervision supervision = Supervision::kNone;
 
   template <class Visit>
   static void fields(Visit& visit) {
@@ -46,6 +56,7 @@ struct ControllerState {
     visit(TWIN_FIELD(missed), "", count);
     visit(TWIN_FIELD(age), "", between(-1, std::numeric_limits<std::int64_t>::max()));
     visit(TWIN_FIELD(lost), "", requireFlag);
+    visit(TWIN_FIELD(supervision), "", between(0, 4));
   }
 };
 

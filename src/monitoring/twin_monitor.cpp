@@ -46,7 +46,7 @@ TwinMonitor::TwinMonitor(const BuiltScene& scene, const AlarmSettings& settings,
       alerts_(settings.latch),
       restored_(settings) {
   for (const ControllerSpec& controller : scene.scene.controllers) {
-    controller_alarms_.emplace(controller.name, ControllerAlarms(controller.name, settings_));
+    controller_alarms_.emplace(controller.name, ControllerAlarms(controller, settings_));
   }
   for (std::size_t i = 0; i < scene.systems.size(); ++i) {
     watches_.emplace_back(scene.systems[i], judging_.speedsOf(i), settings_);
@@ -68,7 +68,7 @@ void TwinMonitor::restart(double time, double wall_time) {
   data_lost_alarm_ = DataLostAlarm(systemNames(), settings_);
   lcm_lost_alarm_ = LcmLostAlarm(settings_);
   for (auto& [name, alarms] : controller_alarms_) {
-    alarms = ControllerAlarms(name, settings_);
+    alarms.restart(settings_);
   }
   for (auto& [source, clock] : clocks_) {
     clock.restartAt(time, wall_time);
@@ -89,6 +89,7 @@ void TwinMonitor::set(const AlarmSettings& settings) {
     alarms.lost.set(settings_);
     alarms.loop.set(settings_);
     alarms.saturation.set(settings_);
+    alarms.passage.set(settings_);
   }
   restored_.set(settings_);
   alerts_.setLatch(settings_.latch);
@@ -398,6 +399,7 @@ void TwinMonitor::take(const state::ControllerState& controller, double wall_tim
       arrived("controllers/" + controller.controller, controller.at, wall_time)) {
     alarms->second.lost.update(controller.at.time, controller.lost, alerts_);
     alarms->second.saturation.update(controller, alerts_);
+    alarms->second.passage.update(controller, alerts_);
     restored_.heard(controller.controller, controller.at.time, alerts_);
   }
 }

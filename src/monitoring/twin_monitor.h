@@ -24,6 +24,7 @@
 #include "monitoring/lcm_lost_alarm.h"
 #include "monitoring/loop_alarm.h"
 #include "monitoring/margin_search.h"
+#include "monitoring/passage_alarm.h"
 #include "monitoring/reset_watch.h"
 #include "monitoring/restored_alerts.h"
 #include "monitoring/saturation_alarm.h"
@@ -133,10 +134,12 @@ class TwinMonitor {
     ControllerAlarm lost;
     LoopAlarm loop;
     SaturationAlarm saturation;
-    ControllerAlarms(const std::string& controller, const AlarmSettings& settings)
-        : lost(controller, settings),
-          loop(controller, settings),
-          saturation(controller, settings) {}
+    PassageAlarm passage;
+    ControllerAlarms(const ControllerSpec& controller, const AlarmSettings& settings)
+        : lost(controller.name, settings),
+          loop(controller.name, settings),
+          saturation(controller.name, settings),
+          passage(controller, settings) {}
   };
 
   std::map<std::string, ControllerAlarms> controller_alarms_;

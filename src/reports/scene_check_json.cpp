@@ -1,5 +1,6 @@
 #include "reports/scene_check.h"
 #include "scene/drive_profile.h"
+#include "scene/weak_passage.h"
 
 namespace whirl_twin {
 
@@ -11,6 +12,16 @@ void addPublished(const Published& published, Json& json) {
     json["topics"].push_back({{"topic", topic.topic}, {"type", topic.type}});
   }
   json["channels"] = published.channels;
+}
+
+Json avoidedJson(const ExclusionBands& avoid) {
+  Json json = Json::array();
+  for (const SpeedBand& band : avoid.bands()) {
+    if (band.from > 0.0) {  // the others are these the other way round
+      json.push_back({{"from", band.from}, {"to", band.to}});
+    }
+  }
+  return json;
 }
 
 Json driveJson(const DriveSpec& drive, const Published& published) {
@@ -28,13 +39,7 @@ Json driveJson(const DriveSpec& drive, const Published& published) {
                                {"dwell", move.dwell}});
   }
   json["duration"] = profileDuration(drive);
-  json["avoid"] = Json::array();
-  const ExclusionBands avoid(drive.avoid);
-  for (const SpeedBand& band : avoid.bands()) {
-    if (band.from > 0.0) {  // the others are these the other way round
-      json["avoid"].push_back({{"from", band.from}, {"to", band.to}});
-    }
-  }
+  json["avoid"] = avoidedJson(ExclusionBands(drive.avoid));
   addPublished(published, json);
   return json;
 }
@@ -60,13 +65,24 @@ Json inputJson(const InputCheck& check) {
   return json;
 }
 
-Json controllerJson(const ControllerSpec& controller, const Published& published) {
+Json controllerJson(const Scene& scene, const ControllerSpec& controller,
+                    const Published& published) {
   Json json{{"type", controller.type},
             {"rate", controller.rate},
             {"delay", static_cast<double>(controller.delay) / 1e9},
             {"jitter", static_cast<double>(controller.jitter) / 1e9},
             {"measures", controller.measured},
             {"acts_on", controller.acted_on}};
+  json["avoid"] = avoidedJson(ExclusionBands(avoidedBands(scene, controller)));
+  json["weak_passages"] = Json::array();
+  for (const WeakPassage& passage : controller.weak_passages) {
+    json["weak_passages"].push_back({{"from", passage.band.from},
+                                     {"to", passage.band.to},
+                                     {"speed", passage.speed},
+                                     {"needed", passage.needed},
+                                     {"given", passage.given},
+                                     {"refused", !passage.tried}});
+  }
   addPublished(published, json);
   return json;
 }
@@ -125,7 +141,7 @@ Json json(const SceneCheck& check) {
   }
   for (const ControllerSpec& controller : check.scene.controllers) {
     json["controllers"][controller.name] =
-        controllerJson(controller, check.controllers.at(controller.name));
+        controllerJson(check.scene, controller, check.controllers.at(controller.name));
   }
   json["ns_per_step"] = check.step_cost;
   json["real_time_factor"] = static_cast<double>(check.scene.step) / check.step_cost;

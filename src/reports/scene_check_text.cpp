@@ -6,6 +6,7 @@
 #include "reports/asked_cost.h"
 #include "reports/scene_check.h"
 #include "scene/drive_profile.h"
+#include "scene/weak_passage.h"
 
 namespace whirl_twin {
 
@@ -18,6 +19,19 @@ std::string publishedText(const Published& published) {
   }
   return fmt::format("    published on {}, LCM {}\n", fmt::join(topics, ", "),
                      fmt::join(published.channels, ", "));
+}
+
+std::string avoidedText(const ExclusionBands& avoid) {
+  std::vector<std::string> bands;
+  for (const SpeedBand& band : avoid.bands()) {
+    if (band.from > 0.0) {
+      bands.push_back(fmt::format("{:.6g} to {:.6g} rad/s", band.from, band.to));
+    }
+  }
+  return bands.empty()
+             ? ""
+             : fmt::format("    avoids {}, either way round: passed at full acceleration\n",
+                           fmt::join(bands, ", "));
 }
 
 std::string driveText(const DriveSpec& drive, const Published& published) {
@@ -33,18 +47,7 @@ std::string driveText(const DriveSpec& drive, const Published& published) {
                        move.max_jerk > 0.0 ? fmt::format(" and {:g} rad/s^3", move.max_jerk) : "",
                        move.dwell);
   }
-  const ExclusionBands avoid(drive.avoid);
-  std::vector<std::string> bands;
-  for (const SpeedBand& band : avoid.bands()) {
-    if (band.from > 0.0) {
-      bands.push_back(fmt::format("{:.6g} to {:.6g} rad/s", band.from, band.to));
-    }
-  }
-  if (!bands.empty()) {
-    out += fmt::format("    avoids {}, either way round: passed at full acceleration\n",
-                       fmt::join(bands, ", "));
-  }
-  return out + publishedText(published);
+  return out + avoidedText(ExclusionBands(drive.avoid)) + publishedText(published);
 }
 
 std::string costText(double cost, double preparation) {
@@ -76,19 +79,25 @@ std::string inputText(const InputCheck& check) {
   return fmt::format("{:g} {}", signal.value, unit);
 }
 
-std::string controllerText(const ControllerSpec& controller, const Published& published) {
+std::string controllerText(const Scene& scene, const ControllerSpec& controller,
+                           const Published& published) {
   const std::string jitter = controller.jitter == 0
                                  ? ""
                                  : fmt::format(", more or less by up to {:g} s",
                                                static_cast<double>(controller.jitter) / 1e9);
-  return fmt::format("  {}: {} at {:g} Hz, {}{}\n    measures {}, acts on {}\n", controller.name,
-                     controller.type, controller.rate,
-                     controller.delay == 0
-                         ? "without delay"
-                         : fmt::format("{:g} s late", static_cast<double>(controller.delay) / 1e9),
-                     jitter, fmt::join(controller.measured, ", "),
-                     fmt::join(controller.acted_on, ", ")) +
-         publishedText(published);
+  std::string out = fmt::format(
+      "  {}: {} at {:g} Hz, {}{}\n    measures {}, acts on {}\n", controller.name, controller.type,
+      controller.rate,
+      controller.delay == 0 ? "without delay"
+                            : fmt::format("{:g} s late", static_cast<double>(controller.delay) / 1e9),
+      jitter, fmt::join(controller.measured, ", "), fmt::join(controller.acted_on, ", "));
+  out += avoidedText(ExclusionBands(avoidedBands(scene, controller)));
+  for (const WeakPassage& passage : controller.weak_passages) {
+    out += fmt::format("    {} {}\n",
+                       passage.tried ? "tries, though it is weak, the band" : "REFUSES the band",
+                       describe(passage));
+  }
+  return out + publishedText(published);
 }
 
 std::string systemText(const SystemCheck& system) {
@@ -147,7 +156,7 @@ std::string text(const SceneCheck& check) {
     out += "controllers\n";
   }
   for (const ControllerSpec& controller : scene.controllers) {
-    out += controllerText(controller, check.controllers.at(controller.name));
+    out += controllerText(scene, controller, check.controllers.at(controller.name));
   }
   double preparation = 0.0;
   for (const SystemCheck& system : check.systems) {

@@ -21,8 +21,6 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kLeastMargin = 1.0e-3;  // [-], of a critical speed
-constexpr double kMostMargin = 0.9;
 constexpr int kDigits = 6;  // of an edge in a message
 
 /// An edge to kDigits digits, away from the band, so that it can be typed.
@@ -54,35 +52,6 @@ void readBands(const YAML::Node& list, const std::string& key, std::vector<Speed
     } else if (band.from > 0.0 && band.to > 0.0) {
       complaints.add(map.key("to"), fmt::format("must be greater than from, {} rad/s, found {}",
                                                 band.from, band.to));
-    }
-  }
-}
-
-/// About the critical speeds of what a drive turns: margin [-] of them on both sides; without one
-/// the separation that the monitor asks for.
-void findBands(const Scene& scene, std::size_t drive, std::optional<double> margin,
-               const std::string& key, std::vector<SpeedBand>& bands, Complaints& complaints) {
-  for (const SystemSpec& system : scene.systems) {
-    if (!system.setup || scene.driveOf(system) != drive) {
-      continue;
-    }
-    try {
-      const SharedSystem built = build(system, surroundingsOf(scene, system), drive);
-      for (const CriticalSpeed& critical : criticalSpeeds(*heldDynamics(*built))) {
-        SpeedBand band = criticalBand(critical.speed, critical.amplification_factor);
-        if (margin) {
-          band = {critical.speed * (1.0 - *margin), critical.speed * (1.0 + *margin)};
-        }
-        band.to = std::min(band.to, kLargestSpeed);
-        if (!band.empty() && band.from > 0.0) {
-          bands.push_back(band);
-        }
-      }
-    } catch (const std::bad_alloc&) {
-      throw;
-    } catch (const std::exception& error) {
-      complaints.add(key, fmt::format("the critical speeds of systems.{} cannot be found: {}",
-                                      system.name, error.what()));
     }
   }
 }
@@ -122,6 +91,36 @@ void checkSpeeds(const DriveSpec& drive, const std::string& key, std::int64_t st
 
 }  // namespace
 
+std::vector<SpeedBand> criticalBands(const Scene& scene, std::size_t drive,
+                                     std::optional<double> margin, const std::string& key,
+                                     Complaints& complaints) {
+  std::vector<SpeedBand> bands;
+  for (const SystemSpec& system : scene.systems) {
+    if (!system.setup || scene.driveOf(system) != drive) {
+      continue;
+    }
+    try {
+      const SharedSystem built = build(system, surroundingsOf(scene, system), drive);
+      for (const CriticalSpeed& critical : criticalSpeeds(*heldDynamics(*built))) {
+        SpeedBand band = criticalBand(critical.speed, critical.amplification_factor);
+        if (margin) {
+          band = {critical.speed * (1.0 - *margin), critical.speed * (1.0 + *margin)};
+        }
+        band.to = std::min(band.to, kLargestSpeed);
+        if (!band.empty() && band.from > 0.0) {
+          bands.push_back(band);
+        }
+      }
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception& error) {
+      complaints.add(key, fmt::format("the critical speeds of systems.{} cannot be found: {}",
+                                      system.name, error.what()));
+    }
+  }
+  return bands;
+}
+
 void readAvoidance(const YAML::Node& node, const std::string& key, std::size_t drive, Scene& scene,
                    Complaints& complaints) {
   DriveSpec& spec = scene.drives[drive];
@@ -131,7 +130,10 @@ void readAvoidance(const YAML::Node& node, const std::string& key, std::size_t d
     return;
   }
   if (spec.motor) {
-    complaints.add(key, "a motor's speed is an outcome: it can avoid nothing");
+    complaints.add(
+        key,
+        "a motor's speed is an outcome: it can avoid nothing. A controller of type speed "
+        "brings its shaft past bands: give them to it, as avoid or critical_speeds");
     return;
   }
   if (map.has("bands")) {
@@ -141,13 +143,16 @@ void readAvoidance(const YAML::Node& node, const std::string& key, std::size_t d
       map.choice("critical_speeds", {"false", "true"}, "true or false", "false") == "true";
   std::optional<double> margin;
   if (map.has("margin")) {
-    margin = map.numberBetween("margin", kLeastMargin, kMostMargin, "of a critical speed", 0.0);
+    margin =
+        map.numberBetween("margin", kLeastBandMargin, kMostBandMargin, "of a critical speed", 0.0);
     if (!critical) {
       complaints.add(map.key("margin"), "is one about critical_speeds: true");
     }
   }
   if (critical) {
-    findBands(scene, drive, margin, map.key("critical_speeds"), spec.avoid, complaints);
+    const std::vector<SpeedBand> found =
+        criticalBands(scene, drive, margin, map.key("critical_speeds"), complaints);
+    spec.avoid.insert(spec.avoid.end(), found.begin(), found.end());
   }
   checkSpeeds(spec, key.substr(0, key.rfind('.')), scene.time, complaints);
 }

@@ -9,10 +9,12 @@
 
 #include "controllers/controller_registry.h"
 #include "messages/names.h"
+#include "scene/avoidance_reader.h"
 #include "scene/controlled_plant.h"
 #include "scene/parameter_reader.h"
 #include "scene/signal_names.h"
 #include "scene/system_setup.h"
+#include "scene/weak_passage.h"
 
 namespace whirl_twin {
 
@@ -205,6 +207,25 @@ void checkLaw(const MapReader& map, const ControllerInfo& info, const Scene& sce
   }
 }
 
+/// What a controller that brings a shaft to a speed is to know of what it turns.
+void findBands(const MapReader& map, const Scene& scene, ControllerSpec& controller,
+               Complaints& complaints) {
+  const double margin = controller.parameters.at("margin");
+  const std::string key = map.key("parameters.margin");
+  if (margin != 0.0 && (margin < kLeastBandMargin || margin > kMostBandMargin)) {
+    complaints.add(key, fmt::format("must be 0, or from {} to {} of a critical speed, found {}",
+                                    kLeastBandMargin, kMostBandMargin, margin));
+  }
+  if (controller.settings.choices.at("critical_speeds") == "true") {
+    controller.critical_bands =
+        criticalBands(scene, scene.driveOf(scene.systems[controller.measures.front().system]),
+                      margin > 0.0 ? std::optional<double>(margin) : std::nullopt,
+                      map.key("parameters.critical_speeds"), complaints);
+  } else if (margin != 0.0) {
+    complaints.add(key, "is one about critical_speeds: true");
+  }
+}
+
 /// What is said of a controller in another process, in place of parameters.
 void readExternal(const MapReader& map, const ControllerInfo& info, const Scene& scene,
                   ControllerSpec& controller, Complaints& complaints) {
@@ -279,8 +300,15 @@ ControllerSpec readController(const YAML::Node& node, const std::string& key,
     readParameterValues(map, info->name, info->parameters, info->settings, {},
                         controller.parameters, controller.settings, complaints);
     checkSystems(map, scene, controller, complaints);
+    const bool speed = info->name == "speed";
+    if (speed && complaints.all().size() == before) {
+      findBands(map, scene, controller, complaints);
+    }
     if (complaints.all().size() == before) {
       checkLaw(map, *info, scene, controller, complaints);
+    }
+    if (speed && complaints.all().size() == before) {
+      controller.weak_passages = weakPassages(scene, controller);
     }
   }
   return controller;
@@ -301,6 +329,12 @@ ControllerPlan planOf(const Scene& scene, const ControllerSpec& controller) {
                   [&](std::size_t system) { return smallMotionAtStart(scene, system); });
   if (plant.a.allFinite() && plant.b.allFinite()) {
     plan.plant = plant;
+  }
+  plan.critical_bands = controller.critical_bands;
+  for (const WeakPassage& passage : controller.weak_passages) {
+    if (!passage.tried && !plan.impassable) {
+      plan.impassable = passage.band;
+    }
   }
   return plan;
 }

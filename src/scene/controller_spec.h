@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "control/actuator.h"
+#include "control/exclusion_bands.h"
 #include "control/sensor.h"
 #include "controllers/controller_info.h"
 #include "scene/sensor_spec.h"
@@ -17,6 +18,15 @@ namespace whirl_twin {
 struct ActedInput {
   std::size_t system = 0;  ///< of Scene::systems
   std::size_t input = 0;
+};
+
+/// A band of speeds through which a motor does not bring its rotor at a steady whirl.
+struct WeakPassage {
+  SpeedBand band;
+  double speed = 0.0;   ///< [rad/s], where it lacks most
+  double needed = 0.0;  ///< [N m], there; infinite where nothing damps the whirl
+  double given = 0.0;   ///< [N m], there, at most
+  bool tried = false;   ///< all the same: it is thrown through, or the scene wants it so
 };
 
 struct ControllerSpec {
@@ -35,6 +45,10 @@ struct ControllerSpec {
   ActuatorSettings actuator;  ///< of everything it acts on
   ParameterValues parameters;
   Settings settings;
+
+  // Of one that brings a shaft to a speed.
+  std::vector<SpeedBand> critical_bands;   ///< that it avoids, besides those of its parameters
+  std::vector<WeakPassage> weak_passages;  ///< on its way, in their order
 };
 
 }  // namespace whirl_twin

@@ -67,6 +67,7 @@ class RunningController {
   const ControlCount& count() const noexcept { return count_; }
   /// nullptr: it is of this process.
   ExternalController* external() const noexcept { return external_; }
+  state::Supervision supervision() const noexcept { return law_->supervision(); }
   std::size_t measured() const { return channels_.size(); }
   std::size_t outputs() const { return acted_.size(); }
   /// What the last sample showed, and what acts, at the start of the step.

@@ -97,6 +97,7 @@ state::ControllerState controllerState(const ControllerSpec& spec, const Scene& 
   state.missed = controller.missed();
   state.age = controller.age();
   state.lost = controller.lost();
+  state.supervision = static_cast<state::Supervision>(controller.supervision());
   return state;
 }
 

@@ -121,6 +121,7 @@ class ControllerPlace {
   bool lost() const noexcept { return unpacked(place_[kLost]) != 0; }
   /// 0: as the scene says (system_generations.h).
   std::int64_t generation() const noexcept { return unpacked(place_[kGeneration]); }
+  std::int64_t supervision() const noexcept { return unpacked(place_[kSupervision]); }
   Number* values() const noexcept { return place_ + kValues; }      ///< of the signals
   Number* outputs() const noexcept { return values() + signals_; }  ///< of the inputs
 
@@ -136,9 +137,12 @@ class ControllerPlace {
   void setGeneration(std::int64_t generation) const noexcept {
     place_[kGeneration] = packed(generation);
   }
+  void setSupervision(std::int64_t supervision) const noexcept {
+    place_[kSupervision] = packed(supervision);
+  }
 
  private:
-  enum { kSamples, kSaturated, kMissed, kAge, kLost, kGeneration, kValues };
+  enum { kSamples, kSaturated, kMissed, kAge, kLost, kGeneration, kSupervision, kValues };
   Number* place_;
   std::size_t signals_;
 };

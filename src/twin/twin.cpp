@@ -231,6 +231,7 @@ void Twin::write(double* record) const noexcept {
     const ExternalController* const external = controller.external();
     place.setAnswers(external != nullptr ? external->age() : ExternalController::kNoAge,
                      external != nullptr && external->lost());
+    place.setSupervision(static_cast<std::int64_t>(controller.supervision()));
     std::copy_n(controller.shown(), controller.measured(), place.values());
     for (std::size_t k = 0; k < controller.outputs(); ++k) {
       place.outputs()[k] = controller.acting(k);

@@ -30,7 +30,9 @@ inline std::unique_ptr<Controller> made(const std::string& name, const Parameter
   ParameterValues values;
   for (const ParameterInfo& parameter : info->parameters) {
     const auto found = given.find(parameter.name);
-    values[parameter.name] = found != given.end() ? found->second : parameter.fallback.value();
+    values[parameter.name] = found != given.end() ? found->second
+                             : parameter.fallback ? *parameter.fallback
+                                                  : values.at(parameter.fallback_parameter);
   }
   for (const SettingInfo& setting : info->settings) {
     if (setting.kind == SettingKind::kChoice) {

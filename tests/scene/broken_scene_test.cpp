@@ -266,7 +266,10 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"MotorAvoids",
                rotorScene(kNoSpeed + ", polar_inertia: 1", ", drive: shaft",
                           ", drives: {shaft: {motor: {torque: 1}, avoid: {bands: []}}}"),
-               {"drives.shaft.avoid: a motor's speed is an outcome: it can avoid nothing"}},
+               {"drives.shaft.avoid: a motor's speed is an outcome: it can avoid nothing. A "
+                "controller of "
+                "type speed brings its shaft past bands: give them to it, as avoid or "
+                "critical_speeds"}},
         Broken{"Motor",
                rotorScene(kNoSpeed, ", drive: shaft", ", drives: {shaft: {motor: {torque: 1}}}"),
                {"systems.rotor.parameters.polar_inertia: must be > 0 kg m^2 with a motor"}},

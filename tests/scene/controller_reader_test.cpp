@@ -108,6 +108,35 @@ TEST(ControllerReader, MembersOfAnEnsembleHaveNone) {
       testing::ElementsAre(testing::HasSubstr("systems.r has a spread")));
 }
 
+std::string speedController(const std::string& parameters) {
+  return "{step: 0.001, drives: {shaft: {speed: 5.0, motor: {torque: 0.0}}}, systems: {r: {model: "
+         "jeffcott_rotor, drive: shaft, parameters: {mass: 1.0, stiffness: 100.0, damping: 0.4, "
+         "eccentricity: 0.001, polar_inertia: 0.01}}}, controllers: {s: {type: speed, rate: 100.0, "
+         "measures: [r.spin_rate], acts_on: [r.torque], parameters: {speed: 20.0, "
+         "max_acceleration: 1.0, max_jerk: 1.0, inertia: 0.01, motor: [{speed: 0.0, torque: 1.0}]" +
+         parameters + "}}}}";
+}
+
+TEST(ControllerReader, FindsTheCriticalSpeedsThatAShaftIsBroughtPast) {
+  const auto bandsOf = [](const std::string& parameters) {
+    return sceneOf(speedController(parameters)).controllers[0].critical_bands;
+  };
+  EXPECT_TRUE(bandsOf("").empty());
+  const std::vector<SpeedBand> bands = bandsOf(", critical_speeds: true, margin: 0.2");
+  ASSERT_EQ(bands.size(), 1u);
+  EXPECT_NEAR(bands[0].from, 8.0, 0.01);
+  EXPECT_NEAR(bands[0].to, 12.0, 0.01);
+  EXPECT_EQ(bandsOf(", critical_speeds: true").size(), 1u) << "as API 617 asks";
+  EXPECT_THAT(complaintsOf(speedController(", critical_speeds: true, margin: 1.0")),
+              testing::ElementsAre(testing::HasSubstr(
+                  "controllers.s.parameters.margin: must be 0, or from 0.001 to 0.9")));
+  EXPECT_THAT(complaintsOf(speedController(", margin: 0.1")),
+              testing::ElementsAre(testing::HasSubstr("is one about critical_speeds: true")));
+  EXPECT_THAT(complaintsOf(speedController(", retry_acceleration: 0.5")),
+              testing::ElementsAre(testing::HasSubstr(
+                  "controllers.s.parameters.retry_acceleration: must be at least")));
+}
+
 std::vector<std::int64_t> lengthsOf(const std::string& rate_and_delay) {
   return partLengths(sceneOf(withControllers("{pd: {type: pid, " + rate_and_delay +
                                              ", measures: [s.x], acts_on: [s.force_x], parameters: "

@@ -118,6 +118,26 @@ systems:
             std::string::npos);
 }
 
+TEST(Check, SaysWhichResonanceAMotorDoesNotPass) {
+  const Ending end = twin({"check", "supervised_speed"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  EXPECT_NE(
+      end.out.find("REFUSES the band from 180 to 220 rad/s: at 200 rad/s a steady whirl takes "
+                   "0.05 N m, and there are 0.012 N m"),
+      std::string::npos)
+      << end.out;
+  const Json check = twin({"check", "supervised_speed", "--json"}).json();
+  const auto weak = [&](const char* name) {
+    const Json passages = check["controllers"][name]["weak_passages"];
+    return passages.size() == 1 ? passages[0] : Json();
+  };
+  EXPECT_EQ(weak("sprinter")["refused"], false);
+  EXPECT_EQ(weak("stubborn")["refused"], false);
+  EXPECT_EQ(weak("prudent")["refused"], true);
+  EXPECT_NEAR(weak("prudent")["needed"].get<double>(), 0.05, 1e-4);
+  EXPECT_NEAR(check["controllers"]["sprinter"]["avoid"][0]["from"].get<double>(), 180.0, 0.1);
+}
+
 TEST(Check, ShowsOneSystemOnly) {
   const Json check = twin({"check", kDemo, "--system", "pendulum", "--json"}).json();
   ASSERT_EQ(check["systems"].size(), 1u);

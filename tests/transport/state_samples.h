@@ -81,6 +81,7 @@ class StateSamples {
     for (std::int64_t* const count : {&s.samples, &s.saturated, &s.missed, &s.age}) {
       *count = static_cast<std::int64_t>(below(std::uint64_t{1} << 62));
     }
+    s.supervision = static_cast<state::Supervision>(below(5));
     return s;
   }
 
