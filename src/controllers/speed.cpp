@@ -149,7 +149,8 @@ class SpeedControl final : public Controller {
       case CaptureSupervisor::Order::kUnload:
       case CaptureSupervisor::Order::kReturn:
         integral_ = 0.0;
-        follow(planners_.retreat, {speed, 0.0}, up_ * supervisor_.runUpOf(supervisor_.band()), index);
+        follow(planners_.retreat, {speed, 0.0}, up_ * supervisor_.runUpOf(supervisor_.band()),
+               index);
         break;
       case CaptureSupervisor::Order::kRetry:
         follow(planners_.again, {next_, 0.0}, target_, index);

@@ -88,8 +88,9 @@ std::string controllerText(const Scene& scene, const ControllerSpec& controller,
   std::string out = fmt::format(
       "  {}: {} at {:g} Hz, {}{}\n    measures {}, acts on {}\n", controller.name, controller.type,
       controller.rate,
-      controller.delay == 0 ? "without delay"
-                            : fmt::format("{:g} s late", static_cast<double>(controller.delay) / 1e9),
+      controller.delay == 0
+          ? "without delay"
+          : fmt::format("{:g} s late", static_cast<double>(controller.delay) / 1e9),
       jitter, fmt::join(controller.measured, ", "), fmt::join(controller.acted_on, ", "));
   out += avoidedText(ExclusionBands(avoidedBands(scene, controller)));
   for (const WeakPassage& passage : controller.weak_passages) {
