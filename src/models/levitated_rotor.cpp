@@ -24,7 +24,7 @@ ModelSetup levitatedRotorSetup(std::shared_ptr<const Dynamics> plain,
   for (const PlacedMagnet& placed : magnets) {
     if (!placed.suffix.empty()) {
       description.stations.push_back(
-          {"magnet_" + placed.suffix, 0.0, placed.along_x, placed.along_y, true});
+          {"magnet_" + placed.suffix, 0.0, placed.along_x, placed.along_y});
     }
     for (const InputInfo& current : currentsOf(placed)) {
       description.inputs.push_back(current);

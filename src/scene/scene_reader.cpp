@@ -10,6 +10,7 @@
 #include <set>
 
 #include "analysis/mass_matrix.h"
+#include "analysis/validity.h"
 #include "messages/names.h"
 #include "models/model_registry.h"
 #include "scene/avoidance_reader.h"
@@ -110,9 +111,10 @@ std::string folderOf(const std::string& source) {
   return file.has_parent_path() ? file.parent_path().string() : ".";
 }
 
-/// A mass matrix that is singular where the motion starts leaves the accelerations undefined.
-void checkMass(const MapReader& system, const Dynamics& dynamics, const SystemSpec& spec,
-               const Scene& scene, Complaints& complaints) {
+/// A mass matrix that is singular where the motion starts leaves the accelerations undefined, and
+/// so does a place where there is no room for it.
+void checkStart(const MapReader& system, const Dynamics& dynamics, const SystemSpec& spec,
+                const Scene& scene, Complaints& complaints) {
   const auto n = static_cast<Eigen::Index>(spec.q.size());
   const Eigen::VectorXd q = Eigen::Map<const Eigen::VectorXd>(spec.q.data(), n);
   const Eigen::VectorXd v = Eigen::Map<const Eigen::VectorXd>(spec.v.data(), n);
@@ -122,6 +124,11 @@ void checkMass(const MapReader& system, const Dynamics& dynamics, const SystemSp
     const std::string reason = dynamics.singularMass();
     complaints.add(system.key("initial"), fmt::format("the mass matrix is singular here{}{}",
                                                       reason.empty() ? "" : ": ", reason));
+  } else if (!dynamics.acceleration(q, v, at).allFinite()) {
+    const std::string broken = brokenText(validity(dynamics, q, v, at), Margins::kShown);
+    if (!broken.empty()) {
+      complaints.add(system.key("initial"), "cannot move from here: " + broken);
+    }
   }
 }
 
@@ -204,7 +211,7 @@ SystemSpec readSystem(const YAML::Node& node, const std::string& key, const std:
     readIntegrator(map, setup, spec, complaints);
     readEnsemble(map, *model, setup.dynamics->coordinates(), spec, complaints);
     if (fit) {
-      checkMass(map, *setup.dynamics, spec, scene, complaints);
+      checkStart(map, *setup.dynamics, spec, scene, complaints);
     }
   } catch (const SetupError& error) {
     if (fit) {  // otherwise it only repeats what was wrong with the parameters

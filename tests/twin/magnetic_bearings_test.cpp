@@ -309,6 +309,18 @@ struct Refused {
   std::string model, parameters, message;
 };
 
+TEST(MagneticBearings, LeaveARotorRoomWhereItStarts) {
+  try {
+    sceneOf(disc(1.0e-3, 2.0e6, "initial: {x: 4.5e-4}}}}"));
+    ADD_FAILURE() << "was accepted";
+  } catch (const SceneError& error) {
+    ASSERT_EQ(error.errors().size(), 1u) << error.what();
+    EXPECT_EQ(error.errors()[0],
+              "test.yaml: systems.r.initial: cannot move from here: the rotor touches magnet "
+              "(gap_magnet -5e-05 m)");
+  }
+}
+
 TEST(MagneticBearings, AreRefusedWhereTheyDoNotFitTogether) {
   const std::string jeffcott = "speed: 5.0, mass: 1.0, stiffness: 100.0, ";
   for (const Refused& r : std::vector<Refused>{
