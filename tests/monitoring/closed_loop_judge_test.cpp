@@ -51,7 +51,7 @@ TEST(ClosedLoopJudge, TooLateItIsUnstable) {
 }
 
 // kp = 0.9 is less than the magnet's negative stiffness.
-TEST(ClosedLoopJudge, TheVerdictFollowsParametersOfAController) {
+TEST(ClosedLoopJudge, VerdictAndMarginsFollowTheParametersOfAController) {
   const BuiltScene scene = levitated(0.1);
   WatchedTwin watched(scene.scene);
   watched.run(0.2);
@@ -60,7 +60,16 @@ TEST(ClosedLoopJudge, TheVerdictFollowsParametersOfAController) {
   state::ParameterChange change = parametersOf(scene.scene.controllers[0]);
   EXPECT_TRUE(watched.monitor.take(change)) << "as they are";
   EXPECT_TRUE(watched.monitor.takeMargins().empty()) << "it is judged already";
-  *std::find(change.values.begin(), change.values.end(), 2.0) = 0.9;
+  const auto kp = std::find(change.values.begin(), change.values.end(), 2.0);
+  ASSERT_FALSE(watched.loop_margins.empty());
+  EXPECT_NEAR(watched.loop_margins.back().gain_reduction, 0.5, 1e-9) << "of 1 in 2 N/m";
+  *kp = 1.6;
+  ASSERT_TRUE(watched.monitor.take(change));
+  const auto of_loop = watched.monitor.takeLoopMargins();
+  ASSERT_FALSE(of_loop.empty());
+  EXPECT_NEAR(of_loop.back().gain_reduction, 1.0 / 1.6, 1e-9) << "of 1 in 1.6";
+  EXPECT_EQ(watched.monitor.takeMargins().size(), 1u);
+  *kp = 0.9;
   ASSERT_TRUE(watched.monitor.take(change));
   const auto margins = watched.monitor.takeMargins();
   ASSERT_EQ(margins.size(), 1u) << "at once";
