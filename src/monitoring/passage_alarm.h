@@ -1,6 +1,7 @@
 // RESONANCE_NOT_PASSED: a resonance keeps a shaft from the speed that its controller is to bring it
-// to, and says which way: captured and on its way back (a danger), trying again, given up, refused
-// beforehand. Of the controller by its name; clears when the shaft has passed.
+// to, and says which way: refused beforehand (a warning); captured and on its way back, trying
+// again, given up (a danger, once it was captured). Of the controller by its name; clears when the
+// shaft has passed.
 #pragma once
 
 #include <string>
