@@ -68,7 +68,7 @@ void TwinMonitor::restart(double time, double wall_time) {
   data_lost_alarm_ = DataLostAlarm(systemNames(), settings_);
   lcm_lost_alarm_ = LcmLostAlarm(settings_);
   for (auto& [name, alarms] : controller_alarms_) {
-    alarms.restart(settings_);
+    alarms.restart(name, settings_);
   }
   for (auto& [source, clock] : clocks_) {
     clock.restartAt(time, wall_time);
@@ -86,10 +86,7 @@ void TwinMonitor::set(const AlarmSettings& settings) {
   data_lost_alarm_.set(settings_);
   lcm_lost_alarm_.set(settings_);
   for (auto& [name, alarms] : controller_alarms_) {
-    alarms.lost.set(settings_);
-    alarms.loop.set(settings_);
-    alarms.saturation.set(settings_);
-    alarms.passage.set(settings_);
+    alarms.set(settings_);
   }
   restored_.set(settings_);
   alerts_.setLatch(settings_.latch);

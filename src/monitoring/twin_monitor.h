@@ -140,6 +140,19 @@ class TwinMonitor {
           loop(controller.name, settings),
           saturation(controller.name, settings),
           passage(controller, settings) {}
+    void set(const AlarmSettings& settings) {
+      lost.set(settings);
+      loop.set(settings);
+      saturation.set(settings);
+      passage.set(settings);
+    }
+    /// They forget what has been.
+    void restart(const std::string& controller, const AlarmSettings& settings) {
+      lost = ControllerAlarm(controller, settings);
+      loop = LoopAlarm(controller, settings);
+      saturation = SaturationAlarm(controller, settings);
+      passage.restart(settings);
+    }
   };
 
   std::map<std::string, ControllerAlarms> controller_alarms_;

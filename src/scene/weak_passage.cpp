@@ -111,7 +111,7 @@ bool passes(const Scene& scene, const ControllerSpec& controller, const Rotor& r
       return false;
     }
     inputs.begin(k * step);
-    inputs.control(torque, u);
+    inputs.control(torque, u, k * step);
     if (stepper->step(static_cast<double>(k) * length) != StepStatus::kOk) {
       return true;
     }
