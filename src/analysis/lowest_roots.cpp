@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 #include <type_traits>
+#include <utility>
 
-#include "algebra/eigenvalues.h"
+#include "analysis/determinant_winding.h"
+#include "analysis/krylov_space.h"
 
 namespace whirl_twin {
 
@@ -16,7 +17,6 @@ using Eigen::Index;
 using Eigen::VectorXcd;
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr Index kBlock = 2;
 constexpr Index kMostDimensions = 330;
 constexpr Index kNarrow = 6;           // widths, of a matrix that is worth it
 constexpr double kConverged = 1.0e-8;  // of 1/s: near enough for Newton's method
@@ -26,149 +26,6 @@ constexpr int kMostSteps = 4;
 constexpr double kApart = 1.0e-3;      // of the radius, at least, from root to circle
 constexpr std::size_t kMostMore = 12;  // roots, for a wide gap to lay the circle through
 constexpr double kReach = 4.0;         // radii, of the roots divided out
-constexpr double kFineTurn = 0.5;      // rad, of the phase from point to point
-constexpr int kMostHalvings = 12;
-
-/// A root as the Krylov space has it.
-struct Ritz {
-  Complex root;
-  double residual = 0.0;  ///< of 1/s, in parts of it
-  VectorXcd parts;        ///< of the basis
-};
-
-/// Block Krylov space of the inverse linearization.
-template <class Scalar>
-class KrylovSpace {
- public:
-  using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
-
-  explicit KrylovSpace(const BandedPencil<Scalar>& pencil)
-      : pencil_(pencil), inverse_(pencil.a0), order_(pencil.a0.size()) {
-    std::mt19937_64 numbers(1);
-    random_ = numbers;
-    next_ = Matrix::Zero(2 * order_, kBlock);
-    basis_.resize(2 * order_, 0);
-    refill(next_.col(0));
-    refill(next_.col(1));
-    orthonormalise(nullptr);
-  }
-
-  bool singular() const { return inverse_.singular(); }
-  Index dimension() const { return basis_.cols(); }
-
-  void grow(Index dimension) {
-    const Index from = basis_.cols();
-    basis_.conservativeResize(Eigen::NoChange, dimension);
-    // Rows and columns that come are zero.
-    Matrix wider = Matrix::Zero(dimension + kBlock, dimension);
-    wider.topLeftCorner(projected_.rows(), projected_.cols()) = projected_;
-    projected_ = std::move(wider);
-    for (Index at = from; at < dimension; at += kBlock) {
-      basis_.middleCols(at, kBlock) = next_;
-      next_ = image(next_);
-      const Index known = at + kBlock;
-      for (int pass = 0; pass < 2; ++pass) {
-        const Matrix along = basis_.leftCols(known).adjoint() * next_;
-        next_.noalias() -= basis_.leftCols(known) * along;
-        projected_.block(0, at, known, kBlock) += along;
-      }
-      known_ = known;
-      Eigen::Matrix<Scalar, kBlock, kBlock> rest;
-      orthonormalise(&rest);
-      projected_.block(known, at, kBlock, kBlock) = rest;
-    }
-  }
-
-  /// By rising modulus of the root.
-  std::vector<Ritz> ritz() const {
-    const Index m = dimension();
-    using Solver = std::conditional_t<std::is_same_v<Scalar, double>, Eigen::EigenSolver<Matrix>,
-                                      Eigen::ComplexEigenSolver<Matrix>>;
-    const Solver solver(Matrix(projected_.topRows(m)));
-    if (solver.info() != Eigen::Success) {
-      return {};
-    }
-    const Eigen::VectorXcd values = solver.eigenvalues();
-    const Eigen::MatrixXcd vectors = solver.eigenvectors();
-    const Eigen::MatrixXcd rest =
-        projected_.bottomRows(kBlock).rightCols(kBlock).template cast<Complex>() *
-        vectors.bottomRows(kBlock);
-    std::vector<Ritz> all;
-    for (Index i = 0; i < m; ++i) {
-      if (values[i] != 0.0) {
-        all.push_back({1.0 / values[i], rest.col(i).norm() / std::abs(values[i]), vectors.col(i)});
-      }
-    }
-    std::sort(all.begin(), all.end(), [](const Ritz& a, const Ritz& b) {
-      const double x = std::abs(a.root);
-      const double y = std::abs(b.root);
-      return x != y ? x < y : a.root.imag() < b.root.imag();
-    });
-    return all;
-  }
-  VectorXcd shape(const Ritz& ritz) const {
-    return (basis_.topRows(order_).template cast<Complex>() * ritz.parts).normalized();
-  }
-
- private:
-  Matrix image(const Matrix& state) const {
-    const Matrix force =
-        pencil_.a1.times(state.topRows(order_)) + pencil_.a2.times(state.bottomRows(order_));
-    Matrix next(2 * order_, state.cols());
-    next.topRows(order_) = -inverse_.solve(force);
-    next.bottomRows(order_) = state.topRows(order_);
-    return next;
-  }
-  template <class Column>
-  void refill(Column column) {
-    std::uniform_real_distribution<double> number(-1.0, 1.0);
-    for (Index i = 0; i < column.size(); ++i) {
-      column[i] = number(random_);
-    }
-  }
-  /// The next block's columns, each at right angles to all; what was left of them in `rest`.
-  void orthonormalise(Eigen::Matrix<Scalar, kBlock, kBlock>* rest) {
-    if (rest != nullptr) {
-      rest->setZero();
-    }
-    for (Index j = 0; j < kBlock; ++j) {
-      auto column = next_.col(j);
-      const double before = column.norm();
-      for (int pass = 0; pass < 2; ++pass) {
-        for (Index i = 0; i < j; ++i) {
-          const Scalar along = next_.col(i).dot(column);
-          column -= along * next_.col(i);
-          if (rest != nullptr) {
-            (*rest)(i, j) += along;
-          }
-        }
-      }
-      double length = column.norm();
-      const bool spent = !(length > 1.0e-14 * before);
-      if (rest != nullptr) {
-        (*rest)(j, j) = spent ? 0.0 : length;
-      }
-      if (spent) {  // an invariant space: go on with another direction
-        refill(column);
-        for (int pass = 0; pass < 2; ++pass) {
-          column -= basis_.leftCols(known_) * (basis_.leftCols(known_).adjoint() * column);
-          for (Index i = 0; i < j; ++i) {
-            column -= next_.col(i).dot(column) * next_.col(i);
-          }
-        }
-        length = column.norm();
-      }
-      column /= length;
-    }
-  }
-
-  BandedPencil<Scalar> pencil_;
-  BandedLU<Scalar> inverse_;
-  Index order_;
-  Index known_ = 0;
-  std::mt19937_64 random_;
-  Matrix basis_, next_, projected_;
-};
 
 /// A pencil in other units of its coordinates and of s.
 template <class Scalar>
@@ -306,57 +163,6 @@ std::optional<PencilRoot> polished(const BandedPencil<Scalar>& p, const Complex&
   return PencilRoot{s, x};
 }
 
-/// The phase along a circle.
-template <class Scalar>
-class Winding {
- public:
-  Winding(const BandedPencil<Scalar>& pencil, double radius, std::vector<Complex> divided)
-      : pencil_(pencil), radius_(radius), divided_(std::move(divided)) {}
-
-  /// By how much it turns from one angle to another [rad]; NaN where it cannot be followed.
-  double turn(double from, double to, int pieces) const {
-    double sum = 0.0;
-    Complex before = phase(from);
-    for (int i = 1; i <= pieces; ++i) {
-      const double start = from + (to - from) * (i - 1) / pieces;
-      const double end = from + (to - from) * i / pieces;
-      const Complex after = phase(end);
-      sum += between(start, end, before, after, 0);
-      before = after;
-    }
-    return sum;
-  }
-
- private:
-  Complex phase(double angle) const {
-    const Complex s = std::polar(radius_, angle);
-    Complex turned = BandedLU<Complex>(pencil_.at(s)).determinantPhase();
-    for (const Complex& root : divided_) {
-      const Complex to = s - root;
-      turned *= std::conj(to) / std::abs(to);
-    }
-    return turned;
-  }
-  double between(double start, double end, const Complex& before, const Complex& after,
-                 int halvings) const {
-    const double turned = std::arg(after * std::conj(before));
-    if (std::fabs(turned) <= kFineTurn) {
-      return turned;
-    }
-    if (halvings == kMostHalvings || std::isnan(turned)) {
-      return std::nan("");
-    }
-    const double middle = 0.5 * (start + end);
-    const Complex there = phase(middle);
-    return between(start, middle, before, there, halvings + 1) +
-           between(middle, end, there, after, halvings + 1);
-  }
-
-  const BandedPencil<Scalar>& pencil_;
-  double radius_;
-  std::vector<Complex> divided_;
-};
-
 /// Of the roots known, those within a circle through a gap between them.
 struct Cut {
   std::size_t inside = 0;
@@ -419,7 +225,7 @@ std::optional<LowestRoots> confirmed(const Scaled<Scalar>& scaled, const KrylovS
   if (found.roots.size() != cut.inside) {
     return std::nullopt;
   }
-  const Winding<Scalar> winding(scaled.pencil, cut.radius, std::move(divided));
+  const DeterminantWinding<Scalar> winding(scaled.pencil, cut.radius, std::move(divided));
   const double turned = kReal ? winding.turn(0.0, kPi, 12) : winding.turn(-kPi, kPi, 24);
   if (!(std::fabs(turned) < 1.0)) {
     return std::nullopt;
@@ -450,7 +256,7 @@ std::optional<LowestRoots> search(const BandedPencil<Scalar>& pencil, std::size_
   KrylovSpace<Scalar> space(scaled.pencil);
   const Index most = std::min(kMostDimensions, 2 * pencil.a0.size() * 3 / 4);
   for (Index m = 24 + 3 * static_cast<Index>(count) / 2; !space.singular(); m += m / 2) {
-    m = std::min(m, most) / kBlock * kBlock;
+    m = std::min(m, most) / kKrylovBlock * kKrylovBlock;
     if (m <= space.dimension()) {
       return std::nullopt;
     }

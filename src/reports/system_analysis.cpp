@@ -78,6 +78,7 @@ SystemAnalysis analyzeSystem(const BuiltScene& scene, const BuiltSystem& system,
       throw std::overflow_error("a coefficient of the characteristic polynomial");
     }
   }
+  a.sheet = rotorSheet(system, shaft.speed);
   a.instability_speed = instabilitySpeed(dynamics, a.about, shaft.speed);
   const CriticalSpeedSearch critical_speeds = searchCriticalSpeeds(*heldDynamics(system));
   a.critical_speeds_beyond = critical_speeds.beyond;

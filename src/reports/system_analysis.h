@@ -16,6 +16,7 @@
 #include "monitoring/parameter_margins.h"
 #include "monitoring/spread_margin.h"
 #include "reports/csv_table.h"
+#include "reports/rotor_sheet.h"
 #include "reports/steady_speeds.h"
 #include "scene/built_scene.h"
 
@@ -41,6 +42,7 @@ struct SystemAnalysis {
   CyclicCoordinates cyclic;
   Eigen::VectorXd momenta;                  ///< generalized, of the initial state
   Stability reduced_stability;              ///< of the shape with its momenta as they are
+  std::optional<RotorSheet> sheet;          ///< of a flexible rotor
   std::optional<double> instability_speed;  ///< [rad/s]
   std::vector<state::CriticalSpeedMargin> critical_speeds;  ///< seen from the initial speed
   double critical_speeds_to = 0.0;                          ///< [rad/s], looked for; infinity: all

@@ -146,7 +146,11 @@ CsvTables tables(const SystemAnalysis& a) {
   if (a.parameter_margins) {
     parameters.rows = parameterMarginsJson(a)["parameters"];
   }
-  return {modes, eigenvalues, critical_speeds, parameters};
+  CsvTables all{modes, eigenvalues, critical_speeds, parameters};
+  if (a.sheet) {
+    all.push_back(table(*a.sheet));
+  }
+  return all;
 }
 
 Json json(const SystemAnalysis& a) {
@@ -165,6 +169,9 @@ Json json(const SystemAnalysis& a) {
                     {"jacobi", a.energies.jacobi},
                     {"dissipated_power", a.energies.dissipated_power},
                     {"input_power", a.energies.input_power}};
+  if (a.sheet) {
+    json["rotor"] = whirl_twin::json(*a.sheet);
+  }
   json["equilibria"] = Json::array();
   for (const Equilibrium& e : a.equilibria) {
     Json entry{{"state", byCoordinate(a, e.q)}, {"verdict", name(e.stability.routh.verdict)}};

@@ -312,7 +312,7 @@ std::string steadySpeedsText(const SystemAnalysis& a) {
 
 std::string text(const SystemAnalysis& a) {
   std::string out = fmt::format("{}: {}, {}\n", a.name, a.model->name, a.model->summary);
-  out += startText(a) + cyclicText(a) + equilibriaText(a);
+  out += startText(a) + (a.sheet ? text(*a.sheet) : "") + cyclicText(a) + equilibriaText(a);
   out += fmt::format("  linearized about {}: {}{}\n",
                      a.at_equilibrium ? "the operating point" : "the initial state",
                      values(a, a.about, 0),

@@ -45,6 +45,7 @@ TEST(Analyze, HasEveryKey) {
                                                    "equilibria",
                                                    "linearization",
                                                    "eigenvalues",
+                                                   "omitted",
                                                    "natural_frequencies",
                                                    "damping_ratios",
                                                    "characteristic_polynomial",
@@ -52,6 +53,7 @@ TEST(Analyze, HasEveryKey) {
                                                    "margins",
                                                    "critical_speeds",
                                                    "critical_speeds_beyond_reduction",
+                                                   "critical_speeds_searched_to",
                                                    "cross_coupling_margin",
                                                    "parameter_margins",
                                                    "spread_margin",
@@ -416,6 +418,8 @@ TEST(Analyze, OfALongShaftTheLowestModesAreThoseOfAll) {
     const double frequency = all["natural_frequencies"][i];
     EXPECT_NEAR(lowest["natural_frequencies"][i].get<double>(), frequency, 1.0e-7 * frequency);
   }
+  EXPECT_NEAR(lowest["rotor"]["mass"].get<double>(), 32.0 + 7810.0 * 1.3 * 0.0019634954, 1e-6);
+  EXPECT_EQ(lowest["rotor"]["static"]["nodes"].size(), 27u);
   EXPECT_EQ(lowest["routh"]["verdict"], "asymptotically_stable");
   EXPECT_EQ(all["routh"]["verdict"], "asymptotically_stable");
   const double highest = lowest["natural_frequencies"].back();

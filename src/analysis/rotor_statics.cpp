@@ -1,0 +1,101 @@
+#include "analysis/rotor_statics.h"
+
+#include "algebra/banded_matrix.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kFree = 1.0e-9;  // a pivot of the stiffness scaled to unit diagonal
+
+double massOf(const FlexibleShaft& shaft, const ShaftSection& section) {
+  return shaft.material.density * section.area() * section.length;
+}
+
+Across add(const Across& a, const Across& b) {
+  return {a.x + b.x, a.y + b.y};
+}
+
+/// What a bearing puts on a shaft that is deflected there.
+BearingForce forceOf(int node, const BearingCoefficients& b, const Eigen::VectorXd& q) {
+  const double x = q[node * kNodeCoordinates];
+  const double y = q[node * kNodeCoordinates + 1];
+  return {node, {-b.kxx * x - b.kxy * y, -b.kyx * x - b.kyy * y}};
+}
+
+}  // namespace
+
+RotorBody rotorBody(const FlexibleShaft& shaft) {
+  const std::vector<double> z = shaft.positions();
+  RotorBody body;
+  double moment = 0.0;
+  const auto each = [&](const auto& take) {  // mass, place, transverse and polar inertia
+    for (std::size_t i = 0; i < shaft.elements.size(); ++i) {
+      const ShaftSection& section = shaft.elements[i];
+      const double mass = massOf(shaft, section);
+      const double turning = shaft.material.density * section.secondMoment() * section.length;
+      take(mass, z[i] + 0.5 * section.length,
+           turning + mass * section.length * section.length / 12.0, 2.0 * turning);
+    }
+    for (const RotorDisc& disc : shaft.discs) {
+      take(disc.mass, z[static_cast<std::size_t>(disc.node)], disc.transverse_inertia,
+           disc.polar_inertia);
+    }
+  };
+  each([&](double mass, double place, double, double polar) {
+    body.mass += mass;
+    moment += mass * place;
+    body.polar_inertia += polar;
+  });
+  body.centre = moment / body.mass;
+  each([&](double mass, double place, double transverse, double) {
+    body.transverse_inertia += transverse + mass * (place - body.centre) * (place - body.centre);
+  });
+  return body;
+}
+
+std::optional<RotorStatics> rotorStatics(const FlexibleShaft& shaft, double gravity, double speed) {
+  FlexibleShaft heavy = shaft;
+  heavy.gravity = gravity;
+  const RotorAssembly assembly(heavy);
+  const BandedLinearization l = assembly.bandedMatrices(speed);
+  const Eigen::ArrayXd stiffness = l.stiffness.diagonal().array();
+  if (!(stiffness > 0.0).all() || !hasCholesky(l.stiffness.scaled(stiffness.rsqrt()), kFree)) {
+    return std::nullopt;
+  }
+  const Eigen::VectorXd q = BandedLU<double>(l.byPlace()).solve(assembly.linearRotor().load);
+
+  RotorStatics statics;
+  for (const RotorBearing& bearing : shaft.bearings) {
+    statics.bearings.push_back(forceOf(bearing.node, bearing.coefficients, q));
+  }
+  for (const SpeedBearing& bearing : shaft.speed_bearings) {
+    statics.bearings.push_back(forceOf(bearing.node, bearing.coefficients(speed), q));
+  }
+  std::vector<Across> at_nodes(static_cast<std::size_t>(shaft.nodes()));
+  for (const BearingForce& bearing : statics.bearings) {
+    Across& there = at_nodes[static_cast<std::size_t>(bearing.node)];
+    there = add(there, bearing.force);
+  }
+  for (const RotorDisc& disc : shaft.discs) {
+    at_nodes[static_cast<std::size_t>(disc.node)].y -= disc.mass * gravity;
+  }
+  const std::vector<double> z = shaft.positions();
+  Across shear;
+  Across moment;
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    const auto first = static_cast<Eigen::Index>(i) * kNodeCoordinates;
+    SagAtNode node{z[i], {q[first], q[first + 1]}, shear, add(shear, at_nodes[i]), moment};
+    statics.nodes.push_back(node);
+    if (i < shaft.elements.size()) {
+      const ShaftSection& section = shaft.elements[i];
+      const double weight = massOf(shaft, section) * gravity;
+      shear = {node.shear_after.x, node.shear_after.y - weight};
+      moment = {moment.x + node.shear_after.x * section.length,
+                moment.y + (node.shear_after.y - 0.5 * weight) * section.length};
+    }
+  }
+  return statics;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,129 @@
+#include "reports/rotor_sheet.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "models/flexible_shaft_settings.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr std::size_t kMostNodes = 30;  // of a table in the text
+
+Json pair(const Across& a) {
+  return {a.x + 0.0, a.y + 0.0};
+}
+
+double size(const Across& a) {
+  return std::hypot(a.x, a.y);
+}
+
+std::string bearingsText(const RotorSheet& sheet) {
+  std::string out =
+      fmt::format("  at rest under its weight, {:.6g} N\n", sheet.body.mass * sheet.gravity);
+  for (const BearingForce& bearing : sheet.statics->bearings) {
+    out += fmt::format("    bearing at node {:<4} carries {:.6g} N along y, {:.6g} N along x\n",
+                       bearing.node, bearing.force.y + 0.0, bearing.force.x + 0.0);
+  }
+  return out;
+}
+
+std::string nodesText(const std::vector<SagAtNode>& nodes) {
+  if (nodes.size() > kMostNodes) {
+    const auto largest = [&](const auto& of) {
+      const auto at = std::max_element(
+          nodes.begin(), nodes.end(),
+          [&](const SagAtNode& a, const SagAtNode& b) { return size(of(a)) < size(of(b)); });
+      return fmt::format("{:.6g}, at node {}", size(of(*at)), at - nodes.begin());
+    };
+    return fmt::format(
+        "    largest sag     {0} m\n    shear force     {1} N\n    bending moment  {2} N m\n"
+        "    of every node   --json, --csv\n",
+        largest([](const SagAtNode& n) { return n.deflection; }), largest([](const SagAtNode& n) {
+          return size(n.shear_before) > size(n.shear_after) ? n.shear_before : n.shear_after;
+        }),
+        largest([](const SagAtNode& n) { return n.moment; }));
+  }
+  std::string out =
+      "    node           z, m         y, m         x, m   shear y, N    beyond, N  moment, N m\n";
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const SagAtNode& n = nodes[i];
+    out += fmt::format("    {:<4} {:>14.6g} {:>12.5g} {:>12.5g} {:>12.5g} {:>12.5g} {:>12.5g}\n", i,
+                       n.position, n.deflection.y, n.deflection.x + 0.0, n.shear_before.y,
+                       n.shear_after.y, n.moment.y);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::optional<RotorSheet> rotorSheet(const BuiltSystem& system, double speed) {
+  if (system.model->name != "flexible_rotor") {
+    return std::nullopt;
+  }
+  const double gravity = system.spec.setup->around.gravity;
+  const FlexibleShaft shaft = flexibleShaft(system.spec.parameters, system.spec.settings, gravity);
+  return RotorSheet{rotorBody(shaft), gravity, rotorStatics(shaft, gravity, speed)};
+}
+
+Json json(const RotorSheet& sheet) {
+  Json json{{"mass", sheet.body.mass},
+            {"centre_of_gravity", sheet.body.centre},
+            {"polar_inertia", sheet.body.polar_inertia},
+            {"transverse_inertia", sheet.body.transverse_inertia},
+            {"static", Json()}};
+  if (!sheet.statics) {
+    return json;
+  }
+  Json& at_rest = json["static"];
+  at_rest["gravity"] = sheet.gravity;
+  at_rest["bearings"] = Json::array();
+  for (const BearingForce& bearing : sheet.statics->bearings) {
+    at_rest["bearings"].push_back({{"node", bearing.node}, {"force", pair(bearing.force)}});
+  }
+  at_rest["nodes"] = Json::array();
+  for (const SagAtNode& n : sheet.statics->nodes) {
+    at_rest["nodes"].push_back({{"position", n.position},
+                                {"deflection", pair(n.deflection)},
+                                {"shear_before", pair(n.shear_before)},
+                                {"shear_after", pair(n.shear_after)},
+                                {"moment", pair(n.moment)}});
+  }
+  return json;
+}
+
+std::string text(const RotorSheet& sheet) {
+  std::string out = fmt::format(
+      "  rotor           {:.6g} kg, balanced at {:.6g} m from node 0\n"
+      "    inertia         {:.6g} kg m^2 about the shaft, {:.6g} kg m^2 across it\n",
+      sheet.body.mass, sheet.body.centre, sheet.body.polar_inertia, sheet.body.transverse_inertia);
+  return sheet.statics ? out + bearingsText(sheet) + nodesText(sheet.statics->nodes) : out;
+}
+
+CsvTable table(const RotorSheet& sheet) {
+  CsvTable nodes{"static",
+                 {"node", "position", "deflection_x", "deflection_y", "shear_before_x",
+                  "shear_before_y", "shear_after_x", "shear_after_y", "moment_x", "moment_y"}};
+  if (!sheet.statics) {
+    return nodes;
+  }
+  for (std::size_t i = 0; i < sheet.statics->nodes.size(); ++i) {
+    const SagAtNode& n = sheet.statics->nodes[i];
+    nodes.rows.push_back({{"node", i},
+                          {"position", n.position},
+                          {"deflection_x", n.deflection.x},
+                          {"deflection_y", n.deflection.y},
+                          {"shear_before_x", n.shear_before.x},
+                          {"shear_before_y", n.shear_before.y},
+                          {"shear_after_x", n.shear_after.x},
+                          {"shear_after_y", n.shear_after.y},
+                          {"moment_x", n.moment.x},
+                          {"moment_y", n.moment.y}});
+  }
+  return nodes;
+}
+
+}  // namespace whirl_twin
