@@ -42,6 +42,10 @@ class FileVisit : public FieldVisit<FileVisit> {
   void head(F) {
     head();
   }
+  template <class F>
+  void sampled(F) {
+    fields.insert(fields.end(), {{"sample", ""}, {"time", "s"}});
+  }
   template <class F, class Check>
   void value(F field, const char* unit, Check, Stays) {
     fields.emplace_back(field.name, unit);
