@@ -37,7 +37,7 @@ std::vector<Complex> allEigenvalues(const Linearization& l) {
     all.emplace_back(static_cast<double>(s.real()), static_cast<double>(s.imag()));
   }
   std::sort(all.begin(), all.end(),
-            [](const Complex& a, const Complex& b) { return std::abs(a) < std::abs(b); });
+            [](const Complex& s, const Complex& t) { return std::abs(s) < std::abs(t); });
   return all;
 }
 

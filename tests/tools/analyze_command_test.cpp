@@ -389,7 +389,7 @@ TEST(Analyze, ReportForReaders) {
 
 /// A shaft of 26 elements with all its 108 coordinates; `bearing` and `seal`: coefficients.
 std::string longShaft(const std::string& bearing, const std::string& seal) {
-  return "{model: flexible_rotor, speed: 400, parameters: {modes: 0, youngs_modulus: 2.11e11, "
+  return "{model: flexible_rotor, parameters: {speed: 400, modes: 0, youngs_modulus: 2.11e11, "
          "shear_modulus: 8.12e10, density: 7810, elements: [{count: 26, length: 0.05, "
          "outer_diameter: 0.05}], discs: [{node: 9, mass: 32.0, transverse_inertia: 0.178, "
          "polar_inertia: 0.329}], bearings: [{node: 0, " +
