@@ -72,7 +72,7 @@ std::string stopTextFor(StepStatus status) {
   std::vector<double> record(layoutOf(scene).size);
   const SystemPlace place = layoutOf(scene).system(record.data(), 0);
   place.setStatus(status);
-  return stopText(*scene.systems[0], layoutOf(scene).system(record.data(), 0), 41, 0.041);
+  return stopText(*scene.systems[0], place, describe(status), 41, 0.041);
 }
 
 struct Cause {

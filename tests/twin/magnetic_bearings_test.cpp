@@ -213,7 +213,8 @@ TEST(MagneticBearings, StopWhatTouchesTheirPoles) {
     EXPECT_TRUE(std::isfinite(value));
   }
   const BuiltSystem& system = *twin.systems()[0];
-  const std::string text = stopText(system, twin.layout().system(record.data(), 0), steps, 0.1);
+  const std::string text = stopText(system, twin.layout().system(record.data(), 0),
+                                    describe(twin.status(0)), steps, 0.1);
   EXPECT_NE(text.find("it touches the poles of a magnetic bearing; last good state: x = 0.0002"),
             std::string::npos)
       << text;
