@@ -14,7 +14,8 @@ namespace whirl_twin {
 /// rotor is judged from standstill on; any other model follows the equilibrium q from `speed`
 /// [rad/s] up. Where the eigenvalues leave it open, Routh's test decides, so the threshold is exact
 /// to rounding; beyond kMostExactCoordinates, or where exact numbers become too long, the
-/// eigenvalues alone do, to about 1e-10 of it.
+/// eigenvalues alone do, to about 1e-10 of it; of more than kMostCompleteCoordinates the lowest
+/// modes, and all within the radius that motions grow in, where one is known (growth_radius.h).
 std::optional<double> instabilitySpeed(const Dynamics& dynamics, const Eigen::VectorXd& q,
                                        double speed);
 

@@ -11,7 +11,7 @@
 namespace whirl_twin {
 
 /// "state not finite", "implicit step did not converge" or that it was not prepared for the speed;
-/// "" while running, and where a controller stopped it.
+/// "" while running.
 const char* describe(StepStatus status);
 /// "controller pd has not answered for 0.5 s of wall time (on_timeout: stop)", if it is one that
 /// stops this system when it is lost; else "".
