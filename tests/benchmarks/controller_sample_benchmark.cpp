@@ -33,30 +33,30 @@ void steps(benchmark::State& state, const std::string& text) {
 }
 
 /// One mass on a spring, or four in a chain: eight states.
-std::string plant(bool chain) {
-  return chain
-             ? "s: {model: linear_system, parameters: {names: [a, b, c, d], mass: "
-               "[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]], damping: "
-               "[[0.2, -0.1, 0, 0], [-0.1, 0.2, -0.1, 0], [0, -0.1, 0.2, -0.1], [0, 0, -0.1, "
-               "0.2]], stiffness: [[20, -10, 0, 0], [-10, 20, -10, 0], [0, -10, 20, -10], [0, 0, "
-               "-10, 20]]}, initial: {a: 0.1}}"
-             : "s: {model: linear_system, parameters: {names: [a], mass: [[1]], damping: [[0.1]], "
-               "stiffness: [[10]]}, initial: {a: 0.1}}";
+std::string plant(bool chain, const std::string& more) {
+  const std::string parameters =
+      chain
+          ? "names: [a, b, c, d], mass: [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]], "
+            "damping: [[0.2, -0.1, 0, 0], [-0.1, 0.2, -0.1, 0], [0, -0.1, 0.2, -0.1], [0, 0, "
+            "-0.1, 0.2]], stiffness: [[20, -10, 0, 0], [-10, 20, -10, 0], [0, -10, 20, -10], [0, "
+            "0, -10, 20]]"
+          : "names: [a], mass: [[1]], damping: [[0.1]], stiffness: [[10]]";
+  return "{step: 0.001, systems: {s: {model: linear_system, parameters: {" + parameters +
+         "}, initial: {a: 0.1}" + more + "}}";
 }
 
-std::string scene(bool chain, const std::string& what) {
-  return "{step: 0.001, systems: {" + plant(chain) + "}, " + what + "}";
+std::string heldForce(bool chain) {
+  return plant(chain, ", inputs: {force_a: 0.1}") + "}";
 }
 
 std::string controlled(bool chain, const std::string& law) {
-  return scene(chain,
-               "controllers: {law: {rate: 1000.0, measures: [s.a], acts_on: [s.force_a], "
-               "delay: 0.001, sensor: {noise: 1.0e-4, resolution: 1.0e-5, range: 1.0, "
-               "bandwidth: 400.0}, actuator: {limit: 5.0, slew: 1.0e3, resolution: 1.0e-3}, " +
-                   law + "}}");
+  return plant(chain, "") +
+         ", controllers: {law: {rate: 1000.0, measures: [s.a], acts_on: [s.force_a], delay: 0.001, "
+         "sensor: {noise: 1.0e-4, resolution: 1.0e-5, range: 1.0, bandwidth: 400.0}, actuator: "
+         "{limit: 5.0, slew: 1.0e3, resolution: 1.0e-3}, " +
+         law + "}}}";
 }
 
-constexpr const char* kHeld = "inputs: {s.force_a: 0.1}";
 constexpr const char* kPid =
     "type: pid, parameters: {kp: 3.0, ki: 1.0, kd: 0.2, derivative_time: 0.005}";
 constexpr const char* kLqg =
@@ -82,9 +82,9 @@ void addAll() {
   const auto add = [](const char* name, const std::string& text) {
     benchmark::RegisterBenchmark(name, [text](benchmark::State& state) { steps(state, text); });
   };
-  add("one_mass/held_force", scene(false, kHeld));
+  add("one_mass/held_force", heldForce(false));
   add("one_mass/pid", controlled(false, kPid));
-  add("four_masses/held_force", scene(true, kHeld));
+  add("four_masses/held_force", heldForce(true));
   add("four_masses/lqg_of_8_states", controlled(true, kLqg));
   add("levitation_20_kHz", levitation());
 }
