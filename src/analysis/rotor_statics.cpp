@@ -17,7 +17,7 @@ Across add(const Across& a, const Across& b) {
 }
 
 /// What a bearing puts on a shaft that is deflected there.
-BearingForce forceOf(int node, const BearingCoefficients& b, const Eigen::VectorXd& q) {
+BearingLoad forceOf(int node, const BearingCoefficients& b, const Eigen::VectorXd& q) {
   const double x = q[node * kNodeCoordinates];
   const double y = q[node * kNodeCoordinates + 1];
   return {node, {-b.kxx * x - b.kxy * y, -b.kyx * x - b.kyy * y}};
@@ -73,7 +73,7 @@ std::optional<RotorStatics> rotorStatics(const FlexibleShaft& shaft, double grav
     statics.bearings.push_back(forceOf(bearing.node, bearing.coefficients(speed), q));
   }
   std::vector<Across> at_nodes(static_cast<std::size_t>(shaft.nodes()));
-  for (const BearingForce& bearing : statics.bearings) {
+  for (const BearingLoad& bearing : statics.bearings) {
     Across& there = at_nodes[static_cast<std::size_t>(bearing.node)];
     there = add(there, bearing.force);
   }

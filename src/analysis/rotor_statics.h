@@ -28,7 +28,7 @@ struct Across {
   double x = 0.0, y = 0.0;
 };
 
-struct BearingForce {
+struct BearingLoad {
   int node = 0;
   Across force;  ///< [N], on the rotor
 };
@@ -43,7 +43,7 @@ struct SagAtNode {
 };
 
 struct RotorStatics {
-  std::vector<BearingForce> bearings;  ///< in the shaft's order, then those that follow the speed
+  std::vector<BearingLoad> bearings;  ///< in the shaft's order, then those that follow the speed
   std::vector<SagAtNode> nodes;
 };
 

@@ -42,7 +42,7 @@ bool LocalForces::pushes(const LinearMotion& motion, double start, double offset
   const auto piece = static_cast<std::int64_t>(std::floor(start * 1e9 + 1e-3));
   for (std::size_t k = 0; k < forces_.size(); ++k) {
     const LocalForce& force = forces_[k];
-    LocalMotion at;
+    LocalState at;
     at.place = {force.along_x.dot(motion.q()), force.along_y.dot(motion.q())};
     at.rate = {force.along_x.dot(motion.v()), force.along_y.dot(motion.v())};
     for (std::size_t i = 0; inputs_ != nullptr && i < 2; ++i) {

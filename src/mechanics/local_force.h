@@ -15,7 +15,7 @@
 namespace whirl_twin {
 
 /// At the place of a force, across the shaft.
-struct LocalMotion {
+struct LocalState {
   std::array<double, 2> place{};       ///< [m], x and y
   std::array<double, 2> rate{};        ///< [m/s]
   std::array<double, 2> input{};       ///< u, of LocalForce::inputs
@@ -32,7 +32,7 @@ class LocalLaw {
  public:
   virtual ~LocalLaw() = default;
   /// Real-time safe. False, with `out` as it was, where there is no such place for a rotor.
-  virtual bool push(const LocalMotion& at, LocalPush& out) const noexcept = 0;
+  virtual bool push(const LocalState& at, LocalPush& out) const noexcept = 0;
   /// -dF/d(x, y) [N/m] at a place [m], without inputs.
   virtual Eigen::Matrix2d stiffness(const Eigen::Vector2d& place) const = 0;
   /// [m], how far a place is from where there is none.

@@ -40,7 +40,7 @@ Eigen::VectorXd LocallyForcedRotor::localForce(const Eigen::VectorXd& q) const {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(q.size());
   for (const LocalForce& force : forces_) {
     const Eigen::Vector2d place = placeOf(force, q);
-    LocalMotion at;
+    LocalState at;
     at.place = {place.x(), place.y()};
     LocalPush push;
     if (!force.law->push(at, push)) {

@@ -33,7 +33,7 @@ class MagneticBearing final : public LocalLaw {
   /// f, with the linear part, for a current [A] and |place| < gap [m].
   Force axis(double current, double place) const noexcept;
   /// f less its linear part.
-  bool push(const LocalMotion& at, LocalPush& out) const noexcept override;
+  bool push(const LocalState& at, LocalPush& out) const noexcept override;
 
   Eigen::Matrix2d stiffness(const Eigen::Vector2d& place) const override;
   double room(const Eigen::Vector2d& place) const override;

@@ -24,7 +24,7 @@ double size(const Across& a) {
 std::string bearingsText(const RotorSheet& sheet) {
   std::string out =
       fmt::format("  at rest under its weight, {:.6g} N\n", sheet.body.mass * sheet.gravity);
-  for (const BearingForce& bearing : sheet.statics->bearings) {
+  for (const BearingLoad& bearing : sheet.statics->bearings) {
     out += fmt::format("    bearing at node {:<4} carries {:.6g} N along y, {:.6g} N along x\n",
                        bearing.node, bearing.force.y + 0.0, bearing.force.x + 0.0);
   }
@@ -81,7 +81,7 @@ Json json(const RotorSheet& sheet) {
   Json& at_rest = json["static"];
   at_rest["gravity"] = sheet.gravity;
   at_rest["bearings"] = Json::array();
-  for (const BearingForce& bearing : sheet.statics->bearings) {
+  for (const BearingLoad& bearing : sheet.statics->bearings) {
     at_rest["bearings"].push_back({{"node", bearing.node}, {"force", pair(bearing.force)}});
   }
   at_rest["nodes"] = Json::array();

@@ -28,7 +28,7 @@ TEST(RotorStatics, AUniformShaftCarriesItsWeightAsABeamDoes) {
   const RotorStatics statics = rotorStatics(plainShaft(), kGravity, 300.0).value();
   const double weight = kMass * kGravity;
   ASSERT_EQ(statics.bearings.size(), 2u);
-  for (const BearingForce& bearing : statics.bearings) {
+  for (const BearingLoad& bearing : statics.bearings) {
     EXPECT_NEAR(bearing.force.y, 0.5 * weight, 1.0e-7 * weight);
     EXPECT_EQ(bearing.force.x, 0.0);
   }

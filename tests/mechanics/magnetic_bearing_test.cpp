@@ -27,7 +27,7 @@ TEST(MagneticBearing, IsNearTheMiddleWhatItsDataSheetSays) {
   EXPECT_DOUBLE_EQ(middle.by_place, magnet.ks());
   // What is left of the linear law is of third order: the poles oppose each other.
   for (const double share : {1.0e-2, 1.0e-3}) {
-    LocalMotion at;
+    LocalState at;
     at.place = {share * kGap, -share * kGap};
     at.input = {-share * kBias, 0.0};
     LocalPush push;
@@ -79,7 +79,7 @@ TEST(MagneticBearing, PullsNoMoreThanItsIronCarries) {
 TEST(MagneticBearing, HasNoForceWhereItHasNoGap) {
   const MagneticBearing magnet(kKi, kBias, kGap, kFull);
   LocalPush push;
-  LocalMotion at;
+  LocalState at;
   at.place = {0.0, 0.999 * kGap};
   EXPECT_TRUE(magnet.push(at, push));
   for (const double place : {kGap, -kGap, 2.0 * kGap, std::nan("")}) {

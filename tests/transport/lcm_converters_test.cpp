@@ -244,7 +244,7 @@ TEST(LcmConverters, RejectLoopStatisticsThatCannotBeMeant) {
   expectRejected(message, instantSpoilers<loop_statistics_t>());
   expectRejected<loop_statistics_t>(
       message, {[](auto& m) { m.systems = 1; }, [](auto& m) { m.system[0] = "a b"; },
-                [](auto& m) { m.stopped[1] = 5; }, [](auto& m) { m.stopped[1] = -1; },
+                [](auto& m) { m.stopped[1] = 6; }, [](auto& m) { m.stopped[1] = -1; },
                 [](auto& m) { m.stopped_why.pop_back(); }, [](auto& m) { m.tolerance.clear(); },
                 [](auto& m) { m.error_estimate.push_back(0.0); }, [](auto& m) { m.paused = 2; },
                 [](auto& m) { m.overruns = -1; }, [](auto& m) { m.kernel = "\x1b[2J"; }});

@@ -121,7 +121,7 @@ TEST(RosConverters, RejectWhatCannotBeMeant) {
   loop.stopped.resize(1);
   expectRejected<LoopStatistics>(
       toRos(loop), {[](auto& m) { m.step = -1; }, [](auto& m) { m.stopped.clear(); },
-                    [](auto& m) { m.system[0] = ""; }, [](auto& m) { m.stopped[0] = 5; }});
+                    [](auto& m) { m.system[0] = ""; }, [](auto& m) { m.stopped[0] = 6; }});
   expectRejected<AlertArray>(
       toRos(std::vector<state::Alert>{samples.alert()}, 0),
       {[](auto& m) { m.alerts[0].severity = 3; }, [](auto& m) { m.alerts[0].text = "\x80"; }});
