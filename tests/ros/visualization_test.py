@@ -49,7 +49,7 @@ class Visualization(unittest.TestCase):
         self.assertIn('log decrement 0.315 (0.1 asked for)', self.text('rotor/margin_caption'))
         self.assertTrue(wait_until(lambda: 'zone C 110 um' in self.text('rotor/text')), self.text('rotor/text'))
         self.assertTrue(wait_until(lambda: self.text('(twin)/loop').startswith('loop: 1000 steps/s')))
-        self.assertIn('oldest verdict', self.text('(twin)/monitor'))
+        self.assertTrue(wait_until(lambda: 'oldest verdict' in self.text('(twin)/monitor')), self.text('(twin)/monitor'))
         self.assertTrue(wait_until(lambda: 'twin_view' in self.frames))
 
         subprocess.check_call(['rosnode', 'kill', '/monitor_node'], stdout=subprocess.DEVNULL)
