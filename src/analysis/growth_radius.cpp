@@ -30,7 +30,7 @@ void fillZeros(BandedMatrix<double>& m) {
   }
 }
 
-/// Is row i zero, but for the rounding of the largest entry?
+/// Is row i exactly zero?
 bool isZeroRow(const BandedMatrix<double>& m, Index i) {
   const Index last = std::min(m.size() - 1, i + m.width());
   for (Index j = std::max<Index>(0, i - m.width()); j <= last; ++j) {
