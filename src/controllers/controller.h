@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "control/discrete_state_space.h"
 #include "control/shaft_angle.h"
@@ -43,6 +44,9 @@ class Controller {
   /// How small changes of what it measures come out, without limits and at a shaft speed [rad/s];
   /// nothing where that is not linear.
   virtual std::optional<DiscreteStateSpace> linear(double shaft_speed) const = 0;
+  /// From where linear() counts what is measured: there, and with no past, its outputs are 0.
+  /// Empty: from 0.
+  virtual std::vector<double> setpoint() const { return {}; }
 };
 
 }  // namespace whirl_twin

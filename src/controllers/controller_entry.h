@@ -10,6 +10,7 @@
 //     void update(const ControlSample& sample, double* outputs) noexcept;
 //     void takeOver(const MyLaw& before) noexcept;                     // optional
 //     DiscreteStateSpace linear(double shaft_speed) const;             // optional
+//     std::vector<double> setpoint() const;                            // optional
 //   };
 //
 // prepare() is called once, with its parameters set and before all else: it makes room, and throws
@@ -21,6 +22,7 @@
 #include <optional>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "controllers/controller_info.h"
 #include "integration/finite.h"
@@ -42,6 +44,11 @@ template <class Law, class = void>
 struct HasLinear : std::false_type {};
 template <class Law>
 struct HasLinear<Law, std::void_t<decltype(&Law::linear)>> : std::true_type {};
+
+template <class Law, class = void>
+struct HasSetpoint : std::false_type {};
+template <class Law>
+struct HasSetpoint<Law, std::void_t<decltype(&Law::setpoint)>> : std::true_type {};
 
 /// A law that is a struct, as a controller.
 template <class Law>
@@ -77,6 +84,13 @@ class LawController final : public Controller {
       return law_.linear(shaft_speed);
     } else {
       return std::nullopt;
+    }
+  }
+  std::vector<double> setpoint() const override {
+    if constexpr (HasSetpoint<Law>::value) {
+      return law_.setpoint();
+    } else {
+      return {};
     }
   }
 

@@ -58,6 +58,10 @@ class Lqg final : public Controller {
     }
   }
 
+  std::vector<double> setpoint() const override {
+    return {setpoint_.data(), setpoint_.data() + setpoint_.size()};
+  }
+
   std::optional<DiscreteStateSpace> linear(double) const override {
     const Index n = gains_.a.rows();
     const MatrixXd closed = gains_.a - gains_.b * gains_.feedback;

@@ -67,6 +67,8 @@ class NotchedController final : public Controller {
     controller_->update(shown, outputs);
   }
 
+  std::vector<double> setpoint() const override { return controller_->setpoint(); }
+
   /// States: of each pair or probe real and imaginary part of c e^(j theta), then the controller's.
   std::optional<DiscreteStateSpace> linear(double speed) const override {
     const std::optional<DiscreteStateSpace> law = controller_->linear(speed);

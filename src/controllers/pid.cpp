@@ -94,6 +94,10 @@ class Pid final : public Controller {
     }
   }
 
+  std::vector<double> setpoint() const override {
+    return std::vector<double>(axes_.size(), setpoint_);
+  }
+
   /// States, of each axis: I, then what is known of the next D before its sample.
   std::optional<DiscreteStateSpace> linear(double shaft_speed) const override {
     const Gains g = gainsAt(shaft_speed);

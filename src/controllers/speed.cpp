@@ -108,6 +108,12 @@ class SpeedControl final : public Controller {
 
   state::Supervision supervision() const noexcept override { return supervisor_.state(); }
 
+  /// Without an integral what is fed forward for the drag counts as set-point.
+  std::vector<double> setpoint() const override {
+    const bool counts = ki_ == 0.0 && kp_ > 0.0;
+    return {wanted_ * (counts ? 1.0 + limits_.motor.drag / kp_ : 1.0)};
+  }
+
   /// Where the motor can give what is asked, about a set-point that stays.
   std::optional<DiscreteStateSpace> linear(double) const override {
     const Eigen::Index states = ki_ == 0.0 ? 0 : 1;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "controllers/controller.h"
 
@@ -20,6 +21,9 @@ class StateSpaceController final : public Controller {
   /// The state of one with as many.
   void takeOver(const Controller& before) noexcept override;
   std::optional<DiscreteStateSpace> linear(double) const override { return law_; }
+  std::vector<double> setpoint() const override {
+    return {setpoint_.data(), setpoint_.data() + setpoint_.size()};
+  }
 
  private:
   DiscreteStateSpace law_;

@@ -28,13 +28,19 @@ struct LocalPush {
   double size = 0.0;              ///< [N], of what it is the difference of: that is what rounds
 };
 
+/// How F(x, y, u) changes.
+struct LocalSlopes {
+  Eigen::Matrix2d stiffness;  ///< -dF/d(x, y) [N/m]
+  Eigen::Matrix2d by_input;   ///< dF/du
+};
+
 class LocalLaw {
  public:
   virtual ~LocalLaw() = default;
   /// Real-time safe. False, with `out` as it was, where there is no such place for a rotor.
   virtual bool push(const LocalState& at, LocalPush& out) const noexcept = 0;
-  /// -dF/d(x, y) [N/m] at a place [m], without inputs.
-  virtual Eigen::Matrix2d stiffness(const Eigen::Vector2d& place) const = 0;
+  /// At a place and inputs. Rates do not matter.
+  virtual LocalSlopes slopes(const LocalState& at) const = 0;
   /// [m], how far a place is from where there is none.
   virtual double room(const Eigen::Vector2d& place) const = 0;
 };

@@ -14,6 +14,12 @@ Eigen::Vector2d placeOf(const LocalForce& force, const Eigen::VectorXd& q) {
   return {force.along_x.dot(q), force.along_y.dot(q)};
 }
 
+LocalState stateOf(const LocalForce& force, const Eigen::VectorXd& q) {
+  LocalState at;
+  at.place = {force.along_x.dot(q), force.along_y.dot(q)};
+  return at;
+}
+
 }  // namespace
 
 LocallyForcedRotor::LocallyForcedRotor(std::shared_ptr<const Dynamics> linear,
@@ -39,11 +45,8 @@ double LocallyForcedRotor::naturalLength() const {
 Eigen::VectorXd LocallyForcedRotor::localForce(const Eigen::VectorXd& q) const {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(q.size());
   for (const LocalForce& force : forces_) {
-    const Eigen::Vector2d place = placeOf(force, q);
-    LocalState at;
-    at.place = {place.x(), place.y()};
     LocalPush push;
-    if (!force.law->push(at, push)) {
+    if (!force.law->push(stateOf(force, q), push)) {
       push.force.fill(std::numeric_limits<double>::quiet_NaN());
     }
     sum += push.force[0] * force.along_x + push.force[1] * force.along_y;
@@ -81,7 +84,8 @@ Linearization LocallyForcedRotor::linearization(const Eigen::VectorXd& q, const 
   for (const LocalForce& force : forces_) {
     Eigen::MatrixXd along(q.size(), 2);
     along << force.along_x, force.along_y;
-    const Eigen::MatrixXd k = along * force.law->stiffness(placeOf(force, q)) * along.transpose();
+    const Eigen::MatrixXd k =
+        along * force.law->slopes(stateOf(force, q)).stiffness * along.transpose();
     l.stiffness += 0.5 * (k + k.transpose());
     l.circulatory += 0.5 * (k - k.transpose());
   }

@@ -23,6 +23,7 @@ class LocallyForcedRotor final : public Dynamics {
   std::vector<CoordinateInfo> coordinates() const override { return linear_->coordinates(); }
   std::vector<InputInfo> inputs() const override { return linear_->inputs(); }
   bool linear() const override { return false; }
+  const std::vector<LocalForce>& forces() const { return forces_; }
   bool hasShaft() const override { return linear_->hasShaft(); }
   bool isRotor() const override { return linear_->isRotor(); }
   bool speedDependent() const override { return linear_->speedDependent(); }

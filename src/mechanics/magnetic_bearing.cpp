@@ -39,9 +39,11 @@ bool MagneticBearing::push(const LocalState& at, LocalPush& out) const noexcept 
   return true;
 }
 
-Eigen::Matrix2d MagneticBearing::stiffness(const Eigen::Vector2d& place) const {
-  return Eigen::Vector2d(ks() - axis(0.0, place.x()).by_place, ks() - axis(0.0, place.y()).by_place)
-      .asDiagonal();
+LocalSlopes MagneticBearing::slopes(const LocalState& at) const {
+  const Force x = axis(at.input[0], at.place[0]);
+  const Force y = axis(at.input[1], at.place[1]);
+  return {Eigen::Vector2d(ks() - x.by_place, ks() - y.by_place).asDiagonal(),
+          Eigen::Vector2d(x.by_current - ki_, y.by_current - ki_).asDiagonal()};
 }
 
 double MagneticBearing::room(const Eigen::Vector2d& place) const {

@@ -35,7 +35,7 @@ class MagneticBearing final : public LocalLaw {
   /// f less its linear part.
   bool push(const LocalState& at, LocalPush& out) const noexcept override;
 
-  Eigen::Matrix2d stiffness(const Eigen::Vector2d& place) const override;
+  LocalSlopes slopes(const LocalState& at) const override;
   double room(const Eigen::Vector2d& place) const override;
 
  private:

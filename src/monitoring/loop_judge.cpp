@@ -5,7 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "analysis/equilibria.h"
 #include "analysis/sampled_margins.h"
 #include "messages/refusal.h"
 
@@ -67,11 +66,10 @@ state::ControllerMargins unknown(const ControllerSpec& controller) {
 LoopJudge::LoopJudge(SharedSystem system, std::shared_ptr<const ClosedLoop> loop)
     : system_(std::move(system)), loop_(std::move(loop)) {}
 
-Stability LoopJudge::judge(double time, const Eigen::VectorXd& present, double speed,
-                           Eigen::VectorXd& about) {
+Stability LoopJudge::judge(double time, const SystemMotion& present, Eigen::VectorXd& about) {
   parts_.reset();
   try {
-    return judgeOrSayWhy(time, present, speed, about);
+    return judgeOrSayWhy(time, present, about);
   } catch (const std::exception& failure) {
     found_.reset();
     margins_.clear();
@@ -83,26 +81,29 @@ Stability LoopJudge::judge(double time, const Eigen::VectorXd& present, double s
   }
 }
 
-Stability LoopJudge::judgeOrSayWhy(double time, const Eigen::VectorXd& present, double speed,
+Stability LoopJudge::judgeOrSayWhy(double time, const SystemMotion& present,
                                    Eigen::VectorXd& about) {
   if (loop_->systems().size() > 1) {
     throw RunFailure("its loop goes through other systems, whose state is not known here");
   }
   const Dynamics& dynamics = *system_->dynamics;
-  if (dynamics.linear()) {
-    about.setZero();
-  } else {
-    about = equilibriumNear(dynamics, present, speed).value_or(present);
-  }
-  auto parts =
-      loop_->parts([&](std::size_t) { return linearizationAtRest(dynamics, about, speed); }, speed);
+  const double speed = present.speed;
+  auto parts = loop_->parts([&](std::size_t) { return present; }, speed);
   if (!parts) {
     throw RunFailure("a law of the loop is not linear");
   }
+  const HeldMotion& held = parts->about.begin()->second;
+  if (dynamics.linear()) {
+    about.setZero();
+  } else {
+    about = held.q;
+  }
+  Eigen::VectorXd motion(2 * held.q.size());
+  motion << about, held.v;
   const SampledLoop sampled = sampledLoop(parts->plant, parts->controllers);
   const SampledStability loop = sampledStability(sampled);
   parts_ = std::move(parts);
-  last_ = {time, speed, about, loop.verdict};
+  last_ = {time, speed, motion, loop.verdict};
   if (!found_ || found_->verdict != loop.verdict) {
     found_.reset();
     margins_.clear();

@@ -1,8 +1,8 @@
 // Judges the loop that controllers close around a system, as they sample it
-// (analysis/sampled_stability.h): about the equilibrium nearest to where the system is, stable by
-// itself or not. Margins take up to a hundred times as long as the verdict: they are found apart,
-// and anew where the verdict changes, and at most once a second of simulated time where the speed
-// has changed by a hundredth or the equilibrium has moved.
+// (analysis/sampled_stability.h): about the motion that they hold it in (scene/held_motion.h).
+// Margins take up to a hundred times as long as the verdict: they are found apart, and anew where
+// the verdict changes, and at most once a second of simulated time where the speed has changed by a
+// hundredth or the motion has moved.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,11 +23,10 @@ class LoopJudge {
  public:
   LoopJudge(SharedSystem system, std::shared_ptr<const ClosedLoop> loop);
 
-  /// With the system at `present` and its shaft at a speed [rad/s], at a simulated time [s];
-  /// `about`: the equilibrium judged. Roots inside the unit circle are `left`. Throws RunFailure
-  /// where the loop cannot be judged, and what else linearizing throws.
-  Stability judge(double time, const Eigen::VectorXd& present, double speed,
-                  Eigen::VectorXd& about);
+  /// With the system at `present`, at a simulated time [s]; `about`: the place judged. Roots inside
+  /// the unit circle are `left`. Throws RunFailure where the loop cannot be judged, and what else
+  /// linearizing throws.
+  Stability judge(double time, const SystemMotion& present, Eigen::VectorXd& about);
   /// The margins are not those of what was judged last.
   bool lacksMargins() const;
   void findMargins();
@@ -38,14 +37,13 @@ class LoopJudge {
  private:
   /// What was judged.
   struct Case {
-    double time = 0.0;   ///< [s], simulated
-    double speed = 0.0;  ///< [rad/s]
-    Eigen::VectorXd about;
+    double time = 0.0;      ///< [s], simulated
+    double speed = 0.0;     ///< [rad/s]
+    Eigen::VectorXd about;  ///< places, then rates
     Verdict verdict = Verdict::kUncertain;
   };
 
-  Stability judgeOrSayWhy(double time, const Eigen::VectorXd& present, double speed,
-                          Eigen::VectorXd& about);
+  Stability judgeOrSayWhy(double time, const SystemMotion& present, Eigen::VectorXd& about);
 
   SharedSystem system_;
   std::shared_ptr<const ClosedLoop> loop_;

@@ -121,7 +121,7 @@ state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::v
   motion_.reset();
   lacks_thresholds_ = false;
   try {
-    s = loop_ ? loop_->judge(at.time, present, shaft_speed, about)
+    s = loop_ ? loop_->judge(at.time, {&dynamics, present, rates, shaft_speed}, about)
               : openStability(at, present, rates, shaft_speed, about);
   } catch (const std::exception&) {
     // Numbers beyond the range of double, or a singular mass: uncertain. The others are watched on.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "messages/refusal.h"
@@ -13,7 +14,19 @@ namespace whirl_twin {
 
 namespace {
 
+constexpr double kNothing = 1e-12;                  // of a place or an output, in its unit
 constexpr double kDegrees = 57.295779513082320877;  // in a radian
+
+/// What a controller measures in steady motions.
+std::vector<double> measuredIn(const ControllerSpec& controller, const HeldMotions& motions) {
+  std::vector<double> values;
+  for (const SignalSpec& signal : controller.measures) {
+    const HeldMotion& motion = motions.at(signal.system);
+    const SignalRow row = rowOf(signal, *motion.dynamics);
+    values.push_back(row.along.dot(row.of_rates ? motion.v : motion.q));
+  }
+  return values;
+}
 
 /// The controllers of a loop, in its order.
 std::vector<LoopedController> judged(const Scene& scene, const ClosedLoop& loop,
@@ -24,19 +37,21 @@ std::vector<LoopedController> judged(const Scene& scene, const ClosedLoop& loop,
   }
   all.shaft_speed = speed.value_or(
       startSpeedOf(scene, scene.controllers[loop.controllers().front()].measures.front().system));
-  const auto parts =
-      loop.parts([&](std::size_t system) { return smallMotionAtStart(scene, system, speed); },
-                 all.shaft_speed);
-  if (!parts) {
-    all.objection = "a law of the loop is not linear";
-    return {loop.controllers().size(), all};
-  }
   try {
+    const auto parts = loop.parts(
+        [&](std::size_t system) { return motionAtStart(scene, system, speed); }, all.shaft_speed);
+    if (!parts) {
+      throw RunFailure("a law of the loop is not linear");
+    }
     const SampledLoop sampled = sampledLoop(parts->plant, parts->controllers);
     all.stability = sampledStability(sampled);
     all.period = sampled.period;
     std::vector<LoopedController> controllers(parts->controllers.size(), all);
     for (std::size_t i = 0; i < controllers.size(); ++i) {
+      if (!parts->outputs.empty()) {
+        controllers[i].held_measured = measuredIn(loop.controller(i), parts->about);
+        controllers[i].held_outputs = {parts->outputs[i].begin(), parts->outputs[i].end()};
+      }
       controllers[i].margins =
           sampledMargins(parts->plant, parts->controllers, i, all.stability->verdict);
       controllers[i].responses = sampledResponses(parts->plant, parts->controllers, i);
@@ -59,6 +74,34 @@ Json marginsJson(const LoopMargins& margins) {
           {"delay_margin", margins.delay_margin}};
 }
 
+Json byName(const std::vector<std::string>& names, const std::vector<double>& values) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    json[names[i]] = values[i];
+  }
+  return json;
+}
+
+/// "arm.theta 1.5, arm.torque 9.785"; what is 0 to the last digits is 0.
+std::string heldText(const LoopedController& controller) {
+  std::vector<std::string> parts;
+  const auto put = [&](const std::vector<std::string>& names, const std::vector<double>& values) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      parts.push_back(
+          fmt::format("{} {:.4g}", names[i], std::fabs(values[i]) < kNothing ? 0.0 : values[i]));
+    }
+  };
+  put(controller.spec->measured, controller.held_measured);
+  put(controller.spec->acted_on, controller.held_outputs);
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+bool holdsSomething(const LoopedController& controller) {
+  const auto something = [](double value) { return std::fabs(value) >= kNothing; };
+  return std::any_of(controller.held_measured.begin(), controller.held_measured.end(), something) ||
+         std::any_of(controller.held_outputs.begin(), controller.held_outputs.end(), something);
+}
+
 Json controllerJson(const LoopedController& controller) {
   Json json{{"type", controller.spec->type},
             {"rate", controller.spec->rate},
@@ -75,6 +118,10 @@ Json controllerJson(const LoopedController& controller) {
   json["exact"] = stability.exact;
   json["spectral_radius"] = stability.spectral_radius;
   json["period"] = controller.period;
+  if (!controller.held_measured.empty()) {
+    json["held"] = {{"measured", byName(controller.spec->measured, controller.held_measured)},
+                    {"outputs", byName(controller.spec->acted_on, controller.held_outputs)}};
+  }
   json["inside"] = stability.routh.left;
   json["on_circle"] = stability.routh.imaginary;
   json["outside"] = stability.routh.right;
@@ -110,6 +157,9 @@ std::string controllerText(const LoopedController& controller) {
   const SampledStability& stability = *controller.stability;
   out += fmt::format("  closed loop      {}{}\n", verdictText(stability.verdict),
                      stability.exact ? " (Routh, exact)" : " (by eigenvalues)");
+  if (holdsSomething(controller)) {
+    out += fmt::format("  holds            {}\n", heldText(controller));
+  }
   out += fmt::format("  spectral radius  {:.9g} in {:g} s{}\n", stability.spectral_radius,
                      controller.period,
                      controller.loop.size() > 1 ? ", after which all samples come again"

@@ -19,6 +19,9 @@ struct LoopedController {
   const ControllerSpec* spec = nullptr;
   std::vector<std::string> loop;  ///< all controllers of its loop, itself among them
   double shaft_speed = 0.0;       ///< [rad/s], that it is judged at
+  /// What it measures and gives where the loop holds its systems, which is where it is judged.
+  /// Empty: it holds nothing, and is judged about the equilibria nearest to where they start.
+  std::vector<double> held_measured, held_outputs;
   /// Nothing where a law of the loop is not linear.
   std::optional<SampledStability> stability;
   double period = 0.0;  ///< [s], that the spectral radius is of: of a sample, or, of several
@@ -34,8 +37,8 @@ struct LoopReport {
   std::vector<LoopedController> controllers;  ///< in the order of the scene
 };
 
-/// About the equilibria nearest to where the systems start, at their shafts' speeds there or at
-/// `speed` [rad/s].
+/// About the motions that the loops hold their systems in (scene/held_motion.h), found from where
+/// these start, at their shafts' speeds there or at `speed` [rad/s].
 LoopReport loopReport(const Scene& scene, std::optional<double> speed = std::nullopt);
 
 Json json(const LoopReport& report);

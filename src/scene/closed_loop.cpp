@@ -1,6 +1,9 @@
 #include "scene/closed_loop.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -32,6 +35,22 @@ LoopPlant withoutCyclic(const LinearPlant& plant) {
     }
   }
   return {plant.a(kept, kept), plant.b(kept, Eigen::all), plant.c(Eigen::all, kept)};
+}
+
+/// What holds is within what the actuator gives.
+void checkLimit(const ControllerSpec& controller, const Eigen::VectorXd& outputs,
+                const HeldMotions& held) {
+  const double limit = controller.actuator.limit;
+  for (std::size_t i = 0; limit > 0.0 && i < controller.acts_on.size(); ++i) {
+    const double output = outputs[static_cast<Eigen::Index>(i)];
+    if (std::fabs(output) > limit) {
+      const ActedInput& acted = controller.acts_on[i];
+      const std::string unit = held.at(acted.system).dynamics->inputs()[acted.input].unit;
+      throw RunFailure(fmt::format(
+          "where it is to be held, {} would have to be {:.4g} {}: the actuator of {} gives {:g}",
+          controller.acted_on[i], output, unit, controller.name, limit));
+    }
+  }
 }
 
 }  // namespace
@@ -86,10 +105,11 @@ std::optional<ClosedLoop> ClosedLoop::with(const state::ParameterChange& set) co
   return std::nullopt;
 }
 
-std::optional<ClosedLoop::Parts> ClosedLoop::parts(const SmallMotions& small_motions,
+std::optional<ClosedLoop::Parts> ClosedLoop::parts(const SystemMotions& present,
                                                    double shaft_speed) const {
   std::vector<SignalSpec> measures;
   std::vector<ActedInput> acts_on;
+  std::vector<HoldingLaw> holding;
   Parts parts;
   for (std::size_t i = 0; i < controllers_.size(); ++i) {
     const ControllerSpec& spec = scene_.controllers[controllers_[i]];
@@ -113,8 +133,20 @@ std::optional<ClosedLoop::Parts> ClosedLoop::parts(const SmallMotions& small_mot
       acts_on.push_back(acted);
     }
     parts.controllers.push_back(std::move(controller));
+    holding.push_back({&spec, *law, laws_[i]->setpoint()});
   }
-  parts.plant = withoutCyclic(linearPlant(scene_, measures, acts_on, small_motions));
+  if (std::optional<Held> held = heldMotions(holding, present)) {
+    for (std::size_t i = 0; i < holding.size(); ++i) {
+      checkLimit(*holding[i].controller, held->outputs[i], held->motions);
+    }
+    parts.about = std::move(held->motions);
+    parts.outputs = std::move(held->outputs);
+  } else {
+    for (const std::size_t i : systems()) {
+      parts.about[i] = restNear(present(i));
+    }
+  }
+  parts.plant = withoutCyclic(linearPlant(measures, acts_on, parts.about));
   return parts;
 }
 

@@ -1,11 +1,10 @@
 #include "scene/controlled_plant.h"
 
 #include <cmath>
-#include <map>
-#include <set>
 
 #include "algebra/lu.h"
 #include "analysis/equilibria.h"
+#include "mechanics/held_inputs.h"
 #include "scene/system_setup.h"
 
 namespace whirl_twin {
@@ -24,16 +23,20 @@ double startSpeedOf(const Scene& scene, std::size_t system) {
   return drive < scene.drives.size() ? scene.drives[drive].speed : spec.speed.value_or(0.0);
 }
 
-Linearization smallMotionAtStart(const Scene& scene, std::size_t system,
-                                 std::optional<double> speed) {
+SystemMotion motionAtStart(const Scene& scene, std::size_t system, std::optional<double> speed) {
   const SystemSpec& spec = scene.systems[system];
-  const Dynamics& dynamics = *spec.setup->made.dynamics;
-  const double at = speed.value_or(startSpeedOf(scene, system));
-  const VectorXd start =
-      Eigen::Map<const VectorXd>(spec.q.data(), static_cast<Index>(spec.q.size()));
+  const auto n = static_cast<Index>(spec.q.size());
+  return {spec.setup->made.dynamics.get(), Eigen::Map<const VectorXd>(spec.q.data(), n),
+          Eigen::Map<const VectorXd>(spec.v.data(), n),
+          speed.value_or(startSpeedOf(scene, system))};
+}
+
+HeldMotion restNear(const SystemMotion& present) {
+  const Dynamics& dynamics = *present.dynamics;
   const std::optional<VectorXd> rest =
-      dynamics.linear() ? std::nullopt : equilibriumNear(dynamics, start, at);
-  return linearizationAtRest(dynamics, rest.value_or(start), at);
+      dynamics.linear() ? std::nullopt : equilibriumNear(dynamics, present.q, present.speed);
+  return {&dynamics, rest.value_or(present.q), VectorXd::Zero(present.q.size()), present.speed,
+          VectorXd::Zero(static_cast<Index>(dynamics.inputs().size()))};
 }
 
 SignalRow rowOf(const SignalSpec& signal, const Dynamics& dynamics) {
@@ -48,48 +51,40 @@ SignalRow rowOf(const SignalSpec& signal, const Dynamics& dynamics) {
           false};
 }
 
-LinearPlant linearPlant(const Scene& scene, const std::vector<SignalSpec>& measures,
-                        const std::vector<ActedInput>& acts_on, const SmallMotions& small_motions) {
-  std::set<std::size_t> systems;
-  for (const SignalSpec& signal : measures) {
-    systems.insert(signal.system);
-  }
-  for (const ActedInput& input : acts_on) {
-    systems.insert(input.system);
-  }
-  std::map<std::size_t, Index> start;  // of each system's states
+LinearPlant linearPlant(const std::vector<SignalSpec>& measures,
+                        const std::vector<ActedInput>& acts_on, const HeldMotions& about) {
   Index size = 0;
-  for (const std::size_t i : systems) {
-    start[i] = size;
-    size += 2 * static_cast<Index>(scene.systems[i].q.size());
+  for (const auto& [system, motion] : about) {
+    size += 2 * motion.q.size();
   }
   LinearPlant plant{MatrixXd::Zero(size, size),
                     MatrixXd::Zero(size, static_cast<Index>(acts_on.size())),
                     MatrixXd::Zero(static_cast<Index>(measures.size()), size)};
-  for (const std::size_t i : systems) {
-    const SystemSpec& system = scene.systems[i];
-    const Dynamics& dynamics = *system.setup->made.dynamics;
+  Index q = 0;  // of a system's states the first
+  for (const auto& [system, motion] : about) {
+    const Dynamics& dynamics = *motion.dynamics;
     const Index n = dynamics.dof();
-    const Index q = start[i];
     const Index v = q + n;
-    const Linearization matrices = small_motions(i);
+    const Linearization matrices = linearizationAbout(dynamics, motion.q, motion.v, motion.speed);
+    const HeldInputs inputs = heldInputs(dynamics, motion.q, motion.inputs);
     const Eigen::PartialPivLU<MatrixXd> mass(matrices.mass);
     plant.a.block(q, v, n, n).setIdentity();
-    plant.a.block(v, q, n, n) = -mass.solve(matrices.stiffness + matrices.circulatory);
+    plant.a.block(v, q, n, n) =
+        -mass.solve(matrices.stiffness + matrices.circulatory + inputs.stiffness);
     plant.a.block(v, v, n, n) = -mass.solve(matrices.damping + matrices.gyroscopic);
-    const std::vector<InputInfo> inputs = dynamics.inputs();
     for (std::size_t k = 0; k < acts_on.size(); ++k) {
-      if (acts_on[k].system == i) {
+      if (acts_on[k].system == system) {
         plant.b.block(v, static_cast<Index>(k), n, 1) =
-            mass.solve(inputs[acts_on[k].input].direction);
+            mass.solve(inputs.by_input.col(static_cast<Index>(acts_on[k].input)));
       }
     }
     for (std::size_t k = 0; k < measures.size(); ++k) {
-      if (measures[k].system == i) {
+      if (measures[k].system == system) {
         const SignalRow row = rowOf(measures[k], dynamics);
         plant.c.block(static_cast<Index>(k), row.of_rates ? v : q, 1, n) = row.along.transpose();
       }
     }
+    q += 2 * n;
   }
   return plant;
 }

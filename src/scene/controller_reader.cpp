@@ -10,6 +10,7 @@
 #include "controllers/controller_registry.h"
 #include "messages/names.h"
 #include "scene/avoidance_reader.h"
+#include "scene/control_parts.h"
 #include "scene/controlled_plant.h"
 #include "scene/parameter_reader.h"
 #include "scene/signal_names.h"
@@ -324,9 +325,13 @@ ControllerPlan planOf(const Scene& scene, const ControllerSpec& controller) {
   plan.limits.assign(plan.outputs, controller.actuator.limit > 0.0
                                        ? controller.actuator.limit
                                        : std::numeric_limits<double>::infinity());
-  const LinearPlant plant =
-      linearPlant(scene, controller.measures, controller.acts_on,
-                  [&](std::size_t system) { return smallMotionAtStart(scene, system); });
+  HeldMotions rests;
+  for (std::size_t i = 0; i < scene.systems.size(); ++i) {
+    if (involves(controller, i)) {
+      rests[i] = restNear(motionAtStart(scene, i));
+    }
+  }
+  const LinearPlant plant = linearPlant(controller.measures, controller.acts_on, rests);
   if (plant.a.allFinite() && plant.b.allFinite()) {
     plan.plant = plant;
   }

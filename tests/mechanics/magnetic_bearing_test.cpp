@@ -66,6 +66,36 @@ TEST(MagneticBearing, PullsAsItsTwoPoles) {
   EXPECT_NEAR(magnet.axis(-3.0, 1.0e-4).force, -pole(5.0, 5.0e-4), 1e-9);
 }
 
+TEST(MagneticBearing, TellsTheSlopesOfWhatItPushesWith) {
+  const MagneticBearing magnet(kKi, kBias, kGap, kFull);
+  constexpr double kPart = 1.0e-6;
+  for (const double current : {-2.6, -0.4, 0.0, 0.8}) {  // beyond the bias, and saturated, too
+    for (const double place : {-2.0e-4, 0.0, 1.0e-4}) {
+      const LocalState at{{place, -0.5 * place}, {}, {current, 0.3 * current}, {}};
+      const LocalSlopes slopes = magnet.slopes(at);
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        LocalState more = at, less = at;
+        LocalPush up, down;
+        more.place[axis] += kPart * kGap;
+        less.place[axis] -= kPart * kGap;
+        ASSERT_TRUE(magnet.push(more, up) && magnet.push(less, down));
+        for (std::size_t i = 0; i < 2; ++i) {
+          EXPECT_NEAR(slopes.stiffness(static_cast<int>(i), static_cast<int>(axis)),
+                      -(up.force[i] - down.force[i]) / (2.0 * kPart * kGap), 1e-5 * magnet.ks());
+        }
+        more = less = at;
+        more.input[axis] += kPart;
+        less.input[axis] -= kPart;
+        ASSERT_TRUE(magnet.push(more, up) && magnet.push(less, down));
+        for (std::size_t i = 0; i < 2; ++i) {
+          EXPECT_NEAR(slopes.by_input(static_cast<int>(i), static_cast<int>(axis)),
+                      (up.force[i] - down.force[i]) / (2.0 * kPart), 1e-5 * kKi);
+        }
+      }
+    }
+  }
+}
+
 TEST(MagneticBearing, PullsNoMoreThanItsIronCarries) {
   const MagneticBearing magnet(kKi, kBias, kGap, kFull);
   EXPECT_EQ(magnet.axis(2.5, 0.0).force, kFull);

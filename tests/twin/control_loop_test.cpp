@@ -238,7 +238,7 @@ TEST(SampledLoop, BehindALagGoesAsThePowersOfItsMatrix) {
         "[[{:.17g}]], d: [[{:.17g}]]}}}}}}}}",
         l.stiffness, 1.0 / period, l.bandwidth, l.kd / period, -l.kp - l.kd / period));
     const ClosedLoop::Parts parts = *closedLoops(scene).front().parts(
-        [&](std::size_t system) { return smallMotionAtStart(scene, system); }, 0.0);
+        [&](std::size_t system) { return motionAtStart(scene, system); }, 0.0);
     const Eigen::MatrixXd sample = sampledLoop(parts.plant, parts.controllers).transition;
     ASSERT_EQ(sample.rows(), 5);  // x and its rate, the lag, the law's state, an output on its way
     Eigen::VectorXd state = 1.0e-3 * Eigen::VectorXd::Unit(5, 0);

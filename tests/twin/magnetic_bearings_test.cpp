@@ -167,7 +167,7 @@ TEST(MagneticBearings, StepWithoutAllocations) {
 
 SampledLoop loopOf(const Scene& scene) {
   const ClosedLoop::Parts parts = *closedLoops(scene).front().parts(
-      [&](std::size_t system) { return smallMotionAtStart(scene, system); }, 100.0);
+      [&](std::size_t system) { return motionAtStart(scene, system); }, 100.0);
   return sampledLoop(parts.plant, parts.controllers);
 }
 
@@ -290,7 +290,7 @@ TEST(MagneticBearings, HoldATiltingRotorUpToASpeedAndWithCrossCouplingBeyond) {
   const auto radius = [](double speed, double late, double cross) {
     const Scene scene = sceneOf(tilting(speed, late, cross));
     const ClosedLoop::Parts parts = *closedLoops(scene).front().parts(
-        [&](std::size_t system) { return smallMotionAtStart(scene, system); }, speed);
+        [&](std::size_t system) { return motionAtStart(scene, system); }, speed);
     const Eigen::EigenSolver<Eigen::MatrixXd> solver(
         sampledLoop(parts.plant, parts.controllers).transition, false);
     return solver.eigenvalues().cwiseAbs().maxCoeff();

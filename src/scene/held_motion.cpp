@@ -1,0 +1,321 @@
+#include "scene/held_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "algebra/qr.h"
+#include "analysis/cyclic_coordinates.h"
+#include "analysis/mass_matrix.h"
+#include "mechanics/held_inputs.h"
+#include "scene/controlled_plant.h"
+
+namespace whirl_twin {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kMostIterations = 100;
+constexpr double kLongestStep = 0.5;  // units
+constexpr double kThere = 1.0e-10;    // of what it is
+constexpr double kBalanced = 1.0e-9;  // of the terms that balance
+
+/// A system, with one unknown for each coordinate: its place, or, where that does not matter, its
+/// rate.
+struct Part {
+  std::size_t system;
+  const Dynamics* dynamics;
+  Index at;  // of its unknowns
+  VectorXd q, v;
+  double speed;
+  VectorXd unit;              // of each unknown
+  std::vector<bool> by_rate;  // the unknown is a rate
+};
+
+Index outputsOf(const HoldingLaw& law) {
+  return law.law.d.rows();
+}
+
+/// Coordinates that laws measure the place of.
+std::set<Index> placesMeasured(const std::vector<HoldingLaw>& laws, std::size_t system,
+                               const Dynamics& dynamics) {
+  std::set<Index> places;
+  for (const HoldingLaw& law : laws) {
+    for (const SignalSpec& signal : law.controller->measures) {
+      const SignalRow row = rowOf(signal, dynamics);
+      for (Index i = 0; signal.system == system && !row.of_rates && i < row.along.size(); ++i) {
+        if (row.along[i] != 0.0) {
+          places.insert(i);
+        }
+      }
+    }
+  }
+  return places;
+}
+
+Part partOf(const std::vector<HoldingLaw>& laws, std::size_t system, const SystemMotion& motion,
+            Index at) {
+  const Dynamics& dynamics = *motion.dynamics;
+  Part part{system,
+            &dynamics,
+            at,
+            motion.q,
+            VectorXd::Zero(motion.q.size()),
+            motion.speed,
+            naturalUnits(dynamics),
+            std::vector<bool>(static_cast<std::size_t>(motion.q.size()))};
+  if (dynamics.linear()) {
+    part.q.setZero();
+    return part;
+  }
+  const CyclicCoordinates cyclic = cyclicCoordinates(dynamics, motion.speed);
+  const std::set<Index> places = placesMeasured(laws, system, dynamics);
+  for (const auto* list : {&cyclic.conserved, &cyclic.driven}) {
+    for (const Index i : *list) {
+      if (places.count(i) == 0) {
+        part.by_rate[static_cast<std::size_t>(i)] = true;
+        part.v[i] = motion.v[i];
+        part.unit[i] *= std::max(1.0, std::fabs(motion.v[i]));
+      }
+    }
+  }
+  return part;
+}
+
+class Balance {
+ public:
+  Balance(const std::vector<HoldingLaw>& laws, const SystemMotions& present) : laws_(laws) {
+    std::set<std::size_t> systems;
+    for (const HoldingLaw& law : laws) {
+      for (const SignalSpec& signal : law.controller->measures) {
+        systems.insert(signal.system);
+      }
+      for (const ActedInput& acted : law.controller->acts_on) {
+        systems.insert(acted.system);
+      }
+    }
+    for (const std::size_t system : systems) {
+      parts_.push_back(partOf(laws, system, present(system), size_));
+      size_ += parts_.back().q.size();
+    }
+    mechanical_ = size_;
+    for (const HoldingLaw& law : laws) {
+      size_ += law.law.states() + outputsOf(law);
+    }
+    by_laws_ = VectorXd::Zero(size_ - mechanical_);
+    linearize();
+  }
+
+  /// A step of Newton's method. False: there is none.
+  bool step() {
+    if (!slope_.allFinite() || !left_.allFinite()) {
+      return false;
+    }
+    // Unknowns in units, those of laws by what they do; then rows by their largest term.
+    VectorXd columns(size_);
+    for (const Part& part : parts_) {
+      columns.segment(part.at, part.unit.size()) = part.unit;
+    }
+    columns.tail(size_ - mechanical_).setOnes();
+    MatrixXd scaled = slope_ * columns.asDiagonal();
+    VectorXd rows = largest(scaled.leftCols(mechanical_).transpose());
+    for (Index i = mechanical_; i < size_; ++i) {
+      columns[i] = largest(rows.asDiagonal() * slope_.col(i))[0];
+    }
+    scaled = slope_ * columns.asDiagonal();
+    rows = largest(scaled.transpose());
+    const Eigen::ColPivHouseholderQR<MatrixXd> qr(rows.asDiagonal() * scaled);
+    const VectorXd by = qr.solve(-rows.cwiseProduct(left_));
+    if (!by.allFinite()) {
+      return false;
+    }
+    double longest = 0.0;  // in units
+    last_moved_ = 0.0;
+    for (const Part& part : parts_) {
+      const auto own = by.segment(part.at, part.unit.size()).cwiseAbs();
+      longest = std::max(longest, part.dynamics->linear() ? 0.0 : own.maxCoeff());
+      last_moved_ = std::max(last_moved_,
+                             own.cwiseProduct(part.unit).cwiseQuotient(sizesOf(part)).maxCoeff());
+    }
+    move((std::min(1.0, kLongestStep / longest) * by).cwiseProduct(columns));
+    linearize();
+    return true;
+  }
+
+  bool isThere() const {
+    if (last_moved_ > kThere) {
+      return false;
+    }
+    VectorXd sizes(size_);
+    for (const Part& part : parts_) {
+      sizes.segment(part.at, part.unit.size()) = sizesOf(part);
+    }
+    sizes.tail(size_ - mechanical_) = by_laws_.cwiseAbs();
+    const VectorXd terms = slope_.cwiseAbs() * sizes;
+    return (left_.cwiseAbs().array() <= kBalanced * terms.array()).all();
+  }
+
+  Held held() const {
+    Held held;
+    for (const Part& part : parts_) {
+      held.motions[part.system] = {part.dynamics, part.q, part.v, part.speed, inputsOf(part)};
+    }
+    Index at = 0;
+    for (const HoldingLaw& law : laws_) {
+      held.outputs.push_back(by_laws_.segment(at + law.law.states(), outputsOf(law)));
+      at += law.law.states() + outputsOf(law);
+    }
+    return held;
+  }
+
+ private:
+  /// 1 over the largest entry of each column; 1 where there is none.
+  static VectorXd largest(const MatrixXd& columns) {
+    VectorXd scale(columns.cols());
+    for (Index i = 0; i < columns.cols(); ++i) {
+      const double most = columns.rows() > 0 ? columns.col(i).cwiseAbs().maxCoeff() : 0.0;
+      scale[i] = most > 0.0 ? 1.0 / most : 1.0;
+    }
+    return scale;
+  }
+
+  /// Of its unknowns, a unit at least.
+  static VectorXd sizesOf(const Part& part) {
+    VectorXd sizes = part.unit;
+    for (Index i = 0; i < sizes.size(); ++i) {
+      const double x = part.by_rate[static_cast<std::size_t>(i)] ? part.v[i] : part.q[i];
+      sizes[i] = std::max(sizes[i], std::fabs(x));
+    }
+    return sizes;
+  }
+
+  VectorXd inputsOf(const Part& part) const {
+    VectorXd inputs = VectorXd::Zero(static_cast<Index>(part.dynamics->inputs().size()));
+    Index at = 0;
+    for (const HoldingLaw& law : laws_) {
+      at += law.law.states();
+      for (const ActedInput& acted : law.controller->acts_on) {
+        if (acted.system == part.system) {
+          inputs[static_cast<Index>(acted.input)] += by_laws_[at];
+        }
+        ++at;
+      }
+    }
+    return inputs;
+  }
+
+  const Part& partAt(std::size_t system) const {
+    return *std::find_if(parts_.begin(), parts_.end(),
+                         [&](const Part& part) { return part.system == system; });
+  }
+
+  /// What is left over, and how that changes with the unknowns.
+  void linearize() {
+    slope_ = MatrixXd::Zero(size_, size_);
+    left_ = VectorXd::Zero(size_);
+    for (const Part& part : parts_) {
+      linearizeSystem(part);
+    }
+    Index at = mechanical_;
+    for (const HoldingLaw& law : laws_) {
+      linearizeLaw(law, at);
+      at += law.law.states() + outputsOf(law);
+    }
+  }
+
+  void linearizeSystem(const Part& part) {
+    const Index n = part.q.size();
+    const Dynamics& mean = part.dynamics->atMeanLoad();
+    const Moment<double> moment{0.0, 0.0, part.speed, 0.0};
+    const HeldInputs held = heldInputs(*part.dynamics, part.q, inputsOf(part));
+    const Linearization l = mean.linearization(part.q, part.v, VectorXd::Zero(n), moment);
+    left_.segment(part.at, n) = mean.unbalancedForce(part.q, part.v, moment) + held.force;
+    const MatrixXd by_place = -(l.stiffness + l.circulatory + held.stiffness);
+    const MatrixXd by_rate = -(l.damping + l.gyroscopic);
+    for (Index i = 0; i < n; ++i) {
+      slope_.block(part.at, part.at + i, n, 1) =
+          part.by_rate[static_cast<std::size_t>(i)] ? by_rate.col(i) : by_place.col(i);
+    }
+    Index at = mechanical_;
+    for (const HoldingLaw& law : laws_) {
+      at += law.law.states();
+      for (const ActedInput& acted : law.controller->acts_on) {
+        if (acted.system == part.system) {
+          slope_.block(part.at, at, n, 1) = held.by_input.col(static_cast<Index>(acted.input));
+        }
+        ++at;
+      }
+    }
+  }
+
+  /// x = a x + b (y - setpoint), u = c x + d (y - setpoint).
+  void linearizeLaw(const HoldingLaw& law, Index at) {
+    const DiscreteStateSpace& l = law.law;
+    const Index states = l.states();
+    const Index outputs = outputsOf(law);
+    const auto measured = static_cast<Index>(law.controller->measures.size());
+    VectorXd y(measured);
+    MatrixXd by_unknowns = MatrixXd::Zero(measured, mechanical_);
+    for (Index i = 0; i < measured; ++i) {
+      const SignalSpec& signal = law.controller->measures[static_cast<std::size_t>(i)];
+      const Part& part = partAt(signal.system);
+      const SignalRow row = rowOf(signal, *part.dynamics);
+      y[i] = row.along.dot(row.of_rates ? part.v : part.q) -
+             (law.setpoint.empty() ? 0.0 : law.setpoint[static_cast<std::size_t>(i)]);
+      for (Index k = 0; k < row.along.size(); ++k) {
+        if (part.by_rate[static_cast<std::size_t>(k)] == row.of_rates) {
+          by_unknowns(i, part.at + k) = row.along[k];
+        }
+      }
+    }
+    const Index own = at - mechanical_;
+    const VectorXd x = by_laws_.segment(own, states);
+    left_.segment(at, states) = l.a * x - x + l.b * y;
+    left_.segment(at + states, outputs) =
+        l.c * x + l.d * y - by_laws_.segment(own + states, outputs);
+    slope_.block(at, 0, states, mechanical_) = l.b * by_unknowns;
+    slope_.block(at, at, states, states) = l.a - MatrixXd::Identity(states, states);
+    slope_.block(at + states, 0, outputs, mechanical_) = l.d * by_unknowns;
+    slope_.block(at + states, at, outputs, states) = l.c;
+    slope_.block(at + states, at + states, outputs, outputs).diagonal().setConstant(-1.0);
+  }
+
+  void move(const VectorXd& by) {
+    for (Part& part : parts_) {
+      for (Index i = 0; i < part.q.size(); ++i) {
+        (part.by_rate[static_cast<std::size_t>(i)] ? part.v : part.q)[i] += by[part.at + i];
+      }
+    }
+    by_laws_ += by.tail(size_ - mechanical_);
+  }
+
+  const std::vector<HoldingLaw>& laws_;
+  std::vector<Part> parts_;
+  Index size_ = 0;
+  Index mechanical_ = 0;  // unknowns of systems, the first
+  VectorXd by_laws_;      // of each law: states, then outputs
+  MatrixXd slope_;
+  VectorXd left_;
+  double last_moved_ = 0.0;  // of their sizes, what the last step was to move the unknowns by
+};
+
+}  // namespace
+
+std::optional<Held> heldMotions(const std::vector<HoldingLaw>& laws, const SystemMotions& present) {
+  Balance balance(laws, present);
+  for (int i = 0; i < kMostIterations; ++i) {
+    if (i > 0 && balance.isThere()) {
+      return balance.held();
+    }
+    if (!balance.step()) {
+      return std::nullopt;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace whirl_twin
