@@ -1,9 +1,11 @@
+#include <filesystem>
 #include <map>
 #include <utility>
 
 #include "reports/output.h"
 #include "reports/sample_writer.h"
 #include "transport/lcm_event_log.h"
+#include "transport/mcap_log.h"
 #include "twin/ensemble_statistics.h"
 #include "twin/order_observer.h"
 #include "twin/step_messages.h"
@@ -12,6 +14,8 @@ namespace whirl_twin {
 
 namespace {
 
+/// Log: EventLogWriter or McapLog.
+template <class Log>
 class LogWriter final : public SampleWriter {
  public:
   LogWriter(const Twin& twin, std::vector<std::size_t> systems, const std::string& path)
@@ -50,7 +54,7 @@ class LogWriter final : public SampleWriter {
 
  private:
   struct Sink {
-    EventLogWriter& log;
+    Log& log;
     double now;  // [s]
 
     template <class Make>
@@ -82,7 +86,7 @@ class LogWriter final : public SampleWriter {
   StepMessages messages_;
   OrderObserver orders_;
   PendingFile pending_;
-  EventLogWriter log_;
+  Log log_;
   std::map<std::size_t, std::int64_t> next_ensemble_;  // step, of each system
   std::vector<double> record_;                         // of an ensemble
 };
@@ -91,7 +95,10 @@ class LogWriter final : public SampleWriter {
 
 std::unique_ptr<SampleWriter> makeLogWriter(const Twin& twin, std::vector<std::size_t> systems,
                                             const std::string& path) {
-  return std::make_unique<LogWriter>(twin, std::move(systems), path);
+  if (std::filesystem::path(path).extension() == ".mcap") {
+    return std::make_unique<LogWriter<McapLog>>(twin, std::move(systems), path);
+  }
+  return std::make_unique<LogWriter<EventLogWriter>>(twin, std::move(systems), path);
 }
 
 }  // namespace whirl_twin

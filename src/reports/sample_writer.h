@@ -41,7 +41,8 @@ class SampleWriter {
 std::unique_ptr<SampleWriter> makeTableWriter(const Twin& twin, std::vector<std::size_t> systems,
                                               const std::string& path);
 
-/// An LCM event log: the messages the simulation node publishes, of the systems and their drives.
+/// The messages the simulation node publishes, of the systems and their drives: an LCM event log,
+/// or an MCAP file where the path ends in .mcap.
 std::unique_ptr<SampleWriter> makeLogWriter(const Twin& twin, std::vector<std::size_t> systems,
                                             const std::string& path);
 

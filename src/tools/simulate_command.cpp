@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kDescription =
     "Runs a scene from its start, as fast as it goes, and writes what happens: a table of\n"
-    "comma-separated values, an LCM log, or with --json the final state.";
+    "comma-separated values, an LCM log, an MCAP file, or with --json the final state.";
 
 constexpr const char* kFooter =
     "The table has a row at the start and one every sample up to and including the duration:\n"
@@ -31,14 +31,15 @@ constexpr const char* kFooter =
     "\n"
     "Examples:\n"
     "  twin simulate demo.yaml --sample 0.01 --output demo.csv\n"
-    "  twin simulate demo.yaml --duration 60 --output demo.lcmlog     for lcm-logplayer\n"
+    "  twin simulate demo.yaml --duration 60 --output demo.lcmlog     for twin play\n"
+    "  twin simulate demo.yaml --duration 60 --output demo.mcap       for PlotJuggler, Lichtblick\n"
     "  twin simulate demo.yaml --system pendulum --integrator runge_kutta_4 --step 0.0005 --json";
 
-/// ".csv" or ".lcmlog". Throws Refusal.
+/// ".csv", ".lcmlog" or ".mcap". Throws Refusal.
 std::string extensionOf(const std::string& output) {
   std::string extension = std::filesystem::path(output).extension();
-  if (extension != ".csv" && extension != ".lcmlog") {
-    throw Refusal(fmt::format("--output: must end in .csv or .lcmlog, found '{}'", output));
+  if (extension != ".csv" && extension != ".lcmlog" && extension != ".mcap") {
+    throw Refusal(fmt::format("--output: must end in .csv, .lcmlog or .mcap, found '{}'", output));
   }
   return extension;
 }
@@ -78,8 +79,8 @@ int simulate(const SimulationRequest& request) {
   if (request.output) {
     extensionOf(*request.output);
   }
-  if (request.measure && (!request.output || extensionOf(*request.output) != ".lcmlog")) {
-    throw Refusal("--measure: needs --output FILE.lcmlog, where the measurements go");
+  if (request.measure && (!request.output || extensionOf(*request.output) == ".csv")) {
+    throw Refusal("--measure: needs --output FILE.lcmlog or FILE.mcap, where the measurements go");
   }
   if (request.members && std::filesystem::path(*request.members).extension() != ".csv") {
     throw Refusal(fmt::format("--members: must end in .csv, found '{}'", *request.members));
@@ -130,7 +131,7 @@ void addSimulateCommand(CLI::App& twin, int& status) {
       ->type_name("S");
   command
       ->add_option("--output", request->output,
-                   "FILE.csv or FILE.lcmlog; default: a table on standard output")
+                   "FILE.csv, FILE.lcmlog or FILE.mcap; default: a table on standard output")
       ->type_name("FILE");
   command
       ->add_option("--members", request->members,

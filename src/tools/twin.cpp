@@ -113,6 +113,7 @@ int run(int argc, const char* const* argv) {
   addTradeoffCommand(twin, status);
   addRouthCommand(twin, status);
   addLogCommand(twin, status);
+  addExportCommand(twin, status);
   addMonitorCommand(twin, status);
   addFitCommand(twin, status);
   addFollowCommand(twin, status);

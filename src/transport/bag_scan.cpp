@@ -237,9 +237,12 @@ bool BagScan::take(const Record& record, const std::uint8_t* data, BagMessage& m
   if (record.op == kConnection && id && data != nullptr && record.size <= kMaxPayload) {
     if (const auto fields = fieldsOf(data, record.size)) {
       // Not exchanged where it is told again, for others hold on to it.
-      connections_.try_emplace(*id, BagConnection{whirl_twin::text(record.fields, "topic"),
-                                                  whirl_twin::text(*fields, "type"),
-                                                  whirl_twin::text(*fields, "message_definition")});
+      connections_.try_emplace(
+          *id,
+          BagConnection{whirl_twin::text(record.fields, "topic"), whirl_twin::text(*fields, "type"),
+                        whirl_twin::text(*fields, "message_definition"),
+                        whirl_twin::text(*fields, "md5sum"), whirl_twin::text(*fields, "callerid"),
+                        whirl_twin::text(*fields, "latching") == "1"});
     }
     return false;
   }

@@ -15,15 +15,11 @@
 #include <vector>
 
 #include "transport/file_window.h"
+#include "transport/recording_writer.h"
 
 namespace whirl_twin {
 
-/// Where messages of a bag came from, and how they lie in bytes.
-struct BagConnection {
-  std::string topic;
-  std::string type;        ///< "whirl_twin/Measurement"
-  std::string definition;  ///< the .msg file and those that it names
-};
+using BagConnection = RecordedTopic;
 
 struct BagMessage {
   std::int64_t time = 0;  ///< [ns], when it was received

@@ -173,6 +173,23 @@ std::size_t RosLayout::leastOf(const std::vector<Field>& fields) {
   return least;
 }
 
+std::vector<RosLayout::Name> RosLayout::names() const {
+  std::vector<Name> names;
+  addNames(fields_, false, names);
+  return names;
+}
+
+void RosLayout::addNames(const std::vector<Field>& fields, bool in_array,
+                         std::vector<Name>& names) {
+  for (const Field& field : fields) {
+    if (field.kind == Kind::kMessage) {
+      addNames(field.fields, in_array || field.is_array, names);
+    } else {
+      names.push_back({field.name, in_array || field.is_array});
+    }
+  }
+}
+
 class RosLayout::Reader {
  public:
   Reader(const std::uint8_t* data, std::size_t size) : data_(data), left_(size) {}

@@ -27,6 +27,14 @@ class RosLayout {
   /// that it names. Throws RejectedMessage for what is no definition.
   explicit RosLayout(const std::string& definition);
 
+  /// A field as `read` names it; is_array: or part of one.
+  struct Name {
+    std::string name;
+    bool is_array;
+  };
+  /// All fields in the order of the definition.
+  std::vector<Name> names() const;
+
   /// Throws RejectedMessage for bytes that are no such message, or no whole one.
   RosValues read(const std::uint8_t* data, std::size_t size) const;
 
@@ -47,6 +55,7 @@ class RosLayout {
   static std::vector<Field> fieldsOf(std::string_view text, const std::string& package,
                                      const std::string& prefix, const Types& types, int depth);
   static std::size_t leastOf(const std::vector<Field>& fields);
+  static void addNames(const std::vector<Field>& fields, bool in_array, std::vector<Name>& names);
 
   std::vector<Field> fields_;
 };

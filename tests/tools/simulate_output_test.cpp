@@ -47,7 +47,7 @@ INSTANTIATE_TEST_SUITE_P(
                 {"twin: --integrator: pendulum: exponential is for linear systems; "
                  "spinning_pendulum is not linear"}},
         Refused{{"--output", "demo.txt"},
-                {"twin: --output: must end in .csv or .lcmlog, found 'demo.txt'"}}));
+                {"twin: --output: must end in .csv, .lcmlog or .mcap, found 'demo.txt'"}}));
 
 // What a third or two thirds of a second come to in a shell is no whole number of anything.
 TEST(Times, AreRoundedToWholeStepsAndItIsSaid) {

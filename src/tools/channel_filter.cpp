@@ -1,0 +1,25 @@
+#include "tools/channel_filter.h"
+
+#include <fnmatch.h>
+
+#include <algorithm>
+
+namespace whirl_twin {
+
+void addChannelOption(CLI::App* command, ChannelFilter& filter) {
+  command
+      ->add_option("--channel", filter,
+                   "only channels (of a bag: topics) like this, as '*_WHIRL'; may be said again")
+      ->type_name("PATTERN")
+      ->expected(1)
+      ->take_all();
+}
+
+bool selects(const ChannelFilter& filter, const std::string& channel) {
+  return filter.empty() ||
+         std::any_of(filter.begin(), filter.end(), [&](const std::string& pattern) {
+           return fnmatch(pattern.c_str(), channel.c_str(), 0) == 0;
+         });
+}
+
+}  // namespace whirl_twin

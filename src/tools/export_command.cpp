@@ -1,0 +1,249 @@
+// `twin export`.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "messages/refusal.h"
+#include "reports/output.h"
+#include "tools/arguments.h"
+#include "tools/channel_filter.h"
+#include "tools/commands.h"
+#include "tools/new_output.h"
+#include "tools/progress_bar.h"
+#include "transport/bag_writer.h"
+#include "transport/log_export.h"
+#include "transport/mcap_writer.h"
+#include "transport/table_folder.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr const char* kDescription =
+    "Writes an LCM log or a rosbag as an MCAP file, for PlotJuggler, Foxglove and Lichtblick; as "
+    "a\n"
+    "rosbag; or as tables of comma-separated values, a file a topic. No ROS is needed.";
+
+constexpr const char* kFooter =
+    "Messages of an LCM log become the ROS messages that a bridge publishes, on /twin/rotor/whirl\n"
+    "for TWIN_ROTOR_WHIRL, with the time of the event: received or, in a log of twin simulate,\n"
+    "simulated. Those of a bag stay as they are, to the byte. What is damaged is left out, "
+    "counted\n"
+    "and named with its byte; channels that are no twin's are left out, too. Exit status: 0 done,\n"
+    "1 it cannot be written, 2 a file that cannot be read or has nothing to export.\n"
+    "\n"
+    "Examples:\n"
+    "  twin export night.lcmlog --mcap night.mcap\n"
+    "  twin export night.bag --csv night --channel '/twin/rotor/*'";
+
+struct Request {
+  std::string file;
+  std::optional<std::string> csv, bag, mcap;
+  std::optional<std::string> compress;
+  std::string lcm_prefix = kDefaultLcmPrefix;
+  ChannelFilter channels;
+  bool force = false;
+  bool json = false;
+};
+
+/// Throws Refusal where there is nothing.
+void requireMessages(const Request& request, const LogExport& log) {
+  if (log.messages > 0) {
+    return;
+  }
+  std::string why =
+      fmt::format("{}: found no message to export in {} bytes", request.file, log.size);
+  if (log.not_selected > 0) {
+    why += fmt::format("; {} on channels that --channel leaves out", log.not_selected);
+  }
+  if (!log.foreign.empty()) {
+    why += fmt::format(
+        "; there is {}, which is no channel of a twin whose channels begin with {} "
+        "(--lcm-prefix)",
+        log.foreign.begin()->first, request.lcm_prefix);
+  }
+  if (!log.defects.empty()) {
+    why += fmt::format("; at byte {}: {}", log.defects.front().offset, log.defects.front().what);
+  }
+  throw Refusal(why);
+}
+
+std::uint64_t foreignIn(const LogExport& log) {
+  std::uint64_t events = 0;
+  for (const auto& [channel, count] : log.foreign) {
+    events += count;
+  }
+  return events;
+}
+
+std::string text(const Request& request, const LogExport& log, const std::string& output) {
+  std::string out = fmt::format("{}: {} messages of {} topics written to {}\n", request.file,
+                                log.messages, log.topics.size(), output);
+  for (const auto& [topic, count] : log.topics) {
+    out += fmt::format("  {:<40} {:>9}\n", topic, count);
+  }
+  if (log.not_selected > 0) {
+    out += fmt::format("{} not selected\n", log.not_selected);
+  }
+  if (!log.foreign.empty()) {
+    out += fmt::format("{} left out on {} channel{} that no twin has, such as {}\n", foreignIn(log),
+                       log.foreign.size(), log.foreign.size() == 1 ? "" : "s",
+                       log.foreign.begin()->first);
+  }
+  if (log.rejected + log.damaged > 0) {
+    out += fmt::format("left out: {} corrupt message{}, {} damaged place{}\n", log.rejected,
+                       log.rejected == 1 ? "" : "s", log.damaged, log.damaged == 1 ? "" : "s");
+  }
+  for (const LogDefect& defect : log.defects) {
+    out += fmt::format("  at byte {}: {}\n", defect.offset, defect.what);
+  }
+  if (log.rejected + log.damaged > log.defects.size()) {
+    out += fmt::format("  and {} more\n", log.rejected + log.damaged - log.defects.size());
+  }
+  return out;
+}
+
+Json json(const Request& request, const LogExport& log, const std::string& output) {
+  Json json = {{"file", request.file},
+               {"output", output},
+               {"messages", log.messages},
+               {"topics", Json::object()},
+               {"not_selected", log.not_selected},
+               {"foreign", Json::object()},
+               {"rejected", log.rejected},
+               {"damaged", log.damaged},
+               {"defects", Json::array()}};
+  for (const auto& [topic, count] : log.topics) {
+    json["topics"][topic] = count;
+  }
+  for (const auto& [channel, count] : log.foreign) {
+    json["foreign"][channel] = count;
+  }
+  for (const LogDefect& defect : log.defects) {
+    json["defects"].push_back({{"offset", defect.offset}, {"what", defect.what}});
+  }
+  return json;
+}
+
+class Export {
+ public:
+  explicit Export(const Request& request) : request_(request) {}
+
+  LogExport run() {
+    if (!request_.csv) {
+      return toFile();
+    }
+    TableShapes shapes;
+    pass(shapes);
+    PendingFolder folder(*request_.csv);
+    TableFolder tables(folder.path(), shapes.shapes());
+    const LogExport log = pass(tables);
+    tables.finish();
+    folder.complete();
+    return log;
+  }
+
+ private:
+  static constexpr std::int64_t kParts = 1000;
+
+  LogExport toFile() {
+    PendingFile pending(request_.mcap ? *request_.mcap : *request_.bag);
+    std::unique_ptr<RecordingWriter> writer;
+    if (request_.mcap) {
+      writer = std::make_unique<McapWriter>(pending.path(), request_.compress
+                                                                ? McapWriter::Compression::kLz4
+                                                                : McapWriter::Compression::kNone);
+    } else {
+      writer = std::make_unique<BagWriter>(pending.path());
+    }
+    const LogExport log = pass(*writer);
+    writer->finish();
+    pending.complete();
+    return log;
+  }
+
+  /// Through the file once.
+  LogExport pass(RecordingWriter& to) {
+    const LogExport log = exportLog(
+        request_.file, request_.lcm_prefix,
+        [&](const std::string& channel) { return selects(request_.channels, channel); }, to,
+        [&](std::uint64_t bytes, std::uint64_t all) {
+          bar_.show(
+              static_cast<std::int64_t>(static_cast<double>(kParts) * static_cast<double>(bytes) /
+                                        static_cast<double>(std::max<std::uint64_t>(1, all))));
+        });
+    bar_.clear();
+    requireMessages(request_, log);
+    return log;
+  }
+
+  const Request& request_;
+  ProgressBar bar_{request_.file, kParts, false, true};
+};
+
+int write(const Request& request) {
+  requireLcmPrefix(request.lcm_prefix);
+  const std::vector<std::pair<const char*, const std::optional<std::string>*>> outputs = {
+      {"--csv", &request.csv}, {"--bag", &request.bag}, {"--mcap", &request.mcap}};
+  std::string output;
+  int asked = 0;
+  for (const auto& [option, path] : outputs) {
+    if (*path) {
+      ++asked;
+      output = **path;
+      requireNew(option, output, request.force);
+      std::error_code none;
+      if (std::filesystem::equivalent(output, request.file, none)) {
+        throw Refusal(fmt::format("{}: must be another file than {}", option, request.file));
+      }
+    }
+  }
+  if (asked != 1) {
+    throw Refusal(fmt::format("expected one of --csv, --bag and --mcap, found {}", asked));
+  }
+  if (request.compress && (*request.compress != "lz4" || !request.mcap)) {
+    throw Refusal(
+        fmt::format("--compress: must be lz4, with --mcap; found '{}'", *request.compress));
+  }
+  if (request.compress && !McapWriter::has(McapWriter::Compression::kLz4)) {
+    throw Refusal(
+        "--compress: this twin was built without lz4 (liblz4-dev): `scripts/setup`, "
+        "then build again");
+  }
+  const LogExport log = Export(request).run();
+  if (request.json) {
+    printJson(json(request, log, output));
+  } else {
+    printText(text(request, log, output));
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void addExportCommand(CLI::App& twin, int& status) {
+  CLI::App* command = twin.add_subcommand("export", kDescription);
+  const auto request = std::make_shared<Request>();
+  command->add_option("LOG", request->file, "LCM log or rosbag, such as demo.lcmlog, night.bag")
+      ->required()
+      ->type_name("");
+  command->add_option("--csv", request->csv, "write tables into this folder")->type_name("FOLDER");
+  command->add_option("--bag", request->bag, "write a rosbag")->type_name("FILE");
+  command->add_option("--mcap", request->mcap, "write an MCAP file")->type_name("FILE");
+  command->add_option("--compress", request->compress, "lz4: the chunks of the MCAP file")
+      ->type_name("lz4");
+  addChannelOption(command, request->channels);
+  command
+      ->add_option("--lcm-prefix", request->lcm_prefix,
+                   "what the channels of the recorded twin begin with; default: TWIN_")
+      ->type_name("PREFIX");
+  command->add_flag("--force", request->force, "write over what exists");
+  command->add_flag("--json", request->json, "print one JSON object");
+  command->footer(kFooter);
+  command->callback([request, &status] { status = write(*request); });
+}
+
+}  // namespace whirl_twin

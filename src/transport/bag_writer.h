@@ -1,0 +1,43 @@
+// rosbags (format 2.0, see bag_scan.h), without ROS: chunks that are not compressed, each with an
+// index by connection and time, and at the end where everything is.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "transport/little_endian.h"
+#include "transport/output_file.h"
+#include "transport/recording_writer.h"
+
+namespace whirl_twin {
+
+class BagWriter final : public RecordingWriter {
+ public:
+  explicit BagWriter(const std::string& path);
+
+  void write(const RecordedTopic& topic, std::int64_t time, const std::uint8_t* data,
+             std::size_t size) override;
+  void finish() override;
+
+ private:
+  struct Connection {
+    std::uint32_t id = 0;
+    /// Of the messages in the chunk: time [ns] and offset [bytes].
+    std::vector<std::pair<std::int64_t, std::uint32_t>> index;
+  };
+  Connection& connectionOf(const RecordedTopic& topic);
+  void writeChunk();
+
+  OutputFile file_;
+  std::map<std::string, Connection> connections_;  ///< by RecordedTopic::key()
+  std::vector<Connection*> in_chunk_;              ///< those with messages in the chunk
+  LittleEndian chunk_;
+  // Records for the end.
+  LittleEndian connection_records_, chunk_records_;
+  std::uint32_t chunks_ = 0;
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,70 @@
+// MCAP files of ROS 1 messages, as PlotJuggler, Foxglove and Lichtblick read them (MCAP format
+// specification, version 0, profile "ros1"; registry: message encoding "ros1", schemas "ros1msg").
+//
+// A file is magic bytes and records: opcode of 1 byte, length of 8, content; little-endian.
+//   header | chunks of schemas, channels and messages, each with an index of its messages by
+//   channel | end of data | summary: schemas, channels, statistics, where the chunks are | where in
+//   the summary each kind is | footer
+// Chunks are handed to the file system one by one, so that of a run that is broken off all but the
+// last second or so can be read.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "transport/little_endian.h"
+#include "transport/output_file.h"
+#include "transport/recording_writer.h"
+
+namespace whirl_twin {
+
+class McapWriter final : public RecordingWriter {
+ public:
+  enum class Compression { kNone, kLz4 };
+  /// Whether this twin was built with it.
+  static bool has(Compression compression);
+
+  explicit McapWriter(const std::string& path, Compression compression = Compression::kNone);
+
+  void write(const RecordedTopic& topic, std::int64_t time, const std::uint8_t* data,
+             std::size_t size) override;
+  void finish() override;
+
+  /// Writes what has come as a chunk, and hands it to the file system.
+  void flush();
+  /// [bytes], with what waits for its chunk.
+  std::uint64_t size() const { return file_.offset() + chunk_.size(); }
+
+ private:
+  struct Channel {
+    std::uint16_t id = 0;
+    std::uint32_t messages = 0;
+    LittleEndian index;  ///< of the chunk: time and offset of each message
+  };
+  struct Span {
+    std::uint64_t first = 0, last = 0;  ///< [ns]
+    bool any = false;
+    void add(std::uint64_t time);
+  };
+  Channel& channelOf(const RecordedTopic& topic);
+  void writeChunk();
+  void writeSummary();
+
+  OutputFile file_;
+  Compression compression_;
+  std::map<std::string, std::uint16_t> schemas_;  ///< by type and MD5 sum
+  std::map<std::string, Channel> channels_;       ///< by RecordedTopic::key()
+  std::vector<Channel*> in_chunk_;                ///< those with messages in the chunk
+  LittleEndian chunk_;
+  Span chunk_span_, span_;
+  // Records for the summary.
+  LittleEndian schema_records_, channel_records_, chunk_indexes_;
+  std::uint32_t chunks_ = 0;
+  std::uint64_t messages_ = 0;
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,36 @@
+// A file of ROS messages, whatever its format: what a bag, an MCAP file and tables have in common.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace whirl_twin {
+
+/// Where messages come from, and how they lie in bytes.
+struct RecordedTopic {
+  std::string topic;       ///< "/twin/rotor/whirl"
+  std::string type;        ///< "whirl_twin/WhirlState"
+  std::string definition;  ///< the .msg file and those that it names
+  std::string md5sum;
+  std::string callerid{};  ///< of the node that sent it; "": not known
+  bool latching = false;   ///< who comes later gets the newest
+
+  /// Topics whose messages can stand in one place.
+  std::string key() const { return topic + '\n' + md5sum + '\n' + callerid; }
+};
+
+class RecordingWriter {
+ public:
+  virtual ~RecordingWriter() = default;
+
+  /// A ROS message. time: [ns], 0 to kMaxStamp. Throws RunFailure if it cannot be written, and
+  /// RejectedMessage, having written nothing, if it is no message of this definition.
+  virtual void write(const RecordedTopic& topic, std::int64_t time, const std::uint8_t* data,
+                     std::size_t size) = 0;
+
+  /// Completes the file, and hands it to the file system. Throws RunFailure.
+  virtual void finish() = 0;
+};
+
+}  // namespace whirl_twin

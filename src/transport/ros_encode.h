@@ -1,0 +1,40 @@
+// A message of the twin -> the bytes of the ROS message of its kind, without ROS.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "messages/message.h"
+#include "transport/little_endian.h"
+#include "transport/recording_writer.h"
+
+namespace whirl_twin {
+
+class RosEncoder {
+ public:
+  /// Topics below a namespace such as "/twin".
+  explicit RosEncoder(std::string twin_namespace) : namespace_(std::move(twin_namespace)) {}
+
+  /// The same bytes as ROS's serialization of toRos(message). An alert becomes the complete list of
+  /// active ones, as on ROS. Valid until the next call.
+  const LittleEndian& encode(const Message& message);
+  /// Where the message that was encoded last belongs.
+  const RecordedTopic& topic() const { return *topic_; }
+
+ private:
+  template <class State>
+  void put(const State& state);
+  void put(const state::Alert& alert);
+  template <class State>
+  void go(const State& state);
+
+  std::string namespace_;
+  std::map<std::string, RecordedTopic> topics_;
+  const RecordedTopic* topic_ = nullptr;
+  LittleEndian bytes_;
+  std::map<std::uint32_t, state::Alert> active_;  ///< alerts by id
+  double last_alert_ = 0.0;                       ///< [s], simulated
+};
+
+}  // namespace whirl_twin
