@@ -12,10 +12,14 @@ else()
   set(whirl_twin_library_dir ${CMAKE_INSTALL_LIBDIR})
 endif()
 
-# The programs, and what rostopic needs to print their messages: all that a demo needs of a build.
+# The programs, what rostopic needs to print their messages, and the types of LCM for Python: all that a demo needs of a
+# build, and all that is installed.
 add_custom_target(whirl_twin_programs)
 if(TARGET whirl_twin_generate_messages_py)
   add_dependencies(whirl_twin_programs whirl_twin_generate_messages_py)
+endif()
+if(TARGET whirl_twin_lcm_python)
+  add_dependencies(whirl_twin_programs whirl_twin_lcm_python)
 endif()
 
 # A program finds the library beside it wherever the whole was installed, with no LD_LIBRARY_PATH.
@@ -73,6 +77,12 @@ endif()
 if(WHIRL_TWIN_ROS)
   install(DIRECTORY launch config DESTINATION ${whirl_twin_share_dir})
   install(DIRECTORY msg DESTINATION ${whirl_twin_share_dir} FILES_MATCHING PATTERN *.lcm)
+  install(DIRECTORY examples DESTINATION ${whirl_twin_share_dir} USE_SOURCE_PERMISSIONS
+    FILES_MATCHING PATTERN *.py PATTERN *.cpp PATTERN *.yaml PATTERN __pycache__ EXCLUDE)
+  if(WHIRL_TWIN_LCM)
+    install(DIRECTORY ${whirl_twin_lcm_python} DESTINATION ${CATKIN_GLOBAL_PYTHON_DESTINATION}
+      FILES_MATCHING PATTERN *.py)
+  endif()
   # launch/follow.launch plays a record with it; in the devel space it is found where it lies.
   install(PROGRAMS examples/acquisition/csv_to_ros.py examples/external_controller/pd_by_ros.py
     DESTINATION ${whirl_twin_node_dir})

@@ -24,3 +24,18 @@ add_library(whirl_twin_lcm INTERFACE)
 target_include_directories(whirl_twin_lcm SYSTEM INTERFACE ${whirl_twin_lcm_dir} ${LCM_INCLUDE_DIR})
 target_link_libraries(whirl_twin_lcm INTERFACE ${LCM_LIBRARY})
 add_dependencies(whirl_twin_lcm whirl_twin_lcm_types)
+
+# The same for Python, as the package whirl_twin_lcm.whirl_twin: `whirl_twin` is that of the ROS messages. lcm-gen adds
+# to an __init__.py that is there.
+if(WHIRL_TWIN_ROS)
+  set(whirl_twin_lcm_python_dir ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_PYTHON_DESTINATION})
+else()
+  set(whirl_twin_lcm_python_dir ${CMAKE_CURRENT_BINARY_DIR}/python)
+endif()
+set(whirl_twin_lcm_python ${whirl_twin_lcm_python_dir}/whirl_twin_lcm)
+add_custom_command(OUTPUT ${whirl_twin_lcm_python}/whirl_twin/__init__.py
+  COMMAND ${CMAKE_COMMAND} -E rm -rf ${whirl_twin_lcm_python}
+  COMMAND ${LCM_GEN} --python --ppath ${whirl_twin_lcm_python_dir} --package-prefix whirl_twin_lcm
+    ${whirl_twin_lcm_types}
+  DEPENDS ${whirl_twin_lcm_types} VERBATIM)
+add_custom_target(whirl_twin_lcm_python ALL DEPENDS ${whirl_twin_lcm_python}/whirl_twin/__init__.py)
