@@ -8,6 +8,8 @@ import math
 
 from gallery_numbers import CASES, Row, hertz, of_case, parameters
 
+THEORY = "theory"  # of systems that the lecture notes do not have
+
 
 def demo(twin):
     rotor = {"mass": 2.0, "stiffness": 7200.0, "damping": 12.0, "eccentricity": 1e-4, "speed": 0.0}  # zeta 0.05
@@ -300,7 +302,62 @@ def sliding_mass_flywheel(twin):
             Row("roots to the right, wherever the motion exists", 0, state["reduced"]["routh"]["right"], "E46")]
 
 
+def mass_spring_damper(twin):
+    m, k, c = 1.0, 100.0, 2.0
+    state = twin.analyze("mass_spring_damper", {"mass": m, "stiffness": k, "damping": c})
+    zeta = c / (2.0 * math.sqrt(k * m))
+    return [Row("rings at sqrt(k/m - c^2/4m^2)", math.sqrt(k / m) * math.sqrt(1.0 - zeta ** 2),
+                max(root[1] for root in state["eigenvalues"]), THEORY, "rad/s"),
+            Row("damping ratio c / (2 sqrt(k m))", zeta, state["damping_ratios"][0], THEORY),
+            Row("log decrement", 2.0 * math.pi * zeta / math.sqrt(1.0 - zeta ** 2), state["margins"]["log_decrement"],
+                THEORY)]
+
+
+def elastic_pendulum(twin):
+    m, k, free, g = 1.0, 78.4532, 0.375, 9.80665
+    state = twin.analyze("elastic_pendulum", {"mass": m, "stiffness": k, "free_length": free}, g, {"r": free})
+    hanging = max(e["state"]["r"] for e in state["equilibria"] if e["verdict"] != "unstable")
+    swing, bounce = state["natural_frequencies"]
+    length = free + m * g / k
+    return [Row("hangs at r0 + m g / k", length, hanging, THEORY, "m"),
+            Row("swings at sqrt(g/l)", math.sqrt(g / length), swing, THEORY, "rad/s"),
+            Row("bounces at sqrt(k/m), here twice that", math.sqrt(k / m), bounce, THEORY, "rad/s")]
+
+
+def kapitza_pendulum(twin):
+    length, a, frequency, g = 0.1, 0.01, 300.0, 9.80665
+    state = twin.analyze("kapitza_pendulum", {"mass": 0.1, "length": length, "amplitude": a, "frequency": frequency}, g,
+                         {"theta": 2.8})
+    pull = (frequency * a) ** 2
+    barrier = max(e["state"]["theta"] for e in state["equilibria"] if e["verdict"] == "unstable")
+    lost = {margin["parameter"]: margin["lost_at"] for margin in state["parameter_margins"]["parameters"]}
+    return [Row("sways about upright at sqrt(a^2 Omega^2/2 l^2 - g/l)",
+                math.sqrt(0.5 * pull / length ** 2 - g / length), state["natural_frequencies"][0], THEORY, "rad/s"),
+            Row("falls beyond acos(-2 g l / a^2 Omega^2)", math.acos(-2.0 * g * length / pull), barrier, THEORY, "rad"),
+            Row("stands no longer below sqrt(2 g l) / a", math.sqrt(2.0 * g * length) / a, lost["frequency"], THEORY,
+                "rad/s")]
+
+
+def foucault_pendulum(twin):
+    g = 9.80665
+
+    def turning(length, latitude, rate):
+        state = twin.analyze("foucault_pendulum", {"mass": 28.0, "length": length, "latitude": latitude,
+                                                   "rotation_rate": rate}, g)
+        slow, fast = state["natural_frequencies"]
+        return 0.5 * (fast - slow)  # the plane turns at half the difference of the two whirls
+
+    earth, paris = 7.292115e-5, 0.8526
+    hour = 3600.0 * 180.0 / math.pi
+    return [Row("the plane at Paris, w sin(latitude)", hour * earth * math.sin(paris),
+                hour * turning(67.0, paris, earth), THEORY, "deg/h"),
+            Row("at the pole it turns once a day", hour * earth, hour * turning(67.0, 0.5 * math.pi, earth), THEORY,
+                "deg/h"),
+            Row("on this scene's fast Earth", 0.1 * math.sin(paris), turning(2.0, paris, 0.1), THEORY, "rad/s",
+                tolerance=1e-3)]
+
+
 ROWS = {function.__name__: function for function in (
-    cantilever_beam, cart_pendulum, demo, double_pendulum, free_rotor, friction_oscillator, governor, hinged_beam,
-    linear_system, rod_slider, rolling_disc, rotating_pendulum, sliding_mass_flywheel, spinning_pendulum,
+    cantilever_beam, cart_pendulum, demo, double_pendulum, elastic_pendulum, foucault_pendulum, free_rotor,
+    friction_oscillator, governor, hinged_beam, kapitza_pendulum, linear_system, mass_spring_damper, rod_slider, rolling_disc, rotating_pendulum, sliding_mass_flywheel, spinning_pendulum,
     sprung_inverted_pendulum, two_bar_linkage)}

@@ -7,6 +7,7 @@
 #include "integration/step_methods.h"
 #include "integration/stoermer_weights.h"
 #include "models/models.h"
+#include "models/small_systems.h"
 
 namespace whirl_twin {
 
@@ -38,7 +39,9 @@ const std::vector<ModelInfo>& builtInModels() {
                                                rodSliderInfo(),        rollingDiscInfo(),
                                                rotatingPendulumInfo(), slidingMassFlywheelInfo(),
                                                spinningPendulumInfo(), sprungInvertedPendulumInfo(),
-                                               twoBarLinkageInfo()};
+                                               twoBarLinkageInfo(),    elasticPendulumInfo(),
+                                               foucaultPendulumInfo(), kapitzaPendulumInfo(),
+                                               massSpringDamperInfo()};
   return built_in;
 }
 

@@ -28,8 +28,9 @@ struct VariantUnderTest {
 
 /// A number that chooses a form of its model, or belongs to one: 0 in all others.
 inline bool choosesForm(const std::string& parameter) {
-  for (const char* start : {"regularization", "loss_factor", "rub_", "rotor_radius", "bearing_",
-                            "journal_", "stiffness_asymmetry", "motor_", "gear_"}) {
+  for (const char* start :
+       {"regularization", "friction_force", "loss_factor", "rub_", "rotor_radius", "bearing_",
+        "journal_", "stiffness_asymmetry", "motor_", "gear_"}) {
     if (parameter.rfind(start, 0) == 0) {
       return true;
     }

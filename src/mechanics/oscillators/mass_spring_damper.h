@@ -1,0 +1,110 @@
+// Mass on a spring and a damper: the oscillator of every textbook.
+//
+//   T = m x'^2 / 2,   V = k x^2 / 2,   D = c x'^2 / 2
+//
+// x is measured from where the spring is free; nothing acts along it but what is named here.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "mechanics/elementary.h"
+#include "mechanics/force_inline.h"
+#include "mechanics/model_description.h"
+#include "mechanics/moment.h"
+#include "mechanics/reaction.h"
+#include "mechanics/sketch.h"
+
+namespace whirl_twin {
+
+struct MassSpringDamper {
+  static constexpr const char* kName = "mass_spring_damper";
+  static constexpr const char* kSummary = "mass on a spring and a damper, with or without friction";
+  static constexpr std::size_t kDof = 1;
+  static constexpr bool kLinear = true;
+  static constexpr bool kHasShaft = false;
+  static constexpr std::array<Coordinate, kDof> kCoordinates{{{"x", "m"}}};
+
+  double mass = 0.0;            ///< [kg]
+  double stiffness = 0.0;       ///< [N/m], of the spring
+  double damping = 0.0;         ///< [N s/m], of the damper
+  double friction_force = 0.0;  ///< [N], of the form with Coulomb friction; 0 here
+  double friction_width = 0.0;  ///< [m/s], of the change of sign of that friction
+  double free_length = 0.0;     ///< [m], of the spring; the equations do not need it
+  double gravity = 0.0;         ///< [m/s^2], of the scene; it acts across the motion
+
+  static constexpr std::array<Parameter<MassSpringDamper>, 6> parameters() {
+    return {
+        {{"mass", "kg", Range::kPositive, &MassSpringDamper::mass, "of the body"},
+         {"stiffness", "N/m", Range::kNotNegative, &MassSpringDamper::stiffness, "of the spring"},
+         {"damping", "N s/m", Range::kNotNegative, &MassSpringDamper::damping, "of the damper",
+          0.0},
+         {"friction_force", "N", Range::kNotNegative, &MassSpringDamper::friction_force,
+          "Coulomb friction between body and ground", 0.0},
+         {"friction_width", "m/s", Range::kPositive, &MassSpringDamper::friction_width,
+          "speed below which that friction is regularised", 1e-3},
+         {"free_length", "m", Range::kPositive, &MassSpringDamper::free_length,
+          "of the spring: the wall is so far from the body", 1.0}}};
+  }
+
+  double naturalLength() const { return free_length; }
+
+  std::array<Input<kDof>, 2> inputs() const {
+    return {{{"force", "N", {1.0}, "on the body, along x"},
+             {"support", "m", {stiffness}, "of the spring's far end, along x"}}};
+  }
+
+  template <class S>
+  WHIRL_TWIN_INLINE S kinetic(const std::array<S, kDof>&, const std::array<S, kDof>& v,
+                              const Moment<S>&) const {
+    return (0.5 * mass) * (v[0] * v[0]);
+  }
+  template <class S>
+  WHIRL_TWIN_INLINE S potential(const std::array<S, kDof>& q, const Moment<S>&) const {
+    return (0.5 * stiffness) * (q[0] * q[0]);
+  }
+  template <class S>
+  WHIRL_TWIN_INLINE S dissipation(const std::array<S, kDof>&, const std::array<S, kDof>& v,
+                                  const Moment<S>&) const {
+    return (0.5 * damping) * (v[0] * v[0]);
+  }
+  template <class S>
+  WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>&,
+                                              const std::array<S, kDof>&, const Moment<S>&) const {
+    return {};
+  }
+
+  std::vector<Condition> conditions(const std::array<double, kDof>& q,
+                                    const std::array<double, kDof>&,
+                                    const std::array<double, kDof>&, const Moment<double>&) const {
+    return {{"spring_length", "m", free_length + q[0], "the spring is pushed to no length"}};
+  }
+
+  Sketch sketch(const std::array<double, kDof>& q, const Moment<double>&) const {
+    const double l = free_length;
+    const double body = 0.36 * l;
+    const double floor = -0.5 * body;
+    const double left = q[0] - 0.5 * body;
+    Sketch s;
+    s.size = 2.4 * l;
+    s.height = 0.9 * l;
+    s.centre = {-0.2 * l, 0.0, 0.1 * l};
+    s.boxes = {
+        {{-0.2 * l, 0.0, floor - 0.03 * l},
+         {2.3 * l, 0.5 * l, 0.06 * l},
+         0.0,
+         SketchRole::kSupport},
+        {{-l - 0.21 * l, 0.0, 0.1 * l}, {0.06 * l, 0.5 * l, 0.68 * l}, 0.0, SketchRole::kSupport},
+        {{q[0], 0.0, 0.0}, {body, body, body}, 0.0, SketchRole::kMass}};
+    const double wall = -1.18 * l;
+    s.springs = {{{wall, 0.0, 0.09 * l}, {left, 0.0, 0.09 * l}, 0.06 * l}};
+    if (damping > 0.0) {
+      s.dampers = {{{wall, 0.0, -0.08 * l}, {left, 0.0, -0.08 * l}, 0.05 * l}};
+    }
+    s.tracer = {q[0], 0.0, 0.0};
+    return s;
+  }
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,12 @@
+#include "mechanics/pendulums/foucault_pendulum.h"
+
+#include "models/model_entry.h"
+#include "models/small_systems.h"
+
+namespace whirl_twin {
+
+ModelInfo foucaultPendulumInfo() {
+  return modelInfo<FoucaultPendulum>();
+}
+
+}  // namespace whirl_twin

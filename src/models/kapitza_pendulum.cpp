@@ -1,0 +1,12 @@
+#include "mechanics/pendulums/kapitza_pendulum.h"
+
+#include "models/model_entry.h"
+#include "models/small_systems.h"
+
+namespace whirl_twin {
+
+ModelInfo kapitzaPendulumInfo() {
+  return modelInfo<KapitzaPendulum>();
+}
+
+}  // namespace whirl_twin
