@@ -12,6 +12,7 @@
 namespace whirl_twin::state {
 
 struct LoopStatistics {
+  static constexpr double kNotTold = std::numeric_limits<double>::quiet_NaN();
   static constexpr MessageKind kKind{"loop", "LoopStatistics", "loop", MessageKind::kLatched};
 
   Instant at;              ///< stamp: wall clock, or simulated time
@@ -47,16 +48,25 @@ struct LoopStatistics {
   std::uint64_t lcm_failed = 0;     ///< messages that LCM could not send
   std::uint64_t publish_every = 0;  ///< steps from one publication to the next, at present
   // Simulated time beside wall time [-]; NaN: not told.
-  double real_time_factor = std::numeric_limits<double>::quiet_NaN();  ///< asked; 0: all it can
-  double achieved_factor = std::numeric_limits<double>::quiet_NaN();   ///< since the last message
-  std::uint64_t ros_lost = 0;  ///< messages that subscribers on ROS were too slow for
-  std::string sender;          ///< which process says so, as people find it; empty: not told
+  double real_time_factor = kNotTold;  ///< asked; 0: all it can
+  double achieved_factor = kNotTold;   ///< since the last message
+  std::uint64_t ros_lost = 0;          ///< messages that subscribers on ROS were too slow for
+  std::string sender;  ///< which process says so, as people find it; empty: not told
   // One entry a controller in another process: the age of its newest command at each sample, since
   // the start or the last reset [samples]; NaN: there was none.
   std::vector<std::string> external;
   std::vector<double> age_p50;
   std::vector<double> age_p99;
   std::vector<double> age_max;
+  // Newer still; NaN: not told.
+  std::int32_t cpu = -1;                 ///< the one processor that the loop keeps to; -1: several
+  std::uint64_t late_wakeups = 0;        ///< of the overruns: woken late by longer than it then ran
+  double wakeup_latency_min = kNotTold;  ///< [s]
+  double wakeup_latency_mean = kNotTold;  ///< [s]
+  double wakeup_latency_p999 = kNotTold;  ///< [s]
+  double execution_min = kNotTold;        ///< [s], of one step of everything
+  double execution_mean = kNotTold;       ///< [s]
+  double execution_p999 = kNotTold;       ///< [s]
 
   template <class Visit>
   static void fields(Visit& visit) {
@@ -95,6 +105,11 @@ struct LoopStatistics {
     visit.along(external, TWIN_FIELD(age_p50), "");
     visit.along(external, TWIN_FIELD(age_p99), "");
     visit.along(external, TWIN_FIELD(age_max), "");
+    visit(TWIN_FIELD(cpu), "");
+    visit(TWIN_FIELD(late_wakeups), "", count);
+    visit.numbers("s", TWIN_FIELD(wakeup_latency_min), TWIN_FIELD(wakeup_latency_mean),
+                  TWIN_FIELD(wakeup_latency_p999), TWIN_FIELD(execution_min),
+                  TWIN_FIELD(execution_mean), TWIN_FIELD(execution_p999));
   }
 };
 

@@ -35,6 +35,14 @@ state::LoopStatistics loopStatistics(const Twin& twin, const Observer& observer,
   m.execution_p50 = seconds(timing.execution_time.percentile(50.0));
   m.execution_p99 = seconds(timing.execution_time.percentile(99.0));
   m.execution_max = seconds(timing.execution_time.max());
+  m.cpu = status.cpu;
+  m.late_wakeups = timing.late_wake_ups;
+  m.wakeup_latency_min = seconds(timing.wake_up_latency.min());
+  m.wakeup_latency_mean = 1.0e-9 * timing.wake_up_latency.mean();
+  m.wakeup_latency_p999 = seconds(timing.wake_up_latency.percentile(99.9));
+  m.execution_min = seconds(timing.execution_time.min());
+  m.execution_mean = 1.0e-9 * timing.execution_time.mean();
+  m.execution_p999 = seconds(timing.execution_time.percentile(99.9));
   m.period_min = seconds(timing.period.min());
   m.period_max = seconds(timing.period.max());
   for (std::size_t i = 0; i < twin.systems().size(); ++i) {
@@ -95,7 +103,9 @@ void LoopDiagnostics::summarize(const state::LoopStatistics& loop, double time,
   status.add("scheduling policy", loop.policy);
   status.add("priority", loop.priority);
   status.add("memory locked", loop.memory_locked);
+  status.add("processor", loop.cpu);
   status.add("overruns", loop.overruns);
+  status.add("overruns for being woken late", loop.late_wakeups);
   status.add("skipped steps", loop.skipped_steps);
   status.add("dropped states", loop.dropped_snapshots);
   status.add("messages not sent on LCM", loop.lcm_failed);

@@ -54,6 +54,8 @@ constexpr const char* kHelp =
     "  ~realtime          enforce, warn or ignore, default warn: what is done without real-time "
     "priority\n"
     "  ~priority          SCHED_FIFO priority, default 50\n"
+    "  ~cpu               the processor that the loop keeps to, default -1: any\n"
+    "  ~give_up           s of late steps without a break after which it ends, default 0: never\n"
     "  ~overrun           skip, catch_up or stop, default skip: what is done about late steps\n"
     "  ~clock             true or false, default false: publish simulated time on /clock and stamp "
     "messages with it\n"
@@ -65,6 +67,7 @@ constexpr double kClockRate = 250.0;            // Hz
 constexpr double kSlowestClock = 1.0e-3;        // Hz
 constexpr double kFastestClock = 1.0e5;         // Hz
 constexpr std::int64_t kShortestStep = 10'000;  // ns, that the fixed-rate loop takes
+constexpr double kLongestGiveUp = 86400.0;      // s
 constexpr auto kReportPeriod = std::chrono::seconds(1);
 constexpr double kServicePoll = 0.05;   // s
 constexpr double kCommandPoll = 0.002;  // s, where there are ramps or commands by LCM
@@ -83,7 +86,8 @@ struct Settings {
 
 Settings readSettings(const Scene& scene) {
   requireKnownParameters({"publish_rate", "lcm_url", "lcm_prefix", "clock", "realtime", "priority",
-                          "overrun", "real_time_factor", "measure", "clock_rate"});
+                          "overrun", "cpu", "give_up", "real_time_factor", "measure",
+                          "clock_rate"});
   Settings s;
   s.every = stepsToPublish(scene);
   s.lcm_url = privateParameter<std::string>("lcm_url", "an LCM url, or nothing", kDefaultLcmUrl);
@@ -113,6 +117,13 @@ Settings readSettings(const Scene& scene) {
   s.loop.mode = parseRealtimeMode(
       privateParameter<std::string>("realtime", "enforce, warn or ignore", "warn"));
   s.loop.priority = privateParameter("priority", "a whole number", 50);
+  s.loop.cpu = privateParameter("cpu", "a whole number", -1);
+  const double give_up = privateParameter("give_up", "a number of seconds", 0.0);
+  if (!(give_up >= 0.0 && give_up <= kLongestGiveUp)) {
+    throw Refusal(
+        fmt::format("give_up: must be from 0 (never) to {} s, found {}", kLongestGiveUp, give_up));
+  }
+  s.loop.give_up = std::llround(give_up * 1.0e9);
   s.loop.policy = parseOverrunPolicy(
       privateParameter<std::string>("overrun", "skip, catch_up or stop", "skip"));
   return s;
@@ -221,6 +232,9 @@ void run() {
   ROS_INFO("stopped after %ld steps", static_cast<long>(live.twin().stepCount()));
   master.stop();
   ros::shutdown();
+  if (loop.gaveUp()) {
+    throw RunFailure("every step ended too late for as long as the parameter give_up says");
+  }
   if (by_itself) {
     throw RunFailure("a step ended too late, and the parameter overrun says stop");
   }

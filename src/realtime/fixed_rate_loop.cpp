@@ -1,6 +1,7 @@
 #include "realtime/fixed_rate_loop.h"
 
 #include <fmt/format.h>
+#include <sched.h>
 #include <time.h>
 
 #include <algorithm>
@@ -46,6 +47,9 @@ FixedRateLoop::FixedRateLoop(const Options& options) : options_(options) {
   check(options.period >= kShortestPeriod && options.period <= kLongestPeriod, "period",
         fmt::format("{} to {} ns", kShortestPeriod, kLongestPeriod), options.period);
   check(options.priority >= 1 && options.priority <= 98, "priority", "1 to 98", options.priority);
+  check(options.cpu >= -1 && options.cpu < CPU_SETSIZE, "cpu",
+        fmt::format("-1 (any) to {}", CPU_SETSIZE - 1), options.cpu);
+  check(options.give_up >= 0, "give_up", "0 (never) or more ns", options.give_up);
   check(options.stack_size >= 65'536, "stack_size", "at least 65536 bytes",
         static_cast<std::int64_t>(options.stack_size));
 }
@@ -67,6 +71,7 @@ void FixedRateLoop::start(Cycle cycle) {
   failure_.clear();
   stop_requested_ = false;
   reset_requested_ = false;
+  gave_up_ = false;
   page_faults_ = 0;
   clearTiming();
   warm_up_left_ = options_.warm_up_cycles;
@@ -130,6 +135,7 @@ void* FixedRateLoop::enter(void* launch) noexcept {
   std::promise<RealtimeStatus> ready = std::move(static_cast<Launch*>(launch)->ready);
   RealtimeStatus status = std::move(static_cast<Launch*>(launch)->status);
   try {
+    keepThisThreadTo(loop.options_.cpu, loop.options_.mode, status);
     scheduleThisThread(loop.options_.mode, loop.options_.priority, status);
     const ProcessorAwake awake(loop.options_.mode, status);
     ready.set_value(std::move(status));
@@ -145,6 +151,7 @@ void* FixedRateLoop::enter(void* launch) noexcept {
 void FixedRateLoop::run() noexcept {
   const DenormalsToZero denormals_to_zero;
   std::int64_t scheduled = monotonicNow() + options_.period;
+  std::int64_t in_time = scheduled;  // the last cycle that was
   try {
     while (sleepUntil(scheduled)) {
       const std::int64_t woke = monotonicNow();
@@ -156,6 +163,12 @@ void FixedRateLoop::run() noexcept {
         next.skipped = 0;  // nothing follows, so nothing is left out
       }
       record(scheduled, woke, finished, next);
+      if (!next.overrun) {
+        in_time = finished;
+      } else if (options_.give_up > 0 && finished - in_time >= options_.give_up) {
+        gave_up_.store(true, std::memory_order_release);
+        return;
+      }
       if (!go_on || next.stop) {
         return;
       }
@@ -210,6 +223,7 @@ void FixedRateLoop::record(std::int64_t scheduled, std::int64_t woke, std::int64
   woke_before_ = woke;
   add(cycles_, 1);
   add(overruns_, next.overrun ? 1 : 0);
+  add(late_wake_ups_, next.overrun && woke - scheduled > finished - woke ? 1 : 0);
   add(skipped_, next.skipped);
   page_faults_.store(threadPageFaults(), std::memory_order_release);
   sequence_.store(sequence + 2, std::memory_order_release);
@@ -221,7 +235,7 @@ void FixedRateLoop::clearTiming() noexcept {
   wake_up_latency_.reset();
   execution_time_.reset();
   period_.reset();
-  for (std::atomic<std::uint64_t>* count : {&cycles_, &overruns_, &skipped_}) {
+  for (std::atomic<std::uint64_t>* count : {&cycles_, &overruns_, &late_wake_ups_, &skipped_}) {
     count->store(0, std::memory_order_release);
   }
   sequence_.store(sequence + 2, std::memory_order_release);
@@ -237,6 +251,7 @@ LoopTiming FixedRateLoop::timing() const {
       timing.period = period_;
       timing.cycles = cycles_.load(std::memory_order_acquire);
       timing.overruns = overruns_.load(std::memory_order_acquire);
+      timing.late_wake_ups = late_wake_ups_.load(std::memory_order_acquire);
       timing.skipped = skipped_.load(std::memory_order_acquire);
       timing.page_faults = page_faults_.load(std::memory_order_acquire);
       if (sequence_.load(std::memory_order_relaxed) == before) {

@@ -30,8 +30,10 @@ struct LoopTiming {
   TimingHistogram period;           ///< [ns], from one wake-up to the next
   std::uint64_t cycles = 0;         ///< cycles run since the start or the last reset
   std::uint64_t overruns = 0;       ///< of these, ended after the next one was due
-  std::uint64_t skipped = 0;        ///< periods left out
-  std::uint64_t page_faults = 0;    ///< of the loop's thread since it began; a reset leaves it
+  std::uint64_t late_wake_ups =
+      0;                      ///< of the overruns, those that woke late for longer than they ran
+  std::uint64_t skipped = 0;  ///< periods left out
+  std::uint64_t page_faults = 0;  ///< of the loop's thread since it began; a reset leaves it
 };
 
 class FixedRateLoop {
@@ -49,6 +51,8 @@ class FixedRateLoop {
     std::uint64_t max_catch_up = 10;     ///< [cycles], for OverrunPolicy::kCatchUp
     std::size_t stack_size = 1'048'576;  ///< [bytes], of the loop's thread
     std::uint64_t warm_up_cycles = 10;   ///< left out of the histograms
+    int cpu = -1;                        ///< the processor that the thread keeps to; -1: any
+    std::int64_t give_up = 0;  ///< [ns] of overruns without a break end the loop; 0: never
   };
 
   /// Refusal names an option that is out of range.
@@ -68,6 +72,9 @@ class FixedRateLoop {
   void stop() noexcept;
 
   bool running() const noexcept { return running_.load(std::memory_order_acquire); }
+
+  /// The loop has ended because it overran for as long as Options::give_up.
+  bool gaveUp() const noexcept { return gave_up_.load(std::memory_order_acquire); }
 
   /// What was obtained from the system at the last start.
   RealtimeStatus status() const;
@@ -101,6 +108,7 @@ class FixedRateLoop {
   std::atomic<bool> running_{false};
   std::atomic<bool> stop_requested_{false};
   std::atomic<bool> reset_requested_{false};
+  std::atomic<bool> gave_up_{false};
 
   // Written by the loop's thread alone, between two increments of the sequence count.
   std::atomic<std::uint64_t> sequence_{0};
@@ -109,6 +117,7 @@ class FixedRateLoop {
   TimingHistogram period_;
   std::atomic<std::uint64_t> cycles_{0};
   std::atomic<std::uint64_t> overruns_{0};
+  std::atomic<std::uint64_t> late_wake_ups_{0};
   std::atomic<std::uint64_t> skipped_{0};
   std::atomic<std::uint64_t> page_faults_{0};
   std::uint64_t warm_up_left_ = 0;

@@ -161,6 +161,32 @@ void scheduleThisThread(RealtimeMode mode, int priority, RealtimeStatus& status)
   }
 }
 
+void keepThisThreadTo(int cpu, RealtimeMode mode, RealtimeStatus& status) {
+  int error = 0;
+  if (cpu >= 0) {
+    cpu_set_t wanted;
+    CPU_ZERO(&wanted);
+    CPU_SET(static_cast<std::size_t>(cpu), &wanted);
+    error = pthread_setaffinity_np(pthread_self(), sizeof(wanted), &wanted);
+  }
+  cpu_set_t obtained;
+  CPU_ZERO(&obtained);
+  pthread_getaffinity_np(pthread_self(), sizeof(obtained), &obtained);
+  status.cpu = -1;
+  for (int i = 0; CPU_COUNT(&obtained) == 1 && i < CPU_SETSIZE; ++i) {
+    if (CPU_ISSET(static_cast<std::size_t>(i), &obtained)) {
+      status.cpu = i;
+    }
+  }
+  if (error != 0 && mode != RealtimeMode::kIgnore) {
+    notObtained(mode,
+                fmt::format("not kept to processor {}: {}: expected one of those that this process "
+                            "may run on (taskset -cp {})",
+                            cpu, std::strerror(error), getpid()),
+                status);
+  }
+}
+
 ProcessorAwake::ProcessorAwake(RealtimeMode mode, RealtimeStatus& status) {
   if (mode == RealtimeMode::kIgnore) {
     return;

@@ -27,6 +27,7 @@ RealtimeMode parseRealtimeMode(const std::string& name);
 struct RealtimeStatus {
   std::string policy;          ///< of the loop's thread: "SCHED_FIFO", "SCHED_OTHER", ...
   int priority = 0;            ///< real-time priority; 0 without one
+  int cpu = -1;                ///< the one processor that the thread may run on; -1: several
   bool memory_locked = false;  ///< the process has locked memory: VmLck of proc(5) is not 0
   std::string kernel;          ///< release and version, which names PREEMPT_RT where it applies
   std::vector<std::string> warnings;  ///< what was asked for and not obtained, and how to get it
@@ -41,6 +42,10 @@ void lockMemory(RealtimeMode mode, RealtimeStatus& status);
 /// Gives the calling thread SCHED_FIFO at `priority` and reads back what it has. A failure is
 /// treated as in lockMemory; kIgnore only reads back.
 void scheduleThisThread(RealtimeMode mode, int priority, RealtimeStatus& status);
+
+/// Lets the calling thread run on this processor only, -1: on those it may, and reads back. A
+/// failure is treated as in lockMemory; kIgnore asks for it all the same and says nothing.
+void keepThisThreadTo(int cpu, RealtimeMode mode, RealtimeStatus& status);
 
 /// While it lives, keeps every processor out of the sleep states that take long to leave, by
 /// holding /dev/cpu_dma_latency open at 0 us. A machine that refuses is a warning, never an error;

@@ -31,6 +31,7 @@ TimingHistogram& TimingHistogram::operator=(const TimingHistogram& other) noexce
   set(count_, get(other.count_));
   set(min_, get(other.min_));
   set(max_, get(other.max_));
+  set(sum_, get(other.sum_));
   return *this;
 }
 
@@ -46,6 +47,7 @@ void TimingHistogram::add(std::int64_t duration) noexcept {
   if (before == 0 || duration > get(max_)) {
     set(max_, duration);
   }
+  set(sum_, get(sum_) + duration);
   set(count_, before + 1);
 }
 
@@ -56,6 +58,7 @@ void TimingHistogram::reset() noexcept {
   set(count_, std::uint64_t{0});
   set(min_, std::int64_t{0});
   set(max_, std::int64_t{0});
+  set(sum_, std::int64_t{0});
 }
 
 std::uint64_t TimingHistogram::count() const noexcept {
@@ -72,6 +75,11 @@ std::int64_t TimingHistogram::min() const noexcept {
 
 std::int64_t TimingHistogram::max() const noexcept {
   return get(max_);
+}
+
+double TimingHistogram::mean() const noexcept {
+  const std::uint64_t samples = count();
+  return samples == 0 ? 0.0 : static_cast<double>(get(sum_)) / static_cast<double>(samples);
 }
 
 std::int64_t TimingHistogram::percentile(double percent) const noexcept {

@@ -35,6 +35,8 @@ class TimingHistogram {
   std::int64_t min() const noexcept;        ///< [ns], exact; 0 when empty
   std::int64_t max() const noexcept;        ///< [ns], exact; 0 when empty
 
+  double mean() const noexcept;  ///< [ns]; 0 when empty
+
   /// The smallest duration [ns] that `percent` (0..100) of the samples do not exceed (nearest
   /// rank), rounded up to its bucket's upper end but never above max(): at most 1/32 too long,
   /// never too short. 0 when empty; max() when the rank lies in the overflow bin.
@@ -52,6 +54,7 @@ class TimingHistogram {
   std::atomic<std::uint64_t> count_{0};
   std::atomic<std::int64_t> min_{0};
   std::atomic<std::int64_t> max_{0};
+  std::atomic<std::int64_t> sum_{0};  // [ns]
 };
 
 }  // namespace whirl_twin

@@ -40,11 +40,12 @@ inline constexpr std::array<EarlierForm, 4> kEarlierForms<state::StabilityMargin
      {0x4058c40523023a98, "iidbsd"},
      {0x2dc55037686885d0, "sd"}}};
 template <>
-inline constexpr std::array<EarlierForm, 4> kEarlierForms<state::LoopStatistics>{
-    {{0xe676f1d3c287e44f, "llllddlsnSDDD"},
-     {0x9af8de11c53ac49c, "ddlsnSDDD"},
-     {0x2a3f5309642532d1, "lsnSDDD"},
-     {0x221db61304d694dd, "nSDDD"}}};
+inline constexpr std::array<EarlierForm, 5> kEarlierForms<state::LoopStatistics>{
+    {{0xe676f1d3c287e44f, "llllddlsnSDDDildddddd"},
+     {0x9af8de11c53ac49c, "ddlsnSDDDildddddd"},
+     {0x2a3f5309642532d1, "lsnSDDDildddddd"},
+     {0x221db61304d694dd, "nSDDDildddddd"},
+     {0x0116770a44453e47, "ildddddd"}}};
 template <>
 inline constexpr std::array<EarlierForm, 1> kEarlierForms<state::Alert>{
     {{0x966688c34b63f52f, "bbbidd"}}};

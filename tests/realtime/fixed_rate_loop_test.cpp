@@ -3,14 +3,18 @@
 #include "realtime/fixed_rate_loop.h"
 
 #include <gtest/gtest.h>
+#include <sched.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <atomic>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "allocation_guard.h"
 #include "loop_trial.h"
+#include "messages/refusal.h"
 
 namespace whirl_twin {
 namespace {
@@ -114,6 +118,77 @@ TEST(FixedRateLoop, StopEndsTheLoopAtTheFirstOverrun) {
   EXPECT_EQ(seen.timing.overruns, 1U);
   EXPECT_EQ(seen.timing.skipped, 0U);
   EXPECT_LE(seen.scheduled.size(), 5U);  // earlier, if the machine itself was late
+}
+
+TEST(FixedRateLoop, GivesUpWhenItIsLateForTooLong) {
+  FixedRateLoop::Options options = ordinary();
+  options.give_up = 20 * kPeriod;
+  FixedRateLoop loop(options);
+  int cycles = 0;
+  loop.start([&](std::int64_t scheduled) {
+    // Late for half as long, once in time, then late for good.
+    busyUntil(scheduled + (cycles == 5 ? 0 : 2 * kPeriod));
+    return ++cycles < 1000;
+  });
+  waitForEnd(loop);
+  EXPECT_TRUE(loop.gaveUp());
+  EXPECT_GE(cycles, 6);
+  EXPECT_LT(cycles, 100);
+  FixedRateLoop patient(ordinary());
+  cycles = 0;
+  patient.start([&](std::int64_t scheduled) {
+    busyUntil(scheduled + 2 * kPeriod);
+    return ++cycles < 30;
+  });
+  waitForEnd(patient);
+  EXPECT_FALSE(patient.gaveUp());
+  EXPECT_EQ(cycles, 30);
+}
+
+// What ran too long was not woken late; what follows one that did, in catching up, was.
+TEST(FixedRateLoop, TellsLateWakeUpsFromLongCycles) {
+  FixedRateLoop::Options options = ordinary(OverrunPolicy::kCatchUp);
+  options.max_catch_up = 1'000'000;
+  const Trace seen = trace(options, 40, 4, 20 * kPeriod);
+  EXPECT_GE(seen.timing.late_wake_ups, 10U);
+  EXPECT_LT(seen.timing.late_wake_ups, seen.timing.overruns);
+}
+
+TEST(FixedRateLoop, KeepsToAProcessor) {
+  cpu_set_t allowed;
+  CPU_ZERO(&allowed);
+  ASSERT_EQ(sched_getaffinity(0, sizeof(allowed), &allowed), 0);
+  for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu) {
+    if (!CPU_ISSET(static_cast<std::size_t>(cpu), &allowed)) {
+      continue;
+    }
+    FixedRateLoop::Options options = ordinary();
+    options.cpu = cpu;
+    FixedRateLoop loop(options);
+    int seen = 0, cycles = 0;
+    loop.start([&](std::int64_t) {
+      seen += sched_getcpu() == cpu ? 1 : 0;
+      return ++cycles < 20;
+    });
+    EXPECT_EQ(loop.status().cpu, cpu);
+    waitForEnd(loop);
+    EXPECT_EQ(seen, 20);
+  }
+}
+
+TEST(FixedRateLoop, SaysWhenThereIsNoSuchProcessor) {
+  FixedRateLoop::Options options = ordinary();
+  options.cpu = CPU_SETSIZE - 1;
+  options.mode = RealtimeMode::kWarn;
+  FixedRateLoop loop(options);
+  loop.start([](std::int64_t) { return false; });
+  const std::vector<std::string> warnings = loop.status().warnings;
+  EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+    return warning.find("not kept to processor") != std::string::npos;
+  }));
+  waitForEnd(loop);
+  options.cpu = -2;
+  EXPECT_THROW(FixedRateLoop{options}, Refusal);
 }
 
 TEST(FixedRateLoop, WarmUpIsLeftOutOfTheHistogramsOnly) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -69,6 +70,10 @@ TEST(TimingHistogram, PercentilesAgreeWithTheSortedSamples) {
     EXPECT_EQ(histogram.count(), size);
     EXPECT_EQ(histogram.min(), *std::min_element(samples.begin(), samples.end()));
     EXPECT_EQ(histogram.max(), *std::max_element(samples.begin(), samples.end()));
+    EXPECT_NEAR(
+        histogram.mean(),
+        std::accumulate(samples.begin(), samples.end(), 0.0) / static_cast<double>(samples.size()),
+        1e-9 * histogram.mean());
     EXPECT_EQ(histogram.percentile(100.0), histogram.max());
     std::int64_t before = 0;
     for (const double percent : {0.0, 1.0, 25.0, 50.0, 90.0, 99.0, 99.9, 100.0}) {
