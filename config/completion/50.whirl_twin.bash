@@ -17,7 +17,7 @@ _twin() {
       *' --'[ailmopst]*) ;; # a value of its own, mostly a file
       'models '* | 'new '*) words=$(twin models | sed -nE 's/^([a-z0-9_]+): .*/\1/p') ;;
       'controllers '*) words=$(twin controllers | sed -nE 's/^([a-z0-9_]+): .*/\1/p') ;;
-      'routh '* | 'log '* | 'export '* | 'fit '* | 'scenes '*) ;;
+      'routh '* | 'log '* | 'record '* | 'play '* | 'export '* | 'fit '* | 'scenes '*) ;;
       *) words=$(_twin_scenes) ;;
     esac
   fi

@@ -31,6 +31,8 @@ void addBalanceCommand(CLI::App& twin, int& status);
 void addRouthCommand(CLI::App& twin, int& status);
 void addLogCommand(CLI::App& twin, int& status);
 void addExportCommand(CLI::App& twin, int& status);
+void addRecordCommand(CLI::App& twin, int& status);
+void addPlayCommand(CLI::App& twin, int& status);
 void addFitCommand(CLI::App& twin, int& status);
 void addFollowCommand(CLI::App& twin, int& status);
 void addLoopCommand(CLI::App& twin, int& status);

@@ -113,6 +113,8 @@ int run(int argc, const char* const* argv) {
   addTradeoffCommand(twin, status);
   addRouthCommand(twin, status);
   addLogCommand(twin, status);
+  addRecordCommand(twin, status);
+  addPlayCommand(twin, status);
   addExportCommand(twin, status);
   addMonitorCommand(twin, status);
   addFitCommand(twin, status);

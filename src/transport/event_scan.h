@@ -33,6 +33,10 @@ class EventScan {
   /// where there is none: damageOffset() to offset() is no event then, damage() says why.
   Found next(RawEvent& event);
 
+  /// Goes on at the first sync word from `offset` [bytes] on, or the end, of 0 there: what lies
+  /// between is not told as damage.
+  void goTo(std::uint64_t offset) { at_ = offset == 0 ? 0 : findSync(offset); }
+
   std::uint64_t size() const { return file_.size(); }
   /// [bytes], up to where the file has been understood or skipped.
   std::uint64_t offset() const { return at_; }

@@ -82,22 +82,23 @@ class EventLogWriter {
   template <class State>
   void write(const State& state) {
     const std::int64_t utime = encode(state, payload_);
-    writeEvent(channelOf(state), utime);
+    writeEvent(channelOf(state), utime, payload_.data(), payload_.size());
   }
   /// The same at another time [s] than the message's own: of what held before, and is told again.
   template <class State>
   void writeAt(double time, const State& state) {
     encode(state, payload_);
-    writeEvent(channelOf(state), utimeOf(time));
+    writeEvent(channelOf(state), utimeOf(time), payload_.data(), payload_.size());
   }
+  /// An event as it came, at `utime` [us].
+  void writeEvent(const std::string& channel, std::int64_t utime, const std::uint8_t* data,
+                  std::size_t size);
 
   /// Hands everything to the file system: only then is a full disk noticed. Throws
   /// RunFailure.
   void finish();
 
  private:
-  void writeEvent(const std::string& channel, std::int64_t utime);
-
   std::string path_;
   lcm::LogFile file_;
   std::vector<std::uint8_t> payload_;

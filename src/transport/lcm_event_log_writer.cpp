@@ -22,12 +22,13 @@ EventLogWriter::EventLogWriter(const std::string& path) : path_(path), file_(pat
   }
 }
 
-void EventLogWriter::writeEvent(const std::string& channel, std::int64_t utime) {
+void EventLogWriter::writeEvent(const std::string& channel, std::int64_t utime,
+                                const std::uint8_t* data, std::size_t size) {
   lcm::LogEvent event{};
   event.timestamp = utime;
   event.channel = channel;
-  event.datalen = static_cast<std::int32_t>(payload_.size());
-  event.data = payload_.data();
+  event.datalen = static_cast<std::int32_t>(size);
+  event.data = const_cast<std::uint8_t*>(data);  // LCM's struct is for reading, too
   if (file_.writeEvent(&event) != 0) {
     throwCannotWrite(path_);
   }

@@ -52,8 +52,8 @@ TEST_P(CommandHelp, TellsWhatItDoesWithAnExample) {
 INSTANTIATE_TEST_SUITE_P(Commands, CommandHelp,
                          testing::Values("check", "scenes", "models", "new", "simulate", "plot",
                                          "analyze", "campbell", "response", "orbit", "loop",
-                                         "modes", "balance", "tradeoff", "routh", "log", "export",
-                                         "monitor", "follow"));
+                                         "modes", "balance", "tradeoff", "routh", "log", "record",
+                                         "play", "export", "monitor", "follow"));
 
 TEST(CommandLine, TheVersionIsThatOfThePackage) {
   const std::string package = contentsOf(WHIRL_TWIN_SOURCE "/package.xml");

@@ -1,0 +1,25 @@
+#include "tools/interrupt.h"
+
+#include <atomic>
+#include <csignal>
+
+namespace whirl_twin {
+
+namespace {
+
+std::atomic<bool> asked{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
+
+}  // namespace
+
+void catchInterrupts() {
+  const auto ask = [](int) { asked.store(true); };
+  std::signal(SIGINT, ask);
+  std::signal(SIGTERM, ask);
+}
+
+bool interrupted() {
+  return asked.load(std::memory_order_relaxed);
+}
+
+}  // namespace whirl_twin

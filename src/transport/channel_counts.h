@@ -1,0 +1,44 @@
+// What has come over the channels of a twin: how much, how much of it is missing by its steps, and
+// what could not be meant.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "transport/channels.h"
+#include "transport/step_continuity.h"
+
+namespace whirl_twin {
+
+class ChannelCounts {
+ public:
+  struct Count {
+    std::string kind;  ///< "whirl", ...; "other" if it is not the twin's
+    std::uint64_t events = 0;
+    std::uint64_t bytes = 0;
+    std::uint64_t rejected = 0;
+    StepContinuity steps;
+    std::int64_t first = 0, last = 0;  ///< [us], received
+    std::optional<Message> newest;     ///< that could be meant
+  };
+
+  explicit ChannelCounts(std::string prefix) : prefix_(std::move(prefix)) {}
+
+  /// Returns what it says, where it is a twin's and can be meant.
+  const Message* add(const std::string& channel, std::int64_t received, const std::uint8_t* data,
+                     std::size_t size);
+
+  const std::map<std::string, Count>& channels() const { return channels_; }
+  /// Over all channels.
+  std::uint64_t events() const;
+  std::uint64_t lost() const;
+  std::uint64_t rejected() const;
+
+ private:
+  std::string prefix_;
+  std::map<std::string, Count> channels_;
+};
+
+}  // namespace whirl_twin

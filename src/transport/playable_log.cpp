@@ -1,0 +1,144 @@
+#include "transport/playable_log.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "messages/message_check.h"
+#include "messages/names.h"
+#include "messages/refusal.h"
+#include "transport/bag_scan.h"
+#include "transport/lcm_decode.h"
+
+namespace whirl_twin {
+namespace {
+
+/// Bisection ends here, and the rest is walked through [bytes].
+constexpr std::uint64_t kNear = 1 << 16;
+
+}  // namespace
+
+PlayableLog::PlayableLog(const std::string& path, std::string prefix, Selects selects,
+                         bool commands)
+    : scan_(path), prefix_(std::move(prefix)), selects_(std::move(selects)), commands_(commands) {
+  if (BagScan::isBag(path)) {
+    throw Refusal(path + ": expected an LCM log, found a rosbag: `rosbag play` plays it");
+  }
+  if (const auto first = firstFrom(0)) {
+    begin_ = end_ = first->timestamp;
+    for (std::uint64_t back = kNear; end_ == begin_ && back < 2 * scan_.size(); back *= 4) {
+      for (auto last = firstFrom(scan_.size() - std::min(back, scan_.size())); last;
+           last = firstFrom(scan_.offset())) {
+        end_ = last->timestamp;
+      }
+    }
+  }
+  scan_.goTo(0);
+}
+
+/// The first sound event there or behind; the scan then stands behind it.
+std::optional<RawEvent> PlayableLog::firstFrom(std::uint64_t offset) {
+  scan_.goTo(offset);
+  for (auto found = scan_.next(event_); found != EventScan::Found::kEnd;
+       found = scan_.next(event_)) {
+    if (found == EventScan::Found::kEvent) {
+      return event_;
+    }
+  }
+  return std::nullopt;
+}
+
+void PlayableLog::seek(std::int64_t timestamp) {
+  std::uint64_t low = 0, high = scan_.size();
+  while (high - low > kNear) {
+    const std::uint64_t middle = low + (high - low) / 2;
+    const auto event = firstFrom(middle);
+    if (event && event->offset < high && event->timestamp < timestamp) {
+      low = event->offset;
+    } else {
+      high = middle;
+    }
+  }
+  std::uint64_t at = low;
+  for (auto event = firstFrom(at); event && event->timestamp < timestamp; event = firstFrom(at)) {
+    at = scan_.offset();
+  }
+  scan_.goTo(at);
+  series_.clear();
+}
+
+const RawEvent* PlayableLog::next() {
+  for (auto found = scan_.next(event_); found != EventScan::Found::kEnd;
+       found = scan_.next(event_)) {
+    if (found != EventScan::Found::kEvent) {
+      ++played_.damaged;
+      name(scan_.damageOffset(), scan_.damage());
+    } else if (isToPlay(event_)) {
+      ++played_.events;
+      return &event_;
+    }
+  }
+  return nullptr;
+}
+
+bool PlayableLog::isToPlay(const RawEvent& event) {
+  message_.reset();
+  if (!selects_(event.channel)) {
+    ++played_.not_selected;
+    return false;
+  }
+  const auto channel = parseChannel(event.channel, prefix_);
+  const bool fits = event.data != nullptr;
+  try {
+    if (!fits) {
+      throw RejectedMessage(fmt::format("payload: expected at most {} bytes, found {}",
+                                        EventScan::kMaxPayload, event.size));
+    }
+    if (!channel) {
+      return true;  // somebody else's
+    }
+    if (channel->kind->has(MessageKind::kCommand) && !commands_) {
+      ++played_.commands;
+      return false;
+    }
+    message_ = decodeEvent(event.channel, event.data, event.size, prefix_);
+  } catch (const RejectedMessage& why) {
+    ++played_.rejected;
+    name(event.offset, printable(event.channel) + ": " + why.what());
+    return false;
+  }
+  const auto step = seriesStep(*message_);
+  return !step || !isRepeated(event, *step);
+}
+
+/// Whether the state before had this step; says where states are missing.
+bool PlayableLog::isRepeated(const RawEvent& event, std::int64_t step) {
+  Series& series = series_[event.channel];
+  const std::int64_t passed = step - series.step;
+  const bool first = series.step < 0;
+  series.step = step;
+  if (first || passed < 0) {
+    return false;  // begins, or begins anew
+  }
+  if (passed == 0) {
+    ++played_.repeated;
+    name(event.offset, fmt::format("{}: step {} again", event.channel, step));
+    return true;
+  }
+  if (series.stride > 0 && passed >= 2 * series.stride) {
+    ++played_.gaps;
+    name(event.offset, fmt::format("{}: steps {} to {} are missing", event.channel,
+                                   step - passed + series.stride, step - series.stride));
+  }
+  series.stride = series.stride > 0 ? std::min(series.stride, passed) : passed;
+  return false;
+}
+
+void PlayableLog::name(std::uint64_t offset, std::string what) {
+  if (played_.defects.size() < kMaxNamedDefects) {
+    played_.defects.push_back({offset, std::move(what)});
+  }
+}
+
+}  // namespace whirl_twin
