@@ -72,7 +72,7 @@ foreach(room ${whirl_twin_core_rooms})
 endforeach()
 
 if(NOT WHIRL_TWIN_ROS)
-  install(DIRECTORY config/scenes DESTINATION share/whirl_twin/config)
+  install(DIRECTORY config/scenes config/studies DESTINATION share/whirl_twin/config)
 endif()
 if(WHIRL_TWIN_ROS)
   install(DIRECTORY launch config DESTINATION ${whirl_twin_share_dir})

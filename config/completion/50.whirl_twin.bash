@@ -14,10 +14,10 @@ _twin() {
   else
     case "$command $before" in
       *' --show') words=$(_twin_scenes) ;;
-      *' --'[ailmopst]*) ;; # a value of its own, mostly a file
+      *' --'[ailmopstw]*) ;; # a value of its own, mostly a file
       'models '* | 'new '*) words=$(twin models | sed -nE 's/^([a-z0-9_]+): .*/\1/p') ;;
       'controllers '*) words=$(twin controllers | sed -nE 's/^([a-z0-9_]+): .*/\1/p') ;;
-      'routh '* | 'log '* | 'record '* | 'play '* | 'export '* | 'fit '* | 'scenes '*) ;;
+      'routh '* | 'log '* | 'record '* | 'play '* | 'export '* | 'fit '* | 'sweep '* | 'scenes '*) ;;
       *) words=$(_twin_scenes) ;;
     esac
   fi

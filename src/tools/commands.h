@@ -38,5 +38,6 @@ void addFollowCommand(CLI::App& twin, int& status);
 void addLoopCommand(CLI::App& twin, int& status);
 void addModesCommand(CLI::App& twin, int& status);
 void addMonitorCommand(CLI::App& twin, int& status);
+void addSweepCommand(CLI::App& twin, int& status);
 
 }  // namespace whirl_twin

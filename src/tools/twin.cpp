@@ -111,6 +111,7 @@ int run(int argc, const char* const* argv) {
   addModesCommand(twin, status);
   addBalanceCommand(twin, status);
   addTradeoffCommand(twin, status);
+  addSweepCommand(twin, status);
   addRouthCommand(twin, status);
   addLogCommand(twin, status);
   addRecordCommand(twin, status);

@@ -14,9 +14,9 @@ bool contains(const std::string& text, const std::string& part) {
 
 /// In the order of `twin --help`.
 constexpr const char* kCommands[] = {
-    "check",    "scenes",   "models",   "controllers", "new",     "simulate", "plot",
-    "analyze",  "campbell", "response", "orbit",       "loop",    "modes",    "balance",
-    "tradeoff", "routh",    "log",      "export",      "monitor", "fit",      "follow"};
+    "check",    "scenes",   "models", "controllers", "new",    "simulate", "plot",     "analyze",
+    "campbell", "response", "orbit",  "loop",        "modes",  "balance",  "tradeoff", "sweep",
+    "routh",    "log",      "record", "play",        "export", "monitor",  "fit",      "follow"};
 
 /// "; there are: check, scenes, ...", as it is said where a command is none.
 std::string thereAre() {
@@ -52,8 +52,8 @@ TEST_P(CommandHelp, TellsWhatItDoesWithAnExample) {
 INSTANTIATE_TEST_SUITE_P(Commands, CommandHelp,
                          testing::Values("check", "scenes", "models", "new", "simulate", "plot",
                                          "analyze", "campbell", "response", "orbit", "loop",
-                                         "modes", "balance", "tradeoff", "routh", "log", "record",
-                                         "play", "export", "monitor", "follow"));
+                                         "modes", "balance", "tradeoff", "sweep", "routh", "log",
+                                         "record", "play", "export", "monitor", "follow"));
 
 TEST(CommandLine, TheVersionIsThatOfThePackage) {
   const std::string package = contentsOf(WHIRL_TWIN_SOURCE "/package.xml");

@@ -1,0 +1,250 @@
+#include "reports/study_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "reports/asked_cost.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// Wide enough for all of them.
+template <class All, class NameOf>
+std::size_t widthOf(const All& all, const NameOf& name_of) {
+  std::size_t width = 0;
+  for (const auto& one : all) {
+    width = std::max(width, name_of(one).size());
+  }
+  return width;
+}
+
+const std::string& pathOf(const Variation& variation) {
+  return variation.path;
+}
+const std::string& nameOf(const Measure& measure) {
+  return measure.name;
+}
+
+std::string shown(const Estimate& estimate) {
+  return std::isfinite(estimate.value) ? fmt::format("{:10.4g} [{:9.4g}, {:9.4g}]", estimate.value,
+                                                     estimate.low, estimate.high)
+                                       : fmt::format("{:>10} {:22}", "-", "");
+}
+
+std::string shown(const Yield& yield) {
+  return fmt::format("{} of {} pass, {:.4g} % [{:.4g}, {:.4g}]", yield.passed, yield.of,
+                     100.0 * yield.part(), 100.0 * yield.low, 100.0 * yield.high);
+}
+
+std::string tableOf(
+    const Study& study, const std::string& measure,
+    const std::vector<std::pair<const char*, const std::vector<Estimate>*>>& columns,
+    const std::string& note) {
+  const std::size_t width = widthOf(study.vary, pathOf);
+  std::string text = fmt::format("\n{}{}\n  {:{}}", measure, note, "", width);
+  for (const auto& [name, estimates] : columns) {
+    text += fmt::format("  {:<33}", name);
+  }
+  text += "\n";
+  for (std::size_t j = 0; j < study.vary.size(); ++j) {
+    text += fmt::format("  {:{}}", study.vary[j].path, width);
+    for (const auto& [name, estimates] : columns) {
+      text += "  " + shown((*estimates)[j]);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+/// What is said beside the indices of a measure.
+std::string noteOf(const std::vector<Estimate>& estimates, std::uint64_t left_out,
+                   const char* what) {
+  std::string note;
+  if (!std::isfinite(estimates.front().value)) {
+    note += ": does not vary, or is not known at enough points";
+  }
+  if (left_out > 0) {
+    note += fmt::format("; without {} {} with points that failed or are undefined", left_out, what);
+  }
+  return note;
+}
+
+Json estimateJson(const Estimate& estimate) {
+  return {{"value", estimate.value}, {"low", estimate.low}, {"high", estimate.high}};
+}
+
+Json yieldJson(const Yield& yield) {
+  return {{"passed", yield.passed},
+          {"of", yield.of},
+          {"part", yield.part()},
+          {"low", yield.low},
+          {"high", yield.high}};
+}
+
+Json distributedJson(const Distributed& d) {
+  Json json{{"count", d.count},       {"undefined", d.undefined},
+            {"mean", d.mean},         {"standard_deviation", d.deviation},
+            {"smallest", d.smallest}, {"largest", d.largest}};
+  for (std::size_t k = 0; k < kPercentiles.size(); ++k) {
+    json["percentiles"][fmt::format("{:g}", kPercentiles[k])] = d.percentiles[k];
+  }
+  return json;
+}
+
+Json valuesJson(const Study& study, const std::vector<double>& values) {
+  Json json = Json::object();
+  for (std::size_t j = 0; j < values.size(); ++j) {
+    json[study.vary[j].path] = values[j];
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string text(const Study& study, const Answers& answers) {
+  std::string text = fmt::format(
+      "{}: {} points, {} by {}", study.source, answers.points,
+      study.vary.size() == 1 ? "one number" : fmt::format("{} numbers", study.vary.size()),
+      name(study.design.kind));
+  text += answers.failures > 0 ? fmt::format(", {} failed\n\n", answers.failures) : "\n\n";
+  const std::size_t width = std::max<std::size_t>(7, widthOf(study.measures, nameOf));
+  text += fmt::format("{:{}} {:>11} {:>11} {:>11} {:>11} {:>11} {:>11} {:>11}\n", "measure", width,
+                      "mean", "deviation", "smallest", "5 %", "median", "95 %", "largest");
+  for (std::size_t k = 0; k < study.measures.size(); ++k) {
+    const Distributed& d = answers.measures[k];
+    text += fmt::format("{:{}} {:11.5g} {:11.5g} {:11.5g} {:11.5g} {:11.5g} {:11.5g} {:11.5g}{}\n",
+                        study.measures[k].name, width, d.mean, d.deviation, d.smallest,
+                        d.percentiles[1], d.percentiles[3], d.percentiles[5], d.largest,
+                        d.undefined > 0 ? fmt::format("  undefined at {}", d.undefined) : "");
+  }
+  if (answers.yield) {
+    text += "\n";
+    for (std::size_t k = 0; k < study.requirements.size(); ++k) {
+      text += fmt::format("{}: {}\n", whirl_twin::text(study.requirements[k], study),
+                          shown(answers.requirements[k]));
+    }
+    if (study.requirements.size() > 1) {
+      text += fmt::format("all: {}\n", shown(*answers.yield));
+    }
+  }
+  for (std::size_t k = 0; k < answers.sobol.size(); ++k) {
+    const SobolIndices& s = answers.sobol[k];
+    text += tableOf(study, study.measures[k].name, {{"first order", &s.first}, {"total", &s.total}},
+                    noteOf(s.first, s.left_out, "rows"));
+  }
+  for (std::size_t k = 0; k < answers.morris.size(); ++k) {
+    const MorrisEffects& m = answers.morris[k];
+    text += tableOf(study, study.measures[k].name,
+                    {{"mean magnitude of effects", &m.mean_magnitude},
+                     {"mean", &m.mean},
+                     {"deviation", &m.deviation}},
+                    noteOf(m.mean, m.left_out, "trajectories"));
+  }
+  return text;
+}
+
+Json json(const Study& study, const Answers& answers) {
+  Json json;
+  json["study"] = study.source;
+  json["design"] = name(study.design.kind);
+  json["points"] = answers.points;
+  json["failed"] = answers.failures;
+  for (std::size_t k = 0; k < study.measures.size(); ++k) {
+    Json& measure = json["measures"][study.measures[k].name];
+    measure = distributedJson(answers.measures[k]);
+    if (!answers.sobol.empty()) {
+      const SobolIndices& s = answers.sobol[k];
+      measure["rows_left_out"] = s.left_out;
+      for (std::size_t j = 0; j < study.vary.size(); ++j) {
+        measure["sobol"][study.vary[j].path] = {{"first", estimateJson(s.first[j])},
+                                                {"total", estimateJson(s.total[j])}};
+      }
+    }
+    if (!answers.morris.empty()) {
+      const MorrisEffects& m = answers.morris[k];
+      measure["trajectories_left_out"] = m.left_out;
+      for (std::size_t j = 0; j < study.vary.size(); ++j) {
+        measure["morris"][study.vary[j].path] = {
+            {"mean", estimateJson(m.mean[j])},
+            {"mean_magnitude", estimateJson(m.mean_magnitude[j])},
+            {"standard_deviation", estimateJson(m.deviation[j])}};
+      }
+    }
+  }
+  json["requirements"] = Json::array();
+  for (std::size_t k = 0; k < study.requirements.size(); ++k) {
+    Json entry{{"requirement", whirl_twin::text(study.requirements[k], study)}};
+    entry.update(yieldJson(answers.requirements[k]));
+    json["requirements"].push_back(entry);
+  }
+  json["yield"] = answers.yield ? yieldJson(*answers.yield) : Json();
+  return json;
+}
+
+std::string text(const Study& study, const StudyPoint& point) {
+  std::string text = fmt::format("point {} of {}\n", point.point, study.points());
+  for (std::size_t j = 0; j < point.values.size(); ++j) {
+    const std::string& unit = study.vary[j].unit;
+    text += fmt::format("  {} = {}{}\n", study.vary[j].path, point.values[j],
+                        unit.empty() || unit == "-" ? "" : " " + unit);
+  }
+  if (!point.outcome.failure.empty()) {
+    return text + fmt::format("failed: {}\n", point.outcome.failure);
+  }
+  for (std::size_t k = 0; k < study.measures.size(); ++k) {
+    text += fmt::format("{} = {}\n", study.measures[k].name, point.outcome.measures[k]);
+  }
+  return text;
+}
+
+Json json(const Study& study, const StudyPoint& point) {
+  Json json{{"point", point.point}, {"vary", valuesJson(study, point.values)}};
+  json["failure"] = point.outcome.failure.empty() ? Json() : Json(point.outcome.failure);
+  json["measures"] = Json::object();
+  for (std::size_t k = 0; k < point.outcome.measures.size(); ++k) {
+    json["measures"][study.measures[k].name] = point.outcome.measures[k];
+  }
+  return json;
+}
+
+StudyStatus statusOf(const Study& study, const ResultFolder& folder) {
+  StudyStatus status;
+  const std::vector<bool> finished = folder.finished();
+  for (std::uint64_t block = 0; block < finished.size(); ++block) {
+    status.done += finished[block] ? study.sizeOf(block) : 0;
+  }
+  const ResultFolder::Pace pace = folder.pace();
+  status.rate = pace.seconds > 0.0 ? static_cast<double>(pace.blocks - 1) *
+                                         static_cast<double>(study.block) / pace.seconds
+                                   : kNaN;
+  status.left = static_cast<double>(study.points() - status.done) / status.rate;
+  return status;
+}
+
+std::string text(const Study& study, const StudyStatus& status) {
+  const double part = static_cast<double>(status.done) / static_cast<double>(study.points());
+  std::string text =
+      fmt::format("{} of {} points, {:.1f} %", status.done, study.points(), 100.0 * part);
+  if (std::isfinite(status.rate)) {
+    text += fmt::format(", {:.3g} a second", status.rate);
+    if (status.done < study.points()) {
+      text += fmt::format(", {} left at this rate", inWords(status.left));
+    }
+  }
+  return text + "\n";
+}
+
+Json json(const Study& study, const StudyStatus& status) {
+  return {{"done", status.done},
+          {"points", study.points()},
+          {"rate", status.rate},
+          {"seconds_left", status.left}};
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,211 @@
+#include "studies/analysed_numbers.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "analysis/critical_speeds.h"
+#include "analysis/equilibria.h"
+#include "analysis/instability_speed.h"
+#include "analysis/separation_margin.h"
+#include "scene/held_rotor.h"
+
+namespace whirl_twin {
+
+namespace {
+
+using Kind = AnalysedNumber::Kind;
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Parts of a name before and after the place.
+struct Name {
+  const char* before;
+  bool listed;
+  const char* after;
+  Kind kind;
+  const char* unit;
+};
+constexpr std::array<Name, 12> kNames{{
+    {"critical_speeds", true, "", Kind::kCriticalSpeed, "rad/s"},
+    {"critical_speeds", true, ".speed", Kind::kCriticalSpeed, "rad/s"},
+    {"critical_speeds", true, ".amplification_factor", Kind::kAmplificationFactor, "-"},
+    {"critical_speeds", true, ".separation_margin", Kind::kSeparationMargin, "percent"},
+    {"natural_frequencies", true, "", Kind::kNaturalFrequency, "rad/s"},
+    {"damping_ratios", true, "", Kind::kDampingRatioOfMode, "-"},
+    {"stability.sigma", false, "", Kind::kDecayRate, "1/s"},
+    {"margins.decay_rate", false, "", Kind::kDecayRate, "1/s"},
+    {"margins.damping_ratio", false, "", Kind::kDampingRatio, "-"},
+    {"margins.log_decrement", false, "", Kind::kLogDecrement, "-"},
+    {"margins.instability_speed", false, "", Kind::kInstabilitySpeed, "rad/s"},
+    {"separation.reserve", false, "", Kind::kSeparationReserve, "percent"},
+}};
+
+/// The place in "before[12]after"; nothing if it is not written so.
+std::optional<std::size_t> placeIn(const std::string& text, const Name& name) {
+  const std::string before = name.before;
+  if (!name.listed) {
+    return text == before ? std::optional<std::size_t>(0) : std::nullopt;
+  }
+  if (text.compare(0, before.size() + 1, before + "[") != 0) {
+    return std::nullopt;
+  }
+  std::size_t place = 0;
+  const char* const end = text.data() + text.size();
+  const auto [after, error] = std::from_chars(text.data() + before.size() + 1, end, place);
+  if (error != std::errc() || after == end || *after != ']' ||
+      std::string(after + 1, end) != name.after) {
+    return std::nullopt;
+  }
+  return place;
+}
+
+Eigen::VectorXd vectorOf(const std::vector<double>& x) {
+  return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
+}
+
+}  // namespace
+
+std::optional<AnalysedNumber> analysedNumber(const std::string& name, const BuiltScene& scene) {
+  for (std::size_t i = 0; i < scene.systems.size(); ++i) {
+    const std::string prefix = scene.systems[i]->spec.name + ".";
+    const bool named = name.compare(0, prefix.size(), prefix) == 0;
+    if (!named && scene.systems.size() > 1) {
+      continue;
+    }
+    const std::string rest = named ? name.substr(prefix.size()) : name;
+    for (const Name& known : kNames) {
+      if (const auto place = placeIn(rest, known)) {
+        return AnalysedNumber{known.kind, i, *place};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> analysedNames(const BuiltScene& scene) {
+  std::vector<std::string> all;
+  for (const SharedSystem& system : scene.systems) {
+    for (const Name& known : kNames) {
+      const std::string name =
+          std::string(known.before) + (known.listed ? "[0]" : "") + known.after;
+      all.push_back(scene.systems.size() > 1 ? system->spec.name + "." + name : name);
+    }
+  }
+  return all;
+}
+
+std::string unitOf(const AnalysedNumber& number) {
+  return std::find_if(kNames.begin(), kNames.end(),
+                      [&](const Name& known) { return known.kind == number.kind; })
+      ->unit;
+}
+
+struct AnalysedScene::Results {
+  std::optional<Linearization> linearization;
+  Eigen::VectorXd about;
+  std::optional<Stability> stability;
+  std::optional<std::vector<CriticalSpeed>> critical_speeds;
+  std::optional<double> instability_speed;
+
+  const Linearization& linearizationOf(const BuiltSystem& system, double speed,
+                                       const Moment<double>& start) {
+    if (!linearization) {
+      const Dynamics& dynamics = *system.dynamics;
+      const Eigen::VectorXd q = vectorOf(system.spec.q);
+      const Eigen::VectorXd v = vectorOf(system.spec.v);
+      if (const auto point = operatingPoint(dynamics, q, v, speed)) {
+        about = point->q;
+        linearization = linearizationAbout(dynamics, point->q, point->v, speed);
+      } else {
+        about = q;
+        linearization = dynamics.linearization(q, v, dynamics.acceleration(q, v, start), start);
+      }
+    }
+    return *linearization;
+  }
+
+  const Stability& stabilityOf(const BuiltSystem& system, double speed,
+                               const Moment<double>& start) {
+    if (!stability) {
+      const Dynamics& dynamics = *system.dynamics;
+      const Linearization& l = linearizationOf(system, speed, start);
+      const CyclicCoordinates cyclic = cyclicCoordinates(dynamics, speed);
+      stability = cyclic.any()        ? reducedStability(l, cyclic)
+                  : dynamics.linear() ? stabilityWithRigidBodyModes(l, cyclic)
+                                      : whirl_twin::stability(l);
+    }
+    return *stability;
+  }
+
+  const std::vector<CriticalSpeed>& criticalSpeedsOf(const BuiltSystem& system) {
+    if (!critical_speeds) {
+      critical_speeds = criticalSpeeds(*heldDynamics(system));
+    }
+    return *critical_speeds;
+  }
+};
+
+AnalysedScene::AnalysedScene(const BuiltScene& scene, std::optional<double> speed)
+    : scene_(scene), speed_(speed), results_(scene.systems.size()) {}
+
+AnalysedScene::~AnalysedScene() = default;
+
+double AnalysedScene::value(const AnalysedNumber& number) {
+  const BuiltSystem& system = *scene_.systems[number.system];
+  Results& known = results_[number.system];
+  const ShaftMotion shaft = scene_.driveOf(system).at(0.0);
+  const double speed = speed_.value_or(shaft.speed);
+  const Moment<double> start{scene_.startSeconds(), shaft.angle, speed,
+                             speed_ ? 0.0 : shaft.acceleration};
+  const auto at = [&](const std::vector<double>& list) {
+    return number.place < list.size() ? list[number.place] : kNaN;
+  };
+  switch (number.kind) {
+    case Kind::kNaturalFrequency:
+      return at(known.stabilityOf(system, speed, start).natural_frequencies);
+    case Kind::kDampingRatioOfMode:
+      return at(known.stabilityOf(system, speed, start).damping_ratios);
+    case Kind::kDecayRate:
+      return known.stabilityOf(system, speed, start).decay_rate;
+    case Kind::kDampingRatio:
+      return known.stabilityOf(system, speed, start).damping_ratio;
+    case Kind::kLogDecrement:
+      return known.stabilityOf(system, speed, start).log_decrement;
+    case Kind::kInstabilitySpeed:
+      if (!known.instability_speed) {
+        static_cast<void>(known.linearizationOf(system, speed, start));
+        known.instability_speed =
+            instabilitySpeed(*system.dynamics, known.about, speed).value_or(kInfinity);
+      }
+      return *known.instability_speed;
+    default:
+      break;
+  }
+  const std::vector<CriticalSpeed>& critical_speeds = known.criticalSpeedsOf(system);
+  if (number.kind == Kind::kSeparationReserve) {
+    double least = kInfinity;  // no critical speed: any distance is enough
+    for (const CriticalSpeed& critical : critical_speeds) {
+      const double factor = critical.amplification_factor;
+      const double asked = requiredSeparationMargin(speed, critical.speed, factor);
+      const double reserve = separationMargin(speed, critical.speed) - asked;
+      if (std::isnan(reserve)) {
+        return kNaN;
+      }
+      least = std::min(least, reserve);
+    }
+    return least;
+  }
+  if (number.place >= critical_speeds.size()) {
+    return kNaN;
+  }
+  const CriticalSpeed& critical = critical_speeds[number.place];
+  return number.kind == Kind::kCriticalSpeed         ? critical.speed
+         : number.kind == Kind::kAmplificationFactor ? critical.amplification_factor
+                                                     : separationMargin(speed, critical.speed);
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,79 @@
+// Designs: where the points of a study lie in the unit cube, and on grids. Point i is a function of
+// the design, the seed and i alone, so that any point can be had on any machine, in any order.
+//
+//   grid               every combination of the levels, the last number varying fastest
+//   list               entry i of every list
+//   one_at_a_time      the scene as it is, then each number through its levels, the others as they
+//                      are
+//   monte_carlo        independent draws (Philox 4x32-10: Salmon et al., SC11)
+//   latin_hypercube    each number once in each of n equal strata (McKay, Beckman & Conover,
+//                      Technometrics 21, 1979); strata by a permutation of 0..n-1 that is a
+//                      function of i (a Feistel network, walked until it is below n)
+//   sobol              Sobol' sequence, without its first point 0 (Boost.Random, direction numbers
+//                      of Joe & Kuo, SIAM J. Sci. Comput. 30, 2008)
+//   sobol_indices      for n base points of a Sobol' sequence of 2 d dimensions, A and B:
+//                      A, B, and A with number j from B for each j: n (d + 2) points (Saltelli et
+//                      al., Comput. Phys. Comm. 181, 2010)
+//   morris             trajectories of d + 1 points, each of d steps of half the range in one
+//                      number after another (Morris, Technometrics 33, 1991), on levels in the
+//                      middles of p equal parts, (k + 1/2) / p
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace whirl_twin {
+
+struct Design {
+  enum class Kind {
+    kGrid,
+    kList,
+    kOneAtATime,
+    kMonteCarlo,
+    kLatinHypercube,
+    kSobol,
+    kSobolIndices,
+    kMorris
+  };
+  Kind kind = Kind::kMonteCarlo;
+  std::uint64_t points = 0;
+  std::uint64_t base = 0;           ///< n of sobol_indices, trajectories of morris
+  std::size_t dimensions = 0;       ///< numbers that vary
+  std::vector<std::size_t> levels;  ///< of each number: grid, one_at_a_time; p of morris
+};
+
+/// "latin_hypercube", …
+const std::string& name(Design::Kind kind);
+const std::vector<std::string>& designNames();
+
+/// Where the quantiles of point i are: all but grid, list and one_at_a_time. [dimensions], 0 < u <
+/// 1.
+std::vector<double> quantilesAt(const Design& design, std::uint32_t seed, std::uint64_t point);
+
+/// The level of each number at point i: grid, list and one_at_a_time. Nothing: as the scene has it.
+std::vector<std::optional<std::size_t>> levelsAt(const Design& design, std::uint64_t point);
+
+/// In the plan of a Morris trajectory, the number that changes from point k to point k + 1 of it,
+/// and whether it grows there.
+struct MorrisStep {
+  std::size_t number = 0;
+  bool up = false;
+};
+std::vector<MorrisStep> morrisSteps(const Design& design, std::uint32_t seed,
+                                    std::uint64_t trajectory);
+
+/// Of the unit cube, by which a Morris step changes a number.
+double morrisStride(const Design& design);
+
+/// A permutation of 0..count-1, another for each key: where `place` goes.
+std::uint64_t permuted(std::uint64_t place, std::uint64_t count, std::uint64_t key);
+
+/// The point of a Sobol' sequence, 0 the first that is not the origin. [dimensions], 0 < u < 1.
+std::vector<double> sobolPoint(std::size_t dimensions, std::uint64_t point);
+/// Of a Sobol' sequence.
+constexpr std::size_t kMostSobolDimensions = 1000;
+
+}  // namespace whirl_twin

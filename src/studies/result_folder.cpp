@@ -1,0 +1,387 @@
+#include "studies/result_folder.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <optional>
+
+#include "messages/refusal.h"
+#include "scene/yaml_file.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+const std::string kEnd = "# end\n";
+const std::string kFailed = "!";  // before the line of a point that failed
+
+[[noreturn]] void throwNotWritten(const std::string& path, int error) {
+  throw RunFailure(fmt::format("{}: cannot be written: {}; what was finished before is kept", path,
+                               std::strerror(error)));
+}
+
+/// A file that is on the disk when finish() returns, and not there before.
+class DurableFile {
+ public:
+  explicit DurableFile(const std::string& path)
+      : path_(path), written_(fmt::format("{}.{}.tmp", path, ::getpid())) {
+    file_ = ::open(written_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (file_ < 0) {
+      throwNotWritten(path_, errno);
+    }
+  }
+  ~DurableFile() {
+    if (file_ >= 0) {
+      ::close(file_);
+      ::unlink(written_.c_str());
+    }
+  }
+  DurableFile(const DurableFile&) = delete;
+  DurableFile& operator=(const DurableFile&) = delete;
+
+  void add(const std::string& text) {
+    buffer_ += text;
+    if (buffer_.size() > kBuffer) {
+      flush();
+    }
+  }
+  void finish() {
+    flush();
+    if (::fsync(file_) != 0 || ::rename(written_.c_str(), path_.c_str()) != 0) {
+      throwNotWritten(path_, errno);
+    }
+    ::close(file_);
+    file_ = -1;
+    const int folder = ::open(std::filesystem::path(path_).parent_path().c_str(),
+                              O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder >= 0) {  // so that the name survives, too
+      ::fsync(folder);
+      ::close(folder);
+    }
+  }
+
+ private:
+  static constexpr std::size_t kBuffer = 1U << 20U;
+
+  void flush() {
+    for (std::size_t at = 0; at < buffer_.size();) {
+      const ssize_t written = ::write(file_, buffer_.data() + at, buffer_.size() - at);
+      if (written < 0 && errno != EINTR) {
+        throwNotWritten(path_, errno);
+      }
+      at += written > 0 ? static_cast<std::size_t>(written) : 0;
+    }
+    buffer_.clear();
+  }
+
+  std::string path_;
+  std::string written_;
+  std::string buffer_;
+  int file_ = -1;
+};
+
+/// Nothing where it cannot be read.
+std::optional<std::string> contentsOf(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    return std::nullopt;
+  }
+  return std::string{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+/// RFC 4180.
+std::string quotedCell(const std::string& text) {
+  std::string cell = "\"";
+  for (const char c : text) {
+    cell += c;
+    if (c == '"') {
+      cell += c;
+    }
+  }
+  return cell + "\"";
+}
+
+/// The measures are the last cells of a row.
+void readMeasures(std::string_view row, std::uint64_t point, StudyTable& table) {
+  for (std::size_t k = table.measures.size(); k-- > 0;) {
+    const std::size_t comma = row.rfind(',');
+    const std::string_view cell = row.substr(comma + 1);
+    double value = kNaN;
+    std::from_chars(cell.data(), cell.data() + cell.size(), value);
+    table.measures[k][point] = value;
+    row = row.substr(0, comma);
+  }
+}
+
+/// Not there, empty, or what a run left that was killed before it had written its manifest.
+bool isOurs(const std::string& folder) {
+  static const std::vector<std::string> known{"blocks", "study.yaml", "scene.yaml"};
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename();
+    if (entry.path().extension() != ".tmp" &&
+        std::find(known.begin(), known.end(), name) == known.end()) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+Origin presentOrigin() {
+  Origin origin{WHIRL_TWIN_VERSION, "", ""};
+#if defined(__clang__)
+  origin.compiler = "clang " __clang_version__;
+#else
+  origin.compiler = "g++ " __VERSION__;
+#endif
+#if defined(__x86_64__)
+  __builtin_cpu_init();
+  origin.processor = fmt::format("x86_64{}{}{}", __builtin_cpu_supports("fma") ? " fma" : "",
+                                 __builtin_cpu_supports("avx2") ? " avx2" : "",
+                                 __builtin_cpu_supports("avx512f") ? " avx512f" : "");
+#elif defined(__aarch64__)
+  origin.processor = "aarch64";
+#else
+  origin.processor = "unknown";
+#endif
+  return origin;
+}
+
+ResultFolder::ResultFolder(const std::string& path, const Study& study, bool mixed)
+    : path_(path), study_(study) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (fs::exists(path_, error) && !fs::is_directory(path_, error)) {
+    throw RunFailure(fmt::format("{}: cannot be written: it is no folder", path_));
+  }
+  if (fs::exists(path_ + "/manifest.yaml", error)) {
+    compare(mixed);
+  } else {
+    if (!isOurs(path_)) {
+      throw Refusal(
+          fmt::format("{}: has files that are no results of a study: name another folder", path_));
+    }
+    steps_ = chooseSteps(study_);
+    make();
+  }
+}
+
+void ResultFolder::make() {
+  std::error_code error;
+  std::filesystem::create_directories(path_ + "/blocks", error);
+  if (error) {
+    throw RunFailure(fmt::format("{}: cannot be made: {}", path_, error.message()));
+  }
+  write("study.yaml", study_.text);
+  write("scene.yaml", study_.scene_text);
+  const Origin origin = presentOrigin();
+  YAML::Node manifest;
+  manifest["study"] = fmt::format("{:016x}", study_.hash);
+  manifest["points"] = study_.points();
+  manifest["block"] = study_.block;
+  manifest["version"] = origin.version;
+  manifest["compiler"] = origin.compiler;
+  manifest["processor"] = origin.processor;
+  for (const StepsChosen::Choice& choice : steps_.choices) {
+    YAML::Node entry;
+    entry["integrator"] = choice.integrator;
+    entry["substeps"] = choice.substeps;
+    manifest["steps"].push_back(entry);
+  }
+  YAML::Emitter text;
+  text << manifest;
+  write("manifest.yaml", std::string(text.c_str()) + "\n");  // last: with it the folder is whole
+}
+
+void ResultFolder::compare(bool mixed) {
+  const std::string file = path_ + "/manifest.yaml";
+  try {
+    const YAML::Node manifest = readYamlFile(file, "a manifest", "a study");
+    if (manifest["study"].as<std::string>() != fmt::format("{:016x}", study_.hash) ||
+        manifest["block"].as<std::uint64_t>() != study_.block) {
+      throw Refusal(
+          fmt::format("{}: has the results of another study, or of another text of this "
+                      "study or its scene: name another folder",
+                      path_));
+    }
+    const Origin origin = presentOrigin();
+    std::string differences;
+    const auto compareOne = [&](const char* key, const std::string& now) {
+      const auto then = manifest[key].as<std::string>();
+      if (then != now) {
+        differences +=
+            fmt::format("{}{} '{}', now '{}'", differences.empty() ? "" : "; ", key, then, now);
+      }
+    };
+    compareOne("version", origin.version);
+    compareOne("compiler", origin.compiler);
+    compareOne("processor", origin.processor);
+    if (!differences.empty() && !mixed) {
+      throw Refusal(
+          fmt::format("{}: its results come from {}, and may differ in their last digits "
+                      "from those to come: name another folder, or say --mixed",
+                      path_, differences));
+    }
+    for (const YAML::Node& entry : manifest["steps"]) {
+      steps_.choices.push_back(
+          {entry["integrator"].as<std::string>(), entry["substeps"].as<int>()});
+    }
+  } catch (const YAML::Exception&) {
+    throw Refusal(fmt::format("{}: is no manifest of a study", file));
+  }
+}
+
+std::string ResultFolder::fileOf(std::uint64_t block) const {
+  return fmt::format("{}/blocks/{:09}.csv", path_, block);
+}
+
+std::string ResultFolder::headOf(std::uint64_t block) const {
+  return fmt::format("# study {:016x}, block {}, {} points from {}\n", study_.hash, block,
+                     study_.sizeOf(block), study_.firstOf(block));
+}
+
+std::vector<bool> ResultFolder::finished() const {
+  std::vector<bool> all(study_.blocks());
+  for (std::uint64_t block = 0; block < all.size(); ++block) {
+    std::ifstream file(fileOf(block), std::ios::binary);
+    const std::string head = headOf(block);
+    std::string begin(head.size(), '\0');
+    std::string end(kEnd.size(), '\0');
+    all[block] = file && file.read(begin.data(), static_cast<std::streamsize>(begin.size())) &&
+                 begin == head &&
+                 file.seekg(-static_cast<std::streamoff>(end.size()), std::ios::end) &&
+                 file.read(end.data(), static_cast<std::streamsize>(end.size())) && end == kEnd;
+  }
+  return all;
+}
+
+void ResultFolder::write(const std::string& name, const std::string& text) const {
+  DurableFile file(path_ + "/" + name);
+  file.add(text);
+  file.finish();
+}
+
+void ResultFolder::write(std::uint64_t block, const std::vector<Outcome>& outcomes) const {
+  DurableFile file(fileOf(block));
+  file.add(headOf(block));
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    const std::uint64_t point = study_.firstOf(block) + i;
+    const bool failed = !outcomes[i].failure.empty();
+    std::string row = (failed ? kFailed : "") + std::to_string(point);
+    if (failed) {
+      row += "," + quotedCell(outcomes[i].failure);
+    }
+    for (const double value : study_.valuesAt(point)) {
+      row += fmt::format(",{}", value);
+    }
+    for (const double value : outcomes[i].measures) {
+      row += fmt::format(",{}", value);
+    }
+    file.add(row + "\n");
+  }
+  file.add(kEnd);
+  file.finish();
+}
+
+StudyTable ResultFolder::merge() const {
+  StudyTable table;
+  table.measures.assign(study_.measures.size(), std::vector<double>(study_.points(), kNaN));
+  table.failed.assign(study_.points(), false);
+  DurableFile results(path_ + "/results.csv");
+  DurableFile failures(path_ + "/failed.csv");
+  std::string paths;
+  for (const Variation& variation : study_.vary) {
+    paths += "," + variation.path;
+  }
+  std::string names;
+  for (const Measure& measure : study_.measures) {
+    names += "," + measure.name;
+  }
+  results.add("point" + paths + names + "\n");
+  failures.add("point,reason" + paths + "\n");
+  for (std::uint64_t block = 0; block < study_.blocks(); ++block) {
+    const std::optional<std::string> text = contentsOf(fileOf(block));
+    const std::string head = headOf(block);
+    const auto wrong = [&] {
+      return RunFailure(fmt::format("{}: is missing or damaged: remove it and run the study again",
+                                    fileOf(block)));
+    };
+    if (!text || text->compare(0, head.size(), head) != 0) {
+      throw wrong();
+    }
+    std::uint64_t point = study_.firstOf(block);
+    const std::uint64_t end = point + study_.sizeOf(block);
+    std::size_t at = head.size();
+    for (; point < end; ++point) {
+      const std::size_t line_end = text->find('\n', at);
+      if (line_end == std::string::npos) {
+        throw wrong();
+      }
+      const std::string row = text->substr(at, line_end - at + 1);
+      at = line_end + 1;
+      const bool failed = row.compare(0, kFailed.size(), kFailed) == 0;
+      const std::string number = std::to_string(point) + ",";
+      if (row.compare(failed ? kFailed.size() : 0, number.size(), number) != 0) {
+        throw wrong();
+      }
+      if (failed) {
+        table.failed[point] = true;
+        ++table.failures;
+        failures.add(row.substr(kFailed.size()));
+      } else {
+        readMeasures(std::string_view(row).substr(0, row.size() - 1), point, table);
+        results.add(row);
+      }
+    }
+    if (text->substr(at) != kEnd) {
+      throw wrong();
+    }
+  }
+  results.finish();
+  failures.finish();
+  removeUnfinished();
+  return table;
+}
+
+/// What was being written when a run was killed.
+void ResultFolder::removeUnfinished() const {
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(path_ + "/blocks", error)) {
+    if (entry.path().extension() == ".tmp") {
+      std::filesystem::remove(entry.path(), error);
+    }
+  }
+}
+
+ResultFolder::Pace ResultFolder::pace() const {
+  double first = std::numeric_limits<double>::infinity();
+  double last = -first;
+  Pace pace;
+  for (std::uint64_t block = 0; block < study_.blocks(); ++block) {
+    struct stat status {};
+    if (::stat(fileOf(block).c_str(), &status) == 0) {
+      const double time = static_cast<double>(status.st_mtim.tv_sec) +
+                          1.0e-9 * static_cast<double>(status.st_mtim.tv_nsec);
+      first = std::min(first, time);
+      last = std::max(last, time);
+      ++pace.blocks;
+    }
+  }
+  pace.seconds = pace.blocks > 1 ? last - first : 0.0;
+  return pace;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,86 @@
+// A study as it was asked for: which numbers of a scene vary, by which design, what is run,
+// measured and required. Made by readStudy() only.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "studies/design.h"
+#include "studies/distribution.h"
+#include "studies/expression.h"
+#include "studies/scene_numbers.h"
+
+namespace whirl_twin {
+
+/// A number of the scene that varies.
+struct Variation {
+  std::string path;                 ///< as the study has it: `rotor.bearings[0].kxx`
+  std::vector<SceneNumber> places;  ///< of the scene's file, all of which get the value
+  Distribution distribution;
+  std::string unit;      ///< "-" without or where it is not known
+  double nominal = 0.0;  ///< what the scene gives
+};
+
+struct Measure {
+  std::string name;
+  std::string text;  ///< of the expression, as the study has it
+  Expression expression;
+};
+
+/// What a measure must be for a point to pass.
+struct Requirement {
+  enum class Is { kBelow, kAtMost, kAbove, kAtLeast };
+  std::size_t measure = 0;  ///< place among the measures
+  Is is = Is::kBelow;
+  double limit = 0.0;
+
+  /// False for what is not a number.
+  bool holds(double value) const {
+    switch (is) {
+      case Is::kBelow:
+        return value < limit;
+      case Is::kAtMost:
+        return value <= limit;
+      case Is::kAbove:
+        return value > limit;
+      default:
+        return value >= limit;
+    }
+  }
+};
+
+struct Study {
+  std::string source;      ///< the study's file
+  std::string text;        ///< its bytes
+  std::string scene_path;  ///< of the scene's file
+  std::string scene_text;  ///< its bytes
+  std::uint64_t hash = 0;  ///< of both texts
+  std::uint32_t seed = 1;
+  std::uint64_t block = 1;  ///< points that are run, and written, together
+  bool stop_at_failure = false;
+  std::vector<Variation> vary;
+  Design design;
+  std::optional<double> duration;  ///< [s], simulated; nothing: no run
+  std::optional<double> speed;     ///< [rad/s], of the shafts in analyses; nothing: at the start
+  std::vector<Measure> measures;
+  std::vector<Requirement> requirements;
+
+  std::uint64_t points() const { return design.points; }
+  std::uint64_t blocks() const { return (points() + block - 1) / block; }
+  /// Points of a block: from its first to one before the next one's.
+  std::uint64_t firstOf(std::uint64_t number) const { return number * block; }
+  std::uint64_t sizeOf(std::uint64_t number) const {
+    return std::min(block, points() - firstOf(number));
+  }
+  /// The values of point i, in the order of `vary`: of the study and i alone.
+  std::vector<double> valuesAt(std::uint64_t point) const;
+};
+
+/// "peak < 0.0002"
+std::string text(const Requirement& requirement, const Study& study);
+
+}  // namespace whirl_twin

@@ -1,0 +1,128 @@
+#include "studies/sweep.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "messages/refusal.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr std::chrono::milliseconds kLook{100};
+
+class Workers {
+ public:
+  Workers(const Study& study, const ResultFolder& folder, std::vector<std::uint64_t> blocks,
+          std::atomic<bool>& stop)
+      : study_(study), folder_(folder), blocks_(std::move(blocks)), stop_(stop) {}
+
+  void run(unsigned count, std::uint64_t of, const SweepProgress& progress) {
+    running_ = count;
+    std::vector<std::thread> threads;
+    for (unsigned i = 0; i < count; ++i) {
+      threads.emplace_back([this] { work(); });
+    }
+    const auto join = [&] {
+      for (std::thread& thread : threads) {
+        thread.join();
+      }
+    };
+    try {
+      std::unique_lock<std::mutex> lock(mutex_);
+      while (!ended_.wait_for(lock, kLook, [this] { return running_ == 0; })) {
+        lock.unlock();
+        progress(done_.load(), of);
+        lock.lock();
+      }
+    } catch (...) {  // it takes too long, and that is not insisted on
+      stop_.store(true);
+      join();
+      throw;
+    }
+    join();
+    if (error_) {
+      std::rethrow_exception(error_);
+    }
+    progress(done_.load(), of);
+  }
+
+ private:
+  void work() {
+    try {
+      PointEvaluator evaluator(study_, folder_.steps(), stop_);
+      for (std::size_t next = next_++; next < blocks_.size(); next = next_++) {
+        runBlock(blocks_[next], evaluator);
+      }
+    } catch (const Interrupted&) {  // the caller knows
+    } catch (...) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (!error_) {
+        error_ = std::current_exception();
+      }
+      stop_.store(true);
+    }
+    const std::lock_guard<std::mutex> lock(mutex_);
+    --running_;
+    ended_.notify_one();
+  }
+
+  void runBlock(std::uint64_t block, PointEvaluator& evaluator) {
+    std::vector<Outcome> outcomes;
+    for (std::uint64_t i = 0; i < study_.sizeOf(block); ++i) {
+      if (stop_.load(std::memory_order_relaxed)) {
+        throw Interrupted();
+      }
+      const std::uint64_t point = study_.firstOf(block) + i;
+      outcomes.push_back(evaluator.at(study_.valuesAt(point)));
+      if (study_.stop_at_failure && !outcomes.back().failure.empty()) {
+        throw RunFailure(fmt::format("point {}: {}", point, outcomes.back().failure));
+      }
+      ++done_;
+    }
+    folder_.write(block, outcomes);
+  }
+
+  const Study& study_;
+  const ResultFolder& folder_;
+  std::vector<std::uint64_t> blocks_;  // that are to be run
+  std::atomic<bool>& stop_;
+  std::atomic<std::size_t> next_{0};
+  std::atomic<std::uint64_t> done_{0};
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  unsigned running_ = 0;
+  std::exception_ptr error_;
+};
+
+}  // namespace
+
+void sweep(const Study& study, const ResultFolder& folder, unsigned workers, const Share& share,
+           std::atomic<bool>& stop, const SweepProgress& progress) {
+  const std::vector<bool> finished = folder.finished();
+  std::vector<std::uint64_t> blocks;
+  std::uint64_t of = 0;
+  for (std::uint64_t block = share.part; block < study.blocks(); block += share.parts) {
+    if (!finished[block]) {
+      blocks.push_back(block);
+      of += study.sizeOf(block);
+    }
+  }
+  if (!blocks.empty()) {
+    const auto count = static_cast<unsigned>(std::min<std::uint64_t>(workers, blocks.size()));
+    Workers(study, folder, blocks, stop).run(count, of, progress);
+  }
+  if (stop.load()) {
+    throw RunFailure(fmt::format(
+        "interrupted; what was finished is in {}: the same command goes on", folder.path()));
+  }
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,197 @@
+#include <fmt/format.h>
+
+#include <atomic>
+#include <charconv>
+#include <csignal>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include "messages/refusal.h"
+#include "reports/output.h"
+#include "reports/study_report.h"
+#include "studies/study_reader.h"
+#include "studies/sweep.h"
+#include "tools/arguments.h"
+#include "tools/commands.h"
+#include "tools/progress_bar.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr const char* kDescription =
+    "Runs a scene at every point of a study: tolerances, grids, designs, sensitivities. What is\n"
+    "measured goes into a folder; what the points say together is printed.";
+
+constexpr const char* kFooter =
+    "STUDY is YAML (docs/studies.md tells all):\n"
+    "  study: {scene: rotor.yaml, seed: 7}\n"
+    "  vary:\n"
+    "    rotor.stiffness: {uniform: [0.9e4, 1.1e4]}\n"
+    "    rotor.eccentricity: {normal: [1.0e-4, 1.0e-5]}\n"
+    "    shaft.max_acceleration: {list: [5, 10, 20, 40]}\n"
+    "  design: {latin_hypercube: 10000}      or monte_carlo, sobol, grid, list, one_at_a_time,\n"
+    "                                        sobol_indices, morris\n"
+    "  run: {duration: 20.0}                 s; or analyze\n"
+    "  measure: {peak: max(rotor.whirl.radius), critical: \"critical_speeds[0]\"}\n"
+    "  require: {peak: \"< 2.0e-4\"}\n"
+    "A point depends on the study and its number alone: workers, breaks and machines change no\n"
+    "byte. Stopped, the same command goes on. Points that fail are in failed.csv of the folder.\n"
+    "\n"
+    "Examples:\n"
+    "  twin sweep study.yaml --output results\n"
+    "  twin sweep study.yaml --output results --status\n"
+    "  twin sweep study.yaml --point 1234\n"
+    "  twin sweep study.yaml --output results --part 3/16       one of 16 jobs; then --merge\n"
+    "Exit status: 0 done, with points that failed or without; 1 it was stopped, cannot be written, "
+    "or\nall points failed; 2 a study or scene that cannot be meant.";
+
+struct Request {
+  std::string study;
+  std::optional<std::string> output;
+  std::optional<std::uint64_t> point;
+  std::optional<std::string> part;
+  unsigned workers = 0;
+  bool merge = false;
+  bool status = false;
+  bool mixed = false;
+  bool json = false;
+  bool insist = false;
+};
+
+std::atomic<bool> stop{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
+
+void requestStop(int) {
+  stop.store(true);
+}
+
+/// "3/16", from 1.
+Share shareOf(const std::optional<std::string>& text) {
+  if (!text) {
+    return {};
+  }
+  Share share;
+  const char* const end = text->data() + text->size();
+  const auto [slash, error] = std::from_chars(text->data(), end, share.part);
+  if (error == std::errc() && slash != end && *slash == '/') {
+    const auto [last, wrong] = std::from_chars(slash + 1, end, share.parts);
+    if (wrong == std::errc() && last == end && share.part >= 1 && share.part <= share.parts) {
+      --share.part;
+      return share;
+    }
+  }
+  throw Refusal(fmt::format("--part: must be I/N with 1 <= I <= N, found '{}'", *text));
+}
+
+template <class Report>
+void print(const Request& request, const Study& study, const Report& report) {
+  if (request.json) {
+    printJson(json(study, report));
+  } else {
+    printText(text(study, report));
+  }
+}
+
+int runPoint(const Request& request, const Study& study) {
+  if (*request.point >= study.points()) {
+    throw Refusal(
+        fmt::format("--point: must be from 0 to {}, found {}", study.points() - 1, *request.point));
+  }
+  const StepsChosen steps = request.output
+                                ? ResultFolder(*request.output, study, request.mixed).steps()
+                                : chooseSteps(study);
+  StudyPoint point{*request.point, study.valuesAt(*request.point), {}};
+  try {
+    point.outcome = PointEvaluator(study, steps, stop).at(point.values);
+  } catch (const Interrupted&) {
+    throw RunFailure("interrupted");
+  }
+  print(request, study, point);
+  return point.outcome.failure.empty() ? kDone : kFailed;
+}
+
+void runAll(const Request& request, const Study& study, const ResultFolder& folder) {
+  std::optional<ProgressBar> bar;
+  const unsigned workers =
+      request.workers > 0 ? request.workers : std::max(1U, std::thread::hardware_concurrency());
+  sweep(study, folder, workers, shareOf(request.part), stop,
+        [&](std::uint64_t done, std::uint64_t of) {
+          if (!bar) {
+            bar.emplace(fmt::format("{} points", of), static_cast<std::int64_t>(of), false,
+                        request.insist);
+          }
+          bar->show(static_cast<std::int64_t>(done));
+        });
+}
+
+int sweepStudy(const Request& request) {
+  if (request.workers > 4096) {
+    throw Refusal(fmt::format("--workers: must be from 1 to 4096, found {}", request.workers));
+  }
+  static_cast<void>(shareOf(request.part));
+  const Study study = readStudy(request.study);
+  std::signal(SIGINT, requestStop);
+  std::signal(SIGTERM, requestStop);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is like a disk that is full
+  if (request.point) {
+    return runPoint(request, study);
+  }
+  if (!request.output) {
+    throw Refusal("--output: missing; must be the folder of the results");
+  }
+  if ((request.status || request.merge) &&
+      !std::filesystem::exists(*request.output + "/manifest.yaml")) {
+    throw Refusal(fmt::format("--output: {} has no results of a study", *request.output));
+  }
+  const ResultFolder folder(*request.output, study, request.mixed);
+  if (request.status) {
+    print(request, study, statusOf(study, folder));
+    return kDone;
+  }
+  if (!request.merge) {
+    runAll(request, study, folder);
+  }
+  const StudyStatus status = statusOf(study, folder);
+  if (request.part && status.done < study.points()) {
+    print(request, study, status);
+    return kDone;
+  }
+  if (status.done < study.points()) {
+    throw RunFailure(fmt::format("{}: {} of {} points are done: run the other parts first",
+                                 *request.output, status.done, study.points()));
+  }
+  const Answers answers = answersOf(study, folder.merge());
+  print(request, study, answers);
+  return answers.failures < answers.points ? kDone : kFailed;
+}
+
+}  // namespace
+
+void addSweepCommand(CLI::App& twin, int& status) {
+  CLI::App* command = twin.add_subcommand("sweep", kDescription);
+  const auto request = std::make_shared<Request>();
+  command->add_option("STUDY", request->study, "what varies, is run and is measured")
+      ->required()
+      ->type_name("");
+  command->add_option("--output", request->output, "the folder of the results, made if need be")
+      ->type_name("FOLDER");
+  command->add_option("--point", request->point, "run this point alone, from 0, and print it")
+      ->type_name("I");
+  command->add_option("--workers", request->workers, "threads; default: one a core")
+      ->type_name("N");
+  command->add_option("--part", request->part, "run every N-th block, from the I-th of them on")
+      ->type_name("I/N");
+  command->add_flag("--merge", request->merge, "run nothing: put together what parts have run");
+  command->add_flag("--status", request->status, "run nothing: tell how far it has come");
+  command->add_flag("--mixed", request->mixed,
+                    "go on with results of another version, compiler or processor");
+  command->add_flag("--json", request->json, "print one JSON object");
+  addInsistOption(command, request->insist);
+  command->footer(kFooter);
+  command->callback([request, &status] { status = sweepStudy(*request); });
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,168 @@
+#include "studies/study_reader.h"
+
+#include <gtest/gtest.h>
+
+#include "messages/refusal.h"
+#include "study_files.h"
+
+namespace whirl_twin {
+namespace {
+
+std::string refusalOf(const StudyFiles& files, const std::string& rest) {
+  try {
+    static_cast<void>(readStudy(files.study(rest)));
+  } catch (const Refusal& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// With one number that varies so.
+std::string varied(const std::string& path, const std::string& distribution,
+                   const std::string& design = "{monte_carlo: 10}") {
+  return "vary: {\"" + path + "\": " + distribution + "}\ndesign: " + design +
+         "\nrun: analyze\nmeasure: {critical: \"critical_speeds[0]\"}\n";
+}
+
+#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+
+TEST(StudyReader, ReadsWhatIsAsked) {
+  const StudyFiles files;
+  const Study study = readStudy(files.study(R"(
+vary:
+  rotor.stiffness: {relative_half_width: 0.1}
+  rotor.initial.x: {normal: [0.0, 1.0e-5]}
+  shaft.max_acceleration: {list: [50, 100]}
+design: {latin_hypercube: 5000}
+run: {duration: 2.0, analyze: [critical_speeds]}
+measure: {peak: max(rotor.whirl.radius), critical: "critical_speeds[0]"}
+require: {peak: "< 2.0e-4", critical: ["> 80", "<= 120"]}
+)"));
+  EXPECT_EQ(study.points(), 5000U);
+  EXPECT_EQ(study.seed, 7U);
+  ASSERT_EQ(study.vary.size(), 3U);
+  EXPECT_EQ(study.vary[0].unit, "N/m");
+  EXPECT_DOUBLE_EQ(study.vary[0].distribution.low, 0.9e4);
+  EXPECT_EQ(study.vary[2].places.size(), 2U);  // both moves
+  EXPECT_EQ(study.measures[0].name, "peak");
+  EXPECT_EQ(study.requirements.size(), 3U);
+  EXPECT_EQ(study.valuesAt(4999), study.valuesAt(4999));
+  EXPECT_NE(study.valuesAt(4999), study.valuesAt(0));
+}
+
+TEST(StudyReader, TellsAllErrorsAtOnceEachAtItsPlace) {
+  const StudyFiles files;
+  const std::string said = refusalOf(files, R"(
+vary:
+  rotor.stifness: {uniform: [1, 2]}
+  rotor.mass: {uniform: [-1.0, 1.0]}
+  rotor.damping: {unifrom: [1, 2]}
+design: {latin_hypercub: 10}
+run: {duration: -1, analyse: true}
+measure: {peak: max(rotor.whirl.radus), low: rotor.x, other: "critical_speed[0]"}
+require: {peek: "< 1"}
+)");
+  EXPECT_SAYS(said,
+              "vary.rotor.stifness: is no number of the scene; did you mean "
+              "'rotor.stiffness'?");
+  EXPECT_SAYS(said, "vary.rotor.mass: must be > 0 kg, found -1");
+  EXPECT_SAYS(said, "vary.rotor.damping.unifrom: unknown distribution; did you mean 'uniform'?");
+  EXPECT_SAYS(said, "design.latin_hypercub: unknown design; did you mean 'latin_hypercube'?");
+  EXPECT_SAYS(said, "run.duration: must be from 0 to 1e+09 s, found -1");
+  EXPECT_SAYS(said, "run.analyse: unknown key of run; did you mean 'analyze'?");
+  EXPECT_SAYS(said, "did you mean 'rotor.whirl.radius'?");
+  EXPECT_SAYS(said, "measure.low: rotor.x changes in a run");
+  EXPECT_SAYS(said, "did you mean 'critical_speeds[0]'?");
+  EXPECT_SAYS(said, "require.peek: unknown measure");
+}
+
+TEST(StudyReader, RefusesPathsThatAreNoNumber) {
+  const StudyFiles files;
+  EXPECT_SAYS(refusalOf(files, varied("shaft.profile[2].speed", "{uniform: [1, 2]}")),
+              "there are 2 rows, counted from 0");
+  EXPECT_SAYS(refusalOf(files, varied("shaft.profile", "{uniform: [1, 2]}")),
+              "is not one number: name one below it");
+  EXPECT_SAYS(refusalOf(files, varied("rotor", "{uniform: [1, 2]}")), "is not one number");
+  EXPECT_SAYS(refusalOf(files, varied("nothing", "{uniform: [1, 2]}")), "is no number");
+  EXPECT_SAYS(refusalOf(files, varied("rotor.model", "{uniform: [1, 2]}")), "is no number");
+  EXPECT_SAYS(refusalOf(files, varied("", "{uniform: [1, 2]}")), "is no number");
+  EXPECT_EQ(refusalOf(files, varied("shaft.profile[1].speed", "{uniform: [180, 220]}")), "");
+  EXPECT_EQ(refusalOf(files, varied("systems.rotor.parameters.mass", "{uniform: [1, 2]}")), "");
+  EXPECT_EQ(refusalOf(files, varied("rotor.stiffness_y", "{uniform: [1, 2]}")), "");  // a default
+  EXPECT_EQ(refusalOf(files, varied("gravity", "{list: [9.8, 1.6]}")), "");
+}
+
+TEST(StudyReader, RefusesANumberThatVariesTwice) {
+  const StudyFiles files;
+  EXPECT_SAYS(refusalOf(files, R"(
+vary:
+  shaft.max_acceleration: {list: [50, 100]}
+  shaft.profile[1].max_acceleration: {list: [50, 100]}
+design: grid
+run: analyze
+measure: {critical: "critical_speeds[0]"}
+)"),
+              "varies drives.shaft.profile[1].max_acceleration, which shaft.max_acceleration does "
+              "already");
+}
+
+TEST(StudyReader, RefusesDistributionsThatAreNone) {
+  const StudyFiles files;
+  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", "{uniform: [2, 1]}")), "[lowest, highest]");
+  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", "{uniform: [1]}")), "found 1 entries");
+  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", "{uniform: [1, x]}")), "finite number");
+  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", "{uniform: [1, inf]}")), "finite number");
+  EXPECT_SAYS(refusalOf(files, varied("rotor.damping", "{log_uniform: [0, 1]}")), "logarithm");
+  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", "{normal: [1, 0]}")), "must be > 0");
+  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", "{list: []}")), "found 0 entries");
+  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", "1.0")), "must be a map");
+  EXPECT_SAYS(refusalOf(files, varied("rotor.bow", "{relative_half_width: 0.1}")), "gives 0");
+  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", "{uniform: [1, 2], list: [1]}")),
+              "must be one of");
+}
+
+TEST(StudyReader, RefusesDesignsThatDoNotFit) {
+  const StudyFiles files;
+  const std::string uniform = "{uniform: [1, 2]}";
+  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", uniform, "grid")), "{grid: LEVELS}");
+  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", uniform, "list")), "must be a list");
+  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", uniform, "{sobol: 0}")), "from 1 to 1e+12");
+  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", uniform, "{sobol: 1.5}")), "whole number");
+  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", uniform, "sobol")), "found nothing");
+  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", "{list: [1, 2]}", "{morris: 5}")), "list");
+  EXPECT_SAYS(
+      refusalOf(files, varied("rotor.mass", uniform, "{morris: {trajectories: 5, levels: 3}}")),
+      "must be even");
+  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", uniform, "{grid: 3, sobol: 3}")), "one design");
+  EXPECT_EQ(refusalOf(files, varied("rotor.mass", "{list: [1]}", "grid")), "");  // of one point
+  EXPECT_EQ(refusalOf(files, varied("rotor.mass", uniform, "{grid: 1}")), "");
+}
+
+TEST(StudyReader, TellsTheErrorsOfTheScene) {
+  const StudyFiles files;
+  files.write("scene.yaml", "step: 0.001\nsystems: {rotor: {model: jefcott_rotor}}\n");
+  EXPECT_SAYS(refusalOf(files, varied("rotor.mass", "{uniform: [1, 2]}")),
+              "did you mean 'jeffcott_rotor'?");
+  EXPECT_SAYS(refusalOf(files, ""), "run: missing");
+}
+
+TEST(StudyReader, AGridHasEveryCombinationAndOneAtATimeTheScene) {
+  const StudyFiles files;
+  const std::string rest = R"(
+vary: {rotor.mass: {uniform: [1, 2]}, rotor.damping: {list: [5, 10, 20]}}
+run: analyze
+measure: {critical: "critical_speeds[0]"}
+)";
+  const Study grid = readStudy(files.study(rest + "design: {grid: 2}"));
+  ASSERT_EQ(grid.points(), 6U);
+  EXPECT_EQ(grid.valuesAt(0), (std::vector<double>{1.0, 5.0}));
+  EXPECT_EQ(grid.valuesAt(5), (std::vector<double>{2.0, 20.0}));
+  const Study one = readStudy(files.study(rest + "design: {one_at_a_time: 2}"));
+  ASSERT_EQ(one.points(), 6U);
+  EXPECT_EQ(one.valuesAt(0), (std::vector<double>{1.0, 10.0}));
+  EXPECT_EQ(one.valuesAt(2), (std::vector<double>{2.0, 10.0}));
+  EXPECT_EQ(one.valuesAt(5), (std::vector<double>{1.0, 20.0}));
+}
+
+}  // namespace
+}  // namespace whirl_twin
