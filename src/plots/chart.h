@@ -31,16 +31,29 @@ struct Band {
   Ink ink;
 };
 
+/// The same in another unit, so many of which are one of the axis: rad/s as rpm.
+struct SecondScale {
+  std::string label;
+  double factor = 1.0;
+};
+
 struct ChartAxis {
   std::string label;  ///< with its unit: "time (s)"
   bool logarithmic = false;
   bool tight = false;  ///< ends where the data end, not at the next tick
+  std::optional<SecondScale> second = std::nullopt;  ///< above the chart; of a linear x only
 };
 
 /// A line across the whole chart: a critical speed, a limit. Seen where the data reach it.
 struct ReferenceLine {
   double at = 0.0;
   std::string label;
+};
+
+/// Words beside a point, where they cover no curve.
+struct Note {
+  double x = 0.0, y = 0.0;
+  std::string text;
 };
 
 struct Chart {
@@ -50,6 +63,7 @@ struct Chart {
   std::vector<ReferenceLine> vertical;    ///< at an x
   std::vector<ReferenceLine> horizontal;  ///< at a y
   std::vector<Band> bands;
+  std::vector<Note> notes;
   bool equal_aspect = false;  ///< one unit is as long along x as along y; linear axes
 };
 

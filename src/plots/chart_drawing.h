@@ -6,16 +6,10 @@
 #include <vector>
 
 #include "plots/chart.h"
+#include "plots/label_places.h"
 #include "plots/marked_axis.h"
 
 namespace whirl_twin {
-
-/// [px]
-struct Rectangle {
-  double left = 0.0, top = 0.0, width = 0.0, height = 0.0;
-  double right() const { return left + width; }
-  double bottom() const { return top + height; }
-};
 
 class ChartDrawing {
  public:
@@ -41,6 +35,9 @@ class ChartDrawing {
   void drawBands();
   void drawGrid();
   void drawReferences();
+  void drawSecondScale();
+  void drawWords();
+  void nameReferences(LabelPlaces& places);
   void drawArea(const Series& series);
   void drawSeries(const Series& series, const Pen& pen);
   void drawLine(const std::vector<Spot>& line, const Pen& pen);

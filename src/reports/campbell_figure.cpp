@@ -14,6 +14,7 @@ namespace whirl_twin {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kRpm = 30.0 / 3.14159265358979323846;  // of a rad/s
 constexpr double kHighestDecrement = 1.5;  // a mode that is damped more does not matter
 
 constexpr std::array kDirections{Whirl::kForward, Whirl::kBackward, Whirl::kMixed,
@@ -64,11 +65,32 @@ Series piecesOf(const CampbellReport& r, const std::vector<CampbellPoint>& branc
   return pieces;
 }
 
+/// The highest frequency shown: what a shaft in the range can excite, with the next mode if near.
+double highestFrequency(const CampbellReport& r) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const auto& branch : r.diagram.branches) {
+    for (const CampbellPoint& point : branch) {
+      lowest = std::fmin(lowest, point.frequency);
+    }
+  }
+  return std::max(1.3 * r.range.to, std::isfinite(lowest) ? 1.5 * lowest : 0.0);
+}
+
+/// Is a part of the branch below the highest frequency that is drawn?
+bool shown(const std::vector<CampbellPoint>& branch, double most) {
+  return std::any_of(branch.begin(), branch.end(),
+                     [&](const CampbellPoint& p) { return p.frequency <= most; });
+}
+
 void addBranches(const CampbellReport& r, const Value& value, bool named, Chart& chart) {
+  const double most = highestFrequency(r);
   bool any_unstable = false;
   for (const Whirl whirl : kDirections) {
     bool name_it = named;
     for (const auto& branch : r.diagram.branches) {
+      if (!shown(branch, most)) {
+        continue;
+      }
       for (const bool stable : {true, false}) {
         Series pieces = piecesOf(r, branch, whirl, stable, value);
         if (std::none_of(pieces.y.begin(), pieces.y.end(),
@@ -105,24 +127,28 @@ void addBands(const CampbellReport& r, bool named, Chart& chart) {
   }
 }
 
-/// The highest frequency shown: what a shaft in the range can excite, with the next mode if near.
-double highestFrequency(const CampbellReport& r) {
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const auto& branch : r.diagram.branches) {
-    for (const CampbellPoint& point : branch) {
-      lowest = std::fmin(lowest, point.frequency);
+/// The number of each branch that is drawn, beside its last point.
+void numberBranches(const CampbellReport& r, const Value& value, Chart& chart) {
+  const double most = highestFrequency(r);
+  for (std::size_t b = 0; b < r.diagram.branches.size(); ++b) {
+    const std::vector<CampbellPoint>& branch = r.diagram.branches[b];
+    for (std::size_t k = branch.size(); k-- > 0;) {
+      if (shown(branch, most) && branch[k].*value.of <= value.most) {
+        chart.notes.push_back({r.diagram.speeds[k], branch[k].*value.of, fmt::format("{}", b + 1)});
+        break;
+      }
     }
   }
-  return std::max(1.3 * r.range.to, std::isfinite(lowest) ? 1.5 * lowest : 0.0);
 }
 
 Chart frequencyChart(const CampbellReport& r) {
   Chart chart;
-  chart.x = {"", false, true};
+  chart.x = {"", false, true, SecondScale{"rpm", kRpm}};
   chart.y.label = "damped whirl frequency (rad/s)";
   const double most = highestFrequency(r);
   addBands(r, true, chart);
   addBranches(r, {&CampbellPoint::frequency, most}, true, chart);
+  numberBranches(r, {&CampbellPoint::frequency, most}, chart);
   std::vector<double> harmonics{1.0};
   for (const CampbellCrossing& c : r.diagram.crossings) {
     if (std::find(harmonics.begin(), harmonics.end(), c.harmonic) == harmonics.end()) {
@@ -150,7 +176,8 @@ Chart frequencyChart(const CampbellReport& r) {
     name_it = false;
     chart.series.push_back(mark);
     if (c.harmonic == 1.0 && c.mode.whirl != Whirl::kBackward) {
-      chart.vertical.push_back({c.speed, fmt::format("{:.4g} rad/s", c.speed)});
+      chart.vertical.push_back(
+          {c.speed, fmt::format("{:.4g} rad/s, {:.0f} rpm", c.speed, kRpm * c.speed)});
     }
   }
   return chart;
@@ -162,6 +189,7 @@ Chart decrementChart(const CampbellReport& r) {
   chart.y.label = "logarithmic decrement";
   addBands(r, false, chart);
   addBranches(r, {&CampbellPoint::log_decrement, kHighestDecrement}, false, chart);
+  numberBranches(r, {&CampbellPoint::log_decrement, kHighestDecrement}, chart);
   chart.series.push_back(
       {"", {r.range.from, r.range.to}, {0.0, 0.0}, Pen{ink::kBlack, 1.2, {8.0, 4.0}}});
   return chart;

@@ -97,7 +97,7 @@ std::vector<Chart> commandCharts(const PlotHistory& history) {
   return charts;
 }
 
-/// The phase lag within half a turn of 90 degrees: broken where it passes from one end to the
+/// The phase lag [deg] within half a turn of 90: broken where it passes from one end to the
 /// other, and where the shaft hardly turns, so that no unbalance leads the whirl.
 std::vector<double> phaseLag(const PlotHistory& history) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -111,7 +111,7 @@ std::vector<double> phaseLag(const PlotHistory& history) {
   for (std::size_t i = 0; i < lag.size(); ++i) {
     const double now = 0.5 * kPi + std::remainder(lag[i] - 0.5 * kPi, 2.0 * kPi);
     const bool leaps = std::fabs(now - before) > kPi;
-    lag[i] = leaps || std::fabs(history.speed[i]) < kSlow * fastest ? kNaN : now;
+    lag[i] = leaps || std::fabs(history.speed[i]) < kSlow * fastest ? kNaN : now * 180.0 / kPi;
     before = now;
   }
   return lag;
@@ -121,8 +121,8 @@ Figure timeFigure(const BuiltSystem& system, const PlotHistory& history) {
   Figure figure;
   if (system.dynamics->isRotor()) {
     figure.charts = {historyChart(history, "whirl radius", "m", history.whirl_radius),
-                     historyChart(history, "whirl phase lag", "rad", phaseLag(history))};
-    figure.charts[1].horizontal = {{0.5 * kPi, "90\u00b0"}, {kPi, "180\u00b0"}};
+                     historyChart(history, "whirl phase lag", "deg", phaseLag(history))};
+    figure.charts[1].horizontal = {{90.0, ""}, {180.0, ""}};
   } else {
     figure.charts = coordinateCharts(system, history);
   }
