@@ -8,18 +8,20 @@ namespace {
 
 constexpr double kFree = 1.0e-9;  // a pivot of the stiffness scaled to unit diagonal
 
-double massOf(const FlexibleShaft& shaft, const ShaftSection& section) {
-  return shaft.material.density * section.area() * section.length;
-}
-
 Across add(const Across& a, const Across& b) {
   return {a.x + b.x, a.y + b.y};
 }
 
-/// What a bearing puts on a shaft that is deflected there.
-BearingLoad forceOf(int node, const BearingCoefficients& b, const Eigen::VectorXd& q) {
-  const double x = q[node * kNodeCoordinates];
-  const double y = q[node * kNodeCoordinates + 1];
+/// What a bearing puts on a shaft that is deflected there, beside the pedestal that it stands on.
+BearingLoad forceOf(const FlexibleShaft& shaft, int node, const BearingCoefficients& b,
+                    const Eigen::VectorXd& q) {
+  const Eigen::Index first = shaft.firstOf(node);
+  double x = q[first];
+  double y = q[first + 1];
+  if (shaft.pedestalsOf(node) > 0) {
+    x -= q[first + kNodeCoordinates];
+    y -= q[first + kNodeCoordinates + 1];
+  }
   return {node, {-b.kxx * x - b.kxy * y, -b.kyx * x - b.kyy * y}};
 }
 
@@ -31,11 +33,8 @@ RotorBody rotorBody(const FlexibleShaft& shaft) {
   double moment = 0.0;
   const auto each = [&](const auto& take) {  // mass, place, transverse and polar inertia
     for (std::size_t i = 0; i < shaft.elements.size(); ++i) {
-      const ShaftSection& section = shaft.elements[i];
-      const double mass = massOf(shaft, section);
-      const double turning = shaft.material.density * section.secondMoment() * section.length;
-      take(mass, z[i] + 0.5 * section.length,
-           turning + mass * section.length * section.length / 12.0, 2.0 * turning);
+      const ElementBody element = elementBody(shaft.layers(static_cast<int>(i)));
+      take(element.mass, z[i] + element.centre, element.transverse_inertia, element.polar_inertia);
     }
     for (const RotorDisc& disc : shaft.discs) {
       take(disc.mass, z[static_cast<std::size_t>(disc.node)], disc.transverse_inertia,
@@ -67,10 +66,10 @@ std::optional<RotorStatics> rotorStatics(const FlexibleShaft& shaft, double grav
 
   RotorStatics statics;
   for (const RotorBearing& bearing : shaft.bearings) {
-    statics.bearings.push_back(forceOf(bearing.node, bearing.coefficients, q));
+    statics.bearings.push_back(forceOf(shaft, bearing.node, bearing.coefficients, q));
   }
   for (const SpeedBearing& bearing : shaft.speed_bearings) {
-    statics.bearings.push_back(forceOf(bearing.node, bearing.coefficients(speed), q));
+    statics.bearings.push_back(forceOf(shaft, bearing.node, bearing.coefficients(speed), q));
   }
   std::vector<Across> at_nodes(static_cast<std::size_t>(shaft.nodes()));
   for (const BearingLoad& bearing : statics.bearings) {
@@ -84,15 +83,16 @@ std::optional<RotorStatics> rotorStatics(const FlexibleShaft& shaft, double grav
   Across shear;
   Across moment;
   for (std::size_t i = 0; i < z.size(); ++i) {
-    const auto first = static_cast<Eigen::Index>(i) * kNodeCoordinates;
+    const auto first = shaft.firstOf(static_cast<int>(i));
     SagAtNode node{z[i], {q[first], q[first + 1]}, shear, add(shear, at_nodes[i]), moment};
     statics.nodes.push_back(node);
     if (i < shaft.elements.size()) {
-      const ShaftSection& section = shaft.elements[i];
-      const double weight = massOf(shaft, section) * gravity;
+      const double length = shaft.elements[i].length;
+      const ElementBody element = elementBody(shaft.layers(static_cast<int>(i)));
+      const double weight = element.mass * gravity;
       shear = {node.shear_after.x, node.shear_after.y - weight};
-      moment = {moment.x + node.shear_after.x * section.length,
-                moment.y + (node.shear_after.y - 0.5 * weight) * section.length};
+      moment = {moment.x + node.shear_after.x * length,
+                moment.y + node.shear_after.y * length - weight * (length - element.centre)};
     }
   }
   return statics;

@@ -14,6 +14,7 @@ std::vector<BearingForce> bearingForces(const BuiltSystem& system) {
     return all;
   }
   const auto over_speed = tables.find("bearing_tables");
+  const auto pedestals = tables.find("pedestals");
   const std::vector<Station> stations = system.dynamics->stations();
   const Eigen::Index n = system.dynamics->dof();
   for (std::size_t i = 0; i < bearings->second.size(); ++i) {
@@ -27,7 +28,12 @@ std::vector<BearingForce> bearingForces(const BuiltSystem& system) {
         std::any_of(over_speed->second.begin(), over_speed->second.end(), [&](const auto& row) {
           return static_cast<std::size_t>(row.numbers.at("bearing")) == i;
         });
-    if (at_node == stations.end() || by_table) {
+    const bool on_pedestal =
+        pedestals != tables.end() &&
+        std::any_of(pedestals->second.begin(), pedestals->second.end(),
+                    [&](const auto& row) { return row.numbers.at("node") == number.at("node"); });
+    const bool with_mass = number.at("mxx") != 0.0 || number.at("myy") != 0.0;
+    if (at_node == stations.end() || by_table || on_pedestal || with_mass) {
       continue;
     }
     BearingForce force{fmt::format("bearings[{}]", i), Eigen::VectorXd(2 * n),

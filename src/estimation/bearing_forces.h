@@ -1,6 +1,6 @@
 // What the bearings of a rotor bear, as rows over its coordinates and rates: of a flexible rotor's
-// bearings by eight coefficients. Those whose coefficients go by tables over the speed, and journal
-// bearings, are left out.
+// bearings by eight coefficients. Those whose coefficients go by tables over the speed, that stand
+// on pedestals or move a mass along, and journal bearings, are left out.
 #pragma once
 
 #include <Eigen/Core>

@@ -4,6 +4,7 @@
 // Whirl is published at the probe: the first unbalance's node, else the first disc's, else the
 // middle one. A rotor without bearings floats: its rigid-body modes are motions like any other.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <limits>
@@ -12,6 +13,7 @@
 #include <utility>
 
 #include "analysis/modal_reduction.h"
+#include "analysis/rotor_statics.h"
 #include "integration/exponential.h"
 #include "mechanics/linear_rotor_dynamics.h"
 #include "messages/refusal.h"
@@ -19,6 +21,8 @@
 #include "models/flexible_shaft_settings.h"
 #include "models/linear_rotor_setup.h"
 #include "models/models.h"
+#include "models/shaft_materials.h"
+#include "models/shaft_supports.h"
 
 namespace whirl_twin {
 
@@ -82,13 +86,19 @@ std::vector<PlacedMagnet> placed(const std::vector<NodeMagnet>& magnets,
   return all;
 }
 
-std::vector<CoordinateInfo> nodeCoordinates(int nodes) {
+/// In the order of RotorAssembly.
+std::vector<CoordinateInfo> nodeCoordinates(const FlexibleShaft& shaft) {
   std::vector<CoordinateInfo> all;
-  for (int i = 0; i < nodes; ++i) {
+  for (int i = 0; i < shaft.nodes(); ++i) {
     all.push_back({fmt::format("x_{}", i), "m"});
     all.push_back({fmt::format("y_{}", i), "m"});
     all.push_back({fmt::format("alpha_{}", i), "rad"});
     all.push_back({fmt::format("beta_{}", i), "rad"});
+    for (int below = 1; below <= shaft.pedestalsOf(i); ++below) {
+      const std::string which = below == 1 ? std::to_string(i) : fmt::format("{}_{}", i, below);
+      all.push_back({"pedestal_x_" + which, "m"});
+      all.push_back({"pedestal_y_" + which, "m"});
+    }
   }
   return all;
 }
@@ -110,19 +120,15 @@ double whirlLength(const FlexibleShaft& shaft, double mass) {
   return sum > 0.0 ? sum / mass : 1.0;
 }
 
-double totalMass(const FlexibleShaft& shaft) {
-  double mass = 0.0;
-  for (const ShaftSection& element : shaft.elements) {
-    mass += shaft.material.density * element.area() * element.length;
-  }
-  for (const RotorDisc& disc : shaft.discs) {
-    mass += disc.mass;
-  }
-  return mass;
+/// The stations that shapes are scaled by: every place that moves.
+std::vector<Station> everywhere(std::vector<Station> stations,
+                                const std::vector<Station>& pedestals) {
+  stations.insert(stations.end(), pedestals.begin(), pedestals.end());
+  return stations;
 }
 
 RotorReduction reduction(const LinearRotor& rotor, const std::vector<Station>& stations,
-                         const ParameterValues& values, const std::string& modes) {
+                         const ParameterValues& values, const std::string& modes, bool pedestals) {
   const double given = values.at("highest_speed");
   const double highest = given > 0.0 ? given : usualHighestSpeed(rotor);
   if (modes == "auto") {
@@ -130,9 +136,10 @@ RotorReduction reduction(const LinearRotor& rotor, const std::vector<Station>& s
   }
   const int count = std::stoi(modes);
   if (count > rotor.dof()) {
-    throw SetupError("modes", fmt::format("must be auto or a whole number from 0 to {}, four a "
-                                          "node, found {}",
-                                          rotor.dof(), count));
+    throw SetupError("modes",
+                     fmt::format("must be auto or a whole number from 0 to {}, four a "
+                                 "node{}, found {}",
+                                 rotor.dof(), pedestals ? " and two a pedestal" : "", count));
   }
   return reduceRotor(rotor, stations, highest, count);
 }
@@ -166,19 +173,21 @@ ModelSetup setUpFlexibleRotor(const ParameterValues& values, const Settings& set
 
   RotorDescription description;
   description.model = "flexible_rotor";
-  description.natural_length = whirlLength(shaft, totalMass(shaft));
+  description.natural_length = whirlLength(shaft, rotorBody(shaft).mass);
   description.phase_mark = values.at("phase_mark");
-  std::string note;
+  std::vector<std::string> notes = shaftNotes(values, settings, shaft);
   double highest_speed = std::numeric_limits<double>::infinity();
   const std::string& modes = settings.choices.at("modes");
   if (modes == "0") {
-    description.coordinates = nodeCoordinates(shaft.nodes());
+    description.coordinates = nodeCoordinates(shaft);
   } else {
-    const RotorReduction kept = reduction(
-        assembly.linearRotor(), publishedFirst(assembly.stations(), probe), values, modes);
+    const RotorReduction kept =
+        reduction(assembly.linearRotor(),
+                  everywhere(publishedFirst(assembly.stations(), probe), assembly.pedestals()),
+                  values, modes, !shaft.pedestals.empty());
     assembly = assembly.in(kept.shapes);
     description.coordinates = shapeCoordinates(kept.shapes.cols());
-    note = kept.note;
+    notes.insert(notes.begin(), kept.note);
     highest_speed = kept.highest_speed;
   }
   description.stations =
@@ -187,12 +196,13 @@ ModelSetup setUpFlexibleRotor(const ParameterValues& values, const Settings& set
       placed(nodeMagnets(settings, shaft.nodes()), assembly.stations());
   description.inputs = inputsAt(assembly.stations(), magnets);
   const std::size_t first_current = description.inputs.size() - 2 * magnets.size();
-  description.sketch = FlexibleRotorPicture(shaft, assembly.stations(), probe);
+  description.sketch =
+      FlexibleRotorPicture(shaft, assembly.stations(), assembly.pedestals(), probe);
   LinearRotor rotor = assembly.linearRotor();
   rotor.highest_speed = highest_speed;
   ModelSetup setup = linearRotorSetup(dynamicsOf(std::move(description), std::move(rotor)),
                                       localForcesOf(magnets, first_current));
-  setup.note = note;
+  setup.note = fmt::format("{}", fmt::join(notes, "; "));
   return setup;
 }
 
@@ -202,19 +212,21 @@ ModelInfo flexibleRotorInfo() {
   ModelInfo info;
   info.name = "flexible_rotor";
   info.summary = "shaft of finite elements with discs, bearings and unbalances";
-  info.parameters = {
-      {"youngs_modulus", "Pa", Range::kPositive, "of the shaft", {}, ""},
-      {"shear_modulus", "Pa", Range::kNotNegative, "of the shaft; 0: youngs_modulus / 2.6", 0.0,
-       ""},
-      {"density", "kg/m^3", Range::kPositive, "of the shaft", {}, ""},
+  info.parameters = materialParameters();
+  const std::vector<ParameterInfo> further{
       {"internal_damping", "s", Range::kNotNegative,
        "of the shaft's material: stress = E (strain + this * strain rate)", 0.0, ""},
+      {"mass_damping", "1/s", Range::kNotNegative,
+       "of the elements, not turning: C = this * M (alpha)", 0.0, ""},
+      {"stiffness_damping", "s", Range::kNotNegative,
+       "of the elements, not turning: C = this * K (beta)", 0.0, ""},
       {"highest_speed", "rad/s", Range::kNotNegative,
        "up to which reduced modes must hold; 0: twice the fourth natural frequency", 0.0, ""},
       {"tolerance", "-", Range::kPositive, "of the unbalance response, for modes: auto", 1.0e-6,
        ""},
       {"phase_mark", "rad", Range::kAny,
        "from the shaft's mark, that the phase of the whirl counts from", 0.0, ""}};
+  info.parameters.insert(info.parameters.end(), further.begin(), further.end());
   info.settings = flexibleShaftSettings();
   info.settings.push_back({"modes",
                            SettingKind::kWordOrCount,

@@ -13,8 +13,10 @@ namespace whirl_twin {
 /// The shaft lies along the sketch's x, its y is up, its x goes into the picture.
 class FlexibleRotorPicture {
  public:
-  /// `stations`: of the nodes 0, 1 ..., in the coordinates that it is drawn from.
-  FlexibleRotorPicture(const FlexibleShaft& shaft, std::vector<Station> stations, int probe_node);
+  /// `stations`: of the nodes 0, 1 ..., `pedestals`: of the shaft's, in the coordinates that it is
+  /// drawn from.
+  FlexibleRotorPicture(const FlexibleShaft& shaft, std::vector<Station> stations,
+                       std::vector<Station> pedestals, int probe_node);
   Sketch operator()(const Eigen::VectorXd& q, double angle) const;
 
  private:
@@ -23,10 +25,24 @@ class FlexibleRotorPicture {
     double radius, thickness;  ///< [m]
   };
 
-  std::vector<double> radii_;  ///< [m], of the elements
+  /// Of an element or a sleeve, from one place along the element to another [0, 1].
+  struct Rod {
+    int element;
+    double from, to, radius;
+    SketchRole role;
+  };
+  struct Pedestal {
+    int node;
+    int depth;  ///< 0: under the bearing
+  };
+
+  void addRods(int element, const ShaftSection& section, SketchRole role);
+
+  std::vector<Rod> rods_;
   std::vector<Disc> discs_;
   std::vector<int> bearings_;
-  std::vector<Station> stations_;
+  std::vector<Pedestal> pedestals_;
+  std::vector<Station> stations_, pedestal_stations_;
   int probe_node_;
   double length_, height_;  ///< [m]
 };

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <limits>
 
-#include "mechanics/rotors/bearing_laws.h"
+#include "models/shaft_materials.h"
+#include "models/shaft_supports.h"
+#include "models/table_rows.h"
 
 namespace whirl_twin {
 
@@ -14,43 +16,50 @@ namespace {
 
 constexpr double kRequired = std::numeric_limits<double>::quiet_NaN();
 constexpr int kMostElements = 100;
-constexpr double kUsualPoissonsRatio = 0.3;
+constexpr double kLongestShaft = 100.0;  // [m], of a machine
+constexpr double kSameDiameter = 1.0e-9;
 
-const std::vector<TableRow>& table(const Settings& settings, const std::string& name) {
-  static const std::vector<TableRow> none;
-  const auto found = settings.tables.find(name);
-  return found == settings.tables.end() ? none : found->second;
-}
+/// A hollow cylinder or cone: both its diameters at both its ends.
+struct Ring {
+  double inner, outer, inner_end, outer_end;  ///< [m]
 
-/// A whole number from 0 to `last` in a column of a row.
-int indexIn(const TableRow& row, const std::string& key, const char* column, int last) {
-  const double number = row.numbers.at(column);
-  if (!(number >= 0.0 && number <= last && number == std::floor(number))) {
-    throw SetupError(fmt::format("{}.{}", key, column),
-                     fmt::format("must be a whole number from 0 to {}, found {}", last, number));
+  double innerAt(double share) const { return inner + share * (inner_end - inner); }
+  double outerAt(double share) const { return outer + share * (outer_end - outer); }
+  ShaftSection section(double length, double from = 0.0, double to = 1.0) const {
+    return {length, outerAt(from), innerAt(from), outerAt(to) - outerAt(from),
+            innerAt(to) - innerAt(from)};
   }
-  return static_cast<int>(number);
+};
+
+void requireBelow(double inner, double outer, const std::string& key, const char* end) {
+  if (!(inner < outer)) {
+    throw SetupError(fmt::format("{}.inner_diameter{}", key, end),
+                     fmt::format("must be < outer_diameter{} = {} m, found {}", end, outer, inner));
+  }
 }
 
-std::vector<ShaftSection> elementsOf(const Settings& settings) {
+std::vector<ShaftSection> elementsOf(const Settings& settings, const ShaftMaterials& materials) {
   std::vector<ShaftSection> elements;
-  const std::vector<TableRow>& rows = table(settings, "elements");
+  const std::vector<TableRow>& rows = rowsOf(settings, "elements");
   for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::string key = fmt::format("elements[{}]", i);
     const auto& row = rows[i].numbers;
-    const ShaftSection section{row.at("length"), row.at("outer_diameter"),
-                               row.at("inner_diameter")};
-    if (!(section.inner_diameter < section.outer_diameter)) {
-      throw SetupError(fmt::format("elements[{}].inner_diameter", i),
-                       fmt::format("must be < outer_diameter = {} m, found {}",
-                                   section.outer_diameter, section.inner_diameter));
-    }
-    const double all = static_cast<double>(elements.size()) + row.at("count");
+    const Ring ring{row.at("inner_diameter"), row.at("outer_diameter"),
+                    row.at("inner_diameter_end"), row.at("outer_diameter_end")};
+    requireBelow(ring.inner, ring.outer, key, "");
+    requireBelow(ring.inner_end, ring.outer_end, key, "_end");
+    const double count = row.at("count");
+    const double all = static_cast<double>(elements.size()) + count;
     if (all > kMostElements) {
-      throw SetupError(
-          fmt::format("elements[{}].count", i),
-          fmt::format("must leave up to {} elements in all, found {}", kMostElements, all));
+      throw SetupError(key + ".count", fmt::format("must leave up to {} elements in all, found {}",
+                                                   kMostElements, all));
     }
-    elements.insert(elements.end(), static_cast<std::size_t>(row.at("count")), section);
+    for (int part = 0; part < static_cast<int>(count); ++part) {
+      ShaftSection section = ring.section(row.at("length"), part / count, (part + 1) / count);
+      section.material = materials.of(rows[i], key);
+      section.axial_force = row.at("axial_force");
+      elements.push_back(section);
+    }
   }
   if (elements.empty()) {
     throw SetupError("elements", "missing; the shaft's elements, from node 0 on");
@@ -58,77 +67,104 @@ std::vector<ShaftSection> elementsOf(const Settings& settings) {
   return elements;
 }
 
-BearingCoefficients coefficientsOf(const TableRow& row) {
-  const auto& n = row.numbers;
-  return {n.at("kxx"), n.at("kxy"), n.at("kyx"), n.at("kyy"),
-          n.at("cxx"), n.at("cxy"), n.at("cyx"), n.at("cyy")};
+/// The room that an element and the sleeves on it take.
+Ring ringOf(const ShaftSection& section) {
+  return {section.inner_diameter, section.outer_diameter,
+          section.inner_diameter + section.inner_growth,
+          section.outer_diameter + section.outer_growth};
 }
 
-bool isGiven(const BearingCoefficients& b) {
-  return b.kxx != 0.0 || b.kxy != 0.0 || b.kyx != 0.0 || b.kyy != 0.0 || b.cxx != 0.0 ||
-         b.cxy != 0.0 || b.cyx != 0.0 || b.cyy != 0.0;
-}
-
-/// The rows of bearing_tables, by the bearing they are of.
-std::vector<std::vector<BearingRow>> bearingTables(const Settings& settings, std::size_t bearings) {
-  std::vector<std::vector<BearingRow>> tables(bearings);
-  const std::vector<TableRow>& rows = table(settings, "bearing_tables");
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const std::string key = fmt::format("bearing_tables[{}]", i);
-    if (bearings == 0) {
-      throw SetupError(key + ".bearing", "there is no row in bearings that it could be of");
-    }
-    const auto of =
-        static_cast<std::size_t>(indexIn(rows[i], key, "bearing", static_cast<int>(bearings) - 1));
-    const double speed = rows[i].numbers.at("speed");
-    if (!tables[of].empty() && !(speed > tables[of].back().speed)) {
-      throw SetupError(key + ".speed",
-                       fmt::format("must be > {} rad/s, the row before of this bearing, found {}",
-                                   tables[of].back().speed, speed));
-    }
-    tables[of].push_back({speed, coefficientsOf(rows[i])});
+/// A sleeve around what is there, or a liner within; what is there grows by it.
+ShaftSection sleeveOn(Ring& there, double length, const std::map<std::string, double>& row,
+                      const std::string& key) {
+  const double outer = row.at("outer_diameter");
+  const double inner = row.at("inner_diameter");
+  Ring ring{inner, outer, inner, outer};
+  if (inner == 0.0) {
+    ring.inner = there.outer;
+    ring.inner_end = there.outer_end;
   }
-  return tables;
+  const double around = std::max(there.outer, there.outer_end);
+  const double bore = std::min(there.inner, there.inner_end);
+  const bool liner = inner > 0.0 && outer <= bore * (1.0 + kSameDiameter);
+  if (liner) {
+    there.inner = there.inner_end = inner;
+  } else if (!(outer > around)) {
+    throw SetupError(key + ".outer_diameter",
+                     fmt::format("must be > {} m, of what it sits on, found {}", around, outer));
+  } else if (inner > 0.0 && !(inner >= around * (1.0 - kSameDiameter))) {
+    throw SetupError(
+        key + ".inner_diameter",
+        fmt::format("must be >= {} m, of what it sits on, or left out, found {}", around, inner));
+  } else {
+    there.outer = there.outer_end = outer;
+  }
+  requireBelow(inner, outer, key, "");
+  return ring.section(length);
 }
 
-void addBearings(const Settings& settings, FlexibleShaft& shaft) {
+void addSleeves(const Settings& settings, const ShaftMaterials& materials, FlexibleShaft& shaft) {
   const int last = shaft.nodes() - 1;
-  const std::vector<TableRow>& rows = table(settings, "bearings");
-  const auto tables = bearingTables(settings, rows.size());
+  std::vector<Ring> taken;
+  for (const ShaftSection& element : shaft.elements) {
+    taken.push_back(ringOf(element));
+  }
+  const std::vector<TableRow>& rows = rowsOf(settings, "sleeves");
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const std::string key = fmt::format("bearings[{}]", i);
-    const RotorBearing bearing{indexIn(rows[i], key, "node", last), coefficientsOf(rows[i])};
-    if (tables[i].empty()) {
-      shaft.bearings.push_back(bearing);
-    } else if (isGiven(bearing.coefficients)) {
-      throw SetupError(key, "must give its node only: bearing_tables gives its coefficients");
-    } else {
-      shaft.speed_bearings.push_back(tabulatedBearing(bearing.node, tables[i]));
+    const std::string key = fmt::format("sleeves[{}]", i);
+    const auto& row = rows[i].numbers;
+    const int from = indexIn(rows[i], key, "from", last);
+    const int to = indexIn(rows[i], key, "to", last);
+    if (!(from < to)) {
+      throw SetupError(key + ".to", fmt::format("must be > from = {}, found {}", from, to));
     }
-  }
-  for (const NodeMagnet& at : nodeMagnets(settings, shaft.nodes())) {
-    BearingCoefficients coefficients;
-    coefficients.kxx = coefficients.kyy = -at.magnet.ks;
-    shaft.bearings.push_back({at.node, coefficients});
-  }
-  const std::vector<TableRow>& journals = table(settings, "journal_bearings");
-  for (std::size_t i = 0; i < journals.size(); ++i) {
-    const auto& n = journals[i].numbers;
-    const ShortJournalBearing journal{n.at("length"), n.at("diameter"), n.at("clearance"),
-                                      n.at("viscosity")};
-    const int node = indexIn(journals[i], fmt::format("journal_bearings[{}]", i), "node", last);
-    shaft.speed_bearings.push_back(journalBearing(node, journal, n.at("load")));
+    const double share = row.at("stiffness_share");
+    if (!(share <= 1.0)) {
+      throw SetupError(key + ".stiffness_share",
+                       fmt::format("must be from 0 to 1, found {}", share));
+    }
+    for (int element = from; element < to; ++element) {
+      const auto e = static_cast<std::size_t>(element);
+      const ShaftSection section = sleeveOn(taken[e], shaft.elements[e].length, row, key);
+      shaft.sleeves.push_back({element, {materials.of(rows[i], key), section, share}});
+    }
   }
 }
 
-std::vector<ColumnInfo> coefficientColumns(std::vector<ColumnInfo> columns) {
-  for (const char* name : {"kxx", "kyy", "kxy", "kyx"}) {
-    columns.push_back({name, "N/m", Range::kAny, 0.0});
+/// By its inertias, or a hollow cylinder.
+RotorDisc discOf(const TableRow& row, const ShaftMaterials& materials, int last,
+                 const std::string& key) {
+  const auto& n = row.numbers;
+  RotorDisc disc{indexIn(row, key, "node", last), n.at("mass"), n.at("polar_inertia"),
+                 n.at("transverse_inertia"),      n.at("skew"), n.at("skew_angle")};
+  const double outer = n.at("outer_diameter");
+  const double inner = n.at("inner_diameter");
+  const double width = n.at("width");
+  const bool by_inertias =
+      disc.mass > 0.0 || disc.polar_inertia > 0.0 || disc.transverse_inertia > 0.0;
+  if (outer == 0.0 && width == 0.0 && inner == 0.0 && row.words.at("material").empty()) {
+    if (!by_inertias) {
+      throw SetupError(key + ".mass", "missing; in kg, or outer_diameter and width in m");
+    }
+    return disc;
   }
-  for (const char* name : {"cxx", "cyy", "cxy", "cyx"}) {
-    columns.push_back({name, "N s/m", Range::kAny, 0.0});
+  if (by_inertias) {
+    throw SetupError(key, "must give a mass and inertias, or outer_diameter and width, not both");
   }
-  return columns;
+  for (const auto& [name, value] :
+       {std::pair{"outer_diameter", outer}, std::pair{"width", width}}) {
+    if (!(value > 0.0)) {
+      throw SetupError(fmt::format("{}.{}", key, name), "must be > 0 m, of a disc by its geometry");
+    }
+  }
+  requireBelow(inner, outer, key, "");
+  const ElementBody body = elementBody({{materials.of(row, key), {width, outer, inner}}});
+  disc.mass = body.mass;
+  disc.polar_inertia = body.polar_inertia;
+  disc.transverse_inertia = body.transverse_inertia;
+  disc.diameter = outer;
+  disc.width = width;
+  return disc;
 }
 
 }  // namespace
@@ -139,73 +175,87 @@ std::vector<SettingInfo> flexibleShaftSettings() {
     info.columns = std::move(columns);
     return info;
   };
+  const auto ofMaterial = [](SettingInfo info) {
+    info.optional_words = {"material"};
+    return info;
+  };
   const ColumnInfo node{"node", "-", Range::kNotNegative, kRequired};
   std::vector<SettingInfo> all{
-      rows("elements", "of the shaft; element i joins node i and node i + 1",
-           {{"length", "m", Range::kPositive, kRequired},
-            {"outer_diameter", "m", Range::kPositive, kRequired},
-            {"inner_diameter", "m", Range::kNotNegative, 0.0},
-            {"count", "-", Range::kCount, 1.0}}),
-      rows("discs", "rigid, at nodes",
-           {node,
-            {"mass", "kg", Range::kNotNegative, kRequired},
-            {"polar_inertia", "kg m^2", Range::kNotNegative, 0.0},
-            {"transverse_inertia", "kg m^2", Range::kNotNegative, 0.0}}),
-      rows("bearings", "by eight coefficients; none at all: the rotor floats",
-           coefficientColumns({node})),
-      rows("bearing_tables", "coefficients of bearings[bearing] over the shaft's speed",
-           coefficientColumns({{"bearing", "-", Range::kNotNegative, kRequired},
-                               {"speed", "rad/s", Range::kAny, kRequired}})),
-      rows("journal_bearings", "short plain bearings under a load along -y",
-           {node,
-            {"length", "m", Range::kPositive, kRequired},
-            {"diameter", "m", Range::kPositive, kRequired},
-            {"clearance", "m", Range::kPositive, kRequired},
-            {"viscosity", "Pa s", Range::kPositive, kRequired},
-            {"load", "N", Range::kPositive, kRequired}}),
-      magnetsSetting({node}, "current_x_NODE, current_y_NODE"),
-      rows("unbalances", "at nodes",
-           {node,
-            {"magnitude", "kg m", Range::kNotNegative, kRequired},
-            {"angle", "rad", Range::kAny, 0.0}}),
-      rows("stations", "nodes whose whirl is published as SYSTEM_node_N, beside that of probe_node",
-           {node}),
-      {"shear_deformation",
-       SettingKind::kChoice,
-       "",
-       "Timoshenko's beam, or Rayleigh's without",
-       {"true", "false"}},
-      {"gravity_on_shaft",
-       SettingKind::kChoice,
-       "",
-       "the rotor's weight, along -y",
-       {"false", "true"}}};
+      ofMaterial(
+          rows("elements",
+               "of the shaft; element i joins node i and node i + 1. A row tapers evenly to its "
+               "diameters at its _end; its axial force pulls",
+               {{"length", "m", Range::kPositive, kRequired},
+                {"outer_diameter", "m", Range::kPositive, kRequired},
+                {"outer_diameter_end", "m", Range::kPositive, 0.0, "outer_diameter"},
+                {"inner_diameter", "m", Range::kNotNegative, 0.0},
+                {"inner_diameter_end", "m", Range::kNotNegative, 0.0, "inner_diameter"},
+                {"axial_force", "N", Range::kAny, 0.0},
+                {"count", "-", Range::kCount, 1.0}})),
+      materialsSetting(),
+      ofMaterial(rows("sleeves",
+                      "on the elements between two nodes, or in their bore, one upon another; "
+                      "inner_diameter 0: of what it sits on; stiffness_share 0: mass only",
+                      {{"from", "-", Range::kNotNegative, kRequired},
+                       {"to", "-", Range::kNotNegative, kRequired},
+                       {"outer_diameter", "m", Range::kPositive, kRequired},
+                       {"inner_diameter", "m", Range::kNotNegative, 0.0},
+                       {"stiffness_share", "-", Range::kNotNegative, 1.0}})),
+      ofMaterial(rows("discs",
+                      "rigid, at nodes, by mass and inertias or by diameters, width and material; "
+                      "mass alone: a point mass",
+                      {node,
+                       {"mass", "kg", Range::kNotNegative, 0.0},
+                       {"polar_inertia", "kg m^2", Range::kNotNegative, 0.0},
+                       {"transverse_inertia", "kg m^2", Range::kNotNegative, 0.0},
+                       {"outer_diameter", "m", Range::kNotNegative, 0.0},
+                       {"inner_diameter", "m", Range::kNotNegative, 0.0},
+                       {"width", "m", Range::kNotNegative, 0.0},
+                       {"skew", "rad", Range::kNotNegative, 0.0},
+                       {"skew_angle", "rad", Range::kAny, 0.0}}))};
+  for (SettingInfo& info : supportSettings()) {
+    all.push_back(std::move(info));
+  }
+  all.insert(
+      all.end(),
+      {rows("unbalances", "at nodes",
+            {node,
+             {"magnitude", "kg m", Range::kNotNegative, kRequired},
+             {"angle", "rad", Range::kAny, 0.0}}),
+       rows("stations",
+            "nodes whose whirl is published as SYSTEM_node_N, beside that of probe_node", {node}),
+       {"shear_deformation",
+        SettingKind::kChoice,
+        "",
+        "Timoshenko's beam, or Rayleigh's without",
+        {"true", "false"}},
+       {"gravity_on_shaft",
+        SettingKind::kChoice,
+        "",
+        "the rotor's weight, along -y",
+        {"false", "true"}}});
   all.front().required = true;
   return all;
 }
 
 FlexibleShaft flexibleShaft(const ParameterValues& values, const Settings& settings,
                             double gravity) {
-  const auto chosen = [&](const char* name) { return settings.choices.at(name) == "true"; };
+  const ShaftMaterials materials(values, settings);
   FlexibleShaft shaft;
-  const double youngs_modulus = values.at("youngs_modulus");
-  const double shear_modulus = values.at("shear_modulus");
-  shaft.material = {
-      youngs_modulus,
-      shear_modulus > 0.0 ? shear_modulus : youngs_modulus / (2.0 * (1.0 + kUsualPoissonsRatio)),
-      values.at("density"), chosen("shear_deformation")};
+  shaft.material = materials.own();
   shaft.internal_damping = values.at("internal_damping");
-  shaft.elements = elementsOf(settings);
-  shaft.gravity = chosen("gravity_on_shaft") ? gravity : 0.0;
+  shaft.mass_damping = values.at("mass_damping");
+  shaft.stiffness_damping = values.at("stiffness_damping");
+  shaft.elements = elementsOf(settings, materials);
+  shaft.gravity = settings.choices.at("gravity_on_shaft") == "true" ? gravity : 0.0;
+  addSleeves(settings, materials, shaft);
   const int last = shaft.nodes() - 1;
-  const std::vector<TableRow>& discs = table(settings, "discs");
+  const std::vector<TableRow>& discs = rowsOf(settings, "discs");
   for (std::size_t i = 0; i < discs.size(); ++i) {
-    const auto& n = discs[i].numbers;
-    shaft.discs.push_back({indexIn(discs[i], fmt::format("discs[{}]", i), "node", last),
-                           n.at("mass"), n.at("polar_inertia"), n.at("transverse_inertia")});
+    shaft.discs.push_back(discOf(discs[i], materials, last, fmt::format("discs[{}]", i)));
   }
-  addBearings(settings, shaft);
-  const std::vector<TableRow>& unbalances = table(settings, "unbalances");
+  addSupports(settings, shaft);
+  const std::vector<TableRow>& unbalances = rowsOf(settings, "unbalances");
   for (std::size_t i = 0; i < unbalances.size(); ++i) {
     const auto& n = unbalances[i].numbers;
     shaft.unbalances.push_back(
@@ -215,24 +265,24 @@ FlexibleShaft flexibleShaft(const ParameterValues& values, const Settings& setti
   return shaft;
 }
 
-std::vector<NodeMagnet> nodeMagnets(const Settings& settings, int nodes) {
-  std::vector<NodeMagnet> magnets;
-  const std::vector<TableRow>& rows = magnetRows(settings);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const std::string key = fmt::format("magnets[{}]", i);
-    const int node = indexIn(rows[i], key, "node", nodes - 1);
-    if (std::any_of(magnets.begin(), magnets.end(),
-                    [node](const NodeMagnet& other) { return other.node == node; })) {
-      throw SetupError(key + ".node", fmt::format("stands twice, found {}", node));
+std::vector<std::string> shaftNotes(const ParameterValues& values, const Settings& settings,
+                                    const FlexibleShaft& shaft) {
+  std::vector<std::string> notes = ShaftMaterials(values, settings).notes();
+  for (const char* table : {"bearings", "bearing_tables"}) {
+    for (std::string& note : followingNotes(settings, table)) {
+      notes.push_back(std::move(note));
     }
-    magnets.push_back({node, rotorMagnet(rows[i], key)});
   }
-  return magnets;
+  const double length = shaft.positions().back();
+  if (length > kLongestShaft) {
+    notes.push_back(fmt::format("a shaft {:.6g} m long; lengths are in m", length));
+  }
+  return notes;
 }
 
 std::vector<int> publishedNodes(const Settings& settings, const FlexibleShaft& shaft) {
   std::vector<int> nodes;
-  const std::vector<TableRow>& rows = table(settings, "stations");
+  const std::vector<TableRow>& rows = rowsOf(settings, "stations");
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::string key = fmt::format("stations[{}]", i);
     const int node = indexIn(rows[i], key, "node", shaft.nodes() - 1);

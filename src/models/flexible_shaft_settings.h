@@ -1,10 +1,10 @@
 // The shaft, discs, bearings and unbalances that a scene gives for a flexible_rotor.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "mechanics/rotors/rotor_assembly.h"
-#include "models/magnet_settings.h"
 #include "models/model_info.h"
 
 namespace whirl_twin {
@@ -16,14 +16,9 @@ std::vector<SettingInfo> flexibleShaftSettings();
 FlexibleShaft flexibleShaft(const ParameterValues& values, const Settings& settings,
                             double gravity);
 
-struct NodeMagnet {
-  int node = 0;
-  RotorMagnet magnet;
-};
-
-/// Of each what it adds to the shaft, its negative stiffness, is among the shaft's bearings.
-/// Throws SetupError.
-std::vector<NodeMagnet> nodeMagnets(const Settings& settings, int nodes);
+/// What is unusual about it, and what it takes for given.
+std::vector<std::string> shaftNotes(const ParameterValues& values, const Settings& settings,
+                                    const FlexibleShaft& shaft);
 
 /// The nodes that have a whirl of their own. Throws SetupError for one that is not there, or twice.
 std::vector<int> publishedNodes(const Settings& settings, const FlexibleShaft& shaft);

@@ -14,6 +14,19 @@ namespace whirl_twin {
 struct TableRow {
   std::map<std::string, double> numbers;
   std::map<std::string, std::string> words;
+  /// Numbers that are not given and follow another of the row: kyy its kxx.
+  std::map<std::string, std::string> following = {};
+
+  /// Sets a number that is there and those that follow it. It follows no other any more.
+  void set(const std::string& column, double value) {
+    following.erase(column);
+    numbers.at(column) = value;
+    for (const auto& [follower, followed] : following) {
+      if (followed == column) {
+        numbers.at(follower) = value;
+      }
+    }
+  }
 };
 
 /// As a scene gives them; what it does not give is absent, but for choices, which have a default.
@@ -33,6 +46,8 @@ struct ColumnInfo {
   std::string unit;
   Range range;
   double fallback;  ///< NaN: must be given
+  /// A column before it: unless it is given it is as that. Its fallback is then none.
+  std::string fallback_column = "";
 };
 
 /// What a model says of a setting; scene files are checked against it.
@@ -44,7 +59,8 @@ struct SettingInfo {
   std::vector<std::string> choices = {};  ///< of a choice or instead of a count, the default first
   bool required = false;                  ///< a matrix, names or a table that must be given
   std::vector<ColumnInfo> columns = {};   ///< of a table
-  std::vector<std::string> word_columns = {};  ///< of a table, all of them required
+  std::vector<std::string> word_columns = {};    ///< of a table, all of them required
+  std::vector<std::string> optional_words = {};  ///< of a table, "" unless they are given
 };
 
 }  // namespace whirl_twin

@@ -21,6 +21,7 @@ std::string contentsText(const SettingInfo& s) {
                        s.choices.front());
   }
   std::vector<std::string> columns = s.word_columns;
+  columns.insert(columns.end(), s.optional_words.begin(), s.optional_words.end());
   for (const ColumnInfo& c : s.columns) {
     columns.push_back(fmt::format("{} ({})", c.name, c.unit));
   }
@@ -70,6 +71,9 @@ Json settingJson(const SettingInfo& s) {
     json["columns"][c.name] = {{"unit", c.unit}, {"range", describe(c.range)}};
   }
   for (const std::string& c : s.word_columns) {
+    json["columns"][c] = {{"unit", "name"}};
+  }
+  for (const std::string& c : s.optional_words) {
     json["columns"][c] = {{"unit", "name"}};
   }
   return json;

@@ -70,11 +70,14 @@ std::optional<Path> parsed(const std::string& text) {
 /// Where the number of a path stands, or why there is none.
 template <class Number>
 struct Place {
+  using Row = std::conditional_t<std::is_const_v<Number>, const TableRow, TableRow>;
   Number* number = nullptr;
   Range range = Range::kAny;
   std::string unit = "-";
   std::string path;  ///< as complaints have it
   std::string objection;
+  Row* row = nullptr;  ///< of a table
+  std::string column = "";
 };
 
 bool turnsShaft(const ModelInfo& model) {
@@ -165,8 +168,9 @@ class Search {
       }
       return none(text_, objectionToName(path.column, known, "number of " + path.name));
     }
-    return {&table->second[path.indices[0]].numbers.at(path.column), column->range, column->unit,
-            text_, ""};
+    auto& row = table->second[path.indices[0]];
+    return {
+        &row.numbers.at(path.column), column->range, column->unit, text_, "", &row, path.column};
   }
 
   Place<Number> ofMatrix(const Path& path) const {
@@ -224,7 +228,11 @@ bool setNumber(const std::string& path, double value, const Info& info, Spec& sp
     complaints.add(fmt::format("{}.{}.parameters.{}", key, spec.name, place.path), why);
     return false;
   }
-  *place.number = value;
+  if (place.row != nullptr) {
+    place.row->set(place.column, value);
+  } else {
+    *place.number = value;
+  }
   return true;
 }
 

@@ -114,6 +114,7 @@ std::optional<std::vector<YAML::Node>> maps(const MapReader& map, const std::str
 std::vector<TableRow> readTable(const MapReader& map, const SettingInfo& info,
                                 Complaints& complaints) {
   std::vector<std::string> known = info.word_columns;
+  known.insert(known.end(), info.optional_words.begin(), info.optional_words.end());
   for (const ColumnInfo& column : info.columns) {
     known.push_back(column.name);
   }
@@ -132,7 +133,15 @@ std::vector<TableRow> readTable(const MapReader& map, const SettingInfo& info,
       }
       values.words[word] = row.text(word, "");
     }
+    for (const std::string& word : info.optional_words) {
+      values.words[word] = row.text(word, "");
+    }
     for (const ColumnInfo& column : info.columns) {
+      if (!column.fallback_column.empty() && !row.has(column.name)) {
+        values.numbers[column.name] = values.numbers.at(column.fallback_column);
+        values.following[column.name] = column.fallback_column;
+        continue;
+      }
       const std::optional<double> fallback =
           std::isnan(column.fallback) ? std::nullopt : std::optional<double>(column.fallback);
       values.numbers[column.name] = row.number(column.name, column.range, column.unit, fallback);

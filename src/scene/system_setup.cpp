@@ -16,8 +16,8 @@ bool same(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
 }
 
 bool same(const TableRow& a, const TableRow& b) {
-  const auto& [numbers, words] = a;
-  return numbers == b.numbers && words == b.words;
+  const auto& [numbers, words, following] = a;
+  return numbers == b.numbers && words == b.words && following == b.following;
 }
 
 template <class Value>

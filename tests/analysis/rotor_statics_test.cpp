@@ -89,6 +89,24 @@ TEST(RotorStatics, OfARotorThatFloatsThereIsNone) {
   EXPECT_FALSE(rotorStatics(shaft, kGravity, 0.0));
 }
 
+// Statically a pedestal changes no load, and a sleeve that bends nothing is a weight.
+TEST(RotorStatics, PedestalsCarryWhatTheirBearingsDo) {
+  FlexibleShaft shaft = plainShaft();
+  BearingCoefficients below;
+  below.kxx = below.kyy = 1.0e7;
+  shaft.pedestals = {{8, 50.0, 50.0, below}};
+  shaft.sleeves = {{0, {shaft.material, {0.25, 0.1, 0.05}, 0.0}}};
+  const RotorStatics statics = rotorStatics(shaft, kGravity, 0.0).value();
+  const double weight = kMass * kGravity;
+  const double sleeve = 3.0 * weight / 8.0;
+  EXPECT_NEAR(statics.bearings[0].force.y, 0.5 * weight + sleeve * 1.875 / 2.0, 1.0e-6 * weight);
+  EXPECT_NEAR(statics.bearings[1].force.y, 0.5 * weight + sleeve * 0.125 / 2.0, 1.0e-6 * weight);
+  EXPECT_NEAR(statics.nodes[8].deflection.y,
+              -statics.bearings[1].force.y * (1.0e-9 + 1.0e-7), 1.0e-10);
+  EXPECT_NEAR(statics.nodes.back().moment.y, 0.0, 1.0e-6 * weight);
+  EXPECT_NEAR(rotorBody(shaft).mass, kMass * (1.0 + 3.0 / 8.0), 1.0e-9);
+}
+
 // A hollow shaft of 1 m and two discs: by hand.
 TEST(RotorBody, HasTheMassAndInertiasOfItsParts) {
   FlexibleShaft shaft;

@@ -257,6 +257,163 @@ TEST(RotorAssembly, holdsItsBearingsAsGiven) {
   EXPECT_EQ((with.damping - with.damping.transpose()).norm(), 0.0);
 }
 
+/// A disc of 10 kg on a short, all but rigid shaft, in bearings of 2 k = 2.0e6 N/m.
+FlexibleShaft rigidRotor() {
+  FlexibleShaft shaft;
+  shaft.material = {2.0e15, 8.0e14, 7800.0, true};
+  shaft.elements.assign(2, {0.1, 0.05, 0.0});
+  shaft.discs = {{1, 10.0, 0.1, 0.1}};
+  for (const int node : {0, 2}) {
+    shaft.bearings.push_back({node, {1.0e6, 0, 0, 1.0e6, 0, 0, 0, 0}});
+  }
+  return shaft;
+}
+
+constexpr double kRigidMass = 10.0 + 7800.0 * 0.2 * 3.14159265358979323846 * 0.05 * 0.05 / 4.0;
+
+/// Undamped natural frequencies of a chain of masses, the last of them on the ground.
+Eigen::VectorXd chainFrequencies(const Eigen::VectorXd& masses, const Eigen::VectorXd& springs) {
+  const Eigen::Index n = masses.size();
+  Eigen::MatrixXd k = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    k(i, i) += springs[i];
+    if (i + 1 < n) {
+      k(i + 1, i + 1) += springs[i];
+      k(i, i + 1) -= springs[i];
+      k(i + 1, i) -= springs[i];
+    }
+  }
+  const Eigen::MatrixXd m = masses.asDiagonal();
+  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(k, m)
+      .eigenvalues()
+      .cwiseSqrt();
+}
+
+TEST(RotorAssembly, onPedestalsIsAChainOfMasses) {
+  FlexibleShaft shaft = rigidRotor();
+  for (const int node : {0, 2}) {
+    BearingCoefficients below;
+    below.kxx = 4.0e6;
+    below.kyy = 3.0e6;
+    shaft.pedestals.push_back({node, 20.0, 15.0, below});
+    BearingCoefficients foundation;
+    foundation.kxx = foundation.kyy = 5.0e6;
+    shaft.pedestals.push_back({node, 50.0, 50.0, foundation});
+  }
+  const RotorAssembly rotor(shaft);
+  ASSERT_EQ(rotor.dof(), 3 * 4 + 4 * 2);
+  const auto found = whirlEigenvalues(rotor.matrices(0.0));
+  const auto expectOne = [&](double wanted) {
+    double nearest = 1e300;
+    for (const Complex& s : found) {
+      nearest = std::min(nearest, std::fabs(s.imag() - wanted));
+    }
+    EXPECT_LT(nearest, 3e-6 * wanted) << wanted;
+  };
+  for (const double wanted : chainFrequencies(Eigen::Vector3d(kRigidMass, 40.0, 100.0),
+                                              Eigen::Vector3d(2.0e6, 8.0e6, 1.0e7))) {
+    expectOne(wanted);
+  }
+  for (const double wanted : chainFrequencies(Eigen::Vector3d(kRigidMass, 30.0, 100.0),
+                                              Eigen::Vector3d(2.0e6, 6.0e6, 1.0e7))) {
+    expectOne(wanted);
+  }
+}
+
+// Springs in a row: 1 / k = 1 / k1 + 1 / k2. A pedestal at one end only: the other end is as it was.
+TEST(RotorAssembly, sagsOnItsPedestalsAsOnSpringsInARow) {
+  FlexibleShaft shaft = rigidRotor();
+  shaft.gravity = 10.0;
+  BearingCoefficients below;
+  below.kxx = below.kyy = 0.5e6;
+  shaft.pedestals = {{0, 20.0, 20.0, below}};
+  const LinearRotor rotor = RotorAssembly(shaft).linearRotor();
+  const Eigen::VectorXd q = rotor.matrices(0.0).stiffness.ldlt().solve(rotor.load);
+  const double half = 5.0 * kRigidMass;
+  EXPECT_NEAR(q[1], -half * (1.0e-6 + 2.0e-6), 1e-9);
+  EXPECT_NEAR(q[5], -half * 2.0e-6, 1e-9) << "its own weight was there before";
+  EXPECT_NEAR(q[shaft.firstOf(2) + 1], -half * 1.0e-6, 1e-9);
+  EXPECT_NEAR(q[0], 0.0, 1e-12);
+}
+
+// The same in matrices near their diagonals, in which bearings that follow the speed are too.
+TEST(RotorAssembly, hasItsPedestalsBesideTheirNodes) {
+  FlexibleShaft shaft = rigidRotor();
+  shaft.speed_bearings.push_back(
+      {2, [](double w) { return BearingCoefficients{w, 2 * w, 3 * w, w, 1, 2, 3, 4}; }, {}});
+  BearingCoefficients below;
+  below.kxx = below.kyy = 0.5e6;
+  below.kxy = 1.0e5;
+  below.cxx = 30.0;
+  shaft.pedestals = {{2, 20.0, 20.0, below}, {0, 10.0, 10.0, below}, {2, 5.0, 5.0, below}};
+  const RotorAssembly rotor(shaft);
+  const Linearization l = rotor.matrices(7.0);
+  const BandedLinearization b = rotor.bandedMatrices(7.0);
+  EXPECT_LE(b.byPlace().width(), 11);
+  EXPECT_EQ((b.mass.dense() - l.mass).norm(), 0.0);
+  EXPECT_LT((b.byPlace().dense() - l.stiffness - l.circulatory).norm(), 1e-12 * l.stiffness.norm());
+  EXPECT_LT((b.byRate().dense() - l.damping - l.gyroscopic).norm(), 1e-12 * l.damping.norm());
+}
+
+// What a film moves along has inertia and no weight.
+TEST(RotorAssembly, carriesTheMassesOfItsBearings) {
+  FlexibleShaft shaft = rigidRotor();
+  shaft.gravity = 10.0;
+  const RotorAssembly bare(shaft);
+  for (RotorBearing& bearing : shaft.bearings) {
+    bearing.coefficients.mxx = bearing.coefficients.myy = 3.0;
+  }
+  const RotorAssembly with(shaft);
+  EXPECT_EQ((with.linearRotor().load - bare.linearRotor().load).norm(), 0.0);
+  // x and y move as one mass, 6 kg more.
+  const auto found = whirlEigenvalues(with.matrices(0.0));
+  double nearest = 1e300;
+  for (const Complex& s : found) {
+    nearest = std::min(nearest, std::fabs(s.imag() - std::sqrt(2.0e6 / (kRigidMass + 6.0))));
+  }
+  EXPECT_LT(nearest, 1e-3);
+}
+
+// s = -(alpha + beta w^2) / 2 +- i ..., of every mode of a shaft without discs.
+TEST(RotorAssembly, isDampedInProportion) {
+  FlexibleShaft shaft;
+  shaft.material = {2.0e11, 8.0e10, 7800.0, true};
+  shaft.elements.assign(6, {0.2, 0.05, 0.0});
+  const auto pinned = [](const FlexibleShaft& s) {
+    const RotorAssembly rotor(s);
+    const Eigen::Index n = rotor.dof();
+    const Eigen::MatrixXd all = Eigen::MatrixXd::Identity(n, n);
+    Eigen::MatrixXd kept(n, n - 4);
+    kept << all.middleCols(2, n - 6), all.rightCols(2);
+    return whirlEigenvalues(rotor.in(kept).matrices(0.0));
+  };
+  const auto undamped = pinned(shaft);
+  shaft.mass_damping = 8.0;
+  shaft.stiffness_damping = 1.0e-5;
+  const auto damped = pinned(shaft);
+  for (std::size_t mode = 0; mode < 8; ++mode) {
+    const double w2 = std::norm(undamped[mode]);
+    EXPECT_NEAR(damped[mode].real(), -0.5 * (8.0 + 1.0e-5 * w2), 1e-6 * (8.0 + 1.0e-5 * w2));
+  }
+}
+
+// At the angle 0 the slope of the disc's axis is in x, and (I_d - I_p) tau w^2 turns it about y; a
+// quarter turn on it is in y, about -x.
+TEST(RotorAssembly, isForcedByADiscThatIsAskew) {
+  FlexibleShaft shaft = rigidRotor();
+  shaft.discs[0].polar_inertia = 0.18;
+  shaft.discs[0].skew = 0.01;
+  const LinearRotor rotor = RotorAssembly(shaft).linearRotor();
+  const double couple = (0.1 - 0.18) * 0.01 * 900.0;
+  const Eigen::VectorXd first = rotor.shaftForce(0.0, 30.0, 0.0);
+  EXPECT_NEAR(first[4 + 3], couple, 1e-15);
+  EXPECT_NEAR(first[4 + 2], 0.0, 1e-15);
+  const Eigen::VectorXd second = rotor.shaftForce(0.5 * 3.14159265358979323846, 30.0, 0.0);
+  EXPECT_NEAR(second[4 + 2], -couple, 1e-15);
+  EXPECT_NEAR(second[4 + 3], 0.0, 1e-15);
+  EXPECT_EQ(first.head(4).norm() + first.tail(4).norm(), 0.0);
+}
+
 TEST(RotorAssembly, refusesANodeThatDoesNotExist) {
   FlexibleShaft shaft = jeffcott(0.0);
   shaft.discs[0].node = 5;

@@ -10,6 +10,7 @@
 #include "algebra/lu.h"
 #include "analysis/equilibria.h"
 #include "models/model_registry.h"
+#include "scene/parameter_paths.h"
 #include "twin/observer.h"
 #include "twin/twin.h"
 
@@ -95,6 +96,37 @@ INSTANTIATE_TEST_SUITE_P(
                 "unbalances[0].magnitud: unknown key of unbalances; did you mean 'magnitude'?"}));
 
 INSTANTIATE_TEST_SUITE_P(
+    AsItIsBuilt, RefusedFlexibleRotor,
+    testing::Values(
+        Refusal{withShaft("shear_modulus: 81.2"),
+                "shear_modulus: must be in Pa, some 8.12e+10 Pa with this youngs_modulus, found "
+                "81.2"},
+        Refusal{withShaft("poissons_ratio: 0.6"),
+                "poissons_ratio: must be from 0 to 0.5, found 0.6"},
+        Refusal{withShaft("materials: [{name: bronze, youngs_modulus: 1.1e+11, density: 8800}], "
+                          "sleeves: [{from: 0, to: 1, outer_diameter: 0.06, material: bronse}]"),
+                "sleeves[0].material: must be a name of materials, found 'bronse'; did you mean "
+                "'bronze'?"},
+        Refusal{withShaft("sleeves: [{from: 0, to: 1, outer_diameter: 0.04}]"),
+                "sleeves[0].outer_diameter: must be > 0.05 m, of what it sits on, found 0.04"},
+        Refusal{withShaft("sleeves: [{from: 2, to: 2, outer_diameter: 0.06}]"),
+                "sleeves[0].to: must be > from = 2, found 2"},
+        Refusal{withShaft("discs: [{node: 1}]"),
+                "discs[0].mass: missing; in kg, or outer_diameter and width in m"},
+        Refusal{withShaft("discs: [{node: 1, outer_diameter: 0.3}]"),
+                "discs[0].width: must be > 0 m, of a disc by its geometry"},
+        Refusal{withShaft("pedestals: [{node: 0, mass: 9, kxx: 1}]"),
+                "pedestals[0].node: must be one with a bearing, which stands on it, found 0"},
+        Refusal{withShaft("bearings: [{node: 0, kxx: 1}], pedestals: [{node: 0, mass: 0, kxx: 1}]"),
+                "pedestals[0].mass: must be > 0 kg, found 0; a spring without a mass is part of "
+                "the bearing, k1 k2 / (k1 + k2)"},
+        Refusal{withShaft("magnets: [{node: 1, ki: 100, ks: 1}], pedestals: [{node: 1, mass: 9}]"),
+                "pedestals[0].node: must have no magnet, whose force is one between shaft and "
+                "ground, found 1"},
+        Refusal{withShaft("bearings: [{node: 0, kxx: 1, mxx: 1, mxy: 2}]"),
+                "bearings[0].mxy: must be a mass matrix's, mxy^2 <= mxx myy = 1 kg^2, found 2"}));
+
+INSTANTIATE_TEST_SUITE_P(
     ModesAndTables, RefusedFlexibleRotor,
     testing::Values(
         Refusal{withShaft("modes: many"),
@@ -135,6 +167,75 @@ TEST(FlexibleRotorScene, KeepsEveryNodeCoordinateWithModesZero) {
   EXPECT_EQ(setup.note, "");
   EXPECT_TRUE(setup.dynamics->isRotor());
   EXPECT_TRUE(setup.dynamics->speedDependent()) << "gyroscopic moments";
+}
+
+TEST(FlexibleRotorScene, HoldsAlongYAsAlongXAndSaysSo) {
+  const ModelSetup setup = setupOf(std::string(kShaft) +
+                                   ", modes: 0, bearings: [{node: 0, kxx: 1.0e+6, cxx: 10}, {node: "
+                                   "6, kxx: 1.0e+6, kyy: 0}]");
+  const LinearRotor rotor = setup.dynamics->linearRotor();
+  const Linearization l = rotor.matrices(0.0);
+  EXPECT_NEAR(l.stiffness(1, 1), l.stiffness(0, 0), 1.0);
+  EXPECT_NEAR(l.stiffness(25, 25), l.stiffness(24, 24) - 1.0e6, 1.0);
+  EXPECT_EQ(setup.note,
+            "cyy as cxx, not being given (bearings[0]); kyy as kxx, not being given "
+            "(bearings[0])");
+}
+
+TEST(FlexibleRotorScene, WhatFollowsAnotherGoesAlongWhenThatChanges) {
+  Scene scene = sceneOf(sceneText(
+      withShaft("bearings: [{node: 0, kxx: 1.0e+6}, {node: 6, kxx: 1.0e+6, kyy: 2.0e+6}]")));
+  SystemSpec& system = scene.systems[0];
+  const ModelInfo& model = *findModel(system.model);
+  Complaints complaints("test.yaml");
+  ASSERT_TRUE(setParameter("bearings[0].kxx", 3.0e6, model, system, complaints));
+  ASSERT_TRUE(setParameter("bearings[1].kxx", 3.0e6, model, system, complaints));
+  EXPECT_EQ(parameterAt("bearings[0].kyy", model, system), 3.0e6);
+  EXPECT_EQ(parameterAt("bearings[1].kyy", model, system), 2.0e6);
+  ASSERT_TRUE(setParameter("bearings[0].kyy", 4.0e6, model, system, complaints));
+  ASSERT_TRUE(setParameter("bearings[0].kxx", 5.0e6, model, system, complaints));
+  EXPECT_EQ(parameterAt("bearings[0].kyy", model, system), 4.0e6);
+}
+
+TEST(FlexibleRotorScene, HasItsPedestalsBehindTheirNodes) {
+  const std::string pedestals =
+      ", pedestals: [{node: 0, mass: 20, kxx: 5.0e+6, kyy: 4.0e+6}, {node: 0, mass: 90, kxx: "
+      "1.0e+8, kyy: 1.0e+8}, {node: 6, mass: 20, kxx: 5.0e+6, kyy: 4.0e+6}]";
+  const auto names = setupOf(kRotor + pedestals + ", modes: 0").dynamics->coordinates();
+  ASSERT_EQ(names.size(), 34u);
+  EXPECT_EQ(names[4].name, "pedestal_x_0");
+  EXPECT_EQ(names[7].name, "pedestal_y_0_2");
+  EXPECT_EQ(names[8].name, "x_1");
+  EXPECT_EQ(names[33].name, "pedestal_y_6");
+  const ModelSetup reduced = setupOf(kRotor + pedestals + ", modes: 8");
+  EXPECT_EQ(reduced.note.rfind("8 of 34 modes", 0), 0u) << reduced.note;
+}
+
+// A disc of 0.3 m, bore 0.05 m and 0.04 m: m = rho pi (D^2 - d^2) b / 4, I_p = m (D^2 + d^2) / 8,
+// I_d = I_p / 2 + m b^2 / 12.
+TEST(FlexibleRotorScene, WeighsADiscByItsGeometry) {
+  const auto with = [](const std::string& disc) {
+    return setupOf(std::string(kShaft) + ", modes: 0, discs: [" + disc + "]")
+        .dynamics->linearRotor()
+        .matrices(1.0);
+  };
+  const double mass = 7810.0 * 3.14159265358979323846 / 4.0 * (0.09 - 0.0025) * 0.04;
+  const double polar = mass * (0.09 + 0.0025) / 8.0;
+  const Linearization shape =
+      with("{node: 3, outer_diameter: 0.3, inner_diameter: 0.05, width: 0.04}");
+  const Linearization point = with("{node: 3, mass: 1.0e-9}");
+  EXPECT_NEAR(shape.mass(12, 12) - point.mass(12, 12), mass, 1e-8);
+  EXPECT_NEAR(shape.mass(14, 14) - point.mass(14, 14), 0.5 * polar + mass * 0.0016 / 12.0, 1e-9);
+  EXPECT_NEAR(shape.gyroscopic(14, 15) - point.gyroscopic(14, 15), polar, 1e-9);
+}
+
+TEST(FlexibleRotorScene, SaysWhatIsUnusual) {
+  const ModelSetup setup = setupOf(
+      "youngs_modulus: 2.0e+11, shear_modulus: 1.2e+11, density: 7800, modes: 0, elements: "
+      "[{length: 125, outer_diameter: 5, count: 2}]");
+  EXPECT_NE(setup.note.find("shear_modulus = 1.2e+11 Pa is outside"), std::string::npos);
+  EXPECT_NE(setup.note.find("a shaft 250 m long; lengths are in m"), std::string::npos)
+      << setup.note;
 }
 
 TEST(FlexibleRotorScene, IsReducedAndSaysSo) {

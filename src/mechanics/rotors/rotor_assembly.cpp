@@ -16,10 +16,6 @@ using Eigen::MatrixXd;
 constexpr double kNoEnergy = 1.0e-13;   // of what the parts of a sum of energies come to
 constexpr double kUnresisted = 1.0e-9;  // of what the parts of a force come to
 
-Index firstOf(int node) {
-  return node * kNodeCoordinates;
-}
-
 /// J q: the quarter turn from x to y of displacements and rotations.
 MatrixXd quarterTurn(Index dof) {
   MatrixXd turn = MatrixXd::Zero(dof, dof);
@@ -34,8 +30,11 @@ MatrixXd quarterTurn(Index dof) {
 void add(const BearingCoefficients& b, const MatrixXd& place, Linearization& l) {
   Eigen::Matrix2d k;
   Eigen::Matrix2d c;
+  Eigen::Matrix2d m;
   k << b.kxx, b.kxy, b.kyx, b.kyy;
   c << b.cxx, b.cxy, b.cyx, b.cyy;
+  m << b.mxx, b.mxy, b.mxy, b.myy;
+  l.mass += place * m * place.transpose();
   l.stiffness += place * (0.5 * (k + k.transpose())) * place.transpose();
   l.circulatory += place * (0.5 * (k - k.transpose())) * place.transpose();
   l.damping += place * (0.5 * (c + c.transpose())) * place.transpose();
@@ -67,6 +66,7 @@ void add(const BearingCoefficients& b, const MatrixXd& place, BandedLinearizatio
       }
     }
   };
+  put(own.mass, l.mass);
   put(own.stiffness, l.stiffness);
   put(own.circulatory, l.circulatory);
   put(own.damping, l.damping);
@@ -91,6 +91,9 @@ void requireNodes(const FlexibleShaft& shaft) {
   }
   for (const NodeUnbalance& unbalance : shaft.unbalances) {
     require(unbalance.node, "unbalance");
+  }
+  for (const RotorPedestal& pedestal : shaft.pedestals) {
+    require(pedestal.node, "pedestal");
   }
 }
 
@@ -119,60 +122,131 @@ std::vector<double> FlexibleShaft::positions() const {
   return z;
 }
 
+std::vector<ShaftLayer> FlexibleShaft::layers(int element) const {
+  const ShaftSection& section = elements[static_cast<std::size_t>(element)];
+  std::vector<ShaftLayer> all{{section.material.value_or(material), section}};
+  for (const ShaftSleeve& sleeve : sleeves) {
+    if (sleeve.element == element) {
+      all.push_back(sleeve.layer);
+    }
+  }
+  return all;
+}
+
+Index FlexibleShaft::firstOf(int node) const {
+  const auto before =
+      std::count_if(pedestals.begin(), pedestals.end(),
+                    [node](const RotorPedestal& pedestal) { return pedestal.node < node; });
+  return node * kNodeCoordinates + before * 2;
+}
+
+int FlexibleShaft::pedestalsOf(int node) const {
+  return static_cast<int>(
+      std::count_if(pedestals.begin(), pedestals.end(),
+                    [node](const RotorPedestal& pedestal) { return pedestal.node == node; }));
+}
+
 RotorAssembly::RotorAssembly(const FlexibleShaft& shaft) {
   requireNodes(shaft);
-  const Index n = shaft.nodes() * kNodeCoordinates;
+  const Index n = shaft.coordinates();
   const MatrixXd zero = MatrixXd::Zero(n, n);
   constant_ = {zero, zero, zero, zero, zero};
   gyroscopic_per_speed_ = zero;
+  MatrixXd of_axial_force = zero;
   for (int i = 0; i + 1 < shaft.nodes(); ++i) {
-    const ShaftElement element =
-        shaftElement(shaft.material, shaft.elements[static_cast<std::size_t>(i)]);
-    constexpr Index kSize = 2 * kNodeCoordinates;
-    constant_.mass.block<kSize, kSize>(firstOf(i), firstOf(i)) += element.mass;
-    constant_.stiffness.block<kSize, kSize>(firstOf(i), firstOf(i)) += element.stiffness;
-    gyroscopic_per_speed_.block<kSize, kSize>(firstOf(i), firstOf(i)) += element.gyroscopic;
+    const double axial_force = shaft.elements[static_cast<std::size_t>(i)].axial_force;
+    const ShaftElement element = shaftElement(shaft.layers(i), axial_force);
+    const auto put = [&](const ShaftElement::Matrix& from, MatrixXd& to) {
+      constexpr Index kOne = kNodeCoordinates;
+      const Index ends[] = {shaft.firstOf(i), shaft.firstOf(i + 1)};
+      for (Index a = 0; a < 2; ++a) {
+        for (Index b = 0; b < 2; ++b) {
+          to.block<kOne, kOne>(ends[a], ends[b]) += from.block<kOne, kOne>(a * kOne, b * kOne);
+        }
+      }
+    };
+    put(element.mass, constant_.mass);
+    put(element.stiffness, constant_.stiffness);
+    put(element.gyroscopic, gyroscopic_per_speed_);
+    put(element.of_axial_force, of_axial_force);
   }
   constant_.damping = shaft.internal_damping * constant_.stiffness;
   const MatrixXd circulatory = -constant_.damping * quarterTurn(n);
   circulatory_per_speed_ = 0.5 * (circulatory - circulatory.transpose());
+  constant_.damping += shaft.mass_damping * constant_.mass;
+  constant_.damping += shaft.stiffness_damping * constant_.stiffness;
+  constant_.stiffness += of_axial_force;
 
   for (const RotorDisc& disc : shaft.discs) {
-    const Index x = firstOf(disc.node);
+    const Index x = shaft.firstOf(disc.node);
     constant_.mass(x, x) += disc.mass;
     constant_.mass(x + 1, x + 1) += disc.mass;
     constant_.mass(x + 2, x + 2) += disc.transverse_inertia;
     constant_.mass(x + 3, x + 3) += disc.transverse_inertia;
     gyroscopic_per_speed_(x + 2, x + 3) += disc.polar_inertia;
     gyroscopic_per_speed_(x + 3, x + 2) -= disc.polar_inertia;
-  }
-  const auto place = [&](int node) {
-    return MatrixXd::Identity(n, n).middleCols(firstOf(node), 2);
-  };
-  for (const RotorBearing& bearing : shaft.bearings) {
-    add(bearing.coefficients, place(bearing.node), constant_);
-  }
-  for (const SpeedBearing& bearing : shaft.speed_bearings) {
-    speed_bearings_.push_back({bearing, place(bearing.node)});
+    if (disc.skew != 0.0) {
+      // The slope of its axis is (beta, -alpha), as an unbalance lies along (x, y).
+      ShaftForce force{Eigen::VectorXcd::Zero(n), 1, true};
+      const std::complex<double> along_x =
+          std::polar((disc.transverse_inertia - disc.polar_inertia) * disc.skew, disc.skew_angle);
+      force.amplitude[x + 3] = along_x;
+      force.amplitude[x + 2] = std::complex<double>(0.0, 1.0) * along_x;
+      forces_.push_back(force);
+    }
   }
   for (const NodeUnbalance& unbalance : shaft.unbalances) {
     ShaftForce force{Eigen::VectorXcd::Zero(n), 1, true};
     const std::complex<double> along_x = std::polar(unbalance.magnitude, unbalance.angle);
-    force.amplitude[firstOf(unbalance.node)] = along_x;
-    force.amplitude[firstOf(unbalance.node) + 1] = std::complex<double>(0.0, -1.0) * along_x;
+    force.amplitude[shaft.firstOf(unbalance.node)] = along_x;
+    force.amplitude[shaft.firstOf(unbalance.node) + 1] = std::complex<double>(0.0, -1.0) * along_x;
     forces_.push_back(force);
   }
-  // A shaft that moves along y without turning has the inertia of its weight.
+  // A shaft that moves along y without turning has the inertia of its weight. Pedestals stood under
+  // theirs before it was aligned, and what a film moves along has none.
   Eigen::VectorXd along_y = Eigen::VectorXd::Zero(n);
   const std::vector<double> z = shaft.positions();
   for (int node = 0; node < shaft.nodes(); ++node) {
-    along_y[firstOf(node) + 1] = 1.0;
+    const Index x = shaft.firstOf(node);
+    along_y[x + 1] = 1.0;
     stations_.push_back({"node_" + std::to_string(node), z[static_cast<std::size_t>(node)],
-                         Eigen::VectorXd::Unit(n, firstOf(node)),
-                         Eigen::VectorXd::Unit(n, firstOf(node) + 1)});
+                         Eigen::VectorXd::Unit(n, x), Eigen::VectorXd::Unit(n, x + 1)});
   }
   load_ = -shaft.gravity * (constant_.mass * along_y);
+  addSupports(shaft);
   makeBands();
+}
+
+void RotorAssembly::addSupports(const FlexibleShaft& shaft) {
+  const Index n = shaft.coordinates();
+  const auto across = [n](Index first) {
+    return MatrixXd(MatrixXd::Identity(n, n).middleCols(first, 2));
+  };
+  /// Of what moves at `first` beside a pedestal that follows `above` others of its node.
+  const auto place = [&](Index first, int node, int above) {
+    MatrixXd relative = across(first);
+    if (above < shaft.pedestalsOf(node)) {
+      relative -= across(shaft.firstOf(node) + kNodeCoordinates + 2 * above);
+    }
+    return relative;
+  };
+  for (const RotorBearing& bearing : shaft.bearings) {
+    add(bearing.coefficients, place(shaft.firstOf(bearing.node), bearing.node, 0), constant_);
+  }
+  for (const SpeedBearing& bearing : shaft.speed_bearings) {
+    speed_bearings_.push_back({bearing, place(shaft.firstOf(bearing.node), bearing.node, 0)});
+  }
+  const std::vector<double> z = shaft.positions();
+  std::vector<int> above(z.size(), 0);
+  for (const RotorPedestal& pedestal : shaft.pedestals) {
+    const auto node = static_cast<std::size_t>(pedestal.node);
+    const Index x = shaft.firstOf(pedestal.node) + kNodeCoordinates + 2 * above[node]++;
+    constant_.mass(x, x) += pedestal.mass_x;
+    constant_.mass(x + 1, x + 1) += pedestal.mass_y;
+    add(pedestal.coefficients, place(x, pedestal.node, above[node]), constant_);
+    pedestals_.push_back({"pedestal_" + std::to_string(pedestals_.size()), z[node],
+                          Eigen::VectorXd::Unit(n, x), Eigen::VectorXd::Unit(n, x + 1)});
+  }
 }
 
 void RotorAssembly::makeBands() {
@@ -239,9 +313,11 @@ RotorAssembly RotorAssembly::in(const MatrixXd& shapes) const {
     force.amplitude = shapes.transpose().cast<std::complex<double>>() * force.amplitude;
   }
   r.load_ = shapes.transpose() * load_;
-  for (Station& station : r.stations_) {
-    station.along_x = shapes.transpose() * station.along_x;
-    station.along_y = shapes.transpose() * station.along_y;
+  for (std::vector<Station>* stations : {&r.stations_, &r.pedestals_}) {
+    for (Station& station : *stations) {
+      station.along_x = shapes.transpose() * station.along_x;
+      station.along_y = shapes.transpose() * station.along_y;
+    }
   }
   r.makeBands();
   return r;

@@ -3,12 +3,14 @@
 //   M q'' + (C + G0 + w G1) q' + (K + N0 + w N1) q + sum over bearings that follow the speed
 //     = unbalance + weight
 //
-// q: x, y, alpha, beta of node 0, then of node 1 ... (shaft_element.h). A disc of polar moment I_p
-// has I_d alpha'' + I_p w beta' and I_d beta'' - I_p w alpha'. A shaft's material with stress =
-// E (strain + eta strain rate), in the frame that turns with it, resists the velocity seen from
-// there: eta K_shaft (q' - w J q), J the quarter turn from x to y. Forward whirl faster than the
-// shaft is damped, slower than it is fed (Kimball 1924; Zorzi and Nelson, J. Engineering for Power
-// 99, 1977).
+// q: x, y, alpha, beta of node 0, then of node 1 ... (shaft_element.h), behind a node's those of
+// the pedestals that its bearings stand on, x and y of each. A disc of polar moment I_p has I_d
+// alpha'' + I_p w beta' and I_d beta'' - I_p w alpha'; askew by tau, the moment of unbalance (I_d -
+// I_p) tau turns with it (rigid_disc.h). A shaft's material with stress = E (strain + eta strain
+// rate), in the frame that turns with it, resists the velocity seen from there: eta K_shaft (q' - w
+// J q), J the quarter turn from x to y. Forward whirl faster than the shaft is damped, slower than
+// it is fed (Kimball 1924; Zorzi and Nelson, J. Engineering for Power 99, 1977). Damping in
+// proportion to the mass and the stiffness of the elements does not turn.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,6 +30,16 @@ struct RotorDisc {
   double mass = 0.0;                ///< [kg]
   double polar_inertia = 0.0;       ///< [kg m^2], about the shaft
   double transverse_inertia = 0.0;  ///< [kg m^2], about a diameter
+  double skew = 0.0;                ///< [rad], of its axis to the shaft's
+  double skew_angle = 0.0;          ///< [rad], of the slope that is the skew, from the shaft's mark
+  double diameter = 0.0;            ///< [m], to be drawn with; 0: as its inertias have it
+  double width = 0.0;               ///< [m]
+};
+
+/// Around one element.
+struct ShaftSleeve {
+  int element = 0;
+  ShaftLayer layer;  ///< of the element's length
 };
 
 struct RotorBearing {
@@ -42,6 +54,14 @@ struct SpeedBearing {
   std::vector<double> knots;  ///< [rad/s], ascending: speeds between which they are smooth
 };
 
+/// A body that moves across the shaft without turning. The bearings of its node stand on it, or a
+/// pedestal given before; it stands on the next, the last of a node on the ground.
+struct RotorPedestal {
+  int node = 0;
+  double mass_x = 0.0, mass_y = 0.0;  ///< [kg]
+  BearingCoefficients coefficients;   ///< between it and what it stands on
+};
+
 struct NodeUnbalance {
   int node = 0;
   double magnitude = 0.0;  ///< [kg m]
@@ -52,13 +72,23 @@ struct FlexibleShaft {
   ShaftMaterial material;
   double internal_damping = 0.0;       ///< [s], eta
   std::vector<ShaftSection> elements;  ///< element i joins node i and node i + 1
+  std::vector<ShaftSleeve> sleeves = {};
   std::vector<RotorDisc> discs;
   std::vector<RotorBearing> bearings;
   std::vector<SpeedBearing> speed_bearings;
   std::vector<NodeUnbalance> unbalances;
   double gravity = 0.0;  ///< [m/s^2], along -y
+  std::vector<RotorPedestal> pedestals = {};
+  double mass_damping = 0.0;       ///< [1/s], of the elements: C = this * M
+  double stiffness_damping = 0.0;  ///< [s], of the elements: C = this * K
 
   int nodes() const { return static_cast<int>(elements.size()) + 1; }
+  /// Of an element, the shaft first.
+  std::vector<ShaftLayer> layers(int element) const;
+  /// The place in q of a node's x; its pedestals' follow its four.
+  Eigen::Index firstOf(int node) const;
+  Eigen::Index coordinates() const { return firstOf(nodes()); }
+  int pedestalsOf(int node) const;
   std::vector<double> positions() const;  ///< [m], of the nodes
 };
 
@@ -76,6 +106,8 @@ class RotorAssembly {
   /// x and y of a node, as x = along_x . q.
   Station station(int node) const;
   std::vector<Station> stations() const { return stations_; }
+  /// Of the shaft's pedestals, in their order.
+  std::vector<Station> pedestals() const { return pedestals_; }
   const std::vector<ShaftForce>& forces() const { return forces_; }
   /// With q = shapes * amplitudes. [dof x n]
   RotorAssembly in(const Eigen::MatrixXd& shapes) const;
@@ -87,6 +119,7 @@ class RotorAssembly {
     Eigen::MatrixXd place;  ///< [dof x 2], of x and y
   };
 
+  void addSupports(const FlexibleShaft& shaft);
   void makeBands();
 
   Linearization constant_;
@@ -94,7 +127,7 @@ class RotorAssembly {
   std::vector<PlacedBearing> speed_bearings_;
   std::vector<ShaftForce> forces_;
   Eigen::VectorXd load_;
-  std::vector<Station> stations_;
+  std::vector<Station> stations_, pedestals_;
   BandedLinearization banded_;  // constant_ and both per speed
   BandedMatrix<double> banded_gyroscopic_, banded_circulatory_;
 };

@@ -13,9 +13,20 @@
 //
 // The shear strain is constant along an element: frequencies converge with n^-2 where shear counts
 // and with n^-4 without.
+//
+// An element may be of layers, a shaft with sleeves on it: their bending stiffnesses and masses add
+// up, and their shear stiffnesses with the coefficient of the whole section. A layer may taper
+// linearly; the shapes are then those of the beam as it tapers, bent by forces at its ends,
+//
+//   rotation' = (M + F (l-z)) / EI(z),   deflection' = rotation + F / kappa G A(z)
+//
+// by quadrature, and the stiffness is exact. Under an axial force N (tension > 0) each plane has
+// besides N times the integral of deflection' squared.
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
+#include <vector>
 
 namespace whirl_twin {
 
@@ -28,13 +39,28 @@ struct ShaftMaterial {
   bool shear_deformation = true;  ///< false: Rayleigh's beam
 };
 
+/// A hollow cylinder or cone.
 struct ShaftSection {
   double length = 0.0;          ///< [m]
-  double outer_diameter = 0.0;  ///< [m]
+  double outer_diameter = 0.0;  ///< [m], at its first end
   double inner_diameter = 0.0;  ///< [m]
+  double outer_growth = 0.0;    ///< [m], of the outer diameter to its second end
+  double inner_growth = 0.0;    ///< [m]
+  std::optional<ShaftMaterial> material = std::nullopt;  ///< none: that of the shaft
+  double axial_force = 0.0;                              ///< [N], tension > 0
 
-  double area() const;          ///< [m^2]
-  double secondMoment() const;  ///< [m^4], about a diameter
+  bool tapers() const { return outer_growth != 0.0 || inner_growth != 0.0; }
+  /// The cylinder of its diameters at `share` of its length.
+  ShaftSection at(double share) const;
+  double area() const;          ///< [m^2], at its first end
+  double secondMoment() const;  ///< [m^4], about a diameter, at its first end
+};
+
+/// What an element is made of, from the shaft outwards.
+struct ShaftLayer {
+  ShaftMaterial material;
+  ShaftSection section;
+  double stiffness = 1.0;  ///< [-], share of its stiffness that bends with the shaft; 0: mass only
 };
 
 /// kappa of a round section, solid or hollow (Cowper, J. Applied Mechanics 33, 1966).
@@ -43,11 +69,23 @@ double shearCoefficient(const ShaftSection& section, double poissons_ratio);
 /// In x, y, alpha, beta of the first node, then of the second.
 struct ShaftElement {
   using Matrix = Eigen::Matrix<double, 2 * kNodeCoordinates, 2 * kNodeCoordinates>;
-  Matrix mass;        ///< [kg], [kg m], [kg m^2]
-  Matrix stiffness;   ///< [N/m], [N], [N m]
-  Matrix gyroscopic;  ///< per unit of spin, skew
+  Matrix mass;                             ///< [kg], [kg m], [kg m^2]
+  Matrix stiffness;                        ///< [N/m], [N], [N m]
+  Matrix gyroscopic;                       ///< per unit of spin, skew
+  Matrix of_axial_force = Matrix::Zero();  ///< [N/m], [N], [N m]: no stiffness of the material
 };
 
 ShaftElement shaftElement(const ShaftMaterial& material, const ShaftSection& section);
+/// Layers of one length, the first of which is the shaft.
+ShaftElement shaftElement(const std::vector<ShaftLayer>& layers, double axial_force = 0.0);
+
+/// An element as a rigid body.
+struct ElementBody {
+  double mass = 0.0;                ///< [kg]
+  double centre = 0.0;              ///< [m], of gravity, from its first end
+  double polar_inertia = 0.0;       ///< [kg m^2], about the shaft
+  double transverse_inertia = 0.0;  ///< [kg m^2], about a diameter through the centre of gravity
+};
+ElementBody elementBody(const std::vector<ShaftLayer>& layers);
 
 }  // namespace whirl_twin

@@ -29,10 +29,12 @@ struct FilmForce {
   S x, y;  ///< [N], on the journal
 };
 
-/// Small motions about the static position: force on the journal = -(K (x, y) + C (vx, vy)).
+/// Small motions about the static position: force on the journal = -(K (x, y) + C (vx, vy) +
+/// M (ax, ay)), M symmetric.
 struct BearingCoefficients {
   double kxx = 0.0, kxy = 0.0, kyx = 0.0, kyy = 0.0;  ///< [N/m]
   double cxx = 0.0, cxy = 0.0, cyx = 0.0, cyy = 0.0;  ///< [N s/m]
+  double mxx = 0.0, mxy = 0.0, myy = 0.0;  ///< [kg], of what moves along with the journal
 };
 
 struct JournalPosition {

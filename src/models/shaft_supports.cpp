@@ -1,0 +1,209 @@
+#include "models/shaft_supports.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "mechanics/rotors/bearing_laws.h"
+#include "models/model_info.h"
+#include "models/table_rows.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kRequired = std::numeric_limits<double>::quiet_NaN();
+
+BearingCoefficients coefficientsOf(const TableRow& row) {
+  const auto& n = row.numbers;
+  return {n.at("kxx"), n.at("kxy"), n.at("kyx"), n.at("kyy"),
+          n.at("cxx"), n.at("cxy"), n.at("cyx"), n.at("cyy")};
+}
+
+bool isGiven(const BearingCoefficients& b) {
+  return b.kxx != 0.0 || b.kxy != 0.0 || b.kyx != 0.0 || b.kyy != 0.0 || b.cxx != 0.0 ||
+         b.cxy != 0.0 || b.cyx != 0.0 || b.cyy != 0.0;
+}
+
+/// With the mass that moves along with the journal.
+BearingCoefficients withMass(BearingCoefficients b, const TableRow& row, const std::string& key) {
+  b.mxx = row.numbers.at("mxx");
+  b.mxy = row.numbers.at("mxy");
+  b.myy = row.numbers.at("myy");
+  if (!(b.mxy * b.mxy <= b.mxx * b.myy)) {
+    throw SetupError(key + ".mxy",
+                     fmt::format("must be a mass matrix's, mxy^2 <= mxx myy = {:.6g} kg^2, found "
+                                 "{}",
+                                 b.mxx * b.myy, b.mxy));
+  }
+  return b;
+}
+
+SpeedBearing withMass(SpeedBearing bearing, const BearingCoefficients& mass) {
+  bearing.coefficients = [law = bearing.coefficients, mass](double speed) {
+    BearingCoefficients b = law(speed);
+    b.mxx = mass.mxx;
+    b.mxy = mass.mxy;
+    b.myy = mass.myy;
+    return b;
+  };
+  return bearing;
+}
+
+/// The rows of bearing_tables, by the bearing they are of.
+std::vector<std::vector<BearingRow>> bearingTables(const Settings& settings, std::size_t bearings) {
+  std::vector<std::vector<BearingRow>> tables(bearings);
+  const std::vector<TableRow>& rows = rowsOf(settings, "bearing_tables");
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::string key = fmt::format("bearing_tables[{}]", i);
+    if (bearings == 0) {
+      throw SetupError(key + ".bearing", "there is no row in bearings that it could be of");
+    }
+    const auto of =
+        static_cast<std::size_t>(indexIn(rows[i], key, "bearing", static_cast<int>(bearings) - 1));
+    const double speed = rows[i].numbers.at("speed");
+    if (!tables[of].empty() && !(speed > tables[of].back().speed)) {
+      throw SetupError(key + ".speed",
+                       fmt::format("must be > {} rad/s, the row before of this bearing, found {}",
+                                   tables[of].back().speed, speed));
+    }
+    tables[of].push_back({speed, coefficientsOf(rows[i])});
+  }
+  return tables;
+}
+
+void addBearings(const Settings& settings, FlexibleShaft& shaft) {
+  const int last = shaft.nodes() - 1;
+  const std::vector<TableRow>& rows = rowsOf(settings, "bearings");
+  const auto tables = bearingTables(settings, rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::string key = fmt::format("bearings[{}]", i);
+    const RotorBearing bearing{indexIn(rows[i], key, "node", last),
+                               withMass(coefficientsOf(rows[i]), rows[i], key)};
+    if (tables[i].empty()) {
+      shaft.bearings.push_back(bearing);
+    } else if (isGiven(bearing.coefficients)) {
+      throw SetupError(key, "must give its node only: bearing_tables gives its coefficients");
+    } else {
+      shaft.speed_bearings.push_back(
+          withMass(tabulatedBearing(bearing.node, tables[i]), bearing.coefficients));
+    }
+  }
+  for (const NodeMagnet& at : nodeMagnets(settings, shaft.nodes())) {
+    BearingCoefficients coefficients;
+    coefficients.kxx = coefficients.kyy = -at.magnet.ks;
+    shaft.bearings.push_back({at.node, coefficients});
+  }
+  const std::vector<TableRow>& journals = rowsOf(settings, "journal_bearings");
+  for (std::size_t i = 0; i < journals.size(); ++i) {
+    const auto& n = journals[i].numbers;
+    const ShortJournalBearing journal{n.at("length"), n.at("diameter"), n.at("clearance"),
+                                      n.at("viscosity")};
+    const int node = indexIn(journals[i], fmt::format("journal_bearings[{}]", i), "node", last);
+    shaft.speed_bearings.push_back(journalBearing(node, journal, n.at("load")));
+  }
+}
+
+void addPedestals(const Settings& settings, FlexibleShaft& shaft) {
+  const std::vector<NodeMagnet> magnets = nodeMagnets(settings, shaft.nodes());
+  const std::vector<TableRow>& rows = rowsOf(settings, "pedestals");
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::string key = fmt::format("pedestals[{}]", i);
+    const auto& n = rows[i].numbers;
+    const int node = indexIn(rows[i], key, "node", shaft.nodes() - 1);
+    const auto here = [node](const auto& each) { return each.node == node; };
+    if (std::any_of(magnets.begin(), magnets.end(), here)) {
+      throw SetupError(key + ".node", fmt::format("must have no magnet, whose force is one between "
+                                                  "shaft and ground, found {}",
+                                                  node));
+    }
+    if (std::none_of(shaft.bearings.begin(), shaft.bearings.end(), here) &&
+        std::none_of(shaft.speed_bearings.begin(), shaft.speed_bearings.end(), here)) {
+      throw SetupError(
+          key + ".node",
+          fmt::format("must be one with a bearing, which stands on it, found {}", node));
+    }
+    for (const char* mass : {"mass", "mass_y"}) {
+      if (!(n.at(mass) > 0.0)) {
+        throw SetupError(fmt::format("{}.{}", key, mass),
+                         fmt::format("must be > 0 kg, found {}; a spring without a mass is part of "
+                                     "the bearing, k1 k2 / (k1 + k2)",
+                                     n.at(mass)));
+      }
+    }
+    shaft.pedestals.push_back({node, n.at("mass"), n.at("mass_y"), coefficientsOf(rows[i])});
+  }
+}
+
+/// Along y as along x unless they are given.
+std::vector<ColumnInfo> coefficientColumns(std::vector<ColumnInfo> columns) {
+  for (const auto& [letter, unit] : {std::pair{'k', "N/m"}, std::pair{'c', "N s/m"}}) {
+    const std::string xx = fmt::format("{}xx", letter);
+    columns.push_back({xx, unit, Range::kAny, 0.0});
+    columns.push_back({fmt::format("{}yy", letter), unit, Range::kAny, 0.0, xx});
+    columns.push_back({fmt::format("{}xy", letter), unit, Range::kAny, 0.0});
+    columns.push_back({fmt::format("{}yx", letter), unit, Range::kAny, 0.0});
+  }
+  return columns;
+}
+
+}  // namespace
+
+std::vector<SettingInfo> supportSettings() {
+  const auto rows = [](const char* name, const char* meaning, std::vector<ColumnInfo> columns) {
+    SettingInfo info{name, SettingKind::kTable, "", meaning};
+    info.columns = std::move(columns);
+    return info;
+  };
+  const ColumnInfo node{"node", "-", Range::kNotNegative, kRequired};
+  std::vector<ColumnInfo> bearing = coefficientColumns({node});
+  bearing.insert(bearing.end(), {{"mxx", "kg", Range::kNotNegative, 0.0},
+                                 {"myy", "kg", Range::kNotNegative, 0.0, "mxx"},
+                                 {"mxy", "kg", Range::kAny, 0.0}});
+  return {
+      rows("bearings",
+           "by eight coefficients, and the mass that a film adds; kyy, cyy, myy as kxx, cxx, mxx "
+           "unless they are given; none at all: the rotor floats",
+           bearing),
+      rows("bearing_tables", "coefficients of bearings[bearing] over the shaft's speed",
+           coefficientColumns({{"bearing", "-", Range::kNotNegative, kRequired},
+                               {"speed", "rad/s", Range::kAny, kRequired}})),
+      rows("journal_bearings", "short plain bearings under a load along -y",
+           {node,
+            {"length", "m", Range::kPositive, kRequired},
+            {"diameter", "m", Range::kPositive, kRequired},
+            {"clearance", "m", Range::kPositive, kRequired},
+            {"viscosity", "Pa s", Range::kPositive, kRequired},
+            {"load", "N", Range::kPositive, kRequired}}),
+      rows("pedestals",
+           "that the bearings of a node stand on, by mass and eight coefficients; of several of "
+           "a node each stands on the next, the last on the ground",
+           coefficientColumns({node,
+                               {"mass", "kg", Range::kNotNegative, kRequired},
+                               {"mass_y", "kg", Range::kNotNegative, 0.0, "mass"}})),
+      magnetsSetting({node}, "current_x_NODE, current_y_NODE")};
+}
+
+void addSupports(const Settings& settings, FlexibleShaft& shaft) {
+  addBearings(settings, shaft);
+  addPedestals(settings, shaft);
+}
+
+std::vector<NodeMagnet> nodeMagnets(const Settings& settings, int nodes) {
+  std::vector<NodeMagnet> magnets;
+  const std::vector<TableRow>& rows = magnetRows(settings);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::string key = fmt::format("magnets[{}]", i);
+    const int node = indexIn(rows[i], key, "node", nodes - 1);
+    if (std::any_of(magnets.begin(), magnets.end(),
+                    [node](const NodeMagnet& other) { return other.node == node; })) {
+      throw SetupError(key + ".node", fmt::format("stands twice, found {}", node));
+    }
+    magnets.push_back({node, rotorMagnet(rows[i], key)});
+  }
+  return magnets;
+}
+
+}  // namespace whirl_twin
