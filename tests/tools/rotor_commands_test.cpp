@@ -131,6 +131,30 @@ TEST(Orbit, OfTheDemoAtItsNaturalFrequencyLagsByAQuarter) {
   EXPECT_EQ(disc["direction"], "forward");
 }
 
+TEST(Figures, OfALongRotorShowItsOrbitsAlongTheShaftAndNoMoreStationsThanColours) {
+  const TemporaryDirectory folder;
+  const std::string scene = WHIRL_TWIN_SOURCE "/config/scenes/nelson_mcvaugh.yaml";
+  const std::string orbits = folder.file("orbits.svg");
+  ASSERT_EQ(twin({"orbit", scene, "--speed", "300", "--plot", orbits}).status, 0);
+  EXPECT_NE(contentsOf(orbits).find("along the shaft (m)"), std::string::npos);
+  const std::string bode = folder.file("bode.svg");
+  ASSERT_EQ(twin({"response", scene, "--plot", bode}).status, 0);
+  EXPECT_NE(contentsOf(bode).find("7 of 19 stations"), std::string::npos);
+  EXPECT_NE(contentsOf(bode).find("semi-major axis (m) over shaft speed (rad/s)"),
+            std::string::npos);
+}
+
+TEST(Figures, OfTheDemoHaveTheirLagsInDegrees) {
+  const TemporaryDirectory folder;
+  ASSERT_EQ(
+      twin({"plot", kDemo, "--system", "rotor", "--duration", "1", "--output", folder.file("")})
+          .status,
+      0);
+  const std::string history = contentsOf(folder.file("rotor_time.svg"));
+  EXPECT_NE(history.find("whirl phase lag (deg)"), std::string::npos);
+  EXPECT_EQ(history.find("(rad)"), std::string::npos);
+}
+
 // A step that cannot be prepared is a matter of stepping: only what steps refuses the scene.
 TEST(RotorCommands, NeedNoStep) {
   const TemporaryDirectory folder;
