@@ -101,8 +101,8 @@ TEST(RotorStatics, PedestalsCarryWhatTheirBearingsDo) {
   const double sleeve = 3.0 * weight / 8.0;
   EXPECT_NEAR(statics.bearings[0].force.y, 0.5 * weight + sleeve * 1.875 / 2.0, 1.0e-6 * weight);
   EXPECT_NEAR(statics.bearings[1].force.y, 0.5 * weight + sleeve * 0.125 / 2.0, 1.0e-6 * weight);
-  EXPECT_NEAR(statics.nodes[8].deflection.y,
-              -statics.bearings[1].force.y * (1.0e-9 + 1.0e-7), 1.0e-10);
+  EXPECT_NEAR(statics.nodes[8].deflection.y, -statics.bearings[1].force.y * (1.0e-9 + 1.0e-7),
+              1.0e-10);
   EXPECT_NEAR(statics.nodes.back().moment.y, 0.0, 1.0e-6 * weight);
   EXPECT_NEAR(rotorBody(shaft).mass, kMass * (1.0 + 3.0 / 8.0), 1.0e-9);
 }

@@ -284,9 +284,7 @@ Eigen::VectorXd chainFrequencies(const Eigen::VectorXd& masses, const Eigen::Vec
     }
   }
   const Eigen::MatrixXd m = masses.asDiagonal();
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(k, m)
-      .eigenvalues()
-      .cwiseSqrt();
+  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(k, m).eigenvalues().cwiseSqrt();
 }
 
 TEST(RotorAssembly, onPedestalsIsAChainOfMasses) {
@@ -320,7 +318,8 @@ TEST(RotorAssembly, onPedestalsIsAChainOfMasses) {
   }
 }
 
-// Springs in a row: 1 / k = 1 / k1 + 1 / k2. A pedestal at one end only: the other end is as it was.
+// Springs in a row: 1 / k = 1 / k1 + 1 / k2. A pedestal at one end only: the other end is as it
+// was.
 TEST(RotorAssembly, sagsOnItsPedestalsAsOnSpringsInARow) {
   FlexibleShaft shaft = rigidRotor();
   shaft.gravity = 10.0;

@@ -99,8 +99,7 @@ TEST(ShaftElement, aSleeveAddsWhatBendsOfItAndAllItsMass) {
                                      (steel.youngs_modulus * kTube.secondMoment());
     EXPECT_LT((e.stiffness - stiffer * bare.stiffness).norm(), 1e-12 * e.stiffness.norm());
     const Vector along = Vector::Unit(0) + Vector::Unit(4);
-    const double mass =
-        0.4 * (steel.density * kTube.area() + bronze.density * sleeve.area());
+    const double mass = 0.4 * (steel.density * kTube.area() + bronze.density * sleeve.area());
     EXPECT_NEAR(along.dot(e.mass * along), mass, 1e-12 * mass) << share;
   }
 }
