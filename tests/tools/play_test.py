@@ -126,9 +126,12 @@ class Play(Trial):
         self.assertEqual(heard[-1][2], LOOP, 'that it is held is the last that is said')
 
     def test_the_stock_logger_hears_the_same(self):
-        logger = self.start('lcm-logger', '--quiet', self.path('stock.lcmlog'))
+        logger = self.start('lcm-logger', '--quiet', '--flush-interval=100', self.path('stock.lcmlog'))
         time.sleep(2.0)  # it does not say when it listens
         self.play(self.log)
+        deadline = time.monotonic() + PATIENCE  # it writes later than it hears
+        while os.path.getsize(self.path('stock.lcmlog')) <= len(self.bytes) and time.monotonic() < deadline:
+            time.sleep(0.1)
         self.ended(logger)
         self.assertEqual(said(events(read(self.path('stock.lcmlog')))), said(self.events))
 
