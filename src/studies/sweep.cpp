@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "messages/refusal.h"
+#include "studies/block_evaluator.h"
 
 namespace whirl_twin {
 
@@ -57,7 +58,7 @@ class Workers {
  private:
   void work() {
     try {
-      PointEvaluator evaluator(study_, folder_.steps(), stop_);
+      BlockEvaluator evaluator(study_, folder_.steps(), stop_);
       for (std::size_t next = next_++; next < blocks_.size(); next = next_++) {
         runBlock(blocks_[next], evaluator);
       }
@@ -74,18 +75,14 @@ class Workers {
     ended_.notify_one();
   }
 
-  void runBlock(std::uint64_t block, PointEvaluator& evaluator) {
-    std::vector<Outcome> outcomes;
-    for (std::uint64_t i = 0; i < study_.sizeOf(block); ++i) {
-      if (stop_.load(std::memory_order_relaxed)) {
-        throw Interrupted();
+  void runBlock(std::uint64_t block, BlockEvaluator& evaluator) {
+    const std::vector<Outcome> outcomes =
+        evaluator.outcomes(block, [this](std::uint64_t more) { done_ += more; });
+    for (std::size_t i = 0; study_.stop_at_failure && i < outcomes.size(); ++i) {
+      if (!outcomes[i].failure.empty()) {
+        throw RunFailure(
+            fmt::format("point {}: {}", study_.firstOf(block) + i, outcomes[i].failure));
       }
-      const std::uint64_t point = study_.firstOf(block) + i;
-      outcomes.push_back(evaluator.at(study_.valuesAt(point)));
-      if (study_.stop_at_failure && !outcomes.back().failure.empty()) {
-        throw RunFailure(fmt::format("point {}: {}", point, outcomes.back().failure));
-      }
-      ++done_;
     }
     folder_.write(block, outcomes);
   }

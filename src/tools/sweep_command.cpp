@@ -11,6 +11,7 @@
 #include "messages/refusal.h"
 #include "reports/output.h"
 #include "reports/study_report.h"
+#include "studies/block_evaluator.h"
 #include "studies/study_reader.h"
 #include "studies/sweep.h"
 #include "tools/arguments.h"
@@ -105,7 +106,7 @@ int runPoint(const Request& request, const Study& study) {
                                 : chooseSteps(study);
   StudyPoint point{*request.point, study.valuesAt(*request.point), {}};
   try {
-    point.outcome = PointEvaluator(study, steps, stop).at(point.values);
+    point.outcome = BlockEvaluator(study, steps, stop).at(point.point);
   } catch (const Interrupted&) {
     throw RunFailure("interrupted");
   }
