@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <limits>
 
 #include "controllers/controller_registry.h"
 #include "models/model_registry.h"
@@ -107,22 +108,22 @@ void addDrive(const DriveSpec& drive, Numbers& all) {
   };
   add("speed", drive.speed, "rad/s");
   add("angle", drive.angle, "rad");
-  const auto addOfAll = [&](const std::string& key, double value, const std::string& unit) {
+  const auto addOfAll = [&](const std::string& key, double SpeedMove::*number,
+                            const std::string& unit) {
     std::vector<SceneNumber> places;
+    double value = drive.profile.front().*number;
     for (std::size_t i = 0; i < drive.profile.size(); ++i) {
-      const std::string path = fmt::format("profile[{}].{}", i, key);
-      add(path, value, unit);
-      places.push_back(below(root, path));
+      places.push_back(below(root, fmt::format("profile[{}].{}", i, key)));
+      if (drive.profile[i].*number != value) {
+        value = std::numeric_limits<double>::quiet_NaN();
+      }
     }
-    if (!places.empty()) {
-      all.insert_or_assign(drive.name + "." + key, NamedNumber{places, value, unit, "", 0});
-    }
+    all.insert_or_assign(drive.name + "." + key, NamedNumber{places, value, unit, "", 0});
   };
   if (!drive.profile.empty()) {
-    const SpeedMove& first = drive.profile.front();
-    addOfAll("max_acceleration", first.max_acceleration, "rad/s^2");
-    addOfAll("max_jerk", first.max_jerk, "rad/s^3");
-    addOfAll("dwell", first.dwell, "s");
+    addOfAll("max_acceleration", &SpeedMove::max_acceleration, "rad/s^2");
+    addOfAll("max_jerk", &SpeedMove::max_jerk, "rad/s^3");
+    addOfAll("dwell", &SpeedMove::dwell, "s");
   }
   for (std::size_t i = 0; i < drive.profile.size(); ++i) {
     const SpeedMove& move = drive.profile[i];

@@ -28,7 +28,7 @@ using SceneNumber = std::vector<std::variant<std::string, std::size_t>>;
 /// What a path stands for.
 struct NamedNumber {
   std::vector<SceneNumber> places;  ///< one, or several that are varied together
-  double value = 0.0;               ///< that the scene gives (of the first)
+  double value = 0.0;               ///< that the scene gives; NaN: of several, not one
   std::string unit = "-";
   /// Of a parameter that may not have any value: path in its system, and place of that in the scene
   std::string parameter = "";

@@ -505,6 +505,10 @@ class StudyReader {
     }
     double points = 1.0;  // one at a time: the scene as it is
     for (const Variation& v : study_.vary) {
+      if (!grid && std::isnan(v.nominal)) {
+        complaints_.add("vary." + v.path,
+                        "differs from move to move: one at a time, name one move of the drive");
+      }
       design.levels.push_back(v.distribution.levels(static_cast<std::size_t>(asked)));
       const auto count = static_cast<double>(design.levels.back());
       points = grid ? points * count : points + count;

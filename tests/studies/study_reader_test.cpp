@@ -134,6 +134,8 @@ TEST(StudyReader, RefusesDesignsThatDoNotFit) {
       refusalOf(files, varied("rotor.mass", uniform, "{morris: {trajectories: 5, levels: 3}}")),
       "must be even");
   EXPECT_SAYS(refusalOf(files, varied("rotor.mass", uniform, "{grid: 3, sobol: 3}")), "one design");
+  EXPECT_SAYS(refusalOf(files, varied("shaft.max_acceleration", "{list: [20]}", "one_at_a_time")),
+              "differs from move to move");
   EXPECT_EQ(refusalOf(files, varied("rotor.mass", "{list: [1]}", "grid")), "");  // of one point
   EXPECT_EQ(refusalOf(files, varied("rotor.mass", uniform, "{grid: 1}")), "");
 }
