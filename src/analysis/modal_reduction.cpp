@@ -29,7 +29,10 @@ constexpr double kSameShape = 1.0e-9;           // what orthogonalization may le
 constexpr double kTurnsOfFreeWhirl = 100.0;     // [rad] that a run-up's free whirl lives for
 constexpr double kEigenvalueRounding = 1.0e-9;  // of stiff rotors
 constexpr double kEveryError = std::numeric_limits<double>::infinity();
-constexpr double kRigid = 1.0e-5;  // of the highest frequency: a rigid-body mode
+constexpr double kAsFar = 1.0e-3;               // what is hardly farther is not
+constexpr double kSameSquare = 1.0e-8;          // of squares of frequencies that are one
+constexpr double kRoundingOfSquares = 1.0e-13;  // of the largest
+constexpr double kRigid = 1.0e-5;               // of the highest frequency: a rigid-body mode
 
 struct RestModes {
   VectorXd frequencies;  ///< [rad/s], ascending
@@ -198,11 +201,48 @@ class FullRotor {
     }
   }
 
+  /// Among shapes of one frequency any mixture is a mode: which is taken must not be left to
+  /// rounding, or a coordinate would mean another motion on another machine. The first moves the
+  /// station that these shapes move farthest, the first such one along its x or else its y, and
+  /// forward; the others leave it at rest there, and so on.
+  void order(Eigen::Ref<MatrixXd> shapes) const {
+    for (Index i = 0; i < shapes.cols(); ++i) {
+      auto rest = shapes.rightCols(shapes.cols() - i);
+      Eigen::RowVectorXd farthest = Eigen::RowVectorXd::Zero(rest.cols());
+      for (const Station& station : stations_) {
+        for (const VectorXd* along : {&station.along_x, &station.along_y}) {
+          const Eigen::RowVectorXd moved = along->transpose() * rest;
+          if (moved.norm() > (1.0 + kAsFar) * farthest.norm()) {
+            farthest = moved;
+          }
+        }
+      }
+      // Householder's reflection to the first of them, then forward.
+      VectorXd w = farthest.transpose();
+      const double sign = w[0] < 0.0 ? -1.0 : 1.0;
+      w[0] += sign * farthest.norm();
+      if (w.squaredNorm() > 0.0) {
+        const VectorXd along = rest * w;
+        rest -= (2.0 / w.squaredNorm()) * along * w.transpose();
+        rest.col(0) *= -sign;
+      }
+    }
+  }
+
   /// The rotor's modes in these shapes, of unit largest displacement at a station.
   MatrixXd modal(const MatrixXd& shapes) const {
     const MatrixXd stiffness = shapes.transpose() * middle_.stiffness * shapes;
     const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(0.5 * (stiffness + stiffness.transpose()));
     MatrixXd modes = shapes * solver.eigenvectors();
+    const VectorXd& squares = solver.eigenvalues();
+    const double rounding = kRoundingOfSquares * squares.cwiseAbs().maxCoeff();
+    for (Index first = 0, end = 1; first < modes.cols(); first = end++) {
+      while (end < modes.cols() &&
+             squares[end] - squares[end - 1] <= rounding + kSameSquare * std::fabs(squares[end])) {
+        ++end;
+      }
+      order(modes.middleCols(first, end - first));
+    }
     for (Index i = 0; i < modes.cols(); ++i) {
       double largest = 0.0;
       for (const Station& station : stations_) {

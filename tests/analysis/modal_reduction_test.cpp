@@ -135,6 +135,37 @@ TEST(ModalReduction, sagsAsTheFullRotor) {
   }
 }
 
+// Both planes of a round rotor have one frequency: its coordinates are in turn of the plane of x
+// and of that of y all the same, and go the same way whatever the rounding.
+TEST(ModalReduction, tellsThePlanesOfARoundRotorApart) {
+  FlexibleShaft shaft = twoDiscs(0.0);
+  for (auto& bearing : shaft.bearings) {
+    bearing.coefficients.kyy = bearing.coefficients.kxx;
+  }
+  FlexibleShaft rounded = shaft;
+  rounded.bearings[0].coefficients.kxx *= 1.0 + 3.0e-15;
+  rounded.elements[2].outer_diameter *= 1.0 - 2.0e-15;
+  const RotorAssembly rotor(shaft);
+  const RotorAssembly other(rounded);
+  const std::vector<Station> stations = stationsOf(rotor);
+  const RotorReduction r = reduceRotor(rotor.linearRotor(), stations, kHighest, 8);
+  const RotorReduction o = reduceRotor(other.linearRotor(), stationsOf(other), kHighest, 8);
+  EXPECT_LT((r.shapes - o.shapes).norm(), 1e-6 * r.shapes.norm());
+  for (Eigen::Index i = 0; i < 8; ++i) {
+    double along = 0.0, across = 0.0, farthest = 0.0;
+    for (const Station& station : stations) {
+      const double x = station.along_x.dot(r.shapes.col(i));
+      const double y = station.along_y.dot(r.shapes.col(i));
+      along = std::max(along, std::fabs(i % 2 == 0 ? x : y));
+      across = std::max(across, std::fabs(i % 2 == 0 ? y : x));
+      farthest = std::max(farthest, i % 2 == 0 ? x : y);
+    }
+    EXPECT_DOUBLE_EQ(along, 1.0) << i;
+    EXPECT_LT(across, 1e-6) << i;
+    EXPECT_GT(farthest, 0.99) << i << ": the farthest goes forward";
+  }
+}
+
 TEST(ModalReduction, saysWhatItKeptAndWhy) {
   const RotorAssembly full(twoDiscs(100.0));
   const RotorReduction r = reduceRotorTo(full.linearRotor(), stationsOf(full), kHighest, 1.0e-6);

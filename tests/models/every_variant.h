@@ -84,7 +84,13 @@ inline std::vector<VariantUnderTest> everyVariant() {
         } else if (setting.kind == SettingKind::kTable && setting.required) {
           TableRow row;
           for (const ColumnInfo& column : setting.columns) {
-            row.numbers[column.name] = std::isnan(column.fallback) ? 0.3 : column.fallback;
+            row.numbers[column.name] = !column.fallback_column.empty()
+                                           ? row.numbers.at(column.fallback_column)
+                                       : std::isnan(column.fallback) ? 0.3
+                                                                     : column.fallback;
+          }
+          for (const std::string& word : setting.optional_words) {
+            row.words[word] = "";
           }
           v.settings.tables[setting.name] = {row};
         } else if (setting.kind == SettingKind::kMatrix && setting.required) {

@@ -115,8 +115,9 @@ double currentAtSpeed(double speed, bool notch, double from, double to) {
     names.push_back(name);
   }
   const double whole = std::floor((to - from) * speed / (2.0 * M_PI)) * 2.0 * M_PI / speed;
-  std::complex<double> sum = 0.0;
-  int count = 0;
+  std::vector<double> times;
+  std::vector<std::complex<double>> currents;
+  std::complex<double> carrying = 0.0;  // the weight
   while (std::getline(rows, row)) {
     std::map<std::string, double> value;
     std::istringstream cells(row);
@@ -126,11 +127,16 @@ double currentAtSpeed(double speed, bool notch, double from, double to) {
     }
     const double time = value["time"];
     if (time >= from && time < from + whole) {
-      sum +=
-          std::polar(1.0, -speed * time) * std::complex<double>(value["magnets.rotor.current_x_1"],
-                                                                value["magnets.rotor.current_y_1"]);
-      ++count;
+      times.push_back(time);
+      currents.emplace_back(value["magnets.rotor.current_x_1"], value["magnets.rotor.current_y_1"]);
+      carrying += currents.back();
     }
+  }
+  const auto count = static_cast<double>(times.size());
+  carrying /= count;
+  std::complex<double> sum = 0.0;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    sum += std::polar(1.0, -speed * times[i]) * (currents[i] - carrying);
   }
   return std::abs(sum) / count;
 }
