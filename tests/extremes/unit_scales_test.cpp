@@ -42,7 +42,7 @@ Dimension dimensionOf(const std::string& unit) {
     d.mass += name == "kg" || name == "N" || name == "Pa" ? power : 0;
     d.length += name == "m" || name == "N" ? power : name == "Pa" ? -power : 0;
     if (name != "kg" && name != "N" && name != "Pa" && name != "m" && name != "s" &&
-        name != "rad" && name != "-") {
+        name != "rad" && name != "-" && name != "1") {
       ADD_FAILURE() << "unknown unit " << name << " in " << unit;
     }
   }

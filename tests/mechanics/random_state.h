@@ -49,6 +49,11 @@ inline RandomState anyRandomState(const VariantUnderTest& variant, std::mt19937_
     s.parameters["stiffness_rotation"] = between(1.0, 4.0);
     s.parameters["stiffness_coupling"] = between(-0.9, 0.9);
   }
+  if (s.parameters.count("poissons_ratio") != 0) {  // of a material that there is
+    s.parameters["poissons_ratio"] = between(0.0, 0.5);
+    s.parameters["shear_modulus"] =
+        between(0.0, 1.0) < 0.5 ? 0.0 : between(0.34, 0.5) * s.parameters["youngs_modulus"];
+  }
   if (s.parameters.count("regularization") != 0) {
     // Far from tipping, where the equations end.
     s.parameters["friction_coefficient"] = between(0.0, 0.5);
