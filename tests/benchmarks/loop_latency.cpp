@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "accuracy/step_choice.h"
 #include "plots/chart.h"
 #include "realtime/fixed_rate_loop.h"
 #include "scene/scene_reader.h"
@@ -73,7 +74,8 @@ Latencies ofCyclictest(const std::string& file, double period) {
 }
 
 Latencies ofLoop(const LoopTiming& timing) {
-  Latencies all{"whirl_twin", {}, {}, timing.wake_up_latency.max() / kMicrosecond, 0};
+  Latencies all{
+      "whirl_twin", {}, {}, static_cast<double>(timing.wake_up_latency.max()) / kMicrosecond, 0};
   const auto count = static_cast<double>(timing.wake_up_latency.count());
   for (double left = 1.0; left * count >= 1.0; left *= 0.97) {
     all.latency.push_back(
