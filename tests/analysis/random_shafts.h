@@ -13,6 +13,29 @@ struct RandomShaft {
   double speed = 0.0;  ///< [rad/s]
 };
 
+/// What not all rotors have: pedestals under some bearings, chains of them; a sleeve; a cone; the
+/// masses of films.
+template <class Between>
+void addFurther(const Between& between, FlexibleShaft& shaft) {
+  for (const RotorBearing& bearing : shaft.bearings) {
+    for (int i = static_cast<int>(between(0.0, 2.99)); i > 0; --i) {
+      BearingCoefficients b;
+      b.kxx = between(1.0e6, 1.0e8);
+      b.kyy = between(1.0e6, 1.0e8);
+      b.cxx = b.cyy = between(0.0, 1.0e4);
+      const double mass = between(1.0, 300.0);
+      shaft.pedestals.push_back({bearing.node, mass, mass * between(0.5, 2.0), b});
+    }
+  }
+  ShaftSection sleeve = shaft.elements.front();
+  sleeve.inner_diameter = sleeve.outer_diameter;
+  sleeve.outer_diameter *= 1.5;
+  shaft.sleeves.push_back({0, {{1.1e11, 4.1e10, 8800.0}, sleeve, between(0.0, 1.0)}});
+  shaft.elements.back().outer_growth = 0.4 * shaft.elements.back().outer_diameter;
+  shaft.bearings.front().coefficients.mxx = shaft.bearings.front().coefficients.myy =
+      between(0.0, 20.0);
+}
+
 /// Unequal elements, up to six discs, bearings soft and all but rigid, at the ends or overhung,
 /// isotropic or not, damped or not, cross-coupled (often beyond their threshold), shafts with and
 /// without internal damping, below and far above their critical speeds.
@@ -62,6 +85,9 @@ inline RandomShaft randomShaft(unsigned seed, int elements) {
     r.shaft.bearings.push_back({node, b});
   }
   r.speed = chance(0.15) ? 0.0 : decades(10.0, 5000.0);
+  if (chance(0.5)) {
+    addFurther(between, r.shaft);
+  }
   return r;
 }
 
