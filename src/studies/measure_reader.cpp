@@ -1,0 +1,170 @@
+#include "studies/measure_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "messages/names.h"
+#include "messages/refusal.h"
+#include "studies/analysed_numbers.h"
+#include "studies/published_quantities.h"
+
+namespace whirl_twin {
+
+namespace {
+
+bool isTimed(const Study& study) {
+  return std::any_of(study.measures.begin(), study.measures.end(), [](const Measure& measure) {
+    const auto& leaves = measure.expression.leaves();
+    return std::any_of(leaves.begin(), leaves.end(),
+                       [](const ExpressionLeaf& leaf) { return !leaf.reduction.empty(); });
+  });
+}
+
+class MeasureReader {
+ public:
+  MeasureReader(const BuiltScene& scene, Study& study, Complaints& complaints)
+      : scene_(scene), study_(study), complaints_(complaints) {}
+
+  void readMeasures(const MapReader& map) {
+    if (!map.has("measure")) {
+      complaints_.add("measure",
+                      "missing; must name what is measured: {peak: "
+                      "max(SYSTEM.whirl.radius)}");
+      return;
+    }
+    const MapReader measures(map.at("measure"), "measure", {}, "", complaints_);
+    if (measures.usable() && measures.names().empty()) {
+      complaints_.add("measure", "must name something that is measured");
+    }
+    for (const std::string& name : measures.names()) {
+      if (!isLegalName(name)) {
+        complaints_.add(measures.key(name),
+                        fmt::format("is named by up to {} letters, digits and _, a letter first",
+                                    kMaxNameLength));
+      }
+      const std::string text = measures.text(name, "");
+      if (text.empty()) {
+        continue;
+      }
+      try {
+        Measure measure{name, text, Expression(text)};
+        checkLeaves(measures.key(name), measure.expression);
+        study_.measures.push_back(measure);
+      } catch (const Refusal& error) {
+        complaints_.add(measures.key(name), error.what());
+      }
+    }
+    if (!study_.duration && isTimed(study_) && map.has("run")) {
+      complaints_.add("run.duration", "missing; must be there for what is measured of a run, in s");
+    }
+  }
+
+  void readRequirements(const MapReader& map) {
+    if (!map.has("require")) {
+      return;
+    }
+    std::vector<std::string> names;
+    for (const Measure& measure : study_.measures) {
+      names.push_back(measure.name);
+    }
+    const MapReader require(map.at("require"), "require", names, "measure", complaints_);
+    for (const std::string& name : require.names()) {
+      const auto place = std::find(names.begin(), names.end(), name);
+      if (place == names.end()) {
+        continue;  // its measure has been complained of
+      }
+      const YAML::Node node = require.at(name);
+      const bool several = node.IsSequence() && node.size() > 0;
+      for (std::size_t i = 0; i < (several ? node.size() : 1); ++i) {
+        readRequirement(several ? node[i] : node, require.key(name),
+                        static_cast<std::size_t>(place - names.begin()));
+      }
+    }
+  }
+
+ private:
+  void checkLeaves(const std::string& key, const Expression& expression) {
+    const std::map<std::string, PublishedQuantity> published = publishedQuantities(scene_);
+    std::vector<std::string> names;
+    for (const auto& [name, quantity] : published) {
+      names.push_back(name);
+    }
+    for (const ExpressionLeaf& leaf : expression.leaves()) {
+      if (!leaf.reduction.empty()) {
+        if (published.count(leaf.path) == 0) {
+          complaints_.add(key, fmt::format("a run publishes no {}{}", quoted(leaf.path),
+                                           nearIn(leaf.path, names)));
+        }
+        continue;
+      }
+      const bool varied = std::any_of(study_.vary.begin(), study_.vary.end(),
+                                      [&](const Variation& v) { return v.path == leaf.path; });
+      if (varied || analysedNumber(leaf.path, scene_)) {
+        continue;
+      }
+      if (published.count(leaf.path) > 0) {
+        complaints_.add(key, fmt::format("{} changes in a run: say which number of it is meant, "
+                                         "such as max({})",
+                                         leaf.path, leaf.path));
+        continue;
+      }
+      std::vector<std::string> known = analysedNames(scene_);
+      for (const Variation& v : study_.vary) {
+        known.push_back(v.path);
+      }
+      complaints_.add(
+          key, fmt::format("unknown number {}{}", quoted(leaf.path), nearIn(leaf.path, known)));
+    }
+  }
+
+  static std::string nearIn(const std::string& name, const std::vector<std::string>& known) {
+    const std::string near = nearestName(name, known);
+    return near.empty() ? "" : fmt::format("; did you mean '{}'?", near);
+  }
+
+  void readRequirement(const YAML::Node& node, const std::string& key, std::size_t measure) {
+    static const std::array<std::pair<const char*, Requirement::Is>, 4> kSigns{
+        {{"<=", Requirement::Is::kAtMost},
+         {">=", Requirement::Is::kAtLeast},
+         {"<", Requirement::Is::kBelow},
+         {">", Requirement::Is::kAbove}}};
+    const std::string text = node.IsScalar() ? node.Scalar() : "";
+    for (const auto& [sign, is] : kSigns) {
+      const std::string begin = sign;
+      if (text.compare(0, begin.size(), begin) != 0) {
+        continue;
+      }
+      const std::size_t at = text.find_first_not_of(' ', begin.size());
+      const auto limit = at == std::string::npos ? std::nullopt : parseNumber(text.substr(at));
+      if (limit) {
+        study_.requirements.push_back({measure, is, *limit});
+        return;
+      }
+    }
+    complaints_.add(key, fmt::format("must be \"< LIMIT\", \"<= LIMIT\", \"> LIMIT\" or \">= "
+                                     "LIMIT\", found {}",
+                                     shown(node)));
+  }
+
+  const BuiltScene& scene_;
+  Study& study_;
+  Complaints& complaints_;
+};
+
+}  // namespace
+
+void readMeasures(const MapReader& map, const BuiltScene& scene, Study& study,
+                  Complaints& complaints) {
+  MeasureReader reader(scene, study, complaints);
+  reader.readMeasures(map);
+  reader.readRequirements(map);
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,247 @@
+#include "studies/variation_reader.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "models/model_registry.h"
+#include "scene/parameter_paths.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr std::size_t kMostEntries = 100000;  // of a list
+
+class VariationReader {
+ public:
+  VariationReader(const Scene& scene, const std::map<std::string, NamedNumber>& numbers,
+                  Complaints& complaints)
+      : scene_(scene), numbers_(numbers), complaints_(complaints) {}
+
+  std::vector<Variation> read(const MapReader& map) {
+    if (!map.has("vary")) {
+      complaints_.add("vary", "missing; must name the numbers of the scene that vary");
+      return {};
+    }
+    const MapReader vary(map.at("vary"), "vary", {}, "", complaints_);
+    if (vary.usable() && vary.names().empty()) {
+      complaints_.add("vary", "must name a number of the scene that varies");
+    }
+    std::vector<Variation> all;
+    std::map<std::string, std::string> taken;
+    for (const std::string& path : vary.names()) {
+      const auto found = numbers_.find(path);
+      if (found == numbers_.end()) {
+        complaints_.add(vary.key(path), objectionToPath(path));
+        continue;
+      }
+      Variation variation;
+      variation.path = path;
+      variation.places = found->second.places;
+      variation.unit = found->second.unit;
+      variation.nominal = found->second.value;
+      for (const SceneNumber& place : variation.places) {
+        const auto [other, first] = taken.emplace(keyOf(place), path);
+        if (!first) {
+          complaints_.add(vary.key(path), fmt::format("varies {}, which {} does already",
+                                                      keyOf(place), other->second));
+        }
+      }
+      if (readDistribution(vary.at(path), vary.key(path), variation)) {
+        checkRange(vary.key(path), found->second, variation.distribution);
+      }
+      all.push_back(variation);
+    }
+    return all;
+  }
+
+ private:
+  static std::string keyOf(const SceneNumber& place) {
+    std::string key;
+    for (const auto& part : place) {
+      const auto* const name = std::get_if<std::string>(&part);
+      key += name == nullptr ? fmt::format("[{}]", std::get<std::size_t>(part))
+                             : (key.empty() ? "" : ".") + *name;
+    }
+    return key;
+  }
+
+  /// Why there is no such number; the nearest that there is.
+  std::string objectionToPath(const std::string& path) const {
+    // Another row of a list that is there: said as what it is.
+    const std::size_t open = path.find('[');
+    const std::size_t close = path.find(']');
+    if (open != std::string::npos && close != std::string::npos && open < close) {
+      std::size_t rows = 0;
+      while (hasBelow(fmt::format("{}[{}]", path.substr(0, open), rows))) {
+        ++rows;
+      }
+      if (rows > 0 && !hasBelow(path.substr(0, close + 1))) {
+        return fmt::format("there are {} rows, counted from 0", rows);
+      }
+    }
+    if (hasBelow(path)) {
+      return "is not one number: name one below it, such as " + firstBelow(path);
+    }
+    std::vector<std::string> names;
+    for (const auto& [name, number] : numbers_) {
+      names.push_back(name);
+    }
+    const std::string near = nearestName(path, names);
+    return fmt::format("is no number of the scene{}",
+                       near.empty() ? "; a path is SYSTEM.PARAMETER, SYSTEM.initial.COORDINATE, "
+                                      "DRIVE.speed or a full key of the scene's file"
+                                    : fmt::format("; did you mean '{}'?", near));
+  }
+  std::string firstBelow(const std::string& path) const {
+    const auto found = numbers_.lower_bound(path);
+    for (auto it = found; it != numbers_.end() && it->first.compare(0, path.size(), path) == 0;
+         ++it) {
+      const char next = it->first.size() > path.size() ? it->first[path.size()] : '\0';
+      if (next == '.' || next == '[') {
+        return it->first;
+      }
+    }
+    return "";
+  }
+  bool hasBelow(const std::string& path) const { return !firstBelow(path).empty(); }
+
+  /// The numbers of a list. Complains of any that is none.
+  std::vector<double> numbersIn(const YAML::Node& list, const std::string& key, std::size_t least,
+                                std::size_t most, const std::string& what) {
+    std::vector<double> numbers;
+    if (!list.IsSequence() || list.size() < least || list.size() > most) {
+      complaints_.add(key, fmt::format("must be {}, found {}", what,
+                                       list.IsSequence() ? fmt::format("{} entries", list.size())
+                                                         : shown(list)));
+      return {};
+    }
+    bool good = true;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const auto number = list[i].IsScalar() ? parseNumber(list[i].Scalar()) : std::nullopt;
+      if (!number) {
+        complaints_.add(fmt::format("{}[{}]", key, i),
+                        fmt::format("must be a finite number, found {}", shown(list[i])));
+        good = false;
+      }
+      numbers.push_back(number.value_or(0.0));
+    }
+    return good ? numbers : std::vector<double>();
+  }
+
+  /// False where a complaint was added.
+  bool readDistribution(const YAML::Node& node, const std::string& key, Variation& variation) {
+    const std::size_t before = complaints_.all().size();
+    static const std::vector<std::string> kinds{"uniform",
+                                                "log_uniform",
+                                                "normal",
+                                                "grid",
+                                                "list",
+                                                "relative_half_width",
+                                                "relative_standard_deviation"};
+    const MapReader map(node, key, kinds, "distribution", complaints_);
+    if (!map.usable()) {
+      return false;
+    }
+    if (map.names().size() != 1) {
+      if (complaints_.all().size() == before) {
+        complaints_.add(key, fmt::format("must be one of {}", fmt::join(kinds, ", ")));
+      }
+      return false;
+    }
+    const std::string kind = map.names().front();
+    Distribution& d = variation.distribution;
+    if (kind == "uniform" || kind == "log_uniform") {
+      d.kind = kind == "uniform" ? Distribution::Kind::kUniform : Distribution::Kind::kLogUniform;
+      readInterval(map.at(kind), map.key(kind), d);
+    } else if (kind == "normal") {
+      d.kind = Distribution::Kind::kNormal;
+      const auto pair = numbersIn(map.at(kind), map.key(kind), 2, 2, "[mean, standard deviation]");
+      if (!pair.empty()) {
+        d.mean = pair[0];
+        d.deviation = pair[1];
+        if (!(d.deviation > 0.0)) {
+          complaints_.add(map.key(kind),
+                          fmt::format("the standard deviation must be > 0, found {}", pair[1]));
+        }
+      }
+    } else if (kind == "grid" || kind == "list") {
+      d.kind = Distribution::Kind::kList;
+      d.list = numbersIn(map.at(kind), map.key(kind), 1, kMostEntries,
+                         fmt::format("a list of 1 to {} numbers", kMostEntries));
+    } else {
+      readRelative(map, kind, variation);
+    }
+    return complaints_.all().size() == before;
+  }
+
+  void readInterval(const YAML::Node& node, const std::string& key, Distribution& d) {
+    const auto pair = numbersIn(node, key, 2, 2, "[lowest, highest]");
+    if (pair.empty()) {
+      return;
+    }
+    d.low = pair[0];
+    d.high = pair[1];
+    if (!(d.low < d.high) || !std::isfinite(d.high - d.low)) {
+      complaints_.add(key, fmt::format("must be [lowest, highest], found [{}, {}]", d.low, d.high));
+    } else if (d.kind == Distribution::Kind::kLogUniform && !(d.low > 0.0)) {
+      complaints_.add(key, fmt::format("must be > 0 to vary by its logarithm, found {}", d.low));
+    }
+  }
+
+  void readRelative(const MapReader& map, const std::string& kind, Variation& variation) {
+    const double part = map.number(kind, Range::kPositive, "-", std::nullopt);
+    const double width = part * std::fabs(variation.nominal);
+    Distribution& d = variation.distribution;
+    if (variation.nominal == 0.0) {
+      complaints_.add(map.key(kind), "the scene gives 0, of which any part is 0: give the width");
+    }
+    if (variation.places.size() > 1) {
+      complaints_.add(map.key(kind),
+                      "is one number for all moves: give the values, or name one move");
+    }
+    if (kind == "relative_half_width") {
+      d.kind = Distribution::Kind::kUniform;
+      d.low = variation.nominal - width;
+      d.high = variation.nominal + width;
+    } else {
+      d.kind = Distribution::Kind::kNormal;
+      d.mean = variation.nominal;
+      d.deviation = width;
+    }
+  }
+
+  /// Ends that the parameter cannot have are no matter of chance.
+  void checkRange(const std::string& key, const NamedNumber& number,
+                  const Distribution& distribution) {
+    if (number.parameter.empty()) {
+      return;
+    }
+    SystemSpec spec = scene_.systems[number.system];
+    for (const double end : {distribution.smallest(), distribution.largest()}) {
+      Complaints said("");
+      if (std::isfinite(end) &&
+          !setParameter(number.parameter, end, *findModel(spec.model), spec, said)) {
+        const std::string& why = said.all().front();
+        complaints_.add(key, why.substr(why.rfind(": ") + 2));
+        return;
+      }
+    }
+  }
+
+  const Scene& scene_;
+  const std::map<std::string, NamedNumber>& numbers_;
+  Complaints& complaints_;
+};
+
+}  // namespace
+
+std::vector<Variation> readVariations(const MapReader& study, const Scene& scene,
+                                      const std::map<std::string, NamedNumber>& numbers,
+                                      Complaints& complaints) {
+  return VariationReader(scene, numbers, complaints).read(study);
+}
+
+}  // namespace whirl_twin
