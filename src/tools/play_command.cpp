@@ -15,9 +15,9 @@
 #include "tools/commands.h"
 #include "tools/interrupt.h"
 #include "tools/keyboard.h"
-#include "tools/played_run.h"
 #include "transport/lcm_connection.h"
 #include "transport/playable_log.h"
+#include "transport/played_run.h"
 
 namespace whirl_twin {
 

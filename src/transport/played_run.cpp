@@ -1,4 +1,4 @@
-#include "tools/played_run.h"
+#include "transport/played_run.h"
 
 #include "transport/lcm_decode.h"
 
