@@ -1,6 +1,5 @@
 #include "tools/interrupt.h"
 
-#include <atomic>
 #include <csignal>
 
 namespace whirl_twin {
@@ -12,10 +11,11 @@ static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler")
 
 }  // namespace
 
-void catchInterrupts() {
+std::atomic<bool>& catchInterrupts() {
   const auto ask = [](int) { asked.store(true); };
   std::signal(SIGINT, ask);
   std::signal(SIGTERM, ask);
+  return asked;
 }
 
 bool interrupted() {

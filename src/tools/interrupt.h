@@ -1,10 +1,12 @@
-// Ctrl-C, for commands that go on until they are told to end.
+// Ctrl-C, for commands that end in order.
 #pragma once
+
+#include <atomic>
 
 namespace whirl_twin {
 
-/// From now on SIGINT and SIGTERM only ask for the end.
-void catchInterrupts();
+/// From now on SIGINT and SIGTERM only ask for the end, by setting the flag that this returns.
+std::atomic<bool>& catchInterrupts();
 
 /// Whether they have.
 bool interrupted();

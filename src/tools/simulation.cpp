@@ -3,28 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
-#include <csignal>
 #include <utility>
 
 #include "messages/refusal.h"
 #include "realtime/denormals.h"
 #include "tools/commands.h"
+#include "tools/interrupt.h"
 #include "twin/ensemble_statistics.h"
 #include "twin/stop_text.h"
 
 namespace whirl_twin {
-
-namespace {
-
-std::atomic<bool> stop_requested{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
-
-void requestStop(int) {
-  stop_requested.store(true);
-}
-
-}  // namespace
 
 Simulation::Simulation(const SimulationPlan& plan)
     : plan_(plan),
@@ -36,8 +24,7 @@ Simulation::Simulation(const SimulationPlan& plan)
       stopped_(plan.scene.systems.size()) {
   twin_.buildEnsembles();
   // Before a writer begins its file, which an interrupted run takes away.
-  std::signal(SIGINT, requestStop);
-  std::signal(SIGTERM, requestStop);
+  catchInterrupts();
 }
 
 void Simulation::run(SampleWriter* writer, bool results_on_standard_output) {
@@ -117,7 +104,7 @@ std::int64_t Simulation::stepFollowed(std::int64_t due, SampleWriter& writer,
 }
 
 void Simulation::endIfAsked(std::int64_t step) const {
-  if (stop_requested.load(std::memory_order_relaxed)) {
+  if (interrupted()) {
     throw RunFailure(fmt::format("interrupted after {} of {} steps", step, plan_.steps));
   }
 }

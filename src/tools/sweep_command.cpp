@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <atomic>
 #include <charconv>
 #include <csignal>
 #include <filesystem>
@@ -16,6 +15,7 @@
 #include "studies/sweep.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
+#include "tools/interrupt.h"
 #include "tools/progress_bar.h"
 
 namespace whirl_twin {
@@ -62,13 +62,6 @@ struct Request {
   bool insist = false;
 };
 
-std::atomic<bool> stop{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
-
-void requestStop(int) {
-  stop.store(true);
-}
-
 /// "3/16", from 1.
 Share shareOf(const std::optional<std::string>& text) {
   if (!text) {
@@ -96,7 +89,7 @@ void print(const Request& request, const Study& study, const Report& report) {
   }
 }
 
-int runPoint(const Request& request, const Study& study) {
+int runPoint(const Request& request, const Study& study, const std::atomic<bool>& stop) {
   if (*request.point >= study.points()) {
     throw Refusal(
         fmt::format("--point: must be from 0 to {}, found {}", study.points() - 1, *request.point));
@@ -114,7 +107,8 @@ int runPoint(const Request& request, const Study& study) {
   return point.outcome.failure.empty() ? kDone : kFailed;
 }
 
-void runAll(const Request& request, const Study& study, const ResultFolder& folder) {
+void runAll(const Request& request, const Study& study, const ResultFolder& folder,
+            std::atomic<bool>& stop) {
   std::optional<ProgressBar> bar;
   const unsigned workers =
       request.workers > 0 ? request.workers : std::max(1U, std::thread::hardware_concurrency());
@@ -134,11 +128,10 @@ int sweepStudy(const Request& request) {
   }
   static_cast<void>(shareOf(request.part));
   const Study study = readStudy(request.study);
-  std::signal(SIGINT, requestStop);
-  std::signal(SIGTERM, requestStop);
+  std::atomic<bool>& stop = catchInterrupts();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is like a disk that is full
   if (request.point) {
-    return runPoint(request, study);
+    return runPoint(request, study, stop);
   }
   if (!request.output) {
     throw Refusal("--output: missing; must be the folder of the results");
@@ -153,7 +146,7 @@ int sweepStudy(const Request& request) {
     return kDone;
   }
   if (!request.merge) {
-    runAll(request, study, folder);
+    runAll(request, study, folder, stop);
   }
   const StudyStatus status = statusOf(study, folder);
   if (request.part && status.done < study.points()) {

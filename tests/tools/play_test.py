@@ -9,34 +9,19 @@ import os
 import pty
 import shutil
 import signal
-import struct
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
 
+from lcm_log import event, events
 from mcap_file import McapFile
 
 TWIN, SOURCE = sys.argv[1:3]
 SCENE = os.path.join(SOURCE, 'config/scenes/demo.yaml')
 PATIENCE = 60.0  # s
 LOOP = b'TWIN_LOOP'
-
-
-def event(number, stamp, channel, data):
-    return b'\xed\xa1\xda\x01' + struct.pack('>qqii', number, stamp, len(channel), len(data)) + channel + data
-
-
-def events(data):
-    """(offset, stamp, channel, payload) of a log without damage."""
-    at, found = 0, []
-    while at < len(data):
-        sync, _, stamp, name, size = struct.unpack_from('>IqqII', data, at)
-        assert sync == 0xEDA1DA01
-        found.append((at, stamp, data[at + 28:at + 28 + name], data[at + 28 + name:at + 28 + name + size]))
-        at += 28 + name + size
-    return found
 
 
 def read(path):
