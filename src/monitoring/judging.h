@@ -29,6 +29,7 @@ struct JudgementRequest {
   double arrived_at = 0.0;  ///< [s], wall time of the state, likewise
   /// What its controllers close around it, with their parameters as they are; nullptr: none do.
   std::shared_ptr<const ClosedLoop> loop = nullptr;
+  SystemMotions beside = nullptr;  ///< the other systems of that loop, as they came last
 };
 
 struct Judgement {

@@ -1,5 +1,6 @@
 #include "monitoring/loop_judge.h"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -64,12 +65,18 @@ state::ControllerMargins unknown(const ControllerSpec& controller) {
 }  // namespace
 
 LoopJudge::LoopJudge(SharedSystem system, std::shared_ptr<const ClosedLoop> loop)
-    : system_(std::move(system)), loop_(std::move(loop)) {}
+    : system_(std::move(system)), loop_(std::move(loop)) {
+  const std::vector<std::size_t> all = loop_->systems();
+  place_ = *std::find_if(all.begin(), all.end(), [&](std::size_t place) {
+    return loop_->nameOf(place) == system_->spec.name;
+  });
+}
 
-Stability LoopJudge::judge(double time, const SystemMotion& present, Eigen::VectorXd& about) {
+Stability LoopJudge::judge(double time, const SystemMotion& present, const SystemMotions& beside,
+                           Eigen::VectorXd& about) {
   parts_.reset();
   try {
-    return judgeOrSayWhy(time, present, about);
+    return judgeOrSayWhy(time, present, beside, about);
   } catch (const std::exception& failure) {
     found_.reset();
     margins_.clear();
@@ -82,24 +89,30 @@ Stability LoopJudge::judge(double time, const SystemMotion& present, Eigen::Vect
 }
 
 Stability LoopJudge::judgeOrSayWhy(double time, const SystemMotion& present,
-                                   Eigen::VectorXd& about) {
-  if (loop_->systems().size() > 1) {
-    throw RunFailure("its loop goes through other systems, whose state is not known here");
-  }
-  const Dynamics& dynamics = *system_->dynamics;
-  const double speed = present.speed;
-  auto parts = loop_->parts([&](std::size_t) { return present; }, speed);
+                                   const SystemMotions& beside, Eigen::VectorXd& about) {
+  const auto motionOf = [&](std::size_t system) {
+    return system == place_ ? present : beside(system);
+  };
+  const double speed = motionOf(loop_->leadingSystem()).speed;
+  auto parts = loop_->parts(motionOf, speed);
   if (!parts) {
     throw RunFailure("a law of the loop is not linear");
   }
-  const HeldMotion& held = parts->about.begin()->second;
-  if (dynamics.linear()) {
-    about.setZero();
-  } else {
-    about = held.q;
+  Eigen::VectorXd motion;
+  for (const auto& [place, held] : parts->about) {
+    const Eigen::Index before = motion.size(), n = held.q.size();
+    motion.conservativeResize(before + 2 * n);
+    // Whatever a linear system is held at, its small motions are the same.
+    if (held.dynamics->linear()) {
+      motion.segment(before, n).setZero();
+    } else {
+      motion.segment(before, n) = held.q;
+    }
+    motion.tail(n) = held.v;
+    if (place == place_) {
+      about = motion.segment(before, n);
+    }
   }
-  Eigen::VectorXd motion(2 * held.q.size());
-  motion << about, held.v;
   const SampledLoop sampled = sampledLoop(parts->plant, parts->controllers);
   const SampledStability loop = sampledStability(sampled);
   parts_ = std::move(parts);
@@ -114,7 +127,7 @@ Stability LoopJudge::judgeOrSayWhy(double time, const SystemMotion& present,
   for (state::ControllerMargins& margins : margins_) {
     margins.verdict = static_cast<std::uint8_t>(loop.verdict);
     margins.verdict_name = name(loop.verdict);
-    margins.speed = dynamics.hasShaft() ? speed : kNaN;
+    margins.speed = motionOf(loop_->leadingSystem()).dynamics->hasShaft() ? speed : kNaN;
     margins.spectral_radius = loop.spectral_radius;
     margins.period = sampled.period;
   }
@@ -134,7 +147,7 @@ Stability LoopJudge::judgeOrSayWhy(double time, const SystemMotion& present,
 }
 
 bool LoopJudge::lacksMargins() const {
-  if (!parts_ || last_.verdict == Verdict::kUncertain) {
+  if (!speaks() || !parts_ || last_.verdict == Verdict::kUncertain) {
     return false;
   }
   if (!found_) {
@@ -163,8 +176,7 @@ void LoopJudge::findMargins() {
 }
 
 std::vector<state::ControllerMargins> LoopJudge::margins() const {
-  const bool speaks = system_->spec.name == loop_->firstSystem();
-  return speaks ? margins_ : std::vector<state::ControllerMargins>{};
+  return speaks() ? margins_ : std::vector<state::ControllerMargins>{};
 }
 
 }  // namespace whirl_twin

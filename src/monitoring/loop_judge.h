@@ -23,10 +23,11 @@ class LoopJudge {
  public:
   LoopJudge(SharedSystem system, std::shared_ptr<const ClosedLoop> loop);
 
-  /// With the system at `present`, at a simulated time [s]; `about`: the place judged. Roots inside
-  /// the unit circle are `left`. Throws RunFailure where the loop cannot be judged, and what else
-  /// linearizing throws.
-  Stability judge(double time, const SystemMotion& present, Eigen::VectorXd& about);
+  /// With the system at `present` and the loop's others as `beside` tells, at a simulated time [s];
+  /// `about`: the place judged. Roots inside the unit circle are `left`. Throws RunFailure where
+  /// the loop cannot be judged, and what else linearizing throws.
+  Stability judge(double time, const SystemMotion& present, const SystemMotions& beside,
+                  Eigen::VectorXd& about);
   /// The margins are not those of what was judged last.
   bool lacksMargins() const;
   void findMargins();
@@ -38,15 +39,18 @@ class LoopJudge {
   /// What was judged.
   struct Case {
     double time = 0.0;      ///< [s], simulated
-    double speed = 0.0;     ///< [rad/s]
-    Eigen::VectorXd about;  ///< places, then rates
+    double speed = 0.0;     ///< [rad/s], that the laws follow
+    Eigen::VectorXd about;  ///< places, then rates, of each system
     Verdict verdict = Verdict::kUncertain;
   };
 
-  Stability judgeOrSayWhy(double time, const SystemMotion& present, Eigen::VectorXd& about);
+  Stability judgeOrSayWhy(double time, const SystemMotion& present, const SystemMotions& beside,
+                          Eigen::VectorXd& about);
+  bool speaks() const { return place_ == loop_->systems().front(); }
 
   SharedSystem system_;
   std::shared_ptr<const ClosedLoop> loop_;
+  std::size_t place_;  ///< of the system
   std::vector<state::ControllerMargins> margins_;
   std::optional<ClosedLoop::Parts> parts_;  ///< of `last_`; nothing: not judged
   Case last_;

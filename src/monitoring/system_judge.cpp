@@ -108,7 +108,8 @@ Stability SystemJudge::openStability(const state::Instant& at, const Eigen::Vect
 }
 
 state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::vector<double>& q,
-                                          const std::vector<double>& v, double speed) {
+                                          const std::vector<double>& v, double speed,
+                                          const SystemMotions& beside) {
   const Dynamics& dynamics = *system_->dynamics;
   const double shaft_speed = shaftSpeed(speed);
   const auto n = static_cast<Eigen::Index>(q.size());
@@ -121,7 +122,7 @@ state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::v
   motion_.reset();
   lacks_thresholds_ = false;
   try {
-    s = loop_ ? loop_->judge(at.time, {&dynamics, present, rates, shaft_speed}, about)
+    s = loop_ ? loop_->judge(at.time, {&dynamics, present, rates, shaft_speed}, beside, about)
               : openStability(at, present, rates, shaft_speed, about);
   } catch (const std::exception&) {
     // Numbers beyond the range of double, or a singular mass: uncertain. The others are watched on.

@@ -121,6 +121,7 @@ void SystemWatch::restart(const AlarmSettings& settings) {
   state_alarm = StateAlarm(name, settings);
   validity_alarm = ValidityAlarm(name, dynamics, settings);
   judged = false;
+  last = {};
   news_at = -std::numeric_limits<double>::infinity();
 }
 

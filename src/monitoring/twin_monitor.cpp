@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 
 namespace whirl_twin {
@@ -255,7 +256,8 @@ void TwinMonitor::judge(SystemWatch& watch, const state::Instant& at, const std:
       std::fabs(watch.speed - watch.judged_speed) > kSpeedNews * std::fabs(watch.judged_speed) &&
       at.time - watch.news_at >= watch.news_break;
   watch.last = {at, q, v, wall_time};
-  if (watch.judged && !passed && !due && !news) {
+  const auto place = static_cast<std::size_t>(&watch - watches_.data());
+  if ((watch.judged && !passed && !due && !news) || !loopHasCome(place)) {
     return;
   }
   watch.news_at = due ? std::fmin(watch.news_at, at.time) : at.time;
@@ -268,8 +270,38 @@ void TwinMonitor::askFor(SystemWatch& watch) {
   watch.judged_speed = watch.speed;
   const auto place = static_cast<std::size_t>(&watch - watches_.data());
   judging_.ask({place, watch.system, watch.last.at, watch.last.q, watch.last.v, watch.speed, run_,
-                watch.last.arrived_at, loops_[place]});
+                watch.last.arrived_at, loops_[place], motionsBeside(place)});
   takeJudgements();
+}
+
+SystemMotions TwinMonitor::motionsBeside(std::size_t place) const {
+  if (loops_[place] == nullptr || loops_[place]->systems().size() == 1) {
+    return nullptr;
+  }
+  struct Heard {
+    SharedSystem system;  // whose dynamics the motion speaks of
+    SystemMotion motion;
+  };
+  std::map<std::size_t, Heard> all;
+  for (const std::size_t i : loops_[place]->systems()) {
+    const SystemWatch& watch = watches_[i];
+    const Dynamics& dynamics = *watch.system->dynamics;
+    const auto n = static_cast<Eigen::Index>(watch.last.q.size());
+    all[i] = {watch.system,
+              {&dynamics, Eigen::Map<const Eigen::VectorXd>(watch.last.q.data(), n),
+               Eigen::Map<const Eigen::VectorXd>(watch.last.v.data(), n),
+               dynamics.hasShaft() ? watch.speed : 0.0}};
+  }
+  return [all = std::move(all)](std::size_t system) { return all.at(system).motion; };
+}
+
+bool TwinMonitor::loopHasCome(std::size_t place) const {
+  if (loops_[place] == nullptr) {
+    return true;
+  }
+  const std::vector<std::size_t> systems = loops_[place]->systems();
+  return std::all_of(systems.begin(), systems.end(),
+                     [&](std::size_t i) { return !watches_[i].last.q.empty(); });
 }
 
 void TwinMonitor::takeJudgements() {

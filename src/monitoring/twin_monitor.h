@@ -116,6 +116,9 @@ class TwinMonitor {
              const std::vector<double>& v, double wall_time);
   /// Where it was last told to be.
   void askFor(SystemWatch& watch);
+  /// Of all systems in the loop around one, as they came last; nothing where it is alone in it.
+  SystemMotions motionsBeside(std::size_t place) const;
+  bool loopHasCome(std::size_t place) const;
   void watchShaft(SystemWatch& watch, state::DriveState shaft);
   void watchMotion(SystemWatch& watch, const state::WhirlState& whirl);
   void takeMeasured(SystemWatch& watch, double wall_time);

@@ -25,7 +25,9 @@ class ClosedLoop {
   const ControllerSpec& controller(std::size_t i) const {  ///< i-th of controllers()
     return scene_.controllers[controllers_[i]];
   }
-  const std::string& firstSystem() const { return scene_.systems[systems().front()].name; }
+  const std::string& nameOf(std::size_t system) const { return scene_.systems[system].name; }
+  /// Whose shaft's speed the laws follow: the first system that the first controller measures.
+  std::size_t leadingSystem() const { return controller(0).measures.front().system; }
   bool has(const std::string& controller) const;
   /// The numbers of one that it has.
   state::ParameterChange parametersOf(const std::string& controller) const;

@@ -82,5 +82,86 @@ TEST(ClosedLoopJudge, VerdictAndMarginsFollowTheParametersOfAController) {
   EXPECT_FALSE(watched.monitor.take(change));
 }
 
+constexpr const char* kTied =
+    "controllers: {{there: {{type: pid, rate: 10.0, measures: [{0}], acts_on: [{3}], delay: 0.05, "
+    "parameters: {{kp: {4}, ki: 0.0, kd: 0.3}}}}, back: {{type: pid, rate: 20.0, measures: [{1}], "
+    "acts_on: [{2}], delay: 0.02, parameters: {{kp: {4}, ki: 0.0, kd: 0.1}}}}}}";
+
+/// A mass at x and one at y that two controllers tie to each other, in two systems.
+Scene tiedSystems(double gain) {
+  return sceneOf(
+      "{step: 0.001, systems: {a: {model: linear_system, parameters: {names: [x], mass: [[1.0]], "
+      "damping: [[0.2]], stiffness: [[4.0]]}}, b: {model: linear_system, parameters: {names: [y], "
+      "mass: [[2.0]], damping: [[0.1]], stiffness: [[3.0]]}}}, " +
+      fmt::format(kTied, "a.x", "b.y", "a.force_x", "b.force_y", gain) + "}");
+}
+
+/// The same in one.
+Scene tiedCoordinates(double gain) {
+  return sceneOf(
+      "{step: 0.001, systems: {s: {model: linear_system, parameters: {names: [x, y], mass: [[1.0, "
+      "0.0], [0.0, 2.0]], damping: [[0.2, 0.0], [0.0, 0.1]], stiffness: [[4.0, 0.0], [0.0, "
+      "3.0]]}}}, " +
+      fmt::format(kTied, "s.x", "s.y", "s.force_x", "s.force_y", gain) + "}");
+}
+
+TEST(ClosedLoopJudge, ALoopThroughSeveralSystemsIsJudgedAsIfTheyWereOne) {
+  for (const double gain : {0.5, 8.0}) {
+    WatchedTwin several(tiedSystems(gain)), one(tiedCoordinates(gain));
+    several.run(0.5);
+    one.run(0.5);
+    ASSERT_FALSE(one.margins.empty());
+    const state::StabilityMargin& expected = one.margins.back();
+    EXPECT_EQ(expected.verdict_name, gain < 1.0 ? "asymptotically_stable" : "unstable");
+    ASSERT_GE(several.margins.size(), 2u);
+    for (const state::StabilityMargin& margin : several.margins) {
+      EXPECT_EQ(margin.verdict_name, expected.verdict_name) << margin.system;
+      EXPECT_NEAR(margin.decay_rate, expected.decay_rate, 1e-9) << margin.system;
+      EXPECT_EQ(margin.operating_point, std::vector<double>{0.0});
+    }
+    EXPECT_NE(several.margins.back().system, several.margins[several.margins.size() - 2].system);
+    // Each controller's once a verdict, from one of the systems.
+    ASSERT_GE(several.loop_margins.size(), 2u);
+    EXPECT_EQ(several.loop_margins.size(), several.margins.size());
+    for (std::size_t k = 1; k <= 2; ++k) {
+      const state::ControllerMargins& found = several.loop_margins[several.loop_margins.size() - k];
+      const state::ControllerMargins& of_one = one.loop_margins[one.loop_margins.size() - k];
+      EXPECT_EQ(found.controller, of_one.controller);
+      EXPECT_EQ(found.objection, "");
+      EXPECT_EQ(found.zone, of_one.zone);
+      if (gain < 1.0) {
+        EXPECT_NEAR(found.sensitivity_peak, of_one.sensitivity_peak, 1e-9);
+        EXPECT_NEAR(found.gain_margin, of_one.gain_margin, 1e-9 * of_one.gain_margin);
+      }
+    }
+  }
+}
+
+// An arm held aloft by its own motor, which the motor of a second one follows.
+TEST(ClosedLoopJudge, EachSystemOfALoopIsJudgedWhereItIsHeld) {
+  constexpr double kSetpoint = 1.0, kWeight = 10.0, kStiffness = 20.0, kRatio = 3.0;
+  WatchedTwin watched(sceneOf(fmt::format(
+      "{{step: 0.001, gravity: {0}, systems: {{leads: &arm {{model: pendulum, parameters: {{mass: "
+      "1.0, length: 1.0, damping: 0.1}}, initial: {{theta: 1.0}}}}, follows: *arm}}, controllers: {{holds: "
+      "{{type: pid, rate: 200.0, measures: [leads.theta], acts_on: [leads.torque], parameters: "
+      "{{setpoint: {1}, kp: {2}, ki: 0.0, kd: 5.0}}}}, passes: {{type: pid, rate: 200.0, measures: "
+      "[leads.theta], acts_on: [follows.torque], parameters: {{kp: {3}, ki: 0.0, kd: 0.0}}}}}}}}",
+      kWeight, kSetpoint, kStiffness, -kRatio)));
+  watched.run(0.5);
+  double leads = kSetpoint;  // m g l sin(theta) = kp (setpoint - theta)
+  for (int i = 0; i < 50; ++i) {
+    leads -= (kWeight * std::sin(leads) - kStiffness * (kSetpoint - leads)) /
+             (kWeight * std::cos(leads) + kStiffness);
+  }
+  const double follows = std::asin(kRatio * leads / kWeight);
+  ASSERT_GE(watched.margins.size(), 2u);
+  for (std::size_t k = 1; k <= 2; ++k) {
+    const state::StabilityMargin& margin = watched.margins[watched.margins.size() - k];
+    ASSERT_EQ(margin.operating_point.size(), 1u) << margin.system;
+    EXPECT_NEAR(margin.operating_point[0], margin.system == "leads" ? leads : follows, 1e-9);
+    EXPECT_EQ(margin.verdict_name, "asymptotically_stable");
+  }
+}
+
 }  // namespace
 }  // namespace whirl_twin

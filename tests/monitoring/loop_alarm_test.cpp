@@ -61,13 +61,11 @@ TEST(LoopMargins, TellWhereStabilityIsLost) {
 
 TEST(LoopMargins, SayWhyALoopIsNotJudged) {
   const state::ControllerMargins margins = judged(sceneOf(
-      "{step: 0.001, systems: {a: {model: linear_system, parameters: {names: [x], mass: [[1.0]], "
-      "stiffness: [[1.0]]}}, b: {model: linear_system, parameters: {names: [x], mass: [[1.0]], "
-      "stiffness: [[1.0]]}}}, controllers: {tie: {type: pid, rate: 10.0, measures: [a.x], "
-      "acts_on: [b.force_x], delay: 0.1, parameters: {kp: 0.1, ki: 0.0, kd: 0.0}}}}"));
+      "{step: 0.001, systems: {s: {model: linear_system, parameters: {names: [x], mass: [[1.0]], "
+      "stiffness: [[1.0]]}}}, controllers: {own: {type: external, rate: 10.0, measures: [s.x], "
+      "acts_on: [s.force_x], delay: 0.1, mode: free_running, timeout: 0.5}}}"));
   EXPECT_EQ(margins.verdict_name, "uncertain");
-  EXPECT_EQ(margins.objection,
-            "its loop goes through other systems, whose state is not known here");
+  EXPECT_EQ(margins.objection, "a law of the loop is not linear");
   EXPECT_TRUE(std::isnan(margins.sensitivity_peak));
   EXPECT_EQ(margins.zone, "");
 }
