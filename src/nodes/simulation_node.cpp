@@ -56,6 +56,8 @@ constexpr const char* kHelp =
     "  ~priority          SCHED_FIFO priority, default 50\n"
     "  ~cpu               the processor that the loop keeps to, default -1: any\n"
     "  ~give_up           s of late steps without a break after which it ends, default 0: never\n"
+    "  ~busy_wait         s before a step that the loop waits awake for it, up to half a step, "
+    "default 0\n"
     "  ~overrun           skip, catch_up or stop, default skip: what is done about late steps\n"
     "  ~clock             true or false, default false: publish simulated time on /clock and stamp "
     "messages with it\n"
@@ -86,8 +88,8 @@ struct Settings {
 
 Settings readSettings(const Scene& scene) {
   requireKnownParameters({"publish_rate", "lcm_url", "lcm_prefix", "clock", "realtime", "priority",
-                          "overrun", "cpu", "give_up", "real_time_factor", "measure",
-                          "clock_rate"});
+                          "overrun", "cpu", "give_up", "busy_wait", "real_time_factor",
+                          "measure", "clock_rate"});
   Settings s;
   s.every = stepsToPublish(scene);
   s.lcm_url = privateParameter<std::string>("lcm_url", "an LCM url, or nothing", kDefaultLcmUrl);
@@ -124,6 +126,12 @@ Settings readSettings(const Scene& scene) {
         fmt::format("give_up: must be from 0 (never) to {} s, found {}", kLongestGiveUp, give_up));
   }
   s.loop.give_up = std::llround(give_up * 1.0e9);
+  const double busy_wait = privateParameter("busy_wait", "a number of seconds", 0.0);
+  if (!(busy_wait >= 0.0 && busy_wait <= 0.5 * scene.stepSeconds())) {
+    throw Refusal(fmt::format("busy_wait: must be from 0 to {:g} s, half a step, found {}",
+                              0.5 * scene.stepSeconds(), busy_wait));
+  }
+  s.loop.busy_wait = std::min(std::llround(busy_wait * 1.0e9), static_cast<long long>(scene.step / 2));
   s.loop.policy = parseOverrunPolicy(
       privateParameter<std::string>("overrun", "skip, catch_up or stop", "skip"));
   return s;

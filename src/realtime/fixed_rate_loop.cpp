@@ -22,6 +22,7 @@ namespace {
 constexpr std::int64_t kSecond = 1'000'000'000;           // [ns]
 constexpr std::int64_t kShortestPeriod = 10'000;          // [ns]
 constexpr std::int64_t kLongestPeriod = 3'600 * kSecond;  // [ns]
+constexpr std::uint64_t kPageFaultsEvery = 64;            // cycles
 constexpr std::int64_t kLongestSleep = kSecond / 20;      // [ns], so that stop() is heard
 
 // The loop whose cycle this thread is running, if any: stop() must not join its own thread.
@@ -50,6 +51,8 @@ FixedRateLoop::FixedRateLoop(const Options& options) : options_(options) {
   check(options.cpu >= -1 && options.cpu < CPU_SETSIZE, "cpu",
         fmt::format("-1 (any) to {}", CPU_SETSIZE - 1), options.cpu);
   check(options.give_up >= 0, "give_up", "0 (never) or more ns", options.give_up);
+  check(options.busy_wait >= 0 && options.busy_wait <= options.period / 2, "busy_wait",
+        "0 ns to half the period", options.busy_wait);
   check(options.stack_size >= 65'536, "stack_size", "at least 65536 bytes",
         static_cast<std::int64_t>(options.stack_size));
 }
@@ -181,7 +184,8 @@ void FixedRateLoop::run() noexcept {
   }
 }
 
-// False when the loop was asked to stop. Long sleeps are cut in pieces toward the same instant.
+// False when the loop was asked to stop. Long sleeps are cut in pieces toward the same instant; of
+// the last stretch nothing is slept.
 bool FixedRateLoop::sleepUntil(std::int64_t instant) noexcept {
   for (;;) {
     if (stop_requested_.load(std::memory_order_relaxed)) {
@@ -195,7 +199,10 @@ bool FixedRateLoop::sleepUntil(std::int64_t instant) noexcept {
     if (now >= instant) {
       return true;
     }
-    const std::int64_t until = std::min(instant, now + kLongestSleep);
+    const std::int64_t until = std::min(instant - options_.busy_wait, now + kLongestSleep);
+    if (now >= until) {
+      continue;
+    }
     const timespec wake_up{static_cast<time_t>(until / kSecond), until % kSecond};
     // It returns EINTR (errno is not set) when a signal cut it short: the next turn sleeps on.
     clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &wake_up, nullptr);
@@ -225,7 +232,10 @@ void FixedRateLoop::record(std::int64_t scheduled, std::int64_t woke, std::int64
   add(overruns_, next.overrun ? 1 : 0);
   add(late_wake_ups_, next.overrun && woke - scheduled > finished - woke ? 1 : 0);
   add(skipped_, next.skipped);
-  page_faults_.store(threadPageFaults(), std::memory_order_release);
+  // A system call: not in every cycle of a loop that has few microseconds.
+  if (next.overrun || cycles_.load(std::memory_order_relaxed) % kPageFaultsEvery == 0) {
+    page_faults_.store(threadPageFaults(), std::memory_order_release);
+  }
   sequence_.store(sequence + 2, std::memory_order_release);
 }
 

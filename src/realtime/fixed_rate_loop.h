@@ -1,7 +1,8 @@
 // A thread that runs one function at a fixed rate: the real-time thread of the simulation.
 //
 //   wake-up k is due at t0 + k period on CLOCK_MONOTONIC, in integer nanoseconds; the thread sleeps
-//   to that absolute instant, so a late cycle does not move the ones after it
+//   to that absolute instant (or to Options::busy_wait before it), so a late cycle does not move
+//   the ones after it
 //
 // Measured apart, for every cycle: wake-up latency (woke - due), execution time (of the function),
 // period (woke - woke before). What happens when a cycle ends too late: overrun_policy.h. What the
@@ -33,7 +34,8 @@ struct LoopTiming {
   std::uint64_t late_wake_ups =
       0;                      ///< of the overruns, those that woke late for longer than they ran
   std::uint64_t skipped = 0;  ///< periods left out
-  std::uint64_t page_faults = 0;  ///< of the loop's thread since it began; a reset leaves it
+  /// Of the loop's thread since it began, some cycles ago; a reset leaves it.
+  std::uint64_t page_faults = 0;
 };
 
 class FixedRateLoop {
@@ -53,6 +55,9 @@ class FixedRateLoop {
     std::uint64_t warm_up_cycles = 10;   ///< left out of the histograms
     int cpu = -1;                        ///< the processor that the thread keeps to; -1: any
     std::int64_t give_up = 0;  ///< [ns] of overruns without a break end the loop; 0: never
+    /// [ns], up to half a period: how long before it is due a cycle is waited for awake, where the
+    /// kernel's way out of sleep takes a good part of the period. It costs that much of a processor.
+    std::int64_t busy_wait = 0;
   };
 
   /// Refusal names an option that is out of range.

@@ -128,6 +128,7 @@ int run(int argc, char** argv) {
   app.add_option("--seconds", seconds, "how long")->check(CLI::PositiveNumber);
   app.add_option("--priority", options.priority, "SCHED_FIFO priority");
   app.add_option("--cpu", options.cpu, "the processor it keeps to");
+  app.add_option("--busy-wait", options.busy_wait, "ns before each step that it waits awake");
   app.add_option("--cyclictest", cyclictest, "its histogram, waited for");
   app.add_option("--title", title, "of the picture");
   app.add_option("--plot", plot, "FILE.svg or FILE.png");

@@ -71,10 +71,15 @@ TEST(FixedRateLoop, EndsWhenTheCycleSaysSoAndCountsItsCycles) {
 
 TEST(FixedRateLoop, WakesOnOneGridAndNeverEarly) {
   for (const auto policy : {OverrunPolicy::kSkip, OverrunPolicy::kCatchUp}) {
-    const Trace seen = trace(ordinary(policy), 50, 25, 2 * kPeriod);
-    for (std::size_t i = 0; i < seen.scheduled.size(); ++i) {
-      EXPECT_EQ((seen.scheduled[i] - seen.scheduled[0]) % kPeriod, 0);
-      EXPECT_GE(seen.woke[i], seen.scheduled[i]);
+    for (const std::int64_t busy_wait : {std::int64_t{0}, std::int64_t{1}, kPeriod / 2}) {
+      FixedRateLoop::Options options = ordinary(policy);
+      options.busy_wait = busy_wait;
+      const Trace seen = trace(options, 50, 25, 2 * kPeriod);
+      ASSERT_EQ(seen.scheduled.size(), 50U);
+      for (std::size_t i = 0; i < seen.scheduled.size(); ++i) {
+        EXPECT_EQ((seen.scheduled[i] - seen.scheduled[0]) % kPeriod, 0);
+        EXPECT_GE(seen.woke[i], seen.scheduled[i]);
+      }
     }
   }
 }
@@ -188,6 +193,14 @@ TEST(FixedRateLoop, SaysWhenThereIsNoSuchProcessor) {
   }));
   waitForEnd(loop);
   options.cpu = -2;
+  EXPECT_THROW(FixedRateLoop{options}, Refusal);
+}
+
+TEST(FixedRateLoop, DoesNotWaitAwakeForMoreThanHalfThePeriod) {
+  FixedRateLoop::Options options = ordinary();
+  options.busy_wait = kPeriod / 2 + 1;
+  EXPECT_THROW(FixedRateLoop{options}, Refusal);
+  options.busy_wait = -1;
   EXPECT_THROW(FixedRateLoop{options}, Refusal);
 }
 
