@@ -117,7 +117,7 @@ class StudyReader {
     if (windows.has("length") && windows.text("length", "") == "all") {
       study_.window = std::numeric_limits<double>::infinity();
     } else if (windows.has("length")) {
-      const auto number = parseNumber(windows.text("length", ""));
+      const auto number = parseQuantity(windows.text("length", ""), "s");
       if (!number || *number < kShortestWindow || *number > kLongestWindow) {
         complaints_.add(windows.key("length"),
                         fmt::format("must be from {:g} to {:g} s, or `all`, found {}",
@@ -292,7 +292,8 @@ class StudyReader {
     if (map.at(name).IsScalar() && map.at(name).Scalar() == "fit") {
       return {fallback, true};
     }
-    const auto number = map.at(name).IsScalar() ? parseNumber(map.at(name).Scalar()) : std::nullopt;
+    const auto number =
+        map.at(name).IsScalar() ? parseQuantity(map.at(name).Scalar(), unit) : std::nullopt;
     if (!number) {
       complaints_.add(map.key(name),
                       fmt::format("must be a finite number of {}, or `fit`, found {}", unit,

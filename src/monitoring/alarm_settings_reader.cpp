@@ -29,10 +29,10 @@ std::vector<double> readList(const MapReader& map, const std::string& name, cons
   const YAML::Node node = map.at(name);
   const auto add = [&](const YAML::Node& item, const std::string& key) {
     const std::optional<double> value =
-        item.IsScalar() ? parseNumber(item.Scalar()) : std::optional<double>();
+        item.IsScalar() ? parseQuantity(item.Scalar(), unit) : std::optional<double>();
     if (!value || *value < 0.0 || (!zero && *value == 0.0)) {
-      complaints.add(
-          key, fmt::format("must be {} {}, found {}", zero ? ">= 0" : "> 0", unit, shown(item)));
+      complaints.add(key, fmt::format("must be {} {}, found {}{}", zero ? ">= 0" : "> 0", unit,
+                                      shown(item), objectionToUnit(item, unit)));
     }
     values.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
   };

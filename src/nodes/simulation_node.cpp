@@ -88,8 +88,8 @@ struct Settings {
 
 Settings readSettings(const Scene& scene) {
   requireKnownParameters({"publish_rate", "lcm_url", "lcm_prefix", "clock", "realtime", "priority",
-                          "overrun", "cpu", "give_up", "busy_wait", "real_time_factor",
-                          "measure", "clock_rate"});
+                          "overrun", "cpu", "give_up", "busy_wait", "real_time_factor", "measure",
+                          "clock_rate"});
   Settings s;
   s.every = stepsToPublish(scene);
   s.lcm_url = privateParameter<std::string>("lcm_url", "an LCM url, or nothing", kDefaultLcmUrl);
@@ -131,7 +131,8 @@ Settings readSettings(const Scene& scene) {
     throw Refusal(fmt::format("busy_wait: must be from 0 to {:g} s, half a step, found {}",
                               0.5 * scene.stepSeconds(), busy_wait));
   }
-  s.loop.busy_wait = std::min(std::llround(busy_wait * 1.0e9), static_cast<long long>(scene.step / 2));
+  s.loop.busy_wait =
+      std::min(std::llround(busy_wait * 1.0e9), static_cast<long long>(scene.step / 2));
   s.loop.policy = parseOverrunPolicy(
       privateParameter<std::string>("overrun", "skip, catch_up or stop", "skip"));
   return s;

@@ -56,7 +56,8 @@ class FixedRateLoop {
     int cpu = -1;                        ///< the processor that the thread keeps to; -1: any
     std::int64_t give_up = 0;  ///< [ns] of overruns without a break end the loop; 0: never
     /// [ns], up to half a period: how long before it is due a cycle is waited for awake, where the
-    /// kernel's way out of sleep takes a good part of the period. It costs that much of a processor.
+    /// kernel's way out of sleep takes a good part of the period. It costs that much of a
+    /// processor.
     std::int64_t busy_wait = 0;
   };
 

@@ -89,10 +89,11 @@ std::vector<double> readNumbers(const MapReader& map, const std::string& name,
   bool sound = true;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::optional<double> number =
-        list[i].IsScalar() ? parseNumber(list[i].Scalar()) : std::nullopt;
+        list[i].IsScalar() ? parseQuantity(list[i].Scalar(), unit) : std::nullopt;
     if (!number) {
       complaints.add(fmt::format("{}[{}]", map.key(name), i),
-                     fmt::format("must be a finite number in {}, found {}", unit, shown(list[i])));
+                     fmt::format("must be a finite number in {}, found {}{}", unit, shown(list[i]),
+                                 objectionToUnit(list[i], unit)));
       sound = false;
     }
     numbers.push_back(number.value_or(0.0));

@@ -7,22 +7,60 @@
 #include <cmath>
 
 #include "messages/names.h"
+#include "messages/units.h"
 #include "scene/number_range.h"
 
 namespace whirl_twin {
 
-std::optional<double> parseNumber(const std::string& text) {
+namespace {
+
+/// A number and what is written behind it; nothing where it does not begin with a number.
+std::optional<std::pair<double, std::string>> apart(const std::string& text) {
   const char* first = text.data();
-  const char* last = first + text.size();
+  const char* const last = first + text.size();
   if (first != last && *first == '+' && last - first > 1 && first[1] != '-') {
     ++first;
   }
   double value = 0.0;
   const auto [end, error] = std::from_chars(first, last, value);
-  if (end != last || !std::isfinite(value)) {
+  if (error != std::errc() || !std::isfinite(value)) {
     return std::nullopt;
   }
-  return error == std::errc() ? std::optional<double>(value) : std::nullopt;
+  const std::size_t rest = text.find_first_not_of(' ', static_cast<std::size_t>(end - text.data()));
+  return std::pair(value, rest == std::string::npos ? std::string() : text.substr(rest));
+}
+
+}  // namespace
+
+std::optional<double> parseNumber(const std::string& text) {
+  const auto parts = apart(text);
+  return parts && parts->second.empty() && text.back() != ' ' ? std::optional<double>(parts->first)
+                                                              : std::nullopt;
+}
+
+std::optional<double> parseQuantity(const std::string& text, const std::string& unit) {
+  const auto parts = apart(text);
+  if (!parts || (!parts->second.empty() && !isUnit(parts->second))) {
+    return std::nullopt;
+  }
+  const double scale = unitScale(parts->second, unit);
+  const double value = parts->first * scale;
+  return scale != 0.0 && std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
+}
+
+std::string objectionToUnit(const YAML::Node& node, const std::string& unit) {
+  const auto parts = apart(node.IsScalar() ? node.Scalar() : "");
+  if (!parts || parts->second.empty()) {
+    return "";
+  }
+  if (!isUnit(parts->second)) {
+    return ": there is no unit " + quoted(parts->second);
+  }
+  if (unitScale(parts->second, unit) != 0.0) {
+    return "";
+  }
+  return unit == "-" ? ": it has no unit"
+                     : fmt::format(": {} is no unit of {}", quoted(parts->second), unit);
 }
 
 void Complaints::add(const std::string& key, const std::string& text) {
@@ -92,7 +130,7 @@ std::vector<std::string> MapReader::names() const {
 }
 
 double MapReader::checkedNumber(const std::string& name, const std::string& expected,
-                                const std::function<bool(double)>& fits,
+                                const std::string& unit, const std::function<bool(double)>& fits,
                                 std::optional<double> fallback) const {
   if (!has(name)) {
     if (!fallback && usable_) {
@@ -102,9 +140,10 @@ double MapReader::checkedNumber(const std::string& name, const std::string& expe
   }
   const YAML::Node node = at(name);
   const std::optional<double> value =
-      node.IsScalar() ? parseNumber(node.Scalar()) : std::optional<double>();
+      node.IsScalar() ? parseQuantity(node.Scalar(), unit) : std::optional<double>();
   if (!value || !fits(*value)) {
-    complaints_.add(key(name), fmt::format("must be {}, found {}", expected, shown(node)));
+    complaints_.add(key(name), fmt::format("must be {}, found {}{}", expected, shown(node),
+                                           objectionToUnit(node, unit)));
     return fallback.value_or(0.0);
   }
   return *value;
@@ -113,19 +152,19 @@ double MapReader::checkedNumber(const std::string& name, const std::string& expe
 double MapReader::number(const std::string& name, Range range, const std::string& unit,
                          std::optional<double> fallback) const {
   return checkedNumber(
-      name, expected(range, unit), [range](double x) { return inRange(range, x); }, fallback);
+      name, expected(range, unit), unit, [range](double x) { return inRange(range, x); }, fallback);
 }
 
 double MapReader::numberBetween(const std::string& name, double low, double high,
                                 const std::string& unit, std::optional<double> fallback) const {
   return checkedNumber(
-      name, fmt::format("from {:g} to {:g}{}", low, high, unit == "-" ? "" : " " + unit),
+      name, fmt::format("from {:g} to {:g}{}", low, high, unit == "-" ? "" : " " + unit), unit,
       [=](double x) { return x >= low && x <= high; }, fallback);
 }
 
 int MapReader::integer(const std::string& name, int low, int high, int fallback) const {
   return static_cast<int>(checkedNumber(
-      name, fmt::format("a whole number from {} to {}", low, high),
+      name, fmt::format("a whole number from {} to {}", low, high), "-",
       [=](double x) { return x >= low && x <= high && x == std::floor(x); }, fallback));
 }
 

@@ -17,6 +17,13 @@ namespace whirl_twin {
 /// A finite number written in decimal, or nothing.
 std::optional<double> parseNumber(const std::string& text);
 
+/// The same with a unit behind it or without: "250 mm" in m is 0.25. Nothing also where the unit is
+/// of another kind or not known (messages/units.h).
+std::optional<double> parseQuantity(const std::string& text, const std::string& unit);
+
+/// ": 'mm' is no unit of rad/s", ": there is no unit 'rmp'" of a number with such a unit; else "".
+std::string objectionToUnit(const YAML::Node& node, const std::string& unit);
+
 /// Where complaints go: "source: key: text".
 class Complaints {
  public:
@@ -43,8 +50,8 @@ class MapReader {
   std::string key(const std::string& name) const;
   std::vector<std::string> names() const;
 
-  /// A number in range, with its unit in the complaint; without a fallback it must be there. After
-  /// a complaint the fallback, or 0, is returned.
+  /// A number in range, written in this unit or with one of its kind; without a fallback it must be
+  /// there. After a complaint the fallback, or 0, is returned.
   double number(const std::string& name, Range range, const std::string& unit,
                 std::optional<double> fallback) const;
   double numberBetween(const std::string& name, double low, double high, const std::string& unit,
@@ -57,7 +64,7 @@ class MapReader {
 
  private:
   double checkedNumber(const std::string& name, const std::string& expected,
-                       const std::function<bool(double)>& fits,
+                       const std::string& unit, const std::function<bool(double)>& fits,
                        std::optional<double> fallback) const;
 
   std::vector<std::pair<std::string, YAML::Node>> entries_;  ///< in the order of the file

@@ -72,11 +72,11 @@ std::optional<Eigen::MatrixXd> readMatrix(const MapReader& map, const SettingInf
     for (std::size_t j = 0; j < row.size(); ++j) {
       const YAML::Node entry = row[j];
       const std::optional<double> value =
-          entry.IsScalar() ? parseNumber(entry.Scalar()) : std::optional<double>();
+          entry.IsScalar() ? parseQuantity(entry.Scalar(), info.unit) : std::optional<double>();
       if (!value) {
-        complaints.add(
-            fmt::format("{}[{}]", key, j),
-            fmt::format("must be a finite number ({}), found {}", info.unit, shown(entry)));
+        complaints.add(fmt::format("{}[{}]", key, j),
+                       fmt::format("must be a finite number ({}), found {}{}", info.unit,
+                                   shown(entry), objectionToUnit(entry, info.unit)));
         continue;
       }
       matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = *value;

@@ -94,11 +94,13 @@ INSTANTIATE_TEST_SUITE_P(
                rotorScene("mass: heavy, stiffness: 100, speed: 5"),
                {"systems.rotor.parameters.mass: must be > 0 kg, found 'heavy'"}},
         Broken{"WithUnit",
-               rotorScene("mass: 1 kg, stiffness: 100, speed: 5"),
-               {"systems.rotor.parameters.mass: must be > 0 kg, found '1 kg'"}},
+               rotorScene("mass: 1 lbf, stiffness: 100, speed: 5"),
+               {"systems.rotor.parameters.mass: must be > 0 kg, found '1 lbf': 'lbf' is no unit of "
+                "kg"}},
         Broken{"Hexadecimal",
                rotorScene("mass: 0x10, stiffness: 100, speed: 5"),
-               {"systems.rotor.parameters.mass: must be > 0 kg, found '0x10'"}},
+               {"systems.rotor.parameters.mass: must be > 0 kg, found '0x10': there is no unit "
+                "'x10'"}},
         Broken{"List",
                rotorScene("mass: [1], stiffness: 100, speed: 5"),
                {"systems.rotor.parameters.mass: must be > 0 kg, found a list"}},
