@@ -20,6 +20,7 @@ void addScenesCommand(CLI::App& twin, int& status);
 void addModelsCommand(CLI::App& twin, int& status);
 void addControllersCommand(CLI::App& twin, int& status);
 void addNewCommand(CLI::App& twin, int& status);
+void addImportCommand(CLI::App& twin, int& status);
 void addSimulateCommand(CLI::App& twin, int& status);
 void addPlotCommand(CLI::App& twin, int& status);
 void addAnalyzeCommand(CLI::App& twin, int& status);

@@ -101,6 +101,7 @@ int run(int argc, const char* const* argv) {
   addModelsCommand(twin, status);
   addControllersCommand(twin, status);
   addNewCommand(twin, status);
+  addImportCommand(twin, status);
   addSimulateCommand(twin, status);
   addPlotCommand(twin, status);
   addAnalyzeCommand(twin, status);

@@ -97,6 +97,17 @@ INSTANTIATE_TEST_SUITE_P(
                rotorScene("mass: 1 lbf, stiffness: 100, speed: 5"),
                {"systems.rotor.parameters.mass: must be > 0 kg, found '1 lbf': 'lbf' is no unit of "
                 "kg"}},
+        Broken{"NamesOfOtherPrograms",
+               "{step: 0.001, systems: {r: {model: flexible_rotor, parameters: {E: 2e11, density: "
+               "7800, speed: 1, elements: [{L: 1, outer_diameter: 0.1}], bearings: [{node: 0, "
+               "n_link: 2}]}}}}",
+               {"systems.r.parameters.E: unknown parameter of flexible_rotor; here it is "
+                "'youngs_modulus'",
+                "systems.r.parameters.youngs_modulus: missing; must be > 0 Pa",
+                "systems.r.parameters.elements[0].L: unknown key of elements; here it is 'length'",
+                "systems.r.parameters.elements[0].length: missing; must be > 0 m",
+                "systems.r.parameters.bearings[0].n_link: unknown key of bearings; here it is "
+                "'pedestals'"}},
         Broken{"Hexadecimal",
                rotorScene("mass: 0x10, stiffness: 100, speed: 5"),
                {"systems.rotor.parameters.mass: must be > 0 kg, found '0x10': there is no unit "

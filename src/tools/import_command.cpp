@@ -1,0 +1,78 @@
+// `twin import`.
+#include <fmt/format.h>
+
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "reports/output.h"
+#include "reports/rotor_drawing.h"
+#include "scene/scene_reader.h"
+#include "scene/yaml_file.h"
+#include "tools/commands.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr const char* kDescription =
+    "Writes the scene of a rotor that another program has saved, and tells what it leaves out.";
+
+constexpr const char* kFooter =
+    "FORMAT is ross (a .toml or .json of ROSS's Rotor.save()) or csv (a table of shaft elements:\n"
+    "length, outer_diameter, inner_diameter ..., each with its unit behind it if not in SI).\n"
+    "\n"
+    "Examples:\n"
+    "  twin import ross compressor.toml > compressor.yaml\n"
+    "  twin import csv elements.csv --output shaft.yaml         of a line `length "
+    "(mm),outer_diameter (mm)`\n"
+    "                                                           and one for each element";
+
+struct Request {
+  std::string format;
+  std::string file;
+  std::optional<std::string> output;
+};
+
+int importRotor(const Request& request) {
+  const RotorDrawing drawing =
+      request.format == "ross" ? drawingOfRoss(request.file) : drawingOfElements(request.file);
+  const std::string text = sceneText(drawing);
+  static_cast<void>(
+      readScene(readYamlText(text, request.file, "a rotor", "elements"), request.file));
+  for (const std::string& line : drawing.left_out) {
+    complain(fmt::format("{}: not carried over: {}\n", request.file, line));
+  }
+  if (!request.output) {
+    printText(text);
+    return kDone;
+  }
+  PendingFile file(*request.output);
+  std::ofstream out(file.path(), std::ios::binary);
+  out << text << std::flush;
+  if (!out) {
+    throw RunFailure(fmt::format("{}: cannot be written", *request.output));
+  }
+  file.complete();
+  return kDone;
+}
+
+}  // namespace
+
+void addImportCommand(CLI::App& twin, int& status) {
+  CLI::App* command = twin.add_subcommand("import", kDescription);
+  const auto request = std::make_shared<Request>();
+  command->add_option("FORMAT", request->format, "ross or csv")
+      ->required()
+      ->check(CLI::IsMember({"ross", "csv"}))
+      ->type_name("");
+  command->add_option("FILE", request->file, "what the other program wrote")
+      ->required()
+      ->type_name("");
+  command->add_option("--output", request->output, "the scene's file")->type_name("FILE.yaml");
+  command->footer(kFooter);
+  command->callback([request, &status] { status = importRotor(*request); });
+}
+
+}  // namespace whirl_twin

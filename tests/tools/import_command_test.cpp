@@ -1,0 +1,282 @@
+// `twin import`: rotors as other programs write them are the same rotors here.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "twin_program.h"
+
+namespace whirl_twin {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* kSteel =
+    R"("material": {"name": "Steel", "rho": 7810.0, "E": 211000000000.0, "G_s": 81200000000.0})";
+
+/// ROSS's own rotor_example(), as Rotor.save() writes it: six elements, two discs, two bearings.
+std::string rotorExample() {
+  std::string text = R"({"ross_version": "2.3.0", "parameters": {"rated_w": null, "max_w": null})";
+  for (int n = 0; n < 6; ++n) {
+    text += fmt::format(
+        R"(, "ShaftElement_Shaft Element {0}": {{"L": 0.25, "idl": 0.0, "odl": 0.05, "idr": 0.0,
+        "odr": 0.05, {1}, "n": {0}, "axial_force": 0, "torque": 0, "shear_effects": true,
+        "rotary_inertia": true, "gyroscopic": true, "alpha": 0.0, "beta": 0.0}})",
+        n, kSteel);
+  }
+  for (const int n : {2, 4}) {
+    text += fmt::format(
+        R"(, "DiskElement_Disk {0}": {{"n": {0}, "m": 32.58972765304033, "Id": 0.17808928257067666,
+        "Ip": 0.32956362089137037}})",
+        n);
+  }
+  for (const int n : {0, 6}) {
+    text += fmt::format(
+        R"(, "BearingElement_Bearing {0}": {{"n": {0}, "kxx": [1000000.0], "kyy": [800000.0],
+        "kxy": [0], "kyx": [0], "cxx": [0], "cyy": [0], "frequency": null, "n_link": null}})",
+        n);
+  }
+  return text + "}";
+}
+
+TEST(Import, ARotorOfRossHasTheFrequenciesThatRossTells) {
+  const TemporaryDirectory folder;
+  const Ending imported = twin({"import", "ross", folder.write("example.json", rotorExample())});
+  ASSERT_EQ(imported.status, 0) << imported.err;
+  EXPECT_EQ(imported.err, "");
+  const std::string scene = folder.write("example.yaml", imported.out);
+  const Json told = twin({"analyze", scene, "--json"}).json();
+  std::vector<double> frequencies;
+  for (const Json& value : told["systems"]["rotor"]["eigenvalues"]) {
+    frequencies.push_back(std::hypot(value[0].get<double>(), value[1].get<double>()));
+  }
+  std::sort(frequencies.begin(), frequencies.end());
+  ASSERT_GE(frequencies.size(), 4u);
+  // As its documentation prints them for rotor_example().run_modal(speed=0).
+  EXPECT_NEAR(frequencies[0], 91.79655318, 1e-6);
+  EXPECT_NEAR(frequencies[2], 96.28899977, 1e-6);
+}
+
+constexpr const char* kMachine = R"(ross_version = "2.0.0"
+
+[parameters]
+rated_w = 300.0
+max_w = 500.0
+
+["ShaftElement_a"]
+L = 0.2
+idl = 0.0
+odl = 0.06
+idr = 0.0
+odr = 0.06
+n = 0
+axial_force = -1000.0
+torque = 50.0
+alpha = 2.0
+beta = 1e-5
+
+["ShaftElement_cone"]
+L = 0.1
+idl = 0.02
+odl = 0.06
+idr = 0.02
+odr = 0.05
+n = 1
+alpha = 2.0
+beta = 1e-5
+
+["ShaftElement_sleeve"]
+L = 0.2
+idl = 0.06
+odl = 0.1
+idr = 0.06
+odr = 0.1
+n = 0
+alpha = 2.0
+beta = 1e-5
+
+["ShaftElement_ring"]
+L = 0.2
+idl = 0.1
+odl = 0.12
+idr = 0.1
+odr = 0.12
+n = 0
+alpha = 2.0
+beta = 1e-5
+
+["DiskElement_D"]
+n = 1
+m = 5.0
+Id = 0.02
+Ip = 0.03
+
+["PointMass_P"]
+n = 2
+m = 1.5
+
+["BearingElement_B"]
+n = 0
+kxx = [1e7,]
+kyy = [2e7,]
+cxx = [100.0,]
+cyy = [200.0,]
+mxx = [0.5,]
+myy = [0.25,]
+n_link = 3
+
+["PointMass_casing"]
+n = 3
+mx = 40.0
+my = 50.0
+
+["BearingElement_foundation"]
+n = 3
+kxx = [5e7,]
+cxx = [1e4,]
+
+["SealElement_S"]
+n = 2
+frequency = [100.0, 200.0,]
+kxx = [1e6, 2e6,]
+kyy = [1e6, 2e6,]
+kxy = [3e5, 4e5,]
+kyx = [-3e5, -4e5,]
+cxx = [10.0, 20.0,]
+cyy = [10.0, 20.0,]
+
+["GearElement_G"]
+n = 1
+m = 4.0
+
+["ShaftElement_a".material]
+name = "Steel 4140"
+rho = 7800.0
+E = 2.1e11
+G_s = 8e10
+
+["ShaftElement_cone".material]
+name = "Steel 4140"
+rho = 7800.0
+E = 2.1e11
+G_s = 8e10
+
+["ShaftElement_sleeve".material]
+name = "Bronze"
+rho = 8800.0
+E = 1.1e11
+G_s = 4.2e10
+
+["ShaftElement_ring".material]
+name = "Steel 4140"
+rho = 7800.0
+E = 1e-2
+G_s = 8e10
+)";
+
+TEST(Import, AMachineOfRossHasItsLayersConesSealsAndPedestals) {
+  const TemporaryDirectory folder;
+  const std::string file = folder.write("pump-7.toml", kMachine);
+  const std::string scene = folder.file("pump.yaml");
+  const Ending imported = twin({"import", "ross", file, "--output", scene});
+  ASSERT_EQ(imported.status, 0) << imported.err;
+  EXPECT_EQ(imported.out, "");
+  EXPECT_NE(imported.err.find("not carried over: ShaftElement_a: torque"), std::string::npos);
+  EXPECT_NE(imported.err.find("not carried over: GearElement_G: a GearElement"), std::string::npos);
+  EXPECT_EQ(linesOf(imported.err).size(), 2u) << imported.err;
+  const std::string text = contentsOf(scene);
+  for (const char* line :
+       {"# - GearElement_G: a GearElement", "name: pump_7\n", "speed: 300 ", "highest_speed: 500 ",
+        "shear_modulus: 80000000000 ", "mass_damping: 2 ", "stiffness_damping: 1e-05 ",
+        "- {length: 0.2, outer_diameter: 0.06, axial_force: -1000}",
+        "- {length: 0.1, outer_diameter: 0.06, outer_diameter_end: 0.05, inner_diameter: 0.02, "
+        "inner_diameter_end: 0.02}",
+        "- {material: Bronze, from: 0, to: 1, outer_diameter: 0.1, inner_diameter: 0.06}",
+        "- {from: 0, to: 1, outer_diameter: 0.12, inner_diameter: 0.1, stiffness_share: 0.0}",
+        "- {node: 1, mass: 5, polar_inertia: 0.03, transverse_inertia: 0.02}",
+        "- {node: 2, mass: 1.5}",
+        "- {node: 0, kxx: 10000000, kyy: 20000000, cxx: 100, cyy: 200, mxx: 0.5, myy: 0.25}",
+        "- {node: 2}\n",
+        "- {bearing: 1, speed: 200, kxx: 2000000, kyy: 2000000, kxy: 400000, kyx: -400000, cxx: "
+        "20, cyy: 20}",
+        "- {node: 0, mass: 40, mass_y: 50, kxx: 50000000, cxx: 10000}"}) {
+    EXPECT_NE(text.find(line), std::string::npos) << line << "\n" << text;
+  }
+  // By hand: shaft, cone, sleeve, ring; disc and point mass. A casing and a film have no part.
+  const auto ring = [](double outer, double inner, double length) {
+    return M_PI / 4.0 * (outer * outer - inner * inner) * length;
+  };
+  const double cone =
+      M_PI / 12.0 * 0.1 * (0.06 * 0.06 + 0.06 * 0.05 + 0.05 * 0.05) - ring(0.02, 0.0, 0.1);
+  const double mass = 7800.0 * (ring(0.06, 0.0, 0.2) + cone + ring(0.12, 0.1, 0.2)) +
+                      8800.0 * ring(0.1, 0.06, 0.2) + 6.5;
+  const Json told = twin({"analyze", scene, "--json"}).json();
+  EXPECT_NEAR(told["systems"]["rotor"]["rotor"]["mass"].get<double>(), mass, 1e-6 * mass);
+}
+
+TEST(Import, WhatIsWrongInARotorOfRossIsToldAtOnce) {
+  const TemporaryDirectory folder;
+  const Ending wrong = twin({"import", "ross", folder.write("wrong.toml", R"(
+["ShaftElement_a"]
+idl = 0.0
+odl = "thick"
+n = 1
+["ShaftElement_a".material]
+E = 2.1e11
+rho = 7800.0
+["SealElement_s"]
+n = 1
+frequency = [1.0, 2.0]
+kxx = [1.0, 2.0, 3.0]
+)")});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_EQ(wrong.out, "");
+  for (const char* complaint :
+       {"ShaftElement_a.L: must be a number in m, found nothing",
+        "ShaftElement_a.odl: must be a number in m, found \"thick\"",
+        "ShaftElement_a.material.G_s: must be a number in Pa, found nothing",
+        "ShaftElement_a.n: there is no shaft element from node 0",
+        "SealElement_s.kxx: must have 2 numbers as frequency has, found 3"}) {
+    EXPECT_NE(wrong.err.find(complaint), std::string::npos) << complaint << "\n" << wrong.err;
+  }
+  for (const auto& [name, text, words] : std::vector<std::array<std::string, 3>>{
+           {"no.toml", "a = [1,\n", "is no TOML"},
+           {"no.json", "{\"a\": ", "is no JSON"},
+           {"list.json", "[]", "must be a rotor that ROSS has saved"},
+           {"empty.toml", "", "has no ShaftElement"}}) {
+    const Ending refused = twin({"import", "ross", folder.write(name, text)});
+    EXPECT_EQ(refused.status, 2) << name;
+    EXPECT_NE(refused.err.find(words), std::string::npos) << refused.err;
+  }
+  EXPECT_EQ(twin({"import", "ross", folder.file("nothing.toml")}).status, 2);
+  EXPECT_EQ(twin({"import", "dyrobes", folder.write("a.toml", "")}).status, 2);
+}
+
+TEST(Import, ATableOfElementsIsAShaft) {
+  const TemporaryDirectory folder;
+  const Ending imported =
+      twin({"import", "csv",
+            folder.write("shaft.csv",
+                         "length (mm), outer_diameter [in],inner_diameter (mm),axial_force (kN)\n"
+                         "250,2,10,-5\n250,2,10,-5\n\n125,1,,\n")});
+  ASSERT_EQ(imported.status, 0) << imported.err;
+  EXPECT_NE(imported.out.find("- {length: 0.25, outer_diameter: 0.0508, inner_diameter: 0.01, "
+                              "axial_force: -5000, count: 2}\n        - {length: 0.125, "
+                              "outer_diameter: 0.0254}\n"),
+            std::string::npos)
+      << imported.out;
+  const Ending wrong =
+      twin({"import", "csv",
+            folder.write("wrong.csv", "length (kg),diameter,count\n1,2,three\n,1,1\n")});
+  EXPECT_EQ(wrong.status, 2);
+  for (const char* complaint :
+       {"column 'length (kg)': must be in m or a unit of its kind",
+        "column 'diameter': is none of a shaft's elements; there are: length, outer_diameter,",
+        "its first line names no column 'outer_diameter'", "line 2: count: must be a number",
+        "line 3: length: must be a number, found ''"}) {
+    EXPECT_NE(wrong.err.find(complaint), std::string::npos) << complaint << "\n" << wrong.err;
+  }
+}
+
+}  // namespace
+}  // namespace whirl_twin
