@@ -17,6 +17,6 @@ target_link_libraries(lcm_recorder_node PRIVATE whirl_twin_transport_ros whirl_t
 set_target_properties(lcm_recorder_node PROPERTIES
   RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
 
-# lcm-logplayer as a node, for playback.launch.
-install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/lcm_logplayer
+# `twin play` as a node, for playback.launch.
+install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/log_player
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})

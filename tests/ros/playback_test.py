@@ -1,8 +1,10 @@
 #!/usr/bin/python3
 """The demo is recorded and played by lcm-logplayer: what the bridge then publishes is, bit for bit,
-what the live twin published. (Only Header.seq is left out: each publisher counts its own.)
+what the live twin published. (Only Header.seq is left out: each publisher counts its own.) By
+playback.launch a damaged log is played to its end, and nobody is alarmed there.
 """
 import os
+import random
 import shutil
 import signal
 import struct
@@ -17,6 +19,7 @@ import roslib.packages
 import rospkg
 import rospy
 import rostest
+from whirl_twin.msg import AlertArray
 
 URL = 'udpm://239.255.76.67:7667?ttl=0'
 STATES = ['/twin/rotor/whirl', '/twin/pendulum/pendulum', '/twin/drives/shaft']
@@ -59,7 +62,7 @@ def wait_until(condition):
 
 def interrupt(process):
     process.send_signal(signal.SIGINT)
-    return process.wait(timeout=20)
+    return process.wait(timeout=60)
 
 
 def node(name, *arguments):
@@ -123,6 +126,27 @@ class Playback(unittest.TestCase):
             for step in common:
                 self.assertEqual(replayed[topic][step], live[topic][step],
                                  '%s, step %d' % (topic, step))
+
+    def test_playback_launch_plays_beyond_the_damage_and_ends_without_an_alarm(self):
+        scene = os.path.join(rospkg.RosPack().get_path('whirl_twin'), 'config/scenes/demo.yaml')
+        subprocess.check_call([os.environ['WHIRL_TWIN_PROGRAM'], 'simulate', scene, '--duration', '6', '--output', self.log, '--json'],
+                              stdout=subprocess.DEVNULL)
+        with open(self.log, 'r+b') as log:
+            log.seek(os.path.getsize(self.log) // 3)
+            log.write(random.Random(5).randbytes(5000))
+        replayed, alerts = Recorder(), set()
+        rospy.Subscriber('/twin/alerts', AlertArray, lambda all: alerts.update(alert.type for alert in all.alerts))
+        launch = subprocess.Popen(['roslaunch', 'whirl_twin', 'playback.launch', 'log:=' + self.log, 'rviz:=false',
+                                   'speed:=2', 'scene:=' + scene, 'lcm_url:=' + URL])
+        try:
+            # The last step is far beyond the damage, where a player that gives up ends.
+            self.assertTrue(wait_until(lambda: 6000 in replayed.messages['/twin/rotor/whirl']))
+            self.assertGreater(len(replayed.messages['/twin/rotor/whirl']), ENOUGH)
+            time.sleep(5.0)  # in which silence would be an alarm
+            self.assertNotIn('DATA_LOST', alerts)
+        finally:
+            interrupt(launch)
+            replayed.stop()
 
 
 if __name__ == '__main__':
