@@ -1,14 +1,10 @@
 #include "studies/result_folder.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -17,6 +13,7 @@
 
 #include "messages/refusal.h"
 #include "scene/yaml_file.h"
+#include "studies/durable_file.h"
 
 namespace whirl_twin {
 
@@ -25,71 +22,6 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 const std::string kEnd = "# end\n";
 const std::string kFailed = "!";  // before the line of a point that failed
-
-[[noreturn]] void throwNotWritten(const std::string& path, int error) {
-  throw RunFailure(fmt::format("{}: cannot be written: {}; what was finished before is kept", path,
-                               std::strerror(error)));
-}
-
-/// A file that is on the disk when finish() returns, and not there before.
-class DurableFile {
- public:
-  explicit DurableFile(const std::string& path)
-      : path_(path), written_(fmt::format("{}.{}.tmp", path, ::getpid())) {
-    file_ = ::open(written_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (file_ < 0) {
-      throwNotWritten(path_, errno);
-    }
-  }
-  ~DurableFile() {
-    if (file_ >= 0) {
-      ::close(file_);
-      ::unlink(written_.c_str());
-    }
-  }
-  DurableFile(const DurableFile&) = delete;
-  DurableFile& operator=(const DurableFile&) = delete;
-
-  void add(const std::string& text) {
-    buffer_ += text;
-    if (buffer_.size() > kBuffer) {
-      flush();
-    }
-  }
-  void finish() {
-    flush();
-    if (::fsync(file_) != 0 || ::rename(written_.c_str(), path_.c_str()) != 0) {
-      throwNotWritten(path_, errno);
-    }
-    ::close(file_);
-    file_ = -1;
-    const int folder = ::open(std::filesystem::path(path_).parent_path().c_str(),
-                              O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (folder >= 0) {  // so that the name survives, too
-      ::fsync(folder);
-      ::close(folder);
-    }
-  }
-
- private:
-  static constexpr std::size_t kBuffer = 1U << 20U;
-
-  void flush() {
-    for (std::size_t at = 0; at < buffer_.size();) {
-      const ssize_t written = ::write(file_, buffer_.data() + at, buffer_.size() - at);
-      if (written < 0 && errno != EINTR) {
-        throwNotWritten(path_, errno);
-      }
-      at += written > 0 ? static_cast<std::size_t>(written) : 0;
-    }
-    buffer_.clear();
-  }
-
-  std::string path_;
-  std::string written_;
-  std::string buffer_;
-  int file_ = -1;
-};
 
 /// Nothing where it cannot be read.
 std::optional<std::string> contentsOf(const std::string& path) {
@@ -112,16 +44,26 @@ std::string quotedCell(const std::string& text) {
   return cell + "\"";
 }
 
-/// The measures are the last cells of a row.
-void readMeasures(std::string_view row, std::uint64_t point, StudyTable& table) {
-  for (std::size_t k = table.measures.size(); k-- > 0;) {
+/// Undoes it.
+std::string unquoted(std::string_view cell) {
+  std::string text;
+  for (std::size_t i = 1; i + 1 < cell.size(); ++i) {
+    text += cell[i];
+    i += cell[i] == '"' ? 1 : 0;
+  }
+  return text;
+}
+
+/// The last cells of a row, which is cut before them.
+std::vector<double> takeNumbers(std::string_view& row, std::size_t count) {
+  std::vector<double> numbers(count, kNaN);
+  for (std::size_t k = count; k-- > 0;) {
     const std::size_t comma = row.rfind(',');
     const std::string_view cell = row.substr(comma + 1);
-    double value = kNaN;
-    std::from_chars(cell.data(), cell.data() + cell.size(), value);
-    table.measures[k][point] = value;
+    std::from_chars(cell.data(), cell.data() + cell.size(), numbers[k]);
     row = row.substr(0, comma);
   }
+  return numbers;
 }
 
 /// Not there, empty, or what a run left that was killed before it had written its manifest.
@@ -296,22 +238,8 @@ void ResultFolder::write(std::uint64_t block, const std::vector<Outcome>& outcom
   file.finish();
 }
 
-StudyTable ResultFolder::merge() const {
-  StudyTable table;
-  table.measures.assign(study_.measures.size(), std::vector<double>(study_.points(), kNaN));
-  table.failed.assign(study_.points(), false);
-  DurableFile results(path_ + "/results.csv");
-  DurableFile failures(path_ + "/failed.csv");
-  std::string paths;
-  for (const Variation& variation : study_.vary) {
-    paths += "," + variation.path;
-  }
-  std::string names;
-  for (const Measure& measure : study_.measures) {
-    names += "," + measure.name;
-  }
-  results.add("point" + paths + names + "\n");
-  failures.add("point,reason" + paths + "\n");
+void ResultFolder::forEachRow(
+    const std::function<void(std::uint64_t, bool, std::string_view)>& take) const {
   for (std::uint64_t block = 0; block < study_.blocks(); ++block) {
     const std::optional<std::string> text = contentsOf(fileOf(block));
     const std::string head = headOf(block);
@@ -330,26 +258,67 @@ StudyTable ResultFolder::merge() const {
       if (line_end == std::string::npos) {
         throw wrong();
       }
-      const std::string row = text->substr(at, line_end - at + 1);
+      std::string_view row = std::string_view(*text).substr(at, line_end - at + 1);
       at = line_end + 1;
       const bool failed = row.compare(0, kFailed.size(), kFailed) == 0;
+      row.remove_prefix(failed ? kFailed.size() : 0);
       const std::string number = std::to_string(point) + ",";
-      if (row.compare(failed ? kFailed.size() : 0, number.size(), number) != 0) {
+      if (row.compare(0, number.size(), number) != 0) {
         throw wrong();
       }
-      if (failed) {
-        table.failed[point] = true;
-        ++table.failures;
-        failures.add(row.substr(kFailed.size()));
-      } else {
-        readMeasures(std::string_view(row).substr(0, row.size() - 1), point, table);
-        results.add(row);
-      }
+      take(point, failed, row);
     }
-    if (text->substr(at) != kEnd) {
+    if (text->compare(at, std::string::npos, kEnd) != 0) {
       throw wrong();
     }
   }
+}
+
+void ResultFolder::forEachPoint(const std::function<void(const PointResult&)>& take) const {
+  forEachRow([&](std::uint64_t point, bool failed, std::string_view row) {
+    row.remove_suffix(1);
+    PointResult result;
+    result.point = point;
+    if (!failed) {
+      result.outcome.measures = takeNumbers(row, study_.measures.size());
+    }
+    result.values = takeNumbers(row, study_.vary.size());
+    if (failed) {
+      result.outcome.failure = unquoted(row.substr(row.find(',') + 1));
+    }
+    take(result);
+  });
+}
+
+StudyTable ResultFolder::merge() const {
+  StudyTable table;
+  table.measures.assign(study_.measures.size(), std::vector<double>(study_.points(), kNaN));
+  table.failed.assign(study_.points(), false);
+  DurableFile results(path_ + "/results.csv");
+  DurableFile failures(path_ + "/failed.csv");
+  std::string paths;
+  for (const Variation& variation : study_.vary) {
+    paths += "," + variation.path;
+  }
+  std::string names;
+  for (const Measure& measure : study_.measures) {
+    names += "," + measure.name;
+  }
+  results.add("point" + paths + names + "\n");
+  failures.add("point,reason" + paths + "\n");
+  forEachRow([&](std::uint64_t point, bool failed, std::string_view row) {
+    (failed ? failures : results).add(row);
+    if (failed) {
+      table.failed[point] = true;
+      ++table.failures;
+      return;
+    }
+    row.remove_suffix(1);
+    const std::vector<double> measured = takeNumbers(row, table.measures.size());
+    for (std::size_t k = 0; k < measured.size(); ++k) {
+      table.measures[k][point] = measured[k];
+    }
+  });
   results.finish();
   failures.finish();
   removeUnfinished();

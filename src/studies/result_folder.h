@@ -5,12 +5,15 @@
 //   blocks/000000012.csv  a finished block; it has its name only when it is whole and on the disk
 //   results.csv          all points that did not fail, in their order: point, numbers, measures
 //   failed.csv           those that did: point, reason, numbers
+//   results.h5           all of it in one file (studies/hdf5_results.h), where HDF5 is built in
 //
-// The last two are there when every block is. Nothing in them tells of time, place or workers.
+// The last three are there when every block is. Nothing in them tells of time, place or workers.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "studies/point_evaluator.h"
@@ -33,6 +36,13 @@ struct StudyTable {
   std::uint64_t failures = 0;
 };
 
+/// A point as a finished block has it.
+struct PointResult {
+  std::uint64_t point = 0;
+  std::vector<double> values;  ///< of the numbers that vary
+  Outcome outcome;
+};
+
 class ResultFolder {
  public:
   /// Opens or makes it. Throws Refusal for the results of another study, or, unless `mixed`, of
@@ -49,6 +59,8 @@ class ResultFolder {
   /// Writes results.csv and failed.csv, of all blocks in their order, and returns what is in them.
   /// Throws RunFailure, also where a block is not there.
   StudyTable merge() const;
+  /// Every point of every block, in their order. Throws RunFailure where a block is not there.
+  void forEachPoint(const std::function<void(const PointResult&)>& take) const;
   /// Seconds between the first and the last block that was finished, and how many of them;
   /// nothing of fewer than two.
   struct Pace {
@@ -60,6 +72,9 @@ class ResultFolder {
  private:
   std::string fileOf(std::uint64_t block) const;
   std::string headOf(std::uint64_t block) const;
+  /// Its line as it goes into a table, with its end.
+  void forEachRow(const std::function<void(std::uint64_t point, bool failed, std::string_view row)>&
+                      take) const;
   void make();
   void compare(bool mixed);
   void write(const std::string& name, const std::string& text) const;

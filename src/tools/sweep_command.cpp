@@ -11,6 +11,7 @@
 #include "reports/output.h"
 #include "reports/study_report.h"
 #include "studies/block_evaluator.h"
+#include "studies/hdf5_results.h"
 #include "studies/study_reader.h"
 #include "studies/sweep.h"
 #include "tools/arguments.h"
@@ -19,6 +20,12 @@
 #include "tools/progress_bar.h"
 
 namespace whirl_twin {
+
+#ifndef WHIRL_TWIN_HDF5
+void writeHdf5Results(const Study&, const ResultFolder&, const Answers&) {
+  complain("twin: no results.h5: built without HDF5 (scripts/setup --studies)\n");
+}
+#endif
 
 namespace {
 
@@ -158,6 +165,7 @@ int sweepStudy(const Request& request) {
                                  *request.output, status.done, study.points()));
   }
   const Answers answers = answersOf(study, folder.merge());
+  writeHdf5Results(study, folder, answers);
   print(request, study, answers);
   return answers.failures < answers.points ? kDone : kFailed;
 }
