@@ -21,11 +21,11 @@ constexpr std::chrono::milliseconds kLook{100};
 
 class Workers {
  public:
-  Workers(const Study& study, const ResultFolder& folder, std::vector<std::uint64_t> blocks,
+  Workers(const Study& study, const ResultFolder& folder, const BlockDealer& dealer,
           std::atomic<bool>& stop)
-      : study_(study), folder_(folder), blocks_(std::move(blocks)), stop_(stop) {}
+      : study_(study), folder_(folder), dealer_(dealer), stop_(stop) {}
 
-  void run(unsigned count, std::uint64_t of, const SweepProgress& progress) {
+  void run(unsigned count, const SweepProgress& progress) {
     running_ = count;
     std::vector<std::thread> threads;
     for (unsigned i = 0; i < count; ++i) {
@@ -40,7 +40,7 @@ class Workers {
       std::unique_lock<std::mutex> lock(mutex_);
       while (!ended_.wait_for(lock, kLook, [this] { return running_ == 0; })) {
         lock.unlock();
-        progress(done_.load(), of);
+        progress(done_.load());
         lock.lock();
       }
     } catch (...) {  // it takes too long, and that is not insisted on
@@ -52,15 +52,15 @@ class Workers {
     if (error_) {
       std::rethrow_exception(error_);
     }
-    progress(done_.load(), of);
+    progress(done_.load());
   }
 
  private:
   void work() {
     try {
       BlockEvaluator evaluator(study_, folder_.steps(), stop_);
-      for (std::size_t next = next_++; next < blocks_.size(); next = next_++) {
-        runBlock(blocks_[next], evaluator);
+      while (const auto block = dealer_(done_.load())) {
+        runBlock(*block, evaluator);
       }
     } catch (const Interrupted&) {  // the caller knows
     } catch (...) {
@@ -89,9 +89,8 @@ class Workers {
 
   const Study& study_;
   const ResultFolder& folder_;
-  std::vector<std::uint64_t> blocks_;  // that are to be run
+  const BlockDealer& dealer_;
   std::atomic<bool>& stop_;
-  std::atomic<std::size_t> next_{0};
   std::atomic<std::uint64_t> done_{0};
   std::mutex mutex_;
   std::condition_variable ended_;
@@ -101,21 +100,21 @@ class Workers {
 
 }  // namespace
 
-void sweep(const Study& study, const ResultFolder& folder, unsigned workers, const Share& share,
-           std::atomic<bool>& stop, const SweepProgress& progress) {
+std::vector<std::uint64_t> unfinishedBlocks(const Study& study, const ResultFolder& folder,
+                                            const Share& share) {
   const std::vector<bool> finished = folder.finished();
   std::vector<std::uint64_t> blocks;
-  std::uint64_t of = 0;
   for (std::uint64_t block = share.part; block < study.blocks(); block += share.parts) {
     if (!finished[block]) {
       blocks.push_back(block);
-      of += study.sizeOf(block);
     }
   }
-  if (!blocks.empty()) {
-    const auto count = static_cast<unsigned>(std::min<std::uint64_t>(workers, blocks.size()));
-    Workers(study, folder, blocks, stop).run(count, of, progress);
-  }
+  return blocks;
+}
+
+void sweep(const Study& study, const ResultFolder& folder, unsigned workers,
+           const BlockDealer& dealer, std::atomic<bool>& stop, const SweepProgress& progress) {
+  Workers(study, folder, dealer, stop).run(workers, progress);
   if (stop.load()) {
     throw RunFailure(fmt::format(
         "interrupted; what was finished is in {}: the same command goes on", folder.path()));

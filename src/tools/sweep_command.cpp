@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "reports/study_report.h"
 #include "studies/block_evaluator.h"
 #include "studies/hdf5_results.h"
+#include "studies/ranks.h"
 #include "studies/study_reader.h"
 #include "studies/sweep.h"
 #include "tools/arguments.h"
@@ -47,11 +49,13 @@ constexpr const char* kFooter =
     "  require: {peak: \"< 2.0e-4\"}\n"
     "A point depends on the study and its number alone: workers, breaks and machines change no\n"
     "byte. Stopped, the same command goes on. Points that fail are in failed.csv of the folder.\n"
+    "Among the processes of mpirun or srun blocks are dealt out as they are asked for.\n"
     "\n"
     "Examples:\n"
     "  twin sweep study.yaml --output results\n"
     "  twin sweep study.yaml --output results --status\n"
     "  twin sweep study.yaml --point 1234\n"
+    "  mpirun -n 64 twin sweep study.yaml --output results\n"
     "  twin sweep study.yaml --output results --part 3/16       one of 16 jobs; then --merge\n"
     "Exit status: 0 done, with points that failed or without; 1 it was stopped, cannot be written, "
     "or\nall points failed; 2 a study or scene that cannot be meant.";
@@ -114,19 +118,86 @@ int runPoint(const Request& request, const Study& study, const std::atomic<bool>
   return point.outcome.failure.empty() ? kDone : kFailed;
 }
 
+/// A bar for the points of these blocks.
+SweepProgress progressOf(const Study& study, const std::vector<std::uint64_t>& blocks,
+                         bool insist) {
+  std::uint64_t of = 0;
+  for (const std::uint64_t block : blocks) {
+    of += study.sizeOf(block);
+  }
+  const auto bar = std::make_shared<ProgressBar>(fmt::format("{} points", of),
+                                                 static_cast<std::int64_t>(of), false, insist);
+  return [bar](std::uint64_t done) { bar->show(static_cast<std::int64_t>(done)); };
+}
+
 void runAll(const Request& request, const Study& study, const ResultFolder& folder,
             std::atomic<bool>& stop) {
-  std::optional<ProgressBar> bar;
+  const std::vector<std::uint64_t> blocks = unfinishedBlocks(study, folder, shareOf(request.part));
+  if (blocks.empty()) {
+    return;
+  }
   const unsigned workers =
       request.workers > 0 ? request.workers : std::max(1U, std::thread::hardware_concurrency());
-  sweep(study, folder, workers, shareOf(request.part), stop,
-        [&](std::uint64_t done, std::uint64_t of) {
-          if (!bar) {
-            bar.emplace(fmt::format("{} points", of), static_cast<std::int64_t>(of), false,
-                        request.insist);
-          }
-          bar->show(static_cast<std::int64_t>(done));
-        });
+  BlockDeck deck(blocks);
+  sweep(
+      study, folder, static_cast<unsigned>(std::min<std::uint64_t>(workers, blocks.size())),
+      [&](std::uint64_t) { return deck.next(); }, stop, progressOf(study, blocks, request.insist));
+}
+
+int tellAnswers(const Request& request, const Study& study, const ResultFolder& folder) {
+  const Answers answers = answersOf(study, folder.merge());
+  writeHdf5Results(study, folder, answers);
+  print(request, study, answers);
+  return answers.failures < answers.points ? kDone : kFailed;
+}
+
+/// How many processes mpirun or srun has started together; 1: this one alone.
+int ranksStarted() {
+  for (const char* const name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}) {
+    if (const char* const count = std::getenv(name)) {
+      return std::atoi(count);
+    }
+  }
+  const char* const count =
+      std::getenv("PMIX_RANK") ? std::getenv("SLURM_STEP_NUM_TASKS") : nullptr;
+  return count != nullptr ? std::atoi(count) : 1;
+}
+
+int sweepAmongRanks(const Request& request, std::atomic<bool>& stop) {
+#ifdef WHIRL_TWIN_MPI
+  Ranks ranks;
+  try {
+    if (!ranks.first()) {
+      ranks.letTheFirstGoFirst();
+      if (!std::filesystem::exists(*request.output + "/manifest.yaml")) {
+        throw RunFailure(
+            fmt::format("{}: is not here: all ranks must see the same files", *request.output));
+      }
+    }
+    const Study study = readStudy(request.study);
+    const ResultFolder folder(*request.output, study, request.mixed);
+    const unsigned workers = std::max(1U, request.workers);
+    if (!ranks.first()) {
+      ranks.work(study, folder, workers, stop);
+      return kDone;
+    }
+    ranks.letTheFirstGoFirst();
+    const std::vector<std::uint64_t> blocks = unfinishedBlocks(study, folder, {});
+    ranks.lead(study, folder, workers, blocks, stop, progressOf(study, blocks, request.insist));
+    return tellAnswers(request, study, folder);
+  } catch (const std::exception& error) {
+    if (ranks.first() || !interrupted()) {  // which the first tells
+      complain(fmt::format("twin: {}{}\n", ranks.first() ? "" : ranks.name() + ": ", error.what()));
+    }
+    ranks.end(dynamic_cast<const Refusal*>(&error) != nullptr ? kBadInput : kFailed);
+  }
+#else
+  static_cast<void>(request);
+  static_cast<void>(stop);
+  throw Refusal(
+      "this twin cannot share a study among the processes of mpirun: it was built without MPI "
+      "(scripts/setup --studies, then build again)");
+#endif
 }
 
 int sweepStudy(const Request& request) {
@@ -134,14 +205,17 @@ int sweepStudy(const Request& request) {
     throw Refusal(fmt::format("--workers: must be from 1 to 4096, found {}", request.workers));
   }
   static_cast<void>(shareOf(request.part));
-  const Study study = readStudy(request.study);
   std::atomic<bool>& stop = catchInterrupts();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is like a disk that is full
+  if (!request.output && !request.point) {
+    throw Refusal("--output: missing; must be the folder of the results");
+  }
+  if (!request.point && !request.part && !request.merge && !request.status && ranksStarted() > 1) {
+    return sweepAmongRanks(request, stop);
+  }
+  const Study study = readStudy(request.study);
   if (request.point) {
     return runPoint(request, study, stop);
-  }
-  if (!request.output) {
-    throw Refusal("--output: missing; must be the folder of the results");
   }
   if ((request.status || request.merge) &&
       !std::filesystem::exists(*request.output + "/manifest.yaml")) {
@@ -164,10 +238,7 @@ int sweepStudy(const Request& request) {
     throw RunFailure(fmt::format("{}: {} of {} points are done: run the other parts first",
                                  *request.output, status.done, study.points()));
   }
-  const Answers answers = answersOf(study, folder.merge());
-  writeHdf5Results(study, folder, answers);
-  print(request, study, answers);
-  return answers.failures < answers.points ? kDone : kFailed;
+  return tellAnswers(request, study, folder);
 }
 
 }  // namespace
@@ -182,7 +253,7 @@ void addSweepCommand(CLI::App& twin, int& status) {
       ->type_name("FOLDER");
   command->add_option("--point", request->point, "run this point alone, from 0, and print it")
       ->type_name("I");
-  command->add_option("--workers", request->workers, "threads; default: one a core")
+  command->add_option("--workers", request->workers, "threads; default: one a core, or one a rank")
       ->type_name("N");
   command->add_option("--part", request->part, "run every N-th block, from the I-th of them on")
       ->type_name("I/N");

@@ -97,6 +97,17 @@ TEST(Sweep, KilledAnyTimeItGoesOnAndLosesNothing) {
   EXPECT_EQ(blocks, 30U);
 }
 
+// As docs/studies.md has it for one machine.
+TEST(Sweep, PartsThatXargsStartsAtOnceAreOneStudy) {
+  const Files files;
+  ASSERT_EQ(files.sweep("whole").status, 0);
+  const std::string command = "seq 5 | xargs -P 3 -I{} " WHIRL_TWIN_PROGRAM " sweep " +
+                              files.study + " --output " + files.file("parts") +
+                              " --workers 1 --part {}/5 >" + files.file("out");
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  EXPECT_EQ(files.results("parts"), files.results("whole"));
+}
+
 TEST(Sweep, ADamagedBlockIsRunAgain) {
   const Files files;
   ASSERT_EQ(files.sweep("r").status, 0);
