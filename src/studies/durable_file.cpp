@@ -47,15 +47,40 @@ void DurableFile::add(std::string_view text) {
 }
 
 void DurableFile::finish() {
-  flush();
-  if (::fsync(file_) != 0 || ::rename(written_.c_str(), path_.c_str()) != 0) {
+  sync();
+  if (::rename(written_.c_str(), path_.c_str()) != 0) {
     throwNotWritten(path_, errno);
   }
   ::close(file_);
   file_ = -1;
+  syncFolder();
+}
+
+bool DurableFile::finishUnlessThere() {
+  sync();
+  if (::link(written_.c_str(), path_.c_str()) == 0) {
+    syncFolder();
+    return true;
+  }
+  if (errno == EEXIST) {
+    return false;
+  }
+  finish();  // a file system without links
+  return true;
+}
+
+void DurableFile::sync() {
+  flush();
+  if (::fsync(file_) != 0) {
+    throwNotWritten(path_, errno);
+  }
+}
+
+/// So that the name survives, too.
+void DurableFile::syncFolder() {
   const int folder = ::open(std::filesystem::path(path_).parent_path().c_str(),
                             O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (folder >= 0) {  // so that the name survives, too
+  if (folder >= 0) {
     ::fsync(folder);
     ::close(folder);
   }

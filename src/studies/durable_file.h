@@ -21,9 +21,13 @@ class DurableFile {
   void add(std::string_view text);
   /// On the disk when it returns, in the place of what was there.
   void finish();
+  /// Likewise; false, and nothing is written, where a file of that name is there already.
+  bool finishUnlessThere();
 
  private:
   void flush();
+  void sync();
+  void syncFolder();
 
   std::string path_;
   std::string written_;

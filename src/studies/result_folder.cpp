@@ -66,9 +66,11 @@ std::vector<double> takeNumbers(std::string_view& row, std::size_t count) {
   return numbers;
 }
 
-/// Not there, empty, or what a run left that was killed before it had written its manifest.
+/// Not there, empty, or what a run left that was killed before it had written its manifest, or that
+/// is writing it just now.
 bool isOurs(const std::string& folder) {
-  static const std::vector<std::string> known{"blocks", "study.yaml", "scene.yaml"};
+  static const std::vector<std::string> known{"blocks", "study.yaml", "scene.yaml",
+                                              "manifest.yaml"};
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
     const std::string name = entry.path().filename();
@@ -117,11 +119,14 @@ ResultFolder::ResultFolder(const std::string& path, const Study& study, bool mix
           fmt::format("{}: has files that are no results of a study: name another folder", path_));
     }
     steps_ = chooseSteps(study_);
-    make();
+    if (!make()) {
+      steps_ = {};
+      compare(mixed);
+    }
   }
 }
 
-void ResultFolder::make() {
+bool ResultFolder::make() {
   std::error_code error;
   std::filesystem::create_directories(path_ + "/blocks", error);
   if (error) {
@@ -145,7 +150,9 @@ void ResultFolder::make() {
   }
   YAML::Emitter text;
   text << manifest;
-  write("manifest.yaml", std::string(text.c_str()) + "\n");  // last: with it the folder is whole
+  DurableFile last(path_ + "/manifest.yaml");  // with it the folder is whole
+  last.add(std::string(text.c_str()) + "\n");
+  return last.finishUnlessThere();
 }
 
 void ResultFolder::compare(bool mixed) {

@@ -75,7 +75,8 @@ class ResultFolder {
   /// Its line as it goes into a table, with its end.
   void forEachRow(const std::function<void(std::uint64_t point, bool failed, std::string_view row)>&
                       take) const;
-  void make();
+  /// False: another has made it meanwhile.
+  bool make();
   void compare(bool mixed);
   void write(const std::string& name, const std::string& text) const;
   void removeUnfinished() const;

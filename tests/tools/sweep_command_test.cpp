@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <random>
 #include <thread>
 
@@ -73,28 +74,37 @@ TEST(Sweep, WorkersPartsAndBreaksChangeNoByte) {
   EXPECT_EQ(files.results("parts"), all);
 }
 
+// 12 times at any moment of a run, of its start and of what it does at its end; 100 times with
+// WHIRL_TWIN_EXTREMES=full.
 TEST(Sweep, KilledAnyTimeItGoesOnAndLosesNothing) {
   const Files files;
   ASSERT_EQ(files.sweep("whole").status, 0);
+  const char* const length = std::getenv("WHIRL_TWIN_EXTREMES");
+  const int kills = length != nullptr && std::string(length) == "full" ? 100 : 12;
   std::mt19937 random(1);
-  int killed = 0;
-  for (int k = 0; k < 12; ++k) {
-    const pid_t child = startTwin({"sweep", files.study, "--output", files.file("killed")},
+  int folders = 0;
+  for (int killed = 0; killed < kills;) {
+    const std::string folder = "killed" + std::to_string(folders);
+    const pid_t child = startTwin({"sweep", files.study, "--output", files.file(folder)},
                                   files.file("out"), files.file("err"));
-    std::this_thread::sleep_for(std::chrono::milliseconds(20 + random() % 200));
-    ::kill(child, k % 3 == 2 ? SIGINT : SIGKILL);
-    killed += statusOf(child) == -SIGKILL ? 1 : 0;
+    std::this_thread::sleep_for(std::chrono::milliseconds(random() % 250));
+    ::kill(child, random() % 5 == 0 ? SIGINT : SIGKILL);
+    const int status = statusOf(child);
+    killed += status == -SIGKILL ? 1 : 0;
+    if (status == 0 || killed == kills) {
+      const Ending last = files.sweep(folder);
+      EXPECT_EQ(last.status, 0) << last.err;
+      EXPECT_EQ(files.results(folder), files.results("whole"));
+      std::size_t blocks = 0;
+      for (const auto& entry :
+           std::filesystem::directory_iterator(files.file(folder) + "/blocks")) {
+        EXPECT_EQ(entry.path().extension(), ".csv");
+        ++blocks;
+      }
+      EXPECT_EQ(blocks, 30U);
+      ++folders;
+    }
   }
-  EXPECT_GT(killed, 0);
-  const Ending last = files.sweep("killed");
-  EXPECT_EQ(last.status, 0) << last.err;
-  EXPECT_EQ(files.results("killed"), files.results("whole"));
-  std::size_t blocks = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(files.file("killed") + "/blocks")) {
-    EXPECT_EQ(entry.path().extension(), ".csv");
-    ++blocks;
-  }
-  EXPECT_EQ(blocks, 30U);
 }
 
 // As docs/studies.md has it for one machine.
@@ -211,10 +221,72 @@ TEST(Sweep, WhatCannotBeWrittenIsSaidAndWhatWasFinishedStays) {
   EXPECT_EQ(files.results("full"), files.results("whole"));
 }
 
-TEST(Sweep, AFolderThatGoesIsNoticed) {
+/// A shell's exit status; `commands` may mount, and nobody else sees it.
+int inPrivateMounts(const std::string& commands) {
+  const int ended =
+      std::system(("unshare --mount --map-root-user bash -c '" + commands + "'").c_str());
+  return WIFEXITED(ended) ? WEXITSTATUS(ended) : -1;
+}
+
+// A file system of 64 kB, which has room for some of the 30 blocks; then it grows.
+TEST(Sweep, ADiskThatIsFullIsSaidAndWhatWasFinishedStays) {
+  if (inPrivateMounts("true") != 0) {
+    GTEST_SKIP() << "no mount namespaces here";
+  }
+  const Files files;
+  ASSERT_EQ(files.sweep("whole").status, 0);
+  const std::string disk = files.file("disk");
+  std::filesystem::create_directory(disk);
+  const std::string sweep =
+      WHIRL_TWIN_PROGRAM " sweep " + files.study + " --output " + disk + "/r >/dev/null ";
+  EXPECT_EQ(
+      inPrivateMounts("mount -t tmpfs -o size=64k none " + disk + " && { " + sweep + "2>" +
+                      files.file("full") + "; echo $? >" + files.file("status") + "; ls " + disk +
+                      "/r/blocks >" + files.file("blocks") + "; mount -o remount,size=16m " + disk +
+                      " && " + sweep + "&& cp -r " + disk + "/r " + files.file("after") + "; }"),
+      0);
+  EXPECT_EQ(contentsOf(files.file("status")), "1\n");
+  EXPECT_NE(
+      contentsOf(files.file("full"))
+          .find("cannot be written: No space left on device; what was finished before is kept"),
+      std::string::npos)
+      << contentsOf(files.file("full"));
+  const Lines blocks = linesOf(contentsOf(files.file("blocks")));
+  EXPECT_GT(blocks.size(), 3U);
+  EXPECT_LT(blocks.size(), 30U);
+  EXPECT_EQ(files.results("after"), files.results("whole"));
+}
+
+// When a third of it has been run the file system is one that is only read; then it is not.
+TEST(Sweep, AFolderThatIsOnlyReadIsSaidAndWhatWasFinishedStays) {
+  if (inPrivateMounts("true") != 0) {
+    GTEST_SKIP() << "no mount namespaces here";
+  }
+  const Files files;
+  ASSERT_EQ(files.sweep("whole").status, 0);
+  const std::string disk = files.file("disk");
+  std::filesystem::create_directory(disk);
+  const std::string sweep =
+      WHIRL_TWIN_PROGRAM " sweep " + files.study + " --output " + disk + "/r ";
+  EXPECT_EQ(
+      inPrivateMounts("mount -t tmpfs none " + disk + " && { " + sweep +
+                      "--part 1/3 >/dev/null; mount -o remount,ro " + disk + "; " + sweep + "2>" +
+                      files.file("read") + "; echo $? >" + files.file("status") + "; " + sweep +
+                      "--status >" + files.file("told") + "; mount -o remount,rw " + disk + " && " +
+                      sweep + ">/dev/null && cp -r " + disk + "/r " + files.file("after") + "; }"),
+      0);
+  EXPECT_EQ(contentsOf(files.file("status")), "1\n");
+  EXPECT_NE(contentsOf(files.file("read")).find("cannot be written: Read-only file system"),
+            std::string::npos)
+      << contentsOf(files.file("read"));
+  EXPECT_EQ(contentsOf(files.file("told")).rfind("100 of 300 points", 0), 0U);
+  EXPECT_EQ(files.results("after"), files.results("whole"));
+}
+
+TEST(Sweep, AFolderThatGoesIsNoticedAndGoesOnElsewhere) {
   const Files files(
       "study: {scene: scene.yaml, block: 1}\n" +
-      std::string(kStudy).replace(kStudy.find("300"), 3, "30000").substr(kStudy.find("\nvary")));
+      std::string(kStudy).replace(kStudy.find("300"), 3, "500").substr(kStudy.find("\nvary")));
   const pid_t child = startTwin({"sweep", files.study, "--output", files.file("gone")},
                                 files.file("out"), files.file("err"));
   while (!std::filesystem::exists(files.file("gone") + "/blocks/000000003.csv")) {
@@ -225,6 +297,27 @@ TEST(Sweep, AFolderThatGoesIsNoticed) {
   EXPECT_NE(contentsOf(files.file("err")).find("cannot be written: No such file"),
             std::string::npos)
       << contentsOf(files.file("err"));
+  ASSERT_EQ(files.sweep("elsewhere").status, 0);
+  ASSERT_EQ(files.sweep("whole").status, 0);
+  EXPECT_EQ(files.results("elsewhere"), files.results("whole"));
+}
+
+TEST(Sweep, ThoseWhoBeginAtOnceShareAFolder) {
+  const Files files;
+  for (int k = 0; k < 5; ++k) {
+    const std::string folder = files.file("r" + std::to_string(k));
+    std::vector<pid_t> parts;
+    for (const std::string part : {"1/4", "2/4", "3/4", "4/4"}) {
+      parts.push_back(startTwin({"sweep", files.study, "--output", folder, "--part", part},
+                                files.file("out" + part.substr(0, 1)), files.file("err")));
+    }
+    for (const pid_t part : parts) {
+      EXPECT_EQ(statusOf(part), 0) << contentsOf(files.file("err"));
+    }
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      EXPECT_NE(entry.path().extension(), ".tmp") << entry.path();
+    }
+  }
 }
 
 TEST(Sweep, OptionsThatCannotBeMeantAreRefused) {
