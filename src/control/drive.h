@@ -23,6 +23,7 @@
 #include "control/exclusion_bands.h"
 #include "control/shaft_angle.h"
 #include "control/speed_profile.h"
+#include "realtime/state_image.h"
 
 namespace whirl_twin {
 
@@ -122,6 +123,10 @@ class Drive {
 
   /// Back to the profile given at construction, and to its first instant.
   void reset() noexcept;
+  void exchange(StateImage& image) noexcept {
+    image(live_, live_count_, cursor_, move_duration_, piece_, first_tick_, until_, next_lead_,
+          steady_, turn_, time_, angle_, within_, speed_, acceleration_, jerk_, remaining_);
+  }
 
  private:
   /// A piece of constant jerk, placed on the time axis.

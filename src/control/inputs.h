@@ -20,6 +20,7 @@
 
 #include "control/input_signal.h"
 #include "control/shaft_angle.h"
+#include "realtime/state_image.h"
 
 namespace whirl_twin {
 
@@ -59,6 +60,7 @@ class Inputs {
   void begin(std::int64_t time) noexcept;
   /// Forgets all commands.
   void reset() noexcept;
+  void exchange(StateImage& image) noexcept { image(channels_, time_); }
 
   /// From the next begin() on, a constant has this value until the simulated time `until` [ns],
   /// then its own again. False, with nothing changed, for a value that is not finite, for an input
@@ -111,6 +113,10 @@ class Inputs {
     // At begin().
     double phase = 0.0;
     std::size_t passed = 0;  // of a table: how many of its instants
+
+    void exchange(StateImage& image) noexcept {
+      image(held, lagging, since, command, command_until, phase, passed);
+    }
   };
   std::int64_t cornerAfter(std::int64_t offset) const noexcept;
   static double lagging(const Channel& channel, std::int64_t time) noexcept;

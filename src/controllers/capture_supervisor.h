@@ -20,6 +20,7 @@
 
 #include "control/exclusion_bands.h"
 #include "messages/controller_state.h"
+#include "realtime/state_image.h"
 
 namespace whirl_twin {
 
@@ -67,6 +68,9 @@ class CaptureSupervisor {
     window_ = {};
   }
   Order look(const Look& at) noexcept;
+  void exchange(StateImage& image) noexcept {
+    image(phase_, state_, band_, captures_, rested_, window_);
+  }
   bool unloads() const noexcept { return phase_ == Phase::kUnloading; }
   /// Of the band that held it last.
   const SpeedBand& band() const noexcept { return band_; }

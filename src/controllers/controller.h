@@ -9,6 +9,7 @@
 #include "control/discrete_state_space.h"
 #include "control/shaft_angle.h"
 #include "messages/controller_state.h"
+#include "realtime/state_image.h"
 
 namespace whirl_twin {
 
@@ -47,6 +48,11 @@ class Controller {
   /// From where linear() counts what is measured: there, and with no past, its outputs are 0.
   /// Empty: from 0.
   virtual std::vector<double> setpoint() const { return {}; }
+
+  // Real-time safe again.
+
+  /// All that its next outputs hang on, but what it was made of.
+  virtual void exchange(StateImage& image) noexcept = 0;
 };
 
 }  // namespace whirl_twin

@@ -9,13 +9,15 @@
 //     void reset(const ControllerPlan& plan) noexcept;
 //     void update(const ControlSample& sample, double* outputs) noexcept;
 //     void takeOver(const MyLaw& before) noexcept;                     // optional
+//     void exchange(StateImage& image) noexcept;                       // of a law that owns memory
 //     DiscreteStateSpace linear(double shaft_speed) const;             // optional
 //     std::vector<double> setpoint() const;                            // optional
 //   };
 //
 // prepare() is called once, with its parameters set and before all else: it makes room, and throws
-// SetupError for what does not fit. reset(), update() and takeOver() are real-time safe
-// (controllers/controller.h).
+// SetupError for what does not fit. reset(), update(), takeOver() and exchange() are real-time safe
+// (controllers/controller.h). A law that owns memory, a vector say, and has no exchange()
+// (realtime/state_image.h) keeps its twin from being saved.
 #pragma once
 
 #include <memory>
@@ -77,6 +79,13 @@ class LawController final : public Controller {
       if (const auto* const same = dynamic_cast<const LawController*>(&before)) {
         law_.takeOver(same->law_);
       }
+    }
+  }
+  void exchange(StateImage& image) noexcept override {
+    if constexpr (Exchanges<Law>::value || std::is_trivially_destructible_v<Law>) {
+      image(law_);
+    } else {
+      image.refuse();
     }
   }
   std::optional<DiscreteStateSpace> linear([[maybe_unused]] double shaft_speed) const override {

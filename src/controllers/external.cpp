@@ -33,6 +33,15 @@ void ExternalController::reset() noexcept {
   waiting_ = false;
 }
 
+void ExternalController::exchange(StateImage& image) noexcept {
+  image(newest_, answers_, answered_, run_, told_, heard_at_);
+  if (image.puts()) {
+    ++run_;
+    heard_ = awaited_from_ = kNone;
+    connected_ = lost_ = waiting_ = false;
+  }
+}
+
 /// False for what is no answer to a sample of this run.
 bool ExternalController::take(const ExternalSample& command) noexcept {
   if ((command.run != 0 && command.run != run_) || command.sample > told_) {

@@ -41,6 +41,8 @@ class ExternalController final : public Controller {
   // Real-time safe.
 
   void reset() noexcept override;
+  /// Put back, it is yet to hear of the other process, in a run of its own.
+  void exchange(StateImage& image) noexcept override;
   /// Tells the sample. Free-running it gives the newest command; in lockstep nothing.
   void update(const ControlSample& sample, double* outputs) noexcept override;
   /// No answer within the time-out, and none since.

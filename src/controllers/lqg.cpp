@@ -39,6 +39,7 @@ class Lqg final : public Controller {
         cut_(limits_.size()) {}
 
   void reset() noexcept override { predicted_.setZero(); }
+  void exchange(StateImage& image) noexcept override { image(predicted_); }
 
   void update(const ControlSample& sample, double* outputs) noexcept override {
     surprise_ = Eigen::Map<const VectorXd>(sample.values, setpoint_.size()) - setpoint_;

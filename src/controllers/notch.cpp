@@ -45,6 +45,10 @@ class NotchedController final : public Controller {
     last_speed_ = kUnknown;
     controller_->reset();
   }
+  void exchange(StateImage& image) noexcept override {
+    image(parts_, last_speed_);
+    controller_->exchange(image);
+  }
 
   void takeOver(const Controller& before) noexcept override {
     if (const auto* const other = dynamic_cast<const NotchedController*>(&before)) {

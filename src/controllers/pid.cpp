@@ -56,6 +56,7 @@ class Pid final : public Controller {
     started_ = false;
     speed_ = 0.0;
   }
+  void exchange(StateImage& image) noexcept override { image(axes_, started_, speed_); }
 
   void update(const ControlSample& sample, double* outputs) noexcept override {
     // Of a shaft whose keyphasor is lost the last speed holds.

@@ -68,6 +68,11 @@ class SpeedControl final : public Controller {
     started_ = false;
     supervisor_.reset(false);
   }
+  void exchange(StateImage& image) noexcept override {
+    image(supervisor_, set_points_.pieces, set_points_.count, set_points_.target,
+          set_points_.duration, cursor_, started_, at_limit_, up_, target_, first_, last_, next_,
+          integral_);
+  }
 
   void update(const ControlSample& sample, double* outputs) noexcept override {
     const double speed = sample.values[0];

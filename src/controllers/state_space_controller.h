@@ -17,6 +17,7 @@ class StateSpaceController final : public Controller {
   StateSpaceController(DiscreteStateSpace law, Eigen::VectorXd setpoint);
 
   void reset() noexcept override { state_.setZero(); }
+  void exchange(StateImage& image) noexcept override { image(state_); }
   void update(const ControlSample& sample, double* outputs) noexcept override;
   /// The state of one with as many.
   void takeOver(const Controller& before) noexcept override;

@@ -37,6 +37,7 @@ class SwingUp final : public Controller {
         gain_(gain.data(), gain.data() + gain.size()) {}
 
   void reset() noexcept override { caught_ = false; }
+  void exchange(StateImage& image) noexcept override { image(caught_); }
 
   void takeOver(const Controller& before) noexcept override {
     if (const auto* const other = dynamic_cast<const SwingUp*>(&before.law())) {

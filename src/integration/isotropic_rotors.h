@@ -23,6 +23,7 @@
 
 #include "control/drive.h"
 #include "integration/shaft_nodes.h"
+#include "realtime/state_image.h"
 
 namespace whirl_twin {
 
@@ -51,6 +52,7 @@ class IsotropicRotors {
 
   /// Back to where they started.
   void reset() noexcept;
+  void exchange(StateImage& image) noexcept { image(blocks_); }
   /// Advances all by h from the drive's begin().
   void step(const Drive& drive) noexcept;
   /// [m], z of a rotor. Not finite: it ran away.

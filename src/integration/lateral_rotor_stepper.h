@@ -38,6 +38,10 @@ class LateralRotorStepper : public Stepper {
   void write(double* out) const noexcept override;
   double errorSum() const noexcept override { return error_sum_; }
   void set(const double* q, const double* v) noexcept override;
+  void exchange(StateImage& image) noexcept override {
+    image(motion_, exact_, run_up_, further_energy_, last_energy_, steps_since_estimate_,
+          largest_place_, largest_rate_, error_sum_);
+  }
 
  protected:
   /// Compiled for each width of vectors.

@@ -43,6 +43,11 @@ class LateralRunUp {
   /// The motion is set anew.
   void restart() noexcept { turns_left_ = 0; }
 
+  /// Weights are the same whenever they are prepared.
+  void exchange(StateImage& image) noexcept {
+    image(phasors_, begun_, next_, piece_, of_set_, turns_left_);
+  }
+
   /// Where the last step of h ended at the drive's begin(), and its phasors go on: the speed there
   /// [rad/s], without waiting for the drive's angle.
   std::optional<double> speedAt(const Drive& drive) const noexcept {

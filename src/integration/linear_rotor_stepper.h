@@ -36,6 +36,9 @@ class LinearRotorStepper final : public Stepper {
   void write(double* out) const noexcept override;
   double errorSum() const noexcept override { return errors_.sum(); }
   void set(const double* q, const double* v) noexcept override;
+  void exchange(StateImage& image) noexcept override {
+    image(state_, method_, errors_, further_energy_);
+  }
   std::unique_ptr<Stepper> readyFor(double lowest_speed, double highest_speed) const override;
 
  private:

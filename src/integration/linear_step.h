@@ -28,6 +28,7 @@
 #include "integration/packed_matrix.h"
 #include "mechanics/force_inline.h"
 #include "mechanics/linear_dynamics.h"
+#include "realtime/state_image.h"
 
 namespace whirl_twin {
 
@@ -44,6 +45,7 @@ struct LinearMotion {
   // Real-time safe.
   void set(const double* position, const double* rate) noexcept;  ///< n numbers each
   void advance(const double* increment, double energy) noexcept;  ///< 2 n, those of q first
+  void exchange(StateImage& image) noexcept { image(state, low, work); }
 
   Eigen::VectorXd state;  ///< q and below it v: one loop goes through both
   Eigen::VectorXd low;    ///< of it

@@ -39,6 +39,7 @@ class LinearStepper final : public Stepper {
   void write(double* out) const noexcept override;
   double errorSum() const noexcept override { return errors_.sum(); }
   void set(const double* q, const double* v) noexcept override;
+  void exchange(StateImage& image) noexcept override { image(state_, errors_); }
 
  private:
   void estimateError(double time) noexcept;

@@ -14,6 +14,7 @@
 
 #include "control/drive.h"
 #include "integration/member_equations.h"
+#include "realtime/state_image.h"
 
 namespace whirl_twin {
 
@@ -45,6 +46,7 @@ class MemberSteps {
 
   /// Starts a member, and forgets its past.
   void set(std::size_t member, const double* q, const double* v) noexcept;
+  void exchange(StateImage& image) noexcept { image(state_, stopped_); }
   /// One step from simulated time [s]; the drive stands at its start.
   void step(const Drive& drive, double time) noexcept;
 

@@ -55,6 +55,7 @@ class RotorStep {
 
   /// The motion is set anew: nothing follows from the last step.
   void restart() noexcept { work_.restart(); }
+  void exchange(StateImage& image) noexcept { image(work_); }
 
   /// The course over the next step of one of the forces that are no inputs (ActingInputs::push()).
   /// Real-time safe.

@@ -19,6 +19,7 @@
 #include "integration/rotor_map.h"
 #include "integration/shaft_nodes.h"
 #include "mechanics/linear_rotor.h"
+#include "realtime/state_image.h"
 
 namespace whirl_twin {
 
@@ -48,6 +49,9 @@ class RotorWork {
 
   /// The state no longer follows from the last step.
   void restart() noexcept { continued_ = false; }
+  void exchange(StateImage& image) noexcept {
+    image(from_, to_, continued_, last_acceleration_, last_jerk_);
+  }
   /// The state (q, v) before the step that starts at offset [s], which the inputs have taken up.
   void start(RotorWorkCell& cell, const Drive& drive, double offset, const ActingInputs& acting,
              const Eigen::Ref<const Eigen::VectorXd>& state) noexcept;

@@ -115,6 +115,9 @@ class SteppedSystem final : public Stepper {
     method_.restart();
     errors_.restart();
   }
+  void exchange(StateImage& image) noexcept override {
+    image(method_, finer_method_, state_, errors_, turns_);
+  }
 
  private:
   static constexpr bool kHasHistory = HasHistory<Method>::value;

@@ -8,6 +8,7 @@
 
 #include "control/shaft_angle.h"
 #include "integration/motion_state.h"
+#include "realtime/state_image.h"
 
 namespace whirl_twin {
 
@@ -51,6 +52,8 @@ class Stepper {
   virtual double errorSum() const noexcept { return std::numeric_limits<double>::quiet_NaN(); }
   /// Sets q and v and forgets the past.
   virtual void set(const double* q, const double* v) noexcept = 0;
+  /// All that its next steps hang on, but what it was made of, and the drive and inputs.
+  virtual void exchange(StateImage& image) noexcept = 0;
 };
 
 }  // namespace whirl_twin

@@ -32,6 +32,7 @@
 #include "integration/lanes.h"
 #include "integration/motion_state.h"
 #include "integration/stoermer_weights.h"
+#include "realtime/state_image.h"
 
 namespace whirl_twin {
 
@@ -49,6 +50,12 @@ class Stoermer {
   void restart() {
     ready_for_ = 0.0;
     gathered_ = 0;
+  }
+
+  void exchange(StateImage& image) noexcept {
+    const StoermerScheme* const own = scheme_;
+    image.whole(*this);
+    scheme_ = own;
   }
 
   /// Was the last step one of its own, and not one of dormand_prince_8?

@@ -78,6 +78,14 @@ void RunningController::start(std::int64_t time, const std::vector<Stepper*>& ru
   followed_ = time;
 }
 
+void RunningController::exchange(StateImage& image) noexcept {
+  image(generation_, instants_, channels_, acted_, followed_, first_, shown_, outputs_, count_);
+  law_->exchange(image);
+  if (running_ != law_.get()) {
+    running_->exchange(image);
+  }
+}
+
 /// Of rates how they change is not known here: nothing is said of it.
 void RunningController::read(const std::vector<Stepper*>& running) noexcept {
   std::size_t read = static_cast<std::size_t>(-1);

@@ -18,6 +18,7 @@
 #include "controllers/controller.h"
 #include "controllers/external.h"
 #include "integration/stepper.h"
+#include "realtime/state_image.h"
 #include "scene/built_scene.h"
 #include "scene/control_parts.h"
 
@@ -56,6 +57,9 @@ class RunningController {
   /// The state has gone on to an instant: what is between samples passes the sensors' filters.
   void follow(std::int64_t time, const std::vector<Stepper*>& running) noexcept;
 
+  /// All but what it was made of; a law that replace() has put in its place has to be there.
+  void exchange(StateImage& image) noexcept;
+
   /// Another law of the same kind goes on in the place of its own, known from now on by a
   /// generation > 0, until the next start(). Returns the one it has no more use for.
   std::unique_ptr<Controller> replace(std::unique_ptr<Controller> next,
@@ -84,12 +88,16 @@ class RunningController {
     std::vector<double> along;  ///< of q, or of v
     Sensor sensor;
     double value = 0.0, rate = 0.0;  ///< at `followed_`
+
+    void exchange(StateImage& image) noexcept { image(sensor, value, rate); }
   };
   struct Acted {
     std::size_t system;
     Inputs* inputs;
     std::size_t input;
     Actuator actuator;
+
+    void exchange(StateImage& image) noexcept { image(actuator); }
   };
 
   void read(const std::vector<Stepper*>& running) noexcept;
@@ -138,6 +146,7 @@ class ControlLoop {
                                       std::int64_t generation) noexcept {
     return controllers_[controller].replace(std::move(next), generation);
   }
+  void exchange(StateImage& image) noexcept { image(controllers_); }
   std::int64_t nextInstant() const noexcept;  ///< [ns], simulated
   /// Everything that is due at an instant, `offset` [s] after the start of the step.
   void act(std::int64_t time, double offset, const std::vector<Stepper*>& running,

@@ -15,6 +15,7 @@
 
 #include "integration/excitation.h"
 #include "realtime/latest_record.h"
+#include "realtime/state_image.h"
 #include "scene/built_system.h"
 #include "scene/scene.h"
 #include "twin/record.h"
@@ -39,6 +40,8 @@ class EnsembleSteps {
   virtual void write(double* values, double* peaks) const noexcept = 0;
   /// As Stepper::errorSum(), the largest of a sample of the members that have not stopped.
   virtual double errorSum() const noexcept = 0;
+  /// All that the next steps hang on, but what it was made of, and the drive and inputs.
+  virtual void exchange(StateImage& image) noexcept = 0;
 };
 
 /// A number that is told of each member.
@@ -70,6 +73,7 @@ class Ensemble {
 
   void reset() noexcept;
   void step(double time) noexcept { steps_->step(time); }
+  void exchange(StateImage& image) noexcept { steps_->exchange(image); }
   double errorSum() const noexcept { return steps_->errorSum(); }
   /// Its statistics are told every so many steps, some fifty times a simulated second.
   std::int64_t period() const noexcept { return every_; }

@@ -84,6 +84,7 @@ class SideBySide final : public EnsembleSteps {
       errors.restart();
     }
   }
+  void exchange(StateImage& image) noexcept override { image(rotors_, errors_); }
   void step(double) noexcept override {
     bool due = false;
     for (StepErrorSum& errors : errors_) {
@@ -185,6 +186,7 @@ class OneByOne final : public EnsembleSteps {
     std::fill(peaks_.begin(), peaks_.end(), 0.0);
     look();
   }
+  void exchange(StateImage& image) noexcept override { image(members_, values_, peaks_); }
   void step(double time) noexcept override {
     for (Member& member : members_) {
       if (member.status == StepStatus::kOk) {
@@ -214,6 +216,11 @@ class OneByOne final : public EnsembleSteps {
     std::unique_ptr<Stepper> system;
     std::optional<Station> station;  // of a rotor
     StepStatus status = StepStatus::kOk;
+
+    void exchange(StateImage& image) noexcept {
+      image(status);
+      system->exchange(image);
+    }
   };
 
   void look() noexcept {

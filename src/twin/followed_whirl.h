@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mechanics/dynamics.h"
+#include "realtime/state_image.h"
 #include "twin/record.h"
 #include "twin/steady_whirl.h"
 #include "twin/whirl_phase.h"
@@ -28,6 +29,13 @@ class FollowedWhirl {
   /// seconds: of a step.
   void settle(std::int64_t step, const ShaftView& shaft, double on_shaft, double seconds);
   void observe(std::int64_t step, const double* q, const double* v, const ShaftMark& mark);
+  /// What is known of the past, but that it is steady, which is found out again.
+  void exchange(StateImage& image) noexcept {
+    image(places_, told_);
+    if (image.puts()) {
+      steady_until_ = told_;
+    }
+  }
   /// One that is looked at, behind the one before. False: it is to be told. Before `steadyUntil()`
   /// it need not be looked at. The shaft has to turn by less than a quarter of a turn in it.
   bool follow(std::int64_t step, const double* q) noexcept;
@@ -47,6 +55,8 @@ class FollowedWhirl {
     WhirlPhase phase;
     std::int64_t seen = 0;            // step, at which the phase was last seen
     std::vector<double> across = {};  // x and y of each coordinate in turn
+
+    void exchange(StateImage& image) noexcept { image(phase, seen); }
   };
 
   std::vector<Place> places_;

@@ -56,6 +56,8 @@ LiveParameters::LiveParameters(LiveTwin& twin, std::function<bool()> wait)
       wait_(std::move(wait)),
       systems_(twin.twin().systems()),
       controllers_(twin.twin().scene().controllers),
+      generations_(systems_.size() + controllers_.size()),
+      made_ready_(systems_.size()),
       scene_speed_ranges_(profileRanges(twin.twin())),
       speed_ranges_(scene_speed_ranges_),
       targets_(scene_speed_ranges_.size()) {}
@@ -67,6 +69,8 @@ double LiveParameters::time() const {
 void LiveParameters::restored() {
   systems_ = twin_.twin().systems();
   controllers_ = twin_.twin().scene().controllers;
+  std::fill(generations_.begin(), generations_.end(), 0);
+  std::fill(made_ready_.begin(), made_ready_.end(), std::vector<SpeedRange>());
   speed_ranges_ = scene_speed_ranges_;
   std::fill(targets_.begin(), targets_.end(), std::nullopt);
   ramps_.clear();
@@ -75,16 +79,19 @@ void LiveParameters::restored() {
 bool LiveParameters::takeOver(std::size_t system, std::unique_ptr<Stepper> next,
                               SystemGeneration generation) {
   const std::int64_t number = twin_.generations()->add(system, std::move(generation));
+  generations_[system] = number;
   return wait_() && twin_.replace(system, next, number) && wait_();
 }
 
 bool LiveParameters::change(std::size_t system, SharedSystem changed,
                             const std::vector<std::string>& names) {
   std::unique_ptr<Stepper> next = twin_.twin().stepperOf(*changed);
+  made_ready_[system].clear();
   if (targets_[changed->drive]) {  // a new system knows the speeds of the scene only
     const auto [lowest, highest] = speed_ranges_[changed->drive];
     const double target = *targets_[changed->drive];
     for (const auto& [from, to] : {std::pair{lowest, highest}, std::pair{target, target}}) {
+      made_ready_[system].emplace_back(from, to);
       if (std::unique_ptr<Stepper> ready = next->readyFor(from, to)) {
         next = std::move(ready);
       }
@@ -105,6 +112,7 @@ bool LiveParameters::change(std::size_t controller, ChangedController next,
   controllers_[controller] = std::move(next.spec);
   const std::int64_t number =
       twin_.generations()->add(systems_.size() + controller, std::move(generation));
+  generations_[systems_.size() + controller] = number;
   return wait_() && twin_.replaceLaw(controller, next.law, number) && wait_();
 }
 
@@ -331,13 +339,134 @@ bool LiveParameters::prepare(std::size_t system, bool range_covered) {
   std::unique_ptr<Stepper> next;
   if (!range_covered) {
     next = running.readyFor(speed_ranges_[drive].first, speed_ranges_[drive].second);
+    made_ready_[system].push_back(speed_ranges_[drive]);
   }
   // Where the drive stays, and a system may step exactly.
+  made_ready_[system].emplace_back(*targets_[drive], *targets_[drive]);
   if (auto ready = (next ? *next : running).readyFor(*targets_[drive], *targets_[drive])) {
     next = std::move(ready);
   }
   return !next || takeOver(system, std::move(next),
                            {systems_[system]->dynamics, systems_[system]->parameters()});
+}
+
+YAML::Node LiveParameters::saved() const {
+  const auto number = [](double value) { return fmt::format("{}", value); };
+  YAML::Node saved;
+  const std::vector<std::string> known = names();
+  for (Which i = 0; i < generations_.size(); ++i) {
+    if (generations_[i] == 0) {
+      continue;
+    }
+    const state::ParameterChange now =
+        isSystem(i) ? systems_[i]->parameters() : parametersOf(controllers_[i - systems_.size()]);
+    const state::ParameterChange told = twin_.generations()->at(i, generations_[i])->parameters;
+    YAML::Node change;
+    change["which"] = known[i];
+    change["generation"] = generations_[i];
+    change["names"] = now.names;
+    for (const double value : now.values) {
+      change["values"].push_back(number(value));
+    }
+    change["changed"] = told.changed;
+    for (const double value : told.previous) {
+      change["previous"].push_back(number(value));
+    }
+    for (const auto& [from, to] : isSystem(i) ? made_ready_[i] : std::vector<SpeedRange>()) {
+      change["made_ready"].push_back(std::vector<std::string>{number(from), number(to)});
+    }
+    saved["changes"].push_back(change);
+  }
+  for (std::size_t i = 0; i < speed_ranges_.size(); ++i) {
+    YAML::Node drive;
+    drive["from"] = number(speed_ranges_[i].first);
+    drive["to"] = number(speed_ranges_[i].second);
+    if (targets_[i]) {
+      drive["target"] = number(*targets_[i]);
+    }
+    saved["drives"].push_back(drive);
+  }
+  for (const Ramp& ramp : ramps_) {
+    YAML::Node node;
+    node["which"] = known[ramp.which];
+    node["name"] = ramp.name;
+    node["numbers"] = std::vector<std::string>{number(ramp.from), number(ramp.to),
+                                               number(ramp.start), number(ramp.duration)};
+    saved["ramps"].push_back(node);
+  }
+  saved["ramped_at"] = number(ramped_at_);
+  saved["paused"] = twin_.paused();
+  return saved;
+}
+
+LiveParameters::Which LiveParameters::whichOf(const YAML::Node& name) const {
+  const std::vector<std::string> known = names();
+  const auto found = std::find(known.begin(), known.end(), name.as<std::string>());
+  if (found == known.end()) {
+    throw YAML::Exception(name.Mark(), "neither a system nor a controller");
+  }
+  return static_cast<Which>(found - known.begin());
+}
+
+/// Of a system or a controller: made as it was made when it was changed.
+void LiveParameters::resumeChange(const YAML::Node& saved) {
+  const Which which = whichOf(saved["which"]);
+  const auto generation = saved["generation"].as<std::int64_t>();
+  SystemGeneration made;
+  state::ParameterChange set;
+  set.system = saved["which"].as<std::string>();
+  set.names = saved["names"].as<std::vector<std::string>>();
+  set.values = saved["values"].as<std::vector<double>>();
+  if (isSystem(which)) {
+    const SharedSystem system = twin_.twin().systems()[which]->with(set);
+    if (!system) {
+      throw Refusal(
+          fmt::format("{} cannot have the parameters that it was saved with", set.system));
+    }
+    std::unique_ptr<Stepper> stepper = twin_.twin().stepperOf(*system);
+    for (const YAML::Node& range : saved["made_ready"]) {
+      const SpeedRange speeds{range[0].as<double>(), range[1].as<double>()};
+      made_ready_[which].push_back(speeds);
+      if (std::unique_ptr<Stepper> ready = stepper->readyFor(speeds.first, speeds.second)) {
+        stepper = std::move(ready);
+      }
+    }
+    systems_[which] = system;
+    made = {system->dynamics, system->parameters()};
+    twin_.atRest().replace(which, std::move(stepper), generation);
+  } else {
+    ChangedController next = changedController(which, set.names, set.values);
+    made = {nullptr, parametersOf(next.spec)};
+    controller(which) = std::move(next.spec);
+    twin_.atRest().replaceLaw(which - systems_.size(), std::move(next.law), generation);
+  }
+  if (saved["changed"].IsSequence()) {
+    made.parameters.changed = saved["changed"].as<std::vector<std::string>>();
+  }
+  if (saved["previous"].IsSequence()) {
+    made.parameters.previous = saved["previous"].as<std::vector<double>>();
+  }
+  generations_[which] = generation;
+  twin_.generations()->restore(which, generation, std::move(made));
+}
+
+void LiveParameters::resume(const YAML::Node& saved) {
+  for (const YAML::Node& change : saved["changes"]) {
+    resumeChange(change);
+  }
+  for (std::size_t i = 0; i < speed_ranges_.size(); ++i) {
+    const YAML::Node drive = saved["drives"][i];
+    speed_ranges_[i] = {drive["from"].as<double>(), drive["to"].as<double>()};
+    if (drive["target"]) {
+      targets_[i] = drive["target"].as<double>();
+    }
+  }
+  for (const YAML::Node& ramp : saved["ramps"]) {
+    const auto number = [&](int i) { return ramp["numbers"][i].as<double>(); };
+    ramps_.push_back({whichOf(ramp["which"]), ramp["name"].as<std::string>(), number(0), number(1),
+                      number(2), number(3)});
+  }
+  ramped_at_ = saved["ramped_at"].as<double>();
 }
 
 }  // namespace whirl_twin

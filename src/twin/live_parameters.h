@@ -5,6 +5,8 @@
 // the commands.
 #pragma once
 
+#include <yaml-cpp/yaml.h>
+
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -74,6 +76,13 @@ class LiveParameters {
   /// The loop has carried out a kReset: the scene's parameters hold again.
   void restored();
 
+  /// All that has been changed since the start, for a checkpoint, of the state that the twin has
+  /// while nothing is sent.
+  YAML::Node saved() const;
+  /// Before the loop runs: changes all that again. Throws what making systems and laws throws, and
+  /// YAML::Exception for what saved() has not made.
+  void resume(const YAML::Node& saved);
+
  private:
   /// Systems of the scene first, then its controllers.
   using Which = std::size_t;
@@ -102,11 +111,15 @@ class LiveParameters {
   ParameterAnswer begin(Which which, const ParameterRequest& request);
   void continueRamps(Which which, double now);
   bool prepare(std::size_t system, bool range_covered);
+  Which whichOf(const YAML::Node& name) const;
+  void resumeChange(const YAML::Node& saved);
 
   LiveTwin& twin_;
   std::function<bool()> wait_;
-  std::vector<SharedSystem> systems_;        // as they are now
-  std::vector<ControllerSpec> controllers_;  // likewise
+  std::vector<SharedSystem> systems_;                // as they are now
+  std::vector<ControllerSpec> controllers_;          // likewise
+  std::vector<std::int64_t> generations_;            // of all, as they are now; 0: the scene's
+  std::vector<std::vector<SpeedRange>> made_ready_;  // what each system has been since it was made
   std::vector<SpeedRange> scene_speed_ranges_;
   std::vector<SpeedRange> speed_ranges_;        // of the drives since the start
   std::vector<std::optional<double>> targets_;  // [rad/s], of their last moves beyond the scene

@@ -132,6 +132,8 @@ void LiveTwin::carryOut(const TwinCommand& command) noexcept {
       return replaceNow(command);
     case TwinCommand::Kind::kReplaceLaw:
       return replaceLawNow(command);
+    case TwinCommand::Kind::kSave:
+      return save(*command.image);
     case TwinCommand::Kind::kSetInput:
       return finish(twin_.setInput(command.system, command.input, command.value, command.duration),
                     0.0);
@@ -165,6 +167,20 @@ void LiveTwin::replaceLawNow(const TwinCommand& command) noexcept {
   tellChange();
 }
 
+/// With a record for those who keep a state of their own beside it: theirs of this step. Not while
+/// they have yet to see the step at which it stands, behind a reset.
+void LiveTwin::save(StateImage& image) noexcept {
+  if (at_start_) {
+    return finish(false, 0.0);
+  }
+  twin_.exchange(image);
+  const std::int64_t scheduled = RecordLayout::scheduled(record_.data());
+  RecordLayout::setScheduled(record_.data(), RecordLayout::kSaved);
+  const bool told = image.sound() && ring_.push(record_.data());
+  RecordLayout::setScheduled(record_.data(), scheduled);
+  finish(told, 0.0);
+}
+
 /// So that it is seen at its step, and in a pause too.
 void LiveTwin::tellChange() noexcept {
   if (!at_start_) {
@@ -185,6 +201,11 @@ void LiveTwin::publish(std::int64_t scheduled) noexcept {
   twin_.write(record_.data());
   RecordLayout::setScheduled(record_.data(), scheduled);
   ring_.push(record_.data());
+}
+
+void LiveTwin::putBack(bool paused) noexcept {
+  step_.store(twin_.stepCount(), std::memory_order_relaxed);
+  paused_.store(paused, std::memory_order_relaxed);
 }
 
 bool LiveTwin::send(const TwinCommand& command) {

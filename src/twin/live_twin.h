@@ -30,7 +30,8 @@ struct TwinCommand {
     kSetInput,
     kLook,
     kReplace,
-    kReplaceLaw
+    kReplaceLaw,
+    kSave
   };
   Kind kind = Kind::kResume;
   std::uint64_t steps = 0;        ///< kStep: how many
@@ -46,6 +47,7 @@ struct TwinCommand {
   std::int64_t generation = 0;
   std::size_t controller = 0;  ///< kReplaceLaw, which replaceLaw() makes
   Controller* law = nullptr;
+  StateImage* image = nullptr;  ///< kSave: that takes the twin's state; outlives the command
 };
 
 /// What became of a command.
@@ -68,6 +70,10 @@ class LiveTwin {
 
   /// Of the twin only what does not change while it runs may be used while the loop runs.
   const Twin& twin() const { return twin_; }
+  /// Before the loop runs, and after: all of it.
+  Twin& atRest() { return twin_; }
+  /// Before it runs: it has been put back to where it stands now, in a pause or not.
+  void putBack(bool paused) noexcept;
 
   /// The loop's thread, once a period; scheduled [ns] goes into the record, and where there are
   /// several they stand evenly in the period. Real-time safe.
@@ -129,6 +135,7 @@ class LiveTwin {
   void look(std::size_t drive) noexcept;
   void replaceNow(const TwinCommand& command) noexcept;
   void replaceLawNow(const TwinCommand& command) noexcept;
+  void save(StateImage& image) noexcept;
   void tellChange() noexcept;
   void finish(bool done, double duration) noexcept;
   void publish(std::int64_t scheduled) noexcept;

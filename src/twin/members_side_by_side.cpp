@@ -57,6 +57,7 @@ class MembersSideBySide final : public EnsembleSteps {
       errors.restart();
     }
   }
+  void exchange(StateImage& image) noexcept override { image(steps_, errors_); }
   void step(double time) noexcept override {
     bool due = false;
     for (StepErrorSum& errors : errors_) {

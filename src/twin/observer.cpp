@@ -17,6 +17,8 @@ namespace {
 /// speed.
 constexpr double kSlowestOrbit = 0.01;
 
+constexpr std::uint64_t kLongestReason = 100'000;  // characters
+
 Eigen::VectorXd vector(const double* x, std::size_t n) {
   return Eigen::Map<const Eigen::VectorXd>(x, static_cast<Eigen::Index>(n));
 }
@@ -70,6 +72,19 @@ void Observer::observe(const double* record) {
   changed = takeControllers() || changed;
   followMotors(record_.data());
   tells_only_change_ = changed && step() == before;
+}
+
+void Observer::exchange(StateImage& image) {
+  image(record_, motors_, looked_errors_, tells_only_change_);
+  for (Track& track : tracks_) {
+    image(track.whirl, track.energy, track.error, track.motor_generation);
+    std::uint64_t length = track.stop_reason.size();
+    image(length);
+    std::vector<char> reason(track.stop_reason.begin(), track.stop_reason.end());
+    reason.resize(std::min(length, kLongestReason));
+    image(reason);
+    track.stop_reason.assign(reason.begin(), reason.end());
+  }
 }
 
 std::string Observer::whyStopped(std::size_t system) const {

@@ -16,6 +16,7 @@
 
 #include "messages/controller_state.h"
 #include "messages/states.h"
+#include "realtime/state_image.h"
 #include "signal/orbit_window.h"
 #include "twin/energy_audit.h"
 #include "twin/error_track.h"
@@ -50,6 +51,9 @@ class Observer {
   std::int64_t quietUntil(const Twin& now);
   /// Steps from one that is observed to the next.
   std::int64_t mostPassed() const { return most_passed_; }
+
+  /// What it knows of the past; put back, of the twin where that is. Not real-time safe.
+  void exchange(StateImage& image);
 
   /// [ns], what states carry as their stamp from now on.
   void setStamp(std::int64_t stamp) { stamp_ = stamp; }

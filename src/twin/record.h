@@ -174,6 +174,8 @@ class RecordLayout {
   /// Steps since the start.
   static std::int64_t step(const double* record) noexcept { return unpacked(record[kStep]); }
   static void setStep(double* record, std::int64_t step) noexcept { record[kStep] = packed(step); }
+  /// In place of when a step was due: it is no new one, the twin was saved where it stands.
+  static constexpr std::int64_t kSaved = INT64_MIN;
   /// [ns], when the step was due; set by the loop.
   static std::int64_t scheduled(const double* record) noexcept {
     return unpacked(record[kScheduled]);

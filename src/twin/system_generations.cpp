@@ -1,5 +1,6 @@
 #include "twin/system_generations.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "scene/changed_controller.h"
@@ -21,6 +22,13 @@ std::int64_t SystemGenerations::add(std::size_t which, SystemGeneration generati
   const std::lock_guard<std::mutex> lock(mutex_);
   known_[which][++newest_] = std::make_shared<const SystemGeneration>(std::move(generation));
   return newest_;
+}
+
+void SystemGenerations::restore(std::size_t which, std::int64_t number,
+                                SystemGeneration generation) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  known_[which][number] = std::make_shared<const SystemGeneration>(std::move(generation));
+  newest_ = std::max(newest_, number);
 }
 
 std::shared_ptr<const SystemGeneration> SystemGenerations::at(std::size_t which,

@@ -30,6 +30,8 @@ class SystemGenerations {
 
   /// Takes a further generation, and returns its number.
   std::int64_t add(std::size_t which, SystemGeneration generation);
+  /// Takes one under the number that it had where it comes from; those added later go on from it.
+  void restore(std::size_t which, std::int64_t number, SystemGeneration generation);
   /// A generation that was added and not forgotten.
   std::shared_ptr<const SystemGeneration> at(std::size_t which, std::int64_t generation) const;
   /// Forgets generations before this one, but not 0, to which a reset returns.

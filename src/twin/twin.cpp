@@ -190,6 +190,20 @@ void Twin::reset() noexcept {
   control_.start(now(), running_);
 }
 
+void Twin::exchange(StateImage& image) noexcept {
+  image(steps_, drives_, inputs_, generation_, status_);
+  for (Stepper* const stepper : running_) {
+    stepper->exchange(image);
+  }
+  for (Ensemble* const ensemble : stepped_ensembles_) {
+    ensemble->exchange(image);
+    if (image.puts()) {
+      ensemble->publish(steps_);
+    }
+  }
+  image(control_);
+}
+
 std::unique_ptr<Stepper> Twin::replace(std::size_t system, std::unique_ptr<Stepper> next,
                                        std::int64_t generation) noexcept {
   running_[system]->write(state_.data());

@@ -9,6 +9,7 @@
 #include "control/drive.h"
 #include "control/inputs.h"
 #include "integration/stepper.h"
+#include "realtime/state_image.h"
 #include "scene/built_scene.h"
 #include "twin/control_loop.h"
 #include "twin/ensemble.h"
@@ -68,6 +69,9 @@ class Twin {
                                          std::int64_t generation) noexcept {
     return control_.replace(controller, std::move(next), generation);
   }
+  /// All that its next steps hang on, but what the scene says and what replace() and replaceLaw()
+  /// have put in the places of what it says: that has to be there before a state is put back.
+  void exchange(StateImage& image) noexcept;
   std::int64_t stepCount() const noexcept { return steps_; }
   /// [s], simulated: start + steps x step, from a whole number of nanoseconds.
   double time() const noexcept { return seconds(steps_); }

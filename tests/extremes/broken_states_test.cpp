@@ -105,6 +105,7 @@ class Struck final : public Stepper {
   void motion(double* out) const noexcept override { inner_->motion(out); }
   void write(double* out) const noexcept override { inner_->write(out); }
   void set(const double* q, const double* v) noexcept override { inner_->set(q, v); }
+  void exchange(StateImage& image) noexcept override { inner_->exchange(image); }
 
  private:
   std::unique_ptr<Stepper> inner_;

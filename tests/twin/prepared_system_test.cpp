@@ -41,6 +41,7 @@ class PreparedRotor final : public Stepper {
   void motion(double* out) const noexcept override { system_->motion(out); }
   void write(double* out) const noexcept override { system_->write(out); }
   void set(const double* q, const double* v) noexcept override { system_->set(q, v); }
+  void exchange(StateImage& image) noexcept override { system_->exchange(image); }
 
  private:
   std::function<std::unique_ptr<Stepper>()> rotor_;

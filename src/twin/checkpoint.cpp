@@ -1,0 +1,289 @@
+#include "twin/checkpoint.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+#include "messages/checksum.h"
+#include "messages/refusal.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr const char* kKind = "whirl_twin checkpoint ";
+constexpr int kFormat = 1;
+constexpr std::size_t kMostTold = 5;  // differences
+
+/// What the bits of a step hang on besides.
+std::string machine() {
+  std::string text = fmt::format("{} bits, compiler {}", 8 * sizeof(void*), __VERSION__);
+#if defined(__x86_64__)
+  text += ", x86_64";
+#if !defined(__clang__)
+  if (__builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0) {
+    text += " with fused multiply-add";
+  }
+#endif
+#elif defined(__aarch64__)
+  text += ", aarch64";
+#endif
+  return text;
+}
+
+[[noreturn]] void refuse(const std::string& source, const std::string& why) {
+  throw Refusal(fmt::format("{}: {}", source, why));
+}
+
+/// A line from `at` on, which goes to the next one.
+std::string lineAt(const std::string& bytes, std::size_t& at) {
+  const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
+  std::string line = bytes.substr(at, end - at);
+  at = std::min(end + 1, bytes.size());
+  return line;
+}
+
+void requireFormat(const std::string& line, const std::string& source) {
+  const std::string kind = kKind;
+  if (line.compare(0, kind.size(), kind) != 0) {
+    refuse(source, "must be a checkpoint of a twin, found another file");
+  }
+  const std::string format = line.substr(kind.size());
+  if (format != std::to_string(kFormat)) {
+    refuse(source,
+           fmt::format("must be a checkpoint of format {}, found format {:.20}", kFormat, format));
+  }
+}
+
+void requireWhole(const std::string& bytes, std::size_t at, const std::string& promise,
+                  const std::string& source) {
+  unsigned long long size = 0;
+  unsigned long long sum = 0;
+  const char* const end = promise.data() + promise.size();
+  const auto first = std::from_chars(promise.data(), end, size);
+  const bool read = first.ec == std::errc() && first.ptr != end && *first.ptr == ' ' &&
+                    end - first.ptr == 17 &&
+                    std::from_chars(first.ptr + 1, end, sum, 16).ptr == end;
+  if (!read) {
+    refuse(source, "is damaged: its second line is not a size and a checksum");
+  }
+  if (bytes.size() - at != size) {
+    refuse(source, fmt::format("is torn: must have {} bytes behind its second line, found {}", size,
+                               bytes.size() - at));
+  }
+  const std::uint64_t found = checksum(bytes.data() + at, bytes.size() - at);
+  if (found != sum) {
+    refuse(source,
+           fmt::format("is damaged: must have the checksum {:016x}, found {:016x}", sum, found));
+  }
+}
+
+void requireOrigin(const YAML::Node& head, const std::string& source) {
+  const auto version = head["version"].as<std::string>();
+  if (version != WHIRL_TWIN_VERSION) {
+    refuse(source, fmt::format("must be saved by whirl_twin {}, which is to go on with it, found "
+                               "one of whirl_twin {}",
+                               WHIRL_TWIN_VERSION, version));
+  }
+  const auto other = head["machine"].as<std::string>();
+  if (other != machine()) {
+    refuse(source, fmt::format("must be saved by a build and a processor of the same kind ({}), "
+                               "found {}",
+                               machine(), other));
+  }
+}
+
+/// An image in as many bytes as it takes; of what refuses to be taken none.
+template <class Whose>
+bool takeImage(Whose& whose, std::string& out) {
+  StateImage measured = StateImage::taking(nullptr, 0);
+  whose.exchange(measured);
+  out.resize(measured.size());
+  StateImage image = StateImage::taking(out.data(), out.size());
+  whose.exchange(image);
+  return image.sound();
+}
+
+template <class Whose>
+void put(const std::string& bytes, Whose& whose, const std::string& source) {
+  StateImage image = StateImage::putting(bytes.data(), bytes.size());
+  whose.exchange(image);
+  if (!image.sound() || image.size() != bytes.size()) {
+    refuse(source,
+           fmt::format("must be saved by this build, found a state laid out otherwise ({} bytes)",
+                       bytes.size()));
+  }
+}
+
+[[noreturn]] void cannotBeWritten(const std::string& path, int error) {
+  throw RunFailure(fmt::format("{}: cannot be written: {}", path, std::strerror(error)));
+}
+
+/// Closed when it is left.
+class Descriptor {
+ public:
+  Descriptor(const std::string& path, int flags) : number_(::open(path.c_str(), flags, 0644)) {}
+  ~Descriptor() {
+    if (number_ >= 0) {
+      ::close(number_);
+    }
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int number() const { return number_; }
+
+ private:
+  int number_;
+};
+
+bool writeAll(int file, const std::string& bytes) {
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t written = ::write(file, bytes.data() + done, bytes.size() - done);
+    if (written < 0 && errno != EINTR) {
+      return false;
+    }
+    done += written > 0 ? static_cast<std::size_t>(written) : 0;
+  }
+  return ::fsync(file) == 0;
+}
+
+}  // namespace
+
+std::string bytesOf(const Checkpoint& checkpoint) {
+  YAML::Node head;
+  head["version"] = WHIRL_TWIN_VERSION;
+  head["machine"] = machine();
+  head["step"] = checkpoint.step;
+  head["scene"] = checkpoint.scene;
+  if (checkpoint.live.IsDefined()) {
+    head["live"] = checkpoint.live;
+  }
+  head["twin"] = checkpoint.twin.size();
+  std::string rest = YAML::Dump(head) + "\n";
+  rest.push_back('\0');
+  rest += checkpoint.twin;
+  rest += checkpoint.observer;
+  return fmt::format("{}{}\n{} {:016x}\n", kKind, kFormat, rest.size(),
+                     checksum(rest.data(), rest.size())) +
+         rest;
+}
+
+Checkpoint checkpointOf(const std::string& bytes, const std::string& source) {
+  std::size_t at = 0;
+  requireFormat(lineAt(bytes, at), source);
+  const std::string promise = lineAt(bytes, at);
+  requireWhole(bytes, at, promise, source);
+  try {
+    const std::size_t end = std::min(bytes.find('\0', at), bytes.size() - 1);
+    const YAML::Node head = YAML::Load(bytes.substr(at, end - at));
+    requireOrigin(head, source);
+    Checkpoint checkpoint;
+    checkpoint.scene = head["scene"].as<SceneLines>();
+    checkpoint.step = head["step"].as<std::int64_t>();
+    checkpoint.live = head["live"];
+    const auto size = head["twin"].as<std::size_t>();
+    checkpoint.twin = bytes.substr(end + 1, size);
+    checkpoint.observer = bytes.substr(std::min(end + 1 + size, bytes.size()));
+    return checkpoint;
+  } catch (const YAML::Exception&) {
+    refuse(source, "is damaged: what it says of itself cannot be read");
+  }
+}
+
+Checkpoint readCheckpoint(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    refuse(path, "must be a checkpoint of a twin, found no such file");
+  }
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    refuse(path, fmt::format("cannot be read: {}", std::strerror(errno)));
+  }
+  const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  return checkpointOf(bytes, path);
+}
+
+void writeCheckpoint(const std::string& path, const std::string& bytes) {
+  const std::string written = fmt::format("{}.{}.part", path, ::getpid());
+  {
+    const Descriptor file(written, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC);
+    if (file.number() < 0) {
+      cannotBeWritten(path, errno);
+    }
+    if (!writeAll(file.number(), bytes)) {
+      const int error = errno;
+      ::unlink(written.c_str());
+      cannotBeWritten(path, error);
+    }
+  }
+  if (std::rename(written.c_str(), path.c_str()) != 0) {
+    const int error = errno;
+    ::unlink(written.c_str());
+    cannotBeWritten(path, error);
+  }
+  const std::filesystem::path directory = std::filesystem::path(path).parent_path();
+  const Descriptor folder(directory.empty() ? "." : directory.string(), O_RDONLY | O_DIRECTORY);
+  ::fsync(folder.number());  // the new name is on the disk, too, where the file system can say so
+}
+
+void requireScene(const Checkpoint& checkpoint, const SceneLines& scene,
+                  const std::string& source) {
+  const auto find = [](const SceneLines& lines, const std::string& key) {
+    const auto line = lines.find(key);
+    return line == lines.end() ? std::string("nothing") : line->second;
+  };
+  SceneLines all = scene;
+  all.insert(checkpoint.scene.begin(), checkpoint.scene.end());
+  std::string told;
+  std::size_t differ = 0;
+  for (const auto& [key, unused] : all) {
+    const std::string expected = find(scene, key);
+    const std::string found = find(checkpoint.scene, key);
+    if (expected != found && ++differ <= kMostTold) {
+      told += fmt::format("\n  {}: expected {:.80}, found {:.80}", key, expected, found);
+    }
+  }
+  if (differ > 0) {
+    refuse(
+        source,
+        fmt::format("was saved of another scene{}{}", told,
+                    differ > kMostTold ? fmt::format("\n  and {} more", differ - kMostTold) : ""));
+  }
+}
+
+std::string imageOf(Twin& twin) {
+  std::string image;
+  if (!takeImage(twin, image)) {
+    throw Refusal(
+        "its state cannot be saved: a controller's law owns memory, and has no exchange() "
+        "(controllers/controller_entry.h)");
+  }
+  return image;
+}
+
+std::string imageOf(Observer& observer) {
+  std::string image;
+  takeImage(observer, image);
+  return image;
+}
+
+void putBack(const Checkpoint& checkpoint, Twin& twin, const std::string& source) {
+  put(checkpoint.twin, twin, source);
+}
+
+void putBack(const Checkpoint& checkpoint, Observer& observer, const std::string& source) {
+  if (!checkpoint.observer.empty()) {
+    put(checkpoint.observer, observer, source);
+  }
+}
+
+}  // namespace whirl_twin

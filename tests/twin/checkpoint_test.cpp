@@ -1,0 +1,397 @@
+// A twin that is put back into the state that another was saved in goes on as that one does, bit
+// for bit: every shipped scene, with controllers, ensembles, commands and parameters changed live,
+// and what is told of them. Another file than a whole one of the same scene is refused.
+#include "twin/checkpoint.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "../scene/scenes.h"
+#include "controllers/controller_entry.h"
+#include "messages/checksum.h"
+#include "messages/refusal.h"
+#include "running_twin.h"
+#include "twin/live_checkpoint.h"
+
+namespace whirl_twin {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<double> recordOf(const Twin& twin) {
+  std::vector<double> record(twin.layout().size);
+  twin.write(record.data());
+  return record;
+}
+
+bool same(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+/// Numbers of a rotor's whirl and of energies, which the past of the motion is in.
+std::vector<double> toldBy(const Observer& observer) {
+  std::vector<double> told;
+  for (std::size_t i = 0; i < observer.systemCount(); ++i) {
+    told.push_back(observer.energyResidual(i));
+    told.push_back(observer.errorEstimate(i));
+    if (observer.isRotor(i)) {
+      told.push_back(observer.whirlPhase(i));
+      told.push_back(observer.whirlRadius(i));
+    }
+  }
+  return told;
+}
+
+/// A twin, and who observes each of its steps.
+struct Observed {
+  explicit Observed(const Scene& scene) : twin(scene), observer((twin.buildEnsembles(), twin)) {}
+
+  void step(int steps) {
+    for (int i = 0; i < steps; ++i) {
+      twin.step();
+      observer.observe(recordOf(twin).data());
+    }
+  }
+  Checkpoint saved() {
+    Checkpoint checkpoint;
+    checkpoint.step = twin.stepCount();
+    checkpoint.twin = imageOf(twin);
+    checkpoint.observer = imageOf(observer);
+    return checkpoint;
+  }
+  void putBack(const Checkpoint& checkpoint) {
+    whirl_twin::putBack(checkpoint, twin, "test");
+    whirl_twin::putBack(checkpoint, observer, "test");
+  }
+  std::vector<double> members() {
+    std::vector<double> all;
+    for (std::size_t i = 0; i < twin.systems().size(); ++i) {
+      if (const Ensemble* const ensemble = twin.ensemble(i)) {
+        std::vector<double> record(ensemble->recordSize());
+        ensemble->write(twin.stepCount(), record.data());
+        all.insert(all.end(), record.begin(), record.end());
+      }
+    }
+    return all;
+  }
+
+  Twin twin;
+  Observer observer;
+};
+
+std::vector<std::string> shippedScenes() {
+  std::vector<std::string> names;
+  for (const auto& file : fs::directory_iterator(WHIRL_TWIN_SOURCE "/config/scenes")) {
+    names.push_back(file.path().stem().string());
+  }
+  return names;
+}
+
+class EveryScene : public testing::TestWithParam<std::string> {
+ protected:
+  Scene scene() const {
+    return readSceneFile(WHIRL_TWIN_SOURCE "/config/scenes/" + GetParam() + ".yaml");
+  }
+};
+
+TEST_P(EveryScene, GoesOnToTheBit) {
+  constexpr int kSteps = 400;
+  Observed unbroken(scene());
+  Observed resumed(scene());
+  resumed.step(7);  // what it was before does not matter
+  for (const int before : {1, 73, 326}) {
+    unbroken.step(before);
+    const Checkpoint saved = checkpointOf(bytesOf(unbroken.saved()), "test");
+    resumed.putBack(saved);
+    ASSERT_TRUE(same(recordOf(unbroken.twin), recordOf(resumed.twin))) << before;
+    ASSERT_TRUE(same(toldBy(unbroken.observer), toldBy(resumed.observer))) << before;
+    // One goes on; the other has gone elsewhere when it is put back the next time.
+    for (int i = 0; i < kSteps; ++i) {
+      resumed.step(1);
+    }
+    Observed once_more(scene());
+    once_more.putBack(saved);
+    for (int i = 0; i < kSteps; ++i) {
+      unbroken.step(1);
+      once_more.step(1);
+      ASSERT_TRUE(same(recordOf(unbroken.twin), recordOf(once_more.twin)))
+          << "step " << unbroken.twin.stepCount() << ", saved at " << saved.step;
+      ASSERT_TRUE(same(toldBy(unbroken.observer), toldBy(once_more.observer)))
+          << "step " << unbroken.twin.stepCount() << ", saved at " << saved.step;
+    }
+    EXPECT_TRUE(same(unbroken.members(), once_more.members()));
+    EXPECT_TRUE(same(unbroken.members(), resumed.members()));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, EveryScene, testing::ValuesIn(shippedScenes()),
+                         [](const auto& each) { return each.param; });
+
+constexpr const char* kChanged = R"(
+step: 0.001
+drives: {shaft: {speed: 20.0}}
+systems:
+  rotor:
+    model: rigid_disc_rotor
+    drive: shaft
+    parameters: {mass: 6.0, polar_inertia: 0.0768, transverse_inertia: 0.03845,
+                 overhung: {length: 0.3, bending_stiffness: 1610.066}, damping_displacement: 20.0,
+                 eccentricity: 2.0e-5}
+  trolley:
+    model: cart_pendulum
+    parameters: {cart_mass: 20.0, rod_mass: 10.0, rod_length: 6.0, stiffness: 0.0}
+    inputs: {force: 1.0}
+  mass: {model: linear_system, parameters: {names: [x], mass: [[1.0]], damping: [[4.0]], stiffness: [[50.0]]}}
+controllers:
+  hold: {type: pid, rate: 230.0, measures: [mass.x], acts_on: [mass.force_x],
+         delay: {mean: 0.006, jitter: 0.002, seed: 4},
+         sensor: {noise: 1.0e-4, bandwidth: 60.0, seed: 3},
+         parameters: {kp: 20.0, ki: 100.0, kd: 1.0, setpoint: 0.02}}
+)";
+
+/// Whose loop is run by hand, changed live, saved and resumed.
+class Live : public testing::Test {
+ protected:
+  static Checkpoint saved(Running& running) {
+    Checkpoint checkpoint;
+    const auto wait = [&running] {
+      while (running.live.carriedOut() < running.live.sent()) {
+        running.cycle();
+      }
+      return true;
+    };
+    EXPECT_TRUE(takeCheckpoint(running.live, running.parameters, wait, checkpoint));
+    return checkpointOf(bytesOf(checkpoint), "test");
+  }
+  /// The records of the steps behind one.
+  static std::vector<std::vector<double>> behind(std::int64_t step, Running& running) {
+    std::vector<std::vector<double>> all;
+    while (running.live.pop(running.record.data())) {
+      if (RecordLayout::step(running.record.data()) > step) {
+        all.push_back(running.record);
+      }
+    }
+    return all;
+  }
+  static void change(Running& running) {
+    ASSERT_TRUE(running.set("rotor", "damping_displacement", 30.0).done);
+    const SpeedMove move{80.0, 40.0, 300.0, 0.0};
+    ASSERT_TRUE(running.parameters.prepareFor(0, move));
+    TwinCommand speed;
+    speed.kind = TwinCommand::Kind::kSetSpeed;
+    speed.speed = move.speed;
+    speed.max_acceleration = move.max_acceleration;
+    speed.max_jerk = move.max_jerk;
+    ASSERT_TRUE(running.live.send(speed));
+    TwinCommand force;
+    force.kind = TwinCommand::Kind::kSetInput;
+    force.system = 1;
+    force.value = -7.0;
+    force.duration = 500'000'000;
+    ASSERT_TRUE(running.live.send(force));
+    running.cycle(100);
+    ASSERT_TRUE(running.set("rotor", "mass", 7.0, 0.8).done);
+    ASSERT_TRUE(running.set("hold", "kp", 35.0).done);
+    running.cycle(50);
+    EXPECT_TRUE(running.parameters.continueRamps().empty());
+    running.cycle(60);
+  }
+  static void goOn(Running& running) {
+    for (int i = 0; i < 15; ++i) {
+      running.cycle(100);
+      EXPECT_TRUE(running.parameters.continueRamps().empty());
+    }
+  }
+};
+
+TEST_F(Live, WhatWasChangedGoesOnToTheBit) {
+  const Scene scene = sceneOf(kChanged);
+  Running unbroken(scene);
+  unbroken.cycle(301);
+  change(unbroken);
+  const Checkpoint saved = this->saved(unbroken);
+  Running resumed(scene);
+  resume(saved, resumed.live, resumed.parameters, "test");
+  EXPECT_EQ(resumed.live.stepCount(), saved.step);
+  resumed.cycle(2);  // tells where it is, and goes on as the other one did when it was saved
+  ASSERT_EQ(resumed.live.stepCount(), unbroken.live.stepCount());
+  goOn(unbroken);
+  goOn(resumed);
+  const auto expected = behind(saved.step, unbroken);
+  const auto found = behind(saved.step, resumed);
+  ASSERT_GT(expected.size(), 1500U);
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    ASSERT_TRUE(same(found[i], expected[i])) << i << " records behind";
+  }
+  // What is told of parameters goes on, too, and a reset brings the scene's back to both.
+  Observer observer(resumed.live.twin(), resumed.live.generations());
+  EXPECT_EQ(observer.parameters(0).values, [&] {
+    Observer other(unbroken.live.twin(), unbroken.live.generations());
+    return other.parameters(0).values;
+  }());
+  for (Running* const each : {&unbroken, &resumed}) {
+    each->command(TwinCommand::Kind::kReset);
+    each->parameters.restored();
+    each->cycle(200);
+  }
+  EXPECT_TRUE(same(recordOf(unbroken.live.twin()), recordOf(resumed.live.twin())));
+}
+
+struct Remembering {
+  static constexpr const char* kName = "remembering";
+  static constexpr const char* kSummary = "the value before";
+  static constexpr std::array<Parameter<Remembering>, 0> parameters() { return {}; }
+  void reset(const ControllerPlan&) noexcept { before.assign(1, 0.0); }
+  void update(const ControlSample& sample, double* outputs) noexcept {
+    outputs[0] = std::exchange(before[0], sample.values[0]);
+  }
+  std::vector<double> before;
+};
+struct Exchanging : Remembering {
+  void exchange(StateImage& image) noexcept { image(before); }
+};
+
+template <class Law>
+bool canBeSaved() {
+  LawController<Law> controller{Law(), ControllerPlan()};
+  std::vector<char> room(1000);
+  StateImage image = StateImage::taking(room.data(), room.size());
+  controller.exchange(image);
+  return image.sound();
+}
+
+TEST(ALawThatOwnsMemory, HasToSayWhatItsStateIs) {
+  EXPECT_FALSE(canBeSaved<Remembering>());
+  EXPECT_TRUE(canBeSaved<Exchanging>());
+}
+
+TEST_F(Live, AStateOfAnotherTwinIsRefused) {
+  Running running(sceneOf(kChanged));
+  running.cycle(10);
+  const Checkpoint saved = this->saved(running);
+  Running other(sceneOf(kThreeSystems));
+  try {
+    resume(saved, other.live, other.parameters, "run.checkpoint");
+    FAIL() << "it was taken";
+  } catch (const Refusal& refusal) {
+    EXPECT_EQ(std::string(refusal.what()).find("run.checkpoint: "), 0U) << refusal.what();
+  }
+}
+
+/// Of three systems, as a file.
+class File : public testing::Test {
+ protected:
+  File() : observed(sceneOf(kThreeSystems)) {
+    observed.step(50);
+    checkpoint = observed.saved();
+    checkpoint.scene = sceneLines(YAML::Load(kThreeSystems), observed.twin);
+    bytes = bytesOf(checkpoint);
+  }
+  /// Why it is refused.
+  static std::string whyNot(const std::string& bytes) {
+    try {
+      checkpointOf(bytes, "run.checkpoint");
+      return "";
+    } catch (const Refusal& refusal) {
+      return refusal.what();
+    }
+  }
+  /// With another text in place of one, and a checksum that says so.
+  std::string with(const std::string& text, const std::string& other) const {
+    const std::size_t body = bytes.find('\n', bytes.find('\n') + 1) + 1;
+    std::string rest = bytes.substr(body);
+    const std::size_t at = rest.find(text);
+    EXPECT_NE(at, std::string::npos) << text;
+    rest.replace(at, text.size(), other);
+    char promise[64];
+    std::snprintf(promise, sizeof promise, "%zu %016llx\n", rest.size(),
+                  static_cast<unsigned long long>(checksum(rest.data(), rest.size())));
+    return bytes.substr(0, bytes.find('\n') + 1) + promise + rest;
+  }
+
+  Observed observed;
+  Checkpoint checkpoint;
+  std::string bytes;
+};
+
+TEST_F(File, IsReadAsItWasWritten) {
+  const fs::path folder = fs::path(testing::TempDir()) / "checkpoint_test";
+  fs::create_directories(folder);
+  const std::string path = folder / "run.checkpoint";
+  writeCheckpoint(path, "something else");
+  writeCheckpoint(path, bytes);
+  EXPECT_EQ(bytesOf(readCheckpoint(path)), bytes);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
+  EXPECT_THROW(writeCheckpoint(folder / "none" / "run.checkpoint", bytes), RunFailure);
+  EXPECT_THROW(writeCheckpoint(folder, bytes), RunFailure);
+  EXPECT_THROW(readCheckpoint(folder / "other"), Refusal);
+  fs::remove_all(folder);
+}
+
+TEST_F(File, TornAnywhereItIsRefused) {
+  for (std::size_t length = 0; length < bytes.size(); ++length) {
+    ASSERT_EQ(whyNot(bytes.substr(0, length)).find("run.checkpoint: "), 0U) << length;
+  }
+  EXPECT_NE(whyNot(bytes.substr(0, bytes.size() - 1)).find("is torn: must have "),
+            std::string::npos);
+  EXPECT_NE(whyNot(bytes + "x"), "");
+}
+
+TEST_F(File, WithAnyByteOtherItIsRefused) {
+  std::mt19937 random(11);
+  for (int i = 0; i < 3000; ++i) {
+    std::string damaged = bytes;
+    char& byte = damaged[random() % damaged.size()];
+    byte = static_cast<char>(byte ^ (1 << random() % 8));
+    ASSERT_NE(whyNot(damaged), "");
+  }
+}
+
+TEST_F(File, OfAnotherOriginItIsRefusedInWords) {
+  EXPECT_EQ(whyNot(bytes), "");
+  EXPECT_NE(whyNot(with("version: ", "version: 0.0.1 # ")).find("found one of whirl_twin 0.0.1"),
+            std::string::npos);
+  EXPECT_NE(whyNot(with("machine: ", "machine: 36 bits # ")).find("found 36 bits"),
+            std::string::npos);
+  std::string later = bytes;
+  later.replace(later.find("checkpoint 1"), 12, "checkpoint 2");
+  EXPECT_EQ(whyNot(later), "run.checkpoint: must be a checkpoint of format 1, found format 2");
+  EXPECT_EQ(whyNot("time,rotor.x\n0,0\n"),
+            "run.checkpoint: must be a checkpoint of a twin, found another file");
+  EXPECT_NE(whyNot(with("version", "vorsion")), "");
+}
+
+TEST_F(File, OfAnotherSceneItIsRefusedByWhatIsOther) {
+  const auto whyNotFor = [&](const std::string& yaml) -> std::string {
+    const Twin twin(sceneOf(yaml));
+    try {
+      requireScene(checkpoint, sceneLines(YAML::Load(yaml), twin), "run.checkpoint");
+      return "";
+    } catch (const Refusal& refusal) {
+      return refusal.what();
+    }
+  };
+  std::string yaml = kThreeSystems;
+  EXPECT_EQ(whyNotFor(yaml), "");
+  const auto replace = [&](const std::string& text, const std::string& other) {
+    yaml.replace(yaml.find(text), text.size(), other);
+  };
+  replace("stiffness: 1.0e4", "stiffness: 10000");  // the same number
+  EXPECT_EQ(whyNotFor(yaml), "");
+  replace("stiffness: 10000", "stiffness: 2.5e4");
+  EXPECT_EQ(whyNotFor(yaml),
+            "run.checkpoint: was saved of another scene\n"
+            "  systems.rotor.parameters.stiffness: expected 25000, found 10000");
+}
+
+}  // namespace
+}  // namespace whirl_twin
