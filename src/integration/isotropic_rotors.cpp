@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kLongestPart = 2.0;  // rad, of shaft and whirl together
 constexpr int kMostParts = 1000000;
+constexpr std::size_t kAtATime = 64;  // parts: as many as are kept beside eight rotors
 
 /// Gauss-Legendre on 0..1, order 12.
 constexpr std::array<double, 6> kGaussNodes{0.033765242898423986094, 0.16939530676686774317,
@@ -54,6 +55,16 @@ int partsFor(const std::vector<IsotropicRotor>& rotors, double h, double highest
   return static_cast<int>(std::clamp(parts, 1.0, static_cast<double>(kMostParts)));
 }
 
+std::complex<double> markOf(const IsotropicRotor& rotor) {
+  const double size = std::abs(rotor.eccentricity);
+  return size > 0.0 ? rotor.eccentricity / size : 1.0;
+}
+
+bool anyBowed(const std::vector<IsotropicRotor>& rotors) {
+  return std::any_of(rotors.begin(), rotors.end(),
+                     [](const IsotropicRotor& rotor) { return rotor.bow_force != 0.0; });
+}
+
 }  // namespace
 
 IsotropicRotors::IsotropicRotors(const std::vector<IsotropicRotor>& rotors, double h,
@@ -62,13 +73,15 @@ IsotropicRotors::IsotropicRotors(const std::vector<IsotropicRotor>& rotors, doub
       parts_(finer * partsFor(rotors, h, highest_speed)),
       part_(h / parts_),
       limit_speed_(2.0 * kLongestPart / part_ - fastest(rotors)),
+      bowed_(anyBowed(rotors)),
+      later_(kAtATime),
       rotors_(rotors),
       frequencies_(rotors.size()),
       blocks_((rotors.size() + kLanes - 1) / kLanes) {
   for (std::size_t i = 0; i < count_; ++i) {
     frequencies_[i] = powerOfTwo(std::sqrt(rotors[i].stiffness));
+    marks_.push_back(markOf(rotors[i]));
     prepare(blocks_[i / kLanes], i % kLanes, rotors[i]);
-    kinds_ = rotors[i].bow_force != 0.0 ? 2 : kinds_;
   }
   reset();
 }
@@ -85,15 +98,17 @@ void IsotropicRotors::prepare(Block& block, std::size_t lane, const IsotropicRot
   for (std::size_t k = 0; k < kNodes; ++k) {
     const Eigen::Matrix2d rest =
         exponentialLessIdentity<2>(Eigen::Matrix2d((1.0 - kGaussNodes[k]) * part_ * a));
-    const double weight = kGaussWeights[k] * part_ / frequency;
+    const double weight =
+        kGaussWeights[k] * part_ / frequency * (bowed_ ? 1.0 : std::abs(rotor.eccentricity));
     block.to_z[k][lane] = weight * rest(0, 1);
     block.to_w[k][lane] = weight * (rest(1, 1) + 1.0);
   }
-  block.factor_re[0][lane] = rotor.eccentricity.real();
-  block.factor_im[0][lane] = rotor.eccentricity.imag();
-  block.factor_re[1][lane] = rotor.bow_force.real();
-  block.factor_im[1][lane] = rotor.bow_force.imag();
-  const std::complex<double> rest = rotor.load / rotor.stiffness;
+  const std::complex<double> mark = markOf(rotor);
+  const std::complex<double> bow = rotor.bow_force * std::conj(mark);
+  block.eccentricity[lane] = std::abs(rotor.eccentricity);
+  block.bow_re[lane] = bow.real();
+  block.bow_im[lane] = bow.imag();
+  const std::complex<double> rest = rotor.load / rotor.stiffness * std::conj(mark);
   block.rest_re[lane] = rest.real();
   block.rest_im[lane] = rest.imag();
 }
@@ -103,22 +118,38 @@ void IsotropicRotors::reset() noexcept {
     Block& block = blocks_[i / kLanes];
     const std::size_t lane = i % kLanes;
     const IsotropicRotor& rotor = rotors_[i];
-    block.z_re[lane] = rotor.start.real() - block.rest_re[lane];
-    block.z_im[lane] = rotor.start.imag() - block.rest_im[lane];
-    block.w_re[lane] = rotor.start_rate.real() / frequencies_[i];
-    block.w_im[lane] = rotor.start_rate.imag() / frequencies_[i];
+    const std::complex<double> start = rotor.start * std::conj(marks_[i]);
+    const std::complex<double> rate = rotor.start_rate * std::conj(marks_[i]);
+    block.z_re[lane] = start.real() - block.rest_re[lane];
+    block.z_im[lane] = start.imag() - block.rest_im[lane];
+    block.w_re[lane] = rate.real() / frequencies_[i];
+    block.w_im[lane] = rate.imag() / frequencies_[i];
     block.peak_square[lane] = std::norm(rotor.start);
   }
+  waiting_ = 0;
 }
 
 void IsotropicRotors::step(const Drive& drive) noexcept {
+  stepLater(drive);
+  catchUp();
+}
+
+void IsotropicRotors::stepLater(const Drive& drive) noexcept {
   for (int i = 0; i < parts_; ++i) {
     const double offset = i * part_;
     const double sliver = ShaftNodes::kSliver * part_;
     const bool smooth = drive.nextCorner(offset + sliver) - offset > part_ - sliver;
-    advance(blocks_.data(), blocks_.size(),
-            smooth ? sampled(drive, offset) : projected(drive, offset), kinds_, i + 1 == parts_);
+    later_[waiting_] = smooth ? sampled(drive, offset) : projected(drive, offset);
+    later_[waiting_].last = i + 1 == parts_;
+    if (++waiting_ == later_.size()) {
+      catchUp();
+    }
   }
+}
+
+void IsotropicRotors::catchUp() noexcept {
+  advance(blocks_.data(), blocks_.size(), later_.data(), waiting_, bowed_);
+  waiting_ = 0;
 }
 
 IsotropicRotors::Forces IsotropicRotors::sampled(const Drive& drive, double offset) const noexcept {
@@ -127,10 +158,10 @@ IsotropicRotors::Forces IsotropicRotors::sampled(const Drive& drive, double offs
     const ShaftMotion shaft = drive.at(offset + kGaussNodes[k] * part_);
     const std::complex<double> turn{std::cos(shaft.angle), std::sin(shaft.angle)};
     const std::complex<double> unbalance = unbalanceForce(shaft, turn);
-    forces[0].re[k] = unbalance.real();
-    forces[0].im[k] = unbalance.imag();
-    forces[1].re[k] = turn.real();
-    forces[1].im[k] = turn.imag();
+    forces.unbalance.re[k] = unbalance.real();
+    forces.unbalance.im[k] = unbalance.imag();
+    forces.bow.re[k] = turn.real();
+    forces.bow.im[k] = turn.imag();
   }
   return forces;
 }
@@ -151,68 +182,90 @@ IsotropicRotors::Forces IsotropicRotors::projected(const Drive& drive,
   Forces forces;
   for (std::size_t k = 0; k < kNodes; ++k) {
     const std::array<double, kNodes> p = legendre(2.0 * kGaussNodes[k] - 1.0);
-    for (std::size_t kind = 0; kind < forces.size(); ++kind) {
-      for (std::size_t j = 0; j < kNodes; ++j) {
-        forces[kind].re[k] += p[j] * coefficients[kind][j].real();
-        forces[kind].im[k] += p[j] * coefficients[kind][j].imag();
-      }
+    for (std::size_t j = 0; j < kNodes; ++j) {
+      forces.unbalance.re[k] += p[j] * coefficients[0][j].real();
+      forces.unbalance.im[k] += p[j] * coefficients[0][j].imag();
+      forces.bow.re[k] += p[j] * coefficients[1][j].real();
+      forces.bow.im[k] += p[j] * coefficients[1][j].imag();
     }
   }
   return forces;
 }
 
-WHIRL_TWIN_VECTOR_WIDTHS
-void IsotropicRotors::advance(Block* blocks, std::size_t count, const Forces& forces,
-                              std::size_t kinds, bool peaks) noexcept {
-  for (std::size_t i = 0; i < count; ++i) {
-    Block& b = blocks[i];
-    Lanes z_re = b.p_zz * b.z_re + b.p_zw * b.w_re;
-    Lanes z_im = b.p_zz * b.z_im + b.p_zw * b.w_im;
-    Lanes w_re = b.p_wz * b.z_re + b.p_ww * b.w_re;
-    Lanes w_im = b.p_wz * b.z_im + b.p_ww * b.w_im;
-    for (std::size_t kind = 0; kind < kinds; ++kind) {
-      const Force& force = forces[kind];
-      Lanes to_z_re{};
-      Lanes to_z_im{};
-      Lanes to_w_re{};
-      Lanes to_w_im{};
-      for (std::size_t k = 0; k < kNodes; ++k) {
-        to_z_re += b.to_z[k] * force.re[k];
-        to_z_im += b.to_z[k] * force.im[k];
-        to_w_re += b.to_w[k] * force.re[k];
-        to_w_im += b.to_w[k] * force.im[k];
-      }
-      const Lanes re = b.factor_re[kind];
-      const Lanes im = b.factor_im[kind];
-      z_re += re * to_z_re - im * to_z_im;
-      z_im += re * to_z_im + im * to_z_re;
-      w_re += re * to_w_re - im * to_w_im;
-      w_im += re * to_w_im + im * to_w_re;
+/// Inlined, so that it is compiled for the width of who calls it.
+template <bool bowed>
+__attribute__((always_inline)) inline void IsotropicRotors::advanceOne(Block& block,
+                                                                       const Forces* forces,
+                                                                       std::size_t parts) noexcept {
+  Block b = block;  // in registers, where there are enough
+  for (std::size_t part = 0; part < parts; ++part) {
+    const auto& [unbalance, bow, last] = forces[part];
+    Lanes to_z_re{}, to_z_im{}, to_w_re{}, to_w_im{};
+    for (std::size_t k = 0; k < kNodes; ++k) {
+      to_z_re += b.to_z[k] * unbalance.re[k];
+      to_z_im += b.to_z[k] * unbalance.im[k];
+      to_w_re += b.to_w[k] * unbalance.re[k];
+      to_w_im += b.to_w[k] * unbalance.im[k];
     }
+    if (bowed) {
+      Lanes bow_z_re{}, bow_z_im{}, bow_w_re{}, bow_w_im{};
+      for (std::size_t k = 0; k < kNodes; ++k) {
+        bow_z_re += b.to_z[k] * bow.re[k];
+        bow_z_im += b.to_z[k] * bow.im[k];
+        bow_w_re += b.to_w[k] * bow.re[k];
+        bow_w_im += b.to_w[k] * bow.im[k];
+      }
+      to_z_re = b.eccentricity * to_z_re + b.bow_re * bow_z_re - b.bow_im * bow_z_im;
+      to_z_im = b.eccentricity * to_z_im + b.bow_re * bow_z_im + b.bow_im * bow_z_re;
+      to_w_re = b.eccentricity * to_w_re + b.bow_re * bow_w_re - b.bow_im * bow_w_im;
+      to_w_im = b.eccentricity * to_w_im + b.bow_re * bow_w_im + b.bow_im * bow_w_re;
+    }
+    const Lanes z_re = b.p_zz * b.z_re + b.p_zw * b.w_re + to_z_re;
+    const Lanes z_im = b.p_zz * b.z_im + b.p_zw * b.w_im + to_z_im;
+    const Lanes w_re = b.p_wz * b.z_re + b.p_ww * b.w_re + to_w_re;
+    const Lanes w_im = b.p_wz * b.z_im + b.p_ww * b.w_im + to_w_im;
     b.z_re += z_re;
     b.z_im += z_im;
     b.w_re += w_re;
     b.w_im += w_im;
-    if (!peaks) {
-      continue;
+    if (last) {
+      const Lanes x = b.z_re + b.rest_re;
+      const Lanes y = b.z_im + b.rest_im;
+      const Lanes square = x * x + y * y;
+      b.peak_square = square > b.peak_square ? square : b.peak_square;
     }
-    const Lanes x = b.z_re + b.rest_re;
-    const Lanes y = b.z_im + b.rest_im;
-    const Lanes square = x * x + y * y;
-    b.peak_square = square > b.peak_square ? square : b.peak_square;
+  }
+  block.z_re = b.z_re;
+  block.z_im = b.z_im;
+  block.w_re = b.w_re;
+  block.w_im = b.w_im;
+  block.peak_square = b.peak_square;
+}
+
+WHIRL_TWIN_VECTOR_WIDTHS
+void IsotropicRotors::advance(Block* blocks, std::size_t count, const Forces* forces,
+                              std::size_t parts, bool bowed) noexcept {
+  for (std::size_t i = 0; i < count; ++i) {
+    if (bowed) {
+      advanceOne<true>(blocks[i], forces, parts);
+    } else {
+      advanceOne<false>(blocks[i], forces, parts);
+    }
   }
 }
 
 std::complex<double> IsotropicRotors::position(std::size_t rotor) const noexcept {
   const Block& block = blocks_[rotor / kLanes];
   const std::size_t lane = rotor % kLanes;
-  return {block.z_re[lane] + block.rest_re[lane], block.z_im[lane] + block.rest_im[lane]};
+  return marks_[rotor] * std::complex<double>{block.z_re[lane] + block.rest_re[lane],
+                                              block.z_im[lane] + block.rest_im[lane]};
 }
 
 std::complex<double> IsotropicRotors::rate(std::size_t rotor) const noexcept {
   const Block& block = blocks_[rotor / kLanes];
   const std::size_t lane = rotor % kLanes;
-  return frequencies_[rotor] * std::complex<double>{block.w_re[lane], block.w_im[lane]};
+  return frequencies_[rotor] * marks_[rotor] *
+         std::complex<double>{block.w_re[lane], block.w_im[lane]};
 }
 
 void IsotropicRotors::put(std::size_t rotor, const IsotropicRotors& others,

@@ -9,9 +9,10 @@
 // motion goes by its propagator, exact for any step, and the forces by Gauss-Legendre quadrature of
 // six nodes at the shaft's exact angle (variation of constants). They are the same for all rotors
 // but for the factors E and B: a step evaluates them once, and every rotor takes their sum with
-// weights of its own. Steps are parted so that in a part the shaft turns, and the free motion
-// whirls or decays, by no more than 2 rad together at the highest speed prepared for; six nodes
-// then leave 2e-12 of the force, and 2^12 times as much at twice the angle. Sums are not
+// weights of its own. Each rotor's plane is turned so that its mark is the first axis, which makes
+// its eccentricity one number. Steps are parted so that in a part the shaft turns, and the free
+// motion whirls or decays, by no more than 2 rad together at the highest speed prepared for; six
+// nodes then leave 2e-12 of the force, and 2^12 times as much at twice the angle. Sums are not
 // compensated. A corner of the drive's profile inside a step costs nothing: the nodes then stand
 // for the force's projection on quintics.
 #pragma once
@@ -55,6 +56,11 @@ class IsotropicRotors {
   void exchange(StateImage& image) noexcept { image(blocks_); }
   /// Advances all by h from the drive's begin().
   void step(const Drive& drive) noexcept;
+  /// As step(), but the rotors may stay where they are until catchUp(): many steps of few rotors at
+  /// a time, which the processor keeps at hand, are sooner done than a step of all after another.
+  /// What is asked in between is of where they are. The same to the last bit.
+  void stepLater(const Drive& drive) noexcept;
+  void catchUp() noexcept;
   /// [m], z of a rotor. Not finite: it ran away.
   std::complex<double> position(std::size_t rotor) const noexcept;
   /// [m/s], z' likewise.
@@ -70,25 +76,31 @@ class IsotropicRotors {
   /// One number of each of eight rotors; narrower machines take them in parts.
   typedef double Lanes __attribute__((vector_size(64)));
 
-  /// Eight rotors; positions from where the load holds them, rates in parts of the frequency.
+  /// Eight rotors, along the mark and across it; positions from where the load holds them, rates in
+  /// parts of the frequency.
   struct alignas(64) Block {
     Lanes z_re, z_im, w_re, w_im;
     Lanes peak_square;             // [m^2]
     Lanes p_zz, p_zw, p_wz, p_ww;  // e^(A h) - I
-    Lanes to_z[kNodes];            // of the force at each node
-    Lanes to_w[kNodes];
-    Lanes factor_re[2], factor_im[2];  // eccentricity and bow
+    // Of the force at each node: of the eccentricity, or of unit force where there is a bow.
+    Lanes to_z[kNodes], to_w[kNodes];
+    Lanes eccentricity, bow_re, bow_im;  // where there is a bow
     Lanes rest_re, rest_im;
   };
   /// At the nodes.
   struct Force {
     std::array<double, kNodes> re{}, im{};
   };
-  /// Of unit eccentricity and of unit bow.
-  using Forces = std::array<Force, 2>;
+  /// In a part, of unit eccentricity and of unit bow.
+  struct Forces {
+    Force unbalance, bow;
+    bool last = true;  // of its step
+  };
 
-  static void advance(Block* blocks, std::size_t count, const Forces& forces, std::size_t kinds,
-                      bool peaks) noexcept;
+  static void advance(Block* blocks, std::size_t count, const Forces* forces, std::size_t parts,
+                      bool bowed) noexcept;
+  template <bool bowed>
+  static void advanceOne(Block& block, const Forces* forces, std::size_t parts) noexcept;
   void prepare(Block& block, std::size_t lane, const IsotropicRotor& rotor) const;
   Forces sampled(const Drive& drive, double offset) const noexcept;
   Forces projected(const Drive& drive, double offset) const noexcept;
@@ -97,9 +109,12 @@ class IsotropicRotors {
   int parts_ = 1;
   double part_;  // [s]
   double limit_speed_;
-  std::size_t kinds_ = 1;  // of force: 2 where there is a bow
+  bool bowed_;
+  std::vector<Forces> later_;  // of parts that are still to be taken
+  std::size_t waiting_ = 0;    // of them
   std::vector<IsotropicRotor> rotors_;
-  std::vector<double> frequencies_;  // [rad/s], the rates' units
+  std::vector<double> frequencies_;          // [rad/s], the rates' units
+  std::vector<std::complex<double>> marks_;  // [-], directions of the eccentricities
   std::vector<Block> blocks_;
 };
 

@@ -6,13 +6,14 @@
 
 #include "messages/refusal.h"
 #include "realtime/denormals.h"
+#include "scene/parameter_paths.h"
+#include "scene/yaml_file.h"
 #include "twin/ensemble_members.h"
 
 namespace whirl_twin {
 
 namespace {
 
-const char* const kTogether = "side by side in vectors";
 const char* const kMethod = "exponential";
 
 bool isNamed(const SceneNumber& place, std::size_t at, const std::string& name) {
@@ -33,13 +34,23 @@ BlockEvaluator::BlockEvaluator(const Study& study, const StepsChosen& steps,
       stop_(stop),
       one_(study, steps, stop),
       scene_(build(one_.sceneAt({}))),
-      together_(mayGoTogether()) {}
+      together_(mayGoTogether()) {
+  if (together_) {
+    quick_.emplace(study, scene_);
+  }
+}
 
 /// One system on a shaft that turns alike at all points, and measured by its peak alone.
 bool BlockEvaluator::mayGoTogether() const {
   const Scene& scene = scene_.scene;
   if (!study_.duration || scene.systems.size() != 1 || !scene.controllers.empty() ||
       !scene_.systems[0]->dynamics->isRotor() || scene_.systems[0]->integrator != kMethod) {
+    return false;
+  }
+  const bool avoids =  // critical speeds, which are each point's own
+      std::any_of(scene.drives.begin(), scene.drives.end(),
+                  [](const DriveSpec& drive) { return !drive.avoid.empty(); });
+  if (avoids) {
     return false;
   }
   const std::string& name = scene.systems[0].name;
@@ -95,30 +106,89 @@ Outcome BlockEvaluator::at(std::uint64_t point) {
   return one_.at(study_.valuesAt(point));
 }
 
+BlockEvaluator::Quick::Quick(const Study& study, const BuiltScene& scene)
+    : model(*scene.systems[0]->model), spec(scene.scene.systems[0]) {
+  const YAML::Node tree = readYamlText(study.scene_text, study.scene_path, "a scene", "a step");
+  const YAML::Node given = tree["systems"][spec.name]["parameters"];
+  for (const Variation& variation : study.vary) {
+    const SceneNumber& place = variation.places.front();
+    possible = possible && variation.places.size() == 1 && place.size() == 4 &&
+               isNamed(place, 2, "parameters") && std::holds_alternative<std::string>(place[3]);
+    names.push_back(possible ? std::get<std::string>(place[3]) : "");
+  }
+  for (const ParameterInfo& p : model.parameters) {
+    if (!p.fallback_parameter.empty() && !(given && given[p.name]) &&
+        std::find(names.begin(), names.end(), p.name) == names.end()) {
+      followers.emplace_back(p.name, p.fallback_parameter);
+    }
+  }
+}
+
+bool BlockEvaluator::Quick::put(const std::vector<double>& values) {
+  Complaints complaints("");
+  for (std::size_t j = 0; j < names.size(); ++j) {
+    if (!setParameter(names[j], values[j], model, spec, complaints)) {
+      return false;
+    }
+  }
+  for (const auto& [name, source] : followers) {
+    spec.parameters[name] = spec.parameters.at(source);
+  }
+  return true;
+}
+
+/// Whether it makes what reading the whole scene makes.
+bool BlockEvaluator::isQuick(const std::vector<double>& values) {
+  if (!quick_->possible || !quick_->put(values)) {
+    return false;
+  }
+  try {
+    const SystemSpec read = one_.sceneAt(values).systems.front();
+    return read.parameters == quick_->spec.parameters && read.q == quick_->spec.q &&
+           read.v == quick_->spec.v && read.speed == quick_->spec.speed;
+  } catch (const Refusal&) {
+    return false;
+  }
+}
+
+std::optional<IsotropicRotor> BlockEvaluator::rotorAt(const std::vector<double>& values,
+                                                      bool quick) {
+  if (!quick || !quick_->put(values)) {
+    const SystemSpec spec = one_.sceneAt(values).systems.front();
+    return isotropicRotor(*spec.setup->made.dynamics, spec);
+  }
+  const SystemSpec& spec = quick_->spec;
+  const ModelSetup made = quick_->model.setUp(spec.parameters, spec.settings, spec.setup->around);
+  return isotropicRotor(*made.dynamics, spec);
+}
+
 std::optional<std::vector<Outcome>> BlockEvaluator::together(std::uint64_t block) {
   std::vector<Outcome> all(study_.sizeOf(block));
-  std::vector<EnsembleMember> members;
-  std::vector<std::size_t> places;  // of the members among the points
+  std::vector<IsotropicRotor> rotors;
+  std::vector<std::size_t> places;  // of the rotors among the points
   const auto values = [&](std::size_t i) { return study_.valuesAt(study_.firstOf(block) + i); };
+  const bool quick = isQuick(values(0)) && isQuick(values(all.size() - 1));
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (stop_.load(std::memory_order_relaxed)) {
       throw Interrupted();
     }
     try {
-      SystemSpec spec = one_.sceneAt(values(i)).systems.front();
-      ModelSetup made = spec.setup->made;
-      members.push_back({std::move(spec), std::move(made)});
+      const std::optional<IsotropicRotor> rotor = rotorAt(values(i), quick);
+      if (!rotor) {
+        return std::nullopt;
+      }
+      rotors.push_back(*rotor);
       places.push_back(i);
-    } catch (const Refusal&) {
+    } catch (const std::exception&) {
       all[i] = one_.at(values(i));  // which says why
     }
   }
-  if (members.empty()) {
+  if (rotors.empty()) {
     return all;
   }
   Drive drive = scene_.driveOf(*scene_.systems[0]);
-  const auto steps = ensembleSteps(members, kMethod, Excitation(drive), scene_.scene.stepSeconds());
-  if (std::string(steps->description()) != kTogether) {
+  IsotropicRotors steps(rotors, scene_.scene.stepSeconds(), highestSpeed(drive));
+  if (steps.parts() > kMostPartsSideBySide) {
     return std::nullopt;
   }
   const auto count =
@@ -128,16 +198,14 @@ std::optional<std::vector<Outcome>> BlockEvaluator::together(std::uint64_t block
     if (stop_.load(std::memory_order_relaxed)) {
       throw Interrupted();
     }
-    const std::int64_t now = scene_.scene.time + step * scene_.scene.step;
-    drive.begin(now);
-    steps->step(static_cast<double>(now) * 1.0e-9);
+    drive.begin(scene_.scene.time + step * scene_.scene.step);
+    steps.stepLater(drive);
   }
-  std::vector<double> radii(members.size());
-  std::vector<double> peaks(members.size());
-  steps->write(radii.data(), peaks.data());
-  for (std::size_t m = 0; m < members.size(); ++m) {
+  steps.catchUp();
+  for (std::size_t m = 0; m < rotors.size(); ++m) {
     const std::vector<double> point = values(places[m]);
-    if (!std::isfinite(peaks[m]) || !std::isfinite(radii[m])) {
+    const double peak = steps.peak(m);
+    if (!std::isfinite(peak) || !std::isfinite(std::norm(steps.position(m)))) {
       all[places[m]] = one_.at(point);
       continue;
     }
@@ -148,7 +216,7 @@ std::optional<std::vector<Outcome>> BlockEvaluator::together(std::uint64_t block
                                          [&](const Variation& v) { return v.path == leaf.path; });
         leaves.push_back(leaf.reduction.empty()
                              ? point[static_cast<std::size_t>(varied - study_.vary.begin())]
-                             : peaks[m]);
+                             : peak);
       }
       all[places[m]].measures.push_back(measure.expression.value(leaves));
     }

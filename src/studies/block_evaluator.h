@@ -7,8 +7,11 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "integration/isotropic_rotors.h"
 #include "scene/built_scene.h"
 #include "studies/point_evaluator.h"
 
@@ -29,7 +32,24 @@ class BlockEvaluator {
   Outcome at(std::uint64_t point);
 
  private:
+  /// The system with other parameters, without reading the whole scene again, where nothing but
+  /// parameters varies.
+  struct Quick {
+    Quick(const Study& study, const BuiltScene& scene);
+    /// False: one of them is out of range.
+    bool put(const std::vector<double>& values);
+
+    bool possible = true;
+    const ModelInfo& model;
+    SystemSpec spec;
+    std::vector<std::string> names;                              // of what varies
+    std::vector<std::pair<std::string, std::string>> followers;  // parameters, and of which
+  };
+
   bool mayGoTogether() const;
+  bool isQuick(const std::vector<double>& values);
+  /// Nothing: it is not such a rotor. Throws what a system that is refused throws.
+  std::optional<IsotropicRotor> rotorAt(const std::vector<double>& values, bool quick);
   /// Nothing where they cannot go together after all.
   std::optional<std::vector<Outcome>> together(std::uint64_t block);
 
@@ -38,6 +58,7 @@ class BlockEvaluator {
   PointEvaluator one_;
   BuiltScene scene_;  // as it is
   bool together_;
+  std::optional<Quick> quick_;
 };
 
 }  // namespace whirl_twin

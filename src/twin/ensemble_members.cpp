@@ -10,7 +10,6 @@
 
 #include "integration/exponential.h"
 #include "integration/finite.h"
-#include "integration/isotropic_rotors.h"
 #include "integration/step_error_sum.h"
 #include "twin/members_side_by_side.h"
 #include "twin/record.h"
@@ -19,50 +18,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr int kMostParts = 64;
 constexpr double kStopped = std::numeric_limits<double>::quiet_NaN();
-
-/// The member as one complex number, if it is isotropic, linear and free of what turns with the
-/// shaft; a matrix isotropic but for rounding is not.
-std::optional<IsotropicRotor> isotropicRotor(const EnsembleMember& member) {
-  const Dynamics& dynamics = *member.setup.dynamics;
-  if (!dynamics.isRotor() || !dynamics.linear() || dynamics.dof() != 2) {
-    return std::nullopt;
-  }
-  const Station seen = dynamics.stations().front();
-  if (seen.along_x != Eigen::Vector2d::UnitX() || seen.along_y != Eigen::Vector2d::UnitY()) {
-    return std::nullopt;
-  }
-  const LinearRotor rotor = dynamics.linearRotor();
-  const Linearization l = rotor.matrices(0.0);
-  const auto isotropic = [](const Eigen::MatrixXd& m) {
-    return m(0, 0) == m(1, 1) && m(0, 1) == 0.0 && m(1, 0) == 0.0;
-  };
-  if (rotor.speed_dependent || !(l.stiffness(0, 0) > 0.0) || !isotropic(l.mass) ||
-      !isotropic(l.damping) || !isotropic(l.stiffness) || !l.gyroscopic.isZero(0.0) ||
-      !l.circulatory.isZero(0.0)) {
-    return std::nullopt;
-  }
-  const double mass = l.mass(0, 0);
-  IsotropicRotor found;
-  found.damping = l.damping(0, 0) / mass;
-  found.stiffness = l.stiffness(0, 0) / mass;
-  found.load = std::complex<double>(rotor.load[0], rotor.load[1]) / mass;
-  for (const ShaftForce& force : rotor.forces) {
-    // Re[F e^(i theta)] along x and Re[-i F e^(i theta)] along y: a force that turns as it is.
-    const std::complex<double> amplitude = force.amplitude[0];
-    const std::complex<double> aside = std::complex<double>(0.0, -1.0) * amplitude;
-    if (force.harmonic != 1 ||
-        std::abs(force.amplitude[1] - aside) > 1.0e-12 * std::abs(amplitude)) {
-      return std::nullopt;
-    }
-    (force.inertial ? found.eccentricity : found.bow_force) += amplitude / mass;
-  }
-  const SystemSpec& spec = member.spec;
-  found.start = {spec.q[0], spec.q[1]};
-  found.start_rate = {spec.v[0], spec.v[1]};
-  return found;
-}
 
 class SideBySide final : public EnsembleSteps {
  public:
@@ -114,10 +70,6 @@ class SideBySide final : public EnsembleSteps {
   }
 
  private:
-  static double highestSpeed(const Drive& drive) {
-    const auto [low, high] = drive.speedRange();
-    return std::fmax(std::fabs(low), std::fabs(high));
-  }
   static std::vector<IsotropicRotor> of(const std::vector<std::size_t>& members,
                                         const std::vector<IsotropicRotor>& rotors) {
     std::vector<IsotropicRotor> chosen;
@@ -257,6 +209,49 @@ class OneByOne final : public EnsembleSteps {
 
 }  // namespace
 
+std::optional<IsotropicRotor> isotropicRotor(const Dynamics& dynamics, const SystemSpec& spec) {
+  if (!dynamics.isRotor() || !dynamics.linear() || dynamics.dof() != 2) {
+    return std::nullopt;
+  }
+  const Station seen = dynamics.stations().front();
+  if (seen.along_x != Eigen::Vector2d::UnitX() || seen.along_y != Eigen::Vector2d::UnitY()) {
+    return std::nullopt;
+  }
+  const LinearRotor rotor = dynamics.linearRotor();
+  const Linearization l = rotor.matrices(0.0);
+  const auto isotropic = [](const Eigen::MatrixXd& m) {
+    return m(0, 0) == m(1, 1) && m(0, 1) == 0.0 && m(1, 0) == 0.0;
+  };
+  if (rotor.speed_dependent || !(l.stiffness(0, 0) > 0.0) || !isotropic(l.mass) ||
+      !isotropic(l.damping) || !isotropic(l.stiffness) || !l.gyroscopic.isZero(0.0) ||
+      !l.circulatory.isZero(0.0)) {
+    return std::nullopt;
+  }
+  const double mass = l.mass(0, 0);
+  IsotropicRotor found;
+  found.damping = l.damping(0, 0) / mass;
+  found.stiffness = l.stiffness(0, 0) / mass;
+  found.load = std::complex<double>(rotor.load[0], rotor.load[1]) / mass;
+  for (const ShaftForce& force : rotor.forces) {
+    // Re[F e^(i theta)] along x and Re[-i F e^(i theta)] along y: a force that turns as it is.
+    const std::complex<double> amplitude = force.amplitude[0];
+    const std::complex<double> aside = std::complex<double>(0.0, -1.0) * amplitude;
+    if (force.harmonic != 1 ||
+        std::abs(force.amplitude[1] - aside) > 1.0e-12 * std::abs(amplitude)) {
+      return std::nullopt;
+    }
+    (force.inertial ? found.eccentricity : found.bow_force) += amplitude / mass;
+  }
+  found.start = {spec.q[0], spec.q[1]};
+  found.start_rate = {spec.v[0], spec.v[1]};
+  return found;
+}
+
+double highestSpeed(const Drive& drive) {
+  const auto [low, high] = drive.speedRange();
+  return std::fmax(std::fabs(low), std::fabs(high));
+}
+
 std::vector<std::size_t> sampledMembers(std::size_t count) {
   const std::size_t sampled = std::min(count, kMostSampled);
   std::vector<std::size_t> members;
@@ -273,13 +268,13 @@ std::unique_ptr<EnsembleSteps> ensembleSteps(const std::vector<EnsembleMember>& 
   if (integrator == Exponential<1>::kName && excitation.inputs == nullptr) {
     std::vector<IsotropicRotor> rotors;
     for (const EnsembleMember& member : members) {
-      if (const auto rotor = isotropicRotor(member)) {
+      if (const auto rotor = isotropicRotor(*member.setup.dynamics, member.spec)) {
         rotors.push_back(*rotor);
       }
     }
     if (rotors.size() == members.size()) {
       auto together = std::make_unique<SideBySide>(rotors, excitation.drive, step);
-      if (together->parts() <= kMostParts) {
+      if (together->parts() <= kMostPartsSideBySide) {
         return together;
       }
     }

@@ -4,9 +4,11 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "integration/isotropic_rotors.h"
 #include "models/model_info.h"
 #include "scene/scene.h"
 #include "twin/ensemble.h"
@@ -22,6 +24,16 @@ constexpr std::size_t kMostSampled = 8;  ///< members, whose errors are measured
 
 /// These, evenly spread over so many.
 std::vector<std::size_t> sampledMembers(std::size_t count);
+
+/// A system as one complex number, if it is an isotropic linear rotor of one disc, free of what
+/// turns with the shaft; a matrix isotropic but for rounding is not.
+std::optional<IsotropicRotor> isotropicRotor(const Dynamics& dynamics, const SystemSpec& spec);
+
+/// [rad/s], of either sign, that the drive is ever told to have.
+double highestSpeed(const Drive& drive);
+
+/// Of a step: with more of them one by one is faster.
+constexpr int kMostPartsSideBySide = 64;
 
 /// Of at least one member, with the scene's step [s]. The excitation outlives it.
 std::unique_ptr<EnsembleSteps> ensembleSteps(const std::vector<EnsembleMember>& members,

@@ -169,13 +169,35 @@ TEST(IsotropicRotors, GoBackToTheirStart) {
   EXPECT_DOUBLE_EQ(many.peak(3), std::abs(rotors[3].start));
 }
 
+// More steps than wait at once, of one and of several parts; a look in between is a look back.
+TEST(IsotropicRotors, StepsTakenLaterAreTheSameToTheBit) {
+  const std::vector<IsotropicRotor> rotors = someRotors(21);
+  for (const double highest_speed : {90.0, 9000.0}) {
+    Drive drive = runUp();
+    IsotropicRotors at_once(rotors, 1.0e-3, highest_speed);
+    IsotropicRotors later(rotors, 1.0e-3, highest_speed);
+    for (int i = 0; i < 500; ++i) {
+      drive.begin(i * kMillisecond);
+      at_once.step(drive);
+      later.stepLater(drive);
+    }
+    later.catchUp();
+    later.catchUp();  // nothing is left
+    for (std::size_t k = 0; k < rotors.size(); ++k) {
+      EXPECT_EQ(later.position(k), at_once.position(k));
+      EXPECT_EQ(later.rate(k), at_once.rate(k));
+      EXPECT_EQ(later.peak(k), at_once.peak(k));
+    }
+  }
+}
+
 TEST(IsotropicRotors, StepWithoutAllocating) {
   Drive drive = runUp();
   IsotropicRotors many(someRotors(100), 1.0e-3, 90.0);
   const AllocationGuard guard;
   for (int i = 0; i < 400; ++i) {
     drive.begin(i * kMillisecond);
-    many.step(drive);
+    i % 2 == 0 ? many.step(drive) : many.stepLater(drive);
   }
   many.reset();
   EXPECT_EQ(guard.allocations(), 0u);

@@ -70,5 +70,50 @@ TEST(Block, OthersGoOneByOne) {
   }
 }
 
+/// Of the first five points of the study; nothing: they went together.
+std::vector<Outcome> oneByOne(const StudyFiles& files, const std::string& rest) {
+  const std::atomic<bool> never{false};
+  Study study = readStudy(files.study(rest));
+  study.block = 5;
+  const StepsChosen steps = chooseSteps(study);
+  std::uint64_t calls = 0;
+  std::vector<Outcome> outcomes =
+      BlockEvaluator(study, steps, never).outcomes(0, [&](std::uint64_t) { ++calls; });
+  return calls == 1 ? std::vector<Outcome>() : outcomes;
+}
+
+// A number that the scene gives stays where it is, though another follows by default.
+TEST(Block, ANumberThatIsGivenDoesNotFollow) {
+  const StudyFiles files;
+  const std::string study = R"(
+vary: {rotor.stiffness: {uniform: [0.9e4, 1.1e4]}}
+design: {monte_carlo: 5}
+run: {duration: 0.5}
+measure: {peak: max(rotor.whirl.radius)}
+)";
+  EXPECT_TRUE(oneByOne(files, study).empty());
+  const std::string given = "stiffness: 1.0e4, ";
+  std::string scene = files.contents("scene.yaml");
+  scene.insert(scene.find(given) + given.size(), "stiffness_y: 1.0e4, ");
+  files.write("scene.yaml", scene);
+  EXPECT_EQ(oneByOne(files, study).size(), 5U);
+}
+
+// What a drive avoids about critical speeds is each point's own.
+TEST(Block, RotorsOnADriveThatAvoidsTheirCriticalSpeedsGoOneByOne) {
+  const StudyFiles files;
+  std::string scene = files.contents("scene.yaml");
+  scene.insert(scene.find("    profile:"), "    avoid: {critical_speeds: true}\n");
+  files.write("scene.yaml", scene);
+  EXPECT_EQ(oneByOne(files, R"(
+vary: {rotor.stiffness: {uniform: [0.9e4, 1.1e4]}}
+design: {monte_carlo: 5}
+run: {duration: 0.5}
+measure: {peak: max(rotor.whirl.radius)}
+)")
+                .size(),
+            5U);
+}
+
 }  // namespace
 }  // namespace whirl_twin

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 
 namespace whirl_twin {
@@ -45,6 +46,10 @@ systems:
   /// A study of the scene with all that is not `study`.
   std::string study(const std::string& rest) const {
     return write("study.yaml", "study: {scene: scene.yaml, seed: 7}\n" + rest);
+  }
+  std::string contents(const std::string& name) const {
+    std::ifstream file(folder_ / name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   }
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
