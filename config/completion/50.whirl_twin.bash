@@ -14,7 +14,7 @@ _twin() {
   else
     case "$command $before" in
       *' --show') words=$(_twin_scenes) ;;
-      *' --'[ailmopstw]*) ;; # a value of its own, mostly a file
+      *' --results' | *' --'[ailmopstw]*) ;; # a value of its own, mostly a file
       'models '* | 'new '*) words=$(twin models | sed -nE 's/^([a-z0-9_]+): .*/\1/p') ;;
       'controllers '*) words=$(twin controllers | sed -nE 's/^([a-z0-9_]+): .*/\1/p') ;;
       'routh '* | 'log '* | 'record '* | 'play '* | 'export '* | 'import '* | 'fit '* | 'sweep '* | 'scenes '*) ;;

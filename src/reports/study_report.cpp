@@ -37,6 +37,18 @@ std::string shown(const Estimate& estimate) {
                                        : fmt::format("{:>10} {:22}", "-", "");
 }
 
+/// Of a measure; "undefined" or "infinite" where it is no number.
+std::string inFull(double value) {
+  return std::isnan(value)   ? "undefined"
+         : std::isinf(value) ? (value > 0.0 ? "infinite" : "minus infinite")
+                             : fmt::format("{}", value);
+}
+
+/// In a column of a table.
+std::string cell(double value) {
+  return std::isfinite(value) ? fmt::format(" {:11.5g}", value) : fmt::format(" {:>11}", "-");
+}
+
 std::string shown(const Yield& yield) {
   return fmt::format("{} of {} pass, {:.4g} % [{:.4g}, {:.4g}]", yield.passed, yield.of,
                      100.0 * yield.part(), 100.0 * yield.low, 100.0 * yield.high);
@@ -118,10 +130,12 @@ std::string text(const Study& study, const Answers& answers) {
                       "mean", "deviation", "smallest", "5 %", "median", "95 %", "largest");
   for (std::size_t k = 0; k < study.measures.size(); ++k) {
     const Distributed& d = answers.measures[k];
-    text += fmt::format("{:{}} {:11.5g} {:11.5g} {:11.5g} {:11.5g} {:11.5g} {:11.5g} {:11.5g}{}\n",
-                        study.measures[k].name, width, d.mean, d.deviation, d.smallest,
-                        d.percentiles[1], d.percentiles[3], d.percentiles[5], d.largest,
-                        d.undefined > 0 ? fmt::format("  undefined at {}", d.undefined) : "");
+    text += fmt::format("{:{}}", study.measures[k].name, width);
+    for (const double value : {d.mean, d.deviation, d.smallest, d.percentiles[1], d.percentiles[3],
+                               d.percentiles[5], d.largest}) {
+      text += cell(value);
+    }
+    text += d.undefined > 0 ? fmt::format("  undefined at {}\n", d.undefined) : "\n";
   }
   if (answers.yield) {
     text += "\n";
@@ -198,7 +212,7 @@ std::string text(const Study& study, const StudyPoint& point) {
     return text + fmt::format("failed: {}\n", point.outcome.failure);
   }
   for (std::size_t k = 0; k < study.measures.size(); ++k) {
-    text += fmt::format("{} = {}\n", study.measures[k].name, point.outcome.measures[k]);
+    text += fmt::format("{} = {}\n", study.measures[k].name, inFull(point.outcome.measures[k]));
   }
   return text;
 }

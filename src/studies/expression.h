@@ -29,6 +29,8 @@ class Expression {
   explicit Expression(const std::string& text);
 
   const std::vector<ExpressionLeaf>& leaves() const { return leaves_; }
+  /// It is one number as it is: nothing is done with it.
+  bool isLeaf() const { return steps_.size() == 1 && leaves_.size() == 1; }
   /// With the value of each leaf.
   double value(const std::vector<double>& leaves) const;
 

@@ -12,6 +12,7 @@
 
 #include "messages/names.h"
 #include "messages/refusal.h"
+#include "studies/alarm_watch.h"
 #include "studies/analysed_numbers.h"
 #include "studies/published_quantities.h"
 
@@ -22,8 +23,9 @@ namespace {
 bool isTimed(const Study& study) {
   return std::any_of(study.measures.begin(), study.measures.end(), [](const Measure& measure) {
     const auto& leaves = measure.expression.leaves();
-    return std::any_of(leaves.begin(), leaves.end(),
-                       [](const ExpressionLeaf& leaf) { return !leaf.reduction.empty(); });
+    return std::any_of(leaves.begin(), leaves.end(), [](const ExpressionLeaf& leaf) {
+      return !leaf.reduction.empty() || countedAlarm(leaf.path);
+    });
   });
 }
 
@@ -56,6 +58,7 @@ class MeasureReader {
       try {
         Measure measure{name, text, Expression(text)};
         checkLeaves(measures.key(name), measure.expression);
+        measure.unit = unitOf(measure);
         study_.measures.push_back(measure);
       } catch (const Refusal& error) {
         complaints_.add(measures.key(name), error.what());
@@ -106,7 +109,7 @@ class MeasureReader {
       }
       const bool varied = std::any_of(study_.vary.begin(), study_.vary.end(),
                                       [&](const Variation& v) { return v.path == leaf.path; });
-      if (varied || analysedNumber(leaf.path, scene_)) {
+      if (varied || analysedNumber(leaf.path, scene_) || countedAlarm(leaf.path)) {
         continue;
       }
       if (published.count(leaf.path) > 0) {
@@ -116,12 +119,39 @@ class MeasureReader {
         continue;
       }
       std::vector<std::string> known = analysedNames(scene_);
+      for (const std::string& path : alarmPaths()) {
+        known.push_back(path);
+      }
       for (const Variation& v : study_.vary) {
         known.push_back(v.path);
       }
       complaints_.add(
           key, fmt::format("unknown number {}{}", quoted(leaf.path), nearIn(leaf.path, known)));
     }
+  }
+
+  /// Of one number as it is.
+  std::string unitOf(const Measure& measure) const {
+    const std::vector<ExpressionLeaf>& leaves = measure.expression.leaves();
+    if (leaves.size() != 1 || !measure.expression.isLeaf()) {
+      return "-";
+    }
+    const ExpressionLeaf& leaf = leaves.front();
+    if (leaf.reduction == "time_of_max" || leaf.reduction == "settling") {
+      return "s";
+    }
+    if (!leaf.reduction.empty()) {
+      const std::map<std::string, PublishedQuantity> published = publishedQuantities(scene_);
+      const auto found = published.find(leaf.path);
+      return found != published.end() ? found->second.unit : "-";
+    }
+    const auto varied = std::find_if(study_.vary.begin(), study_.vary.end(),
+                                     [&](const Variation& v) { return v.path == leaf.path; });
+    if (varied != study_.vary.end()) {
+      return varied->unit;
+    }
+    const auto analysed = analysedNumber(leaf.path, scene_);
+    return analysed ? whirl_twin::unitOf(*analysed) : "-";
   }
 
   static std::string nearIn(const std::string& name, const std::vector<std::string>& known) {

@@ -11,6 +11,7 @@
 #include "realtime/denormals.h"
 #include "scene/scene_reader.h"
 #include "scene/yaml_file.h"
+#include "studies/alarm_watch.h"
 #include "studies/analysed_numbers.h"
 #include "studies/published_quantities.h"
 #include "twin/stop_text.h"
@@ -26,6 +27,12 @@ constexpr std::int64_t kLook = 1024;  // steps from one look at `stop` to the ne
 struct Followed {
   PublishedQuantity quantity;
   Reduction reduction;
+  double* result;
+};
+
+/// Alarms of a type, and where their number goes.
+struct Counted {
+  std::string type;
   double* result;
 };
 
@@ -81,10 +88,14 @@ void PointEvaluator::simulate(const Scene& scene, std::vector<std::vector<double
   Twin twin(scene);
   const std::map<std::string, PublishedQuantity> published = publishedQuantities(twin.built());
   std::vector<Followed> followed;
+  std::vector<Counted> counted;
   for (std::size_t k = 0; k < study_.measures.size(); ++k) {
     const std::vector<ExpressionLeaf>& asked = study_.measures[k].expression.leaves();
     for (std::size_t i = 0; i < asked.size(); ++i) {
       if (asked[i].reduction.empty()) {
+        if (const auto type = countedAlarm(asked[i].path)) {
+          counted.push_back({*type, &leaves[k][i]});
+        }
         continue;
       }
       const auto found = published.find(asked[i].path);
@@ -97,6 +108,10 @@ void PointEvaluator::simulate(const Scene& scene, std::vector<std::vector<double
   }
   const auto steps =
       static_cast<std::int64_t>(std::llround(*study_.duration / scene.stepSeconds()));
+  std::optional<AlarmWatch> alarms;
+  if (!counted.empty()) {
+    alarms.emplace(twin, study_.alarms);
+  }
   QuantityReader reader(twin);
   const DenormalsToZero denormals_to_zero;  // as `twin simulate` does: the same numbers
   for (std::int64_t step = 0; step <= steps; ++step) {
@@ -105,6 +120,9 @@ void PointEvaluator::simulate(const Scene& scene, std::vector<std::vector<double
     }
     if (step > 0) {
       twin.step();
+    }
+    if (alarms) {
+      alarms->look();
     }
     reader.look();
     for (Followed& f : followed) {
@@ -118,6 +136,9 @@ void PointEvaluator::simulate(const Scene& scene, std::vector<std::vector<double
   }
   for (const Followed& f : followed) {
     *f.result = f.reduction.result();
+  }
+  for (const Counted& c : counted) {
+    *c.result = alarms->raised(c.type);
   }
 }
 
@@ -137,7 +158,7 @@ std::vector<double> PointEvaluator::measured(const std::vector<double>& values) 
     const Expression& expression = study_.measures[k].expression;
     for (std::size_t i = 0; i < leaves[k].size(); ++i) {
       const ExpressionLeaf& leaf = expression.leaves()[i];
-      if (!leaf.reduction.empty()) {
+      if (!leaf.reduction.empty() || countedAlarm(leaf.path)) {
         continue;
       }
       const auto varied = std::find_if(study_.vary.begin(), study_.vary.end(),

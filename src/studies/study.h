@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "monitoring/alarm_settings.h"
 #include "studies/design.h"
 #include "studies/distribution.h"
 #include "studies/expression.h"
@@ -29,6 +30,7 @@ struct Measure {
   std::string name;
   std::string text;  ///< of the expression, as the study has it
   Expression expression;
+  std::string unit = "-";  ///< "-" without, and of what is computed of several
 };
 
 /// What a measure must be for a point to pass.
@@ -53,12 +55,22 @@ struct Requirement {
   }
 };
 
+/// What is looked for in place of a design: where a measure is least, or greatest.
+struct Optimization {
+  std::size_t measure = 0;  ///< place among the measures
+  bool maximize = false;
+  std::vector<std::size_t> over;  ///< places of the numbers that are sought, among `vary`
+  std::string method;             ///< bobyqa, cobyla, crs or isres
+  std::uint64_t evaluations = 0;  ///< at most
+  double tolerance = 0.0;         ///< [-], of each range: steps that are too small to matter
+};
+
 struct Study {
   std::string source;      ///< the study's file
   std::string text;        ///< its bytes
   std::string scene_path;  ///< of the scene's file
   std::string scene_text;  ///< its bytes
-  std::uint64_t hash = 0;  ///< of both texts
+  std::uint64_t hash = 0;  ///< of both texts, and of the monitor's settings
   std::uint32_t seed = 1;
   std::uint64_t block = 1;  ///< points that are run, and written, together
   bool stop_at_failure = false;
@@ -66,8 +78,10 @@ struct Study {
   Design design;
   std::optional<double> duration;  ///< [s], simulated; nothing: no run
   std::optional<double> speed;     ///< [rad/s], of the shafts in analyses; nothing: at the start
+  AlarmSettings alarms;            ///< of the monitor, for alarms that are measured
   std::vector<Measure> measures;
   std::vector<Requirement> requirements;
+  std::optional<Optimization> optimization;  ///< in place of a design: there are no points then
 
   std::uint64_t points() const { return design.points; }
   std::uint64_t blocks() const { return (points() + block - 1) / block; }

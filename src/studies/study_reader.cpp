@@ -10,12 +10,15 @@
 
 #include "control/speed_profile.h"
 #include "messages/refusal.h"
+#include "monitoring/alarm_settings_reader.h"
 #include "scene/built_scene.h"
 #include "scene/node_reader.h"
 #include "scene/scene_reader.h"
+#include "scene/station_names.h"
 #include "scene/yaml_file.h"
 #include "studies/design_reader.h"
 #include "studies/measure_reader.h"
+#include "studies/optimization_reader.h"
 #include "studies/variation_reader.h"
 
 namespace whirl_twin {
@@ -49,7 +52,8 @@ class StudyReader {
   }
 
   Study read(const YAML::Node& tree) {
-    const MapReader map(tree, "", {"study", "vary", "design", "run", "measure", "require"},
+    const MapReader map(tree, "",
+                        {"study", "vary", "design", "run", "measure", "require", "optimize"},
                         "key of a study", complaints_);
     if (map.usable()) {
       readScene(map);
@@ -57,9 +61,14 @@ class StudyReader {
       if (built_) {
         study_.vary = readVariations(map, built_->scene, numbers_, complaints_);
       }
-      study_.design = readDesign(map, study_.vary, complaints_);
+      if (map.has("design") || !map.has("optimize")) {
+        study_.design = readDesign(map, study_.vary, complaints_);
+      }
       if (built_) {
         readMeasures(map, *built_, study_, complaints_);
+      }
+      if (built_ && map.has("optimize")) {
+        readOptimization(map, study_, complaints_);
       }
     }
     if (!complaints_.all().empty()) {
@@ -69,7 +78,7 @@ class StudyReader {
       study_.block = std::clamp(study_.points() / kUsualBlocks, std::uint64_t{1}, kUsualBlock);
     }
     study_.text = contentsOf(study_.source);
-    study_.hash = hashOf(study_.scene_text, hashOf(study_.text));
+    study_.hash = hashOf(settings_text_, hashOf(study_.scene_text, hashOf(study_.text)));
     return study_;
   }
 
@@ -118,8 +127,8 @@ class StudyReader {
     if (map.at("run").IsScalar() && map.at("run").Scalar() == "analyze") {
       return;
     }
-    const MapReader run(map.at("run"), "run", {"duration", "analyze", "speed"}, "key of run",
-                        complaints_);
+    const MapReader run(map.at("run"), "run", {"duration", "analyze", "speed", "alarms"},
+                        "key of run", complaints_);
     if (!run.usable()) {
       return;
     }
@@ -131,9 +140,36 @@ class StudyReader {
     if (run.has("analyze")) {
       readAnalyses(run.at("analyze"));
     }
+    if (run.has("alarms")) {
+      readAlarms(run.text("alarms", ""));
+    }
     if (run.has("speed")) {
       study_.speed =
           run.numberBetween("speed", -kLargestSpeed, kLargestSpeed, "rad/s", std::nullopt);
+    }
+  }
+
+  /// The file of the monitor's settings.
+  void readAlarms(const std::string& file) {
+    if (!built_ || file.empty()) {
+      return;
+    }
+    const std::string path = (folder_ / file).lexically_normal().string();
+    std::vector<std::string> rotors;
+    std::vector<std::string> stations;
+    for (const SharedSystem& system : built_->systems) {
+      if (system->dynamics->isRotor()) {
+        rotors.push_back(system->spec.name);
+        const auto published = publishedStations(system->spec.name, *system->dynamics);
+        stations.insert(stations.end(), published.begin() + 1, published.end());
+      }
+    }
+    try {
+      study_.alarms = readAlarmSettings(readYamlFile(path, "settings of the monitor", "alarms"),
+                                        path, rotors, {}, stations);
+      settings_text_ = contentsOf(path);
+    } catch (const Refusal& error) {
+      complaints_.add("run.alarms", error.what());
     }
   }
 
@@ -162,6 +198,7 @@ class StudyReader {
   std::filesystem::path folder_;
   Complaints complaints_;
   Study study_;
+  std::string settings_text_;  // bytes of the monitor's, if there are any
   std::optional<BuiltScene> built_;
   std::map<std::string, NamedNumber> numbers_;
 };

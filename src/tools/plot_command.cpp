@@ -5,11 +5,17 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "messages/refusal.h"
 #include "reports/output.h"
 #include "reports/plot_history.h"
+#include "reports/study_plots.h"
+#include "reports/study_report.h"
 #include "reports/system_plots.h"
+#include "scene/yaml_file.h"
+#include "studies/study_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/simulation.h"
@@ -20,7 +26,7 @@ namespace {
 
 constexpr const char* kDescription =
     "Runs a scene from its start and draws what happens: for each system a picture, its time\n"
-    "history, its phase portrait and its energies.";
+    "history, its phase portrait and its energies. Or draws what a study has found.";
 
 constexpr const char* kFooter =
     "Into the folder, for each system, as svg (sharp at any size) or png:\n"
@@ -30,17 +36,24 @@ constexpr const char* kFooter =
     "  NAME_phase     the rate of each coordinate over it; of a rotor the orbit\n"
     "  NAME_energy    kinetic and potential energy, and h\n"
     "  NAME_ensemble  of a system with a count: percentiles over time, and the members' peaks\n"
+    "Of a study, with the results of `twin sweep`, for each measure:\n"
+    "  NAME_histogram percentiles, and the limits of what is required\n"
+    "  NAME_scatter   over each number that varies; one at a time: its course over each\n"
+    "  NAME_tornado   which number it hangs on: sobol_indices, morris, one_at_a_time\n"
+    "  NAME_map       over both numbers of a grid of two\n"
     "Files appear only when all of them are complete, and so does the folder.\n"
     "\n"
     "Examples:\n"
     "  twin plot double_pendulum --system absolute --duration 20\n"
-    "  twin plot my_scene.yaml --output pictures --format png";
+    "  twin plot my_scene.yaml --output pictures --format png\n"
+    "  twin plot study.yaml --results results --output pictures";
 
 constexpr std::int64_t kMostSamples = 100'000;
 constexpr std::int64_t kEnsembleSamples = 600;
 
 struct PlotRequest {
   SimulationRequest run;
+  std::optional<std::string> results;  // of a study, which then stands for the scene
   std::string folder = ".";
   std::string format = "svg";
 };
@@ -106,8 +119,68 @@ class OutputFolder {
   std::vector<std::filesystem::path> made_;  // the innermost first
 };
 
+/// All of them, or none.
+void complete(const std::vector<std::unique_ptr<WaitingFile>>& files) {
+  for (const auto& file : files) {
+    file->complete();
+  }
+}
+
+int plotStudy(const PlotRequest& request, ImageFormat format) {
+  if (request.run.system || request.run.duration) {
+    throw Refusal(fmt::format("{}: goes with a scene, not with the results of a study",
+                              request.run.system ? "--system" : "--duration"));
+  }
+  const Study study = readStudy(request.run.scene);
+  if (study.optimization) {
+    throw Refusal(
+        fmt::format("{}: looks for an optimum: there are no points to draw", study.source));
+  }
+  if (!std::filesystem::exists(*request.results + "/manifest.yaml")) {
+    throw Refusal(fmt::format("--results: {} has no results of a study", *request.results));
+  }
+  const ResultFolder results(*request.results, study, true);
+  const StudyStatus status = statusOf(study, results);
+  if (status.done < study.points()) {
+    throw RunFailure(fmt::format("{}: {} of {} points are done: run the others first",
+                                 *request.results, status.done, study.points()));
+  }
+  const StudyTable table = results.merge();
+  const OutputFolder made(request.folder);
+  const std::filesystem::path folder = request.folder;
+  std::vector<std::unique_ptr<WaitingFile>> files;
+  for (const StudyPlot& plot : studyPlots(study, table, answersOf(study, table), format)) {
+    const std::string name = fmt::format("{}_{}.{}", plot.measure, plot.kind, request.format);
+    files.push_back(std::make_unique<WaitingFile>((folder / name).string(), plot.image));
+  }
+  complete(files);
+  if (files.empty()) {
+    throw RunFailure(fmt::format("{}: no measure is finite anywhere", *request.results));
+  }
+  return kDone;
+}
+
+/// So that who gives a study for a scene is told.
+bool isStudy(const std::string& path) {
+  if (!std::filesystem::is_regular_file(path)) {
+    return false;
+  }
+  try {
+    const YAML::Node tree = readYamlFile(path, "a scene", "systems");
+    return tree.IsMap() && tree["study"] && tree["measure"];
+  } catch (const Refusal&) {  // what reads scenes says why
+    return false;
+  }
+}
+
 int plot(const PlotRequest& request) {
   const ImageFormat format = formatOf(request.format);
+  if (request.results) {
+    return plotStudy(request, format);
+  }
+  if (isStudy(request.run.scene)) {
+    throw Refusal("--results: missing; must be the folder that `twin sweep` has written");
+  }
   SimulationPlan plan = planSimulation(request.run);
   const OutputFolder made(request.folder);
   const std::filesystem::path folder = request.folder;
@@ -126,9 +199,7 @@ int plot(const PlotRequest& request) {
       files.push_back(std::make_unique<WaitingFile>((folder / name).string(), plot.image));
     }
   }
-  for (const auto& file : files) {
-    file->complete();
-  }
+  complete(files);
   return simulation.sound() ? kDone : kFailed;
 }
 
@@ -144,6 +215,10 @@ void addPlotCommand(CLI::App& twin, int& status) {
           "--duration", request->run.duration,
           "s, simulated, to the nearest step; default: the longest drive profile, else 10 s")
       ->type_name("S");
+  command
+      ->add_option("--results", request->results,
+                   "folder of a study's results; SCENE is then the study")
+      ->type_name("FOLDER");
   command
       ->add_option("--output", request->folder,
                    "folder of the files, made if need be; default: this one")

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <charconv>
 #include <csignal>
 #include <cstdlib>
@@ -7,8 +8,10 @@
 #include <memory>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include "messages/refusal.h"
+#include "reports/optimum_report.h"
 #include "reports/output.h"
 #include "reports/study_report.h"
 #include "studies/block_evaluator.h"
@@ -26,6 +29,14 @@ namespace whirl_twin {
 #ifndef WHIRL_TWIN_HDF5
 void writeHdf5Results(const Study&, const ResultFolder&, const Answers&) {
   complain("twin: no results.h5: built without HDF5 (scripts/setup --studies)\n");
+}
+#endif
+
+#ifndef WHIRL_TWIN_NLOPT
+Optimum optimize(const Study&, const StepsChosen&, const std::atomic<bool>&,
+                 const std::function<void(std::uint64_t)>&) {
+  throw RunFailure(
+      "optimize: this twin was built without NLopt: scripts/setup --studies, then build again");
 }
 #endif
 
@@ -47,6 +58,9 @@ constexpr const char* kFooter =
     "  run: {duration: 20.0}                 s; or analyze\n"
     "  measure: {peak: max(rotor.whirl.radius), critical: \"critical_speeds[0]\"}\n"
     "  require: {peak: \"< 2.0e-4\"}\n"
+    "In place of `design`, `optimize: {minimize: peak, over: [rotor.damping]}` looks for the "
+    "least\n"
+    "or the most of a measure within the ranges, among what meets `require`.\n"
     "A point depends on the study and its number alone: workers, breaks and machines change no\n"
     "byte. Stopped, the same command goes on. Points that fail are in failed.csv of the folder.\n"
     "Among the processes of mpirun or srun blocks are dealt out as they are asked for.\n"
@@ -57,6 +71,7 @@ constexpr const char* kFooter =
     "  twin sweep study.yaml --point 1234\n"
     "  mpirun -n 64 twin sweep study.yaml --output results\n"
     "  twin sweep study.yaml --output results --part 3/16       one of 16 jobs; then --merge\n"
+    "  twin sweep optimum.yaml                                  one that looks for an optimum\n"
     "Exit status: 0 done, with points that failed or without; 1 it was stopped, cannot be written, "
     "or\nall points failed; 2 a study or scene that cannot be meant.";
 
@@ -130,6 +145,39 @@ SweepProgress progressOf(const Study& study, const std::vector<std::uint64_t>& b
   return [bar](std::uint64_t done) { bar->show(static_cast<std::int64_t>(done)); };
 }
 
+/// A study without points.
+int runOptimization(const Request& request, const Study& study, const std::atomic<bool>& stop) {
+  const std::array<std::pair<bool, const char*>, 6> for_points{
+      {{request.output.has_value(), "--output"},
+       {request.point.has_value(), "--point"},
+       {request.part.has_value(), "--part"},
+       {request.merge, "--merge"},
+       {request.status, "--status"},
+       {request.mixed, "--mixed"}}};
+  for (const auto& [given, name] : for_points) {
+    if (given) {
+      throw Refusal(fmt::format("{}: goes with a design; {} looks for an optimum, which is printed",
+                                name, study.source));
+    }
+  }
+  std::optional<ProgressBar> bar;
+  const auto most = static_cast<std::int64_t>(study.optimization->evaluations);
+  try {
+    const Optimum optimum =
+        optimize(study, chooseSteps(study), stop, [&](std::uint64_t evaluations) {
+          if (!bar) {
+            bar.emplace(fmt::format("at most {} evaluations", most), most, false, request.insist);
+          }
+          bar->show(static_cast<std::int64_t>(evaluations));
+        });
+    bar.reset();
+    print(request, study, optimum);
+    return optimum.values.empty() ? kFailed : kDone;
+  } catch (const Interrupted&) {
+    throw RunFailure("interrupted");
+  }
+}
+
 void runAll(const Request& request, const Study& study, const ResultFolder& folder,
             std::atomic<bool>& stop) {
   const std::vector<std::uint64_t> blocks = unfinishedBlocks(study, folder, shareOf(request.part));
@@ -175,6 +223,9 @@ int sweepAmongRanks(const Request& request, std::atomic<bool>& stop) {
       }
     }
     const Study study = readStudy(request.study);
+    if (study.optimization) {
+      throw Refusal(study.source + ": looks for an optimum, in one process: without mpirun");
+    }
     const ResultFolder folder(*request.output, study, request.mixed);
     const unsigned workers = std::max(1U, request.workers);
     if (!ranks.first()) {
@@ -207,16 +258,23 @@ int sweepStudy(const Request& request) {
   static_cast<void>(shareOf(request.part));
   std::atomic<bool>& stop = catchInterrupts();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is like a disk that is full
-  if (!request.output && !request.point) {
-    throw Refusal("--output: missing; must be the folder of the results");
-  }
+  const auto requireOutput = [&] {
+    if (!request.output) {
+      throw Refusal("--output: missing; must be the folder of the results");
+    }
+  };
   if (!request.point && !request.part && !request.merge && !request.status && ranksStarted() > 1) {
+    requireOutput();
     return sweepAmongRanks(request, stop);
   }
   const Study study = readStudy(request.study);
+  if (study.optimization) {
+    return runOptimization(request, study, stop);
+  }
   if (request.point) {
     return runPoint(request, study, stop);
   }
+  requireOutput();
   if ((request.status || request.merge) &&
       !std::filesystem::exists(*request.output + "/manifest.yaml")) {
     throw Refusal(fmt::format("--output: {} has no results of a study", *request.output));

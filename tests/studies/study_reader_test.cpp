@@ -140,6 +140,55 @@ TEST(StudyReader, RefusesDesignsThatDoNotFit) {
   EXPECT_EQ(refusalOf(files, varied("rotor.mass", uniform, "{grid: 1}")), "");
 }
 
+TEST(StudyReader, RefusesOptimaThatCannotBeLookedFor) {
+  const StudyFiles files;
+  const auto optimized = [&](const std::string& optimize, const std::string& more = "") {
+    return refusalOf(files,
+                     "vary: {rotor.stiffness: {uniform: [1.0e4, 2.0e4]}, rotor.damping: "
+                     "{normal: [10, 1]}}\nrun: analyze\nmeasure: {critical: "
+                     "\"critical_speeds[0]\"}\noptimize: " +
+                         optimize + "\n" + more);
+  };
+  EXPECT_EQ(optimized("{minimize: critical, over: [rotor.stiffness]}"), "");
+  EXPECT_SAYS(optimized("{minimize: critical}"), "vary.rotor.damping: must have two ends");
+  EXPECT_SAYS(optimized("{minimise: critical}"),
+              "optimize.minimise: unknown key of optimize; did you mean 'minimize'?");
+  EXPECT_SAYS(optimized("{minimize: critical, maximize: critical}"),
+              "one of minimize and maximize");
+  EXPECT_SAYS(optimized("{minimize: critcal}"), "did you mean 'critical'?");
+  EXPECT_SAYS(
+      optimized("{minimize: critical, over: [rotor.stifness]}"),
+      "optimize.over[0]: must be a number that varies, found 'rotor.stifness'; did you mean "
+      "'rotor.stiffness'?");
+  EXPECT_SAYS(optimized("{minimize: critical, over: [rotor.stiffness], method: bobyqa}"),
+              "bobyqa is for two numbers or more");
+  EXPECT_SAYS(optimized("{minimize: critical, over: [rotor.stiffness], method: crs}",
+                        "require: {critical: \"> 1\"}"),
+              "crs knows no requirements");
+  EXPECT_SAYS(optimized("{minimize: critical, evaluations: 0, tolerance: 0}"),
+              "optimize.evaluations: must be");
+  EXPECT_SAYS(optimized("{minimize: critical}", "design: {monte_carlo: 3}"),
+              "stands in place of a design");
+}
+
+TEST(StudyReader, RefusesAlarmsThatThereAreNot) {
+  const StudyFiles files;
+  const auto alarms = [&](const std::string& measure, const std::string& run) {
+    return refusalOf(files,
+                     "vary: {rotor.stiffness: {uniform: [1.0e4, 2.0e4]}}\ndesign: "
+                     "{monte_carlo: 3}\nrun: {" +
+                         run + "}\nmeasure: {n: " + measure + "}\n");
+  };
+  EXPECT_EQ(alarms("alarms", "duration: 1"), "");
+  EXPECT_EQ(alarms("alarms.IN_CRITICAL_BAND", "duration: 1"), "");
+  EXPECT_SAYS(alarms("alarms.IN_CRITICAL_BAN", "duration: 1"),
+              "did you mean 'alarms.IN_CRITICAL_BAND'?");
+  EXPECT_SAYS(alarms("alarms", "analyze: true"), "run.duration: missing");
+  EXPECT_SAYS(alarms("alarms", "duration: 1, alarms: none.yaml"), "none.yaml");
+  files.write("monitor.yaml", "clear_delay: -1\n");
+  EXPECT_SAYS(alarms("alarms", "duration: 1, alarms: monitor.yaml"), "clear_delay");
+}
+
 TEST(StudyReader, TellsTheErrorsOfTheScene) {
   const StudyFiles files;
   files.write("scene.yaml", "step: 0.001\nsystems: {rotor: {model: jefcott_rotor}}\n");

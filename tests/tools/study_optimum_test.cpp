@@ -1,0 +1,75 @@
+// `twin sweep` of a study that looks for an optimum, as it is printed.
+#include <gtest/gtest.h>
+
+#include "twin_program.h"
+
+namespace whirl_twin {
+namespace {
+
+const std::string kScene = R"(
+step: 0.001
+systems:
+  rotor:
+    model: jeffcott_rotor
+    drive: shaft
+    parameters: {mass: 1.0, stiffness: 1.0e4, damping: 10.0, eccentricity: 1.0e-4}
+drives: {shaft: {speed: 90.0}}
+)";
+const std::string kStudy = R"(
+study: {scene: scene.yaml}
+vary: {rotor.damping: {uniform: [1.0, 150.0]}, rotor.stiffness: {uniform: [0.5e4, 2.0e4]}}
+run: {analyze: true, speed: 0.0}
+measure: {decay: margins.decay_rate, frequency: "natural_frequencies[0]"}
+optimize: {maximize: decay, over: [rotor.damping], evaluations: 300}
+)";
+
+TEST(StudyOptimum, IsPrintedAsTextAndAsJson) {
+  const TemporaryDirectory files;
+  files.write("scene.yaml", kScene);
+  const std::string study = files.write("study.yaml", kStudy);
+  const Ending text = twin({"sweep", study});
+  ASSERT_EQ(text.status, 0) << text.err;
+  EXPECT_NE(text.out.find("maximum of decay over one number by cobyla"), std::string::npos);
+  EXPECT_NE(text.out.find("the largest that was allowed"), std::string::npos) << text.out;
+  const Ending end = twin({"sweep", study, "--json"});
+  const nlohmann::json said = end.json();
+  EXPECT_EQ(said["maximize"], "decay");
+  EXPECT_EQ(said["found"], true);
+  EXPECT_EQ(said["converged"], true);
+  EXPECT_NEAR(said["numbers"]["rotor.damping"]["best"].get<double>(), 150.0, 0.1);  // not yet 200
+  EXPECT_EQ(said["numbers"]["rotor.damping"]["start"], 10.0);
+  EXPECT_NEAR(said["measures"]["decay"]["best"].get<double>(), 75.0, 0.1);  // c / 2 m
+  EXPECT_FALSE(said["numbers"].contains("rotor.stiffness"));
+  EXPECT_LE(said["evaluations"], 300);
+  EXPECT_EQ(twin({"sweep", study, "--json"}).out, end.out);
+}
+
+TEST(StudyOptimum, ThatThereIsNotIsExitStatusOne) {
+  const TemporaryDirectory files;
+  files.write("scene.yaml", kScene);
+  const std::string study = files.write("study.yaml", kStudy + "require: {decay: \"> 100\"}\n");
+  const Ending end = twin({"sweep", study, "--json"});
+  EXPECT_EQ(end.status, 1) << end.err;
+  EXPECT_EQ(end.json()["found"], false);
+  EXPECT_NE(twin({"sweep", study}).out.find("no point was found"), std::string::npos);
+}
+
+TEST(StudyOptimum, HasNoUseForWhatGoesWithADesign) {
+  const TemporaryDirectory files;
+  files.write("scene.yaml", kScene);
+  const std::string study = files.write("study.yaml", kStudy);
+  EXPECT_EQ(twin({"sweep", study, "--output", files.file("r")}).status, 2);
+  EXPECT_EQ(twin({"sweep", study, "--point", "0"}).status, 2);
+  EXPECT_EQ(twin({"plot", study, "--results", files.file("r")}).status, 2);
+}
+
+// The peak falls as the run-up gets faster: the least acceleration uses the amplitude up.
+TEST(StudyOptimum, OfTheShippedRunUpIsAtItsLimit) {
+  const nlohmann::json said =
+      twin({"sweep", WHIRL_TWIN_SOURCE "/config/studies/slowest_run_up.yaml", "--json"}).json();
+  EXPECT_NEAR(said["measures"]["peak"]["best"].get<double>(), 8.5e-4, 2.0e-6);
+  EXPECT_NEAR(said["measures"]["acceleration"]["best"].get<double>(), 58.8, 0.2);
+}
+
+}  // namespace
+}  // namespace whirl_twin
