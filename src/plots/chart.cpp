@@ -13,18 +13,29 @@ namespace {
 constexpr std::size_t kMostSpots = 10000;  // of a whole SVG
 const Lettering kFigureTitle{17.0, ink::kBlack, Align::kMiddle, Align::kMiddle, true};
 
+std::string words(const ChartAxis& axis) {
+  return axis.second ? fmt::format("{}, {}", axis.label, axis.second->label) : axis.label;
+}
+
 /// The figure in words.
 std::string description(const Figure& figure) {
   std::string text;
   for (const Chart& chart : figure.charts) {
     text +=
         fmt::format("{}{}{} over {}:", text.empty() ? "" : "; ",
-                    chart.title.empty() ? "" : chart.title + ": ", chart.y.label, chart.x.label);
+                    chart.title.empty() ? "" : chart.title + ": ", words(chart.y), words(chart.x));
     const char* separator = " ";
     for (const Series& series : chart.series) {
       if (!series.name.empty()) {
         text += separator + series.name;
         separator = ", ";
+      }
+    }
+    for (const std::vector<ReferenceLine>* lines : {&chart.vertical, &chart.horizontal}) {
+      for (const ReferenceLine& line : *lines) {
+        if (!line.label.empty()) {
+          text += fmt::format(" [{} at {:.4g}]", line.label, line.at);
+        }
       }
     }
   }
@@ -49,7 +60,8 @@ std::string figureImage(const Figure& figure, ImageFormat format) {
   }
   std::vector<ChartDrawing> drawings;
   drawings.reserve(figure.charts.size());
-  std::vector<double> margins(static_cast<std::size_t>(figure.columns), 0.0);
+  const auto columns = static_cast<std::size_t>(figure.columns);
+  std::vector<double> left_margins(columns, 0.0), right_margins(columns, 0.0);
   const double width = static_cast<double>(figure.width) / figure.columns;
   for (int i = 0; i < count; ++i) {
     const int column = i % figure.columns;
@@ -58,12 +70,13 @@ std::string figureImage(const Figure& figure, ImageFormat format) {
                           static_cast<double>(figure.chart_height)};
     drawings.emplace_back(figure.charts[static_cast<std::size_t>(i)], place,
                           most_spots / std::max<std::size_t>(all_series, 1), canvas);
-    double& margin = margins[static_cast<std::size_t>(column)];
-    margin = std::max(margin, drawings.back().leftMargin());
+    double& left = left_margins[static_cast<std::size_t>(column)];
+    double& right = right_margins[static_cast<std::size_t>(column)];
+    left = std::max(left, drawings.back().leftMargin());
+    right = std::max(right, drawings.back().rightMargin());
   }
-  for (int i = 0; i < count; ++i) {
-    drawings[static_cast<std::size_t>(i)].draw(
-        margins[static_cast<std::size_t>(i % figure.columns)]);
+  for (std::size_t i = 0; i < drawings.size(); ++i) {
+    drawings[i].draw(left_margins[i % columns], right_margins[i % columns]);
   }
   return canvas.finish();
 }

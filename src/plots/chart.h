@@ -41,7 +41,9 @@ struct ChartAxis {
   std::string label;  ///< with its unit: "time (s)"
   bool logarithmic = false;
   bool tight = false;  ///< ends where the data end, not at the next tick
-  std::optional<SecondScale> second = std::nullopt;  ///< above the chart; of a linear x only
+  /// Above the chart, of y right of it; of a linear axis, along which units are no equal lengths.
+  std::optional<SecondScale> second = std::nullopt;
+  bool degrees = false;  ///< marked at parts of a turn
 };
 
 /// A line across the whole chart: a critical speed, a limit. Seen where the data reach it.

@@ -21,6 +21,8 @@ const Lettering kReference{12.0, ink::kGrey, Align::kEnd, Align::kEnd};
 constexpr double kMark = 4.5;          // px, radius
 constexpr double kSecondScale = 34.0;  // px, of the horizontal axis above the chart
 constexpr double kWordsHeight = 15.0;  // px
+constexpr double kRightMargin = 22.0;  // px
+constexpr double kPixelsOfRpm = 90.0;  // a mark of the scale above, at least
 
 /// Its own, or one of seven colours, then the same dashed.
 Pen penOf(const Chart& chart, std::size_t series) {
@@ -45,6 +47,20 @@ AxisRange rangeOf(const std::vector<Series>& series, std::vector<double> Series:
   return dataRange(all, logarithmic);
 }
 
+/// The axis in its second unit.
+MarkedAxis scaled(const MarkedAxis& axis, const SecondScale& second, int most) {
+  MarkedAxis other{
+      {second.factor * axis.range.low, second.factor * axis.range.high}, false, {}, {}};
+  other.mark(true, most);
+  return other;
+}
+
+/// "rpm", with the power of ten of its marks.
+std::string nameOf(const SecondScale& second, const MarkedAxis& axis) {
+  return axis.labels.exponent == 0 ? second.label
+                                   : second.label + " \u00d7" + powerOfTen(axis.labels.exponent);
+}
+
 bool seen(double place) {
   return place > -1.0e-6 && place < 1.0 + 1.0e-6;
 }
@@ -54,33 +70,53 @@ bool seen(double place) {
 ChartDrawing::ChartDrawing(const Chart& chart, const Rectangle& place, std::size_t most_spots,
                            Canvas& canvas)
     : chart_(chart), place_(place), most_spots_(most_spots), canvas_(canvas) {
-  x_ = {rangeOf(chart.series, &Series::x, chart.x.logarithmic), chart.x.logarithmic, {}, {}};
-  y_ = {rangeOf(chart.series, &Series::y, chart.y.logarithmic), chart.y.logarithmic, {}, {}};
+  x_ = {rangeOf(chart.series, &Series::x, chart.x.logarithmic),
+        chart.x.logarithmic,
+        {},
+        {},
+        chart.x.degrees};
+  y_ = {rangeOf(chart.series, &Series::y, chart.y.logarithmic),
+        chart.y.logarithmic,
+        {},
+        {},
+        chart.y.degrees};
   placeLegend();
   plot_.top = place.top + (chart.title.empty() ? 8.0 : 28.0) + kLegendRow * legend_rows_ +
               (legend_rows_ > 0 ? 6.0 : 4.0);
   plot_.height = place.bottom() - 50.0 - plot_.top;
-  y_.mark(chart.y.tight, std::max(4, static_cast<int>(plot_.height / kPixelsPerTick)));
+  const int most = std::max(4, static_cast<int>(plot_.height / kPixelsPerTick));
+  y_.mark(chart.y.tight, most);
+  if (chart.y.second) {
+    right_ = scaled(y_, *chart.y.second, most);
+  }
   // The exponent and the second scale stand above the axes.
   const double above = chart.x.second ? kSecondScale : y_.labels.exponent != 0 ? 14.0 : 0.0;
   plot_.top += above;
   plot_.height -= above;
 }
 
-double ChartDrawing::leftMargin() const {
+double ChartDrawing::widestLabel(const MarkedAxis& axis) const {
   double widest = 0.0;
-  for (const std::string& label : y_.labels.text) {
+  for (const std::string& label : axis.labels.text) {
     widest = std::max(widest, canvas_.textWidth(label, kTickLabel));
   }
-  return widest + 40.0;
+  return widest;
 }
 
-void ChartDrawing::draw(double left_margin) {
+double ChartDrawing::leftMargin() const {
+  return widestLabel(y_) + 40.0;
+}
+
+double ChartDrawing::rightMargin() const {
+  return right_ ? widestLabel(*right_) + 40.0 : kRightMargin;
+}
+
+void ChartDrawing::draw(double left_margin, double right_margin) {
   plot_.left = place_.left + left_margin;
-  plot_.width = place_.right() - 22.0 - plot_.left;
+  plot_.width = place_.right() - right_margin - plot_.left;
   x_.mark(chart_.x.tight, std::min(kTicksAcross, static_cast<int>(plot_.width / 60.0)));
   if (chart_.equal_aspect) {
-    makeAspectEqual();
+    markEqually(x_, plot_.width, y_, plot_.height, kTicksAcross);
   }
   drawBands();
   drawGrid();
@@ -101,7 +137,8 @@ void ChartDrawing::draw(double left_margin) {
   }
   canvas_.unclip();
   drawFrame();
-  drawSecondScale();
+  drawScaleAbove();
+  drawScaleOnTheRight();
   drawWords();
   drawLegend();
 }
@@ -134,18 +171,6 @@ void ChartDrawing::placeLegend() {
     entry.spot = {x, kLegendRow * (legend_rows_ - 0.5)};
     x += width + 22.0;
   }
-}
-
-void ChartDrawing::makeAspectEqual() {
-  const double units = std::max((x_.range.high - x_.range.low) / plot_.width,
-                                (y_.range.high - y_.range.low) / plot_.height);
-  const auto stretch = [units](MarkedAxis& axis, double pixels, int most) {
-    const double middle = 0.5 * (axis.range.low + axis.range.high);
-    axis.range = {middle - 0.5 * units * pixels, middle + 0.5 * units * pixels};
-    axis.mark(true, most);
-  };
-  stretch(x_, plot_.width, kTicksAcross);
-  stretch(y_, plot_.height, kTicksAcross);
 }
 
 Spot ChartDrawing::at(double x, double y) const {
@@ -188,13 +213,12 @@ void ChartDrawing::drawReferences() {
   }
 }
 
-void ChartDrawing::drawSecondScale() {
+void ChartDrawing::drawScaleAbove() {
   if (!chart_.x.second) {
     return;
   }
-  const SecondScale& scale = *chart_.x.second;
-  MarkedAxis axis{{scale.factor * x_.range.low, scale.factor * x_.range.high}, false, {}, {}};
-  axis.mark(true, static_cast<int>(plot_.width / 90.0));
+  const MarkedAxis axis =
+      scaled(x_, *chart_.x.second, static_cast<int>(plot_.width / kPixelsOfRpm));
   for (std::size_t i = 0; i < axis.ticks.size(); ++i) {
     const double x = plot_.left + axis.place(axis.ticks[i]) * plot_.width;
     if (seen(axis.place(axis.ticks[i])) && x < plot_.right() - 60.0) {
@@ -202,11 +226,28 @@ void ChartDrawing::drawSecondScale() {
       canvas_.text({x, plot_.top - 12.0}, axis.labels.text[i], kTickLabel);
     }
   }
-  const std::string power =
-      axis.labels.exponent == 0 ? "" : " \u00d7" + powerOfTen(axis.labels.exponent);
   Lettering lettering = kTickLabel;
   lettering.across = Align::kEnd;
-  canvas_.text({plot_.right(), plot_.top - 12.0}, scale.label + power, lettering);
+  canvas_.text({plot_.right(), plot_.top - 12.0}, nameOf(*chart_.x.second, axis), lettering);
+}
+
+void ChartDrawing::drawScaleOnTheRight() {
+  if (!right_) {
+    return;
+  }
+  Lettering beside = kTickLabel;
+  beside.across = Align::kStart;
+  for (std::size_t i = 0; i < right_->ticks.size(); ++i) {
+    const double y = plot_.bottom() - right_->place(right_->ticks[i]) * plot_.height;
+    if (seen(right_->place(right_->ticks[i]))) {
+      canvas_.line({{plot_.right(), y}, {plot_.right() + 4.0, y}}, {ink::kGrey, 1.2});
+      canvas_.text({plot_.right() + 7.0, y}, right_->labels.text[i], beside);
+    }
+  }
+  Lettering upwards = kAxisLabel;
+  upwards.upwards = true;
+  canvas_.text({place_.right() - 14.0, plot_.top + 0.5 * plot_.height},
+               nameOf(*chart_.y.second, *right_), upwards);
 }
 
 /// Names of reference lines, and notes.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,9 @@ class ChartDrawing {
 
   /// [px] that the labels of the vertical axis need.
   double leftMargin() const;
-  void draw(double left_margin);
+  /// And those of a second scale on the right.
+  double rightMargin() const;
+  void draw(double left_margin, double right_margin);
 
  private:
   struct LegendEntry {
@@ -30,12 +33,13 @@ class ChartDrawing {
   };
 
   void placeLegend();
-  void makeAspectEqual();
+  double widestLabel(const MarkedAxis& axis) const;
   Spot at(double x, double y) const;
   void drawBands();
   void drawGrid();
   void drawReferences();
-  void drawSecondScale();
+  void drawScaleAbove();
+  void drawScaleOnTheRight();
   void drawWords();
   void nameReferences(LabelPlaces& places);
   void drawArea(const Series& series);
@@ -52,6 +56,7 @@ class ChartDrawing {
   std::size_t most_spots_;
   Canvas& canvas_;
   MarkedAxis x_, y_;
+  std::optional<MarkedAxis> right_;  // the second scale of y
   std::vector<LegendEntry> legend_;
   int legend_rows_ = 0;
 };

@@ -12,6 +12,7 @@ namespace {
 /// Part of a step by which a tick may miss the end of a range: rounding.
 constexpr double kSlack = 1.0e-9;
 constexpr double kSmallestSpread = 1.0e-6;  // of the values themselves; labels have seven digits
+constexpr double kRoom = 0.1;               // of a value that does not change, to either side
 
 /// factor x 10^exponent, rounded as the number is written.
 double decimal(double factor, int exponent) {
@@ -29,11 +30,11 @@ AxisRange widened(AxisRange range) {
   if (largest == 0.0) {
     return {-1.0, 1.0};
   }
-  const double room = std::max(kSmallestSpread * largest, 1.0 / kLargestOnAxis);
-  if (range.high - range.low >= room) {
+  if (range.high - range.low >= std::max(kSmallestSpread * largest, 1.0 / kLargestOnAxis)) {
     return range;
   }
-  return {range.low - room, range.high + room};
+  const double room = std::max(kRoom * largest, 1.0 / kLargestOnAxis);
+  return {std::max(range.low - room, -kLargestOnAxis), std::min(range.high + room, kLargestOnAxis)};
 }
 
 std::vector<double> linearTicks(const AxisRange& range, int most) {
@@ -53,6 +54,24 @@ std::vector<double> linearTicks(const AxisRange& range, int most) {
       }
     }
   }
+}
+
+std::vector<double> degreeTicks(const AxisRange& range, int most) {
+  for (const double step : {15.0, 30.0, 45.0, 90.0, 180.0}) {
+    const double first = std::floor(range.low / step + kSlack);
+    const double last = std::ceil(range.high / step - kSlack);
+    if (last - first + 1.0 <= most) {
+      if (last - first < 2.0) {  // too narrow for parts of a turn
+        break;
+      }
+      std::vector<double> ticks;
+      for (double i = first; i <= last; i += 1.0) {
+        ticks.push_back(i * step);
+      }
+      return ticks;
+    }
+  }
+  return linearTicks(range, most);
 }
 
 std::vector<double> logarithmicTicks(const AxisRange& range, int most) {
@@ -75,11 +94,15 @@ std::vector<double> logarithmicTicks(const AxisRange& range, int most) {
 }
 
 TickLabels linearLabels(const std::vector<double>& ticks) {
-  TickLabels labels;
   const double largest = std::max(std::fabs(ticks.front()), std::fabs(ticks.back()));
-  if (largest >= 1.0e5 || largest < 0.5e-1) {
-    labels.exponent = 3 * static_cast<int>(std::floor(std::log10(largest) / 3.0 + kSlack));
-  }
+  const bool plain = largest < 1.0e5 && largest >= 0.5e-1;
+  return linearLabels(
+      ticks, plain ? 0 : 3 * static_cast<int>(std::floor(std::log10(largest) / 3.0 + kSlack)));
+}
+
+TickLabels linearLabels(const std::vector<double>& ticks, int exponent) {
+  TickLabels labels;
+  labels.exponent = exponent;
   const double step = decimal(ticks[1] - ticks[0], -labels.exponent);
   const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1.0e-6)));
   for (const double tick : ticks) {

@@ -16,12 +16,17 @@ struct AxisRange {
 /// lengths of axes and powers of ten leave the range of double.
 inline constexpr double kLargestOnAxis = 1.0e300;
 
-/// Room around a single value, so that an axis has a length. The ends are within kLargestOnAxis.
+/// Room around a single value, a tenth of it to either side, so that an axis has a length and short
+/// labels. The ends are within kLargestOnAxis.
 AxisRange widened(AxisRange range);
 
 /// Ticks that cover the range: the first is not above its low end, the last not below its high end,
 /// and there are at most `most` (>= 3) of them. The range has a length (see widened()).
 std::vector<double> linearTicks(const AxisRange& range, int most);
+
+/// The same of degrees: over a wide range a half, a quarter, an eighth of a turn apart, or 30
+/// or 15.
+std::vector<double> degreeTicks(const AxisRange& range, int most);
 
 /// Ticks that cover a positive range: the powers of ten, with 2 and 5 times them between where the
 /// range is short, and only some of them where it is long.
@@ -33,6 +38,8 @@ struct TickLabels {
   int exponent = 0;  ///< a multiple of 3
 };
 TickLabels linearLabels(const std::vector<double>& ticks);
+/// With an exponent that is given.
+TickLabels linearLabels(const std::vector<double>& ticks, int exponent);
 TickLabels logarithmicLabels(const std::vector<double>& ticks);
 
 /// "10" with a superscript: UTF-8.

@@ -43,9 +43,10 @@ struct Value {
 Series piecesOf(const CampbellReport& r, const std::vector<CampbellPoint>& branch, Whirl whirl,
                 bool stable, const Value& value) {
   Series pieces;
-  pieces.pen = Pen{inkOf(whirl), 2.0, {}};
+  // Of an isotropic rotor at rest the backward whirl lies on the forward one: both are seen.
+  pieces.pen = Pen{inkOf(whirl), whirl == Whirl::kForward ? 4.0 : 1.8, {}};
   if (!stable) {
-    pieces.pen = Pen{inkOf(whirl), 3.0, {3.0, 3.0}};
+    pieces.pen = Pen{inkOf(whirl), whirl == Whirl::kForward ? 4.0 : 2.5, {3.0, 3.0}};
   }
   bool drawn = false;
   for (std::size_t k = 0; k < branch.size(); ++k) {

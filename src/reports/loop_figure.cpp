@@ -21,6 +21,7 @@ constexpr int kPoints = 1600;
 constexpr double kDecades = 5.0;  // below the highest frequency
 constexpr double kWidest = 3.0;   // of the Nyquist diagram: what is farther is not near -1
 constexpr double kHighestSensitivity = 12.0;
+constexpr double kLowestGain = 1.0e-6;  // of the highest; half the rate of the samples has none
 
 struct Zone {
   const char* name;
@@ -77,6 +78,10 @@ Curves curvesOf(const LoopResponse& response, const std::string& name) {
     const double sensitivity = 1.0 / std::abs(1.0 + loop);
     add(curves.sensitivity, w, sensitivity <= kHighestSensitivity ? sensitivity : kNaN);
   }
+  const double highest = *std::max_element(curves.gain.y.begin(), curves.gain.y.end());
+  for (double& gain : curves.gain.y) {
+    gain = gain < kLowestGain * highest ? kNaN : gain;
+  }
   return curves;
 }
 
@@ -116,6 +121,7 @@ Figure figure(const LoopedController& controller) {
   }
   gain.y = {"gain |L|", true, false};
   phase.y.label = "phase of L (deg)";
+  phase.y.degrees = true;
   phase.horizontal = {{-180.0, ""}, {180.0, ""}, {0.0, ""}};
   nyquist.title = "Nyquist";
   nyquist.x.label = "Re L";

@@ -169,6 +169,7 @@ Figure figure(const ResponseReport& r) {
   amplitude.y.label = "semi-major axis (m)";
   lag.x = {"shaft speed (rad/s)", false, true};
   lag.y.label = "phase lag of the whirl (deg)";
+  lag.y.degrees = true;
   polar.x.label = "in line with the unbalance (m)";
   polar.y.label = "ahead of the unbalance (m)";
   polar.title = "forward whirl seen from the shaft";

@@ -2,8 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
+#include <array>
 
+#include "integration/step_methods.h"
 #include "reports/tradeoff_report.h"
 
 namespace whirl_twin {
@@ -12,6 +13,17 @@ namespace {
 
 /// Rounding is drawn here where an error is zero.
 constexpr double kLeast = 1.0e-16;
+
+/// Each method has one, whichever others there are: the twelfth is the first again.
+Pen penOf(const std::string& integrator) {
+  static constexpr std::array kInks{ink::kBlue,   ink::kVermilion, ink::kGreen, ink::kPurple,
+                                    ink::kOrange, ink::kSkyBlue,   ink::kBrown, ink::kGrey,
+                                    ink::kOlive,  ink::kNavy,      ink::kBlack};
+  const auto& methods = stepMethods();
+  const auto method = std::find_if(methods.begin(), methods.end(),
+                                   [&](const StepMethod& m) { return m.name == integrator; });
+  return {kInks[static_cast<std::size_t>(method - methods.begin()) % kInks.size()], 1.8};
+}
 
 }  // namespace
 
@@ -27,7 +39,8 @@ Figure figure(const TradeoffReport& report) {
     if (work.series.empty() || work.series.back().name != row.setting.integrator) {
       for (Chart* chart : {&work, &order}) {
         Series series;
-        series.name = row.setting.integrator;
+        series.name = chart == &work ? row.setting.integrator : "";  // of both, once
+        series.pen = penOf(row.setting.integrator);
         series.marks = Marks::kDots;
         chart->series.push_back(series);
       }

@@ -92,6 +92,22 @@ TEST(Chart, ShowsAReferenceLineOnlyWhereTheDataReachIt) {
   EXPECT_EQ(countOf(svg(figure), "stroke-dasharray"), without + 2u);
 }
 
+TEST(Chart, HasASecondScaleBesideEitherAxis) {
+  Figure figure = figureOf({line("a", {0.0, 1.0, 2.0})});
+  const std::size_t without = countOf(svg(figure), "<use");
+  figure.charts[0].y.second = SecondScale{"rpm", 9.549};
+  const std::string text = svg(figure);
+  EXPECT_TRUE(wellFormed(text));
+  EXPECT_NE(text.find("radius (m), rpm over time (s)"), std::string::npos);
+  EXPECT_GT(countOf(text, "<use"), without + 3u);  // letters: its name and marks
+}
+
+TEST(Chart, SaysWhatItMarks) {
+  Figure figure = figureOf({line("a", {0.0, 1.0, 2.0})});
+  figure.charts[0].vertical = {{1.5, "critical"}, {1.7, ""}};
+  EXPECT_NE(svg(figure).find("[critical at 1.5]"), std::string::npos);
+}
+
 TEST(Chart, ThinsALongSeries) {
   Series wave{"wave", {}, {}};
   Series tangle{"tangle", {}, {}};

@@ -65,6 +65,27 @@ TEST(Ticks, OfOneValueHaveRoomAroundIt) {
   }
 }
 
+// Nothing that turns at 50 rad/s is marked from 49.99995 to 50.00005.
+TEST(Ticks, OfAConstantHaveShortLabels) {
+  for (const double value : {50.0, -50.0, 1799.0, 2.5e-4, 1.0e300}) {
+    const std::vector<double> ticks = linearTicks(widened({value, value}), 9);
+    for (const std::string& label : linearLabels(ticks).text) {
+      EXPECT_LE(label.size(), 7u) << label << " of " << value;  // a minus sign takes three
+    }
+    EXPECT_TRUE(std::isfinite(ticks.back() - ticks.front())) << value;
+  }
+}
+
+TEST(Ticks, OfDegreesStandAtPartsOfATurn) {
+  EXPECT_EQ(degreeTicks({-80.0, 250.0}, 9),
+            (std::vector<double>{-90.0, -45.0, 0.0, 45.0, 90.0, 135.0, 180.0, 225.0, 270.0}));
+  EXPECT_EQ(degreeTicks({0.0, 180.0}, 5), (std::vector<double>{0.0, 45.0, 90.0, 135.0, 180.0}));
+  EXPECT_EQ(degreeTicks({-170.0, 175.0}, 6),
+            (std::vector<double>{-180.0, -90.0, 0.0, 90.0, 180.0}));
+  // A degree or two are parts of none.
+  EXPECT_EQ(degreeTicks({1.0, 3.0}, 6), linearTicks({1.0, 3.0}, 6));
+}
+
 // Powers of ten beyond 1e308 are infinite: marks there would all be 0, or one place.
 TEST(Ticks, AreApartHoweverSmallOrLargeTheValues) {
   for (const AxisRange range : {AxisRange{0.0, 1e-308}, AxisRange{-4e-324, 4e-324},

@@ -58,6 +58,59 @@ TEST(Plot, DrawsWhatControllersGiveBesideTheStates) {
   EXPECT_NE(picture.find("torque (N m) over time (s)"), std::string::npos);
 }
 
+/// What the figures of a scene say of themselves: its charts, curves and marks.
+std::string wordsOf(const std::string& scene, const std::string& system, const std::string& kind,
+                    const Names& options = {}) {
+  const TemporaryDirectory folder;
+  Names arguments{"plot",     WHIRL_TWIN_SOURCE "/config/scenes/" + scene + ".yaml",
+                  "--system", system,
+                  "--output", folder.file("")};
+  arguments.insert(arguments.end(), options.begin(), options.end());
+  const Ending end = twin(arguments);
+  EXPECT_EQ(end.status, 0) << end.err;
+  const std::string file = contentsOf(folder.file(system + "_" + kind + ".svg"));
+  const std::size_t begin = file.find("<desc>") + 6;
+  return file.substr(begin, file.find("</desc>") - begin);
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+// p / sqrt(1 - 2 zeta^2) = 60.15 rad/s, on the way up and on the way down.
+TEST(Plot, MarksWhenTheShaftPassesItsCriticalSpeed) {
+  const std::string words = wordsOf("demo", "rotor", "time");
+  const std::size_t first = words.find("[critical, 60.15 rad/s at 10.0");
+  ASSERT_NE(first, std::string::npos) << words;
+  EXPECT_NE(words.find("[critical, 60.15 rad/s at 22.5", first), std::string::npos) << words;
+}
+
+TEST(Plot, ShowsTheSpeedOfAShaftInRpmToo) {
+  EXPECT_TRUE(has(wordsOf("demo", "rotor", "time", {"--duration", "1"}),
+                  "shaft speed (rad/s), rpm over time (s)"));
+  // A motor turns it: its speed is a coordinate of the system.
+  EXPECT_TRUE(has(wordsOf("sommerfeld", "captured", "time", {"--duration", "1"}),
+                  "shaft speed (rad/s), rpm over time (s)"));
+  // Not a rotor: its angle goes round and round.
+  const std::string governor = wordsOf("governor", "engine", "time");
+  EXPECT_TRUE(has(governor, "phi_rate (rad/s), rpm over")) << governor;
+  EXPECT_TRUE(has(governor, "theta (rad) over")) << governor;
+}
+
+// Of a shaft that sags the whirl stays where it is while the mark goes round: there is no lag.
+TEST(Plot, ShowsALagWhereTheWhirlGoesWithTheShaft) {
+  const std::string lag = "whirl phase lag (deg)";
+  EXPECT_TRUE(has(wordsOf("demo", "rotor", "time"), lag));
+  EXPECT_FALSE(has(wordsOf("hysteresis", "sagging", "time"), lag));
+}
+
+// The largest whirl of this run is its last.
+TEST(Plot, ShowsWholeTurnsOnly) {
+  const std::string words = wordsOf("balancing", "rotor", "phase");
+  EXPECT_TRUE(has(words, "7.11 s, ")) << words;
+  EXPECT_FALSE(has(words, "e+")) << words;
+}
+
 struct Refused {
   Names options;
   std::string message;

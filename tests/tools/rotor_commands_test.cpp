@@ -147,7 +147,7 @@ TEST(Figures, OfALongRotorShowItsOrbitsAlongTheShaftAndNoMoreStationsThanColours
 TEST(Figures, OfTheDemoHaveTheirLagsInDegrees) {
   const TemporaryDirectory folder;
   ASSERT_EQ(
-      twin({"plot", kDemo, "--system", "rotor", "--duration", "1", "--output", folder.file("")})
+      twin({"plot", kDemo, "--system", "rotor", "--duration", "12", "--output", folder.file("")})
           .status,
       0);
   const std::string history = contentsOf(folder.file("rotor_time.svg"));

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -98,6 +100,34 @@ TEST(Tradeoff, WritesItsTableAndItsPicture) {
   EXPECT_EQ(lines.front().substr(0, 32), "system,integrator,step,substeps,");
   EXPECT_GT(lines.size(), 40u);
   EXPECT_EQ(contentsOf(directory.file("rows.svg")).substr(0, 5), "<?xml");
+}
+
+TEST(Tradeoff, DrawsEachMethodInAColourOfItsOwnAndNamesItOnce) {
+  const TemporaryDirectory directory;
+  const std::string scene = directory.write("two.yaml", kTwo);
+  const Ending end = twin({"tradeoff", scene, "--system", "swing", "--duration", "0.2", "--json",
+                           "--plot", directory.file("rows.svg")});
+  ASSERT_EQ(end.status, 0) << end.err;
+  std::set<std::string> methods;
+  const Json report = Json::parse(end.out);
+  for (const Json& row : report["rows"]) {
+    methods.insert(row["integrator"].get<std::string>());
+  }
+  ASSERT_GE(methods.size(), 8u);
+  const std::string picture = contentsOf(directory.file("rows.svg"));
+  const std::string words = picture.substr(0, picture.find("</desc>"));
+  for (const std::string& method : methods) {
+    const std::regex name("\\b" + method + "\\b");
+    EXPECT_EQ(std::distance(std::sregex_iterator(words.begin(), words.end(), name), {}), 1)
+        << method;
+  }
+  std::set<std::string> colours;  // of dots: what they are filled with
+  const std::regex dot("fill:(rgb\\([^)]*\\));fill-opacity:1;stroke-width:1;");
+  for (auto it = std::sregex_iterator(picture.begin(), picture.end(), dot);
+       it != std::sregex_iterator(); ++it) {
+    colours.insert((*it)[1]);
+  }
+  EXPECT_GE(colours.size(), methods.size());
 }
 
 TEST(Tradeoff, FollowsAConservedMomentumAsTheMethodsOrderLetsIt) {
