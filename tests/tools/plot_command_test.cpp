@@ -85,6 +85,12 @@ TEST(Plot, MarksWhenTheShaftPassesItsCriticalSpeed) {
   EXPECT_NE(words.find("[critical, 60.15 rad/s at 22.5", first), std::string::npos) << words;
 }
 
+// The critical speed of a rotor on its motor is that of the rotor with its shaft held: 200 rad/s.
+TEST(Plot, MarksItWhereAMotorTurnsTheShaftToo) {
+  EXPECT_TRUE(
+      has(wordsOf("sommerfeld", "escaping", "time", {"--duration", "20"}), "[critical, 200"));
+}
+
 TEST(Plot, ShowsTheSpeedOfAShaftInRpmToo) {
   EXPECT_TRUE(has(wordsOf("demo", "rotor", "time", {"--duration", "1"}),
                   "shaft speed (rad/s), rpm over time (s)"));

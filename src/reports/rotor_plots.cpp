@@ -1,0 +1,253 @@
+#include "reports/rotor_plots.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "analysis/critical_speeds.h"
+#include "reports/history_chart.h"
+#include "scene/held_rotor.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr std::size_t kOrbits = 6;  // of a rotor that changes its speed
+constexpr double kSlow = 0.02;      // of its highest speed: it hardly turns
+
+/// [rad], that the shaft has turned through since the start, without its direction.
+std::vector<double> turned(const PlotHistory& history) {
+  std::vector<double> angle{0.0};
+  for (std::size_t i = 0; i + 1 < history.time.size(); ++i) {
+    angle.push_back(angle.back() +
+                    std::fabs(history.speed[i]) * (history.time[i + 1] - history.time[i]));
+  }
+  return angle;
+}
+
+double fastestOf(const PlotHistory& history) {
+  double fastest = 0.0;
+  for (const double speed : history.speed) {
+    fastest = std::max(fastest, std::fabs(speed));
+  }
+  return fastest;
+}
+
+/// The lag goes on from one sample to the next; NaN where it slips by more than a quarter in a turn
+/// of the shaft, so that the whirl does not go along with it, and where that hardly turns.
+std::vector<double> heldLag(const PlotHistory& history) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> lag = history.whirl_phase;
+  double before = 0.0;
+  for (double& value : lag) {
+    if (std::isfinite(value)) {
+      value = before + std::remainder(value - before, 2.0 * kPi);
+      before = value;
+    }
+  }
+  const std::vector<double> angle = turned(history);
+  const double slow = kSlow * fastestOf(history);
+  std::vector<double> held(lag.size(), kNaN);
+  for (std::size_t i = 0; i < lag.size(); ++i) {
+    const double start = std::clamp(angle[i] - kPi, 0.0, std::max(0.0, angle.back() - 2.0 * kPi));
+    const auto at = [&](double turn) {
+      const auto next = std::lower_bound(angle.begin(), angle.end() - 1, turn);
+      return lag[static_cast<std::size_t>(next - angle.begin())];
+    };
+    if (std::fabs(at(start + 2.0 * kPi) - at(start)) <= 0.5 * kPi &&
+        std::fabs(history.speed[i]) >= slow) {
+      held[i] = lag[i];
+    }
+  }
+  return held;
+}
+
+/// Without the stretches that last for a small part of the run only: there a lag passes for held.
+void leaveOutShort(std::vector<double>& values) {
+  constexpr std::size_t kParts = 50;
+  for (std::size_t i = 0; i < values.size();) {
+    std::size_t end = i;
+    while (end < values.size() && std::isfinite(values[end])) {
+      ++end;
+    }
+    if (end - i < values.size() / kParts) {
+      std::fill(values.begin() + static_cast<std::ptrdiff_t>(i),
+                values.begin() + static_cast<std::ptrdiff_t>(end),
+                std::numeric_limits<double>::quiet_NaN());
+    }
+    i = end + 1;
+  }
+}
+
+/// In degrees within half a turn of 90, broken where it passes from one end to the other.
+std::vector<double> phaseLag(const PlotHistory& history) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> lag = heldLag(history);
+  leaveOutShort(lag);
+  double before = kNaN;
+  for (double& value : lag) {
+    const double now = 0.5 * kPi + std::remainder(value - 0.5 * kPi, 2.0 * kPi);
+    value = std::fabs(now - before) > kPi ? kNaN : now * 180.0 / kPi;
+    before = now;
+  }
+  return lag;
+}
+
+bool anyFinite(const std::vector<double>& values) {
+  return std::any_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
+}
+
+/// [s], when the shaft passes a speed.
+std::vector<double> passages(const PlotHistory& history, double speed) {
+  std::vector<double> times;
+  for (std::size_t i = 0; i + 1 < history.time.size(); ++i) {
+    const double before = std::fabs(history.speed[i]) - speed;
+    const double after = std::fabs(history.speed[i + 1]) - speed;
+    if ((before < 0.0) != (after < 0.0)) {
+      const double part = before / (before - after);
+      times.push_back(history.time[i] + part * (history.time[i + 1] - history.time[i]));
+    }
+  }
+  return times;
+}
+
+/// With spots between those of a path that has few, on the cubics that go through them smoothly
+/// (Catmull and Rom, 1974).
+void smooth(Series& path) {
+  constexpr std::size_t kEnough = 90;
+  constexpr int kParts = 5;
+  const std::size_t count = path.x.size();
+  if (count < 4 || count > kEnough) {
+    return;
+  }
+  Series finer;
+  for (std::size_t i = 0; i + 1 < count; ++i) {
+    const std::size_t before = i == 0 ? 0 : i - 1;
+    const std::size_t after = std::min(i + 2, count - 1);
+    for (int k = 0; k < kParts; ++k) {
+      const double s = static_cast<double>(k) / kParts;
+      const auto between = [&](const std::vector<double>& y) {
+        const double from = 0.5 * (y[i + 1] - y[before]);
+        const double to = 0.5 * (y[after] - y[i]);
+        const double rise = y[i + 1] - y[i];
+        return y[i] +
+               s * (from + s * (3.0 * rise - 2.0 * from - to + s * (from + to - 2.0 * rise)));
+      };
+      finer.x.push_back(between(path.x));
+      finer.y.push_back(between(path.y));
+    }
+  }
+  finer.x.push_back(path.x.back());
+  finer.y.push_back(path.y.back());
+  path.x = finer.x;
+  path.y = finer.y;
+}
+
+/// The path during one turn of the shaft that starts at a sample.
+Series turn(const PlotHistory& history, const std::vector<double>& angle, std::size_t start) {
+  Series series;
+  series.name = fmt::format("{:.3g} s, {:.4g} rad/s", history.time[start], history.speed[start]);
+  for (std::size_t i = start; i < angle.size(); ++i) {
+    series.x.push_back(history.whirl_x[i]);
+    series.y.push_back(history.whirl_y[i]);
+    if (angle[i] >= angle[start] + 2.0 * kPi) {
+      break;
+    }
+  }
+  smooth(series);
+  return series;
+}
+
+/// Samples that a whole turn of the shaft follows on, which does not hardly turn.
+std::vector<std::size_t> startsOfTurns(const PlotHistory& history,
+                                       const std::vector<double>& angle) {
+  const double slow = kSlow * fastestOf(history);
+  std::vector<std::size_t> starts;
+  for (std::size_t i = 0; i < angle.size() && angle[i] + 2.0 * kPi <= angle.back(); ++i) {
+    if (std::fabs(history.speed[i]) >= slow && std::isfinite(history.whirl_radius[i])) {
+      starts.push_back(i);
+    }
+  }
+  return starts;
+}
+
+}  // namespace
+
+std::vector<Chart> rotorCharts(const PlotHistory& history) {
+  std::vector<Chart> charts{historyChart(history, "whirl radius", "m", history.whirl_radius)};
+  const std::vector<double> lag = phaseLag(history);
+  if (anyFinite(lag)) {
+    charts.push_back(historyChart(history, "whirl phase lag", "deg", lag));
+    charts.back().y.degrees = true;
+    charts.back().horizontal = {{90.0, ""}, {180.0, ""}};
+  }
+  charts.push_back(speedChart(history, "shaft speed", history.speed));
+  return charts;
+}
+
+void markCriticalSpeeds(const BuiltSystem& system, const PlotHistory& history,
+                        std::vector<Chart>& charts) {
+  constexpr std::size_t kMostPassages = 6;
+  constexpr double kApart = 0.15;  // of the run: nearer ones are one to name
+  if (spread(history.speed) <= kSlow * fastestOf(history)) {
+    return;
+  }
+  for (const CriticalSpeed& critical : criticalSpeeds(*heldDynamics(system))) {
+    const std::vector<double> times = passages(history, critical.speed);
+    if (times.size() > kMostPassages) {
+      continue;
+    }
+    double named = -std::numeric_limits<double>::infinity();
+    for (const double time : times) {
+      for (Chart& chart : charts) {
+        chart.vertical.push_back({time, ""});
+      }
+      if (time - named > kApart * history.time.back()) {
+        charts.front().vertical.back().label =
+            fmt::format("critical, {:.4g} rad/s", critical.speed);
+        named = time;
+      }
+    }
+  }
+}
+
+Figure orbitFigure(const PlotHistory& history) {
+  Chart chart;
+  chart.x.label = "x (m)";
+  chart.y.label = "y (m)";
+  chart.equal_aspect = true;
+  const std::vector<double> angle = turned(history);
+  const std::vector<std::size_t> possible = startsOfTurns(history, angle);
+  if (spread(history.speed) == 0.0 || possible.empty()) {
+    chart.series = {{"orbit", history.whirl_x, history.whirl_y}};
+  } else {
+    std::vector<std::size_t> starts;
+    for (std::size_t i = 1; i <= kOrbits; ++i) {
+      starts.push_back(possible[i * (possible.size() - 1) / (kOrbits + 1)]);
+    }
+    const std::size_t widest =
+        *std::max_element(possible.begin(), possible.end(), [&](std::size_t a, std::size_t b) {
+          return history.whirl_radius[a] < history.whirl_radius[b];
+        });
+    const auto distance = [widest](std::size_t i) {
+      return std::max(i, widest) - std::min(i, widest);
+    };
+    *std::min_element(starts.begin(), starts.end(), [&distance](std::size_t a, std::size_t b) {
+      return distance(a) < distance(b);
+    }) = widest;
+    for (const std::size_t start : starts) {
+      chart.series.push_back(turn(history, angle, start));
+    }
+  }
+  Figure figure;
+  figure.charts = {chart};
+  figure.width = 640;
+  figure.chart_height = 640;
+  return figure;
+}
+
+}  // namespace whirl_twin
