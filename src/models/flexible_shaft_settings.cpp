@@ -17,6 +17,8 @@ namespace {
 constexpr double kRequired = std::numeric_limits<double>::quiet_NaN();
 constexpr int kMostElements = 100;
 constexpr double kLongestShaft = 100.0;  // [m], of a machine
+// Ip / Id of a disc without thickness is 2, of any other less; and data sheets round.
+constexpr double kThinnest = 2.0 * 1.01;
 constexpr double kSameDiameter = 1.0e-9;
 
 /// A hollow cylinder or cone: both its diameters at both its ends.
@@ -276,6 +278,23 @@ std::vector<std::string> shaftNotes(const ParameterValues& values, const Setting
   const double length = shaft.positions().back();
   if (length > kLongestShaft) {
     notes.push_back(fmt::format("a shaft {:.6g} m long; lengths are in m", length));
+  }
+  double thickest = 0.0;
+  for (const ShaftSection& element : shaft.elements) {
+    thickest = std::max(thickest, element.outer_diameter);
+  }
+  if (thickest > length) {
+    notes.push_back(
+        fmt::format("a shaft {:.6g} m thick, {:.6g} m long; lengths are in m", thickest, length));
+  }
+  for (std::size_t i = 0; i < shaft.discs.size(); ++i) {
+    const RotorDisc& disc = shaft.discs[i];
+    if (disc.transverse_inertia > 0.0 && disc.polar_inertia > kThinnest * disc.transverse_inertia) {
+      notes.push_back(
+          fmt::format("discs[{}]: no body has a polar_inertia, {:.6g} kg m^2, above twice its "
+                      "transverse_inertia, {:.6g} kg m^2",
+                      i, disc.polar_inertia, disc.transverse_inertia));
+    }
   }
   return notes;
 }

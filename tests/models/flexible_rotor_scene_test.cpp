@@ -1,4 +1,5 @@
 // Flexible rotors from scene files: what is refused and in what words, and what is built.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -236,6 +237,23 @@ TEST(FlexibleRotorScene, SaysWhatIsUnusual) {
   EXPECT_NE(setup.note.find("shear_modulus = 1.2e+11 Pa is outside"), std::string::npos);
   EXPECT_NE(setup.note.find("a shaft 250 m long; lengths are in m"), std::string::npos)
       << setup.note;
+}
+
+// Millimetres entered as metres; and Ip <= Ix + Iy of every body.
+TEST(FlexibleRotorScene, SaysWhatNoShaftAndNoDiscIs) {
+  const auto noteOf = [](double diameter, double polar) {
+    return setupOf(fmt::format("youngs_modulus: 2.0e+11, density: 7800, modes: 0, "
+                               "elements: [{{length: 0.03, outer_diameter: {}, count: 8}}], "
+                               "discs: [{{node: 3, mass: 8, polar_inertia: {}, "
+                               "transverse_inertia: 0.1}}]",
+                               diameter, polar))
+        .note;
+  };
+  EXPECT_EQ(noteOf(0.03, 0.2), "");
+  EXPECT_EQ(noteOf(10.0, 0.2), "a shaft 10 m thick, 0.24 m long; lengths are in m");
+  EXPECT_EQ(noteOf(0.03, 1.0),
+            "discs[0]: no body has a polar_inertia, 1 kg m^2, above twice its "
+            "transverse_inertia, 0.1 kg m^2");
 }
 
 TEST(FlexibleRotorScene, IsReducedAndSaysSo) {
