@@ -395,7 +395,7 @@ void ChartDrawing::drawFrame() {
   Lettering upwards = kAxisLabel;
   upwards.upwards = true;
   canvas_.text({place_.left + 14.0, plot_.top + 0.5 * plot_.height}, chart_.y.label, upwards);
-  drawExponent(y_, {plot_.left - (chart_.x.second ? 12.0 : 4.0), plot_.top - 11.0},
+  drawExponent(y_, {plot_.left - (chart_.x.second ? 18.0 : 4.0), plot_.top - 11.0},
                chart_.x.second ? Align::kEnd : Align::kStart);
   drawExponent(x_, {plot_.right(), plot_.bottom() + 34.0}, Align::kEnd);
 }

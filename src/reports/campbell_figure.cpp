@@ -128,18 +128,23 @@ void addBands(const CampbellReport& r, bool named, Chart& chart) {
   }
 }
 
-/// The number of each branch that is drawn, beside its last point.
+/// The number of each branch that is drawn, beside its last point: the highest first, so that of
+/// two near ones the upper has its number above and the lower below.
 void numberBranches(const CampbellReport& r, const Value& value, Chart& chart) {
   const double most = highestFrequency(r);
+  std::vector<Note> numbers;
   for (std::size_t b = 0; b < r.diagram.branches.size(); ++b) {
     const std::vector<CampbellPoint>& branch = r.diagram.branches[b];
     for (std::size_t k = branch.size(); k-- > 0;) {
       if (shown(branch, most) && branch[k].*value.of <= value.most) {
-        chart.notes.push_back({r.diagram.speeds[k], branch[k].*value.of, fmt::format("{}", b + 1)});
+        numbers.push_back({r.diagram.speeds[k], branch[k].*value.of, fmt::format("{}", b + 1)});
         break;
       }
     }
   }
+  std::stable_sort(numbers.begin(), numbers.end(),
+                   [](const Note& a, const Note& b) { return a.y > b.y; });
+  chart.notes.insert(chart.notes.end(), numbers.begin(), numbers.end());
 }
 
 Chart frequencyChart(const CampbellReport& r) {

@@ -132,6 +132,20 @@ bool needles(const std::vector<Series>& all) {
   return widest < kNeedles * (speeds.back() - speeds.front());
 }
 
+/// On a logarithmic axis slow speeds, with next to no unbalance force, would take most of the room.
+void cutFaint(std::vector<Series>& all) {
+  constexpr double kFaintest = 1.0e-5;  // of the highest
+  double highest = 0.0;
+  for (const Series& series : all) {
+    highest = std::max(highest, *std::max_element(series.y.begin(), series.y.end()));
+  }
+  for (Series& series : all) {
+    for (double& y : series.y) {
+      y = y < kFaintest * highest ? std::numeric_limits<double>::quiet_NaN() : y;
+    }
+  }
+}
+
 ChartAxis speedAxis() {
   return {"shaft speed (rad/s)", false, true, SecondScale{"rpm", kRpm}};
 }
@@ -186,7 +200,10 @@ Figure figure(const ResponseReport& r) {
     lag.series.push_back(lagSeries(r, i));
     polar.series.push_back(locus(r, smoothSweep(r, i), i));
   }
-  amplitude.y.logarithmic = needles(amplitude.series);
+  if (needles(amplitude.series)) {
+    amplitude.y.logarithmic = true;
+    cutFaint(amplitude.series);
+  }
   markSpeeds(r, smoothSweep(r, shown.front()), shown.front(), polar);
   for (const CriticalSpeed& peak : r.peaks) {
     amplitude.vertical.push_back({peak.speed, speedName(peak.speed)});

@@ -193,7 +193,10 @@ void markCriticalSpeeds(const BuiltSystem& system, const PlotHistory& history,
                         std::vector<Chart>& charts) {
   constexpr std::size_t kMostPassages = 6;
   constexpr double kApart = 0.15;  // of the run: nearer ones are one to name
-  if (spread(history.speed) <= kSlow * fastestOf(history)) {
+  const bool held_by_control =
+      std::any_of(history.commands.begin(), history.commands.end(),
+                  [](const CommandHistory& command) { return command.name != "torque"; });
+  if (held_by_control || spread(history.speed) <= kSlow * fastestOf(history)) {
     return;
   }
   for (const CriticalSpeed& critical : criticalSpeeds(*heldDynamics(system))) {

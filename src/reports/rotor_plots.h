@@ -14,7 +14,8 @@ namespace whirl_twin {
 std::vector<Chart> rotorCharts(const PlotHistory& history);
 
 /// When a rotor that changes its speed passes its critical speeds: named in the first chart, and
-/// across all of them. Of a speed that is passed again and again (a controller holds it) nothing.
+/// across all of them. Of a speed that is passed again and again (a controller holds it) nothing,
+/// nor of a rotor that controllers hold: its critical speeds are theirs too.
 void markCriticalSpeeds(const BuiltSystem& system, const PlotHistory& history,
                         std::vector<Chart>& charts);
 

@@ -91,6 +91,11 @@ TEST(Plot, MarksItWhereAMotorTurnsTheShaftToo) {
       has(wordsOf("sommerfeld", "escaping", "time", {"--duration", "20"}), "[critical, 200"));
 }
 
+// On magnets they are those of the loop, which the rotor alone does not have.
+TEST(Plot, MarksNoCriticalSpeedOfARotorThatAControllerHolds) {
+  EXPECT_FALSE(has(wordsOf("levitation", "rotor", "time", {"--duration", "6"}), "[critical"));
+}
+
 TEST(Plot, ShowsTheSpeedOfAShaftInRpmToo) {
   EXPECT_TRUE(has(wordsOf("demo", "rotor", "time", {"--duration", "1"}),
                   "shaft speed (rad/s), rpm over time (s)"));
