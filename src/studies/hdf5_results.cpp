@@ -24,7 +24,7 @@ namespace {
 
 constexpr hsize_t kChunk = 16384;  // rows
 constexpr unsigned kCompression = 4;
-constexpr std::size_t kGrowth = 1U << 20U;  // bytes, of the file in memory
+constexpr std::size_t kGrowth = 4096;  // bytes, by which the file in memory grows
 
 /// What HDF5 gives: closed with it.
 class Handle {
