@@ -7,7 +7,9 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdint>
+#include <map>
 #include <new>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -191,14 +193,17 @@ std::string unitOf(const Study& study, const Measure& measure, const BuiltScene&
         return variation.unit;
       }
     }
-    return unitOf(analysedNumber(leaf.path, scene).value());
+    const std::optional<AnalysedNumber> analysed = analysedNumber(leaf.path, scene);
+    return analysed ? unitOf(*analysed) : "-";
   }
   const bool alone = measure.text.rfind(leaf.reduction + "(", 0) == 0 &&
                      measure.text.find(')') == measure.text.size() - 1;
   if (alone && (leaf.reduction == "settling" || leaf.reduction == "time_of_max")) {
     return "s";
   }
-  return alone ? publishedQuantities(scene).at(leaf.path).unit : "-";
+  const std::map<std::string, PublishedQuantity> published = publishedQuantities(scene);
+  const auto found = published.find(leaf.path);
+  return alone && found != published.end() ? found->second.unit : "-";
 }
 
 std::vector<Column> measures(hid_t in, const Study& study, const ResultFolder& folder,

@@ -258,23 +258,23 @@ int sweepStudy(const Request& request) {
   static_cast<void>(shareOf(request.part));
   std::atomic<bool>& stop = catchInterrupts();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is like a disk that is full
-  const auto requireOutput = [&] {
-    if (!request.output) {
-      throw Refusal("--output: missing; must be the folder of the results");
-    }
-  };
-  if (!request.point && !request.part && !request.merge && !request.status && ranksStarted() > 1) {
-    requireOutput();
+  const bool whole = !request.point && !request.part && !request.merge && !request.status;
+  if (whole && request.output && ranksStarted() > 1) {
     return sweepAmongRanks(request, stop);
   }
   const Study study = readStudy(request.study);
   if (study.optimization) {
+    if (ranksStarted() > 1) {
+      throw Refusal(study.source + ": looks for an optimum, in one process: without mpirun");
+    }
     return runOptimization(request, study, stop);
   }
   if (request.point) {
     return runPoint(request, study, stop);
   }
-  requireOutput();
+  if (!request.output) {
+    throw Refusal("--output: missing; must be the folder of the results");
+  }
   if ((request.status || request.merge) &&
       !std::filesystem::exists(*request.output + "/manifest.yaml")) {
     throw Refusal(fmt::format("--output: {} has no results of a study", *request.output));

@@ -227,7 +227,7 @@ TEST(Hdf5Results, WorkersPartsAndKillsChangeNoByte) {
   ASSERT_EQ(twin(files.command("one", {"--workers", "1"})).status, 0);
   const std::string image = files.image("one");
   ASSERT_EQ(image.substr(1, 3), "HDF");
-  EXPECT_LT(image.size(), 100000U);  // of 300 points
+  EXPECT_LT(image.size(), 100000U);                              // of 300 points
   std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // HDF5's times are in seconds
   for (const std::string workers : {"2", "4"}) {
     ASSERT_EQ(twin(files.command(workers, {"--workers", workers})).status, 0);
