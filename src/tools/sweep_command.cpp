@@ -115,6 +115,12 @@ void print(const Request& request, const Study& study, const Report& report) {
   }
 }
 
+/// Said besides the report, for those who read only that something went wrong.
+int failed(const std::string& why) {
+  complain("twin: " + why + "\n");
+  return kFailed;
+}
+
 int runPoint(const Request& request, const Study& study, const std::atomic<bool>& stop) {
   if (*request.point >= study.points()) {
     throw Refusal(
@@ -130,7 +136,9 @@ int runPoint(const Request& request, const Study& study, const std::atomic<bool>
     throw RunFailure("interrupted");
   }
   print(request, study, point);
-  return point.outcome.failure.empty() ? kDone : kFailed;
+  return point.outcome.failure.empty()
+             ? kDone
+             : failed(fmt::format("point {}: {}", point.point, point.outcome.failure));
 }
 
 /// A bar for the points of these blocks.
@@ -172,7 +180,7 @@ int runOptimization(const Request& request, const Study& study, const std::atomi
         });
     bar.reset();
     print(request, study, optimum);
-    return optimum.values.empty() ? kFailed : kDone;
+    return optimum.values.empty() ? failed("optimize: no point meets what is required") : kDone;
   } catch (const Interrupted&) {
     throw RunFailure("interrupted");
   }
@@ -196,7 +204,9 @@ int tellAnswers(const Request& request, const Study& study, const ResultFolder& 
   const Answers answers = answersOf(study, folder.merge());
   writeHdf5Results(study, folder, answers);
   print(request, study, answers);
-  return answers.failures < answers.points ? kDone : kFailed;
+  return answers.failures < answers.points
+             ? kDone
+             : failed(fmt::format("{}/failed.csv: all points failed", *request.output));
 }
 
 /// How many processes mpirun or srun has started together; 1: this one alone.

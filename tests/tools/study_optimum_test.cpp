@@ -51,6 +51,7 @@ TEST(StudyOptimum, ThatThereIsNotIsExitStatusOne) {
   const Ending end = twin({"sweep", study, "--json"});
   EXPECT_EQ(end.status, 1) << end.err;
   EXPECT_EQ(end.json()["found"], false);
+  EXPECT_NE(end.err.find("no point meets what is required"), std::string::npos) << end.err;
   EXPECT_NE(twin({"sweep", study}).out.find("no point was found"), std::string::npos);
 }
 
