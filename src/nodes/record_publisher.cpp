@@ -19,6 +19,7 @@ namespace {
 
 constexpr auto kClockPausePeriod = std::chrono::milliseconds(100);
 constexpr auto kReportPeriod = std::chrono::seconds(1);
+constexpr auto kLongestSaving = std::chrono::seconds(1);
 constexpr int kMostAtOnce = 64;                   // records, between looks at what else is due
 constexpr std::int64_t kClockStep = 100'000'000;  // [ns]: more is no slewing
 
@@ -119,9 +120,35 @@ void RecordPublisher::run() {
   }
 }
 
+std::optional<SavedObserver> RecordPublisher::savedAt(std::int64_t step) {
+  std::unique_lock<std::mutex> lock(saved_mutex_);
+  const bool came = saved_anew_.wait_for(
+      lock, kLongestSaving, [&] { return newest_saved_ && newest_saved_->step == step; });
+  return came ? std::exchange(newest_saved_, std::nullopt) : std::nullopt;
+}
+
+SavedObserver RecordPublisher::savedAtEnd() {
+  return saved(live_.stepCount());
+}
+
+SavedObserver RecordPublisher::saved(std::int64_t step) {
+  return {step, imageOf(observer_), clock_steps_};
+}
+
+void RecordPublisher::putBack(const Checkpoint& checkpoint, const std::string& source) {
+  whirl_twin::putBack(checkpoint, observer_, source);
+  clock_steps_ = checkpoint.live["clock_steps"].as<std::int64_t>(0);
+}
+
 /// One record; true if a system has just stopped.
 bool RecordPublisher::take(const double* record) {
   const std::int64_t step = RecordLayout::step(record);
+  if (RecordLayout::scheduled(record) == RecordLayout::kSaved) {
+    const std::lock_guard<std::mutex> lock(saved_mutex_);
+    newest_saved_ = saved(step);
+    saved_anew_.notify_all();
+    return false;
+  }
   const bool due = step % every_ == 0;
   const bool shown = due && step / every_ % thinning_.every() == 0;
   left_out_ += due && !shown ? 1 : 0;

@@ -6,10 +6,12 @@
 #pragma once
 
 #include <atomic>
+#include <condition_variable>
 #include <cstdint>
 #include <limits>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -17,12 +19,20 @@
 #include "nodes/state_publisher.h"
 #include "realtime/even_thinning.h"
 #include "realtime/fixed_rate_loop.h"
+#include "twin/checkpoint.h"
 #include "twin/live_twin.h"
 #include "twin/measurements.h"
 #include "twin/observer.h"
 #include "twin/order_observer.h"
 
 namespace whirl_twin {
+
+/// Of a checkpoint.
+struct SavedObserver {
+  std::int64_t step = 0;
+  std::string image;
+  std::int64_t clock_steps = 0;  ///< on the clock before the last reset
+};
 
 class RecordPublisher {
  public:
@@ -33,19 +43,27 @@ class RecordPublisher {
                   std::int64_t every, bool clock, bool measure);
   ~RecordPublisher();
 
+  /// Before it starts: goes on from what it knew there. Throws Refusal.
+  void putBack(const Checkpoint& checkpoint, const std::string& source);
   void start();
   void join();
+  /// Once it has ended: what it knows where the twin has stopped.
+  SavedObserver savedAtEnd();
   // Any thread.
 
   bool onLcm() const { return states_.lcm().on(); }
   /// The newest report, for the diagnostics.
   state::LoopStatistics report() const;
+  /// What it knew of the twin's past where a checkpoint was taken, at a step that has just been
+  /// saved; nothing: its record was lost.
+  std::optional<SavedObserver> savedAt(std::int64_t step);
   /// What was dropped, left out or not sent counts from zero again.
   void resetCounts() { reset_requested_.store(true); }
 
  private:
   void run();
   bool take(const double* record);
+  SavedObserver saved(std::int64_t step);
   void measure(bool reset);
   void measureAnew();
   void publishReport();
@@ -84,6 +102,9 @@ class RecordPublisher {
   double reported_at_ = std::numeric_limits<double>::quiet_NaN();  // [s], of a clock nobody sets
   mutable std::mutex mutex_;  // report_, between this thread and the diagnostics
   state::LoopStatistics report_;
+  std::mutex saved_mutex_;
+  std::condition_variable saved_anew_;
+  std::optional<SavedObserver> newest_saved_;  // between this thread and who saves
   std::atomic<bool> reset_requested_{false};
   std::atomic<bool> ending_{false};
   std::thread thread_;

@@ -1,5 +1,6 @@
 add_executable(simulation_node
   ${CMAKE_CURRENT_LIST_DIR}/changed_parameters.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/checkpoint_saver.cpp
   ${CMAKE_CURRENT_LIST_DIR}/external_controllers.cpp
   ${CMAKE_CURRENT_LIST_DIR}/input_commands.cpp
   ${CMAKE_CURRENT_LIST_DIR}/loop_report.cpp

@@ -10,10 +10,12 @@
 #include <whirl_twin/MonitorStatus.h>
 
 #include <chrono>
+#include <optional>
 
 #include "accuracy/step_choice.h"
 #include "messages/monitor_pulse.h"
 #include "nodes/changed_parameters.h"
+#include "nodes/checkpoint_saver.h"
 #include "nodes/external_controllers.h"
 #include "nodes/input_commands.h"
 #include "nodes/loop_report.h"
@@ -31,7 +33,9 @@
 #include "transport/master_watch.h"
 #include "transport/ros_parameters.h"
 #include "transport/twin_namespace.h"
+#include "twin/checkpoint.h"
 #include "twin/live_twin.h"
+#include "twin/scene_lines.h"
 
 namespace whirl_twin {
 
@@ -63,13 +67,23 @@ constexpr const char* kHelp =
     "messages with it\n"
     "  ~clock_rate        Hz, of /clock, default 250\n"
     "  ~measure           true or false, default false: tell what the scene's sensors see, on "
-    "measured/SOURCE\n";
+    "measured/SOURCE\n"
+    "  ~checkpoint        a file, in which the twin is saved while it runs and at its end; "
+    "default: "
+    "none\n"
+    "  ~checkpoint_period s, from one saving to the next, 0.1 to 1e6, default 5\n"
+    "  ~resume            a checkpoint, from which it goes on to the bit; default: from the "
+    "scene's "
+    "start\n";
 
-constexpr double kClockRate = 250.0;            // Hz
-constexpr double kSlowestClock = 1.0e-3;        // Hz
-constexpr double kFastestClock = 1.0e5;         // Hz
-constexpr std::int64_t kShortestStep = 10'000;  // ns, that the fixed-rate loop takes
-constexpr double kLongestGiveUp = 86400.0;      // s
+constexpr double kClockRate = 250.0;               // Hz
+constexpr double kSlowestClock = 1.0e-3;           // Hz
+constexpr double kFastestClock = 1.0e5;            // Hz
+constexpr std::int64_t kShortestStep = 10'000;     // ns, that the fixed-rate loop takes
+constexpr double kLongestGiveUp = 86400.0;         // s
+constexpr double kCheckpointPeriod = 5.0;          // s
+constexpr double kShortestCheckpointPeriod = 0.1;  // s
+constexpr double kLongestCheckpointPeriod = 1.0e6;
 constexpr auto kReportPeriod = std::chrono::seconds(1);
 constexpr double kServicePoll = 0.05;   // s
 constexpr double kCommandPoll = 0.002;  // s, where there are ramps or commands by LCM
@@ -83,13 +97,16 @@ struct Settings {
   double clock_rate;  ///< [Hz], in simulated time
   bool measure;       ///< publish what the scene's sensors see
   double real_time_factor;
+  std::string checkpoint;    ///< file; empty: none
+  double checkpoint_period;  ///< [s]
+  std::string resume;        ///< file; empty: none
   FixedRateLoop::Options loop;
 };
 
 Settings readSettings(const Scene& scene) {
   requireKnownParameters({"publish_rate", "lcm_url", "lcm_prefix", "clock", "realtime", "priority",
                           "overrun", "cpu", "give_up", "busy_wait", "real_time_factor", "measure",
-                          "clock_rate"});
+                          "clock_rate", "checkpoint", "checkpoint_period", "resume"});
   Settings s;
   s.every = stepsToPublish(scene);
   s.lcm_url = privateParameter<std::string>("lcm_url", "an LCM url, or nothing", kDefaultLcmUrl);
@@ -111,6 +128,15 @@ Settings readSettings(const Scene& scene) {
   if (const std::string fault = factorFault(s.real_time_factor); !fault.empty()) {
     throw Refusal(fault);
   }
+  s.checkpoint = privateParameter<std::string>("checkpoint", "a file, or nothing", "");
+  s.checkpoint_period = privateParameter("checkpoint_period", "a number in s", kCheckpointPeriod);
+  if (!(s.checkpoint_period >= kShortestCheckpointPeriod &&
+        s.checkpoint_period <= kLongestCheckpointPeriod)) {
+    throw Refusal(fmt::format("checkpoint_period: must be from {} to {} s, found {}",
+                              kShortestCheckpointPeriod, kLongestCheckpointPeriod,
+                              s.checkpoint_period));
+  }
+  s.resume = privateParameter<std::string>("resume", "a checkpoint, or nothing", "");
   if (scene.step < kShortestStep) {
     throw Refusal(fmt::format("{}: step: must be >= {:g} s to run live, found {:g} s", scene.source,
                               static_cast<double>(kShortestStep) * 1.0e-9, scene.stepSeconds()));
@@ -152,14 +178,30 @@ void run() {
   LiveTwin live(scene, std::min<std::size_t>(capacity, 100'000));
   live.setPace(settings.real_time_factor);
   FixedRateLoop loop(settings.loop);
+  const SceneLines lines = sceneLines(given.tree, live.twin());
+  std::optional<Checkpoint> resumed;
+  if (!settings.resume.empty()) {
+    resumed = readCheckpoint(settings.resume);
+    requireScene(*resumed, lines, settings.resume);
+  }
+  TwinServices services(live, private_node,
+                        [&] { return !stopRequested() && ros::ok() && loop.running(); });
+  if (resumed) {
+    services.goOnFrom(*resumed, settings.resume);
+  }
   RecordPublisher publisher(
       live, loop,
       StatePublisher(live.twin(), live.ensembles(), node,
                      LcmPublisher(settings.lcm_url, settings.lcm_prefix),
                      settings.clock ? std::llround(1.0e9 / settings.clock_rate) : 0),
       settings.every, settings.clock, settings.measure);
-  TwinServices services(live, private_node,
-                        [&] { return !stopRequested() && ros::ok() && loop.running(); });
+  if (resumed) {
+    publisher.putBack(*resumed, settings.resume);
+    ROS_INFO("goes on from step %ld, t = %g s, of %s", static_cast<long>(resumed->step),
+             live.twin().time(), settings.resume.c_str());
+  }
+  CheckpointSaver saver(live, lines, settings.checkpoint, settings.checkpoint_period, services,
+                        publisher);
   const ros::ServiceServer reset_statistics =
       private_node.advertiseService<std_srvs::TriggerRequest, std_srvs::TriggerResponse>(
           "reset_statistics", [&](std_srvs::TriggerRequest&, std_srvs::TriggerResponse& response) {
@@ -228,6 +270,7 @@ void run() {
     ros::getGlobalCallbackQueue()->callAvailable(
         ros::WallDuration(services.ramping() || commands.any() ? kCommandPoll : kServicePoll));
     services.continueRamps();
+    saver.saveIfDue();
     commands.receive();
     rivals.receive();
     if (std::chrono::steady_clock::now() >= next_report) {
@@ -238,6 +281,7 @@ void run() {
   const bool by_itself = !loop.running() && !stopRequested();
   loop.stop();
   publisher.join();
+  saver.saveAtEnd();
   ROS_INFO("stopped after %ld steps", static_cast<long>(live.twin().stepCount()));
   master.stop();
   ros::shutdown();

@@ -12,8 +12,10 @@
 #include <whirl_twin/StepN.h>
 
 #include <functional>
+#include <string>
 
 #include "messages/input_command.h"
+#include "twin/live_checkpoint.h"
 #include "twin/live_parameters.h"
 #include "twin/live_twin.h"
 
@@ -32,6 +34,20 @@ class TwinServices {
   /// few milliseconds.
   bool ramping() const { return parameters_.ramping(); }
   void continueRamps();
+
+  // Of checkpoints (twin/live_checkpoint.h).
+
+  /// Between two calls of services.
+  bool take(Checkpoint& out) {
+    return takeCheckpoint(
+        twin_, parameters_, [this] { return wait(); }, out);
+  }
+  /// The loop has ended.
+  void takeAtRest(Checkpoint& out) { whirl_twin::takeAtRest(twin_, parameters_, out); }
+  /// The loop is yet to begin.
+  void goOnFrom(const Checkpoint& checkpoint, const std::string& source) {
+    whirl_twin::resume(checkpoint, twin_, parameters_, source);
+  }
 
   /// A command that came by topic or channel. Returns why it is refused; "" if it is on its way.
   std::string take(const state::InputCommand& command);
@@ -61,10 +77,10 @@ class TwinServices {
   LiveTwin& twin_;
   std::function<bool()> keep_waiting_;
   LiveParameters parameters_;
-  std::vector<ros::ServiceServer> servers_;
   // ~pause is not kept waiting by a service that takes long.
   ros::CallbackQueue pause_queue_;
   ros::AsyncSpinner pause_thread_{1, &pause_queue_};
+  std::vector<ros::ServiceServer> servers_;  // gone before the queue that one of them has
 };
 
 }  // namespace whirl_twin

@@ -440,10 +440,10 @@ void LiveParameters::resumeChange(const YAML::Node& saved) {
     controller(which) = std::move(next.spec);
     twin_.atRest().replaceLaw(which - systems_.size(), std::move(next.law), generation);
   }
-  if (saved["changed"].IsSequence()) {
+  if (saved["changed"]) {
     made.parameters.changed = saved["changed"].as<std::vector<std::string>>();
   }
-  if (saved["previous"].IsSequence()) {
+  if (saved["previous"]) {
     made.parameters.previous = saved["previous"].as<std::vector<double>>();
   }
   generations_[which] = generation;
