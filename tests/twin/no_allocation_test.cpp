@@ -1,6 +1,9 @@
 // Nothing that runs in the real-time thread allocates: step, write, setSpeed and reset, for every
-// model and every method, at constant and at changing speed.
+// model and every method, at constant and at changing speed; and its state, taken and put back
+// there.
 #include <gtest/gtest.h>
+
+#include <cstring>
 
 #include "../models/every_variant.h"
 #include "../scene/scenes.h"
@@ -94,6 +97,45 @@ TEST_P(NoAllocation, InTheRealTimeThread) {
   }
   EXPECT_TRUE(set);
   EXPECT_EQ(twin.status(0), StepStatus::kOk) << "what does not step does not allocate";
+}
+
+/// Every number of a step's past that is left out shows here, in the bits of those after it.
+TEST_P(NoAllocation, GoesOnFromItsImageToTheBit) {
+  Twin twin(scene());
+  Twin resumed(scene());
+  const auto goOn = [](Twin& one, int steps) {
+    for (int i = 0; i < steps; ++i) {
+      one.step();
+    }
+  };
+  goOn(resumed, 90);
+  std::vector<char> room(1'000'000);
+  for (const int before : {300, 500, 77}) {
+    goOn(twin, before);
+    if (before == 500) {
+      twin.setSpeed(0, 20.0, 30.0, 100.0);
+      goOn(twin, 3);
+    }
+    const AllocationGuard guard;
+    StateImage taken = StateImage::taking(room.data(), room.size());
+    twin.exchange(taken);
+    ASSERT_TRUE(taken.sound());
+    StateImage put = StateImage::putting(room.data(), taken.size());
+    resumed.exchange(put);
+    ASSERT_TRUE(put.sound());
+    EXPECT_EQ(put.size(), taken.size());
+    EXPECT_EQ(guard.allocations(), 0u);
+    std::vector<double> expected(twin.layout().size);
+    std::vector<double> found(expected.size());
+    for (int i = 0; i < 700; ++i) {
+      twin.step();
+      resumed.step();
+      twin.write(expected.data());
+      resumed.write(found.data());
+      ASSERT_EQ(std::memcmp(expected.data(), found.data(), expected.size() * sizeof(double)), 0)
+          << "step " << twin.stepCount();
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, NoAllocation, testing::ValuesIn(everyPair()),
