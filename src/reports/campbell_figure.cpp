@@ -151,6 +151,7 @@ Chart frequencyChart(const CampbellReport& r) {
   Chart chart;
   chart.x = {"", false, true, SecondScale{"rpm", kRpm}};
   chart.y.label = "damped whirl frequency (rad/s)";
+  chart.y.tight = true;  // where a branch leaves the chart it goes to its edge
   const double most = highestFrequency(r);
   addBands(r, true, chart);
   addBranches(r, {&CampbellPoint::frequency, most}, true, chart);

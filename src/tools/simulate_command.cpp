@@ -26,6 +26,10 @@ constexpr const char* kFooter =
     "17 significant digits; nan where a value is undefined or a system has stopped. Same input,\n"
     "same build: same bytes. A file appears only when it is complete.\n"
     "\n"
+    "A run that goes on from a checkpoint has the rows behind it, byte for byte as in one that "
+    "was\n"
+    "never broken off, after one of where it begins.\n"
+    "\n"
     "A system that diverges is named on standard error with its last good state; the others go\n"
     "on to the end, and the exit status is 1.\n"
     "\n"
@@ -33,6 +37,7 @@ constexpr const char* kFooter =
     "  twin simulate demo.yaml --sample 0.01 --output demo.csv\n"
     "  twin simulate demo.yaml --duration 60 --output demo.lcmlog     for twin play\n"
     "  twin simulate demo.yaml --duration 60 --output demo.mcap       for PlotJuggler, Lichtblick\n"
+    "  twin simulate demo.yaml --duration 1e4 --checkpoint run.checkpoint --json\n"
     "  twin simulate demo.yaml --system pendulum --integrator runge_kutta_4 --step 0.0005 --json";
 
 /// ".csv", ".lcmlog" or ".mcap". Throws Refusal.
@@ -88,6 +93,9 @@ int simulate(const SimulationRequest& request) {
   if (request.members && request.members == request.output) {
     throw Refusal("--members: must be another file than --output");
   }
+  if (request.measure && request.resume) {
+    throw Refusal("--measure: goes with a run from the scene's start, found --resume");
+  }
   const SimulationPlan plan = planSimulation(request);
   sayWhatIsMissing(plan.scene);
   if (request.members) {
@@ -142,6 +150,18 @@ void addSimulateCommand(CLI::App& twin, int& status) {
                    "the name of sensors of the scene, or `sensors` for all of them: what they\n"
                    "measure goes into the log too")
       ->type_name("NAME");
+  command
+      ->add_option(
+          "--checkpoint", request->checkpoint,
+          "a file, in which the run is saved every 5 s of wall time, at its end, and where "
+          "it is interrupted")
+      ->type_name("FILE");
+  command
+      ->add_option(
+          "--resume", request->resume,
+          "a checkpoint of the same scene, to go on from to the bit up to --duration, which "
+          "counts from the scene's start")
+      ->type_name("FILE");
   command->add_option("--system", request->system, "show this system only")->type_name("NAME");
   command->add_flag("--json", request->json, "print the final state as one JSON object");
   addInsistOption(command, request->insist);

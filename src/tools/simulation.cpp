@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "messages/refusal.h"
@@ -13,6 +14,12 @@
 #include "twin/stop_text.h"
 
 namespace whirl_twin {
+
+namespace {
+
+constexpr auto kSavePeriod = std::chrono::seconds(5);
+
+}  // namespace
 
 Simulation::Simulation(const SimulationPlan& plan)
     : plan_(plan),
@@ -25,6 +32,45 @@ Simulation::Simulation(const SimulationPlan& plan)
   twin_.buildEnsembles();
   // Before a writer begins its file, which an interrupted run takes away.
   catchInterrupts();
+  if (plan_.checkpoint || plan_.resume) {
+    checkpoint_.scene = sceneLines(YAML::LoadFile(plan_.path), twin_);
+  }
+  if (plan_.resume) {
+    goOnFrom(*plan_.resume);
+  }
+}
+
+void Simulation::goOnFrom(const std::string& path) {
+  const Checkpoint from = readCheckpoint(path);
+  requireScene(from, checkpoint_.scene, path);
+  if (from.live["changes"]) {
+    throw Refusal(
+        fmt::format("{}: parameters were changed live; let simulation_node go on from it", path));
+  }
+  if (from.step >= plan_.steps) {
+    throw Refusal(fmt::format("--duration: must end behind step {}, where {} is, found {} steps",
+                              from.step, path, plan_.steps));
+  }
+  putBack(from, twin_, path);
+  putBack(from, observer_, path);
+  for (std::size_t i = 0; i < stopped_.size(); ++i) {
+    if (twin_.status(i) != StepStatus::kOk) {
+      const YAML::Node stopped = from.live["stopped"][plan_.scene.systems[i].name];
+      stopped_[i] = stopped ? stopped.as<std::int64_t>() : from.step;
+    }
+  }
+}
+
+void Simulation::save() {
+  checkpoint_.step = twin_.stepCount();
+  checkpoint_.twin = imageOf(twin_);
+  checkpoint_.observer = imageOf(observer_);
+  for (std::size_t i = 0; i < stopped_.size(); ++i) {
+    if (stopped_[i]) {
+      checkpoint_.live["stopped"][plan_.scene.systems[i].name] = *stopped_[i];
+    }
+  }
+  writeCheckpoint(*plan_.checkpoint, bytesOf(checkpoint_));
 }
 
 void Simulation::run(SampleWriter* writer, bool results_on_standard_output) {
@@ -41,9 +87,12 @@ void Simulation::run(SampleWriter* writer, bool results_on_standard_output) {
     twin_.write(record.data());
     writer->follow(record.data(), observer_);
   }
-  std::int64_t next_sample = writer != nullptr ? plan_.stride : plan_.steps;
-  std::int64_t next_bar = 1;
-  for (std::int64_t i = 0; i < plan_.steps;) {
+  std::int64_t i = twin_.stepCount();
+  std::int64_t next_sample =
+      writer != nullptr ? (i / plan_.stride + 1) * plan_.stride : plan_.steps;
+  std::int64_t next_bar = i + 1;
+  auto next_save = std::chrono::steady_clock::now() + kSavePeriod;
+  while (i < plan_.steps) {
     const std::int64_t passed = every_step || i == 0 ? 1 : observer_.mostPassed();
     const std::int64_t due = std::min({i + passed, next_sample, plan_.steps});
     i = followed ? stepFollowed(due, *writer, record) : stepUnseen(due);
@@ -66,6 +115,17 @@ void Simulation::run(SampleWriter* writer, bool results_on_standard_output) {
     if (i >= next_bar) {
       next_bar = i + bar.show(i);
     }
+    const bool asked_to_end = interrupted();
+    if (plan_.checkpoint && (asked_to_end || std::chrono::steady_clock::now() >= next_save)) {
+      save();
+      next_save = std::chrono::steady_clock::now() + kSavePeriod;
+    }
+    if (asked_to_end) {
+      throw RunFailure(fmt::format("interrupted after {} of {} steps", i, plan_.steps));
+    }
+  }
+  if (plan_.checkpoint) {
+    save();
   }
   for (const state::Measurement& block : measurements_.finish()) {
     writer->write(block);
@@ -79,8 +139,8 @@ std::int64_t Simulation::stepUnseen(std::int64_t due) {
   do {
     twin_.step();
     ++i;
-    endIfAsked(i);
-  } while (i < due && !stopsNow() && i != quiet && (i < quiet || observer_.look(twin_)));
+  } while (i < due && !interrupted() && !stopsNow() && i != quiet &&
+           (i < quiet || observer_.look(twin_)));
   return i;
 }
 
@@ -91,8 +151,7 @@ std::int64_t Simulation::stepFollowed(std::int64_t due, SampleWriter& writer,
   while (true) {
     twin_.step();
     ++i;
-    endIfAsked(i);
-    if (i == due || stopsNow() || writer.hasToSee(i)) {
+    if (i == due || interrupted() || stopsNow() || writer.hasToSee(i)) {
       return i;
     }
     twin_.write(record.data());
@@ -100,12 +159,6 @@ std::int64_t Simulation::stepFollowed(std::int64_t due, SampleWriter& writer,
       return i;
     }
     writer.follow(record.data(), observer_);
-  }
-}
-
-void Simulation::endIfAsked(std::int64_t step) const {
-  if (interrupted()) {
-    throw RunFailure(fmt::format("interrupted after {} of {} steps", step, plan_.steps));
   }
 }
 

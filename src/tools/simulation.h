@@ -11,6 +11,7 @@
 #include "tools/accuracy_watch.h"
 #include "tools/progress_bar.h"
 #include "tools/validity_watch.h"
+#include "twin/checkpoint.h"
 #include "twin/measurements.h"
 #include "twin/observer.h"
 
@@ -25,8 +26,10 @@ struct SimulationRequest {
   std::optional<std::string> sample;    ///< [s], as typed
   std::optional<std::string> integrator;
   std::optional<std::string> output;
-  std::optional<std::string> members;  ///< path of their table
-  std::optional<std::string> measure;  ///< one of the scene's sensors, or `sensors`: all of them
+  std::optional<std::string> members;     ///< path of their table
+  std::optional<std::string> measure;     ///< one of the scene's sensors, or `sensors`: all of them
+  std::optional<std::string> checkpoint;  ///< path, where the run is saved
+  std::optional<std::string> resume;      ///< path of one that it goes on from
   bool json = false;
   bool insist = false;
 };
@@ -37,8 +40,11 @@ struct SimulationPlan {
   std::vector<std::size_t> systems;  ///< those that are shown
   std::vector<SensorSpec> sensors;   ///< those that measure
   std::int64_t steps = 0;
-  std::int64_t stride = 1;  ///< steps from one sample to the next
-  bool insist = false;      ///< however long it takes
+  std::int64_t stride = 1;                ///< steps from one sample to the next
+  bool insist = false;                    ///< however long it takes
+  std::string path;                       ///< of the scene
+  std::optional<std::string> checkpoint;  ///< path, where the run is saved
+  std::optional<std::string> resume;      ///< path of one that it goes on from
 
   /// The numbers that make it long: "--duration: 100 s, 100000 steps".
   std::string asked() const;
@@ -49,7 +55,8 @@ SimulationPlan planSimulation(const SimulationRequest& request);
 
 class Simulation {
  public:
-  /// From now on SIGINT and SIGTERM end a run in order.
+  /// From now on SIGINT and SIGTERM end a run in order. Throws Refusal for a checkpoint that it
+  /// cannot go on from.
   explicit Simulation(const SimulationPlan& plan);
 
   /// Runs to the end. `writer` may be null. A system that stops is reported on standard error and
@@ -63,10 +70,10 @@ class Simulation {
   Json json() const;
 
  private:
+  void goOnFrom(const std::string& path);
+  void save();
   std::int64_t stepUnseen(std::int64_t due);
   std::int64_t stepFollowed(std::int64_t due, SampleWriter& writer, std::vector<double>& record);
-  /// Throws RunFailure after SIGINT or SIGTERM.
-  void endIfAsked(std::int64_t step) const;
   bool stopsNow() const;
   void noteStops(ProgressBar& bar);
   void warn(ProgressBar& bar);
@@ -79,6 +86,7 @@ class Simulation {
   Measurements measurements_;
   ValidityWatch validity_;
   AccuracyWatch accuracy_;
+  Checkpoint checkpoint_;
   std::vector<std::optional<std::int64_t>> stopped_;  ///< the step in which each system stopped
 };
 

@@ -91,7 +91,10 @@ std::vector<SensorSpec> selectedSensors(const Scene& scene, const std::string& n
 
 SimulationPlan planSimulation(const SimulationRequest& request) {
   SimulationPlan plan;
-  plan.scene = readSceneFile(scenePath(request.scene));
+  plan.path = scenePath(request.scene);
+  plan.scene = readSceneFile(plan.path);
+  plan.checkpoint = request.checkpoint;
+  plan.resume = request.resume;
   plan.systems = selectedSystems(plan.scene, request.system);
   if (request.measure) {
     plan.sensors = selectedSensors(plan.scene, *request.measure);
