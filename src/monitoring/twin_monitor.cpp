@@ -44,11 +44,9 @@ TwinMonitor::TwinMonitor(const BuiltScene& scene, const AlarmSettings& settings,
       margin_search_(scene.systems.size(), mode),
       data_lost_alarm_(namesOf(scene.systems), settings),
       lcm_lost_alarm_(settings),
+      controller_alarms_(scene.scene, settings),
       alerts_(settings.latch),
       restored_(settings) {
-  for (const ControllerSpec& controller : scene.scene.controllers) {
-    controller_alarms_.emplace(controller.name, ControllerAlarms(controller, settings_));
-  }
   for (std::size_t i = 0; i < scene.systems.size(); ++i) {
     watches_.emplace_back(scene.systems[i], judging_.speedsOf(i), settings_);
     if (const auto orbit = measuredOrbitOf(scene, i)) {
@@ -68,9 +66,7 @@ void TwinMonitor::restart(double time, double wall_time) {
   }
   data_lost_alarm_ = DataLostAlarm(systemNames(), settings_);
   lcm_lost_alarm_ = LcmLostAlarm(settings_);
-  for (auto& [name, alarms] : controller_alarms_) {
-    alarms.restart(name, settings_);
-  }
+  controller_alarms_.restart(settings_);
   for (auto& [source, clock] : clocks_) {
     clock.restartAt(time, wall_time);
   }
@@ -86,9 +82,7 @@ void TwinMonitor::set(const AlarmSettings& settings) {
   }
   data_lost_alarm_.set(settings_);
   lcm_lost_alarm_.set(settings_);
-  for (auto& [name, alarms] : controller_alarms_) {
-    alarms.set(settings_);
-  }
+  controller_alarms_.set(settings_);
   restored_.set(settings_);
   alerts_.setLatch(settings_.latch);
 }
@@ -325,10 +319,7 @@ void TwinMonitor::takeJudgements() {
 
 void TwinMonitor::takeLoop(std::vector<state::ControllerMargins> judged) {
   for (state::ControllerMargins& margins : judged) {
-    ControllerAlarms& alarms = controller_alarms_.at(margins.controller);
-    margins.saturated = alarms.saturation.saturated();
-    margins.missed = alarms.saturation.missed();
-    alarms.loop.update(margins, alerts_);
+    controller_alarms_.update(margins, alerts_);
     loop_margins_.push_back(std::move(margins));
   }
 }
@@ -423,12 +414,9 @@ void TwinMonitor::take(const state::FollowState& follow, double wall_time) {
 }
 
 void TwinMonitor::take(const state::ControllerState& controller, double wall_time) {
-  const auto alarms = controller_alarms_.find(controller.controller);
-  if (alarms != controller_alarms_.end() &&
+  if (controller_alarms_.watch(controller.controller) &&
       arrived("controllers/" + controller.controller, controller.at, wall_time)) {
-    alarms->second.lost.update(controller.at.time, controller.lost, alerts_);
-    alarms->second.saturation.update(controller, alerts_);
-    alarms->second.passage.update(controller, alerts_);
+    controller_alarms_.update(controller, alerts_);
     restored_.heard(controller.controller, controller.at.time, alerts_);
   }
 }

@@ -18,16 +18,13 @@
 #include "monitoring/alarm_memory.h"
 #include "monitoring/alarm_settings.h"
 #include "monitoring/alert_list.h"
-#include "monitoring/controller_alarm.h"
+#include "monitoring/controller_alarms.h"
 #include "monitoring/data_lost_alarm.h"
 #include "monitoring/judging.h"
 #include "monitoring/lcm_lost_alarm.h"
-#include "monitoring/loop_alarm.h"
 #include "monitoring/margin_search.h"
-#include "monitoring/passage_alarm.h"
 #include "monitoring/reset_watch.h"
 #include "monitoring/restored_alerts.h"
-#include "monitoring/saturation_alarm.h"
 #include "monitoring/source_clock.h"
 #include "monitoring/system_watch.h"
 #include "scene/built_scene.h"
@@ -132,33 +129,7 @@ class TwinMonitor {
   std::vector<SystemWatch> watches_;
   DataLostAlarm data_lost_alarm_;
   LcmLostAlarm lcm_lost_alarm_;
-  /// Of each controller.
-  struct ControllerAlarms {
-    ControllerAlarm lost;
-    LoopAlarm loop;
-    SaturationAlarm saturation;
-    PassageAlarm passage;
-    ControllerAlarms(const ControllerSpec& controller, const AlarmSettings& settings)
-        : lost(controller.name, settings),
-          loop(controller.name, settings),
-          saturation(controller.name, settings),
-          passage(controller, settings) {}
-    void set(const AlarmSettings& settings) {
-      lost.set(settings);
-      loop.set(settings);
-      saturation.set(settings);
-      passage.set(settings);
-    }
-    /// They forget what has been.
-    void restart(const std::string& controller, const AlarmSettings& settings) {
-      lost = ControllerAlarm(controller, settings);
-      loop = LoopAlarm(controller, settings);
-      saturation = SaturationAlarm(controller, settings);
-      passage.restart(settings);
-    }
-  };
-
-  std::map<std::string, ControllerAlarms> controller_alarms_;
+  ControllerAlarms controller_alarms_;
   AlertList alerts_;
   RestoredAlerts restored_;
   std::map<std::string, double> inhibited_until_;  ///< [s, wall]

@@ -1,98 +1,34 @@
-// Rotors of ROSS, as its Rotor.save() writes them: a table for each element, "ShaftElement_TAG",
-// "DiskElement_TAG", "BearingElement_TAG" ..., whose keys are the arguments that made it (SI). What
-// it calls a node's number is ours, too; several shaft elements of one number are layers.
+// Rotors of ROSS. What it calls a node's number is ours, too; several shaft elements of one number
+// are layers.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
-#include <sstream>
-#include <toml.hpp>
 
 #include "messages/names.h"
-#include "messages/refusal.h"
+#include "reports/ross_file.h"
 #include "reports/rotor_drawing.h"
-#include "scene/node_reader.h"
 #include "scene/scene_error.h"
 
 namespace whirl_twin {
 
 namespace {
 
-using nlohmann::json;
-
 constexpr double kNoStiffness = 1.0e-3;  // of the shaft's modulus: a layer that is mass only
 
-json jsonOf(const toml::value& value) {
-  switch (value.type()) {
-    case toml::value_t::boolean:
-      return value.as_boolean();
-    case toml::value_t::integer:
-      return value.as_integer();
-    case toml::value_t::floating:
-      return value.as_floating();
-    case toml::value_t::string:
-      return value.as_string().str;
-    case toml::value_t::array: {
-      json all = json::array();
-      for (const toml::value& one : value.as_array()) {
-        all.push_back(jsonOf(one));
-      }
-      return all;
-    }
-    case toml::value_t::table: {
-      json all = json::object();
-      for (const auto& [key, one] : value.as_table()) {
-        all[key] = jsonOf(one);
-      }
-      return all;
-    }
-    default:
-      return nullptr;
-  }
+/// Whatever they are called.
+bool same(const RossMaterial& a, const RossMaterial& b) {
+  return a.youngs_modulus == b.youngs_modulus && a.shear_modulus == b.shear_modulus &&
+         a.density == b.density;
 }
-
-json treeOf(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in || !std::filesystem::is_regular_file(path)) {
-    throw Refusal(path + ": cannot be read; must be a rotor that ROSS has saved");
-  }
-  try {
-    json tree = std::filesystem::path(path).extension() == ".json" ? json::parse(in)
-                                                                   : jsonOf(toml::parse(in, path));
-    if (!tree.is_object()) {
-      throw Refusal(path + ": must be a rotor that ROSS has saved, found a list or a value");
-    }
-    return tree;
-  } catch (const json::exception& error) {
-    throw Refusal(fmt::format("{}: is no JSON: {}", path, error.what()));
-  } catch (const toml::exception& error) {
-    throw Refusal(fmt::format("{}: is no TOML, in line {}", path, error.location().line()));
-  }
-}
-
-/// An entry of the file.
-struct Entry {
-  std::string kind;  ///< "ShaftElement"
-  std::string key;   ///< "ShaftElement_Shaft Element 0"
-  const json* fields;
-};
 
 class RossReader {
  public:
-  explicit RossReader(const std::string& path) : tree_(treeOf(path)), complaints_(path) {
+  explicit RossReader(const std::string& path) : complaints_(path), file_(path, complaints_) {
     drawing_.name = nameOf(path);
     drawing_.origin =
         fmt::format("A rotor of ROSS, from {}.", std::filesystem::path(path).filename().string());
-    for (const auto& [key, value] : tree_.items()) {
-      const std::size_t bar = key.find('_');
-      if (value.is_object() && bar != std::string::npos && bar > 0) {
-        entries_.push_back({key.substr(0, bar), key, &value});
-      }
-    }
   }
 
   RotorDrawing read() {
@@ -108,108 +44,53 @@ class RossReader {
   }
 
  private:
-  struct Material {
-    double youngs_modulus = 0.0, shear_modulus = 0.0, density = 0.0;
-    bool operator==(const Material& other) const {
-      return youngs_modulus == other.youngs_modulus && shear_modulus == other.shear_modulus &&
-             density == other.density;
-    }
-  };
   struct Layer {
     int node = 0;
     double length = 0.0, inner = 0.0, inner_end = 0.0, outer = 0.0, outer_end = 0.0;
     double axial_force = 0.0;
-    Material material;
-    std::string name;  ///< of the material
-    Entry entry;
+    RossMaterial material;
+    RossEntry entry;
   };
 
-  static bool is(const Entry& entry, const char* kind) { return entry.kind.rfind(kind, 0) == 0; }
-  static bool isSupport(const Entry& entry) {
+  static bool is(const RossEntry& entry, const char* kind) {
+    return entry.kind.rfind(kind, 0) == 0;
+  }
+  static bool isSupport(const RossEntry& entry) {
     return entry.fields->contains("kxx") && !is(entry, "Magnetic") && !is(entry, "Coupling");
   }
 
-  double number(const json& fields, const std::string& where, const char* name, const char* unit,
-                std::optional<double> fallback = std::nullopt) {
-    const auto found = fields.find(name);
-    if (found != fields.end() && found->is_number() && std::isfinite(found->get<double>())) {
-      return found->get<double>();
-    }
-    const bool given = found != fields.end() && !found->is_null();
-    if (given || !fallback) {
-      complaints_.add(fmt::format("{}.{}", where, name),
-                      fmt::format("must be a number{}{}, found {}", *unit == '\0' ? "" : " in ",
-                                  unit, given ? printable(found->dump()) : "nothing"));
-    }
-    return fallback.value_or(0.0);
-  }
-  double number(const Entry& entry, const char* name, const char* unit,
-                std::optional<double> fallback = std::nullopt) {
-    return number(*entry.fields, entry.key, name, unit, fallback);
-  }
-  int node(const Entry& entry, const char* name = "n") {
-    const double value = number(entry, name, "");
-    const bool sound = value >= 0.0 && value < 1.0e6 && value == std::floor(value);
-    if (!sound) {
-      complaints_.add(fmt::format("{}.{}", entry.key, name),
-                      fmt::format("must be the number of a node, found {}", value));
-    }
-    return sound ? static_cast<int>(value) : 0;
-  }
-  static bool flag(const Entry& entry, const char* name) {
-    const auto found = entry.fields->find(name);
-    return found == entry.fields->end() || !found->is_boolean() || found->get<bool>();
-  }
   void leaveOut(const std::string& line) { drawing_.left_out.push_back(printable(line)); }
 
   void readOperation() {
-    const auto found = tree_.find("parameters");
-    if (found != tree_.end() && found->is_object()) {
-      drawing_.speed = number(*found, "parameters", "rated_w", "rad/s", 0.0);
-      const double highest = number(*found, "parameters", "max_w", "rad/s", 0.0);
-      if (highest > 0.0) {
-        drawing_.highest_speed = highest;
-      }
+    drawing_.speed = file_.parameter("rated_w", "rad/s");
+    const double highest = file_.parameter("max_w", "rad/s");
+    if (highest > 0.0) {
+      drawing_.highest_speed = highest;
     }
-  }
-
-  Material materialOf(const Entry& entry) {
-    const auto found = entry.fields->find("material");
-    if (found == entry.fields->end() || !found->is_object()) {
-      complaints_.add(entry.key + ".material", "must be a table with rho, E and G_s");
-      return {};
-    }
-    const std::string where = entry.key + ".material";
-    return {number(*found, where, "E", "Pa"), number(*found, where, "G_s", "Pa"),
-            number(*found, where, "rho", "kg/m^3")};
   }
 
   std::vector<Layer> layers() {
     std::vector<Layer> all;
-    for (const Entry& entry : entries_) {
+    for (const RossEntry& entry : file_.entries()) {
       if (!is(entry, "ShaftElement")) {
         continue;
       }
       Layer layer;
-      layer.node = node(entry);
-      layer.length = number(entry, "L", "m");
-      layer.inner = number(entry, "idl", "m");
-      layer.outer = number(entry, "odl", "m");
-      layer.inner_end = number(entry, "idr", "m", layer.inner);
-      layer.outer_end = number(entry, "odr", "m", layer.outer);
-      layer.axial_force = number(entry, "axial_force", "N", 0.0);
-      layer.material = materialOf(entry);
-      if (const auto found = entry.fields->find("material");
-          found != entry.fields->end() && found->is_object()) {
-        layer.name = found->value("name", "material");
-      }
+      layer.node = file_.node(entry);
+      layer.length = file_.number(entry, "L", "m");
+      layer.inner = file_.number(entry, "idl", "m");
+      layer.outer = file_.number(entry, "odl", "m");
+      layer.inner_end = file_.number(entry, "idr", "m", layer.inner);
+      layer.outer_end = file_.number(entry, "odr", "m", layer.outer);
+      layer.axial_force = file_.number(entry, "axial_force", "N", 0.0);
+      layer.material = file_.material(entry);
       layer.entry = entry;
       all.push_back(layer);
-      if (number(entry, "torque", "N m", 0.0) != 0.0) {
+      if (file_.number(entry, "torque", "N m", 0.0) != 0.0) {
         leaveOut(entry.key + ": torque");
       }
       for (const char* effect : {"rotary_inertia", "gyroscopic"}) {
-        if (!flag(entry, effect)) {
+        if (!file_.flag(entry, effect)) {
           leaveOut(fmt::format("{}: {}: false; elements have it here", entry.key, effect));
         }
       }
@@ -227,20 +108,20 @@ class RossReader {
       complaints_.add("", "has no ShaftElement");
       return;
     }
-    const Material& shaft = all.front().material;
+    const RossMaterial& shaft = all.front().material;
     drawing_.youngs_modulus = shaft.youngs_modulus;
     drawing_.shear_modulus = shaft.shear_modulus;
     drawing_.density = shaft.density;
-    const Entry& first = all.front().entry;
-    drawing_.shear_deformation = flag(first, "shear_effects");
-    drawing_.mass_damping = number(first, "alpha", "1/s", 0.0);
-    drawing_.stiffness_damping = number(first, "beta", "s", 0.0);
+    const RossEntry& first = all.front().entry;
+    drawing_.shear_deformation = file_.flag(first, "shear_effects");
+    drawing_.mass_damping = file_.number(first, "alpha", "1/s", 0.0);
+    drawing_.stiffness_damping = file_.number(first, "beta", "s", 0.0);
     for (const Layer& layer : all) {
-      if (flag(layer.entry, "shear_effects") != drawing_.shear_deformation) {
+      if (file_.flag(layer.entry, "shear_effects") != drawing_.shear_deformation) {
         leaveOut(layer.entry.key + ": shear_effects other than the first element's");
       }
-      if (number(layer.entry, "alpha", "1/s", 0.0) != drawing_.mass_damping ||
-          number(layer.entry, "beta", "s", 0.0) != drawing_.stiffness_damping) {
+      if (file_.number(layer.entry, "alpha", "1/s", 0.0) != drawing_.mass_damping ||
+          file_.number(layer.entry, "beta", "s", 0.0) != drawing_.stiffness_damping) {
         leaveOut(layer.entry.key + ": alpha or beta other than the first element's");
       }
       const bool within = layer.node < last_node_;
@@ -301,23 +182,24 @@ class RossReader {
 
   /// "" of the shaft's own.
   std::string nameOfMaterial(const Layer& layer, bool mass_only) {
-    Material material = layer.material;
+    RossMaterial material = layer.material;
     if (mass_only) {  // its stiffness has no part in anything
       material.youngs_modulus = drawing_.youngs_modulus;
       material.shear_modulus = drawing_.shear_modulus;
     }
-    const Material shaft{drawing_.youngs_modulus, drawing_.shear_modulus, drawing_.density};
-    if (material == shaft) {
+    const RossMaterial shaft{drawing_.youngs_modulus, drawing_.shear_modulus, drawing_.density, ""};
+    if (same(material, shaft)) {
       return "";
     }
-    const auto known = std::find_if(materials_.begin(), materials_.end(),
-                                    [&](const auto& other) { return other.second == material; });
+    const auto known = std::find_if(materials_.begin(), materials_.end(), [&](const auto& other) {
+      return same(other.second, material);
+    });
     if (known != materials_.end()) {
       return known->first;
     }
-    std::string name = nameOf(layer.name) + (mass_only ? "_mass_only" : "");
+    std::string name = nameOf(layer.material.name) + (mass_only ? "_mass_only" : "");
     for (int i = 2; materials_.count(name) > 0; ++i) {
-      name = fmt::format("{}_{}", nameOf(layer.name), i);
+      name = fmt::format("{}_{}", nameOf(layer.material.name), i);
     }
     materials_[name] = material;
     drawing_.materials.push_back({{"name", name},
@@ -328,15 +210,17 @@ class RossReader {
   }
 
   void readDiscs() {
-    for (const Entry& entry : entries_) {
+    for (const RossEntry& entry : file_.entries()) {
       if (is(entry, "DiskElement")) {
-        drawing_.discs.push_back({{"node", std::to_string(node(entry))},
-                                  {"mass", drawn(number(entry, "m", "kg"))},
-                                  {"polar_inertia", drawn(number(entry, "Ip", "kg m^2"))},
-                                  {"transverse_inertia", drawn(number(entry, "Id", "kg m^2"))}});
-      } else if (is(entry, "PointMass") && node(entry) <= last_node_) {
-        const auto [along_x, along_y] = massOf(entry);
-        drawing_.discs.push_back({{"node", std::to_string(node(entry))}, {"mass", drawn(along_x)}});
+        drawing_.discs.push_back(
+            {{"node", std::to_string(file_.node(entry))},
+             {"mass", drawn(file_.number(entry, "m", "kg"))},
+             {"polar_inertia", drawn(file_.number(entry, "Ip", "kg m^2"))},
+             {"transverse_inertia", drawn(file_.number(entry, "Id", "kg m^2"))}});
+      } else if (is(entry, "PointMass") && file_.node(entry) <= last_node_) {
+        const auto [along_x, along_y] = file_.mass(entry);
+        drawing_.discs.push_back(
+            {{"node", std::to_string(file_.node(entry))}, {"mass", drawn(along_x)}});
         if (along_x != along_y) {
           leaveOut(entry.key + ": my other than mx, which is taken");
         }
@@ -344,57 +228,12 @@ class RossReader {
     }
   }
 
-  std::pair<double, double> massOf(const Entry& entry) {
-    const auto found = entry.fields->find("m");
-    if (found != entry.fields->end() && found->is_number()) {
-      return {found->get<double>(), found->get<double>()};
-    }
-    const double along_x = number(entry, "mx", "kg");
-    return {along_x, number(entry, "my", "kg", along_x)};
-  }
-
-  /// A coefficient at each of the frequencies; one number is one at all.
-  std::vector<double> coefficient(const Entry& entry, const std::string& name, std::size_t count) {
-    const auto found = entry.fields->find(name);
-    if (found == entry.fields->end() || found->is_null()) {
-      return std::vector<double>(count, 0.0);
-    }
-    std::vector<double> values;
-    for (const json& value : found->is_array() ? *found : json::array({*found})) {
-      if (!value.is_number()) {
-        complaints_.add(fmt::format("{}.{}", entry.key, name),
-                        fmt::format("must be numbers, found {}", printable(value.dump())));
-        return std::vector<double>(count, 0.0);
-      }
-      values.push_back(value.get<double>());
-    }
-    if (values.size() == 1) {
-      values.resize(count, values.front());
-    }
-    if (values.size() != count) {
-      complaints_.add(
-          fmt::format("{}.{}", entry.key, name),
-          fmt::format("must have {} numbers as frequency has, found {}", count, values.size()));
-      values.resize(count, 0.0);
-    }
-    return values;
-  }
-
-  std::vector<double> frequencies(const Entry& entry) {
-    const auto found = entry.fields->find("frequency");
-    if (found == entry.fields->end() || found->is_null()) {
-      return {};
-    }
-    const std::size_t count = found->is_array() ? found->size() : 1;
-    return coefficient(entry, "frequency", count);
-  }
-
   /// Behind what is in `row`; k of frequency, of a table.
-  void addCoefficients(const Entry& entry, std::size_t k, std::size_t count, DrawnRow& row) {
+  void addCoefficients(const RossEntry& entry, std::size_t k, std::size_t count, DrawnRow& row) {
     for (const char letter : {'k', 'c'}) {
       for (const char* axes : {"xx", "yy", "xy", "yx"}) {
         const std::string name = letter + std::string(axes);
-        std::vector<double> values = coefficient(entry, name, count);
+        std::vector<double> values = file_.coefficient(entry, name, count);
         const bool as_x = axes == std::string("yy") && entry.fields->count(name) == 0;
         if (!as_x && (values[k] != 0.0 || axes == std::string("yy"))) {
           row.emplace_back(name, drawn(values[k]));
@@ -404,17 +243,17 @@ class RossReader {
   }
 
   void readSupports() {
-    for (const Entry& entry : entries_) {
-      if (isSupport(entry) && node(entry) <= last_node_) {
+    for (const RossEntry& entry : file_.entries()) {
+      if (isSupport(entry) && file_.node(entry) <= last_node_) {
         addBearing(entry);
-        addPedestals(entry, node(entry));
+        addPedestals(entry, file_.node(entry));
       }
     }
   }
 
-  void addBearing(const Entry& entry) {
-    const std::vector<double> speeds = frequencies(entry);
-    DrawnRow row{{"node", std::to_string(node(entry))}};
+  void addBearing(const RossEntry& entry) {
+    const std::vector<double> speeds = file_.frequencies(entry);
+    DrawnRow row{{"node", std::to_string(file_.node(entry))}};
     const std::size_t count = std::max<std::size_t>(speeds.size(), 1);
     if (speeds.size() < 2) {
       addCoefficients(entry, 0, count, row);
@@ -426,7 +265,7 @@ class RossReader {
       drawing_.bearing_tables.push_back(of_speed);
     }
     for (const char* name : {"mxx", "myy", "mxy"}) {
-      const std::vector<double> values = coefficient(entry, name, count);
+      const std::vector<double> values = file_.coefficient(entry, name, count);
       if (std::any_of(values.begin(), values.end(), [&](double m) { return m != values[0]; })) {
         leaveOut(fmt::format("{}: {} over speed; its mean is taken", entry.key, name));
       }
@@ -438,11 +277,11 @@ class RossReader {
         row.emplace_back(name, drawn(mean));
       }
     }
-    if (coefficient(entry, "myx", count) != coefficient(entry, "mxy", count)) {
+    if (file_.coefficient(entry, "myx", count) != file_.coefficient(entry, "mxy", count)) {
       leaveOut(entry.key + ": myx other than mxy, which is taken");
     }
     for (const char* name : {"kzz", "czz", "mzz"}) {
-      const std::vector<double> values = coefficient(entry, name, count);
+      const std::vector<double> values = file_.coefficient(entry, name, count);
       if (std::any_of(values.begin(), values.end(), [](double z) { return z != 0.0; })) {
         leaveOut(fmt::format("{}: {}, along the shaft", entry.key, name));
       }
@@ -451,35 +290,36 @@ class RossReader {
   }
 
   /// What an element stands on: n_link is the node of a mass, which the support of that node holds.
-  void addPedestals(const Entry& bearing, int of_node) {
-    const Entry* above = &bearing;
-    for (std::size_t i = 0; i < entries_.size(); ++i) {  // a chain that ends in itself ends here
+  void addPedestals(const RossEntry& bearing, int of_node) {
+    const RossEntry* above = &bearing;
+    for (std::size_t i = 0; i < file_.entries().size();
+         ++i) {  // a chain that ends in itself ends here
       const auto link = above->fields->find("n_link");
       if (link == above->fields->end() || link->is_null()) {
         return;
       }
-      const int place = node(*above, "n_link");
-      const auto at = [&](const Entry& entry) {
+      const int place = file_.node(*above, "n_link");
+      const auto at = [&](const RossEntry& entry) {
         const auto n = entry.fields->find("n");
         return n != entry.fields->end() && n->is_number() && n->get<double>() == place;
       };
-      const auto mass = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
-        return is(entry, "PointMass") && at(entry);
-      });
-      const auto below = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
-        return isSupport(entry) && at(entry);
-      });
-      if (mass == entries_.end() || below == entries_.end()) {
+      const auto mass =
+          std::find_if(file_.entries().begin(), file_.entries().end(),
+                       [&](const RossEntry& entry) { return is(entry, "PointMass") && at(entry); });
+      const auto below =
+          std::find_if(file_.entries().begin(), file_.entries().end(),
+                       [&](const RossEntry& entry) { return isSupport(entry) && at(entry); });
+      if (mass == file_.entries().end() || below == file_.entries().end()) {
         leaveOut(fmt::format("{}: its n_link {} has no {}: it stands on the ground", above->key,
-                             place, mass == entries_.end() ? "PointMass" : "bearing below"));
+                             place, mass == file_.entries().end() ? "PointMass" : "bearing below"));
         return;
       }
-      const auto [along_x, along_y] = massOf(*mass);
+      const auto [along_x, along_y] = file_.mass(*mass);
       DrawnRow row{{"node", std::to_string(of_node)}, {"mass", drawn(along_x)}};
       if (along_x != along_y) {
         row.emplace_back("mass_y", drawn(along_y));
       }
-      const std::size_t count = std::max<std::size_t>(frequencies(*below).size(), 1);
+      const std::size_t count = std::max<std::size_t>(file_.frequencies(*below).size(), 1);
       if (count > 1) {
         leaveOut(below->key + ": a pedestal over frequency; its first coefficients are taken");
       }
@@ -490,7 +330,7 @@ class RossReader {
   }
 
   void nameOthers() {
-    for (const Entry& entry : entries_) {
+    for (const RossEntry& entry : file_.entries()) {
       if (!is(entry, "ShaftElement") && !is(entry, "DiskElement") && !is(entry, "PointMass") &&
           !isSupport(entry)) {
         leaveOut(fmt::format("{}: a {}", entry.key, entry.kind));
@@ -498,11 +338,10 @@ class RossReader {
     }
   }
 
-  json tree_;
-  std::vector<Entry> entries_;
   Complaints complaints_;
+  RossFile file_;
   RotorDrawing drawing_;
-  std::map<std::string, Material> materials_;
+  std::map<std::string, RossMaterial> materials_;
   int last_node_ = 0;
 };
 

@@ -4,21 +4,16 @@
 #include <hdf5.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <cstdint>
 #include <map>
 #include <new>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "messages/refusal.h"
-#include "scene/built_scene.h"
-#include "studies/analysed_numbers.h"
-#include "studies/durable_file.h"
-#include "studies/published_quantities.h"
+#include "twin/durable_file.h"
 
 namespace whirl_twin {
 
@@ -180,36 +175,7 @@ std::vector<Column> numbersThatVary(hid_t in, const Study& study) {
   return columns;
 }
 
-/// Of a measure that is one quantity and nothing else; else "-".
-std::string unitOf(const Study& study, const Measure& measure, const BuiltScene& scene) {
-  const std::vector<ExpressionLeaf>& leaves = measure.expression.leaves();
-  const ExpressionLeaf leaf = leaves.size() == 1 ? leaves.front() : ExpressionLeaf{};
-  if (leaf.reduction.empty()) {
-    if (measure.text != leaf.path) {
-      return "-";
-    }
-    for (const Variation& variation : study.vary) {
-      if (variation.path == leaf.path) {
-        return variation.unit;
-      }
-    }
-    const std::optional<AnalysedNumber> analysed = analysedNumber(leaf.path, scene);
-    return analysed ? unitOf(*analysed) : "-";
-  }
-  const bool alone = measure.text.rfind(leaf.reduction + "(", 0) == 0 &&
-                     measure.text.find(')') == measure.text.size() - 1;
-  if (alone && (leaf.reduction == "settling" || leaf.reduction == "time_of_max")) {
-    return "s";
-  }
-  const std::map<std::string, PublishedQuantity> published = publishedQuantities(scene);
-  const auto found = published.find(leaf.path);
-  return alone && found != published.end() ? found->second.unit : "-";
-}
-
-std::vector<Column> measures(hid_t in, const Study& study, const ResultFolder& folder,
-                             const Answers& answers) {
-  const std::atomic<bool> never{false};
-  const BuiltScene scene = build(PointEvaluator(study, folder.steps(), never).sceneAt({}));
+std::vector<Column> measures(hid_t in, const Study& study, const Answers& answers) {
   const Handle group = makeGroup(in, "measure");
   std::vector<Column> columns;
   for (std::size_t k = 0; k < study.measures.size(); ++k) {
@@ -217,7 +183,7 @@ std::vector<Column> measures(hid_t in, const Study& study, const ResultFolder& f
     const hid_t data = columns.back().data();
     const Distributed& d = answers.measures[k];
     attach(data, "expression", study.measures[k].text);
-    attach(data, "unit", unitOf(study, study.measures[k], scene));
+    attach(data, "unit", study.measures[k].unit);
     attach(data, "count", d.count);
     attach(data, "undefined", d.undefined);
     attach(data, "mean", d.mean);
@@ -243,7 +209,7 @@ void writePoints(hid_t file, const Study& study, const ResultFolder& folder,
   const Handle failed = makeGroup(file, "failed");
   Column point(file, "point", H5T_NATIVE_UINT64);
   std::vector<Column> vary = numbersThatVary(file, study);
-  std::vector<Column> measured = measures(file, study, folder, answers);
+  std::vector<Column> measured = measures(file, study, answers);
   Column failed_point(failed, "point", H5T_NATIVE_UINT64);
   Column reason(failed, "reason", textType(answers.failures > 0 ? reasonSize(folder) : 1));
   std::vector<Column> failed_vary = numbersThatVary(failed, study);

@@ -13,7 +13,7 @@
 
 #include "messages/refusal.h"
 #include "scene/yaml_file.h"
-#include "studies/durable_file.h"
+#include "twin/durable_file.h"
 
 namespace whirl_twin {
 

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "control/speed_profile.h"
+#include "messages/checksum.h"
 #include "messages/refusal.h"
 #include "monitoring/alarm_settings_reader.h"
 #include "scene/built_scene.h"
@@ -34,14 +35,6 @@ constexpr double kLongestDuration = 1.0e9;  // s
 std::string contentsOf(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-/// FNV-1a (Fowler, Noll & Vo): tells texts apart, and keeps no secret.
-std::uint64_t hashOf(const std::string& text, std::uint64_t hash = 14695981039346656037U) {
-  for (const char c : text) {
-    hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211U;
-  }
-  return hash;
 }
 
 class StudyReader {
@@ -78,7 +71,10 @@ class StudyReader {
       study_.block = std::clamp(study_.points() / kUsualBlocks, std::uint64_t{1}, kUsualBlock);
     }
     study_.text = contentsOf(study_.source);
-    study_.hash = hashOf(settings_text_, hashOf(study_.scene_text, hashOf(study_.text)));
+    study_.hash = kNoChecksum;
+    for (const std::string& text : {study_.text, study_.scene_text, settings_text_}) {
+      study_.hash = checksum(text.data(), text.size(), study_.hash);
+    }
     return study_;
   }
 

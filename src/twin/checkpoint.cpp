@@ -1,8 +1,6 @@
 #include "twin/checkpoint.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -15,6 +13,7 @@
 
 #include "messages/checksum.h"
 #include "messages/refusal.h"
+#include "twin/durable_file.h"
 
 namespace whirl_twin {
 
@@ -124,38 +123,6 @@ void put(const std::string& bytes, Whose& whose, const std::string& source) {
   }
 }
 
-[[noreturn]] void cannotBeWritten(const std::string& path, int error) {
-  throw RunFailure(fmt::format("{}: cannot be written: {}", path, std::strerror(error)));
-}
-
-/// Closed when it is left.
-class Descriptor {
- public:
-  Descriptor(const std::string& path, int flags) : number_(::open(path.c_str(), flags, 0644)) {}
-  ~Descriptor() {
-    if (number_ >= 0) {
-      ::close(number_);
-    }
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int number() const { return number_; }
-
- private:
-  int number_;
-};
-
-bool writeAll(int file, const std::string& bytes) {
-  for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t written = ::write(file, bytes.data() + done, bytes.size() - done);
-    if (written < 0 && errno != EINTR) {
-      return false;
-    }
-    done += written > 0 ? static_cast<std::size_t>(written) : 0;
-  }
-  return ::fsync(file) == 0;
-}
-
 }  // namespace
 
 std::string bytesOf(const Checkpoint& checkpoint) {
@@ -213,26 +180,9 @@ Checkpoint readCheckpoint(const std::string& path) {
 }
 
 void writeCheckpoint(const std::string& path, const std::string& bytes) {
-  const std::string written = fmt::format("{}.{}.part", path, ::getpid());
-  {
-    const Descriptor file(written, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC);
-    if (file.number() < 0) {
-      cannotBeWritten(path, errno);
-    }
-    if (!writeAll(file.number(), bytes)) {
-      const int error = errno;
-      ::unlink(written.c_str());
-      cannotBeWritten(path, error);
-    }
-  }
-  if (std::rename(written.c_str(), path.c_str()) != 0) {
-    const int error = errno;
-    ::unlink(written.c_str());
-    cannotBeWritten(path, error);
-  }
-  const std::filesystem::path directory = std::filesystem::path(path).parent_path();
-  const Descriptor folder(directory.empty() ? "." : directory.string(), O_RDONLY | O_DIRECTORY);
-  ::fsync(folder.number());  // the new name is on the disk, too, where the file system can say so
+  DurableFile file(path);
+  file.add(bytes);
+  file.finish();
 }
 
 void requireScene(const Checkpoint& checkpoint, const SceneLines& scene,

@@ -2,18 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
+#include <optional>
 
 #include "messages/checksum.h"
+#include "scene/node_reader.h"
 
 namespace whirl_twin {
 
 namespace {
 
+/// A number is the same however it is written.
 std::string normalised(const std::string& scalar) {
-  char* end = nullptr;
-  const double number = std::strtod(scalar.c_str(), &end);
-  return !scalar.empty() && *end == '\0' ? fmt::format("{}", number) : scalar;
+  const std::optional<double> number = parseNumber(scalar);
+  return number ? fmt::format("{}", *number) : scalar;
 }
 
 void gather(const YAML::Node& node, const std::string& path, SceneLines& lines) {

@@ -6,22 +6,12 @@
 #include <map>
 #include <thread>
 
-#include "twin_program.h"
+#include "swept_study.h"
 
 namespace whirl_twin {
 namespace {
 
-const std::string kScene = R"yaml(
-step: 0.001
-systems:
-  rotor:
-    model: jeffcott_rotor
-    drive: shaft
-    parameters: {mass: 1.0, stiffness: 1.0e4, damping: 10.0, eccentricity: 1.0e-4}
-drives: {shaft: {speed: 90.0}}
-)yaml";
-
-/// A study of 300 points in 30 blocks, one in ten of which is refused.
+/// Likewise with measures of all kinds.
 const std::string kStudy = R"yaml(
 study: {scene: scene.yaml, seed: 3, block: 10}
 vary:
@@ -39,18 +29,8 @@ measure:
 require: {peak: "< 4.0e-4", frequency: "> 95"}
 )yaml";
 
-struct Files : TemporaryDirectory {
-  std::string study;
-  explicit Files(const std::string& text = kStudy) {
-    write("scene.yaml", kScene);
-    study = write("study.yaml", text);
-  }
-  std::vector<std::string> command(const std::string& folder,
-                                   const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> arguments{"sweep", study, "--output", file(folder)};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return arguments;
-  }
+struct Files : StudyFiles {
+  explicit Files(const std::string& text = kStudy) : StudyFiles(text) {}
   std::string image(const std::string& folder) const {
     return contentsOf(file(folder) + "/results.h5");
   }
@@ -211,7 +191,7 @@ TEST(Hdf5Results, AreTheTablesAndWhatTheySay) {
   EXPECT_EQ(results.numbers("require/passed")[2], said["yield"]["passed"].get<double>());
   EXPECT_EQ(results.numbers("require/low")[0], said["requirements"][0]["low"].get<double>());
   EXPECT_EQ(results.text("/", "study"), kStudy);
-  EXPECT_EQ(results.text("/", "scene"), kScene);
+  EXPECT_EQ(results.text("/", "scene"), kStudiedRotor);
   EXPECT_EQ(results.text("/", "design"), "latin_hypercube");
   EXPECT_EQ(results.text("vary/rotor.stiffness", "unit"), "N/m");
   EXPECT_EQ(results.attribute("vary/rotor.stiffness", "nominal"), std::vector<double>{1.0e4});
@@ -224,17 +204,17 @@ TEST(Hdf5Results, AreTheTablesAndWhatTheySay) {
 
 TEST(Hdf5Results, WorkersPartsAndKillsChangeNoByte) {
   const Files files;
-  ASSERT_EQ(twin(files.command("one", {"--workers", "1"})).status, 0);
+  ASSERT_EQ(files.sweep("one", {"--workers", "1"}).status, 0);
   const std::string image = files.image("one");
   ASSERT_EQ(image.substr(1, 3), "HDF");
   EXPECT_LT(image.size(), 100000U);                              // of 300 points
   std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // HDF5's times are in seconds
   for (const std::string workers : {"2", "4"}) {
-    ASSERT_EQ(twin(files.command(workers, {"--workers", workers})).status, 0);
+    ASSERT_EQ(files.sweep(workers, {"--workers", workers}).status, 0);
     EXPECT_EQ(files.image(workers), image);
   }
   for (const std::string part : {"2/2", "1/2"}) {
-    ASSERT_EQ(twin(files.command("parts", {"--part", part})).status, 0);
+    ASSERT_EQ(files.sweep("parts", {"--part", part}).status, 0);
   }
   EXPECT_EQ(files.image("parts"), image);
   for (int k = 0; k < 5; ++k) {
@@ -243,7 +223,7 @@ TEST(Hdf5Results, WorkersPartsAndKillsChangeNoByte) {
     ::kill(child, SIGKILL);
     statusOf(child);
   }
-  ASSERT_EQ(twin(files.command("killed")).status, 0);
+  ASSERT_EQ(files.sweep("killed").status, 0);
   EXPECT_EQ(files.image("killed"), image);
 }
 
@@ -253,7 +233,7 @@ TEST(Hdf5Results, SensitivitiesAreInIt) {
                             "measure: {frequency: \"natural_frequencies[0]\"}\n";
   const Files files(study);
   const nlohmann::json sobol =
-      twin(files.command("s", {"--json"})).json()["measures"]["frequency"]["sobol"];
+      files.sweep("s", {"--json"}).json()["measures"]["frequency"]["sobol"];
   const Hdf5 results(files.file("s") + "/results.h5");
   const nlohmann::json first = sobol["rotor.stiffness"]["first"];
   EXPECT_EQ(results.attribute("sobol/frequency/rotor.stiffness", "first"),
@@ -277,7 +257,7 @@ design: {monte_carlo: 20}
 run: analyze
 measure: {frequency: "natural_frequencies[0]"}
 )yaml" + comment);
-  EXPECT_EQ(twin(files.command("r")).status, 1);
+  EXPECT_EQ(files.sweep("r").status, 1);
   const Hdf5 results(files.file("r") + "/results.h5");
   EXPECT_EQ(results.text("/", "study"), contentsOf(files.study));
   EXPECT_TRUE(results.numbers("measure/frequency").empty());

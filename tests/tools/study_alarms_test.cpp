@@ -1,23 +1,22 @@
 // Alarms that a study counts are those that the monitor raises of the same run's log.
 #include <gtest/gtest.h>
 
-#include "twin_program.h"
+#include <utility>
+
+#include "swept_study.h"
 
 namespace whirl_twin {
 namespace {
 
-const std::string kScene = R"(
-step: 0.001
-systems:
-  rotor:
-    model: jeffcott_rotor
-    drive: shaft
-    parameters: {mass: 1.0, stiffness: 1.0e4, damping: DAMPING, eccentricity: 1.0e-4}
-drives: {shaft: {speed: 0.0, profile: [{speed: 150.0, max_acceleration: 25.0}]}}
-)";
-
+/// It runs up through its critical speed.
 std::string sceneOf(const std::string& damping) {
-  return std::string(kScene).replace(kScene.find("DAMPING"), 7, damping);
+  std::string scene = kStudiedRotor;
+  for (const auto& [from, to] :
+       {std::pair<std::string, std::string>{"damping: 10.0", "damping: " + damping},
+        {"speed: 90.0", "speed: 0.0, profile: [{speed: 150.0, max_acceleration: 25.0}]"}}) {
+    scene.replace(scene.find(from), from.size(), to);
+  }
+  return scene;
 }
 
 TEST(StudyAlarms, AreThoseOfTheMonitor) {

@@ -1,20 +1,11 @@
 // `twin sweep` of a study that looks for an optimum, as it is printed.
 #include <gtest/gtest.h>
 
-#include "twin_program.h"
+#include "swept_study.h"
 
 namespace whirl_twin {
 namespace {
 
-const std::string kScene = R"(
-step: 0.001
-systems:
-  rotor:
-    model: jeffcott_rotor
-    drive: shaft
-    parameters: {mass: 1.0, stiffness: 1.0e4, damping: 10.0, eccentricity: 1.0e-4}
-drives: {shaft: {speed: 90.0}}
-)";
 const std::string kStudy = R"(
 study: {scene: scene.yaml}
 vary: {rotor.damping: {uniform: [1.0, 150.0]}, rotor.stiffness: {uniform: [0.5e4, 2.0e4]}}
@@ -24,14 +15,12 @@ optimize: {maximize: decay, over: [rotor.damping], evaluations: 300}
 )";
 
 TEST(StudyOptimum, IsPrintedAsTextAndAsJson) {
-  const TemporaryDirectory files;
-  files.write("scene.yaml", kScene);
-  const std::string study = files.write("study.yaml", kStudy);
-  const Ending text = twin({"sweep", study});
+  const StudyFiles files(kStudy);
+  const Ending text = twin({"sweep", files.study});
   ASSERT_EQ(text.status, 0) << text.err;
   EXPECT_NE(text.out.find("maximum of decay over one number by cobyla"), std::string::npos);
   EXPECT_NE(text.out.find("the largest that was allowed"), std::string::npos) << text.out;
-  const Ending end = twin({"sweep", study, "--json"});
+  const Ending end = twin({"sweep", files.study, "--json"});
   const nlohmann::json said = end.json();
   EXPECT_EQ(said["maximize"], "decay");
   EXPECT_EQ(said["found"], true);
@@ -41,27 +30,23 @@ TEST(StudyOptimum, IsPrintedAsTextAndAsJson) {
   EXPECT_NEAR(said["measures"]["decay"]["best"].get<double>(), 75.0, 0.1);  // c / 2 m
   EXPECT_FALSE(said["numbers"].contains("rotor.stiffness"));
   EXPECT_LE(said["evaluations"], 300);
-  EXPECT_EQ(twin({"sweep", study, "--json"}).out, end.out);
+  EXPECT_EQ(twin({"sweep", files.study, "--json"}).out, end.out);
 }
 
 TEST(StudyOptimum, ThatThereIsNotIsExitStatusOne) {
-  const TemporaryDirectory files;
-  files.write("scene.yaml", kScene);
-  const std::string study = files.write("study.yaml", kStudy + "require: {decay: \"> 100\"}\n");
-  const Ending end = twin({"sweep", study, "--json"});
+  const StudyFiles files(kStudy + "require: {decay: \"> 100\"}\n");
+  const Ending end = twin({"sweep", files.study, "--json"});
   EXPECT_EQ(end.status, 1) << end.err;
   EXPECT_EQ(end.json()["found"], false);
   EXPECT_NE(end.err.find("no point meets what is required"), std::string::npos) << end.err;
-  EXPECT_NE(twin({"sweep", study}).out.find("no point was found"), std::string::npos);
+  EXPECT_NE(twin({"sweep", files.study}).out.find("no point was found"), std::string::npos);
 }
 
 TEST(StudyOptimum, HasNoUseForWhatGoesWithADesign) {
-  const TemporaryDirectory files;
-  files.write("scene.yaml", kScene);
-  const std::string study = files.write("study.yaml", kStudy);
-  EXPECT_EQ(twin({"sweep", study, "--output", files.file("r")}).status, 2);
-  EXPECT_EQ(twin({"sweep", study, "--point", "0"}).status, 2);
-  EXPECT_EQ(twin({"plot", study, "--results", files.file("r")}).status, 2);
+  const StudyFiles files(kStudy);
+  EXPECT_EQ(twin({"sweep", files.study, "--output", files.file("r")}).status, 2);
+  EXPECT_EQ(twin({"sweep", files.study, "--point", "0"}).status, 2);
+  EXPECT_EQ(twin({"plot", files.study, "--results", files.file("r")}).status, 2);
 }
 
 // The peak falls as the run-up gets faster: the least acceleration uses the amplitude up.

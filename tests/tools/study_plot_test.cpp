@@ -1,29 +1,17 @@
 // `twin plot` of a study's results: which pictures there are, and what they say.
 #include <gtest/gtest.h>
 
-#include "twin_program.h"
+#include "swept_study.h"
 
 namespace whirl_twin {
 namespace {
 
 using Names = std::vector<std::string>;
 
-const std::string kScene = R"(
-step: 0.001
-systems:
-  rotor:
-    model: jeffcott_rotor
-    drive: shaft
-    parameters: {mass: 1.0, stiffness: 1.0e4, damping: 10.0, eccentricity: 1.0e-4}
-drives: {shaft: {speed: 90.0}}
-)";
-
-struct Files : TemporaryDirectory {
-  std::string study;
-  explicit Files(const std::string& rest) {
-    write("scene.yaml", kScene);
-    study = write("study.yaml", "study: {scene: scene.yaml, seed: 3}\n" + rest);
-    const Ending run = twin({"sweep", study, "--output", file("results")});
+struct Files : StudyFiles {
+  explicit Files(const std::string& rest)
+      : StudyFiles("study: {scene: scene.yaml, seed: 3}\n" + rest) {
+    const Ending run = sweep("results");
     EXPECT_EQ(run.status, 0) << run.err;
   }
   Ending plot(const std::vector<std::string>& more = {}) const {

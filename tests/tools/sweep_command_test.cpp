@@ -3,59 +3,24 @@
 
 #include <cmath>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <random>
 #include <thread>
 
-#include "twin_program.h"
+#include "swept_study.h"
 
 namespace whirl_twin {
 namespace {
 
-const std::string kScene = R"(
-step: 0.001
-systems:
-  rotor:
-    model: jeffcott_rotor
-    drive: shaft
-    parameters: {mass: 1.0, stiffness: 1.0e4, damping: 10.0, eccentricity: 1.0e-4}
-drives: {shaft: {speed: 90.0}}
-)";
-
-/// A study of 300 points in 30 blocks, one in ten of which is refused.
-const std::string kStudy = R"(
-study: {scene: scene.yaml, seed: 3, block: 10}
-vary:
-  rotor.stiffness: {uniform: [0.9e4, 1.1e4]}
-  rotor.damping: {normal: [10.0, 7.8]}
-design: {latin_hypercube: 300}
-run: {duration: 0.3}
-measure: {peak: max(rotor.whirl.radius), frequency: "natural_frequencies[0]"}
-require: {peak: "< 4.0e-4"}
-)";
-
-struct Files : TemporaryDirectory {
-  std::string study;
-  explicit Files(const std::string& text = kStudy) {
-    write("scene.yaml", kScene);
-    study = write("study.yaml", text);
-  }
-  Ending sweep(const std::string& folder, const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> arguments{"sweep", study, "--output", file(folder)};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return twin(arguments);
-  }
-  std::string results(const std::string& folder) const {
-    return contentsOf(file(folder) + "/results.csv") + contentsOf(file(folder) + "/failed.csv");
-  }
-};
-
 TEST(Sweep, WorkersPartsAndBreaksChangeNoByte) {
-  const Files files;
+  const StudyFiles files;
   const Ending one = files.sweep("one", {"--workers", "1"});
   ASSERT_EQ(one.status, 0) << one.err;
   const std::string all = files.results("one");
-  EXPECT_EQ(linesOf(all).size(), 302U);
+  EXPECT_EQ(linesOf(contentsOf(files.file("one/results.csv"))).size() +
+                linesOf(contentsOf(files.file("one/failed.csv"))).size(),
+            302U);
   for (const std::string workers : {"2", "4"}) {
     const Ending ending = files.sweep("of" + workers, {"--workers", workers});
     EXPECT_EQ(ending.out, one.out);
@@ -77,7 +42,7 @@ TEST(Sweep, WorkersPartsAndBreaksChangeNoByte) {
 // 12 times at any moment of a run, of its start and of what it does at its end; 100 times with
 // WHIRL_TWIN_EXTREMES=full.
 TEST(Sweep, KilledAnyTimeItGoesOnAndLosesNothing) {
-  const Files files;
+  const StudyFiles files;
   ASSERT_EQ(files.sweep("whole").status, 0);
   const char* const length = std::getenv("WHIRL_TWIN_EXTREMES");
   const int kills = length != nullptr && std::string(length) == "full" ? 100 : 12;
@@ -109,7 +74,7 @@ TEST(Sweep, KilledAnyTimeItGoesOnAndLosesNothing) {
 
 // As docs/studies.md has it for one machine.
 TEST(Sweep, PartsThatXargsStartsAtOnceAreOneStudy) {
-  const Files files;
+  const StudyFiles files;
   ASSERT_EQ(files.sweep("whole").status, 0);
   const std::string command = "seq 5 | xargs -P 3 -I{} " WHIRL_TWIN_PROGRAM " sweep " +
                               files.study + " --output " + files.file("parts") +
@@ -119,7 +84,7 @@ TEST(Sweep, PartsThatXargsStartsAtOnceAreOneStudy) {
 }
 
 TEST(Sweep, ADamagedBlockIsRunAgain) {
-  const Files files;
+  const StudyFiles files;
   ASSERT_EQ(files.sweep("r").status, 0);
   const std::string all = files.results("r");
   const std::string block = files.file("r") + "/blocks/000000003.csv";
@@ -130,7 +95,7 @@ TEST(Sweep, ADamagedBlockIsRunAgain) {
 }
 
 TEST(Sweep, FailedPointsAreRecordedAndRunAlone) {
-  const Files files;
+  const StudyFiles files;
   const Ending ending = files.sweep("r", {"--json"});
   ASSERT_EQ(ending.status, 0) << ending.err;
   const nlohmann::json said = ending.json();
@@ -152,7 +117,7 @@ TEST(Sweep, FailedPointsAreRecordedAndRunAlone) {
 }
 
 TEST(Sweep, WhereAllPointsFailItSaysSo) {
-  const Files files(R"(
+  const StudyFiles files(R"(
 study: {scene: scene.yaml}
 vary: {rotor.damping: {normal: [-100.0, 1.0]}}
 design: {monte_carlo: 20}
@@ -168,8 +133,8 @@ require: {frequency: "> 1"}
 }
 
 TEST(Sweep, StopsAtAFailureWhereThatIsAskedFor) {
-  const Files files("study: {scene: scene.yaml, on_failure: stop}" +
-                    kStudy.substr(kStudy.find("\nvary")));
+  const StudyFiles files("study: {scene: scene.yaml, on_failure: stop}" +
+                         kStudyOfBlocks.substr(kStudyOfBlocks.find("\nvary")));
   const Ending ending = files.sweep("r");
   EXPECT_EQ(ending.status, 1);
   EXPECT_NE(ending.err.find("point "), std::string::npos);
@@ -177,16 +142,16 @@ TEST(Sweep, StopsAtAFailureWhereThatIsAskedFor) {
 }
 
 TEST(Sweep, AnotherStudyIsNotMixedIn) {
-  const Files files;
+  const StudyFiles files;
   ASSERT_EQ(files.sweep("r").status, 0);
-  files.write("study.yaml", kStudy + "# another\n");
+  files.write("study.yaml", kStudyOfBlocks + "# another\n");
   const Ending other = files.sweep("r");
   EXPECT_EQ(other.status, 2);
   EXPECT_NE(other.err.find("another study"), std::string::npos) << other.err;
-  files.write("study.yaml", kStudy);
-  files.write("scene.yaml", kScene + "gravity: 1.0\n");
+  files.write("study.yaml", kStudyOfBlocks);
+  files.write("scene.yaml", kStudiedRotor + "gravity: 1.0\n");
   EXPECT_EQ(files.sweep("r").status, 2);
-  files.write("scene.yaml", kScene);
+  files.write("scene.yaml", kStudiedRotor);
   const std::string manifest = files.file("r") + "/manifest.yaml";
   const std::string text = contentsOf(manifest);
   const std::size_t at = text.find("compiler: ") + 10;
@@ -198,7 +163,7 @@ TEST(Sweep, AnotherStudyIsNotMixedIn) {
 }
 
 TEST(Sweep, WhatCannotBeWrittenIsSaidAndWhatWasFinishedStays) {
-  const Files files;
+  const StudyFiles files;
   files.write("taken", "a file");
   EXPECT_EQ(files.sweep("taken").status, 1);
   EXPECT_EQ(twin({"sweep", files.study, "--output", "/proc/none/here"}).status, 1);
@@ -221,72 +186,70 @@ TEST(Sweep, WhatCannotBeWrittenIsSaidAndWhatWasFinishedStays) {
   EXPECT_EQ(files.results("full"), files.results("whole"));
 }
 
-/// A shell's exit status; `commands` may mount, and nobody else sees it.
-int inPrivateMounts(const std::string& commands) {
-  const int ended =
-      std::system(("unshare --mount --map-root-user bash -c '" + commands + "'").c_str());
-  return WIFEXITED(ended) ? WEXITSTATUS(ended) : -1;
+/// A study swept on a file system of its own, of which nobody else knows.
+class SweepOnADisk : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (inPrivateMounts("true") != 0) {
+      GTEST_SKIP() << "no mount namespaces here";
+    }
+    std::filesystem::create_directory(disk_);
+    ASSERT_EQ(files_.sweep("whole").status, 0);
+  }
+  /// A shell's exit status; `commands` may mount.
+  static int inPrivateMounts(const std::string& commands) {
+    const int ended =
+        std::system(("unshare --mount --map-root-user bash -c '" + commands + "'").c_str());
+    return WIFEXITED(ended) ? WEXITSTATUS(ended) : -1;
+  }
+  /// On a disk made with `options` so much is done; then it becomes one with others, and a sweep
+  /// says why it cannot write, and with what status; then one that has room for all of it.
+  void expectRefusedThenWhole(const std::string& options, const std::string& before,
+                              const std::string& refusing, const std::string& refusal,
+                              const std::string& roomy) {
+    const std::string status = files_.file("status");
+    const std::string said = files_.file("said");
+    EXPECT_EQ(inPrivateMounts("mount -t tmpfs -o " + options + " none " + disk_ + " && { " +
+                              before + "; mount -o remount," + refusing + " " + disk_ + "; " +
+                              sweep_ + ">/dev/null 2>" + said + "; echo $? >" + status + "; " +
+                              sweep_ + "--status >" + files_.file("told") + "; mount -o remount," +
+                              roomy + " " + disk_ + " && " + sweep_ + ">/dev/null && cp -r " +
+                              disk_ + "/r " + files_.file("after") + "; }"),
+              0);
+    EXPECT_EQ(contentsOf(status), "1\n");
+    EXPECT_NE(contentsOf(said).find("cannot be written: " + refusal +
+                                    "; what was finished before is kept"),
+              std::string::npos)
+        << contentsOf(said);
+    EXPECT_EQ(files_.results("after"), files_.results("whole"));
+  }
+
+  StudyFiles files_;
+  std::string disk_ = files_.file("disk");
+  std::string sweep_ = WHIRL_TWIN_PROGRAM " sweep " + files_.study + " --output " + disk_ + "/r ";
+};
+
+// Of 64 kB, which has room for some of the 30 blocks; then it grows.
+TEST_F(SweepOnADisk, ThatIsFullItSaysSoAndWhatWasFinishedStays) {
+  expectRefusedThenWhole("size=64k", "true", "size=64k", "No space left on device", "size=16m");
+  int done = 0;
+  EXPECT_EQ(std::sscanf(contentsOf(files_.file("told")).c_str(), "%d of 300", &done), 1);
+  EXPECT_GT(done, 30);
+  EXPECT_LT(done, 300);
 }
 
-// A file system of 64 kB, which has room for some of the 30 blocks; then it grows.
-TEST(Sweep, ADiskThatIsFullIsSaidAndWhatWasFinishedStays) {
-  if (inPrivateMounts("true") != 0) {
-    GTEST_SKIP() << "no mount namespaces here";
-  }
-  const Files files;
-  ASSERT_EQ(files.sweep("whole").status, 0);
-  const std::string disk = files.file("disk");
-  std::filesystem::create_directory(disk);
-  const std::string sweep =
-      WHIRL_TWIN_PROGRAM " sweep " + files.study + " --output " + disk + "/r >/dev/null ";
-  EXPECT_EQ(
-      inPrivateMounts("mount -t tmpfs -o size=64k none " + disk + " && { " + sweep + "2>" +
-                      files.file("full") + "; echo $? >" + files.file("status") + "; ls " + disk +
-                      "/r/blocks >" + files.file("blocks") + "; mount -o remount,size=16m " + disk +
-                      " && " + sweep + "&& cp -r " + disk + "/r " + files.file("after") + "; }"),
-      0);
-  EXPECT_EQ(contentsOf(files.file("status")), "1\n");
-  EXPECT_NE(
-      contentsOf(files.file("full"))
-          .find("cannot be written: No space left on device; what was finished before is kept"),
-      std::string::npos)
-      << contentsOf(files.file("full"));
-  const Lines blocks = linesOf(contentsOf(files.file("blocks")));
-  EXPECT_GT(blocks.size(), 3U);
-  EXPECT_LT(blocks.size(), 30U);
-  EXPECT_EQ(files.results("after"), files.results("whole"));
-}
-
-// When a third of it has been run the file system is one that is only read; then it is not.
-TEST(Sweep, AFolderThatIsOnlyReadIsSaidAndWhatWasFinishedStays) {
-  if (inPrivateMounts("true") != 0) {
-    GTEST_SKIP() << "no mount namespaces here";
-  }
-  const Files files;
-  ASSERT_EQ(files.sweep("whole").status, 0);
-  const std::string disk = files.file("disk");
-  std::filesystem::create_directory(disk);
-  const std::string sweep =
-      WHIRL_TWIN_PROGRAM " sweep " + files.study + " --output " + disk + "/r ";
-  EXPECT_EQ(
-      inPrivateMounts("mount -t tmpfs none " + disk + " && { " + sweep +
-                      "--part 1/3 >/dev/null; mount -o remount,ro " + disk + "; " + sweep + "2>" +
-                      files.file("read") + "; echo $? >" + files.file("status") + "; " + sweep +
-                      "--status >" + files.file("told") + "; mount -o remount,rw " + disk + " && " +
-                      sweep + ">/dev/null && cp -r " + disk + "/r " + files.file("after") + "; }"),
-      0);
-  EXPECT_EQ(contentsOf(files.file("status")), "1\n");
-  EXPECT_NE(contentsOf(files.file("read")).find("cannot be written: Read-only file system"),
-            std::string::npos)
-      << contentsOf(files.file("read"));
-  EXPECT_EQ(contentsOf(files.file("told")).rfind("100 of 300 points", 0), 0U);
-  EXPECT_EQ(files.results("after"), files.results("whole"));
+// When a third of it has been run it is one that is only read; then it is not.
+TEST_F(SweepOnADisk, ThatIsOnlyReadItSaysSoAndWhatWasFinishedStays) {
+  expectRefusedThenWhole("size=16m", sweep_ + "--part 1/3 >/dev/null", "ro",
+                         "Read-only file system", "rw");
+  EXPECT_EQ(contentsOf(files_.file("told")).rfind("100 of 300 points", 0), 0U);
 }
 
 TEST(Sweep, AFolderThatGoesIsNoticedAndGoesOnElsewhere) {
-  const Files files(
-      "study: {scene: scene.yaml, block: 1}\n" +
-      std::string(kStudy).replace(kStudy.find("300"), 3, "500").substr(kStudy.find("\nvary")));
+  const StudyFiles files("study: {scene: scene.yaml, block: 1}\n" +
+                         std::string(kStudyOfBlocks)
+                             .replace(kStudyOfBlocks.find("300"), 3, "500")
+                             .substr(kStudyOfBlocks.find("\nvary")));
   const pid_t child = startTwin({"sweep", files.study, "--output", files.file("gone")},
                                 files.file("out"), files.file("err"));
   while (!std::filesystem::exists(files.file("gone") + "/blocks/000000003.csv")) {
@@ -303,7 +266,7 @@ TEST(Sweep, AFolderThatGoesIsNoticedAndGoesOnElsewhere) {
 }
 
 TEST(Sweep, ThoseWhoBeginAtOnceShareAFolder) {
-  const Files files;
+  const StudyFiles files;
   for (int k = 0; k < 5; ++k) {
     const std::string folder = files.file("r" + std::to_string(k));
     std::vector<pid_t> parts;
@@ -321,7 +284,7 @@ TEST(Sweep, ThoseWhoBeginAtOnceShareAFolder) {
 }
 
 TEST(Sweep, OptionsThatCannotBeMeantAreRefused) {
-  const Files files;
+  const StudyFiles files;
   EXPECT_EQ(twin({"sweep", files.study}).status, 2);
   EXPECT_EQ(files.sweep("r", {"--part", "0/3"}).status, 2);
   EXPECT_EQ(files.sweep("r", {"--part", "4/3"}).status, 2);

@@ -54,17 +54,17 @@ std::vector<pid_t> childrenOf(pid_t parent) {
 
 TEST(SweepRanks, AreOneRunToTheByte) {
   const Ranks files;
-  const Ending alone = twin(files.sweep("alone", {"--workers", "1"}));
+  const Ending alone = files.sweep("alone", {"--workers", "1"});
   ASSERT_EQ(alone.status, 0) << alone.err;
-  const Ending four = files.run(files.sweep("four"));
+  const Ending four = files.run(files.command("four"));
   EXPECT_EQ(four.status, 0) << four.err;
   EXPECT_EQ(four.out, alone.out);
   EXPECT_EQ(files.results("four"), files.results("alone"));
   EXPECT_EQ(files.blocks("four").size(), 30U);
-  const Ending threads = files.run(files.sweep("threads", {"--workers", "3"}));
+  const Ending threads = files.run(files.command("threads", {"--workers", "3"}));
   EXPECT_EQ(threads.status, 0) << threads.err;
   EXPECT_EQ(files.results("threads"), files.results("alone"));
-  const Ending again = files.run(files.sweep("threads"));  // nothing is left to be done
+  const Ending again = files.run(files.command("threads"));  // nothing is left to be done
   EXPECT_EQ(again.status, 0) << again.err;
   EXPECT_EQ(again.out, alone.out);
 }
@@ -72,7 +72,7 @@ TEST(SweepRanks, AreOneRunToTheByte) {
 TEST(SweepRanks, WhatCannotBeMeantIsSaidOnce) {
   const Ranks files;
   files.write("study.yaml", "study: {scene: none.yaml}\n");
-  const Ending ending = files.run(files.sweep("r"));
+  const Ending ending = files.run(files.command("r"));
   EXPECT_EQ(ending.status, 2) << ending.err;
   const Lines lines = linesOf(ending.err);
   EXPECT_EQ(std::count_if(lines.begin(), lines.end(),
@@ -88,14 +88,14 @@ TEST(SweepRanks, WhatCannotBeMeantIsSaidOnce) {
 // WHIRL_TWIN_EXTREMES=full.
 TEST(SweepRanks, ARankThatIsKilledCostsNoRow) {
   const Ranks files;
-  ASSERT_EQ(twin(files.sweep("whole")).status, 0);
+  ASSERT_EQ(files.sweep("whole").status, 0);
   std::mt19937 random(1);
   int killed = 0;
   const char* const length = std::getenv("WHIRL_TWIN_EXTREMES");
   const int rounds = length != nullptr && std::string(length) == "full" ? 100 : 3;
   for (int k = 0; k < rounds; ++k) {
     const std::string folder = "killed" + std::to_string(k);
-    const pid_t job = startRanks(files.sweep(folder), files.file("out"), files.file("err"));
+    const pid_t job = startRanks(files.command(folder), files.file("out"), files.file("err"));
     while (!std::filesystem::exists(files.file(folder) + "/manifest.yaml")) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
@@ -105,7 +105,7 @@ TEST(SweepRanks, ARankThatIsKilledCostsNoRow) {
       ::kill(ranks[random() % ranks.size()], SIGKILL);
     }
     killed += statusOf(job) != 0 ? 1 : 0;
-    const Ending last = files.run(files.sweep(folder));
+    const Ending last = files.run(files.command(folder));
     EXPECT_EQ(last.status, 0) << last.err;
     EXPECT_EQ(files.results(folder), files.results("whole"));
     EXPECT_EQ(files.blocks(folder), files.blocks("whole"));
@@ -115,14 +115,14 @@ TEST(SweepRanks, ARankThatIsKilledCostsNoRow) {
 
 TEST(SweepRanks, CtrlCEndsAllOfThemAndTheCommandGoesOn) {
   const Ranks files;
-  ASSERT_EQ(twin(files.sweep("whole")).status, 0);
-  const pid_t job = startRanks(files.sweep("r"), files.file("out"), files.file("err"));
+  ASSERT_EQ(files.sweep("whole").status, 0);
+  const pid_t job = startRanks(files.command("r"), files.file("out"), files.file("err"));
   while (!std::filesystem::exists(files.file("r") + "/blocks/000000002.csv")) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   ::kill(job, SIGINT);
   EXPECT_NE(statusOf(job), 0);
-  EXPECT_EQ(files.run(files.sweep("r")).status, 0);
+  EXPECT_EQ(files.run(files.command("r")).status, 0);
   EXPECT_EQ(files.results("r"), files.results("whole"));
 }
 

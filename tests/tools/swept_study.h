@@ -1,4 +1,4 @@
-// A small study of many blocks, in a folder that is gone when the test is over.
+// Studies of one rotor, in a folder that is gone when the test is over.
 #pragma once
 
 #include <string>
@@ -8,12 +8,8 @@
 
 namespace whirl_twin {
 
-/// A study of 300 points in 30 blocks, one in ten of which is refused.
-struct StudyFiles : TemporaryDirectory {
-  std::string study;
-
-  StudyFiles() {
-    write("scene.yaml", R"(
+/// A Jeffcott rotor below its critical speed of 100 rad/s.
+inline const std::string kStudiedRotor = R"(
 step: 0.001
 systems:
   rotor:
@@ -21,8 +17,10 @@ systems:
     drive: shaft
     parameters: {mass: 1.0, stiffness: 1.0e4, damping: 10.0, eccentricity: 1.0e-4}
 drives: {shaft: {speed: 90.0}}
-)");
-    study = write("study.yaml", R"(
+)";
+
+/// A study of 300 points in 30 blocks, one in ten of which is refused.
+inline const std::string kStudyOfBlocks = R"(
 study: {scene: scene.yaml, seed: 3, block: 10}
 vary:
   rotor.stiffness: {uniform: [0.9e4, 1.1e4]}
@@ -31,13 +29,24 @@ design: {latin_hypercube: 300}
 run: {duration: 0.3}
 measure: {peak: max(rotor.whirl.radius), frequency: "natural_frequencies[0]"}
 require: {peak: "< 4.0e-4"}
-)");
+)";
+
+struct StudyFiles : TemporaryDirectory {
+  std::string study;
+
+  explicit StudyFiles(const std::string& text = kStudyOfBlocks) {
+    write("scene.yaml", kStudiedRotor);
+    study = write("study.yaml", text);
   }
-  std::vector<std::string> sweep(const std::string& folder,
-                                 const std::vector<std::string>& more = {}) const {
+  /// Arguments of `twin`.
+  std::vector<std::string> command(const std::string& folder,
+                                   const std::vector<std::string>& more = {}) const {
     std::vector<std::string> arguments{"sweep", study, "--output", file(folder)};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
+  }
+  Ending sweep(const std::string& folder, const std::vector<std::string>& more = {}) const {
+    return twin(command(folder, more));
   }
   /// All of a folder's tables.
   std::string results(const std::string& folder) const {

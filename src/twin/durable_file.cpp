@@ -1,4 +1,4 @@
-#include "studies/durable_file.h"
+#include "twin/durable_file.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -78,8 +78,9 @@ void DurableFile::sync() {
 
 /// So that the name survives, too.
 void DurableFile::syncFolder() {
-  const int folder = ::open(std::filesystem::path(path_).parent_path().c_str(),
-                            O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const std::string parent = std::filesystem::path(path_).parent_path().string();
+  const int folder =
+      ::open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder >= 0) {
     ::fsync(folder);
     ::close(folder);

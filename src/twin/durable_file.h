@@ -1,4 +1,4 @@
-// A file of results: it has its name only when it is whole and on the disk.
+// A file that has its name only when it is whole and on the disk: results, checkpoints.
 #pragma once
 
 #include <string>

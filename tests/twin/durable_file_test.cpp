@@ -1,4 +1,4 @@
-#include "studies/durable_file.h"
+#include "twin/durable_file.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,0 +1,177 @@
+#include "reports/ross_file.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <toml.hpp>
+
+#include "messages/names.h"
+#include "messages/refusal.h"
+
+namespace whirl_twin {
+
+namespace {
+
+using nlohmann::json;
+
+json jsonOf(const toml::value& value) {
+  switch (value.type()) {
+    case toml::value_t::boolean:
+      return value.as_boolean();
+    case toml::value_t::integer:
+      return value.as_integer();
+    case toml::value_t::floating:
+      return value.as_floating();
+    case toml::value_t::string:
+      return value.as_string().str;
+    case toml::value_t::array: {
+      json all = json::array();
+      for (const toml::value& one : value.as_array()) {
+        all.push_back(jsonOf(one));
+      }
+      return all;
+    }
+    case toml::value_t::table: {
+      json all = json::object();
+      for (const auto& [key, one] : value.as_table()) {
+        all[key] = jsonOf(one);
+      }
+      return all;
+    }
+    default:
+      return nullptr;
+  }
+}
+
+json treeOf(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in || !std::filesystem::is_regular_file(path)) {
+    throw Refusal(path + ": cannot be read; must be a rotor that ROSS has saved");
+  }
+  try {
+    json tree = std::filesystem::path(path).extension() == ".json" ? json::parse(in)
+                                                                   : jsonOf(toml::parse(in, path));
+    if (!tree.is_object()) {
+      throw Refusal(path + ": must be a rotor that ROSS has saved, found a list or a value");
+    }
+    return tree;
+  } catch (const json::exception& error) {
+    throw Refusal(fmt::format("{}: is no JSON: {}", path, error.what()));
+  } catch (const toml::exception& error) {
+    throw Refusal(fmt::format("{}: is no TOML, in line {}", path, error.location().line()));
+  }
+}
+
+}  // namespace
+
+RossFile::RossFile(const std::string& path, Complaints& complaints)
+    : tree_(treeOf(path)), complaints_(complaints) {
+  for (const auto& [key, value] : tree_.items()) {
+    const std::size_t bar = key.find('_');
+    if (value.is_object() && bar != std::string::npos && bar > 0) {
+      entries_.push_back({key.substr(0, bar), key, &value});
+    }
+  }
+}
+
+double RossFile::parameter(const char* name, const char* unit) {
+  const auto found = tree_.find("parameters");
+  return found != tree_.end() && found->is_object() ? number(*found, "parameters", name, unit, 0.0)
+                                                    : 0.0;
+}
+
+double RossFile::number(const json& fields, const std::string& where, const char* name,
+                        const char* unit, std::optional<double> fallback) {
+  const auto found = fields.find(name);
+  if (found != fields.end() && found->is_number() && std::isfinite(found->get<double>())) {
+    return found->get<double>();
+  }
+  const bool given = found != fields.end() && !found->is_null();
+  if (given || !fallback) {
+    complaints_.add(fmt::format("{}.{}", where, name),
+                    fmt::format("must be a number{}{}, found {}", *unit == '\0' ? "" : " in ", unit,
+                                given ? printable(found->dump()) : "nothing"));
+  }
+  return fallback.value_or(0.0);
+}
+
+double RossFile::number(const RossEntry& entry, const char* name, const char* unit,
+                        std::optional<double> fallback) {
+  return number(*entry.fields, entry.key, name, unit, fallback);
+}
+
+int RossFile::node(const RossEntry& entry, const char* name) {
+  const double value = number(entry, name, "");
+  const bool sound = value >= 0.0 && value < 1.0e6 && value == std::floor(value);
+  if (!sound) {
+    complaints_.add(fmt::format("{}.{}", entry.key, name),
+                    fmt::format("must be the number of a node, found {}", value));
+  }
+  return sound ? static_cast<int>(value) : 0;
+}
+
+bool RossFile::flag(const RossEntry& entry, const char* name) {
+  const auto found = entry.fields->find(name);
+  return found == entry.fields->end() || !found->is_boolean() || found->get<bool>();
+}
+
+std::pair<double, double> RossFile::mass(const RossEntry& entry) {
+  const auto found = entry.fields->find("m");
+  if (found != entry.fields->end() && found->is_number()) {
+    return {found->get<double>(), found->get<double>()};
+  }
+  const double along_x = number(entry, "mx", "kg");
+  return {along_x, number(entry, "my", "kg", along_x)};
+}
+
+RossMaterial RossFile::material(const RossEntry& entry) {
+  const auto found = entry.fields->find("material");
+  if (found == entry.fields->end() || !found->is_object()) {
+    complaints_.add(entry.key + ".material", "must be a table with rho, E and G_s");
+    return {};
+  }
+  const std::string where = entry.key + ".material";
+  const auto name = found->find("name");
+  return {number(*found, where, "E", "Pa"), number(*found, where, "G_s", "Pa"),
+          number(*found, where, "rho", "kg/m^3"),
+          name != found->end() && name->is_string() ? name->get<std::string>() : "material"};
+}
+
+std::vector<double> RossFile::coefficient(const RossEntry& entry, const std::string& name,
+                                          std::size_t count) {
+  const auto found = entry.fields->find(name);
+  if (found == entry.fields->end() || found->is_null()) {
+    return std::vector<double>(count, 0.0);
+  }
+  std::vector<double> values;
+  for (const json& value : found->is_array() ? *found : json::array({*found})) {
+    if (!value.is_number()) {
+      complaints_.add(fmt::format("{}.{}", entry.key, name),
+                      fmt::format("must be numbers, found {}", printable(value.dump())));
+      return std::vector<double>(count, 0.0);
+    }
+    values.push_back(value.get<double>());
+  }
+  if (values.size() == 1) {
+    values.resize(count, values.front());
+  }
+  if (values.size() != count) {
+    complaints_.add(
+        fmt::format("{}.{}", entry.key, name),
+        fmt::format("must have {} numbers as frequency has, found {}", count, values.size()));
+    values.resize(count, 0.0);
+  }
+  return values;
+}
+
+std::vector<double> RossFile::frequencies(const RossEntry& entry) {
+  const auto found = entry.fields->find("frequency");
+  if (found == entry.fields->end() || found->is_null()) {
+    return {};
+  }
+  return coefficient(entry, "frequency", found->is_array() ? found->size() : 1);
+}
+
+}  // namespace whirl_twin
