@@ -101,11 +101,13 @@ Figure MeasurePlots::histogram() const {
   const auto classes = static_cast<std::size_t>(std::clamp(
       std::ceil(std::sqrt(static_cast<double>(d.count))), 1.0, static_cast<double>(kMostClasses)));
   const double width = (range.high - range.low) / static_cast<double>(classes);
+  const auto last = static_cast<double>(classes - 1);
   std::vector<double> counts(classes);
   std::uint64_t beyond = 0;
   for (const double value : values_) {
     if (value >= range.low && value <= range.high) {
-      ++counts[std::min(static_cast<std::size_t>((value - range.low) / width), classes - 1)];
+      const double at = (value - range.low) / width;  // not a number where the range is endless
+      ++counts[at > 0.0 ? static_cast<std::size_t>(std::min(at, last)) : 0];
     } else if (std::isfinite(value)) {
       ++beyond;
     }

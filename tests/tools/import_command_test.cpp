@@ -248,6 +248,9 @@ kxx = [1.0, 2.0, 3.0]
     EXPECT_EQ(refused.status, 2) << name;
     EXPECT_NE(refused.err.find(words), std::string::npos) << refused.err;
   }
+  std::string number = rotorExample();  // where a material's name is a number it has none
+  number.replace(number.find("\"Steel\""), 7, "5");
+  EXPECT_EQ(twin({"import", "ross", folder.write("number.json", number)}).status, 0);
   EXPECT_EQ(twin({"import", "ross", folder.file("nothing.toml")}).status, 2);
   EXPECT_EQ(twin({"import", "dyrobes", folder.write("a.toml", "")}).status, 2);
 }
