@@ -12,6 +12,7 @@
 #include "messages/refusal.h"
 #include "monitoring/parameter_margins.h"
 #include "scene/ensemble_draw.h"
+#include "scene/spread_correlations.h"
 
 namespace whirl_twin {
 
@@ -76,9 +77,13 @@ class Box {
 
   /// At a place of the box, each of its numbers from -1 to 1.
   std::optional<Place> at(const std::vector<double>& place) const {
-    std::vector<double> values = centre_;
+    std::vector<double> independent(centre_.size(), 0.0);
     for (const std::size_t i : sides_) {
-      values[i] += place[i] * half_[i];
+      independent[i] = place[i] * half_[i];
+    }
+    std::vector<double> values = correlated(system_.spec.ensemble, independent);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      values[i] += centre_[i];
     }
     const std::optional<SystemSpec> spec = memberAt(system_.spec, *system_.model, values);
     return spec ? at(*spec) : std::nullopt;
@@ -86,9 +91,14 @@ class Box {
 
   /// Where these values are; nothing outside.
   std::optional<std::vector<double>> placeOf(const std::vector<double>& values) const {
+    std::vector<double> deviations(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      deviations[i] = values[i] - centre_[i];
+    }
+    const std::vector<double> apart = independent(system_.spec.ensemble, deviations);
     std::vector<double> place(values.size(), 0.0);
     for (const std::size_t i : sides_) {
-      place[i] = (values[i] - centre_[i]) / half_[i];
+      place[i] = apart[i] / half_[i];
       if (std::fabs(place[i]) > 1.0) {
         return std::nullopt;
       }

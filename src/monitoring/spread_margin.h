@@ -1,7 +1,8 @@
 // The stability of a system whose numbers are known to within a spread: a thousand members drawn
 // of it are judged at the present speed, and the slowest decay anywhere within it is looked for.
 //
-// The box that is searched: each number within its half width, or three standard deviations. Its
+// The box that is searched: each number within its half width, or three standard deviations; of
+// correlated ones those that are independent make it, so that it is a slanted one. Its
 // corners (of up to kMostCorners numbers), the members that lie in it, and from the slowest of them
 // on downhill, number by number. By Kharitonov's theorem (1978: four polynomials tell of all whose
 // coefficients lie in intervals) nothing within the box grows, where those four do not; the

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
@@ -55,12 +56,32 @@ void moveTables(const YAML::Node& scene, const std::filesystem::path& from,
   }
 }
 
+/// Of one parameter with those before it, which have a spread if the runs tell of them.
+void addCorrelations(const ShootingFit& fit, std::size_t i, YAML::Node spread) {
+  for (std::size_t j = 0; j < i; ++j) {
+    const Unknown& other = fit.unknowns[j];
+    const double r =
+        fit.information.correlation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+    if (other.kind == Unknown::Kind::kParameter && spread[other.subject] && std::isfinite(r)) {
+      YAML::Node pair(YAML::NodeType::Sequence);
+      pair.SetStyle(YAML::EmitterStyle::Flow);
+      pair.push_back(other.subject);
+      pair.push_back(fit.unknowns[i].subject);
+      pair.push_back(fmt::format("{:.12g}", std::clamp(r, -1.0, 1.0)));
+      spread["correlations"].push_back(pair);
+    }
+  }
+}
+
 }  // namespace
 
 std::string fittedScene(const FitStudy& study, const ShootingFit& fit, const std::string& folder) {
   YAML::Node scene = YAML::LoadFile(study.scene_path);
   YAML::Node system = scene["systems"][study.system];
   YAML::Node parameters = system["parameters"];
+  if (system["spread"]) {
+    system["spread"].remove("correlations");  // the runs tell others now
+  }
   std::string head =
       fmt::format("# {} of this scene was fitted to measured runs by `twin fit {}`.\n",
                   study.system, printable(std::filesystem::path(study.source).filename().string()));
@@ -76,6 +97,7 @@ std::string fittedScene(const FitStudy& study, const ShootingFit& fit, const std
       YAML::Node spread(YAML::NodeType::Map);  // the monitor judges the system within it
       spread["standard_deviation"] = fmt::format("{:.3g}", deviation);
       system["spread"][u.subject] = spread;
+      addCorrelations(fit, i, system["spread"]);
     }
     head += fmt::format("#   {:<24} {:>16.9g}  {}\n", u.name, fit.theta[k],
                         std::isfinite(deviation)

@@ -10,6 +10,7 @@
 
 #include "scene/node_reader.h"
 #include "scene/parameter_paths.h"
+#include "scene/spread_correlations.h"
 
 namespace whirl_twin {
 
@@ -50,6 +51,53 @@ void putWhatGoesAlong(const SystemSpec& spec, const ModelInfo& model, SystemSpec
   }
 }
 
+[[noreturn]] void refuseDraws(const std::string& what) {
+  throw Refusal(fmt::format("{}: not one of {} draws is in the number's range", what, kMostDraws));
+}
+
+/// Number by number, each drawn again until it is in its range.
+void drawApart(const SystemSpec& spec, const ModelInfo& model, std::mt19937_64& random,
+               DrawnMember& member) {
+  for (const Spread& spread : spec.ensemble.spread) {
+    const double about = centreOf(spread, spec, model);
+    double value = about + deviation(spread, random);
+    int draws = 1;
+    while (!put(spread, value, model, member.spec)) {
+      if (++draws > kMostDraws) {
+        refuseDraws(spread.path);
+      }
+      value = about + deviation(spread, random);
+    }
+    member.values.push_back(value);
+  }
+}
+
+/// All of them drawn again until each is in its range.
+void drawTogether(const SystemSpec& spec, const ModelInfo& model, std::mt19937_64& random,
+                  DrawnMember& member) {
+  const std::vector<Spread>& spreads = spec.ensemble.spread;
+  std::size_t outside = 0;
+  for (int draws = 0; draws < kMostDraws; ++draws) {
+    std::vector<double> independent;
+    for (const Spread& spread : spreads) {
+      independent.push_back(deviation(spread, random));
+    }
+    member.values = correlated(spec.ensemble, independent);
+    std::size_t i = 0;
+    for (; i < spreads.size(); ++i) {
+      member.values[i] += centreOf(spreads[i], spec, model);
+      if (!put(spreads[i], member.values[i], model, member.spec)) {
+        outside = i;
+        break;
+      }
+    }
+    if (i == spreads.size()) {
+      return;
+    }
+  }
+  refuseDraws(spreads[outside].path);
+}
+
 }  // namespace
 
 double centreOf(const Spread& spread, const SystemSpec& spec, const ModelInfo& model) {
@@ -68,18 +116,10 @@ DrawnMember drawnMember(const SystemSpec& spec, const ModelInfo& model, std::siz
   member.spec.ensemble = {};
   std::seed_seq seed{spec.ensemble.seed, static_cast<std::uint32_t>(index)};
   std::mt19937_64 random(seed);
-  for (const Spread& spread : spec.ensemble.spread) {
-    const double about = centreOf(spread, spec, model);
-    double value = about + deviation(spread, random);
-    int draws = 1;
-    while (!put(spread, value, model, member.spec)) {
-      if (++draws > kMostDraws) {
-        throw Refusal(fmt::format("{}: not one of {} draws is in the number's range", spread.path,
-                                  kMostDraws));
-      }
-      value = about + deviation(spread, random);
-    }
-    member.values.push_back(value);
+  if (spec.ensemble.factor.size() == 0) {
+    drawApart(spec, model, random, member);
+  } else {
+    drawTogether(spec, model, random, member);
   }
   putWhatGoesAlong(spec, model, member.spec);
   return member;

@@ -11,6 +11,7 @@
 #include "messages/names.h"
 #include "scene/ensemble_draw.h"
 #include "scene/parameter_paths.h"
+#include "scene/spread_correlations.h"
 
 namespace whirl_twin {
 
@@ -19,6 +20,7 @@ namespace {
 constexpr int kMostMembers = 100000;
 constexpr int kLargestSeed = 1000000000;
 const std::string kInitial = "initial.";
+const std::string kCorrelations = "correlations";  // a key of spread that is no number of a model
 
 struct Width {
   const char* key;
@@ -125,6 +127,9 @@ void readSpread(const MapReader& map, const ModelInfo& model,
     known.emplace_back(width.key);
   }
   for (const std::string& path : map.names()) {
+    if (path == kCorrelations) {
+      continue;
+    }
     const MapReader entry(map.at(path), map.key(path), known, "key of a spread", complaints);
     Spread spread;
     const auto about = centre(path, model, coordinates, spec, spread, map.key(path), complaints);
@@ -160,10 +165,14 @@ void readEnsemble(const MapReader& system, const ModelInfo& model,
   if (!spread.usable()) {
     return;
   }
-  if (spread.names().empty()) {
+  if (spread.names().size() == (spread.has(kCorrelations) ? 1 : 0)) {
     complaints.add(system.key("spread"), "must name a parameter or initial value, found none");
   }
   readSpread(spread, model, coordinates, spec, complaints);
+  if (spread.has(kCorrelations) && complaints.all().size() == before) {
+    readCorrelations(spread.at(kCorrelations), spread.key(kCorrelations), spec.ensemble,
+                     complaints);
+  }
   if (complaints.all().size() == before) {
     const std::string objection = spreadObjection(spec, model);
     if (!objection.empty()) {

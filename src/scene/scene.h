@@ -1,6 +1,7 @@
 // A checked scene: what is simulated, with every number in range. Made by readScene() only.
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -49,6 +50,9 @@ struct EnsembleSpec {
   std::size_t count = 0;  ///< members that run; 0: no ensemble
   std::uint32_t seed = 1;
   std::vector<Spread> spread;
+  /// Lower triangular, n by n: times its transpose the correlations of the spreads; empty: none
+  /// (spread_correlations.h).
+  Eigen::MatrixXd factor = {};
 };
 
 struct SystemSpec {

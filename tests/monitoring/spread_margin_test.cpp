@@ -86,6 +86,26 @@ TEST(SpreadMargin, CountsAgainstADecayRateTheUserAsksFor) {
   EXPECT_EQ(known.margin->beyond(2.0 * known.margin->decay_rates.back()), 1000u);
 }
 
+// Each for itself may be unstable: internal damping beyond twice the damping. Together they go as
+// twice one is the other, and never are.
+TEST(SpreadMargin, OfNumbersThatGoTogetherIsThatOfWhatTheyCanBe) {
+  const std::string apart =
+      "    spread:\n      damping: {standard_deviation: 2.0}\n      internal_damping: "
+      "{standard_deviation: 4.0}\n";
+  const Known loose(selfExcited(18.0, apart));
+  ASSERT_TRUE(loose.margin);
+  // 2 damping - internal_damping: 2 with a deviation of 5.66.
+  EXPECT_NEAR(static_cast<double>(loose.margin->beyond(0.0)), 362.0, 61.0);
+  const Known tied(
+      selfExcited(18.0, apart + "      correlations: [[damping, internal_damping, 0.999]]\n"));
+  ASSERT_TRUE(tied.margin);
+  EXPECT_EQ(tied.margin->beyond(0.0), 0u);
+  // Of the slanted box the end at which both are three deviations down, and the rest is.
+  EXPECT_GT(tied.margin->lowest_decay_rate, 0.0);
+  EXPECT_LT(tied.margin->lowest_decay_rate,
+            tied.decayAt({"damping", "internal_damping"}, {4.0, 6.0}) + 1.0e-9);
+}
+
 // The decay of an oscillator with this damper is slowest where damping is least and mass largest.
 TEST(SpreadMargin, OfOneCoordinateKharitonovTellsOfTheWholeBox) {
   const auto oscillator = [](double half_width) {

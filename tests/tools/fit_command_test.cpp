@@ -66,6 +66,16 @@ TEST_F(Fit, FindsWhatTheRunsWereMadeWith) {
                 0.01 * parameter.value()["standard_deviation"].get<double>())
         << parameter.key();
   }
+  const YAML::Node together = system["spread"]["correlations"];
+  ASSERT_EQ(together.size(), 3U);
+  for (const YAML::Node& pair : together) {
+    const auto told = std::find_if(
+        json["correlations"].begin(), json["correlations"].end(), [&](const nlohmann::json& other) {
+          return other[0] == pair[0].as<std::string>() && other[1] == pair[1].as<std::string>();
+        });
+    ASSERT_NE(told, json["correlations"].end());
+    EXPECT_NEAR(pair[2].as<double>(), (*told)[2].get<double>(), 1e-10);
+  }
   EXPECT_EQ(twin({"analyze", directory_.file("fitted.yaml"), "--json"})
                 .json()["systems"]["arm"]["spread_margin"]["members"],
             1000);

@@ -174,6 +174,76 @@ TEST(EnsembleDraw, HasTheMeanAndWidthAskedFor) {
   EXPECT_LE(*std::max_element(damping.begin(), damping.end()), 13.0);
 }
 
+// Of 20000 draws a correlation r is off by (1 - r^2)/141 of itself: five times that.
+TEST(EnsembleDraw, HasTheCorrelationsAskedFor) {
+  const Scene scene = sceneOf(rotorScene(R"(
+    count: 20000
+    spread:
+      stiffness: {standard_deviation: 500}
+      mass: {standard_deviation: 0.05}
+      damping: {standard_deviation: 0.5}
+      eccentricity: {half_width: 1.0e-5}
+      initial.x: {standard_deviation: 1.0e-4}
+      correlations:
+        - [mass, stiffness, 0.95]
+        - [damping, stiffness, -0.3]
+        - [initial.x, stiffness, -0.3]
+        - [damping, initial.x, 1])"));
+  constexpr int kDraws = 20000;
+  Eigen::MatrixXd draws(kDraws, 5);
+  for (int i = 0; i < kDraws; ++i) {
+    const std::vector<double> values =
+        drawnMember(scene.systems[0], *findModel("jeffcott_rotor"), static_cast<std::size_t>(i))
+            .values;
+    draws.row(i) = Eigen::Map<const Eigen::RowVectorXd>(values.data(), 5);
+  }
+  draws.rowwise() -= draws.colwise().mean().eval();
+  const Eigen::RowVectorXd widths = (draws.colwise().squaredNorm() / kDraws).cwiseSqrt();
+  EXPECT_NEAR(widths[0], 500.0, 5.0 * 500.0 / 200.0);
+  EXPECT_NEAR(widths[2], 0.5, 5.0 * 0.5 / 200.0);
+  draws.array().rowwise() /= widths.array();
+  const Eigen::MatrixXd r = draws.transpose() * draws / kDraws;
+  EXPECT_NEAR(r(0, 1), 0.95, 5.0 * 0.0975 / 141.0);
+  EXPECT_NEAR(r(0, 2), -0.3, 5.0 * 0.91 / 141.0);
+  EXPECT_NEAR(r(2, 4), 1.0, 1.0e-12);
+  EXPECT_NEAR(r(0, 4), -0.3, 5.0 * 0.91 / 141.0);
+  EXPECT_NEAR(r(0, 3), 0.0, 5.0 / 141.0);
+  EXPECT_NEAR(r(1, 3), 0.0, 5.0 / 141.0);
+}
+
+TEST(EnsembleScene, RefusesCorrelationsThatCannotBe) {
+  const auto refusal = [](const std::string& correlations) {
+    return errorOf(rotorScene(
+        "    count: 4\n    spread:\n      stiffness: {standard_deviation: 1}\n      mass: "
+        "{standard_deviation: 0.1}\n      damping: {standard_deviation: 0.1}\n      eccentricity: "
+        "{half_width: 1.0e-5}\n      correlations: " +
+        correlations + "\n"));
+  };
+  const std::string key = "test.yaml: systems.rotor.spread.correlations";
+  EXPECT_EQ(refusal("0.5"), key +
+                                ": must be a list of [one number, another, their correlation], "
+                                "found 0.5");
+  EXPECT_EQ(refusal("[[mass, stiffness]]"),
+            key + "[0]: must be [one number, another, their correlation from -1 to 1]");
+  EXPECT_EQ(refusal("[[mass, stiffness, 1.01]]"),
+            key + "[0]: must be [one number, another, their correlation from -1 to 1]");
+  EXPECT_EQ(refusal("[[mass, stifness, 0.5]]"),
+            key +
+                "[0]: must be numbers that have a spread, found 'stifness'; did you mean "
+                "'stiffness'?");
+  EXPECT_EQ(refusal("[[mass, eccentricity, 0.5]]"),
+            key +
+                "[0]: 'eccentricity' is spread evenly: must be numbers that are spread normally, "
+                "with a standard_deviation");
+  EXPECT_EQ(refusal("[[mass, mass, 0.5]]"), key + "[0]: the correlation of 'mass' and 'mass' is 1");
+  EXPECT_EQ(refusal("[[mass, stiffness, 0.5], [stiffness, mass, 0.5]]"),
+            key + "[1]: the correlation of 'stiffness' and 'mass' stands twice");
+  EXPECT_EQ(refusal("[[mass, stiffness, 0.9], [mass, damping, 0.9], [damping, stiffness, -0.9]]"),
+            key +
+                ": no numbers go together like this: the matrix of correlations must be positive "
+                "semidefinite, found an eigenvalue of -0.8");
+}
+
 TEST(EnsembleDraw, StaysInRange) {
   const Scene scene = sceneOf(rotorScene(R"(
     count: 500
