@@ -188,9 +188,9 @@ class Search {
     StepChoice choice;
     choice.integrator = method.name;
     choice.substeps = spec.substeps;
+    const int most = std::max(mostSubsteps(one_), spec.substeps);
     double before = kInfinity;
     while (
-        choice.substeps <= std::max(mostSubsteps(one_), spec.substeps) &&
         (!found_ || cost(choice) < cost(*found_)) &&
         (method.symplectic || method.order == 0 || cost(choice) < kWorthwhile * implicit_cost_)) {
       const StepSetting setting = settingOf(one_, choice);
@@ -214,7 +214,11 @@ class Search {
         return;  // shorter steps are no better
       }
       before = excess;
-      choice.substeps <<= doublings(excess, method.order);
+      const int more = doublings(excess, method.order);
+      if (choice.substeps > most >> more) {
+        return;
+      }
+      choice.substeps <<= more;
     }
   }
   bool found() const { return found_.has_value(); }

@@ -156,6 +156,9 @@ std::optional<SteadyMotion> steadyMotionNear(const Dynamics& dynamics,
   }
   const ReducedSystem system(dynamics, cyclic, x, momenta, speed);
   system.matchMomenta(x);
+  if (cyclic.shape.empty() && cyclic.driven.empty()) {  // its momenta tell all of it
+    return x;
+  }
   for (int i = 0; i < kMaxIterations; ++i) {
     const Eigen::MatrixXd slope = system.slope(x);
     const Eigen::VectorXd pull = system.pull(x);

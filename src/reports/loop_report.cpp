@@ -141,6 +141,11 @@ Json controllerJson(const LoopedController& controller) {
   return json;
 }
 
+/// A margin; there is no end to some.
+std::string orAny(double margin, const char* format) {
+  return std::isfinite(margin) ? fmt::format(fmt::runtime(format), margin) : "any";
+}
+
 std::string controllerText(const LoopedController& controller) {
   const ControllerSpec& spec = *controller.spec;
   std::string out = fmt::format(
@@ -171,10 +176,12 @@ std::string controllerText(const LoopedController& controller) {
         axis.zone == SensitivityZone::kUnbounded
             ? std::string("sensitivity without bound\n")
             : fmt::format(
-                  "sensitivity {:.4g} at {:.4g} rad/s, zone {}; gain times {:.4g} to "
-                  "{:.4g}, phase {:.3g} degrees, delay {:.3g} s more\n",
+                  "sensitivity {:.4g} at {:.4g} rad/s, zone {}; gain times {:.4g} to {}, phase {}, "
+                  "delay {}\n",
                   axis.sensitivity_peak, axis.peak_frequency, name(axis.zone), axis.gain_reduction,
-                  axis.gain_margin, axis.phase_margin * kDegrees, axis.delay_margin);
+                  orAny(axis.gain_margin, "{:.4g}"),
+                  orAny(axis.phase_margin * kDegrees, "{:.3g} degrees"),
+                  orAny(axis.delay_margin, "{:.3g} s more"));
   }
   return out;
 }
