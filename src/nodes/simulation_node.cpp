@@ -66,6 +66,8 @@ constexpr const char* kHelp =
     "  ~clock             true or false, default false: publish simulated time on /clock and stamp "
     "messages with it\n"
     "  ~clock_rate        Hz, of /clock, default 250\n"
+    "  ~paused            true or false, default false: stands at its start until ~resume or "
+    "~step\n"
     "  ~measure           true or false, default false: tell what the scene's sensors see, on "
     "measured/SOURCE\n"
     "  ~checkpoint        a file, in which the twin is saved while it runs and at its end; "
@@ -95,6 +97,7 @@ struct Settings {
   std::string lcm_prefix;
   bool clock;
   double clock_rate;  ///< [Hz], in simulated time
+  bool paused;        ///< at its start
   bool measure;       ///< publish what the scene's sensors see
   double real_time_factor;
   std::string checkpoint;    ///< file; empty: none
@@ -106,7 +109,7 @@ struct Settings {
 Settings readSettings(const Scene& scene) {
   requireKnownParameters({"publish_rate", "lcm_url", "lcm_prefix", "clock", "realtime", "priority",
                           "overrun", "cpu", "give_up", "busy_wait", "real_time_factor", "measure",
-                          "clock_rate", "checkpoint", "checkpoint_period", "resume"});
+                          "clock_rate", "paused", "checkpoint", "checkpoint_period", "resume"});
   Settings s;
   s.every = stepsToPublish(scene);
   s.lcm_url = privateParameter<std::string>("lcm_url", "an LCM url, or nothing", kDefaultLcmUrl);
@@ -120,6 +123,7 @@ Settings readSettings(const Scene& scene) {
     throw Refusal(fmt::format("clock_rate: must be from {} to {} Hz, found {}", kSlowestClock,
                               kFastestClock, s.clock_rate));
   }
+  s.paused = privateParameter("paused", "true or false", false);
   s.measure = privateParameter("measure", "true or false", false);
   if (s.measure && scene.sensors.empty()) {
     throw Refusal("measure: the scene has no sensors");
@@ -188,6 +192,9 @@ void run() {
                         [&] { return !stopRequested() && ros::ok() && loop.running(); });
   if (resumed) {
     services.goOnFrom(*resumed, settings.resume);
+  }
+  if (settings.paused) {
+    live.putBack(true);
   }
   RecordPublisher publisher(
       live, loop,

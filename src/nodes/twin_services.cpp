@@ -81,6 +81,7 @@ bool TwinServices::trigger(TwinCommand::Kind kind, const char* done, Trigger::Re
 }
 
 bool TwinServices::pause(Trigger::Request&, Trigger::Response& response) {
+  pauses_.fetch_add(1);
   twin_.pause();
   while (twin_.pausing() && keep_waiting_()) {
     std::this_thread::sleep_for(kPoll);
@@ -103,13 +104,27 @@ bool TwinServices::reset(Trigger::Request&, Trigger::Response& response) {
   return true;
 }
 
-bool TwinServices::step(StepN::Request& request, StepN::Response& response) {
+/// From update to update of the ramps that are under way, so that each comes at its step.
+bool TwinServices::stepPastUpdates(std::uint64_t steps, TwinAnswer& answer) {
+  const std::uint64_t pauses = pauses_.load();
   TwinCommand command;
   command.kind = TwinCommand::Kind::kStep;
-  command.steps = request.steps;
+  do {
+    command.steps = std::min(steps, parameters_.stepsToUpdate());
+    if (!carryOut(command, answer)) {
+      return false;
+    }
+    steps -= command.steps;
+    continueRamps();
+    answer.done = answer.done && (steps == 0 || pauses_.load() == pauses);
+  } while (answer.done && steps > 0);
+  return true;
+}
+
+bool TwinServices::step(StepN::Request& request, StepN::Response& response) {
   TwinAnswer answer;
   const bool paused = twin_.paused();
-  const bool carried_out = carryOut(command, answer);
+  const bool carried_out = stepPastUpdates(request.steps, answer);
   response.success = carried_out && answer.done;
   response.step = answer.step;
   response.time = twin_.twin().seconds(answer.step);

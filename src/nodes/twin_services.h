@@ -11,6 +11,8 @@
 #include <whirl_twin/SetSpeed.h>
 #include <whirl_twin/StepN.h>
 
+#include <atomic>
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -71,12 +73,14 @@ class TwinServices {
   void advertisePause(ros::NodeHandle node);
   /// Until all that was sent is carried out; false when the loop ended first.
   bool wait();
+  bool stepPastUpdates(std::uint64_t steps, TwinAnswer& answer);
   /// Sends and waits; false when the loop ended first or takes no commands.
   bool carryOut(const TwinCommand& command, TwinAnswer& answer);
 
   LiveTwin& twin_;
   std::function<bool()> keep_waiting_;
   LiveParameters parameters_;
+  std::atomic<std::uint64_t> pauses_{0};  // asked for
   // ~pause is not kept waiting by a service that takes long.
   ros::CallbackQueue pause_queue_;
   ros::AsyncSpinner pause_thread_{1, &pause_queue_};

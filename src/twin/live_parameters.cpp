@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "controllers/controller_registry.h"
 #include "messages/names.h"
@@ -254,6 +255,15 @@ std::vector<std::string> LiveParameters::continueRamps() {
     }
   }
   return given_up;
+}
+
+std::uint64_t LiveParameters::stepsToUpdate() const {
+  if (ramps_.empty()) {
+    return std::numeric_limits<std::uint64_t>::max();
+  }
+  const double left = ramped_at_ + kRampUpdate - time();  // [s]; after a reset it may be any
+  const double steps = std::round(left / twin_.twin().scene().stepSeconds());
+  return static_cast<std::uint64_t>(std::clamp(steps, 1.0, kLongestRamp));
 }
 
 std::string LiveParameters::objectionTo(std::size_t drive, const SpeedReach& reach) const {

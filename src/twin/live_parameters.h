@@ -57,6 +57,9 @@ class LiveParameters {
   /// wrong with those that had to be given up.
   std::vector<std::string> continueRamps();
   bool ramping() const { return !ramps_.empty(); }
+  /// How many steps from the one reached a ramp has its next update, at least 1; none under way:
+  /// no bound.
+  std::uint64_t stepsToUpdate() const;
 
   /// Of a move that is sound (faultOf), were it to start now: to its speed, or to the edge of a
   /// band that the drive avoids. Nothing: the loop ended.
