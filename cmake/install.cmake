@@ -1,6 +1,6 @@
 # What `make install` copies. Message headers, message definitions and package.xml are catkin's own.
 set(whirl_twin_node_names
-  simulation_node follow_node monitor_node visualization_node lcm_bridge_node lcm_recorder_node
+  simulation_node follow_node monitor_node visualization_node lcm_bridge_node lcm_recorder_node command_bridge_node
   terminal_node)
 
 if(WHIRL_TWIN_ROS)

@@ -57,6 +57,8 @@ int runNode(int argc, char** argv, const char* name, const char* help,
     std::signal(SIGINT, requestStop);
     std::signal(SIGTERM, requestStop);
     if (waitForMaster(name)) {
+      const ros::NodeHandle
+          kept;  // with the last one, as that by which a parameter is read, ROS ends
       run();
     }
   } catch (const RunFailure& failure) {

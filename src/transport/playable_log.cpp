@@ -9,6 +9,7 @@
 #include "messages/names.h"
 #include "messages/refusal.h"
 #include "transport/bag_scan.h"
+#include "transport/command_channel.h"
 #include "transport/lcm_decode.h"
 
 namespace whirl_twin {
@@ -95,12 +96,14 @@ bool PlayableLog::isToPlay(const RawEvent& event) {
       throw RejectedMessage(fmt::format("payload: expected at most {} bytes, found {}",
                                         EventScan::kMaxPayload, event.size));
     }
-    if (!channel) {
-      return true;  // somebody else's
-    }
-    if (channel->kind->has(MessageKind::kCommand) && !commands_) {
+    const bool commands = channel ? channel->kind->has(MessageKind::kCommand)
+                                  : event.channel == prefix_ + kCommandsChannel;
+    if (commands && !commands_) {
       ++played_.commands;
       return false;
+    }
+    if (!channel) {
+      return true;  // somebody else's
     }
     message_ = decodeEvent(event.channel, event.data, event.size, prefix_);
   } catch (const RejectedMessage& why) {

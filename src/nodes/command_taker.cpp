@@ -1,0 +1,178 @@
+#include "nodes/command_taker.h"
+
+#include <ros/ros.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+#include <vector>
+
+#include "nodes/command_fields.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr std::size_t kMostWaiting = 100;
+constexpr std::int64_t kLongestWay = 5'000'000;  // [us], of a command that is not an old one
+constexpr const char* kRelease = "release";
+
+double steadyNow() {
+  return ros::SteadyTime::now().toSec();
+}
+
+std::vector<std::string> namesOfCommands() {
+  std::vector<std::string> names{kRelease};
+  eachCommand([&](const char* name, auto) { names.emplace_back(name); });
+  return names;
+}
+
+/// Throws RejectedMessage for what cannot be meant.
+template <class Service>
+void call(const std::string& service, const twin_command_t& command, command_answer_t& answer) {
+  Service exchange;
+  ReadFields<twin_command_t> read(command);
+  fieldsOf(read, exchange.request);
+  read.finish();
+  if (!ros::service::call(service, exchange)) {
+    answer.message = service + " does not answer: is the simulation running?";
+    return;
+  }
+  answer.done = exchange.response.success != 0 ? 1 : 0;
+  answer.message = exchange.response.message;
+  TellFields<command_answer_t> tell(answer);
+  fieldsOf(tell, exchange.response);
+}
+
+}  // namespace
+
+CommandTaker::CommandTaker(CommandChannels& channels, std::string simulation, double lease,
+                           bool played)
+    : channels_(channels), simulation_(std::move(simulation)), played_(played), lease_(lease) {
+  channels_.take([this](const twin_command_t& command) { take(command); });
+  thread_ = std::thread([this] { run(); });
+}
+
+CommandTaker::~CommandTaker() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ending_ = true;
+  }
+  came_.notify_all();
+  thread_.join();
+}
+
+CommandCounts CommandTaker::counts() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  CommandCounts counts = counts_;
+  counts.holder = lease_.holder(steadyNow());
+  return counts;
+}
+
+void CommandTaker::take(const twin_command_t& command) {
+  const std::string objection = objectionTo(command);
+  if (!objection.empty()) {
+    return refuse(command, objection);
+  }
+  if (command.command == "pause") {  // ends a step that is under way
+    return carryOut(command);
+  }
+  if (command.command == kRelease) {
+    command_answer_t done{};
+    done.done = 1;
+    done.message = "anybody may command";
+    return answer(command, done);
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  waiting_.push_back(command);
+  came_.notify_all();
+}
+
+/// With the lease taken, where it may be.
+std::string CommandTaker::objectionTo(const twin_command_t& command) {
+  static const std::vector<std::string> kNames = namesOfCommands();
+  if (command.sender.empty() || printable(command.sender) != command.sender) {
+    return "sender: must be a name, found '" + printable(command.sender) + "'";
+  }
+  if (std::find(kNames.begin(), kNames.end(), command.command) == kNames.end()) {
+    return "command: must be one of its commands, found '" + printable(command.command) + "'" +
+           hint(command.command, kNames);
+  }
+  const std::int64_t way = wallMicroseconds() - command.utime;
+  if (!played_ && (way > kLongestWay || way < -kLongestWay)) {
+    return fmt::format("utime: was sent {:.1f} s ago, as out of a log; ~played lets such pass",
+                       static_cast<double>(way) * 1.0e-6);
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (command.command == "pause") {
+    return "";
+  }
+  if (waiting_.size() >= kMostWaiting) {
+    return fmt::format("{} commands wait already", waiting_.size());
+  }
+  const std::string before = lease_.holder(steadyNow());
+  const std::string objection = lease_.ask(command.sender, steadyNow());
+  if (objection.empty() && before.empty()) {
+    ROS_INFO("%s commands", command.sender.c_str());
+  }
+  if (command.command == kRelease) {
+    lease_.release(command.sender);
+  }
+  return objection;
+}
+
+void CommandTaker::run() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (true) {
+    came_.wait(lock, [this] { return ending_ || !waiting_.empty(); });
+    if (ending_) {
+      return;
+    }
+    const twin_command_t command = std::move(waiting_.front());
+    waiting_.pop_front();
+    lock.unlock();
+    carryOut(command);
+    lock.lock();
+  }
+}
+
+void CommandTaker::carryOut(const twin_command_t& command) {
+  command_answer_t result{};
+  try {
+    eachCommand([&](const char* name, auto kind) {
+      if (command.command == name) {
+        call<typename decltype(kind)::Service>(simulation_ + "/" + name, command, result);
+      }
+    });
+  } catch (const RejectedMessage& why) {
+    return refuse(command, why.what());
+  }
+  answer(command, result);
+}
+
+void CommandTaker::refuse(const twin_command_t& command, const std::string& why) {
+  const std::string text =
+      printable(command.command) + " of " + printable(command.sender) + " is refused: " + why;
+  ROS_WARN_THROTTLE(1.0, "%s", text.c_str());
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++counts_.refused;
+    counts_.last_refusal = text;
+  }
+  command_answer_t refused{};
+  refused.message = why;
+  refused.sender = command.sender;
+  refused.number = command.number;
+  channels_.send(refused);
+}
+
+void CommandTaker::answer(const twin_command_t& command, command_answer_t answer) {
+  answer.sender = command.sender;
+  answer.number = command.number;
+  channels_.send(answer);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++counts_.taken;
+  counts_.latency.add(1000 * (wallMicroseconds() - command.utime));
+}
+
+}  // namespace whirl_twin

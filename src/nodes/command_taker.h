@@ -1,0 +1,56 @@
+// Commands that come by LCM, to the services of a simulation on ROS, and their answers back. One
+// commander at a time has the twin (nodes/command_lease.h); whoever it is, pause is obeyed.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "nodes/command_channels.h"
+#include "nodes/command_lease.h"
+#include "realtime/timing_histogram.h"
+
+namespace whirl_twin {
+
+struct CommandCounts {
+  std::uint64_t taken = 0;
+  std::uint64_t refused = 0;
+  std::string last_refusal;
+  std::string holder;       ///< of the lease; "": nobody
+  TimingHistogram latency;  ///< [ns], from a command's sending to its answer
+};
+
+class CommandTaker {
+ public:
+  /// simulation: the node, whose services are called. played: also commands that were sent long
+  /// ago, as those of a log are. `channels` outlives it.
+  CommandTaker(CommandChannels& channels, std::string simulation, double lease, bool played);
+  ~CommandTaker();
+
+  CommandCounts counts() const;
+
+ private:
+  void take(const twin_command_t& command);
+  std::string objectionTo(const twin_command_t& command);
+  void run();
+  void carryOut(const twin_command_t& command);
+  void refuse(const twin_command_t& command, const std::string& why);
+  void answer(const twin_command_t& command, command_answer_t answer);
+
+  CommandChannels& channels_;
+  std::string simulation_;
+  bool played_;
+  mutable std::mutex mutex_;  // all below
+  std::condition_variable came_;
+  CommandLease lease_;
+  CommandCounts counts_;
+  std::deque<twin_command_t> waiting_;
+  bool ending_ = false;
+  std::thread thread_;
+};
+
+}  // namespace whirl_twin
