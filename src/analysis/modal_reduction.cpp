@@ -33,6 +33,7 @@ constexpr double kAsFar = 1.0e-3;               // what is hardly farther is not
 constexpr double kSameSquare = 1.0e-8;          // of squares of frequencies that are one
 constexpr double kRoundingOfSquares = 1.0e-13;  // of the largest
 constexpr double kRigid = 1.0e-5;               // of the highest frequency: a rigid-body mode
+constexpr double kAtRest = 0.1;                 // of the lowest frequency: nearly at rest
 
 struct RestModes {
   VectorXd frequencies;  ///< [rad/s], ascending
@@ -76,8 +77,9 @@ class SparseSolver {
 /// Everything about the full rotor that the search for shapes needs.
 class FullRotor {
  public:
-  FullRotor(const LinearRotor& rotor, const std::vector<Station>& stations, double highest_speed)
-      : rotor_(rotor), stations_(stations), highest_(highest_speed) {
+  FullRotor(const LinearRotor& rotor, const std::vector<Station>& stations, double highest_speed,
+            const MatrixXd& pushed)
+      : rotor_(rotor), stations_(stations), highest_(highest_speed), pushed_(pushed) {
     const bool balanced = rotor_.synchronousForce(1.0).isZero(0.0);
     if (balanced) {
       const Station& at = stations_.front();
@@ -99,6 +101,14 @@ class FullRotor {
     return std::min(dof(), std::max<Index>(kFewestModes, below));
   }
 
+  bool isPushed() const { return pushed_.cols() > 0; }
+  /// Shapes that every choice keeps, the first ones.
+  Index fewest() const {
+    const Index needed =
+        isPushed() ? modesOfTheRun() + (rotor_.load.isZero(0.0) ? 0 : 1) + pushed_.cols() : 2;
+    return std::min(dof(), needed + needed % 2);
+  }
+
   /// `count` shapes, the first `modes` of them modes.
   MatrixXd shapes(Index count, Index modes) const {
     MatrixXd kept(dof(), 0);
@@ -108,6 +118,13 @@ class FullRotor {
     if (!rotor_.load.isZero(0.0)) {
       keep((middle_.stiffness + middle_.circulatory).partialPivLu().solve(rotor_.load), count,
            kept);
+    }
+    if (isPushed()) {
+      const Eigen::PartialPivLU<MatrixXd> held(middle_.stiffness + middle_.circulatory +
+                                               slowly() * slowly() * middle_.mass);
+      for (Index i = 0; i < pushed_.cols(); ++i) {
+        keep(held.solve(pushed_.col(i)), count, kept);
+      }
     }
     const Index points = (count - kept.cols() + 1) / 2;
     for (Index i = 0; i < points; ++i) {
@@ -156,6 +173,13 @@ class FullRotor {
     };
     return {part(l.mass), part(l.damping), part(l.gyroscopic), part(l.stiffness),
             part(l.circulatory)};
+  }
+
+  /// [rad/s], that is nearly rest to all but a motion as a rigid body.
+  double slowly() const {
+    const double rigid = kRigid * modes_.frequencies[dof() - 1];
+    const auto first = (modes_.frequencies.array() <= rigid).count();
+    return kAtRest * modes_.frequencies[std::min(dof() - 1, Index{first})];
   }
 
   struct SpeedPoint {
@@ -257,6 +281,7 @@ class FullRotor {
   LinearRotor rotor_;
   std::vector<Station> stations_;
   double highest_;
+  MatrixXd pushed_;
   Linearization middle_;  // at half the highest speed: bearings may follow it
   RestModes modes_;
   std::vector<SpeedPoint> points_;
@@ -269,8 +294,8 @@ struct Choice {
   Index modes = 0;
 };
 
-/// Modes alone, or those of the run and the response: which is better is measured. Errors above
-/// `enough` are not measured to the end.
+/// Modes alone, or those of the run and the response: which is better is measured, and modes alone
+/// are none where it is pushed. Errors above `enough` are not measured to the end.
 Choice choose(const FullRotor& full, Index count, double enough) {
   Choice best;
   for (const Index modes : {std::min(count, full.modesOfTheRun()), count}) {
@@ -279,7 +304,7 @@ Choice choose(const FullRotor& full, Index count, double enough) {
     if (best.modes == 0 || error < best.response_error) {
       best = {std::move(shapes), error, modes};
     }
-    if (modes == count) {
+    if (modes == count || full.isPushed()) {
       break;
     }
   }
@@ -311,15 +336,15 @@ double usualHighestSpeed(const LinearRotor& rotor) {
 }
 
 RotorReduction reduceRotor(const LinearRotor& rotor, const std::vector<Station>& stations,
-                           double highest_speed, int count) {
-  const FullRotor full(rotor, stations, highest_speed);
+                           double highest_speed, int count, const MatrixXd& pushed) {
+  const FullRotor full(rotor, stations, highest_speed, pushed);
   return report(full, choose(full, std::min<Index>(count, full.dof()), kEveryError), "");
 }
 
 RotorReduction reduceRotorTo(const LinearRotor& rotor, const std::vector<Station>& stations,
-                             double highest_speed, double tolerance) {
-  const FullRotor full(rotor, stations, highest_speed);
-  for (Index count = 2;; count = std::min(count + 2, full.dof())) {
+                             double highest_speed, double tolerance, const MatrixXd& pushed) {
+  const FullRotor full(rotor, stations, highest_speed, pushed);
+  for (Index count = full.fewest();; count = std::min(count + 2, full.dof())) {
     const Choice choice = choose(full, count, tolerance);
     if (choice.response_error <= tolerance) {
       RotorReduction r = report(full, choice, fmt::format(" <= {:.3g}", tolerance));

@@ -4,7 +4,8 @@
 // and gyroscopic moments. The shapes are therefore
 //
 //   the modes below the highest speed, four at least (which make the whirl modes of the run),
-//   the sag under a constant load, and
+//   the sag under a constant load,
+//   that under a force at each place where forces act that are not the rotor's own, and
 //   the unbalance response at Chebyshev's speeds of the run, its real and its imaginary part,
 //
 // with which the response is exact at those speeds and its error falls geometrically with their
@@ -50,14 +51,16 @@ constexpr int kResponseSpeeds = 200;  ///< equally spaced
 double usualHighestSpeed(const LinearRotor& rotor);
 
 /// The rotor reduced to `count` shapes, 1 to dof. The unbalance is the rotor's own, or one at the
-/// published station, the first of its `stations`, if it has none.
+/// published station, the first of its `stations`, if it has none. `pushed`: a column for each
+/// force that is not the rotor's own, [dof x any].
 RotorReduction reduceRotor(const LinearRotor& rotor, const std::vector<Station>& stations,
-                           double highest_speed, int count);
+                           double highest_speed, int count, const Eigen::MatrixXd& pushed = {});
 
 /// The same with the least even number of shapes whose response error is below `tolerance`, and
 /// whose eigenvalue error is below a hundredth of it: a run-up leaves free whirls behind, which
 /// must keep their phase for the hundred radians or so that they live. All shapes if none is.
 RotorReduction reduceRotorTo(const LinearRotor& rotor, const std::vector<Station>& stations,
-                             double highest_speed, double tolerance);
+                             double highest_speed, double tolerance,
+                             const Eigen::MatrixXd& pushed = {});
 
 }  // namespace whirl_twin

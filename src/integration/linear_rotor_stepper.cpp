@@ -30,15 +30,14 @@ LinearRotorStepper::LinearRotorStepper(std::shared_ptr<const Dynamics> dynamics,
       constant_speeds_(std::move(constant_speeds)),
       audited_(dynamics_->linearRotor().matrices(speeds.first)),
       load_(dynamics_->linearRotor().load),
-      forces_(std::move(forces), excitation.inputs, dynamics_->dof()),
-      inputs_(excitation.inputs, directionsOf(dynamics_->inputs(), dynamics_->dof()),
-              forces_.directions()),
-      method_(dynamics_->linearRotor(), step / substeps, speeds, constant_speeds_, inputs_),
-      halves_(dynamics_->linearRotor(), 0.5 * step / substeps, speeds, constant_speeds_, inputs_),
+      forcing_{excitation.inputs, directionsOf(dynamics_->inputs(), dynamics_->dof()),
+               std::move(forces)},
+      method_(dynamics_->linearRotor(), step / substeps, speeds, constant_speeds_, forcing_),
+      halves_(dynamics_->linearRotor(), 0.5 * step / substeps, speeds, constant_speeds_, forcing_),
       parts_(excitation.inputs,
              [&](double length) {
-               return RotorStep(dynamics_->linearRotor(), length, speeds, constant_speeds_,
-                                inputs_);
+               return ForcedRotorStep(dynamics_->linearRotor(), length, speeds, constant_speeds_,
+                                      forcing_);
              }),
       state_(dynamics_->dof()),
       next_(dynamics_->dof()),
@@ -65,16 +64,14 @@ double LinearRotorStepper::furtherEnergy() const noexcept {
   return energy;
 }
 
-StepStatus LinearRotorStepper::advance(RotorStep& method, double offset, double h,
-                                       LinearMotion& motion) noexcept {
-  return forces_.any() ? forces_.advance(method, excitation_.drive, offset, h, motion)
-                       : method.advance(excitation_.drive, offset, motion);
+std::int64_t LinearRotorStepper::nextCorner(std::int64_t offset) const noexcept {
+  return excitation_.inputs == nullptr ? Inputs::kNever : excitation_.inputs->nextCorner(offset);
 }
 
 StepStatus LinearRotorStepper::step(double) noexcept {
   next_ = state_;
   bool corner = false;
-  const std::int64_t next_corner = inputs_.nextCorner(0);
+  const std::int64_t next_corner = nextCorner(0);
   std::int64_t length = 0;
   if (next_corner != Inputs::kNever) {
     length = std::llround(step_ * 1e9);
@@ -83,7 +80,7 @@ StepStatus LinearRotorStepper::step(double) noexcept {
   if (!corner || !method_.advanceInParts(excitation_.drive, 0, length, next_)) {
     for (int i = 0; i < substeps_; ++i) {
       const double h = step_ / substeps_;
-      const StepStatus status = advance(method_, i * h, h, next_);
+      const StepStatus status = method_.advance(excitation_.drive, i * h, next_);
       if (status != StepStatus::kOk) {
         return status;
       }
@@ -105,12 +102,11 @@ StepStatus LinearRotorStepper::step(double) noexcept {
 
 StepStatus LinearRotorStepper::stepPart(double, std::int64_t from, std::int64_t to) noexcept {
   next_ = state_;
-  if (!(inputs_.nextCorner(from) < to &&
-        method_.advanceInParts(excitation_.drive, from, to, next_))) {
+  if (!(nextCorner(from) < to && method_.advanceInParts(excitation_.drive, from, to, next_))) {
     const StepStatus status =
-        parts_.advance(from, to, [&](RotorStep& part, double offset, double h) {
+        parts_.advance(from, to, [&](ForcedRotorStep& part, double offset, double) {
           part.restart();
-          return advance(part, offset, h, next_);
+          return part.advance(excitation_.drive, offset, next_);
         });
     if (status != StepStatus::kOk) {
       return status;
@@ -129,7 +125,7 @@ void LinearRotorStepper::estimateError() noexcept {
   halves_.restart();
   const double h = 0.5 * (step_ / substeps_);
   for (int i = 0; i < 2 * substeps_; ++i) {
-    if (advance(halves_, i * h, h, finer_) != StepStatus::kOk) {
+    if (halves_.advance(excitation_.drive, i * h, finer_) != StepStatus::kOk) {
       errors_.passOver();
       return;
     }
@@ -172,7 +168,7 @@ std::unique_ptr<Stepper> LinearRotorStepper::readyFor(double lowest_speed,
                                          std::max(highest_speed, method_.highestSpeed())};
   return std::unique_ptr<Stepper>(
       new LinearRotorStepper(dynamics_, jacobi_, excitation_, step_, substeps_, speeds,
-                             std::move(constant_speeds), forces_.all()));
+                             std::move(constant_speeds), forcing_.forces));
 }
 
 }  // namespace whirl_twin

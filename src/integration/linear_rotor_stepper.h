@@ -1,5 +1,5 @@
 // A linear rotor given by its matrices, stepped exactly; forces at places along it that are not
-// linear are stepped with it (local_forces.h).
+// linear are stepped with it (forced_rotor_step.h).
 #pragma once
 
 #include <functional>
@@ -7,11 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "integration/acting_inputs.h"
 #include "integration/excitation.h"
+#include "integration/forced_rotor_step.h"
 #include "integration/jacobi_integral.h"
-#include "integration/local_forces.h"
-#include "integration/rotor_step.h"
 #include "integration/step_error_sum.h"
 #include "integration/step_parts.h"
 #include "integration/stepper.h"
@@ -46,8 +44,8 @@ class LinearRotorStepper final : public Stepper {
                      const Excitation& excitation, double step, int substeps,
                      const std::pair<double, double>& speeds, std::vector<double> constant_speeds,
                      std::vector<LocalForce> forces);
-  StepStatus advance(RotorStep& method, double offset, double h, LinearMotion& motion) noexcept;
   double furtherEnergy() const noexcept;
+  std::int64_t nextCorner(std::int64_t offset) const noexcept;  ///< [ns] after begin()
   void estimateError() noexcept;
 
   std::shared_ptr<const Dynamics> dynamics_;
@@ -59,11 +57,10 @@ class LinearRotorStepper final : public Stepper {
   Linearization audited_;                ///< whose h = T + V the step audits
   Eigen::VectorXd load_;
   double further_energy_ = 0.0;  ///< [J], at the start
-  LocalForces forces_;
-  ActingInputs inputs_;
-  RotorStep method_;
-  RotorStep halves_;  ///< of half the length
-  StepParts<RotorStep> parts_;
+  RotorForcing forcing_;
+  ForcedRotorStep method_;
+  ForcedRotorStep halves_;  ///< of half the length
+  StepParts<ForcedRotorStep> parts_;
   LinearMotion state_;
   LinearMotion next_;
   LinearMotion finer_;         ///< next_, by halves

@@ -250,9 +250,24 @@ RotorStep::ConstantSpeed* RotorStep::constantAt(double speed) noexcept {
   return nullptr;
 }
 
-void RotorStep::constantStep(PackedMatrix& map, const ShaftMotion& shaft, double offset,
-                             std::int64_t piece, LinearMotion& motion) noexcept {
-  work_.restart();
+const double* RotorStep::constantStart(const Drive& drive, double offset,
+                                       const LinearMotion& motion, std::size_t& which) noexcept {
+  if (!drive.constantFor(offset + h_)) {
+    return nullptr;
+  }
+  const ShaftMotion shaft = drive.at(offset);
+  const ConstantSpeed* const constant = constantAt(shaft.speed);
+  if (constant == nullptr) {
+    return nullptr;
+  }
+  which = static_cast<std::size_t>(constant - constant_.data());
+  startOf(shaft, offset, wholeNanoseconds(offset), motion);
+  return y_.data();
+}
+
+/// Fills y_, and tells how much of it.
+Index RotorStep::startOf(const ShaftMotion& shaft, double offset, std::int64_t piece,
+                         const LinearMotion& motion) noexcept {
   y_.head(2 * n_) = motion.state;
   Index input = 2 * n_;
   for (const ForceChannel& channel : channels_) {
@@ -272,6 +287,13 @@ void RotorStep::constantStep(PackedMatrix& map, const ShaftMotion& shaft, double
     acting_.writePairs(offset, piece, h_, y_.data() + input);
     input += 2 * acting_.count();
   }
+  return input;
+}
+
+void RotorStep::constantStep(PackedMatrix& map, const ShaftMotion& shaft, double offset,
+                             std::int64_t piece, LinearMotion& motion) noexcept {
+  work_.restart();
+  const Index input = startOf(shaft, offset, piece, motion);
   map.multiply(y_.data(), result_.data());
   motion.advance(result_.data(), y_.head(input).dot(result_.segment(2 * n_, input)));
 }

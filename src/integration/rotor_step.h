@@ -65,6 +65,10 @@ class RotorStep {
   /// Advances by h from offset [s] after the drive's begin(). Real-time safe. kOutOfRange, with the
   /// motion left as it was, where the mean speed is not between those prepared for.
   StepStatus advance(const Drive& drive, double offset, LinearMotion& motion) noexcept;
+  /// What advance() would start from at one of the constant speeds, in the order of RotorMap with
+  /// degree 0, valid until it is called; nullptr at any other speed. Real-time safe.
+  const double* constantStart(const Drive& drive, double offset, const LinearMotion& motion,
+                              std::size_t& which) noexcept;
   /// At one of the constant speeds, held until `to`: advances from one instant to another, both in
   /// [ns] after begin(), exactly, across corners of the inputs. False, with nothing done, at any
   /// other speed and where no input is a table. Real-time safe.
@@ -90,6 +94,8 @@ class RotorStep {
   Cell cell(const LinearRotor& rotor, double low, double high) const;
   double cubicError(const LinearRotor& rotor, double low, double high) const;
   ConstantSpeed* constantAt(double speed) noexcept;
+  Eigen::Index startOf(const ShaftMotion& shaft, double offset, std::int64_t piece,
+                       const LinearMotion& motion) noexcept;
   void constantStep(PackedMatrix& map, const ShaftMotion& shaft, double offset, std::int64_t piece,
                     LinearMotion& motion) noexcept;
   void changingStep(Cell& cell, const Drive& drive, double offset, LinearMotion& motion) noexcept;

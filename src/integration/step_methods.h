@@ -40,7 +40,7 @@
 //     matrices as functions of speed, of any size:    exponential,     LinearRotorStepper
 //     flexible_rotor; any rotor on magnets            no other         (RotorStep)
 //         Fixed sizes at compile time end at a few coordinates. linearRotorSetup(). Forces at
-//         places that are not linear go along as cubics of each step (local_forces.h).
+//         places that are not linear are solved for beside it (forced_rotor_step.h).
 //
 //     matrices and harmonic forces: linear_system,    any but          LinearStepper
 //     cantilever_beam, hinged_beam (geometry: small)  stoermer         (LinearStep)

@@ -52,7 +52,9 @@ HeldInputs heldInputs(const Dynamics& dynamics, const Eigen::VectorXd& q,
   }
   if (const auto* const rotor = dynamic_cast<const LocallyForcedRotor*>(&dynamics)) {
     for (const LocalForce& force : rotor->forces()) {
-      add(force, q, inputs, held);
+      if (force.inputs[0] != LocalForce::kNoInput) {
+        add(force, q, inputs, held);
+      }
     }
   }
   return held;

@@ -1,14 +1,15 @@
 // What pushes a rotor at one place along its shaft, and is not linear in the motion there: a
-// magnetic bearing near its poles, and whatever else stands beside a rotor.
+// magnetic bearing near its poles, a film of oil, a stator that it rubs on.
 //
-// What is linear in such a force is the rotor's own, among its matrices and the directions of its
-// inputs; a law gives the rest, F(x, y, u). A rotor stays one linear system with a few forces (see
-// locally_forced_rotor.h), whatever the number of its coordinates.
+// What of such a force is among the rotor's own matrices and the directions of its inputs is the
+// rotor's; a law gives the rest, F(x, y, x', y', w, u). A rotor stays one linear system with a few
+// forces (see locally_forced_rotor.h), whatever the number of its coordinates.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -16,22 +17,22 @@ namespace whirl_twin {
 
 /// At the place of a force, across the shaft.
 struct LocalState {
-  std::array<double, 2> place{};       ///< [m], x and y
-  std::array<double, 2> rate{};        ///< [m/s]
-  std::array<double, 2> input{};       ///< u, of LocalForce::inputs
-  std::array<double, 2> input_rate{};  ///< u'
+  std::array<double, 2> place{};  ///< [m], x and y
+  std::array<double, 2> rate{};   ///< [m/s]
+  std::array<double, 2> input{};  ///< u, of LocalForce::inputs
+  double speed = 0.0;             ///< [rad/s], of the shaft
 };
 
 struct LocalPush {
   std::array<double, 2> force{};  ///< [N], along x and y
-  std::array<double, 2> rate{};   ///< [N/s], at which it changes
   double size = 0.0;              ///< [N], of what it is the difference of: that is what rounds
 };
 
-/// How F(x, y, u) changes.
+/// How F changes.
 struct LocalSlopes {
-  Eigen::Matrix2d stiffness;  ///< -dF/d(x, y) [N/m]
-  Eigen::Matrix2d by_input;   ///< dF/du
+  Eigen::Matrix2d stiffness;                           ///< -dF/d(x, y) [N/m]
+  Eigen::Matrix2d damping = Eigen::Matrix2d::Zero();   ///< -dF/d(x', y') [N s/m]
+  Eigen::Matrix2d by_input = Eigen::Matrix2d::Zero();  ///< dF/du
 };
 
 class LocalLaw {
@@ -39,16 +40,22 @@ class LocalLaw {
   virtual ~LocalLaw() = default;
   /// Real-time safe. False, with `out` as it was, where there is no such place for a rotor.
   virtual bool push(const LocalState& at, LocalPush& out) const noexcept = 0;
-  /// At a place and inputs. Rates do not matter.
-  virtual LocalSlopes slopes(const LocalState& at) const = 0;
-  /// [m], how far a place is from where there is none.
-  virtual double room(const Eigen::Vector2d& place) const = 0;
+  /// Real-time safe.
+  virtual LocalSlopes slopes(const LocalState& at) const noexcept = 0;
+  /// [m], how far a place is from where there is none; infinite where there is a place everywhere.
+  virtual double room(const Eigen::Vector2d& /*place*/) const noexcept {
+    return std::numeric_limits<double>::infinity();
+  }
+  /// [m], how far a rotor moves where this decides how far.
+  virtual double length() const { return 0.0; }
 };
 
 struct LocalForce {
+  static constexpr std::size_t kNoInput = static_cast<std::size_t>(-1);
+
   std::string name;                   ///< "magnet_1"
   Eigen::VectorXd along_x, along_y;   ///< x = along_x . q, y = along_y . q
-  std::array<std::size_t, 2> inputs;  ///< of Dynamics::inputs(), for x and for y
+  std::array<std::size_t, 2> inputs;  ///< of Dynamics::inputs(), x and y, or kNoInput
   std::shared_ptr<const LocalLaw> law;
 };
 

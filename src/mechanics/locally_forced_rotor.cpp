@@ -1,30 +1,56 @@
 #include "mechanics/locally_forced_rotor.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
+
+#include "algebra/lu.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kWithinRoom = 0.1;  // a whirl that is large
-
 Eigen::Vector2d placeOf(const LocalForce& force, const Eigen::VectorXd& q) {
   return {force.along_x.dot(q), force.along_y.dot(q)};
 }
 
-LocalState stateOf(const LocalForce& force, const Eigen::VectorXd& q) {
+LocalState stateOf(const LocalForce& force, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                   double speed) {
   LocalState at;
   at.place = {force.along_x.dot(q), force.along_y.dot(q)};
+  at.rate = {force.along_x.dot(v), force.along_y.dot(v)};
+  at.speed = speed;
   return at;
+}
+
+/// [m], how far the loads bend a rotor that these forces hold where it is.
+double sagBetween(const Dynamics& linear, const std::vector<LocalForce>& forces) {
+  const LinearRotor rotor = linear.linearRotor();
+  Eigen::MatrixXd stiffness = rotor.matrices(0.0).stiffness;
+  const double rigid = stiffness.cwiseAbs().maxCoeff();
+  for (const LocalForce& force : forces) {
+    stiffness += rigid * (force.along_x * force.along_x.transpose() +
+                          force.along_y * force.along_y.transpose());
+  }
+  const Eigen::VectorXd sag = stiffness.partialPivLu().solve(rotor.load);
+  double farthest = 0.0;
+  for (const Station& station : linear.stations()) {
+    farthest = std::max(farthest, std::hypot(station.along_x.dot(sag), station.along_y.dot(sag)));
+  }
+  return std::isfinite(farthest) ? farthest : 0.0;
 }
 
 }  // namespace
 
 LocallyForcedRotor::LocallyForcedRotor(std::shared_ptr<const Dynamics> linear,
                                        std::vector<LocalForce> forces)
-    : linear_(std::move(linear)), forces_(std::move(forces)) {
+    : linear_(std::move(linear)),
+      forces_(std::move(forces)),
+      natural_length_(std::max(linear_->naturalLength(), sagBetween(*linear_, forces_))) {
+  for (const LocalForce& force : forces_) {
+    natural_length_ = std::max(natural_length_, force.law->length());
+  }
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(dof());
   mass_.compute(linear_->massMatrix(zero, zero, {}));
   const Dynamics& balanced = linear_->atMeanLoad();
@@ -34,19 +60,12 @@ LocallyForcedRotor::LocallyForcedRotor(std::shared_ptr<const Dynamics> linear,
   }
 }
 
-double LocallyForcedRotor::naturalLength() const {
-  double length = linear_->naturalLength();
-  for (const LocalForce& force : forces_) {
-    length = std::max(length, kWithinRoom * force.law->room(Eigen::Vector2d::Zero()));
-  }
-  return length;
-}
-
-Eigen::VectorXd LocallyForcedRotor::localForce(const Eigen::VectorXd& q) const {
+Eigen::VectorXd LocallyForcedRotor::localForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                               double speed) const {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(q.size());
   for (const LocalForce& force : forces_) {
     LocalPush push;
-    if (!force.law->push(stateOf(force, q), push)) {
+    if (!force.law->push(stateOf(force, q, v, speed), push)) {
       push.force.fill(std::numeric_limits<double>::quiet_NaN());
     }
     sum += push.force[0] * force.along_x + push.force[1] * force.along_y;
@@ -62,18 +81,18 @@ Eigen::VectorXd LocallyForcedRotor::acceleration(const Eigen::VectorXd& q, const
 Eigen::VectorXd LocallyForcedRotor::unbalancedForce(const Eigen::VectorXd& q,
                                                     const Eigen::VectorXd& v,
                                                     const Moment<double>& at) const {
-  return linear_->unbalancedForce(q, v, at) + localForce(q);
+  return linear_->unbalancedForce(q, v, at) + localForce(q, v, at.speed);
 }
 
 Eigen::VectorXd LocallyForcedRotor::appliedForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                                  const Moment<double>& at) const {
-  return linear_->appliedForce(q, v, at) + localForce(q);
+  return linear_->appliedForce(q, v, at) + localForce(q, v, at.speed);
 }
 
 Energies LocallyForcedRotor::energies(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                       const Moment<double>& at) const {
   Energies e = linear_->energies(q, v, at);
-  e.input_power += v.dot(localForce(q));
+  e.input_power += v.dot(localForce(q, v, at.speed));
   return e;
 }
 
@@ -84,10 +103,13 @@ Linearization LocallyForcedRotor::linearization(const Eigen::VectorXd& q, const 
   for (const LocalForce& force : forces_) {
     Eigen::MatrixXd along(q.size(), 2);
     along << force.along_x, force.along_y;
-    const Eigen::MatrixXd k =
-        along * force.law->slopes(stateOf(force, q)).stiffness * along.transpose();
+    const LocalSlopes slopes = force.law->slopes(stateOf(force, q, v, at.speed));
+    const Eigen::MatrixXd k = along * slopes.stiffness * along.transpose();
+    const Eigen::MatrixXd c = along * slopes.damping * along.transpose();
     l.stiffness += 0.5 * (k + k.transpose());
     l.circulatory += 0.5 * (k - k.transpose());
+    l.damping += 0.5 * (c + c.transpose());
+    l.gyroscopic += 0.5 * (c - c.transpose());
   }
   return l;
 }
@@ -98,8 +120,10 @@ std::vector<Condition> LocallyForcedRotor::conditions(const Eigen::VectorXd& q,
                                                       const Moment<double>& at) const {
   std::vector<Condition> all = linear_->conditions(q, v, a, at);
   for (const LocalForce& force : forces_) {
-    all.push_back({"gap_" + force.name, "m", force.law->room(placeOf(force, q)),
-                   "the rotor touches " + force.name});
+    const double room = force.law->room(placeOf(force, q));
+    if (room < std::numeric_limits<double>::infinity()) {
+      all.push_back({"gap_" + force.name, "m", room, "the rotor touches " + force.name});
+    }
   }
   return all;
 }

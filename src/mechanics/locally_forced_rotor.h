@@ -28,7 +28,7 @@ class LocallyForcedRotor final : public Dynamics {
   bool isRotor() const override { return linear_->isRotor(); }
   bool speedDependent() const override { return linear_->speedDependent(); }
   double phaseMark() const override { return linear_->phaseMark(); }
-  double naturalLength() const override;
+  double naturalLength() const override { return natural_length_; }
   const Dynamics& atMeanLoad() const override { return balanced_ ? *balanced_ : *this; }
   std::vector<Station> stations() const override { return linear_->stations(); }
   /// Without what is not linear.
@@ -69,10 +69,12 @@ class LocallyForcedRotor final : public Dynamics {
   }
 
  private:
-  Eigen::VectorXd localForce(const Eigen::VectorXd& q) const;
+  Eigen::VectorXd localForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                             double speed) const;
 
   std::shared_ptr<const Dynamics> linear_;
   std::vector<LocalForce> forces_;
+  double natural_length_;
   Eigen::LLT<Eigen::MatrixXd> mass_;
   std::unique_ptr<const LocallyForcedRotor> balanced_;  // none: nothing turns with the shaft
 };

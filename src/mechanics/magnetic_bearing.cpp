@@ -4,6 +4,12 @@
 
 namespace whirl_twin {
 
+namespace {
+
+constexpr double kWithinRoom = 0.1;  // a whirl that is large
+
+}  // namespace
+
 MagneticBearing::MagneticBearing(double ki, double bias, double gap, double saturation)
     : ki_(ki), bias_(bias), gap_(gap), saturation_(saturation), k_(0.25 * ki * gap * gap / bias) {}
 
@@ -33,20 +39,24 @@ bool MagneticBearing::push(const LocalState& at, LocalPush& out) const noexcept 
   for (std::size_t i = 0; i < 2; ++i) {
     const Force f = axis(at.input[i], at.place[i]);
     out.force[i] = f.force - ki_ * at.input[i] - ks() * at.place[i];
-    out.rate[i] = (f.by_current - ki_) * at.input_rate[i] + (f.by_place - ks()) * at.rate[i];
     out.size += f.both;
   }
   return true;
 }
 
-LocalSlopes MagneticBearing::slopes(const LocalState& at) const {
+LocalSlopes MagneticBearing::slopes(const LocalState& at) const noexcept {
   const Force x = axis(at.input[0], at.place[0]);
   const Force y = axis(at.input[1], at.place[1]);
   return {Eigen::Vector2d(ks() - x.by_place, ks() - y.by_place).asDiagonal(),
+          Eigen::Matrix2d::Zero(),
           Eigen::Vector2d(x.by_current - ki_, y.by_current - ki_).asDiagonal()};
 }
 
-double MagneticBearing::room(const Eigen::Vector2d& place) const {
+double MagneticBearing::length() const {
+  return kWithinRoom * gap_;
+}
+
+double MagneticBearing::room(const Eigen::Vector2d& place) const noexcept {
   return gap_ - place.cwiseAbs().maxCoeff();
 }
 

@@ -35,8 +35,9 @@ class MagneticBearing final : public LocalLaw {
   /// f less its linear part.
   bool push(const LocalState& at, LocalPush& out) const noexcept override;
 
-  LocalSlopes slopes(const LocalState& at) const override;
-  double room(const Eigen::Vector2d& place) const override;
+  LocalSlopes slopes(const LocalState& at) const noexcept override;
+  double room(const Eigen::Vector2d& place) const noexcept override;
+  double length() const override;
 
  private:
   struct Pole {

@@ -16,10 +16,12 @@
 #include "analysis/rotor_statics.h"
 #include "integration/exponential.h"
 #include "mechanics/linear_rotor_dynamics.h"
+#include "mechanics/rotors/bearing_laws.h"
 #include "messages/refusal.h"
 #include "models/flexible_rotor_picture.h"
 #include "models/flexible_shaft_settings.h"
 #include "models/linear_rotor_setup.h"
+#include "models/local_element_settings.h"
 #include "models/models.h"
 #include "models/shaft_materials.h"
 #include "models/shaft_supports.h"
@@ -29,6 +31,8 @@ namespace whirl_twin {
 namespace {
 
 using Eigen::Index;
+
+constexpr double kUsualGravity = 9.80665;  // [m/s^2]
 
 int probeNode(const Settings& settings, const FlexibleShaft& shaft) {
   const std::string& given = settings.choices.at("probe_node");
@@ -86,6 +90,51 @@ std::vector<PlacedMagnet> placed(const std::vector<NodeMagnet>& magnets,
   return all;
 }
 
+/// What a row of the shaft and its pedestals sees of a node's element: x and y of the one body less
+/// those of the other.
+Station between(const NodeElement& element, const FlexibleShaft& shaft,
+                const RotorAssembly& assembly) {
+  std::vector<Station> pedestals;
+  for (std::size_t i = 0; i < shaft.pedestals.size(); ++i) {
+    if (shaft.pedestals[i].node == element.node) {
+      pedestals.push_back(assembly.pedestals()[i]);
+    }
+  }
+  Station seen = assembly.stations()[static_cast<std::size_t>(element.node)];
+  if (pedestals.empty() || element.between == NodeElement::Between::kShaftAndGround) {
+    return seen;
+  }
+  if (element.between == NodeElement::Between::kPedestalAndGround) {
+    return pedestals.back();
+  }
+  seen.along_x -= pedestals.front().along_x;
+  seen.along_y -= pedestals.front().along_y;
+  return seen;
+}
+
+std::vector<LocalForce> forcesOf(const std::vector<NodeElement>& elements,
+                                 const FlexibleShaft& shaft, const RotorAssembly& assembly) {
+  std::vector<LocalForce> forces;
+  for (const NodeElement& element : elements) {
+    const Station seen = between(element, shaft, assembly);
+    forces.push_back({element.name,
+                      seen.along_x,
+                      seen.along_y,
+                      {LocalForce::kNoInput, LocalForce::kNoInput},
+                      element.law});
+  }
+  return forces;
+}
+
+Eigen::MatrixXd directionsOf(const std::vector<LocalForce>& forces, Index dof) {
+  Eigen::MatrixXd all(dof, 0);
+  for (const LocalForce& force : forces) {
+    all.conservativeResize(Eigen::NoChange, all.cols() + 2);
+    all.rightCols(2) << force.along_x, force.along_y;
+  }
+  return all;
+}
+
 /// In the order of RotorAssembly.
 std::vector<CoordinateInfo> nodeCoordinates(const FlexibleShaft& shaft) {
   std::vector<CoordinateInfo> all;
@@ -111,6 +160,48 @@ std::vector<CoordinateInfo> shapeCoordinates(Index count) {
   return all;
 }
 
+void addDamping(const NodeElement& element, FlexibleShaft& shaft) {
+  if (element.between == NodeElement::Between::kPedestalAndGround) {
+    const auto last =
+        std::find_if(shaft.pedestals.rbegin(), shaft.pedestals.rend(),
+                     [&](const RotorPedestal& pedestal) { return pedestal.node == element.node; });
+    if (last != shaft.pedestals.rend()) {
+      last->coefficients.cxx += element.damping;
+      last->coefficients.cyy += element.damping;
+      return;
+    }
+  }
+  BearingCoefficients coefficients;
+  coefficients.cxx = coefficients.cyy = element.damping;
+  shaft.bearings.push_back({element.node, coefficients});
+}
+
+/// With what of these elements is linear.
+FlexibleShaft withDamping(FlexibleShaft shaft, const std::vector<NodeElement>& elements) {
+  for (const NodeElement& element : elements) {
+    if (element.damping > 0.0) {
+      addDamping(element, shaft);
+    }
+  }
+  return shaft;
+}
+
+/// The rotor as it runs, for the choice of its shapes: on journal bearings as stiff and as damped
+/// as they are under an even share of its weight.
+LinearRotor inItsFilms(FlexibleShaft shaft, const std::vector<NodeElement>& elements) {
+  const auto films = std::count_if(elements.begin(), elements.end(),
+                                   [](const NodeElement& e) { return e.journal.has_value(); });
+  const double load = rotorBody(shaft).mass * kUsualGravity / static_cast<double>(films);
+  for (const NodeElement& element : elements) {
+    if (element.journal) {
+      shaft.speed_bearings.push_back(journalBearing(element.node, *element.journal, load));
+    } else if (element.damping > 0.0) {
+      addDamping(element, shaft);
+    }
+  }
+  return RotorAssembly(shaft).linearRotor();
+}
+
 /// [m]: the mass centre's distance from the shaft if all unbalance were in one place.
 double whirlLength(const FlexibleShaft& shaft, double mass) {
   double sum = 0.0;
@@ -128,11 +219,12 @@ std::vector<Station> everywhere(std::vector<Station> stations,
 }
 
 RotorReduction reduction(const LinearRotor& rotor, const std::vector<Station>& stations,
-                         const ParameterValues& values, const std::string& modes, bool pedestals) {
+                         const Eigen::MatrixXd& pushed, const ParameterValues& values,
+                         const std::string& modes, bool pedestals) {
   const double given = values.at("highest_speed");
   const double highest = given > 0.0 ? given : usualHighestSpeed(rotor);
   if (modes == "auto") {
-    return reduceRotorTo(rotor, stations, highest, values.at("tolerance"));
+    return reduceRotorTo(rotor, stations, highest, values.at("tolerance"), pushed);
   }
   const int count = std::stoi(modes);
   if (count > rotor.dof()) {
@@ -141,7 +233,7 @@ RotorReduction reduction(const LinearRotor& rotor, const std::vector<Station>& s
                                  "node{}, found {}",
                                  rotor.dof(), pedestals ? " and two a pedestal" : "", count));
   }
-  return reduceRotor(rotor, stations, highest, count);
+  return reduceRotor(rotor, stations, highest, count, pushed);
 }
 
 void requireFinite(const LinearRotor& rotor) {
@@ -168,7 +260,8 @@ ModelSetup setUpFlexibleRotor(const ParameterValues& values, const Settings& set
                               const Surroundings& around) {
   const FlexibleShaft shaft = flexibleShaft(values, settings, around.gravity);
   const int probe = probeNode(settings, shaft);
-  RotorAssembly assembly(shaft);
+  const std::vector<NodeElement> elements = nodeElements(settings, shaft.nodes());
+  RotorAssembly assembly(withDamping(shaft, elements));
   requireFinite(assembly.linearRotor());
 
   RotorDescription description;
@@ -182,9 +275,10 @@ ModelSetup setUpFlexibleRotor(const ParameterValues& values, const Settings& set
     description.coordinates = nodeCoordinates(shaft);
   } else {
     const RotorReduction kept =
-        reduction(assembly.linearRotor(),
+        reduction(inItsFilms(shaft, elements),
                   everywhere(publishedFirst(assembly.stations(), probe), assembly.pedestals()),
-                  values, modes, !shaft.pedestals.empty());
+                  directionsOf(forcesOf(elements, shaft, assembly), assembly.dof()), values, modes,
+                  !shaft.pedestals.empty());
     assembly = assembly.in(kept.shapes);
     description.coordinates = shapeCoordinates(kept.shapes.cols());
     notes.insert(notes.begin(), kept.note);
@@ -200,8 +294,12 @@ ModelSetup setUpFlexibleRotor(const ParameterValues& values, const Settings& set
       FlexibleRotorPicture(shaft, assembly.stations(), assembly.pedestals(), probe);
   LinearRotor rotor = assembly.linearRotor();
   rotor.highest_speed = highest_speed;
-  ModelSetup setup = linearRotorSetup(dynamicsOf(std::move(description), std::move(rotor)),
-                                      localForcesOf(magnets, first_current));
+  std::vector<LocalForce> forces = localForcesOf(magnets, first_current);
+  for (LocalForce& force : forcesOf(elements, shaft, assembly)) {
+    forces.push_back(std::move(force));
+  }
+  ModelSetup setup =
+      linearRotorSetup(dynamicsOf(std::move(description), std::move(rotor)), std::move(forces));
   setup.note = fmt::format("{}", fmt::join(notes, "; "));
   return setup;
 }
@@ -228,6 +326,9 @@ ModelInfo flexibleRotorInfo() {
        "from the shaft's mark, that the phase of the whirl counts from", 0.0, ""}};
   info.parameters.insert(info.parameters.end(), further.begin(), further.end());
   info.settings = flexibleShaftSettings();
+  for (SettingInfo& setting : localElementSettings()) {
+    info.settings.push_back(std::move(setting));
+  }
   info.settings.push_back({"modes",
                            SettingKind::kWordOrCount,
                            "",

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mechanics/rotors/bearing_laws.h"
+#include "models/local_element_settings.h"
 #include "models/model_info.h"
 #include "models/table_rows.h"
 
@@ -99,6 +100,9 @@ void addBearings(const Settings& settings, FlexibleShaft& shaft) {
   const std::vector<TableRow>& journals = rowsOf(settings, "journal_bearings");
   for (std::size_t i = 0; i < journals.size(); ++i) {
     const auto& n = journals[i].numbers;
+    if (!(n.at("load") > 0.0)) {
+      continue;  // a film by its own law: models/local_element_settings.h
+    }
     const ShortJournalBearing journal{n.at("length"), n.at("diameter"), n.at("clearance"),
                                       n.at("viscosity")};
     const int node = indexIn(journals[i], fmt::format("journal_bearings[{}]", i), "node", last);
@@ -108,6 +112,7 @@ void addBearings(const Settings& settings, FlexibleShaft& shaft) {
 
 void addPedestals(const Settings& settings, FlexibleShaft& shaft) {
   const std::vector<NodeMagnet> magnets = nodeMagnets(settings, shaft.nodes());
+  const std::vector<NodeElement> elements = nodeElements(settings, shaft.nodes());
   const std::vector<TableRow>& rows = rowsOf(settings, "pedestals");
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::string key = fmt::format("pedestals[{}]", i);
@@ -120,7 +125,10 @@ void addPedestals(const Settings& settings, FlexibleShaft& shaft) {
                                                   node));
     }
     if (std::none_of(shaft.bearings.begin(), shaft.bearings.end(), here) &&
-        std::none_of(shaft.speed_bearings.begin(), shaft.speed_bearings.end(), here)) {
+        std::none_of(shaft.speed_bearings.begin(), shaft.speed_bearings.end(), here) &&
+        std::none_of(elements.begin(), elements.end(), [node](const NodeElement& element) {
+          return element.node == node && element.between == NodeElement::Between::kShaftAndPedestal;
+        })) {
       throw SetupError(
           key + ".node",
           fmt::format("must be one with a bearing, which stands on it, found {}", node));
@@ -170,13 +178,15 @@ std::vector<SettingInfo> supportSettings() {
       rows("bearing_tables", "coefficients of bearings[bearing] over the shaft's speed",
            coefficientColumns({{"bearing", "-", Range::kNotNegative, kRequired},
                                {"speed", "rad/s", Range::kAny, kRequired}})),
-      rows("journal_bearings", "short plain bearings under a load along -y",
+      rows("journal_bearings",
+           "short plain bearings: by their eight coefficients under a load along -y, or, without "
+           "one, by their film wherever the journal is",
            {node,
             {"length", "m", Range::kPositive, kRequired},
             {"diameter", "m", Range::kPositive, kRequired},
             {"clearance", "m", Range::kPositive, kRequired},
             {"viscosity", "Pa s", Range::kPositive, kRequired},
-            {"load", "N", Range::kPositive, kRequired}}),
+            {"load", "N", Range::kNotNegative, 0.0}}),
       rows("pedestals",
            "that the bearings of a node stand on, by mass and eight coefficients; of several of "
            "a node each stands on the next, the last on the ground",

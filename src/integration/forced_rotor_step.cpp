@@ -1,0 +1,455 @@
+#include "integration/forced_rotor_step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "integration/rotor_map.h"
+
+namespace whirl_twin {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kRoot6 = 2.44948974278317809820;
+constexpr std::array<double, 3> kTimes{0.4 - 0.1 * kRoot6, 0.4 + 0.1 * kRoot6, 1.0};
+constexpr int kMostNewtonSteps = 50;
+constexpr double kLeastShare = 1.0e-3;
+constexpr int kMostRounds = 30;      // of a run-up
+constexpr double kSame = 1.0e-13;    // of what forces are differences of
+constexpr double kNearly = 1.0e-9;   // enough where rounding leaves no more
+constexpr double kAgreed = 1.0e-12;  // of a run-up's forces
+constexpr double kLastRoom = 0.1;    // a pole's pull, or a film's, grows without bound there
+
+/// The coefficients of 1, tau, tau^2 of the quadratic that is 1 at node j and 0 at the others.
+std::array<double, 3> atNode(std::size_t j) {
+  const double a = kTimes[(j + 1) % 3];
+  const double b = kTimes[(j + 2) % 3];
+  const double size = (kTimes[j] - a) * (kTimes[j] - b);
+  return {a * b / size, -(a + b) / size, 1.0 / size};
+}
+
+std::array<std::array<double, 3>, 3> courseOfNodes() {
+  return {atNode(0), atNode(1), atNode(2)};
+}
+
+MatrixXd directionsOf(const std::vector<LocalForce>& forces, Index dof) {
+  MatrixXd all(dof, 2 * static_cast<Index>(forces.size()));
+  for (std::size_t k = 0; k < forces.size(); ++k) {
+    all.col(2 * static_cast<Index>(k)) = forces[k].along_x;
+    all.col(2 * static_cast<Index>(k) + 1) = forces[k].along_y;
+  }
+  return all;
+}
+
+}  // namespace
+
+ForcedRotorStep::ForcedRotorStep(const LinearRotor& rotor, double h,
+                                 const std::pair<double, double>& speeds,
+                                 const std::vector<double>& constant_speeds,
+                                 const RotorForcing& forcing)
+    : forces_(forcing.forces),
+      inputs_(forcing.inputs),
+      h_(h),
+      acting_(forcing.inputs, forcing.directions, directionsOf(forces_, rotor.dof())),
+      whole_(rotor, h, speeds, constant_speeds, acting_),
+      from_(rotor.dof()) {
+  if (forces_.empty()) {
+    return;
+  }
+  for (const double speed : constant_speeds) {
+    responses_.push_back(response(rotor, speed));
+  }
+  if (speeds.second > speeds.first) {
+    responses_.push_back(response(rotor, 0.5 * (speeds.first + speeds.second)));
+    for (std::size_t i = 0; i + 1 < kNodes; ++i) {
+      to_nodes_.emplace_back(rotor, kTimes[i] * h, speeds, std::vector<double>(), acting_);
+    }
+  }
+  const Index n = unknowns();
+  states_.resize(kNodes * forces_.size());
+  places_.setZero(2 * n);
+  moved_.setZero(2 * n);
+  for (VectorXd* each : {&given_, &forced_, &law_, &sizes_, &residual_, &start_, &change_}) {
+    each->setZero(n);
+  }
+  slopes_.setZero(n, 4);
+  jacobian_.setZero(n, n);
+  result_.setZero(PackedMatrix(MatrixXd::Zero(2 * n, 1)).rows());
+}
+
+/// By the maps to each node, where a step that starts with y is after a part c of it: courses over
+/// the step are courses over its part with their powers of c.
+ForcedRotorStep::Response ForcedRotorStep::response(const LinearRotor& rotor, double speed) const {
+  const Index n = rotor.dof();
+  const std::vector<ForceChannel> channels = forceChannels(rotor);
+  const Index inputs = RotorMap::inputs(n, channels.size(), acting_, 0);
+  const Index first_input = 2 * n + 2 * static_cast<Index>(channels.size()) + 1;
+  const auto places = static_cast<Index>(4 * forces_.size());
+  const auto pushed = static_cast<Index>(2 * forces_.size());
+  const auto courses = courseOfNodes();
+  MatrixXd start = MatrixXd::Zero(2 * unknowns(), inputs);
+  MatrixXd force = MatrixXd::Zero(2 * unknowns(), unknowns());
+  for (std::size_t node = 0; node < kNodes; ++node) {
+    const double c = kTimes[node];
+    MatrixXd reached = RotorMap(rotor, channels, acting_, speed, c * h_, 0).increment();
+    reached.leftCols(2 * n) += MatrixXd::Identity(2 * n, 2 * n);
+    Index column = first_input;
+    for (Index k = 0; k < acting_.count(); ++k) {
+      const Index columns = acting_.columns(k, 0);
+      for (Index power = 0; !acting_.isHarmonic(k) && power < columns; ++power) {
+        reached.col(column + power) *= std::pow(c, static_cast<double>(power));
+      }
+      column += columns;
+    }
+    MatrixXd seen(places, inputs);
+    for (std::size_t k = 0; k < forces_.size(); ++k) {
+      const auto row = static_cast<Index>(4 * k);
+      seen.row(row) = forces_[k].along_x.transpose() * reached.topRows(n);
+      seen.row(row + 1) = forces_[k].along_y.transpose() * reached.topRows(n);
+      seen.row(row + 2) = forces_[k].along_x.transpose() * reached.bottomRows(n);
+      seen.row(row + 3) = forces_[k].along_y.transpose() * reached.bottomRows(n);
+    }
+    const Index pushes = inputs - pushed * (ActingInputs::kDegree + 1);
+    for (std::size_t j = 0; j < kNodes; ++j) {
+      for (Index k = 0; k < pushed; ++k) {
+        const Index power = pushes + k * (ActingInputs::kDegree + 1);
+        force.block(static_cast<Index>(node) * places, static_cast<Index>(j) * pushed + k, places,
+                    1) = courses[j][0] * seen.col(power) + courses[j][1] * seen.col(power + 1) +
+                         courses[j][2] * seen.col(power + 2);
+      }
+    }
+    seen.rightCols(inputs - pushes).setZero();
+    start.middleRows(static_cast<Index>(node) * places, places) = seen;
+  }
+  return {speed, PackedMatrix(start), force};
+}
+
+const ForcedRotorStep::Response& ForcedRotorStep::responseNear(double speed) const noexcept {
+  return *std::min_element(responses_.begin(), responses_.end(),
+                           [speed](const Response& a, const Response& b) {
+                             return std::fabs(a.speed - speed) < std::fabs(b.speed - speed);
+                           });
+}
+
+/// Of the nodes of a step from offset [s] on.
+void ForcedRotorStep::setInputs(double offset) noexcept {
+  if (inputs_ == nullptr) {
+    return;
+  }
+  const auto piece = static_cast<std::int64_t>(std::floor(offset * 1e9 + 1e-3));
+  for (std::size_t node = 0; node < kNodes; ++node) {
+    const double time = offset + kTimes[node] * h_;
+    for (std::size_t k = 0; k < forces_.size(); ++k) {
+      LocalState& at = states_[node * forces_.size() + k];
+      for (std::size_t i = 0; i < 2; ++i) {
+        const std::size_t input = forces_[k].inputs[i];
+        if (input == LocalForce::kNoInput) {
+          continue;
+        }
+        if (inputs_->isHarmonic(input)) {
+          const InputSignal& signal = inputs_->signal(input);
+          at.input[i] =
+              signal.amplitude * std::cos(inputs_->phase(input) + signal.frequency * time);
+        } else {
+          at.input[i] = inputs_->piece(input, piece).at(time);
+        }
+      }
+    }
+  }
+}
+
+/// The laws' forces at places; false where one has none.
+bool ForcedRotorStep::pushes(const VectorXd& at, VectorXd& out) noexcept {
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    const double* place = at.data() + 4 * i;
+    LocalState& state = states_[i];
+    state.place = {place[0], place[1]};
+    state.rate = {place[2], place[3]};
+    LocalPush push;
+    if (!forces_[i % forces_.size()].law->push(state, push)) {
+      return false;
+    }
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const auto row = static_cast<Index>(2 * i + axis);
+      out[row] = push.force[axis];
+      sizes_[row] = push.size;
+    }
+  }
+  return true;
+}
+
+/// Slopes of the laws at the places of moved_, the Jacobian of residual_, and what rounds.
+void ForcedRotorStep::linearize(const MatrixXd& response) noexcept {
+  const Index n = unknowns();
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    const auto row = static_cast<Index>(2 * i);
+    const Index place = 2 * row;
+    const LocalSlopes slopes = forces_[i % forces_.size()].law->slopes(states_[i]);
+    for (Index axis = 0; axis < 2; ++axis) {
+      slopes_.row(row + axis) << -slopes.stiffness(axis, 0), -slopes.stiffness(axis, 1),
+          -slopes.damping(axis, 0), -slopes.damping(axis, 1);
+      double rounds = sizes_[row + axis];
+      for (Index j = 0; j < 4; ++j) {
+        rounds += std::fabs(slopes_(row + axis, j) * moved_[place + j]);
+      }
+      sizes_[row + axis] = rounds;
+    }
+    for (Index column = 0; column < n; ++column) {
+      for (Index axis = 0; axis < 2; ++axis) {
+        double sum = 0.0;
+        for (Index j = 0; j < 4; ++j) {
+          sum += slopes_(row + axis, j) * response(place + j, column);
+        }
+        jacobian_(row + axis, column) = sum;
+      }
+    }
+  }
+  jacobian_.diagonal().array() -= 1.0;
+}
+
+/// change_ = jacobian_^-1 change_, by Gauss' elimination with pivots, in place.
+void ForcedRotorStep::eliminate() noexcept {
+  const Index n = unknowns();
+  for (Index k = 0; k < n; ++k) {
+    Index pivot = k;
+    for (Index i = k + 1; i < n; ++i) {
+      pivot = std::fabs(jacobian_(i, k)) > std::fabs(jacobian_(pivot, k)) ? i : pivot;
+    }
+    if (pivot != k) {
+      for (Index j = k; j < n; ++j) {
+        std::swap(jacobian_(k, j), jacobian_(pivot, j));
+      }
+      std::swap(change_[k], change_[pivot]);
+    }
+    for (Index i = k + 1; i < n; ++i) {
+      const double factor = jacobian_(i, k) / jacobian_(k, k);
+      if (factor == 0.0) {
+        continue;
+      }
+      for (Index j = k + 1; j < n; ++j) {
+        jacobian_(i, j) -= factor * jacobian_(k, j);
+      }
+      change_[i] -= factor * change_[k];
+    }
+  }
+  for (Index k = n; k-- > 0;) {
+    for (Index j = k + 1; j < n; ++j) {
+      change_[k] -= jacobian_(k, j) * change_[j];
+    }
+    change_[k] /= jacobian_(k, k);
+  }
+}
+
+/// The largest part of residual_ in its size.
+double ForcedRotorStep::relativeResidual() const noexcept {
+  double largest = 0.0;
+  for (Index i = 0; i < unknowns(); ++i) {
+    const double off = std::fabs(residual_[i]);
+    if (!(off <= std::numeric_limits<double>::max())) {
+      return std::numeric_limits<double>::infinity();
+    }
+    largest = off > 0.0 ? std::max(largest, off / sizes_[i]) : largest;
+  }
+  return largest;
+}
+
+/// forced_ as given; where that leads, and what the laws push with there. False: there is no place.
+bool ForcedRotorStep::look(const MatrixXd& response) noexcept {
+  residual_ = forced_ - given_;
+  moved_ = places_;
+  moved_.noalias() += response * residual_;
+  if (!pushes(moved_, law_)) {
+    return false;
+  }
+  residual_ = law_ - forced_;
+  return true;
+}
+
+/// The forces forced_ that are those of the places that they lead to, places_ + response * (forced_
+/// - given_), from forced_ on.
+StepStatus ForcedRotorStep::solve(const MatrixXd& response) noexcept {
+  StepStatus status = newton(response);
+  if (status != StepStatus::kOk) {
+    // From the other side: where the rotor goes without them.
+    forced_.setZero();
+    status = newton(response);
+  }
+  return status == StepStatus::kNotConverged && nearlyTouches() ? StepStatus::kNoGap : status;
+}
+
+StepStatus ForcedRotorStep::newton(const MatrixXd& response) noexcept {
+  if (!look(response)) {
+    return StepStatus::kNoGap;
+  }
+  double before = std::numeric_limits<double>::infinity();
+  for (int step = 0; step < kMostNewtonSteps; ++step) {
+    linearize(response);
+    const double off = relativeResidual();
+    if (off <= kSame || (off <= kNearly && off >= 0.5 * before)) {
+      return StepStatus::kOk;
+    }
+    before = off;
+    const double size = residual_.norm();
+    change_ = -residual_;
+    eliminate();
+    start_ = forced_;
+    // The first share of it that leads nearer, else that which leads nearest: at a kink the way
+    // down may lead up first.
+    double best = 0.0;
+    double least = std::numeric_limits<double>::infinity();
+    for (double share = 1.0; least >= size && share >= kLeastShare; share *= 0.5) {
+      forced_ = start_ + share * change_;
+      if (look(response) && residual_.norm() < least) {
+        least = residual_.norm();
+        best = share;
+      }
+    }
+    if (best == 0.0) {
+      return StepStatus::kNoGap;
+    }
+    forced_ = start_ + best * change_;
+    look(response);
+  }
+  return StepStatus::kNotConverged;
+}
+
+/// The courses that forced_ has over a part of the step, `length` of it.
+void ForcedRotorStep::pushCourses(RotorStep& step, double length) noexcept {
+  static const auto kCourses = courseOfNodes();
+  const auto pushed = static_cast<Index>(2 * forces_.size());
+  for (Index k = 0; k < pushed; ++k) {
+    std::array<double, 4> course{};
+    double scale = 1.0;
+    for (std::size_t power = 0; power < 3; ++power, scale *= length) {
+      for (std::size_t node = 0; node < kNodes; ++node) {
+        course[power] +=
+            scale * kCourses[node][power] * forced_[static_cast<Index>(node) * pushed + k];
+      }
+    }
+    step.push(static_cast<std::size_t>(k), course);
+  }
+}
+
+void ForcedRotorStep::readPlaces(const LinearMotion& motion, std::size_t node) noexcept {
+  double* place = places_.data() + 4 * node * forces_.size();
+  for (const LocalForce& force : forces_) {
+    *place++ = force.along_x.dot(motion.q());
+    *place++ = force.along_y.dot(motion.q());
+    *place++ = force.along_x.dot(motion.v());
+    *place++ = force.along_y.dot(motion.v());
+  }
+}
+
+bool ForcedRotorStep::nearlyTouches() const noexcept {
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    const LocalLaw& law = *forces_[i % forces_.size()].law;
+    const auto place = static_cast<Index>(4 * i);
+    if (law.room({moved_[place], moved_[place + 1]}) <
+        kLastRoom * law.room(Eigen::Vector2d::Zero())) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// What the forces are where the rotor is now, at all nodes.
+bool ForcedRotorStep::begin(const LinearMotion& motion) noexcept {
+  for (std::size_t node = 0; node < kNodes; ++node) {
+    readPlaces(motion, node);
+  }
+  moved_ = places_;
+  return pushes(moved_, forced_);
+}
+
+/// After begin(), with places_ and given_ of the step: the forces of laws that go on as they do at
+/// its start. However stiff they are, that leads nowhere far.
+void ForcedRotorStep::predict(const MatrixXd& response) noexcept {
+  linearize(response);
+  residual_ = forced_ - given_;
+  moved_ -= places_;
+  moved_.noalias() -= response * residual_;
+  for (Index i = 0; i < unknowns(); ++i) {
+    const Index place = i / 2 * 4;
+    change_[i] = 0.0;
+    for (Index j = 0; j < 4; ++j) {
+      change_[i] += slopes_(i, j) * moved_[place + j];
+    }
+  }
+  eliminate();
+  forced_ += change_;
+}
+
+StepStatus ForcedRotorStep::advance(const Drive& drive, double offset,
+                                    LinearMotion& motion) noexcept {
+  if (forces_.empty()) {
+    return whole_.advance(drive, offset, motion);
+  }
+  for (std::size_t node = 0; node < kNodes; ++node) {
+    const double speed = drive.at(offset + kTimes[node] * h_).speed;
+    for (std::size_t k = 0; k < forces_.size(); ++k) {
+      states_[node * forces_.size() + k].speed = speed;
+    }
+  }
+  setInputs(offset);
+  if (!begin(motion)) {
+    return StepStatus::kNoGap;
+  }
+  std::size_t which = 0;
+  if (const double* const start = whole_.constantStart(drive, offset, motion, which)) {
+    responses_[which].start.multiply(start, result_.data());
+    places_ = result_.head(places_.size());
+    given_.setZero();
+    predict(responses_[which].force);
+    const StepStatus status = solve(responses_[which].force);
+    if (status != StepStatus::kOk) {
+      return status;
+    }
+    pushCourses(whole_, 1.0);
+    return whole_.advance(drive, offset, motion);
+  }
+  return changingStep(drive, offset, motion);
+}
+
+StepStatus ForcedRotorStep::changingStep(const Drive& drive, double offset,
+                                         LinearMotion& motion) noexcept {
+  if (to_nodes_.empty()) {
+    return StepStatus::kOutOfRange;
+  }
+  const Response& response = responseNear(drive.at(offset).speed);
+  from_ = motion;
+  for (int round = 0; round < kMostRounds; ++round) {
+    for (std::size_t node = 0; node < kNodes; ++node) {
+      RotorStep& step = node < to_nodes_.size() ? to_nodes_[node] : whole_;
+      pushCourses(step, kTimes[node]);
+      motion = from_;
+      step.restart();
+      const StepStatus status = step.advance(drive, offset, motion);
+      if (status != StepStatus::kOk) {
+        return status;
+      }
+      readPlaces(motion, node);
+    }
+    given_ = forced_;
+    if (round == 0) {
+      predict(response.force);
+    }
+    const StepStatus status = solve(response.force);
+    if (status != StepStatus::kOk) {
+      return status;
+    }
+    bool agreed = true;
+    for (Index i = 0; i < given_.size(); ++i) {
+      agreed = agreed && std::fabs(forced_[i] - given_[i]) <= kAgreed * sizes_[i];
+    }
+    if (agreed) {
+      return StepStatus::kOk;
+    }
+  }
+  return StepStatus::kNotConverged;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,117 @@
+// The exact step of a linear rotor (rotor_step.h) that is pushed at places along it by forces that
+// are not linear (mechanics/local_force.h).
+//
+// Over a step each force is the quadratic of time that has its value at the three Radau nodes, the
+// last of them the end of the step. To that the rotor answers exactly, however stiff; and as the
+// forces are those of where the rotor then is, the step is implicit in them: Radau IIA of the local
+// forces alone, an exponential collocation (Hochbruck & Ostermann, Acta Numerica 19, 2010). Its
+// error is of order h^6 a step, it stays stable however stiff the forces are, and where nothing but
+// the linear part acts there is no error.
+//
+// The unknowns are three values of each force, whatever the number of coordinates: how the places
+// answer to them is a small matrix, prepared for each constant speed, and Newton's method with the
+// laws' slopes solves for them. In a run-up the prepared matrix is nearly right: there the rotor is
+// taken along again until forces and places agree.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "control/drive.h"
+#include "control/inputs.h"
+#include "integration/acting_inputs.h"
+#include "integration/linear_step.h"
+#include "integration/motion_state.h"
+#include "integration/packed_matrix.h"
+#include "integration/rotor_step.h"
+#include "mechanics/linear_rotor.h"
+#include "mechanics/local_force.h"
+#include "realtime/state_image.h"
+
+namespace whirl_twin {
+
+/// What acts on a rotor besides what turns with its shaft.
+struct RotorForcing {
+  const Inputs* inputs = nullptr;  ///< of the model, outlives the steps; nullptr: nothing acts
+  Eigen::MatrixXd directions;      ///< a column an input
+  std::vector<LocalForce> forces;
+};
+
+class ForcedRotorStep {
+ public:
+  /// As RotorStep.
+  ForcedRotorStep(const LinearRotor& rotor, double h, const std::pair<double, double>& speeds,
+                  const std::vector<double>& constant_speeds, const RotorForcing& forcing);
+
+  double lowestSpeed() const { return whole_.lowestSpeed(); }    ///< [rad/s]
+  double highestSpeed() const { return whole_.highestSpeed(); }  ///< [rad/s]
+
+  // Real-time safe.
+
+  void restart() noexcept { whole_.restart(); }
+  void exchange(StateImage& image) noexcept { image(whole_); }
+  /// As RotorStep. kNoGap: the step would take the rotor to where a law has no place;
+  /// kNotConverged: forces and places could not be made to agree.
+  StepStatus advance(const Drive& drive, double offset, LinearMotion& motion) noexcept;
+  /// As RotorStep; never with local forces.
+  bool advanceInParts(const Drive& drive, std::int64_t from, std::int64_t to,
+                      LinearMotion& motion) noexcept {
+    return whole_.advanceInParts(drive, from, to, motion);
+  }
+
+ private:
+  static constexpr std::size_t kNodes = 3;
+
+  /// How the places answer, at a constant speed.
+  struct Response {
+    double speed;
+    PackedMatrix start;     ///< places and rates at the nodes, of RotorStep::constantStart()
+    Eigen::MatrixXd force;  ///< the same, of the forces at the nodes
+  };
+
+  Eigen::Index unknowns() const { return static_cast<Eigen::Index>(2 * kNodes * forces_.size()); }
+  Response response(const LinearRotor& rotor, double speed) const;
+  const Response& responseNear(double speed) const noexcept;
+  void setInputs(double offset) noexcept;
+  bool pushes(const Eigen::VectorXd& at, Eigen::VectorXd& out) noexcept;
+  void linearize(const Eigen::MatrixXd& response) noexcept;
+  double relativeResidual() const noexcept;
+  bool look(const Eigen::MatrixXd& response) noexcept;
+  StepStatus newton(const Eigen::MatrixXd& response) noexcept;
+  StepStatus solve(const Eigen::MatrixXd& response) noexcept;
+  void eliminate() noexcept;
+  void pushCourses(RotorStep& step, double length) noexcept;
+  StepStatus changingStep(const Drive& drive, double offset, LinearMotion& motion) noexcept;
+  void readPlaces(const LinearMotion& motion, std::size_t node) noexcept;
+  bool begin(const LinearMotion& motion) noexcept;
+  void predict(const Eigen::MatrixXd& response) noexcept;
+  bool nearlyTouches() const noexcept;
+
+  std::vector<LocalForce> forces_;
+  const Inputs* inputs_;
+  double h_;
+  ActingInputs acting_;
+  RotorStep whole_;
+  std::vector<RotorStep> to_nodes_;  ///< inside the step; where the speed changes
+  std::vector<Response> responses_;
+  // Room for a step. Places: x, y, x', y' of each force at the first node, then at the next.
+  // Values: x, y of each force likewise.
+  std::vector<LocalState> states_;
+  LinearMotion from_;
+  Eigen::VectorXd places_;          ///< that go with given_
+  Eigen::VectorXd given_;           ///< forces
+  Eigen::VectorXd forced_;          ///< the forces sought
+  Eigen::VectorXd moved_;           ///< places that go with forced_
+  Eigen::VectorXd law_;             ///< the forces at moved_
+  Eigen::VectorXd sizes_;           ///< [N], what rounds in each
+  Eigen::VectorXd residual_;        ///< law_ - forced_
+  Eigen::VectorXd start_, change_;  ///< of a step of Newton's method
+  Eigen::MatrixXd slopes_;          ///< of law_, by its own places [unknowns x 4]
+  Eigen::MatrixXd jacobian_;
+  Eigen::VectorXd result_;
+};
+
+}  // namespace whirl_twin
