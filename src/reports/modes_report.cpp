@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/banded_rotor.h"
+#include "analysis/stability.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {
@@ -114,13 +116,22 @@ ModesReport modesReport(const RotorSystem& system, double speed) {
   ModesReport report;
   report.system = &system;
   report.speed = speed;
-  report.model = whirlModes(system.rotor, system.stations, speed).modes;
+  const WholeRotor whole = wholeRotor(system);
+  std::optional<WhirlModes> lowest;
+  if (whole.rotor.dof() > kMostCompleteCoordinates) {
+    lowest =
+        lowestWhirlModes(BandedRotor(whole.rotor).matrices(speed), whole.stations, kLowestModes);
+  }
+  report.model = lowest ? lowest->modes : whirlModes(whole.rotor, whole.stations, speed).modes;
   return report;
 }
 
 ModesReport modesReport(const RotorSystem& system, const RotorRecord& record,
                         std::optional<double> speed, std::optional<double> limit) {
-  ModesReport report = modesReport(system, speed.value_or(record.steadySpeed()));
+  ModesReport report;
+  report.system = &system;
+  report.speed = speed.value_or(record.steadySpeed());
+  report.model = whirlModes(system.rotor, system.stations, report.speed).modes;
   report.log = record.log();
   std::vector<std::size_t> places;
   std::vector<double> directions;

@@ -9,6 +9,7 @@
 
 #include "analysis/whirl_modes.h"
 #include "estimation/mode_pairing.h"
+#include "plots/chart.h"
 #include "reports/csv_table.h"
 #include "reports/rotor_record.h"
 #include "reports/rotor_systems.h"
@@ -40,7 +41,8 @@ struct ModesReport {
   std::vector<std::string> notes;     ///< what the record does not tell, in words
 };
 
-/// The model's modes at a speed [rad/s].
+/// The model's modes at a speed [rad/s], of a shaft of elements with all of them: of more than
+/// kMostCompleteCoordinates those of lowest frequency.
 ModesReport modesReport(const RotorSystem& system, double speed);
 /// And those that a record tells, about the speed that it kept to or about `speed`; `limit`
 /// [rad/s]: of the frequencies looked at, else a little beyond the model's sixth mode.
@@ -49,7 +51,9 @@ ModesReport modesReport(const RotorSystem& system, const RotorRecord& record,
 
 Json json(const ModesReport& report);
 std::string text(const ModesReport& report);
-/// The model's modes, or those that were measured with the model's beside them.
+/// The model's modes and their shapes, or those that were measured with the model's beside them.
 CsvTables tables(const ModesReport& report);
+/// The shapes of the `count` lowest modes of the model, in front of the shaft.
+Figure figure(const ModesReport& report, std::size_t count);
 
 }  // namespace whirl_twin

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 
@@ -33,6 +34,21 @@ Json phasorsJson(const std::vector<std::string>& stations, const Eigen::VectorXc
   return json;
 }
 
+/// Minor by major semi-axis, negative of an orbit against the rotation; 0 in a plane.
+double kappa(const Orbit& orbit) {
+  return orbit.direction() == Whirl::kStraight
+             ? 0.0
+             : (std::abs(orbit.forward) - std::abs(orbit.backward)) / orbit.major();
+}
+
+/// Of the station that moves most.
+double kappa(const WhirlMode& mode) {
+  const auto widest =
+      std::max_element(mode.orbits.begin(), mode.orbits.end(),
+                       [](const Orbit& a, const Orbit& b) { return a.major() < b.major(); });
+  return kappa(*widest);
+}
+
 Json modelJson(const ModesReport& report, std::size_t place) {
   const WhirlMode& mode = report.model[place];
   Json json;
@@ -49,6 +65,7 @@ Json modelJson(const ModesReport& report, std::size_t place) {
                              {"major", orbit.major()},
                              {"minor", orbit.minor()},
                              {"inclination", orbit.inclination()},
+                             {"kappa", kappa(orbit)},
                              {"whirl", name(orbit.direction())}});
   }
   return json;
@@ -95,17 +112,21 @@ Json measuredJson(const ModesReport& report, const ComparedMode& one) {
 
 std::string modelLine(const ModesReport& report, std::size_t place) {
   const WhirlMode& mode = report.model[place];
-  return fmt::format("  {:>3}  {:<9} {:>10.5g} {:>10.4g} {:>10.4g} {:>10.4g}\n", place + 1,
+  return fmt::format("  {:>3}  {:<9} {:>10.5g} {:>10.4g} {:>10.4g} {:>10.4g} {:>8.3f}\n", place + 1,
                      name(mode.whirl), mode.dampedFrequency(), -mode.eigenvalue.real() + 0.0,
-                     mode.dampingRatio(), mode.logDecrement());
+                     mode.dampingRatio(), mode.logDecrement(), kappa(mode));
 }
 
 std::string modelText(const ModesReport& report) {
-  std::string out = "  mode  whirl          rad/s  decay 1/s    ratio    log dec.\n";
+  std::string out = "  mode  whirl          rad/s  decay 1/s      ratio   log dec.    kappa\n";
   for (std::size_t k = 0; k < report.model.size(); ++k) {
     out += modelLine(report, k);
   }
-  return report.model.empty() ? "  no mode that swings\n" : out;
+  return report.model.empty()
+             ? "  no mode that swings\n"
+             : out +
+                   "  kappa: minor by major semi-axis of the widest orbit, negative against the "
+                   "rotation;\n  of every station with --json and --csv\n";
 }
 
 std::string measuredText(const ModesReport& report, const ComparedMode& one) {
@@ -183,7 +204,18 @@ CsvTables tables(const ModesReport& report) {
                  {"mode", "whirl", "frequency", "decay_rate", "damping_ratio", "log_decrement"}};
   if (report.log.empty()) {
     table.rows = json(report)["modes"];
-    return {table};
+    CsvTable shapes{
+        "shapes",
+        {"mode", "station", "position", "major", "minor", "inclination", "kappa", "whirl"}};
+    for (const Json& mode : table.rows) {
+      for (std::size_t s = 0; s < report.system->stations.size(); ++s) {
+        Json row = mode["shape"][s];
+        row["mode"] = mode["mode"];
+        row["position"] = report.system->stations[s].position;
+        shapes.rows.push_back(row);
+      }
+    }
+    return {table, shapes};
   }
   for (const char* column : {"frequency_deviation", "decay_rate_deviation", "model_frequency",
                              "model_decay_rate", "assurance"}) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/orbit_chart.h"
 #include "reports/response_report.h"
 
 namespace whirl_twin {
@@ -221,119 +222,13 @@ Figure figure(const ResponseReport& r) {
   return figure;
 }
 
-namespace {
-
-constexpr int kOrbitPoints = 181;
-
-/// One turn of the shaft, from an angle of it on [rad]: x along, y up [m].
-Series orbitPath(const Orbit& orbit, double start) {
-  Series path;
-  for (int k = 0; k < kOrbitPoints; ++k) {
-    const std::complex<double> turn = std::polar(1.0, start + 2.0 * kPi * k / (kOrbitPoints - 1));
-    path.x.push_back((orbit.x * turn).real());
-    path.y.push_back((orbit.y * turn).real());
-  }
-  return path;
-}
-
-Pen penOf(const Orbit& orbit) {
-  const bool forward = std::abs(orbit.forward) >= std::abs(orbit.backward);
-  return {forward ? ink::kBlue : ink::kVermilion, 1.8};
-}
-
-/// Where the paths begin: the shaft at one instant.
-Series startsOf(const std::vector<Series>& paths) {
-  Series mark{"the shaft at one instant", {}, {}, Pen{ink::kBlack, 1.2}};
-  for (const Series& path : paths) {
-    mark.x.push_back(path.x.front());
-    mark.y.push_back(path.y.front());
-  }
-  mark.marks = Marks::kDots;
-  return mark;
-}
-
-/// Stations in order along the shaft; empty where they are not apart.
-std::vector<std::size_t> alongShaft(const OrbitReport& r) {
-  std::vector<std::size_t> order(r.response.orbits.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    order[i] = i;
-  }
-  const auto position = [&](std::size_t i) { return r.system->stations[i].position; };
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return position(a) < position(b); });
-  constexpr std::size_t kFewest = 3;
-  const bool apart = order.size() >= kFewest && position(order.back()) > position(order.front());
-  return apart ? order : std::vector<std::size_t>();
-}
-
-/// The orbits where they are on the shaft, seen from the side: x goes into the picture, aslant.
-Chart orbitsAlongShaft(const OrbitReport& r, const std::vector<std::size_t>& order) {
-  constexpr double kAslant = 0.05;  // of the shaft's length, the largest amplitude
-  double largest = 0.0;
-  double highest = 0.0;  // [rad], the shaft's angle where the largest orbit is highest
-  for (const Orbit& orbit : r.response.orbits) {
-    if (orbit.major() > largest) {
-      largest = orbit.major();
-      highest = -std::arg(orbit.y);
-    }
-  }
-  const auto position = [&](std::size_t i) { return r.system->stations[i].position; };
-  const double length = position(order.back()) - position(order.front());
-  const double slant = largest > 0.0 ? kAslant * length / largest : 0.0;
-  Chart chart;
-  chart.x = {"along the shaft (m); x of the orbits is drawn aslant", false, true};
-  chart.y.label = "y (m)";
-  bool named[2] = {false, false};
-  std::vector<Series> paths;
-  for (const std::size_t i : order) {
-    const Orbit& orbit = r.response.orbits[i];
-    Series path = orbitPath(orbit, highest);
-    for (double& x : path.x) {
-      x = position(i) + slant * x;
-    }
-    path.pen = penOf(orbit);
-    const bool forward = std::abs(orbit.forward) >= std::abs(orbit.backward);
-    bool& done = named[forward ? 0 : 1];
-    path.name = done ? "" : forward ? "forward" : "backward";
-    done = true;
-    paths.push_back(path);
-  }
-  chart.series = paths;
-  chart.series.push_back({"axis",
-                          {position(order.front()), position(order.back())},
-                          {0.0, 0.0},
-                          Pen{ink::kGrey, 1.2, {8.0, 4.0}}});
-  chart.series.push_back(startsOf(paths));
-  return chart;
-}
-
-Chart orbitsInOnePlane(const OrbitReport& r) {
-  Chart chart;
-  chart.x.label = "x (m)";
-  chart.y.label = "y (m)";
-  chart.equal_aspect = true;
-  for (std::size_t i = 0; i < r.response.orbits.size(); ++i) {
-    Series path = orbitPath(r.response.orbits[i], 0.0);  // where the shaft's mark passes x
-    path.name =
-        fmt::format("{}, {}", r.system->stations[i].name, name(r.response.orbits[i].direction()));
-    chart.series.push_back(path);
-  }
-  Series mark = startsOf(chart.series);
-  mark.name.clear();
-  mark.line = false;
-  chart.series.push_back(mark);
-  return chart;
-}
-
-}  // namespace
-
 Figure figure(const OrbitReport& r) {
-  const std::vector<std::size_t> order = alongShaft(r);
+  const OrbitChart orbits = orbitChart(r.response.orbits, r.system->stations, "m");
   Figure figure;
   figure.title = fmt::format("{}: orbits at {}", r.system->title(), speedName(r.response.speed));
-  figure.charts = {order.empty() ? orbitsInOnePlane(r) : orbitsAlongShaft(r, order)};
-  figure.width = order.empty() ? 640 : 900;
-  figure.chart_height = order.empty() ? 640 : 460;
+  figure.charts = {orbits.chart};
+  figure.width = orbits.along_shaft ? 900 : 640;
+  figure.chart_height = orbits.along_shaft ? 460 : 640;
   return figure;
 }
 

@@ -7,6 +7,7 @@
 
 #include "analysis/whirl_modes.h"
 #include "messages/refusal.h"
+#include "models/flexible_shaft_settings.h"
 #include "reports/selected_systems.h"
 
 namespace whirl_twin {
@@ -16,6 +17,14 @@ namespace {
 constexpr double kBeyond = 1.2;  // of the drive's highest speed
 constexpr double kFastest = 1.0e6;
 constexpr int kMostPoints = 10'000;
+
+std::optional<FlexibleShaft> shaftOf(const BuiltSystem& system) {
+  if (system.model->name != "flexible_rotor") {
+    return std::nullopt;
+  }
+  return flexibleShaft(system.spec.parameters, system.spec.settings,
+                       system.spec.setup->around.gravity);
+}
 
 bool isLinearRotor(const Dynamics& dynamics) {
   return dynamics.linear() && dynamics.hasShaft() && !dynamics.stations().empty();
@@ -45,7 +54,7 @@ std::vector<RotorSystem> rotorSystems(const BuiltScene& scene,
     const auto [low, high] = scene.driveOf(system).speedRange();
     rotors.push_back({system.spec.name, system.spec.model, &dynamics, dynamics.linearRotor(),
                       dynamics.stations(), std::max(0.0, low),
-                      std::max(std::fabs(low), std::fabs(high))});
+                      std::max(std::fabs(low), std::fabs(high)), shaftOf(system)});
   }
   if (rotors.empty()) {
     throw Refusal(
@@ -53,6 +62,21 @@ std::vector<RotorSystem> rotorSystems(const BuiltScene& scene,
                     name ? "--system" : scene.scene.source, fmt::join(others, ", ")));
   }
   return rotors;
+}
+
+WholeRotor wholeRotor(const RotorSystem& system) {
+  if (!system.shaft) {
+    return {system.rotor, system.stations};
+  }
+  const RotorAssembly assembly(*system.shaft);
+  WholeRotor whole{assembly.linearRotor(), {}};
+  const std::vector<Station> nodes = assembly.stations();
+  for (const Station& station : system.stations) {
+    const auto same = std::find_if(nodes.begin(), nodes.end(),
+                                   [&](const Station& node) { return node.name == station.name; });
+    whole.stations.push_back(*same);
+  }
+  return whole;
 }
 
 std::vector<double> SpeedRange::speeds() const {

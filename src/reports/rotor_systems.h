@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mechanics/linear_rotor.h"
+#include "mechanics/rotors/rotor_assembly.h"
 #include "scene/built_scene.h"
 
 namespace whirl_twin {
@@ -16,6 +17,7 @@ struct RotorSystem {
   LinearRotor rotor;
   std::vector<Station> stations;
   double lowest_speed = 0.0, highest_speed = 0.0;  ///< [rad/s], that its drive runs through
+  std::optional<FlexibleShaft> shaft;              ///< of a flexible_rotor, as its scene gives it
 
   /// "NAME (MODEL)"
   std::string title() const { return name + " (" + model + ")"; }
@@ -24,6 +26,14 @@ struct RotorSystem {
 /// The linear rotors of a scene, or the one of that name. Throws Refusal where there is none.
 std::vector<RotorSystem> rotorSystems(const BuiltScene& scene,
                                       const std::optional<std::string>& name);
+
+/// In all coordinates of its nodes, however few it is stepped with: right for motions that its
+/// unbalance does not make.
+struct WholeRotor {
+  LinearRotor rotor;
+  std::vector<Station> stations;  ///< in the order of RotorSystem's
+};
+WholeRotor wholeRotor(const RotorSystem& system);
 
 struct SpeedRange {
   double from = 0.0, to = 0.0;  ///< [rad/s]

@@ -37,6 +37,7 @@ void addPlayCommand(CLI::App& twin, int& status);
 void addFitCommand(CLI::App& twin, int& status);
 void addFollowCommand(CLI::App& twin, int& status);
 void addLoopCommand(CLI::App& twin, int& status);
+void addMapCommand(CLI::App& twin, int& status);
 void addModesCommand(CLI::App& twin, int& status);
 void addMonitorCommand(CLI::App& twin, int& status);
 void addSweepCommand(CLI::App& twin, int& status);

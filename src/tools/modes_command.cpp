@@ -3,6 +3,7 @@
 
 #include "messages/refusal.h"
 #include "reports/modes_report.h"
+#include "reports/picture_file.h"
 #include "reports/rotor_record.h"
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
@@ -27,13 +28,14 @@ constexpr const char* kFooter =
     "seconds at best.\n"
     "\n"
     "Examples:\n"
-    "  twin modes balancing --speed 70\n"
+    "  twin modes balancing --speed 70 --plot modes.svg\n"
     "  twin modes balancing --measured run.lcmlog --json";
 
 struct Request {
   std::string scene;
-  std::optional<std::string> system, measured, csv;
+  std::optional<std::string> system, measured, plot, csv;
   std::optional<double> speed, limit;
+  int modes = 6;
   std::string lcm_prefix = kDefaultLcmPrefix;
   bool json = false;
 };
@@ -46,6 +48,13 @@ void requireUse(const Request& request) {
   if (request.limit && !request.measured) {
     throw Refusal("--to: is for what is measured, with --measured LOG");
   }
+  if (request.plot && request.measured) {
+    throw Refusal("--plot: draws the shapes of the model, without --measured");
+  }
+  if (request.modes < 1 || request.modes > 100) {
+    throw Refusal("--modes: expected from 1 to 100, found " + std::to_string(request.modes));
+  }
+  requirePictureName(request.plot);
   requireCsvName(request.csv);
   requireLcmPrefix(request.lcm_prefix);
 }
@@ -70,6 +79,10 @@ int modesOf(const Request& request) {
     all["systems"][system.name] = json(report);
     append(csv, system.name, tables(report));
     words += (words.empty() ? "" : "\n") + text(report);
+    if (request.plot) {
+      writePicture(pictureName(*request.plot, system.name, systems.size() > 1),
+                   figure(report, static_cast<std::size_t>(request.modes)));
+    }
   }
   if (request.csv) {
     writeCsv(*request.csv, csv);
@@ -105,6 +118,9 @@ void addModesCommand(CLI::App& twin, int& status) {
       ->add_option("--lcm-prefix", request->lcm_prefix,
                    "what the channels of the log begin with; default: TWIN_")
       ->type_name("PREFIX");
+  command->add_option("--plot", request->plot, "the shapes of the lowest, FILE.svg or FILE.png")
+      ->type_name("FILE");
+  command->add_option("--modes", request->modes, "how many are drawn; default: 6")->type_name("N");
   addCsvOption(command, request->csv);
   command->add_flag("--json", request->json, "print one JSON object");
   command->footer(kFooter);

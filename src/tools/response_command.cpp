@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "reports/asked_cost.h"
+#include "reports/forced_report.h"
 #include "reports/picture_file.h"
 #include "reports/response_report.h"
 #include "scene/scene_reader.h"
@@ -19,9 +20,17 @@ constexpr const char* kResponseFooter =
     "is\n"
     "that of the forward whirl behind the unbalance. The picture: amplitude, phase, polar plot.\n"
     "\n"
+    "With --force the rotor's unbalance is left out: a harmonic force of 1 N that does not turn "
+    "acts\n"
+    "at a station, over its frequency, the shaft at one speed. Told are displacement and velocity "
+    "by\n"
+    "newton, receptance and mobility, wherever --at says. Of a shaft of elements all coordinates\n"
+    "count, however few it is stepped with.\n"
+    "\n"
     "Examples:\n"
     "  twin response demo.yaml --to 120 --plot bode.svg\n"
-    "  twin response demo.yaml --system rotor --station disc --csv response.csv";
+    "  twin response demo.yaml --system rotor --station disc --csv response.csv\n"
+    "  twin response friswell_rotor --force node_2 --at node_2 node_4 --speed 100 --plot frf.svg";
 
 constexpr const char* kOrbitFooter =
     "In the picture a dot shows where each station is when the shaft's mark passes the x axis.\n"
@@ -34,6 +43,7 @@ struct Request {
   std::optional<std::string> system, station, plot, csv;
   SpeedRangeOptions range;
   double speed = 0.0;
+  ForcedRequest force;
   bool json = false;
   bool insist = false;
 };
@@ -87,15 +97,41 @@ void addResponseCommand(CLI::App& twin, int& status) {
   addCommonOptions(command, request);
   command->add_option("--from", request->range.from, "rad/s; default: 0")->type_name("W");
   command
-      ->add_option("--to", request->range.to, "rad/s; default: 1.2 times the drive's highest speed")
+      ->add_option(
+          "--to", request->range.to,
+          "rad/s; default: 1.2 times the drive's highest speed; of a force a little beyond "
+          "the sixth mode")
       ->type_name("W");
   command->add_option("--points", request->range.points, "speeds, at least; default: 200")
       ->type_name("N");
   command->add_option("--station", request->station, "this place along the shaft only")
       ->type_name("NAME");
+  CLI::Option* force =
+      command->add_option("--force", request->force.force, "a harmonic force that does not turn")
+          ->type_name("NAME");
+  command->add_option("--along", request->force.along, "x or y, of the force; default: x")
+      ->needs(force)
+      ->type_name("AXIS");
+  command->add_option("--at", request->force.at, "places that respond to it; default: its own")
+      ->needs(force)
+      ->type_name("NAME");
+  command
+      ->add_option("--speed", request->force.speed,
+                   "rad/s, of the shaft under it; default: the drive's highest")
+      ->needs(force)
+      ->type_name("W");
   addInsistOption(command, request->insist);
   command->footer(kResponseFooter);
-  command->callback([request, &status] {
+  command->callback([request, force, &status] {
+    if (force->count() > 0) {
+      request->force.from = request->range.from;
+      request->force.to = request->range.to;
+      request->force.points = request->range.points;
+      status = show(*request, [&](const RotorSystem& system) {
+        return forcedReport(system, request->force);
+      });
+      return;
+    }
     status = show(*request, [&](const RotorSystem& system) {
       tell(costOfResponse(system.name, system.dynamics->dof(), request->range.points),
            request->insist);

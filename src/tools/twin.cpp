@@ -108,6 +108,7 @@ int run(int argc, const char* const* argv) {
   addCampbellCommand(twin, status);
   addResponseCommand(twin, status);
   addOrbitCommand(twin, status);
+  addMapCommand(twin, status);
   addLoopCommand(twin, status);
   addModesCommand(twin, status);
   addBalanceCommand(twin, status);

@@ -13,11 +13,10 @@ bool contains(const std::string& text, const std::string& part) {
 }
 
 /// In the order of `twin --help`.
-constexpr const char* kCommands[] = {"check",    "scenes",   "models",  "controllers", "new",
-                                     "import",   "simulate", "plot",    "analyze",     "campbell",
-                                     "response", "orbit",    "loop",    "modes",       "balance",
-                                     "tradeoff", "sweep",    "routh",   "log",         "record",
-                                     "play",     "export",   "monitor", "fit",         "follow"};
+constexpr const char* kCommands[] = {
+    "check",  "scenes",  "models",   "controllers", "new",      "import", "simulate",
+    "plot",   "analyze", "campbell", "response",    "orbit",    "map",    "loop",    "modes",    "balance",     "tradeoff", "sweep",  "routh",
+    "log",    "record",  "play",     "export",      "monitor",  "fit",    "follow"};
 
 /// "; there are: check, scenes, ...", as it is said where a command is none.
 std::string thereAre() {

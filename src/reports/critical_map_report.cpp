@@ -1,0 +1,247 @@
+#include "reports/critical_map_report.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "messages/refusal.h"
+#include "reports/matrix_json.h"
+#include "reports/rotor_outline.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kRpm = 30.0 / 3.14159265358979323846;  // of a rad/s
+constexpr double kCarries = 0.1;                        // of the stiffest: less is a seal
+constexpr int kSpeeds = 41;
+constexpr double kFastest = 1.0e18;  // N/m
+
+/// At a speed [rad/s], of all bearings of a node: kxx, kyy.
+std::pair<double, double> stiffnessOf(const FlexibleShaft& shaft, int node, double speed) {
+  double kxx = 0.0, kyy = 0.0;
+  const auto add = [&](const BearingCoefficients& c) {
+    kxx += c.kxx;
+    kyy += c.kyy;
+  };
+  for (const RotorBearing& bearing : shaft.bearings) {
+    if (bearing.node == node) {
+      add(bearing.coefficients);
+    }
+  }
+  for (const SpeedBearing& bearing : shaft.speed_bearings) {
+    if (bearing.node == node) {
+      add(bearing.coefficients(speed));
+    }
+  }
+  return {kxx, kyy};
+}
+
+void chooseBearings(const FlexibleShaft& shaft, const std::vector<int>& asked, double speed,
+                    CriticalMapReport& r) {
+  const std::vector<int> all = bearingNodes(shaft);
+  double stiffest = 0.0;
+  const auto direct = [&](int node) {
+    const auto [kxx, kyy] = stiffnessOf(shaft, node, speed);
+    return 0.5 * (kxx + kyy);
+  };
+  for (const int node : all) {
+    stiffest = std::max(stiffest, direct(node));
+  }
+  for (const int node : asked) {
+    if (std::find(all.begin(), all.end(), node) == all.end()) {
+      throw Refusal(fmt::format("--bearing: expected nodes with bearings, {}; found {}",
+                                fmt::join(all, ", "), node));
+    }
+  }
+  for (const int node : all) {
+    const bool varied = asked.empty() ? direct(node) > kCarries * stiffest
+                                      : std::find(asked.begin(), asked.end(), node) != asked.end();
+    if (varied) {
+      r.bearings.push_back({node, {}, {}});
+    } else {
+      r.left_out.push_back(node);
+    }
+  }
+}
+
+/// [N/m], that the map goes over.
+std::pair<double, double> rangeOf(const CriticalMapRequest& request, const CriticalMapReport& r) {
+  double least = kFastest, most = 0.0;
+  for (const BearingOnMap& bearing : r.bearings) {
+    for (const std::vector<double>* list : {&bearing.kxx, &bearing.kyy}) {
+      for (const double k : *list) {
+        least = k > 0.0 ? std::min(least, k) : least;
+        most = std::max(most, k);
+      }
+    }
+  }
+  if (!(most > 0.0)) {
+    throw Refusal("critical speed map: expected bearings that hold the rotor, kxx or kyy > 0");
+  }
+  const double from = request.from.value_or(
+      std::pow(10.0, std::floor(std::log10(std::max(least, 1e-3 * most))) - 1));
+  const double to = request.to.value_or(std::pow(10.0, std::ceil(std::log10(most)) + 2));
+  if (!(from > 0.0 && from < to && to <= kFastest)) {
+    throw Refusal(fmt::format(
+        "--from, --to: expected stiffnesses above 0, --from below --to, found {:g} and {:g} N/m",
+        from, to));
+  }
+  return {from, to};
+}
+
+}  // namespace
+
+CriticalMapReport criticalMapReport(const RotorSystem& system, const CriticalMapRequest& request) {
+  if (!system.shaft) {
+    throw Refusal(fmt::format("{}: expected a flexible_rotor: the others have no bearings to vary",
+                              system.title()));
+  }
+  if (request.points < 2 || request.points > 1000) {
+    throw Refusal(fmt::format("--points: expected from 2 to 1000, found {}", request.points));
+  }
+  if (request.modes < 1 || request.modes > 50) {
+    throw Refusal(fmt::format("--modes: expected from 1 to 50, found {}", request.modes));
+  }
+  CriticalMapReport r;
+  r.system = &system;
+  r.pedestals = !system.shaft->pedestals.empty();
+  const SpeedRange range = SpeedRangeOptions{std::nullopt, std::nullopt, kSpeeds}.of(system);
+  chooseBearings(*system.shaft, request.nodes,
+                 system.highest_speed > 0.0 ? system.highest_speed : range.to, r);
+  for (int i = 1; i <= kSpeeds; ++i) {  // none of a film is defined at rest
+    r.speeds.push_back(range.to * i / kSpeeds);
+  }
+  for (BearingOnMap& bearing : r.bearings) {
+    for (const double speed : r.speeds) {
+      const auto [kxx, kyy] = stiffnessOf(*system.shaft, bearing.node, speed);
+      bearing.kxx.push_back(kxx);
+      bearing.kyy.push_back(kyy);
+    }
+  }
+  std::vector<int> nodes;
+  for (const BearingOnMap& bearing : r.bearings) {
+    nodes.push_back(bearing.node);
+  }
+  const auto [from, to] = rangeOf(request, r);
+  r.map = criticalSpeedMap(*system.shaft, nodes, from, to, request.points,
+                           static_cast<std::size_t>(request.modes));
+  return r;
+}
+
+Json json(const CriticalMapReport& r) {
+  Json json;
+  json["model"] = r.system->model;
+  json["running_speeds"] = {r.system->lowest_speed, r.system->highest_speed};
+  json["stiffness"] = arrayJson(r.map.stiffness);
+  json["critical_speeds"] = Json::array();
+  for (const std::vector<double>& mode : r.map.speeds) {
+    json["critical_speeds"].push_back(arrayJson(mode));
+  }
+  json["on_rigid_bearings"] = arrayJson(r.map.rigid);
+  json["speeds"] = arrayJson(r.speeds);
+  json["bearings"] = Json::array();
+  for (const BearingOnMap& bearing : r.bearings) {
+    json["bearings"].push_back(
+        {{"node", bearing.node}, {"kxx", arrayJson(bearing.kxx)}, {"kyy", arrayJson(bearing.kyy)}});
+  }
+  json["left_out"] = r.left_out;
+  json["pedestals_left_out"] = r.pedestals;
+  return json;
+}
+
+CsvTables tables(const CriticalMapReport& r) {
+  CsvTable map{"", {"mode", "stiffness", "critical_speed"}};
+  for (std::size_t mode = 0; mode < r.map.speeds.size(); ++mode) {
+    for (std::size_t i = 0; i < r.map.stiffness.size(); ++i) {
+      map.rows.push_back({{"mode", mode + 1},
+                          {"stiffness", r.map.stiffness[i]},
+                          {"critical_speed", r.map.speeds[mode][i]}});
+    }
+  }
+  CsvTable bearings{"bearings", {"node", "speed", "kxx", "kyy"}};
+  for (const BearingOnMap& bearing : r.bearings) {
+    for (std::size_t i = 0; i < r.speeds.size(); ++i) {
+      bearings.rows.push_back({{"node", bearing.node},
+                               {"speed", r.speeds[i]},
+                               {"kxx", bearing.kxx[i]},
+                               {"kyy", bearing.kyy[i]}});
+    }
+  }
+  return {map, bearings};
+}
+
+std::string text(const CriticalMapReport& r) {
+  constexpr std::size_t kRows = 13;
+  std::string out = fmt::format(
+      "{}: undamped forward critical speeds, rad/s, over the stiffness of each bearing\n"
+      "    stiffness, N/m",
+      r.system->title());
+  for (std::size_t mode = 0; mode < r.map.speeds.size(); ++mode) {
+    out += fmt::format(" {:>11}", fmt::format("mode {}", mode + 1));
+  }
+  const std::size_t stride = std::max<std::size_t>(1, (r.map.stiffness.size() - 1) / (kRows - 1));
+  for (std::size_t i = 0; i < r.map.stiffness.size(); i += stride) {
+    out += fmt::format("\n    {:>14.5g}", r.map.stiffness[i]);
+    for (const std::vector<double>& mode : r.map.speeds) {
+      out += fmt::format(" {:>11.6g}", mode[i]);
+    }
+  }
+  out += "\n             rigid";
+  for (const double speed : r.map.rigid) {
+    out += fmt::format(" {:>11.6g}", speed);
+  }
+  out += "\n";
+  for (const BearingOnMap& bearing : r.bearings) {
+    out += fmt::format("    bearing at node {:<4} kxx {:.5g}, kyy {:.5g} N/m at {:.5g} rad/s\n",
+                       bearing.node, bearing.kxx.back(), bearing.kyy.back(), r.speeds.back());
+  }
+  if (!r.left_out.empty()) {
+    out += fmt::format("    left out: the bearings at {} {}, which do not carry it (--bearing)\n",
+                       r.left_out.size() == 1 ? "node" : "nodes", fmt::join(r.left_out, ", "));
+  }
+  return r.pedestals ? out +
+                           "    left out: pedestals; the stiffness is that of bearing and pedestal "
+                           "in series\n"
+                     : out;
+}
+
+Figure figure(const CriticalMapReport& r) {
+  Chart chart;
+  chart.x = {"stiffness of each bearing (N/m)", true, true};
+  chart.y.label = "undamped critical speed (rad/s)";
+  chart.y.logarithmic = true;
+  for (std::size_t mode = 0; mode < r.map.speeds.size(); ++mode) {
+    Series curve{"", r.map.stiffness, r.map.speeds[mode], Pen{ink::kBlue, 2.2}};
+    curve.name = mode == 0 ? "critical speed" : "";
+    const std::size_t at = curve.x.size() / 6;
+    chart.notes.push_back({curve.x[at], curve.y[at], fmt::format("mode {}", mode + 1)});
+    chart.series.push_back(curve);
+  }
+  bool first = true;
+  for (const BearingOnMap& bearing : r.bearings) {
+    chart.series.push_back({first ? "kxx of the bearings over the speed" : "", bearing.kxx,
+                            r.speeds, Pen{ink::kVermilion, 1.8}});
+    chart.series.push_back(
+        {first ? "kyy" : "", bearing.kyy, r.speeds, Pen{ink::kGreen, 1.8, {6.0, 3.0}}});
+    chart.notes.push_back(
+        {bearing.kxx.back(), r.speeds.back(), fmt::format("node {}", bearing.node)});
+    first = false;
+  }
+  if (r.system->highest_speed > 0.0) {
+    chart.horizontal.push_back(
+        {r.system->highest_speed,
+         fmt::format("highest speed {:.4g} rad/s, {:.0f} rpm", r.system->highest_speed,
+                     kRpm * r.system->highest_speed)});
+  }
+  Figure figure;
+  figure.title = r.system->title() + ": undamped critical speed map";
+  figure.charts = {chart};
+  figure.width = 900;
+  figure.chart_height = 520;
+  return figure;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,236 @@
+#include "reports/forced_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "messages/names.h"
+#include "messages/refusal.h"
+#include "reports/modes_report.h"
+
+namespace whirl_twin {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kDegrees = 180.0 / kPi;
+constexpr double kFastest = 1.0e6;  // rad/s
+constexpr int kMostPoints = 10'000;
+constexpr std::size_t kModesLookedAt = 6;
+constexpr double kBeyond = 1.25;          // of the last of them
+constexpr std::size_t kMostStations = 7;  // of one chart: as many as it has colours
+
+std::size_t stationOf(const RotorSystem& system, const char* option, const std::string& name) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < system.stations.size(); ++i) {
+    names.push_back(system.stations[i].name);
+    if (names.back() == name) {
+      return i;
+    }
+  }
+  throw Refusal(
+      fmt::format("{}: no station '{}' on {}{}", option, name, system.title(), hint(name, names)));
+}
+
+double within(const char* option, double value) {
+  if (!(value >= 0.0 && value <= kFastest)) {
+    throw Refusal(
+        fmt::format("{}: expected from 0 to {:g} rad/s, found {:g}", option, kFastest, value));
+  }
+  return value;
+}
+
+/// Along the force.
+Complex along(const ForcedReport& r, const ForcedResponse& response, std::size_t station) {
+  const Orbit& orbit = response.orbits[station];
+  return r.request.along == "x" ? orbit.x : orbit.y;
+}
+
+Json phasor(const Complex& z) {
+  return {z.real(), z.imag()};
+}
+
+/// Frequencies at which the receptance is largest, places in the sweep.
+std::vector<std::size_t> peaksOf(const ForcedReport& r, std::size_t station) {
+  std::vector<std::size_t> peaks;
+  const auto size = [&](std::size_t k) { return std::abs(along(r, r.sweep[k], station)); };
+  for (std::size_t k = 1; k + 1 < r.sweep.size(); ++k) {
+    if (size(k) > size(k - 1) && size(k) >= size(k + 1)) {
+      peaks.push_back(k);
+    }
+  }
+  return peaks;
+}
+
+}  // namespace
+
+ForcedReport forcedReport(const RotorSystem& system, const ForcedRequest& request) {
+  ForcedReport r;
+  r.system = &system;
+  r.request = request;
+  const std::size_t force = stationOf(system, "--force", request.force);
+  if (request.along != "x" && request.along != "y") {
+    throw Refusal(fmt::format("--along: expected x or y, found '{}'", request.along));
+  }
+  if (request.points < 2 || request.points > kMostPoints) {
+    throw Refusal(
+        fmt::format("--points: expected from 2 to {}, found {}", kMostPoints, request.points));
+  }
+  for (const std::string& name : request.at) {
+    r.stations.push_back(stationOf(system, "--at", name));
+  }
+  if (r.stations.empty()) {
+    r.stations = {force};
+  }
+  r.speed = within("--speed", request.speed.value_or(system.highest_speed));
+  const std::vector<WhirlMode> modes = modesReport(system, r.speed).model;
+  r.grows = std::any_of(modes.begin(), modes.end(),
+                        [](const WhirlMode& mode) { return mode.eigenvalue.real() > 0.0; });
+  const double from = within("--from", request.from.value_or(0.0));
+  const double usual =
+      modes.empty() ? std::max(2.0 * r.speed, 100.0)
+                    : kBeyond * modes[std::min(modes.size(), kModesLookedAt) - 1].dampedFrequency();
+  const double to = within("--to", request.to.value_or(std::min(usual, kFastest)));
+  if (!(from < to)) {
+    throw Refusal(fmt::format("--from, --to: expected --from below --to, found {:g} and {:g} rad/s",
+                              from, to));
+  }
+  const WholeRotor whole = wholeRotor(system);
+  const Station& place = whole.stations[force];
+  r.sweep = forcedResponse(whole.rotor, whole.stations, r.speed,
+                           request.along == "x" ? place.along_x : place.along_y,
+                           frequenciesAround(modes, from, to, request.points));
+  return r;
+}
+
+Json json(const ForcedReport& r) {
+  Json json{{"model", r.system->model},
+            {"speed", r.speed},
+            {"force", {{"station", r.request.force}, {"along", r.request.along}}},
+            {"grows", r.grows}};
+  json["frequencies"] = Json::array();
+  for (const ForcedResponse& response : r.sweep) {
+    json["frequencies"].push_back(response.frequency);
+  }
+  for (const std::size_t i : r.stations) {
+    Json& station = json["stations"][r.system->stations[i].name];
+    for (const char* kind : {"receptance", "mobility"}) {
+      for (const char* axis : {"x", "y"}) {
+        station[kind][axis] = Json::array();
+      }
+    }
+    for (const ForcedResponse& response : r.sweep) {
+      const Orbit& orbit = response.orbits[i];
+      const Complex rate(0.0, response.frequency);
+      station["receptance"]["x"].push_back(phasor(orbit.x));
+      station["receptance"]["y"].push_back(phasor(orbit.y));
+      station["mobility"]["x"].push_back(phasor(rate * orbit.x));
+      station["mobility"]["y"].push_back(phasor(rate * orbit.y));
+    }
+  }
+  return json;
+}
+
+CsvTables tables(const ForcedReport& r) {
+  CsvTable sweep{"",
+                 {"station", "frequency", "receptance_x", "lag_x", "receptance_y", "lag_y",
+                  "mobility_x", "mobility_y"}};
+  for (const std::size_t i : r.stations) {
+    for (const ForcedResponse& response : r.sweep) {
+      const Orbit& orbit = response.orbits[i];
+      sweep.rows.push_back({{"station", r.system->stations[i].name},
+                            {"frequency", response.frequency},
+                            {"receptance_x", std::abs(orbit.x)},
+                            {"lag_x", 0.0 - std::arg(orbit.x)},
+                            {"receptance_y", std::abs(orbit.y)},
+                            {"lag_y", 0.0 - std::arg(orbit.y)},
+                            {"mobility_x", response.frequency * std::abs(orbit.x)},
+                            {"mobility_y", response.frequency * std::abs(orbit.y)}});
+    }
+  }
+  return {sweep};
+}
+
+std::string text(const ForcedReport& r) {
+  std::string out = fmt::format(
+      "{}: response to a force along {} at {} that does not turn, shaft at {:g} rad/s\n",
+      r.system->title(), r.request.along, r.request.force, r.speed);
+  if (r.grows) {
+    out += "  a mode grows at this speed: this response is never reached\n";
+  }
+  for (const std::size_t i : r.stations) {
+    out += fmt::format(
+        "  at {}, along {}: peaks\n"
+        "         rad/s          Hz  receptance, m/N  mobility, m/(N s)    lag, deg\n",
+        r.system->stations[i].name, r.request.along);
+    const std::vector<std::size_t> peaks = peaksOf(r, i);
+    for (const std::size_t k : peaks) {
+      const Complex x = along(r, r.sweep[k], i);
+      out += fmt::format("    {:>10.5g} {:>11.5g} {:>16.5g} {:>18.5g} {:>11.4g}\n",
+                         r.sweep[k].frequency, r.sweep[k].frequency / (2.0 * kPi), std::abs(x),
+                         r.sweep[k].frequency * std::abs(x), -std::arg(x) * kDegrees);
+    }
+    if (peaks.empty()) {
+      out += "    none in the range\n";
+    }
+  }
+  return out + fmt::format("  {} frequencies from {:.5g} to {:.5g} rad/s: --json, --csv\n",
+                           r.sweep.size(), r.sweep.empty() ? 0.0 : r.sweep.front().frequency,
+                           r.sweep.empty() ? 0.0 : r.sweep.back().frequency);
+}
+
+Figure figure(const ForcedReport& r) {
+  Chart receptance, mobility, phase;
+  receptance.x = mobility.x = phase.x = {"frequency of the force (rad/s)", false, true};
+  receptance.x.second = SecondScale{"Hz", 0.5 / kPi};
+  receptance.y.label = "receptance (m/N)";
+  mobility.y.label = "mobility (m/(N s))";
+  phase.y.label = "lag of the displacement (deg)";
+  receptance.y.logarithmic = mobility.y.logarithmic = true;
+  phase.y.degrees = true;
+  const std::size_t shown = std::min(r.stations.size(), kMostStations);
+  for (std::size_t s = 0; s < shown; ++s) {
+    const std::size_t i = r.stations[s];
+    Series amplitude{r.system->stations[i].name, {}, {}};
+    Series rate, lag;
+    double before = std::numeric_limits<double>::quiet_NaN();
+    for (const ForcedResponse& response : r.sweep) {
+      const Complex x = along(r, response, i);
+      amplitude.x.push_back(response.frequency);
+      amplitude.y.push_back(std::abs(x));
+      rate.x.push_back(response.frequency);
+      rate.y.push_back(response.frequency * std::abs(x));
+      double now = -std::arg(x) * kDegrees;
+      now = now < -90.0 ? now + 360.0 : now;
+      if (std::fabs(now - before) > 180.0) {  // from one end of the axis to the other
+        lag.x.push_back(response.frequency);
+        lag.y.push_back(std::numeric_limits<double>::quiet_NaN());
+      }
+      lag.x.push_back(response.frequency);
+      lag.y.push_back(now);
+      before = now;
+    }
+    receptance.series.push_back(amplitude);
+    mobility.series.push_back(rate);
+    phase.series.push_back(lag);
+  }
+  if (r.speed > 0.0) {
+    receptance.vertical.push_back({r.speed, "speed of the shaft"});
+  }
+  Figure figure;
+  figure.title = fmt::format("{}: force along {} at {}, shaft at {:.4g} rad/s", r.system->title(),
+                             r.request.along, r.request.force, r.speed);
+  if (shown < r.stations.size()) {
+    figure.title += fmt::format(", {} of {} stations", shown, r.stations.size());
+  }
+  figure.charts = {receptance, mobility, phase};
+  figure.width = 860;
+  figure.chart_height = 340;
+  return figure;
+}
+
+}  // namespace whirl_twin

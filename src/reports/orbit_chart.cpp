@@ -1,0 +1,133 @@
+#include "reports/orbit_chart.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr int kOrbitPoints = 181;
+
+/// One turn of the shaft, from an angle of it on [rad]: x along, y up [m].
+Series orbitPath(const Orbit& orbit, double start) {
+  Series path;
+  for (int k = 0; k < kOrbitPoints; ++k) {
+    const std::complex<double> turn = std::polar(1.0, start + 2.0 * kPi * k / (kOrbitPoints - 1));
+    path.x.push_back((orbit.x * turn).real());
+    path.y.push_back((orbit.y * turn).real());
+  }
+  return path;
+}
+
+Pen penOf(const Orbit& orbit) {
+  const bool forward = std::abs(orbit.forward) >= std::abs(orbit.backward);
+  return {forward ? ink::kBlue : ink::kVermilion, 1.8};
+}
+
+/// Where the paths begin: the shaft at one instant.
+Series startsOf(const std::vector<Series>& paths) {
+  Series mark{"the shaft at one instant", {}, {}, Pen{ink::kBlack, 1.2}};
+  for (const Series& path : paths) {
+    mark.x.push_back(path.x.front());
+    mark.y.push_back(path.y.front());
+  }
+  constexpr std::size_t kMostDots = 24;
+  mark.marks = paths.size() <= kMostDots ? Marks::kDots : Marks::kNone;
+  return mark;
+}
+
+/// Stations in order along the shaft; empty where they are not apart.
+std::vector<std::size_t> alongShaft(const std::vector<Station>& stations) {
+  std::vector<std::size_t> order(stations.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    order[i] = i;
+  }
+  const auto position = [&](std::size_t i) { return stations[i].position; };
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return position(a) < position(b); });
+  constexpr std::size_t kFewest = 3;
+  const bool apart = order.size() >= kFewest && position(order.back()) > position(order.front());
+  return apart ? order : std::vector<std::size_t>();
+}
+
+/// The orbits where they are on the shaft, seen from the side: x goes into the picture, aslant.
+Chart orbitsAlongShaft(const std::vector<Orbit>& orbits, const std::vector<Station>& stations,
+                       const std::vector<std::size_t>& order) {
+  constexpr double kAslant = 0.05;  // of the shaft's length, the largest amplitude
+  double largest = 0.0;
+  double highest = 0.0;  // [rad], the shaft's angle where the largest orbit is highest
+  for (const Orbit& orbit : orbits) {
+    if (orbit.major() > largest) {
+      largest = orbit.major();
+      highest = -std::arg(orbit.y);
+    }
+  }
+  const auto position = [&](std::size_t i) { return stations[i].position; };
+  const double length = position(order.back()) - position(order.front());
+  const double slant = largest > 0.0 ? kAslant * length / largest : 0.0;
+  Chart chart;
+  chart.x = {"along the shaft (m); x of the orbits is drawn aslant", false, true};
+  chart.y.label = "y";
+  bool named[2] = {false, false};
+  std::vector<Series> paths;
+  for (const std::size_t i : order) {
+    const Orbit& orbit = orbits[i];
+    Series path = orbitPath(orbit, highest);
+    for (double& x : path.x) {
+      x = position(i) + slant * x;
+    }
+    path.pen = penOf(orbit);
+    const bool forward = std::abs(orbit.forward) >= std::abs(orbit.backward);
+    bool& done = named[forward ? 0 : 1];
+    path.name = done ? "" : forward ? "forward" : "backward";
+    done = true;
+    paths.push_back(path);
+  }
+  chart.series = paths;
+  chart.series.push_back({"axis",
+                          {position(order.front()), position(order.back())},
+                          {0.0, 0.0},
+                          Pen{ink::kGrey, 1.2, {8.0, 4.0}}});
+  chart.series.push_back(startsOf(paths));
+  return chart;
+}
+
+Chart orbitsInOnePlane(const std::vector<Orbit>& orbits, const std::vector<Station>& stations) {
+  Chart chart;
+  chart.x.label = "x";
+  chart.y.label = "y";
+  chart.equal_aspect = true;
+  for (std::size_t i = 0; i < orbits.size(); ++i) {
+    Series path = orbitPath(orbits[i], 0.0);  // where the shaft's mark passes x
+    path.name = fmt::format("{}, {}", stations[i].name, name(orbits[i].direction()));
+    chart.series.push_back(path);
+  }
+  Series mark = startsOf(chart.series);
+  mark.name.clear();
+  mark.line = false;
+  chart.series.push_back(mark);
+  return chart;
+}
+
+}  // namespace
+
+OrbitChart orbitChart(const std::vector<Orbit>& orbits, const std::vector<Station>& stations,
+                      const std::string& unit) {
+  const std::vector<std::size_t> order = alongShaft(stations);
+  OrbitChart drawn;
+  drawn.along_shaft = !order.empty();
+  drawn.chart = drawn.along_shaft ? orbitsAlongShaft(orbits, stations, order)
+                                  : orbitsInOnePlane(orbits, stations);
+  drawn.chart.y.label += fmt::format(" ({})", unit);
+  if (!drawn.along_shaft) {
+    drawn.chart.x.label += fmt::format(" ({})", unit);
+  }
+  return drawn;
+}
+
+}  // namespace whirl_twin

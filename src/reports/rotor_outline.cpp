@@ -1,0 +1,137 @@
+#include "reports/rotor_outline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kThinnest = 0.005;  // of the shaft's length, a disc
+constexpr double kWidest = 0.1;
+
+constexpr Ink kShaft{0.62, 0.68, 0.75};
+constexpr Ink kSleeve{0.78, 0.72, 0.60};
+constexpr Ink kDisc{0.47, 0.56, 0.66};
+constexpr Ink kBearing{0.35, 0.37, 0.40};
+
+double radiusAt(const ShaftSection& section, double share) {
+  return 0.5 * (section.outer_diameter + share * section.outer_growth);
+}
+
+/// Both sides of a cylinder or cone.
+Series mirrored(double from, double to, double first, double last, const Ink& ink) {
+  Series area;
+  area.x = {from, to, to, from};
+  area.y = {first, last, -last, -first};
+  area.fill = ink;
+  return area;
+}
+
+/// The edge of such areas, all in one line.
+void addEdge(const Series& area, Series& edges) {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 0; i <= area.x.size(); ++i) {
+    edges.x.push_back(area.x[i % area.x.size()]);
+    edges.y.push_back(area.y[i % area.y.size()]);
+  }
+  edges.x.push_back(kNaN);
+  edges.y.push_back(kNaN);
+}
+
+double shaftRadiusAt(const FlexibleShaft& shaft, int node) {
+  double radius = 0.0;
+  for (int i : {node - 1, node}) {
+    if (i >= 0 && i < static_cast<int>(shaft.elements.size())) {
+      radius = std::max(radius, radiusAt(shaft.elements[static_cast<std::size_t>(i)], 0.5));
+    }
+  }
+  return radius;
+}
+
+}  // namespace
+
+DrawnDisc drawnDisc(const FlexibleShaft& shaft, const RotorDisc& disc) {
+  const double length = shaft.positions().back();
+  if (disc.diameter > 0.0) {
+    return {0.5 * disc.diameter, disc.width};
+  }
+  if (!(disc.mass > 0.0 && disc.polar_inertia > 0.0)) {
+    return {1.3 * shaftRadiusAt(shaft, disc.node), kThinnest * length};
+  }
+  // I_p = m r^2 / 2, I_d = m (3 r^2 + h^2) / 12.
+  const double radius = std::sqrt(2.0 * disc.polar_inertia / disc.mass);
+  const double width =
+      std::sqrt(std::max(0.0, 12.0 * disc.transverse_inertia / disc.mass - 3.0 * radius * radius));
+  return {std::min(radius, 0.5 * length), std::clamp(width, kThinnest * length, kWidest * length)};
+}
+
+double largestRadius(const FlexibleShaft& shaft) {
+  double largest = 0.0;
+  for (int i = 0; i < static_cast<int>(shaft.elements.size()); ++i) {
+    for (const ShaftLayer& layer : shaft.layers(i)) {
+      largest = std::max({largest, radiusAt(layer.section, 0.0), radiusAt(layer.section, 1.0)});
+    }
+  }
+  for (const RotorDisc& disc : shaft.discs) {
+    largest = std::max(largest, drawnDisc(shaft, disc).radius);
+  }
+  return largest;
+}
+
+std::vector<int> bearingNodes(const FlexibleShaft& shaft) {
+  std::vector<int> nodes;
+  for (const RotorBearing& bearing : shaft.bearings) {
+    nodes.push_back(bearing.node);
+  }
+  for (const SpeedBearing& bearing : shaft.speed_bearings) {
+    nodes.push_back(bearing.node);
+  }
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+std::vector<Series> rotorOutline(const FlexibleShaft& shaft, double scale, double pale) {
+  const std::vector<double> z = shaft.positions();
+  std::vector<Series> all;
+  Series edges{"", {}, {}, Pen{paler(ink::kBlack, 0.4 + 0.6 * pale), 0.8}};
+  const auto add = [&](const Series& area) {
+    all.push_back(area);
+    addEdge(area, edges);
+  };
+  for (const RotorDisc& disc : shaft.discs) {
+    const DrawnDisc drawn = drawnDisc(shaft, disc);
+    const double at = z[static_cast<std::size_t>(disc.node)];
+    add(mirrored(at - 0.5 * drawn.width, at + 0.5 * drawn.width, scale * drawn.radius,
+                 scale * drawn.radius, paler(kDisc, pale)));
+  }
+  for (const bool sleeves : {true, false}) {  // the shaft in front of what sits on it
+    for (std::size_t i = 0; i < shaft.elements.size(); ++i) {
+      const std::vector<ShaftLayer> layers = shaft.layers(static_cast<int>(i));
+      for (std::size_t k = layers.size(); k-- > 0;) {
+        const ShaftSection& section = layers[k].section;
+        if ((k > 0) == sleeves) {
+          add(mirrored(z[i], z[i + 1], scale * radiusAt(section, 0.0),
+                       scale * radiusAt(section, 1.0), paler(k > 0 ? kSleeve : kShaft, pale)));
+        }
+      }
+    }
+  }
+  const double foot = 0.012 * (z.back() - z.front());
+  for (const int node : bearingNodes(shaft)) {
+    const double at = z[static_cast<std::size_t>(node)];
+    const double under = -scale * shaftRadiusAt(shaft, node);
+    const double depth = 0.25 * scale * largestRadius(shaft);
+    Series wedge;
+    wedge.x = {at, at + foot, at - foot};
+    wedge.y = {under, under - depth, under - depth};
+    wedge.fill = paler(kBearing, pale);
+    all.push_back(wedge);
+  }
+  all.push_back(edges);
+  return all;
+}
+
+}  // namespace whirl_twin

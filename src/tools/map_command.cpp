@@ -1,0 +1,88 @@
+#include <memory>
+#include <optional>
+
+#include "reports/critical_map_report.h"
+#include "reports/picture_file.h"
+#include "scene/scene_reader.h"
+#include "tools/arguments.h"
+#include "tools/commands.h"
+#include "tools/shipped_scenes.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr const char* kDescription =
+    "Critical speed map: the undamped forward critical speeds of a flexible_rotor over the\n"
+    "stiffness of its bearings, and its own bearings on it.";
+
+constexpr const char* kFooter =
+    "Every bearing has the stiffness of the map in all directions, on rigid ground, without\n"
+    "damping. Nodes that are held by less than a tenth of the stiffest, seals, are left out "
+    "unless\n"
+    "--bearing names them.\n"
+    "\n"
+    "Examples:\n"
+    "  twin map friswell_rotor --plot map.svg\n"
+    "  twin map friswell_rotor --from 1e4 --to 1e10 --bearing 0 6 --json";
+
+struct Request {
+  std::string scene;
+  std::optional<std::string> system, plot, csv;
+  CriticalMapRequest map;
+  bool json = false;
+};
+
+int mapOf(const Request& request) {
+  requirePictureName(request.plot);
+  requireCsvName(request.csv);
+  const BuiltScene scene = build(readSceneFile(scenePath(request.scene)));
+  const auto systems = rotorSystems(scene, request.system);
+  Json all;
+  all["scene"] = scene.scene.name;
+  std::string words;
+  CsvTables csv;
+  for (const RotorSystem& system : systems) {
+    const CriticalMapReport one = criticalMapReport(system, request.map);
+    all["systems"][system.name] = json(one);
+    append(csv, system.name, tables(one));
+    words += (words.empty() ? "" : "\n") + text(one);
+    if (request.plot) {
+      writePicture(pictureName(*request.plot, system.name, systems.size() > 1), figure(one));
+    }
+  }
+  if (request.csv) {
+    writeCsv(*request.csv, csv);
+  }
+  if (request.json) {
+    printJson(all);
+  } else {
+    printText(words);
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void addMapCommand(CLI::App& twin, int& status) {
+  CLI::App* command = twin.add_subcommand("map", kDescription);
+  const auto request = std::make_shared<Request>();
+  addSceneOption(command, request->scene);
+  command->add_option("--system", request->system, "this rotor only")->type_name("NAME");
+  command->add_option("--from", request->map.from, "N/m; default: a decade below the bearings' own")
+      ->type_name("K");
+  command->add_option("--to", request->map.to, "N/m; default: two decades above the bearings' own")
+      ->type_name("K");
+  command->add_option("--points", request->map.points, "stiffnesses; default: 61")->type_name("N");
+  command->add_option("--modes", request->map.modes, "how many, the lowest; default: 4")
+      ->type_name("N");
+  command->add_option("--bearing", request->map.nodes, "nodes whose bearings are varied")
+      ->type_name("NODE");
+  command->add_option("--plot", request->plot, "the map, FILE.svg or FILE.png")->type_name("FILE");
+  addCsvOption(command, request->csv);
+  command->add_flag("--json", request->json, "print one JSON object");
+  command->footer(kFooter);
+  command->callback([request, &status] { status = mapOf(*request); });
+}
+
+}  // namespace whirl_twin
