@@ -22,9 +22,12 @@ ModeTracker trackerOf(const LinearRotor& rotor, const std::vector<Station>& stat
 }
 
 ModeTracker::Modes firstForward(const ModeTracker& tracker, const LinearRotor& rotor) {
-  for (const auto& mode : tracker.lowest(0.0, static_cast<std::size_t>(rotor.dof()))) {
-    if (mode->whirl != Whirl::kBackward) {
-      return {mode};
+  constexpr std::size_t kFew = 12;  // of a long shaft all of them cost much more
+  for (const std::size_t count : {kFew, static_cast<std::size_t>(rotor.dof())}) {
+    for (const auto& mode : tracker.lowest(0.0, count)) {
+      if (mode->whirl != Whirl::kBackward) {
+        return {mode};
+      }
     }
   }
   return {std::nullopt};

@@ -42,7 +42,7 @@ void addEdge(const Series& area, Series& edges) {
 
 double shaftRadiusAt(const FlexibleShaft& shaft, int node) {
   double radius = 0.0;
-  for (int i : {node - 1, node}) {
+  for (const int i : {node - 1, node}) {
     if (i >= 0 && i < static_cast<int>(shaft.elements.size())) {
       radius = std::max(radius, radiusAt(shaft.elements[static_cast<std::size_t>(i)], 0.5));
     }

@@ -224,6 +224,9 @@ std::string criticalSpeedsText(const SystemAnalysis& a) {
         defined(c.separation_margin, "-"), c.required_separation_margin,
         too_near ? "  too near" : "");
   }
+  for (const std::string& condition : separationConditions()) {
+    out += fmt::format("      {}\n", condition);
+  }
   return out + beyond;
 }
 

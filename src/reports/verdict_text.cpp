@@ -40,4 +40,12 @@ std::string marginsText(double decay_rate, double damping_ratio, double log_decr
          fmt::format("    log decrement   {}\n", defined(log_decrement, "none: no vibration"));
 }
 
+std::vector<std::string> separationConditions() {
+  return {"AF = Nc / (N2 - N1), Nc the peak, N1 and N2 where the response is 0.707 of it",
+          "AF < 2.5: critically damped, no margin is required",
+          "N above Nc: (N - Nc)/N at least 17 (1 - 1/(AF - 1.5)) %, 16 % at most",
+          "N below Nc: (Nc - N)/N at least 10 + 17 (1 - 1/(AF - 1.5)) %, 26 % at most",
+          "API 617 and RP 684; check the clause against the edition in force"};
+}
+
 }  // namespace whirl_twin

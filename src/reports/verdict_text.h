@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "analysis/routh_result.h"
 
@@ -18,5 +19,9 @@ std::string routhText(const RouthResult& routh);
 
 /// Lines of a report. decay_rate [1/s]; a NaN is a margin that is not defined.
 std::string marginsText(double decay_rate, double damping_ratio, double log_decrement);
+
+/// What API 617 asks of a running speed beside a critical speed (analysis/separation_margin.h), and
+/// what an amplification factor is: a line each.
+std::vector<std::string> separationConditions();
 
 }  // namespace whirl_twin

@@ -109,6 +109,8 @@ int run(int argc, const char* const* argv) {
   addResponseCommand(twin, status);
   addOrbitCommand(twin, status);
   addMapCommand(twin, status);
+  addStabilityCommand(twin, status);
+  addReportCommand(twin, status);
   addLoopCommand(twin, status);
   addModesCommand(twin, status);
   addBalanceCommand(twin, status);

@@ -15,7 +15,8 @@ bool contains(const std::string& text, const std::string& part) {
 /// In the order of `twin --help`.
 constexpr const char* kCommands[] = {
     "check",  "scenes",  "models",   "controllers", "new",      "import", "simulate",
-    "plot",   "analyze", "campbell", "response",    "orbit",    "map",    "loop",    "modes",    "balance",     "tradeoff", "sweep",  "routh",
+    "plot",   "analyze", "campbell", "response",    "orbit",    "map",    "stability",
+    "report", "loop",    "modes",    "balance",     "tradeoff", "sweep",  "routh",
     "log",    "record",  "play",     "export",      "monitor",  "fit",    "follow"};
 
 /// "; there are: check, scenes, ...", as it is said where a command is none.
@@ -51,9 +52,10 @@ TEST_P(CommandHelp, TellsWhatItDoesWithAnExample) {
 // Without Ceres `fit` only says where to get it.
 INSTANTIATE_TEST_SUITE_P(Commands, CommandHelp,
                          testing::Values("check", "scenes", "models", "new", "simulate", "plot",
-                                         "analyze", "campbell", "response", "orbit", "loop",
-                                         "modes", "balance", "tradeoff", "sweep", "routh", "log",
-                                         "record", "play", "export", "monitor", "follow"));
+                                         "analyze", "campbell", "response", "orbit", "map",
+                                         "stability", "report", "loop", "modes", "balance",
+                                         "tradeoff", "sweep", "routh", "log", "record", "play",
+                                         "export", "monitor", "follow"));
 
 TEST(CommandLine, TheVersionIsThatOfThePackage) {
   const std::string package = contentsOf(WHIRL_TWIN_SOURCE "/package.xml");

@@ -1,0 +1,259 @@
+#include "reports/level_one_report.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "messages/names.h"
+#include "messages/refusal.h"
+#include "reports/critical_map_report.h"
+#include "reports/rotor_outline.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kRpm = 30.0 / 3.14159265358979323846;  // of a rad/s
+constexpr int kRows = 25;
+constexpr double kBeyond = 1.25;         // of Q_0 or Q_A, the larger
+constexpr double kLeastRatio = 2.0;      // Q_0 / Q_A
+constexpr double kSureRatio = 10.0;      // likewise: beyond it the gas does not matter
+constexpr double kLeastDecrement = 0.1;  // at Q_A
+
+/// [m], the middle between the outermost bearings, or of all stations.
+double middleOf(const RotorSystem& system) {
+  std::vector<double> places;
+  if (system.shaft) {
+    const std::vector<double> z = system.shaft->positions();
+    for (const int node : bearingNodes(*system.shaft)) {
+      places.push_back(z[static_cast<std::size_t>(node)]);
+    }
+  }
+  if (places.empty()) {
+    for (const Station& station : system.stations) {
+      places.push_back(station.position);
+    }
+  }
+  const auto [first, last] = std::minmax_element(places.begin(), places.end());
+  return 0.5 * (*first + *last);
+}
+
+std::size_t stationOf(const RotorSystem& system, const std::optional<std::string>& asked) {
+  std::vector<std::string> names;
+  const double middle = middleOf(system);
+  std::size_t nearest = 0;
+  for (std::size_t i = 0; i < system.stations.size(); ++i) {
+    names.push_back(system.stations[i].name);
+    if (asked == names.back()) {
+      return i;
+    }
+    const auto away = [&](std::size_t k) {
+      return std::fabs(system.stations[k].position - middle);
+    };
+    nearest = away(i) < away(nearest) ? i : nearest;
+  }
+  if (asked) {
+    throw Refusal(
+        fmt::format("--at: no station '{}' on {}{}", *asked, system.title(), hint(*asked, names)));
+  }
+  return nearest;
+}
+
+void requireNumbers(const LevelOneReport& r) {
+  if (!(r.speed > 0.0 && r.speed <= 1.0e6)) {
+    throw Refusal(fmt::format(
+        "--speed: expected a shaft speed above 0 and up to 1e+06 rad/s, found {:g}", r.speed));
+  }
+  for (const Stage& stage : r.request.stages) {
+    if (!(stage.power > 0.0 && stage.diameter > 0.0 && stage.width > 0.0 &&
+          stage.density_ratio > 0.0 && std::isfinite(alfordCrossCoupling(stage, r.speed)))) {
+      throw Refusal(
+          "--stage: expected a power (W), a diameter (m), a width (m) and, of a centrifugal stage, "
+          "a ratio of densities, each above 0");
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> LevelOneReport::reasons() const {
+  std::vector<std::string> all;
+  if (!applied) {
+    return all;
+  }
+  if (margin && *margin < kLeastRatio * *applied) {
+    all.push_back(fmt::format("Q_0/Q_A = {:.3g} is below {:g}", *margin / *applied, kLeastRatio));
+  }
+  if (!at_applied || at_applied->mode.logDecrement() < kLeastDecrement) {
+    all.push_back(at_applied ? fmt::format("the log. decrement at Q_A, {:.3g}, is below {:g}",
+                                           at_applied->mode.logDecrement(), kLeastDecrement)
+                             : std::string("the first forward mode cannot be followed to Q_A"));
+  }
+  return all;
+}
+
+LevelOneReport levelOneReport(const RotorSystem& system, const LevelOneRequest& request) {
+  LevelOneReport r;
+  r.system = &system;
+  r.request = request;
+  r.speed = request.speed.value_or(system.highest_speed);
+  requireNumbers(r);
+  const std::size_t station = stationOf(system, request.at);
+  r.station = system.stations[station].name;
+  const WholeRotor whole = wholeRotor(system);
+  if (firstForwardMode(whole.rotor, whole.stations, station, r.speed, {0.0}).empty()) {
+    throw Refusal(fmt::format("{}: expected a rotor with a forward mode at {:g} rad/s, found none",
+                              system.title(), r.speed));
+  }
+  r.margin = crossCouplingMargin(whole.rotor, whole.stations, station, r.speed);
+  for (const Stage& stage : request.stages) {
+    r.expected.push_back(alfordCrossCoupling(stage, r.speed));
+    r.applied = r.applied.value_or(0.0) + r.expected.back();
+  }
+  const double widest = std::max(r.margin.value_or(0.0), r.applied.value_or(0.0));
+  const double last = widest > 0.0
+                          ? kBeyond * widest
+                          : 0.1 * whole.rotor.matrices(r.speed).stiffness.cwiseAbs().maxCoeff();
+  std::vector<double> couplings;
+  for (int i = 0; i < kRows; ++i) {
+    couplings.push_back(last * i / (kRows - 1));
+  }
+  r.rows = firstForwardMode(whole.rotor, whole.stations, station, r.speed, couplings);
+  if (r.applied) {
+    const auto rows =
+        firstForwardMode(whole.rotor, whole.stations, station, r.speed, {0.0, *r.applied});
+    r.at_applied = rows.size() == 2 ? std::optional(rows.back()) : std::nullopt;
+  }
+  if (system.shaft) {
+    try {
+      const CriticalMapReport map = criticalMapReport(system, {});
+      r.critical_speed_ratio = r.speed / map.map.rigid.front();
+    } catch (const Refusal&) {
+      r.critical_speed_ratio.reset();  // one bearing, or none: there are no rigid ones either
+    }
+  }
+  return r;
+}
+
+Json json(const LevelOneReport& r) {
+  const auto number = [](const std::optional<double>& value) {
+    return value ? Json(*value) : Json();
+  };
+  Json json{{"model", r.system->model}, {"speed", r.speed}, {"station", r.station}};
+  json["stages"] = Json::array();
+  for (std::size_t i = 0; i < r.expected.size(); ++i) {
+    const Stage& stage = r.request.stages[i];
+    json["stages"].push_back({{"kind", stage.axial ? "axial" : "centrifugal"},
+                              {"power", stage.power},
+                              {"diameter", stage.diameter},
+                              {"width", stage.width},
+                              {"density_ratio", stage.density_ratio},
+                              {"cross_coupling", r.expected[i]}});
+  }
+  json["expected_cross_coupling"] = number(r.applied);
+  json["threshold_cross_coupling"] = number(r.margin);
+  json["cross_coupling"] = Json::array();
+  json["log_decrement"] = Json::array();
+  json["frequency"] = Json::array();
+  for (const CrossCouplingRow& row : r.rows) {
+    json["cross_coupling"].push_back(row.cross_coupling);
+    json["log_decrement"].push_back(row.mode.logDecrement() + 0.0);
+    json["frequency"].push_back(row.mode.dampedFrequency());
+  }
+  json["log_decrement_expected"] =
+      r.at_applied ? Json(r.at_applied->mode.logDecrement() + 0.0) : Json();
+  json["critical_speed_ratio"] = number(r.critical_speed_ratio);
+  json["level_two"] = r.reasons();
+  return json;
+}
+
+CsvTables tables(const LevelOneReport& r) {
+  CsvTable rows{"", {"cross_coupling", "log_decrement", "frequency"}};
+  for (const CrossCouplingRow& row : r.rows) {
+    rows.rows.push_back({{"cross_coupling", row.cross_coupling},
+                         {"log_decrement", row.mode.logDecrement() + 0.0},
+                         {"frequency", row.mode.dampedFrequency()}});
+  }
+  return {rows,
+          {"stages",
+           {"kind", "power", "diameter", "width", "density_ratio", "cross_coupling"},
+           json(r)["stages"]}};
+}
+
+std::string text(const LevelOneReport& r) {
+  std::string out = fmt::format(
+      "{}: first forward whirl at {:g} rad/s ({:.0f} rpm), cross-coupling at {}\n"
+      "    Q, N/m          log. decrement       rad/s\n",
+      r.system->title(), r.speed, kRpm * r.speed, r.station);
+  for (std::size_t i = 0; i < r.rows.size(); i += 2) {
+    const CrossCouplingRow& row = r.rows[i];
+    out += fmt::format("    {:<15.5g} {:>14.4g} {:>11.5g}\n", row.cross_coupling,
+                       row.mode.logDecrement() + 0.0, row.mode.dampedFrequency());
+  }
+  out += r.margin ? fmt::format("  Q_0, where it stops to decay: {:.5g} N/m\n", *r.margin)
+                  : std::string("  Q_0, where it stops to decay: none found\n");
+  if (!r.applied) {
+    return out + "  Q_A, what the stages have: not known (--stage POWER DIAMETER WIDTH RATIO)\n";
+  }
+  for (std::size_t i = 0; i < r.expected.size(); ++i) {
+    const Stage& stage = r.request.stages[i];
+    out += fmt::format(
+        "    stage {:<3} {} {:.5g} W, {:.4g} m, {:.4g} m{}: {:.5g} N/m\n", i + 1,
+        stage.axial ? "axial" : "centrifugal", stage.power, stage.diameter, stage.width,
+        stage.axial ? "" : fmt::format(", densities {:.4g}", stage.density_ratio), r.expected[i]);
+  }
+  out += fmt::format("  Q_A, all stages by Alford's formula as modified by API 617: {:.5g} N/m\n",
+                     *r.applied);
+  if (r.at_applied) {
+    out += fmt::format("    log. decrement there  {:.4g}\n", r.at_applied->mode.logDecrement());
+  }
+  if (r.margin) {
+    out += fmt::format("    Q_0 / Q_A             {:.4g}\n", *r.margin / *r.applied);
+  }
+  out += fmt::format(
+      "  API 617 asks for level II where Q_0/Q_A < {:g} or the log. decrement at Q_A < {:g}\n",
+      kLeastRatio, kLeastDecrement);
+  const std::vector<std::string> reasons = r.reasons();
+  out += reasons.empty() ? std::string("    neither is so\n")
+                         : fmt::format("    so it is here: {}\n", fmt::join(reasons, "; "));
+  if (reasons.empty() && r.margin && *r.margin < kSureRatio * *r.applied) {
+    out += fmt::format(
+        "  and also, below Q_0/Q_A = {:g}, in region B of its chart over the gas density and the "
+        "ratio "
+        "of "
+        "the\n  speed to the first critical speed on rigid bearings{}: not judged here\n",
+        kSureRatio,
+        r.critical_speed_ratio ? fmt::format(", which is {:.3g}", *r.critical_speed_ratio) : "");
+  }
+  return out + "  check the clause against the edition in force\n";
+}
+
+Figure figure(const LevelOneReport& r) {
+  Chart chart;
+  chart.x = {fmt::format("cross-coupled stiffness at {} (N/m)", r.station), false, true};
+  chart.y.label = "log. decrement of the first forward whirl";
+  Series curve{"", {}, {}, Pen{ink::kBlue, 2.2}};
+  for (const CrossCouplingRow& row : r.rows) {
+    curve.x.push_back(row.cross_coupling);
+    curve.y.push_back(row.mode.logDecrement());
+  }
+  chart.series.push_back(curve);
+  chart.horizontal.push_back({0.0, ""});
+  if (r.applied) {
+    chart.vertical.push_back({*r.applied, "Q_A"});
+    chart.horizontal.push_back({kLeastDecrement, "0.1"});
+  }
+  if (r.margin) {
+    chart.vertical.push_back({*r.margin, "Q_0"});
+  }
+  Figure figure;
+  figure.title = fmt::format("{}: stability level I at {:.4g} rad/s", r.system->title(), r.speed);
+  figure.charts = {chart};
+  figure.width = 860;
+  figure.chart_height = 420;
+  return figure;
+}
+
+}  // namespace whirl_twin

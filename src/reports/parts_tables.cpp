@@ -1,0 +1,117 @@
+#include "reports/parts_tables.h"
+
+#include <fmt/format.h>
+
+namespace whirl_twin {
+
+namespace {
+
+using Rows = std::vector<std::vector<std::string>>;
+
+std::string number(double value) {
+  return fmt::format("{:.5g}", value + 0.0);
+}
+
+/// Both ends of what tapers.
+std::string diameter(double at_first, double growth) {
+  return growth == 0.0 ? number(at_first)
+                       : fmt::format("{:.5g} to {:.5g}", at_first, at_first + growth);
+}
+
+bool alike(const ShaftSection& a, const ShaftSection& b) {
+  const auto density = [](const ShaftSection& s) { return s.material ? s.material->density : 0.0; };
+  return !a.tapers() && !b.tapers() && a.length == b.length &&
+         a.outer_diameter == b.outer_diameter && a.inner_diameter == b.inner_diameter &&
+         a.axial_force == b.axial_force && density(a) == density(b);
+}
+
+Rows elementRows(const FlexibleShaft& shaft) {
+  Rows rows;
+  for (std::size_t first = 0; first < shaft.elements.size();) {
+    std::size_t end = first + 1;
+    while (end < shaft.elements.size() && alike(shaft.elements[first], shaft.elements[end])) {
+      ++end;
+    }
+    const ShaftSection& e = shaft.elements[first];
+    const ShaftMaterial& material = e.material ? *e.material : shaft.material;
+    rows.push_back({fmt::format("{} to {}", first, end), number(e.length),
+                    diameter(e.outer_diameter, e.outer_growth),
+                    diameter(e.inner_diameter, e.inner_growth), number(material.youngs_modulus),
+                    number(material.density), number(e.axial_force)});
+    first = end;
+  }
+  return rows;
+}
+
+Rows bearingRows(const FlexibleShaft& shaft, double speed) {
+  Rows rows;
+  const auto add = [&](int node, const BearingCoefficients& c, const char* kind) {
+    rows.push_back({std::to_string(node), number(c.kxx), number(c.kxy), number(c.kyx),
+                    number(c.kyy), number(c.cxx), number(c.cxy), number(c.cyx), number(c.cyy),
+                    kind});
+  };
+  for (const RotorBearing& bearing : shaft.bearings) {
+    add(bearing.node, bearing.coefficients, "constant");
+  }
+  for (const SpeedBearing& bearing : shaft.speed_bearings) {
+    add(bearing.node, bearing.coefficients(speed), "over speed");
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::vector<PartsTable> partsTables(const FlexibleShaft& shaft, double speed) {
+  std::vector<PartsTable> all;
+  all.push_back({"Elements",
+                 {"nodes", "length each, m", "outer diameter, m", "inner diameter, m", "E, Pa",
+                  "density, kg/m³", "axial force, N"},
+                 elementRows(shaft)});
+  PartsTable sleeves{
+      "Sleeves",
+      {"nodes", "outer diameter, m", "inner diameter, m", "density, kg/m³", "share of stiffness"},
+      {}};
+  for (const ShaftSleeve& sleeve : shaft.sleeves) {
+    const ShaftSection& section = sleeve.layer.section;
+    sleeves.rows.push_back({fmt::format("{} to {}", sleeve.element, sleeve.element + 1),
+                            diameter(section.outer_diameter, section.outer_growth),
+                            diameter(section.inner_diameter, section.inner_growth),
+                            number(sleeve.layer.material.density), number(sleeve.layer.stiffness)});
+  }
+  PartsTable discs{
+      "Discs",
+      {"", "node", "mass, kg", "polar inertia, kg m²", "transverse inertia, kg m²", "skew, rad"},
+      {}};
+  for (std::size_t i = 0; i < shaft.discs.size(); ++i) {
+    const RotorDisc& disc = shaft.discs[i];
+    discs.rows.push_back({fmt::format("D{}", i + 1), std::to_string(disc.node), number(disc.mass),
+                          number(disc.polar_inertia), number(disc.transverse_inertia),
+                          number(disc.skew)});
+  }
+  PartsTable bearings{fmt::format("Bearings and seals at {:.5g} rad/s, N/m and N s/m", speed),
+                      {"node", "kxx", "kxy", "kyx", "kyy", "cxx", "cxy", "cyx", "cyy", ""},
+                      bearingRows(shaft, speed)};
+  PartsTable pedestals{"Pedestals",
+                       {"node", "mass along x, kg", "along y, kg", "kxx, N/m", "kyy, N/m",
+                        "cxx, N s/m", "cyy, N s/m"},
+                       {}};
+  for (const RotorPedestal& pedestal : shaft.pedestals) {
+    const BearingCoefficients& c = pedestal.coefficients;
+    pedestals.rows.push_back({std::to_string(pedestal.node), number(pedestal.mass_x),
+                              number(pedestal.mass_y), number(c.kxx), number(c.kyy), number(c.cxx),
+                              number(c.cyy)});
+  }
+  PartsTable unbalances{"Unbalances", {"node", "kg m", "angle, rad"}, {}};
+  for (const NodeUnbalance& unbalance : shaft.unbalances) {
+    unbalances.rows.push_back(
+        {std::to_string(unbalance.node), number(unbalance.magnitude), number(unbalance.angle)});
+  }
+  for (PartsTable* table : {&sleeves, &discs, &bearings, &pedestals, &unbalances}) {
+    if (!table->rows.empty()) {
+      all.push_back(*table);
+    }
+  }
+  return all;
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,309 @@
+#include "reports/rotor_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "analysis/separation_margin.h"
+#include "messages/refusal.h"
+#include "reports/campbell_report.h"
+#include "reports/critical_map_report.h"
+#include "reports/modes_report.h"
+#include "reports/parts_tables.h"
+#include "reports/report_page.h"
+#include "reports/response_report.h"
+#include "reports/rotor_sheet.h"
+#include "reports/shaft_figures.h"
+#include "reports/verdict_text.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kRpm = 30.0 / kPi;  // of a rad/s
+constexpr std::size_t kModesDrawn = 6;
+constexpr std::size_t kModesTold = 12;
+constexpr std::size_t kBranches = 12;
+
+std::string number(double value) {
+  return std::isfinite(value) ? fmt::format("{:.5g}", value) : "–";
+}
+
+std::string rpm(double speed) {
+  return fmt::format("{:.0f}", kRpm * speed);
+}
+
+/// Puts a rotor's parts on the page, one after the other, and remembers what is missing.
+class RotorReport {
+ public:
+  RotorReport(const BuiltScene& scene, const RotorSystem& system, const RotorReportRequest& request)
+      : scene_(scene),
+        system_(system),
+        request_(request),
+        speed_(request.speed.value_or(system.highest_speed)),
+        page_(fmt::format("{}, {}: rotor dynamics", scene.scene.name, system.name)) {}
+
+  std::string page() {
+    start();
+    if (system_.shaft) {
+      drawing();
+      body();
+      attempt("Critical speed map", [this] { map(); });
+    } else {
+      missing_.push_back(
+          "Drawing, masses, sag, bearing loads, shear force, bending moment, critical speed map: "
+          "of "
+          "a flexible_rotor, whose scene has its shaft and bearings");
+    }
+    attempt("Whirl modes", [this] { modes(); });
+    attempt("Campbell diagram", [this] { campbell(); });
+    attempt("Unbalance response", [this] { response(); });
+    attempt("Stability, level I", [this] { levelOne(); });
+    rest();
+    return page_.finish();
+  }
+
+ private:
+  /// A part that is refused is left out whole.
+  void attempt(const std::string& title, const std::function<void()>& part) {
+    const ReportPage before = page_;
+    try {
+      page_.section(title);
+      part();
+    } catch (const Refusal& refusal) {
+      page_ = before;
+      missing_.push_back(fmt::format("{}: {}", title, refusal.what()));
+    } catch (const RunFailure& failure) {
+      page_ = before;
+      missing_.push_back(fmt::format("{}: {}", title, failure.what()));
+    }
+  }
+
+  const BuiltSystem& built() const {
+    return **std::find_if(scene_.systems.begin(), scene_.systems.end(),
+                          [&](const SharedSystem& one) { return one->spec.name == system_.name; });
+  }
+
+  void start() {
+    const double low = system_.lowest_speed, high = system_.highest_speed;
+    page_.text(
+        fmt::format("{}, running from {:.5g} to {:.5g} rad/s ({} to {} rpm). Modes and stability "
+                    "at {:.5g} rad/s "
+                    "({} rpm). SI units: m, kg, s, N, rad.",
+                    system_.model, low, high, rpm(low), rpm(high), speed_, rpm(speed_)));
+    const std::string& note = built().setup().note;
+    if (!note.empty()) {
+      page_.text("As it is stepped: " + note + ".");
+    }
+  }
+
+  void drawing() {
+    page_.section("Drawing");
+    page_.picture(drawingFigure(*system_.shaft));
+    for (const PartsTable& table : partsTables(*system_.shaft, speed_)) {
+      page_.part(table.title);
+      page_.table(table.head, table.rows);
+    }
+  }
+
+  void body() {
+    const std::optional<RotorSheet> sheet = rotorSheet(built(), speed_);
+    page_.section("Mass");
+    page_.table({"mass, kg", "centre of gravity from node 0, m", "polar inertia, kg m²",
+                 "transverse inertia about the centre of gravity, kg m²"},
+                {{number(sheet->body.mass), number(sheet->body.centre),
+                  number(sheet->body.polar_inertia), number(sheet->body.transverse_inertia)}});
+    if (!sheet->statics) {
+      missing_.push_back("Sag and bearing loads: some motion of the rotor is free");
+      return;
+    }
+    page_.section("At rest under its weight");
+    page_.text(fmt::format("Weight {} N, g = {} m/s², the bearings as they are at {:.5g} rad/s.",
+                           number(sheet->body.mass * sheet->gravity), number(sheet->gravity),
+                           speed_));
+    std::vector<std::vector<std::string>> loads;
+    for (const BearingLoad& bearing : sheet->statics->bearings) {
+      loads.push_back({std::to_string(bearing.node), number(bearing.force.y + 0.0),
+                       number(bearing.force.x + 0.0)});
+    }
+    page_.table({"bearing at node", "carries along y, N", "along x, N"}, loads);
+    page_.picture(staticsFigure(*sheet));
+  }
+
+  void map() {
+    const CriticalMapReport report = criticalMapReport(system_, {});
+    page_.text(
+        "Undamped forward critical speeds, every bearing of one stiffness in all directions on "
+        "rigid "
+        "ground; and where the rotor's own bearings are on the map over their speeds.");
+    page_.picture(figure(report));
+    std::vector<std::string> head{"stiffness, N/m"};
+    for (std::size_t mode = 0; mode < report.map.speeds.size(); ++mode) {
+      head.push_back(fmt::format("mode {}, rad/s", mode + 1));
+    }
+    std::vector<std::vector<std::string>> rows;
+    const std::size_t stride = std::max<std::size_t>(1, report.map.stiffness.size() / 10);
+    for (std::size_t i = 0; i < report.map.stiffness.size(); i += stride) {
+      rows.push_back({number(report.map.stiffness[i])});
+      for (const std::vector<double>& mode : report.map.speeds) {
+        rows.back().push_back(number(mode[i]));
+      }
+    }
+    rows.push_back({"rigid"});
+    for (const double speed : report.map.rigid) {
+      rows.back().push_back(number(speed));
+    }
+    page_.table(head, rows);
+    if (!report.left_out.empty()) {
+      missing_.push_back(
+          fmt::format("Critical speed map: the bearings at nodes {} are left out, they hold less "
+                      "than a tenth of "
+                      "the stiffest",
+                      fmt::join(report.left_out, ", ")));
+    }
+    if (report.pedestals) {
+      missing_.push_back(
+          "Critical speed map: pedestals are left out, the stiffness is that of bearing and "
+          "pedestal "
+          "in series");
+    }
+  }
+
+  void modes() {
+    const ModesReport report = modesReport(system_, speed_);
+    std::vector<std::vector<std::string>> rows;
+    for (std::size_t k = 0; k < std::min(kModesTold, report.model.size()); ++k) {
+      const WhirlMode& mode = report.model[k];
+      rows.push_back({std::to_string(k + 1), name(mode.whirl), number(mode.dampedFrequency()),
+                      rpm(mode.dampedFrequency()), number(mode.dampingRatio()),
+                      number(mode.logDecrement()),
+                      mode.eigenvalue.real() > 0.0 ? "grows" : "decays"});
+    }
+    page_.table({"mode", "whirl", "rad/s", "rpm", "damping ratio", "log. decrement", ""}, rows);
+    page_.picture(figure(report, kModesDrawn));
+    if (report.model.size() > kModesTold) {
+      missing_.push_back(fmt::format("Whirl modes: {} are told, of {} looked at (`twin modes`)",
+                                     kModesTold, report.model.size()));
+    }
+  }
+
+  void campbell() {
+    const CampbellReport report =
+        campbellReport(system_, SpeedRangeOptions{}.of(system_), {1.0}, kBranches);
+    page_.picture(figure(report));
+    std::vector<std::vector<std::string>> rows;
+    for (const CampbellCrossing& crossing : report.diagram.crossings) {
+      rows.push_back({number(crossing.speed), rpm(crossing.speed), name(crossing.mode.whirl),
+                      number(crossing.mode.log_decrement)});
+    }
+    if (rows.empty()) {
+      page_.text("No whirl meets the speed in the range.");
+    } else {
+      page_.part("Where a whirl meets the speed");
+      page_.table({"rad/s", "rpm", "whirl", "log. decrement"}, rows);
+    }
+    if (report.beyond > 0) {
+      missing_.push_back(fmt::format(
+          "Campbell diagram: {} crossings and undamped critical speeds beyond {:.5g} rad/s, which "
+          "the reduced rotor does not hold to",
+          report.beyond, system_.rotor.highest_speed));
+    }
+  }
+
+  void response() {
+    const ResponseReport report =
+        responseReport(system_, SpeedRangeOptions{}.of(system_), std::nullopt);
+    page_.picture(figure(report));
+    std::vector<std::vector<std::string>> rows;
+    for (const CriticalSpeed& peak : report.peaks) {
+      const state::CriticalSpeedMargin margin = criticalSpeedMargin(
+          speed_, peak.speed, peak.forward ? "forward" : "backward", peak.amplification_factor);
+      const bool damped = !(peak.amplification_factor >= kCriticallyDampedAmplification);
+      const bool near = margin.separation_margin < margin.required_separation_margin;
+      rows.push_back(
+          {number(peak.speed), rpm(peak.speed), margin.direction, number(peak.peak),
+           std::isinf(peak.amplification_factor) ? "undamped" : number(peak.amplification_factor),
+           number(margin.separation_margin), number(margin.required_separation_margin),
+           damped ? "critically damped"
+           : near ? "too near"
+                  : "kept"});
+    }
+    page_.part(fmt::format("Amplification factors and separation margins at {:.5g} rad/s", speed_));
+    if (rows.empty()) {
+      page_.text("The response has no peak in the range.");
+    } else {
+      page_.table({"peak, rad/s", "rpm", "whirl", "semi-major axis, m", "AF", "margin, %",
+                   "required, %", ""},
+                  rows);
+    }
+    page_.list(separationConditions());
+  }
+
+  void levelOne() {
+    LevelOneRequest request;
+    request.speed = speed_;
+    request.stages = request_.stages;
+    const LevelOneReport report = levelOneReport(system_, request);
+    page_.picture(figure(report));
+    std::vector<std::vector<std::string>> rows;
+    rows.push_back({"log. decrement without cross-coupling",
+                    report.rows.empty() ? "–" : number(report.rows.front().mode.logDecrement())});
+    rows.push_back({"Q_0, where it stops to decay, N/m",
+                    report.margin ? number(*report.margin) : "none found"});
+    if (report.applied) {
+      rows.push_back({"Q_A, of all stages, N/m", number(*report.applied)});
+      rows.push_back({"log. decrement at Q_A",
+                      report.at_applied ? number(report.at_applied->mode.logDecrement()) : "–"});
+      rows.push_back({"Q_0 / Q_A", report.margin ? number(*report.margin / *report.applied) : "–"});
+    }
+    if (report.critical_speed_ratio) {
+      rows.push_back({"speed to first critical speed on rigid bearings",
+                      number(*report.critical_speed_ratio)});
+    }
+    page_.table({"cross-coupled stiffness at " + report.station, ""}, rows);
+    if (!report.applied) {
+      missing_.push_back(
+          "Stability, level I: what the stages have is not known (--stage, --axial-stage)");
+      return;
+    }
+    const std::vector<std::string> reasons = report.reasons();
+    page_.text(
+        reasons.empty()
+            ? "Q_0/Q_A is 2 or more and the log. decrement at Q_A 0.1 or more. API 617 may ask "
+              "for level II all the same below Q_0/Q_A = 10, by its chart over the density "
+              "of the gas, which is not judged here."
+            : fmt::format("API 617 asks for level II: {}.", fmt::join(reasons, "; ")));
+  }
+
+  void rest() {
+    page_.section("Left out");
+    missing_.push_back(
+        "Torsion, axial vibration, nonlinear elements; forces that do not turn with the shaft "
+        "(`twin "
+        "response --force`)");
+    page_.list(missing_);
+  }
+
+  const BuiltScene& scene_;
+  const RotorSystem& system_;
+  const RotorReportRequest& request_;
+  double speed_;
+  ReportPage page_;
+  std::vector<std::string> missing_;
+};
+
+}  // namespace
+
+std::string rotorReportPage(const BuiltScene& scene, const RotorSystem& system,
+                            const RotorReportRequest& request) {
+  if (request.speed && !(*request.speed >= 0.0 && *request.speed <= 1.0e6)) {
+    throw Refusal(fmt::format("--speed: expected a shaft speed from 0 to 1e+06 rad/s, found {:g}",
+                              *request.speed));
+  }
+  return RotorReport(scene, system, request).page();
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,116 @@
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "messages/refusal.h"
+#include "reports/rotor_report.h"
+#include "scene/scene_reader.h"
+#include "tools/arguments.h"
+#include "tools/commands.h"
+#include "tools/shipped_scenes.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr const char* kDescription =
+    "All that is told of the rotors of a scene on paper: a page of HTML each, its pictures "
+    "inside,\n"
+    "that opens without a network and prints.";
+
+constexpr const char* kFooter =
+    "Of a flexible_rotor: drawing and tables of its parts, mass, sag, bearing loads, shear force\n"
+    "and bending moment, critical speed map. Of every linear rotor: whirl modes, Campbell "
+    "diagram,\n"
+    "unbalance response with amplification factors and separation margins, stability level I. "
+    "What\n"
+    "is left out is told at its end. The pages are FOLDER/SYSTEM.html.\n"
+    "\n"
+    "Examples:\n"
+    "  twin report friswell_rotor --output pages\n"
+    "  twin report friswell_rotor --output pages --stage 500 0.4 0.015 1.6";
+
+struct Request {
+  std::string scene, output;
+  std::optional<std::string> system;
+  RotorReportRequest report;
+  std::vector<std::vector<double>> centrifugal, axial;
+};
+
+void makeFolder(const std::string& name) {
+  std::error_code error;
+  std::filesystem::create_directories(name, error);
+  if (!std::filesystem::is_directory(name)) {
+    throw RunFailure(fmt::format("--output: must be a folder, found '{}'", name));
+  }
+}
+
+void write(const std::string& path, const std::string& page) {
+  PendingFile pending(path);
+  std::ofstream file(pending.path(), std::ios::binary);
+  file << page;
+  file.close();
+  if (!file) {
+    throw RunFailure(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
+  }
+  pending.complete();
+}
+
+int reportOf(Request& request) {
+  for (const std::vector<double>& s : request.centrifugal) {
+    request.report.stages.push_back({s[0], s[1], s[2], s[3], false});
+  }
+  for (const std::vector<double>& s : request.axial) {
+    request.report.stages.push_back({s[0], s[1], s[2], 1.0, true});
+  }
+  const BuiltScene scene = build(readSceneFile(scenePath(request.scene)));
+  const auto systems = rotorSystems(scene, request.system);
+  std::vector<std::string> pages;
+  for (const RotorSystem& system : systems) {
+    pages.push_back(rotorReportPage(scene, system, request.report));
+  }
+  makeFolder(request.output);
+  for (std::size_t i = 0; i < systems.size(); ++i) {
+    const std::filesystem::path path =
+        std::filesystem::path(request.output) / (systems[i].name + ".html");
+    write(path.string(), pages[i]);
+    printText(path.string() + "\n");
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void addReportCommand(CLI::App& twin, int& status) {
+  CLI::App* command = twin.add_subcommand("report", kDescription);
+  const auto request = std::make_shared<Request>();
+  addSceneOption(command, request->scene);
+  command->add_option("--output", request->output, "where the pages go; made if it is not there")
+      ->required()
+      ->type_name("FOLDER");
+  command->add_option("--system", request->system, "this rotor only")->type_name("NAME");
+  command
+      ->add_option("--speed", request->report.speed,
+                   "rad/s, of modes, margins and stability; default: the drive's highest")
+      ->type_name("W");
+  command
+      ->add_option("--stage", request->centrifugal,
+                   "W, m, m, -: power, diameter, width, ratio of densities of a centrifugal stage")
+      ->type_size(4)
+      ->type_name("P D H RATIO");
+  command
+      ->add_option("--axial-stage", request->axial,
+                   "W, m, m: power, pitch diameter, height of the blades of an axial stage")
+      ->type_size(3)
+      ->type_name("P D H");
+  command->footer(kFooter);
+  command->callback([request, &status] { status = reportOf(*request); });
+}
+
+}  // namespace whirl_twin

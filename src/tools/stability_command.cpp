@@ -1,0 +1,111 @@
+#include <memory>
+#include <optional>
+
+#include "messages/refusal.h"
+#include "reports/level_one_report.h"
+#include "reports/picture_file.h"
+#include "scene/scene_reader.h"
+#include "tools/arguments.h"
+#include "tools/commands.h"
+#include "tools/shipped_scenes.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr const char* kDescription =
+    "Stability level I of API 617: the logarithmic decrement of a rotor's first forward whirl "
+    "over\n"
+    "a cross-coupled stiffness at mid-span, and what its stages are taken to have.";
+
+constexpr const char* kFooter =
+    "kxy = Q, kyx = -Q at the station nearest to the middle between the outermost bearings, or\n"
+    "--at another. A centrifugal stage has Q = 3 (P/w) / (D H) times the ratio of densities, an\n"
+    "axial one 1.5 (P/w) / (D H); P its power, w the speed, D the impeller's diameter (the "
+    "blades'\n"
+    "pitch diameter), H the least width of the discharge (the blades' height).\n"
+    "\n"
+    "Examples:\n"
+    "  twin stability friswell_rotor --plot level_one.svg\n"
+    "  twin stability friswell_rotor --stage 500 0.4 0.015 1.6 --stage 400 0.4 0.012 1.5";
+
+struct Request {
+  std::string scene;
+  std::optional<std::string> system, plot, csv;
+  LevelOneRequest level_one;
+  std::vector<std::vector<double>> centrifugal, axial;
+  bool json = false;
+};
+
+/// Each stage that was given, as many numbers as it takes.
+void takeStages(Request& request) {
+  for (const std::vector<double>& s : request.centrifugal) {
+    request.level_one.stages.push_back({s[0], s[1], s[2], s[3], false});
+  }
+  for (const std::vector<double>& s : request.axial) {
+    request.level_one.stages.push_back({s[0], s[1], s[2], 1.0, true});
+  }
+}
+
+int levelOneOf(Request& request) {
+  requirePictureName(request.plot);
+  requireCsvName(request.csv);
+  takeStages(request);
+  const BuiltScene scene = build(readSceneFile(scenePath(request.scene)));
+  const auto systems = rotorSystems(scene, request.system);
+  Json all;
+  all["scene"] = scene.scene.name;
+  std::string words;
+  CsvTables csv;
+  for (const RotorSystem& system : systems) {
+    const LevelOneReport one = levelOneReport(system, request.level_one);
+    all["systems"][system.name] = json(one);
+    append(csv, system.name, tables(one));
+    words += (words.empty() ? "" : "\n") + text(one);
+    if (request.plot) {
+      writePicture(pictureName(*request.plot, system.name, systems.size() > 1), figure(one));
+    }
+  }
+  if (request.csv) {
+    writeCsv(*request.csv, csv);
+  }
+  if (request.json) {
+    printJson(all);
+  } else {
+    printText(words);
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void addStabilityCommand(CLI::App& twin, int& status) {
+  CLI::App* command = twin.add_subcommand("stability", kDescription);
+  const auto request = std::make_shared<Request>();
+  addSceneOption(command, request->scene);
+  command->add_option("--system", request->system, "this rotor only")->type_name("NAME");
+  command
+      ->add_option("--speed", request->level_one.speed,
+                   "rad/s, of the shaft; default: the drive's highest")
+      ->type_name("W");
+  command->add_option("--at", request->level_one.at, "where it acts; default: at mid-span")
+      ->type_name("NAME");
+  command
+      ->add_option("--stage", request->centrifugal,
+                   "W, m, m, -: power, diameter, width, ratio of densities of a centrifugal stage")
+      ->type_size(4)
+      ->type_name("P D H RATIO");
+  command
+      ->add_option("--axial-stage", request->axial,
+                   "W, m, m: power, pitch diameter, height of the blades of an axial stage")
+      ->type_size(3)
+      ->type_name("P D H");
+  command->add_option("--plot", request->plot, "the diagram, FILE.svg or FILE.png")
+      ->type_name("FILE");
+  addCsvOption(command, request->csv);
+  command->add_flag("--json", request->json, "print one JSON object");
+  command->footer(kFooter);
+  command->callback([request, &status] { status = levelOneOf(*request); });
+}
+
+}  // namespace whirl_twin

@@ -1,0 +1,135 @@
+// Stability level I, and the report: one page with everything.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "../scene/scenes.h"
+#include "twin_program.h"
+
+namespace whirl_twin {
+namespace {
+
+using Json = nlohmann::json;
+
+const std::string kFriswell = WHIRL_TWIN_SOURCE "/config/scenes/friswell_rotor.yaml";
+const std::string kGyroscopic = WHIRL_TWIN_SOURCE "/config/scenes/gyroscopic.yaml";
+
+Json rotorOf(const Ending& end) {
+  EXPECT_EQ(end.status, 0) << end.err;
+  return end.status == 0 ? end.json()["systems"]["rotor"] : Json();
+}
+
+std::size_t count(const std::string& text, const std::string& words) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) {
+    ++found;
+  }
+  return found;
+}
+
+// A Jeffcott rotor bears q = c p: 12 N s/m at 60 rad/s. Alford's formula by hand, of 100 W at
+// 90 rad/s, 0.5 m and 0.1 m, densities 1.2; an axial stage has half of it, without them.
+TEST(Stability, OfAJeffcottRotorStandsAgainstItsStages) {
+  const Json rotor =
+      rotorOf(twin({"stability", kDemo, "--system", "rotor", "--speed", "90", "--stage", "100",
+                    "0.5", "0.1", "1.2", "--axial-stage", "100", "0.5", "0.1", "--json"}));
+  EXPECT_NEAR(rotor["threshold_cross_coupling"].get<double>(), 720.0, 1.0e-6);
+  const double centrifugal = 3.0 * (100.0 / 90.0) / (0.5 * 0.1) * 1.2;
+  const double axial = 1.5 * (100.0 / 90.0) / (0.5 * 0.1);
+  ASSERT_EQ(rotor["stages"].size(), 2u);
+  EXPECT_NEAR(rotor["stages"][0]["cross_coupling"].get<double>(), centrifugal, 1.0e-9);
+  EXPECT_NEAR(rotor["stages"][1]["cross_coupling"].get<double>(), axial, 1.0e-9);
+  EXPECT_NEAR(rotor["expected_cross_coupling"].get<double>(), centrifugal + axial, 1.0e-9);
+  // m s^2 + c s + k - i q = 0, with m 2, c 12, k 7200: the decrement at Q_A, and level I passes.
+  const std::complex<double> i(0.0, 1.0);
+  const std::complex<double> s =
+      (-12.0 + std::sqrt(144.0 - 8.0 * (7200.0 - i * (centrifugal + axial)))) / 4.0;
+  const std::complex<double> forward = s.imag() > 0.0 ? s : -6.0 - s;
+  EXPECT_NEAR(rotor["log_decrement_expected"].get<double>(),
+              -2.0 * 3.14159265358979323846 * forward.real() / forward.imag(), 1.0e-9);
+  EXPECT_TRUE(rotor["level_two"].empty());
+  EXPECT_NEAR(rotor["log_decrement"][0].get<double>(),
+              2.0 * 3.14159265358979323846 * 0.05 / std::sqrt(1.0 - 0.0025), 1.0e-9);
+}
+
+TEST(Stability, AsksForLevelTwoWhereTheStagesHaveTooMuch) {
+  const Json rotor = rotorOf(twin({"stability", kDemo, "--system", "rotor", "--speed", "90",
+                                   "--stage", "1000", "0.5", "0.05", "1.0", "--json"}));
+  EXPECT_EQ(rotor["level_two"].size(), 2u);  // 1333 N/m of 720
+  EXPECT_NE(twin({"stability", kDemo, "--speed", "90", "--stage", "1000", "0.5", "0.05", "1.0"})
+                .out.find("so it is here: Q_0/Q_A = 0.54 is below 2"),
+            std::string::npos);
+}
+
+TEST(Stability, ActsAtMidSpanUnlessItIsTold) {
+  EXPECT_EQ(rotorOf(twin({"stability", kFriswell, "--json"}))["station"], "node_3");
+  const Json at = rotorOf(twin({"stability", kFriswell, "--at", "node_2", "--json"}));
+  EXPECT_EQ(at["station"], "node_2");
+  // The decrement falls with the cross-coupling, and is zero at the threshold.
+  const Json& decrements = at["log_decrement"];
+  for (std::size_t i = 0; i + 1 < decrements.size(); ++i) {
+    EXPECT_GT(decrements[i].get<double>(), decrements[i + 1].get<double>());
+  }
+  EXPECT_GT(decrements[0].get<double>(), 0.0);
+  EXPECT_LT(decrements.back().get<double>(), 0.0);
+  EXPECT_EQ(twin({"stability", kFriswell, "--at", "node_8"}).status, 2);
+}
+
+TEST(Report, OfAFlexibleRotorHasEveryPart) {
+  const TemporaryDirectory folder;
+  const Ending end = twin({"report", kFriswell, "--output", folder.file("pages"), "--stage", "2e5",
+                           "0.4", "0.015", "1.6"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  EXPECT_EQ(end.out, folder.file("pages") + "/rotor.html\n");
+  const std::string page = contentsOf(folder.file("pages/rotor.html"));
+  for (const char* part :
+       {"Drawing", "Mass", "At rest under its weight", "Critical speed map", "Whirl modes",
+        "Campbell diagram", "Unbalance response", "Stability, level I", "Left out"}) {
+    EXPECT_EQ(count(page, std::string("<h2>") + part + "</h2>"), 1u) << part;
+  }
+  EXPECT_EQ(count(page, "<svg "), 7u);
+  EXPECT_EQ(count(page, "</html>"), 1u);
+  for (const char* outside : {"http://", "https://", "src=", "nan", "inf"}) {
+    const bool a_name = std::string(outside) == "http://";  // of SVG's, in every picture
+    EXPECT_EQ(count(page, outside), a_name ? count(page, "http://www.w3.org/") : 0u) << outside;
+  }
+  EXPECT_NE(page.find("AF &lt; 2.5: critically damped"), std::string::npos);
+}
+
+// Letters of a picture are shapes with names; two pictures on a page must not have one in common.
+TEST(Report, HasNoNameTwice) {
+  const TemporaryDirectory folder;
+  ASSERT_EQ(twin({"report", kFriswell, "--output", folder.file("pages")}).status, 0);
+  const std::string page = contentsOf(folder.file("pages/rotor.html"));
+  std::vector<std::string> names;
+  for (std::size_t at = page.find(" id=\""); at != std::string::npos;
+       at = page.find(" id=\"", at + 1)) {
+    names.push_back(page.substr(at + 5, page.find('"', at + 5) - at - 5));
+  }
+  ASSERT_GT(names.size(), 50u);
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
+}
+
+TEST(Report, OfARigidDiscTellsWhatItLacks) {
+  const TemporaryDirectory folder;
+  const Ending end = twin({"report", kGyroscopic, "--output", folder.file("pages")});
+  ASSERT_EQ(end.status, 0) << end.err;
+  const std::string page = contentsOf(linesOf(end.out).front());
+  EXPECT_EQ(count(page, "<h2>Drawing</h2>"), 0u);
+  EXPECT_EQ(count(page, "<h2>Campbell diagram</h2>"), 1u);
+  EXPECT_NE(page.find("critical speed map: of a flexible_rotor"), std::string::npos);
+}
+
+TEST(Report, OfAPendulumIsRefusedAndLeavesNothing) {
+  const TemporaryDirectory folder;
+  const Ending end = twin({"report", WHIRL_TWIN_SOURCE "/config/scenes/rod_slider.yaml", "--output",
+                           folder.file("pages")});
+  EXPECT_EQ(end.status, 2);
+  EXPECT_TRUE(folder.files().empty());
+}
+
+}  // namespace
+}  // namespace whirl_twin
