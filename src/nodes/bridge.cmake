@@ -2,6 +2,7 @@ add_executable(lcm_bridge_node
   ${CMAKE_CURRENT_LIST_DIR}/changed_parameters.cpp
   ${CMAKE_CURRENT_LIST_DIR}/lcm_bridge.cpp
   ${CMAKE_CURRENT_LIST_DIR}/lcm_bridge_node.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/newest_states.cpp
   ${CMAKE_CURRENT_LIST_DIR}/rival_report.cpp
   ${CMAKE_CURRENT_LIST_DIR}/run_node.cpp)
 target_link_libraries(lcm_bridge_node PRIVATE whirl_twin_transport_ros whirl_twin_transport_lcm

@@ -10,13 +10,16 @@
 #include <std_srvs/Trigger.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "nodes/changed_parameters.h"
 #include "nodes/lcm_bridge.h"
+#include "nodes/newest_states.h"
 #include "nodes/private_parameter.h"
 #include "nodes/rising_count.h"
 #include "nodes/rival_report.h"
@@ -36,9 +39,12 @@ constexpr const char* kHelp =
     "private parameters (_NAME:=VALUE on the command line, or <param> in a launch file):\n"
     "  ~lcm_url     where to listen, default udpm://239.255.76.67:7667?ttl=0\n"
     "  ~lcm_prefix  what the channels begin with, default TWIN_, or its namespace in capitals\n"
-    "  ~derived     true or false, default false: also publish recorded margins and alerts\n";
+    "  ~derived     true or false, default false: also publish recorded margins and alerts\n"
+    "  ~newest      Hz, 0 to 1e5: of states the newest of each so often; default 0: every "
+    "message\n";
 
 constexpr std::chrono::milliseconds kPoll{50};
+constexpr double kMostOften = 1.0e5;  // Hz
 const ros::WallDuration kReportPeriod(1.0);
 
 Kinds kindsToTell(bool derived) {
@@ -51,6 +57,12 @@ Kinds kindsToTell(bool derived) {
   return kinds;
 }
 
+std::int64_t wallMicroseconds() {
+  return std::chrono::duration_cast<std::chrono::microseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
 std::string countsOf(const LcmReceiver& receiver) {
   return fmt::format("{} received, {} lost, {} rejected", receiver.received(), receiver.lost(),
                      receiver.rejected());
@@ -58,7 +70,7 @@ std::string countsOf(const LcmReceiver& receiver) {
 
 class BridgeDiagnostics {
  public:
-  void summarize(const LcmReceiver& receiver, const RosTopics& topics,
+  void summarize(const LcmReceiver& receiver, const RosTopics& topics, const NewestStates& states,
                  diagnostic_updater::DiagnosticStatusWrapper& status) {
     using diagnostic_msgs::DiagnosticStatus;
     const double now = ros::SteadyTime::now().toSec();
@@ -73,6 +85,11 @@ class BridgeDiagnostics {
     status.add("rejected", receiver.rejected());
     status.add("last rejection", receiver.lastRejection());
     status.add("messages lost by slow subscribers", topics.lost());
+    status.add("left out for newer ones", states.leftOut());
+    for (const double percent : {50.0, 99.0, 100.0}) {
+      status.add(fmt::format("s from arrival to publication, {:g} %", percent),
+                 static_cast<double>(states.latency().percentile(percent)) * 1.0e-9);
+    }
     for (const auto& [name, count] : receiver.channels()) {
       status.add(name, fmt::format("{} received, {} lost", count.received, count.steps.lost()));
     }
@@ -83,19 +100,28 @@ class BridgeDiagnostics {
 };
 
 void run() {
-  requireKnownParameters({"lcm_url", "lcm_prefix", "derived"});
+  requireKnownParameters({"lcm_url", "lcm_prefix", "derived", "newest"});
   const auto url = privateParameter<std::string>("lcm_url", "an LCM url", kDefaultLcmUrl);
   const auto derived = privateParameter<bool>("derived", "true or false", false);
   const std::string prefix = lcmPrefixParameter();
+  const double newest = privateParameter("newest", "a number in Hz", 0.0);
+  if (!(newest >= 0.0 && newest <= kMostOften)) {
+    throw Refusal(fmt::format("newest: must be from 0 (every message) to {:g} Hz, found {}",
+                              kMostOften, newest));
+  }
   LcmBridge bridge(ros::NodeHandle(twinNamespace()), derived);
+  NewestStates states(
+      std::chrono::microseconds(newest > 0.0 ? std::llround(1.0e6 / newest) : 0),
+      [&bridge](const Message& message) { bridge.publish(message); }, wallMicroseconds);
   LcmRivals rivals(prefix);
-  LcmReceiver receiver(
+  std::unique_ptr<LcmReceiver> receiver;
+  receiver = std::make_unique<LcmReceiver>(
       openLcm(url), kindsToTell(derived),
       [&](const Message& message) {
         if (const auto* loop = std::get_if<state::LoopStatistics>(&message)) {
           rivals.take(*loop);
         }
-        bridge.publish(message);
+        states.take(message, receiver->arrived());
       },
       prefix);
 
@@ -104,7 +130,7 @@ void run() {
   diagnostics.setHardwareID("LCM " + url);
   BridgeDiagnostics counts;
   diagnostics.add("received from LCM", [&](diagnostic_updater::DiagnosticStatusWrapper& status) {
-    counts.summarize(receiver, bridge.topics(), status);
+    counts.summarize(*receiver, bridge.topics(), states, status);
   });
   reportMaster(master, diagnostics);
   rivals.report(diagnostics);
@@ -116,14 +142,15 @@ void run() {
   const auto ready = node.advertiseService<Trigger::Request, Trigger::Response>(
       "ready", [&receiver](Trigger::Request&, Trigger::Response& response) {
         response.success = true;
-        response.message = countsOf(receiver);
+        response.message = countsOf(*receiver);
         return true;
       });
 
   // Wall time: simulated time may stand still, or come from the log itself.
   ros::WallTime next_report = ros::WallTime::now();
   while (ros::ok() && !stopRequested()) {
-    receiver.receive(kPoll);
+    receiver->receive(states.nextDue(kPoll));
+    states.tellDue();
     ros::spinOnce();
     if (ros::WallTime::now() >= next_report) {
       next_report = ros::WallTime::now() + kReportPeriod;
@@ -132,8 +159,8 @@ void run() {
   }
   master.stop();
   ros::shutdown();
-  fmt::print("lcm_bridge_node: {}\n", countsOf(receiver));
-  for (const auto& [name, count] : receiver.channels()) {
+  fmt::print("lcm_bridge_node: {}\n", countsOf(*receiver));
+  for (const auto& [name, count] : receiver->channels()) {
     fmt::print("  {}: {} received, {} lost\n", name, count.received, count.steps.lost());
   }
 }

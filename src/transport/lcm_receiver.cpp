@@ -47,7 +47,9 @@ std::uint64_t LcmReceiver::lost() const {
 }
 
 void LcmReceiver::take(const lcm_recv_buf_t* buffer, const char* channel, void* receiver) {
-  static_cast<LcmReceiver*>(receiver)->take(channel, buffer->data, buffer->data_size);
+  auto* self = static_cast<LcmReceiver*>(receiver);
+  self->arrived_ = buffer->recv_utime;
+  self->take(channel, buffer->data, buffer->data_size);
 }
 
 void LcmReceiver::take(const std::string& channel, const void* data, std::size_t size) {

@@ -38,6 +38,8 @@ class LcmReceiver {
   int receive(std::chrono::microseconds timeout, int most = 1000);
 
   const std::map<std::string, ChannelCount>& channels() const { return channels_; }
+  /// When what is handled now has arrived [us, wall clock].
+  std::int64_t arrived() const { return arrived_; }
   /// Over all channels: states accepted, missing by their steps, and rejected.
   std::uint64_t received() const;
   std::uint64_t lost() const;
@@ -54,6 +56,7 @@ class LcmReceiver {
   std::string prefix_;
   lcm_subscription_t* subscription_ = nullptr;
   std::map<std::string, ChannelCount> channels_;
+  std::int64_t arrived_ = 0;  // [us], wall clock
   std::uint64_t rejected_ = 0;
   std::string last_rejection_;
 };
