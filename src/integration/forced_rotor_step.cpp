@@ -20,6 +20,7 @@ constexpr int kMostNewtonSteps = 50;
 constexpr double kLeastShare = 1.0e-3;
 constexpr int kMostRounds = 30;      // of a run-up
 constexpr double kSame = 1.0e-13;    // of what forces are differences of
+constexpr double kWell = 0.05;       // of what was left before
 constexpr double kNearly = 1.0e-9;   // enough where rounding leaves no more
 constexpr double kAgreed = 1.0e-12;  // of a run-up's forces
 constexpr double kLastRoom = 0.1;    // a pole's pull, or a film's, grows without bound there
@@ -73,11 +74,13 @@ ForcedRotorStep::ForcedRotorStep(const LinearRotor& rotor, double h,
   states_.resize(kNodes * forces_.size());
   places_.setZero(2 * n);
   moved_.setZero(2 * n);
-  for (VectorXd* each : {&given_, &forced_, &law_, &sizes_, &residual_, &start_, &change_}) {
+  for (VectorXd* each :
+       {&given_, &forced_, &law_, &sizes_, &rounding_, &residual_, &start_, &change_}) {
     each->setZero(n);
   }
   slopes_.setZero(n, 4);
   jacobian_.setZero(n, n);
+  pivots_.resize(static_cast<std::size_t>(n));
   result_.setZero(PackedMatrix(MatrixXd::Zero(2 * n, 1)).rows());
 }
 
@@ -182,7 +185,7 @@ bool ForcedRotorStep::pushes(const VectorXd& at, VectorXd& out) noexcept {
   return true;
 }
 
-/// Slopes of the laws at the places of moved_, the Jacobian of residual_, and what rounds.
+/// Slopes of the laws at the places of moved_, and the Jacobian of residual_ in its factors.
 void ForcedRotorStep::linearize(const MatrixXd& response) noexcept {
   const Index n = unknowns();
   for (std::size_t i = 0; i < states_.size(); ++i) {
@@ -192,11 +195,10 @@ void ForcedRotorStep::linearize(const MatrixXd& response) noexcept {
     for (Index axis = 0; axis < 2; ++axis) {
       slopes_.row(row + axis) << -slopes.stiffness(axis, 0), -slopes.stiffness(axis, 1),
           -slopes.damping(axis, 0), -slopes.damping(axis, 1);
-      double rounds = sizes_[row + axis];
+      rounding_[row + axis] = 0.0;
       for (Index j = 0; j < 4; ++j) {
-        rounds += std::fabs(slopes_(row + axis, j) * moved_[place + j]);
+        rounding_[row + axis] += std::fabs(slopes_(row + axis, j) * moved_[place + j]);
       }
-      sizes_[row + axis] = rounds;
     }
     for (Index column = 0; column < n; ++column) {
       for (Index axis = 0; axis < 2; ++axis) {
@@ -209,38 +211,52 @@ void ForcedRotorStep::linearize(const MatrixXd& response) noexcept {
     }
   }
   jacobian_.diagonal().array() -= 1.0;
+  factor();
 }
 
-/// change_ = jacobian_^-1 change_, by Gauss' elimination with pivots, in place.
-void ForcedRotorStep::eliminate() noexcept {
+/// By Gauss' elimination with pivots, in place: factors below the diagonal, pivots inverted on it.
+void ForcedRotorStep::factor() noexcept {
   const Index n = unknowns();
   for (Index k = 0; k < n; ++k) {
     Index pivot = k;
     for (Index i = k + 1; i < n; ++i) {
       pivot = std::fabs(jacobian_(i, k)) > std::fabs(jacobian_(pivot, k)) ? i : pivot;
     }
+    pivots_[static_cast<std::size_t>(k)] = pivot;
     if (pivot != k) {
-      for (Index j = k; j < n; ++j) {
+      for (Index j = 0; j < n; ++j) {
         std::swap(jacobian_(k, j), jacobian_(pivot, j));
       }
-      std::swap(change_[k], change_[pivot]);
     }
+    jacobian_(k, k) = 1.0 / jacobian_(k, k);
     for (Index i = k + 1; i < n; ++i) {
-      const double factor = jacobian_(i, k) / jacobian_(k, k);
-      if (factor == 0.0) {
-        continue;
+      jacobian_(i, k) *= jacobian_(k, k);
+    }
+    for (Index j = k + 1; j < n; ++j) {
+      const double above = jacobian_(k, j);
+      for (Index i = k + 1; i < n; ++i) {
+        jacobian_(i, j) -= jacobian_(i, k) * above;
       }
-      for (Index j = k + 1; j < n; ++j) {
-        jacobian_(i, j) -= factor * jacobian_(k, j);
-      }
-      change_[i] -= factor * change_[k];
+    }
+  }
+}
+
+/// change_ = jacobian_^-1 change_.
+void ForcedRotorStep::substitute() noexcept {
+  const Index n = unknowns();
+  for (Index k = 0; k < n; ++k) {
+    std::swap(change_[k], change_[pivots_[static_cast<std::size_t>(k)]]);
+  }
+  for (Index k = 0; k < n; ++k) {
+    for (Index i = k + 1; i < n; ++i) {
+      change_[i] -= jacobian_(i, k) * change_[k];
     }
   }
   for (Index k = n; k-- > 0;) {
-    for (Index j = k + 1; j < n; ++j) {
-      change_[k] -= jacobian_(k, j) * change_[j];
+    change_[k] *= jacobian_(k, k);
+    for (Index i = 0; i < k; ++i) {
+      change_[i] -= jacobian_(i, k) * change_[k];
     }
-    change_[k] /= jacobian_(k, k);
   }
 }
 
@@ -252,7 +268,7 @@ double ForcedRotorStep::relativeResidual() const noexcept {
     if (!(off <= std::numeric_limits<double>::max())) {
       return std::numeric_limits<double>::infinity();
     }
-    largest = off > 0.0 ? std::max(largest, off / sizes_[i]) : largest;
+    largest = off > 0.0 ? std::max(largest, off / (sizes_[i] + rounding_[i])) : largest;
   }
   return largest;
 }
@@ -281,34 +297,43 @@ StepStatus ForcedRotorStep::solve(const MatrixXd& response) noexcept {
   return status == StepStatus::kNotConverged && nearlyTouches() ? StepStatus::kNoGap : status;
 }
 
+/// With the factors of the last linearization as long as they lead on well.
 StepStatus ForcedRotorStep::newton(const MatrixXd& response) noexcept {
   if (!look(response)) {
     return StepStatus::kNoGap;
   }
+  bool fresh = false;
   double before = std::numeric_limits<double>::infinity();
   for (int step = 0; step < kMostNewtonSteps; ++step) {
-    linearize(response);
     const double off = relativeResidual();
-    if (off <= kSame || (off <= kNearly && off >= 0.5 * before)) {
+    if (off <= kSame || (fresh && off <= kNearly && off >= 0.5 * before)) {
       return StepStatus::kOk;
+    }
+    fresh = !(off <= kWell * before);
+    if (fresh) {
+      linearize(response);
     }
     before = off;
     const double size = residual_.norm();
     change_ = -residual_;
-    eliminate();
+    substitute();
     start_ = forced_;
     // The first share of it that leads nearer, else that which leads nearest: at a kink the way
     // down may lead up first.
     double best = 0.0;
     double least = std::numeric_limits<double>::infinity();
-    for (double share = 1.0; least >= size && share >= kLeastShare; share *= 0.5) {
+    double share = 1.0;
+    for (; least >= size && share >= (fresh ? kLeastShare : 1.0); share *= 0.5) {
       forced_ = start_ + share * change_;
       if (look(response) && residual_.norm() < least) {
         least = residual_.norm();
         best = share;
       }
     }
-    if (best == 0.0) {
+    if (best == 2.0 * share) {
+      continue;
+    }
+    if (best == 0.0 && fresh) {
       return StepStatus::kNoGap;
     }
     forced_ = start_ + best * change_;
@@ -379,7 +404,7 @@ void ForcedRotorStep::predict(const MatrixXd& response) noexcept {
       change_[i] += slopes_(i, j) * moved_[place + j];
     }
   }
-  eliminate();
+  substitute();
   forced_ += change_;
 }
 
@@ -443,7 +468,7 @@ StepStatus ForcedRotorStep::changingStep(const Drive& drive, double offset,
     }
     bool agreed = true;
     for (Index i = 0; i < given_.size(); ++i) {
-      agreed = agreed && std::fabs(forced_[i] - given_[i]) <= kAgreed * sizes_[i];
+      agreed = agreed && std::fabs(forced_[i] - given_[i]) <= kAgreed * (sizes_[i] + rounding_[i]);
     }
     if (agreed) {
       return StepStatus::kOk;

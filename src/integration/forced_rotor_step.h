@@ -82,7 +82,8 @@ class ForcedRotorStep {
   bool look(const Eigen::MatrixXd& response) noexcept;
   StepStatus newton(const Eigen::MatrixXd& response) noexcept;
   StepStatus solve(const Eigen::MatrixXd& response) noexcept;
-  void eliminate() noexcept;
+  void factor() noexcept;
+  void substitute() noexcept;
   void pushCourses(RotorStep& step, double length) noexcept;
   StepStatus changingStep(const Drive& drive, double offset, LinearMotion& motion) noexcept;
   void readPlaces(const LinearMotion& motion, std::size_t node) noexcept;
@@ -106,11 +107,13 @@ class ForcedRotorStep {
   Eigen::VectorXd forced_;          ///< the forces sought
   Eigen::VectorXd moved_;           ///< places that go with forced_
   Eigen::VectorXd law_;             ///< the forces at moved_
-  Eigen::VectorXd sizes_;           ///< [N], what rounds in each
+  Eigen::VectorXd sizes_;           ///< [N], of what the laws' forces are differences of
+  Eigen::VectorXd rounding_;        ///< [N], by which their places round
   Eigen::VectorXd residual_;        ///< law_ - forced_
   Eigen::VectorXd start_, change_;  ///< of a step of Newton's method
   Eigen::MatrixXd slopes_;          ///< of law_, by its own places [unknowns x 4]
-  Eigen::MatrixXd jacobian_;
+  Eigen::MatrixXd jacobian_;        ///< in its factors
+  std::vector<Eigen::Index> pivots_;
   Eigen::VectorXd result_;
 };
 

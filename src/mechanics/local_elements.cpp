@@ -42,7 +42,7 @@ class ElementLaw final : public LocalLaw {
     const FilmForce<double> force = element_.force(
         LocalMotion<double>{at.place[0], at.place[1], at.rate[0], at.rate[1], at.speed});
     out.force = {force.x, force.y};
-    out.size = std::hypot(force.x, force.y);
+    out.size = std::fabs(force.x) + std::fabs(force.y);
     return true;
   }
 

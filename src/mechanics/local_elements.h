@@ -13,7 +13,6 @@
 // that turn many times within a step would not feel it otherwise.
 #pragma once
 
-#include <cmath>
 #include <memory>
 
 #include "mechanics/elementary.h"
@@ -73,8 +72,9 @@ struct OilFilm {
 
   /// [N s/m], of the rotor: the force is without it.
   double linearDamping() const {
-    return kQuarterTurn * bearing.viscosity * 0.5 * bearing.diameter *
-           std::pow(bearing.length / bearing.clearance, 3);
+    const double slenderness = bearing.length / bearing.clearance;
+    return kQuarterTurn * bearing.viscosity * 0.5 * bearing.diameter * slenderness * slenderness *
+           slenderness;
   }
 
   template <class S>
