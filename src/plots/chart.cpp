@@ -56,7 +56,9 @@ std::string figureImage(const Figure& figure, ImageFormat format) {
       format == ImageFormat::kSvg ? kMostSpots : std::numeric_limits<std::size_t>::max();
   std::size_t all_series = 0;
   for (const Chart& chart : figure.charts) {
-    all_series += chart.series.size();
+    all_series += static_cast<std::size_t>(
+        std::count_if(chart.series.begin(), chart.series.end(),
+                      [](const Series& series) { return !series.fill; }));  // of areas all stay
   }
   std::vector<ChartDrawing> drawings;
   drawings.reserve(figure.charts.size());

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "reports/monitored_log.h"
+#include "reports/report_page.h"
 #include "reports/spectrum_figures.h"
 
 namespace whirl_twin {
@@ -87,13 +88,6 @@ bool any(const std::vector<double>& values) {
   return std::any_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
 }
 
-/// Inline, without what stands before the picture in a file of its own.
-std::string inlined(const Figure& figure) {
-  const std::string file = figureImage(figure, ImageFormat::kSvg);
-  const std::size_t start = file.find("<svg");
-  return start == std::string::npos ? "" : file.substr(start);
-}
-
 /// A table of what the run-ups have passed; "" without.
 std::string resonancesPart(const SystemCourse& system) {
   if (system.resonances.empty()) {
@@ -117,8 +111,9 @@ std::string resonancesPart(const SystemCourse& system) {
   return out + "</table>\n";
 }
 
-/// Cascade and full spectrum, and what their lines are; "" where the states are too few.
-std::string spectraPart(const SystemCourse& system) {
+/// Cascade and full spectrum, and what their lines are; "" where the states are too few. Counts
+/// the pictures of the page.
+std::string spectraPart(const SystemCourse& system, int& pictures) {
   Figure figure;
   figure.width = 940;
   figure.chart_height = 460;
@@ -131,7 +126,7 @@ std::string spectraPart(const SystemCourse& system) {
   if (figure.charts.empty()) {
     return "";
   }
-  std::string out = inlined(figure) + "\n";
+  std::string out = inlinedPicture(figure, ++pictures) + "\n";
   std::string said = subsynchronousText(system.spectra);
   if (system.spectrum && !system.spectrum->lines.empty()) {
     std::string lines;
@@ -265,14 +260,16 @@ std::string page(const MonitoredLog& run) {
         system.least_verdict.empty() ? "not judged" : escaped(system.least_verdict));
   }
   out += "</table>\n";
+  int pictures = 0;
   for (const SystemCourse& system : run.systems) {
     const Figure drawn = figure(run, system);
     if (!drawn.charts.empty()) {
-      out += fmt::format("<h2>{}</h2>\n{}\n", escaped(system.name), inlined(drawn));
+      out +=
+          fmt::format("<h2>{}</h2>\n{}\n", escaped(system.name), inlinedPicture(drawn, ++pictures));
       if (!system.orders.speed.empty()) {
-        out += inlined(bode(system.orders)) + "\n";
+        out += inlinedPicture(bode(system.orders), ++pictures) + "\n";
       }
-      out += resonancesPart(system) + spectraPart(system);
+      out += resonancesPart(system) + spectraPart(system, pictures);
     }
   }
   return out + "</body></html>\n";

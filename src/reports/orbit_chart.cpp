@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kOrbitPoints = 181;
+constexpr std::size_t kMostOrbits = 24;  // along a shaft
 
 /// One turn of the shaft, from an angle of it on [rad]: x along, y up [m].
 Series orbitPath(const Orbit& orbit, double start) {
@@ -27,18 +28,6 @@ Series orbitPath(const Orbit& orbit, double start) {
 Pen penOf(const Orbit& orbit) {
   const bool forward = std::abs(orbit.forward) >= std::abs(orbit.backward);
   return {forward ? ink::kBlue : ink::kVermilion, 1.8};
-}
-
-/// Where the paths begin: the shaft at one instant.
-Series startsOf(const std::vector<Series>& paths) {
-  Series mark{"the shaft at one instant", {}, {}, Pen{ink::kBlack, 1.2}};
-  for (const Series& path : paths) {
-    mark.x.push_back(path.x.front());
-    mark.y.push_back(path.y.front());
-  }
-  constexpr std::size_t kMostDots = 24;
-  mark.marks = paths.size() <= kMostDots ? Marks::kDots : Marks::kNone;
-  return mark;
 }
 
 /// Stations in order along the shaft; empty where they are not apart.
@@ -74,26 +63,33 @@ Chart orbitsAlongShaft(const std::vector<Orbit>& orbits, const std::vector<Stati
   chart.x = {"along the shaft (m); x of the orbits is drawn aslant", false, true};
   chart.y.label = "y";
   bool named[2] = {false, false};
-  std::vector<Series> paths;
-  for (const std::size_t i : order) {
+  Series shaft{"the shaft at one instant", {}, {}, Pen{ink::kBlack, 1.2}};
+  const std::size_t stride = 1 + (order.size() - 1) / kMostOrbits;
+  shaft.marks = stride == 1 ? Marks::kDots : Marks::kNone;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const std::size_t i = order[k];
     const Orbit& orbit = orbits[i];
     Series path = orbitPath(orbit, highest);
     for (double& x : path.x) {
       x = position(i) + slant * x;
+    }
+    shaft.x.push_back(path.x.front());
+    shaft.y.push_back(path.y.front());
+    if (k % stride != 0) {
+      continue;
     }
     path.pen = penOf(orbit);
     const bool forward = std::abs(orbit.forward) >= std::abs(orbit.backward);
     bool& done = named[forward ? 0 : 1];
     path.name = done ? "" : forward ? "forward" : "backward";
     done = true;
-    paths.push_back(path);
+    chart.series.push_back(path);
   }
-  chart.series = paths;
   chart.series.push_back({"axis",
                           {position(order.front()), position(order.back())},
                           {0.0, 0.0},
                           Pen{ink::kGrey, 1.2, {8.0, 4.0}}});
-  chart.series.push_back(startsOf(paths));
+  chart.series.push_back(shaft);
   return chart;
 }
 
@@ -107,10 +103,14 @@ Chart orbitsInOnePlane(const std::vector<Orbit>& orbits, const std::vector<Stati
     path.name = fmt::format("{}, {}", stations[i].name, name(orbits[i].direction()));
     chart.series.push_back(path);
   }
-  Series mark = startsOf(chart.series);
-  mark.name.clear();
-  mark.line = false;
-  chart.series.push_back(mark);
+  Series starts{"", {}, {}, Pen{ink::kBlack, 1.2}};
+  for (const Series& path : chart.series) {
+    starts.x.push_back(path.x.front());
+    starts.y.push_back(path.y.front());
+  }
+  starts.line = false;
+  starts.marks = Marks::kDots;
+  chart.series.push_back(starts);
   return chart;
 }
 

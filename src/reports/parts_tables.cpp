@@ -25,6 +25,17 @@ bool alike(const ShaftSection& a, const ShaftSection& b) {
          a.axial_force == b.axial_force && density(a) == density(b);
 }
 
+/// The same sleeve over the next element.
+bool continues(const ShaftSleeve& a, const ShaftSleeve& b) {
+  const ShaftSection& first = a.layer.section;
+  const ShaftSection& second = b.layer.section;
+  return b.element == a.element + 1 && !first.tapers() && !second.tapers() &&
+         first.outer_diameter == second.outer_diameter &&
+         first.inner_diameter == second.inner_diameter &&
+         a.layer.material.density == b.layer.material.density &&
+         a.layer.stiffness == b.layer.stiffness;
+}
+
 Rows elementRows(const FlexibleShaft& shaft) {
   Rows rows;
   for (std::size_t first = 0; first < shaft.elements.size();) {
@@ -71,12 +82,19 @@ std::vector<PartsTable> partsTables(const FlexibleShaft& shaft, double speed) {
       "Sleeves",
       {"nodes", "outer diameter, m", "inner diameter, m", "density, kg/m³", "share of stiffness"},
       {}};
-  for (const ShaftSleeve& sleeve : shaft.sleeves) {
+  for (std::size_t first = 0; first < shaft.sleeves.size();) {
+    std::size_t end = first + 1;
+    while (end < shaft.sleeves.size() && continues(shaft.sleeves[end - 1], shaft.sleeves[end])) {
+      ++end;
+    }
+    const ShaftSleeve& sleeve = shaft.sleeves[first];
     const ShaftSection& section = sleeve.layer.section;
-    sleeves.rows.push_back({fmt::format("{} to {}", sleeve.element, sleeve.element + 1),
-                            diameter(section.outer_diameter, section.outer_growth),
-                            diameter(section.inner_diameter, section.inner_growth),
-                            number(sleeve.layer.material.density), number(sleeve.layer.stiffness)});
+    sleeves.rows.push_back(
+        {fmt::format("{} to {}", sleeve.element, shaft.sleeves[end - 1].element + 1),
+         diameter(section.outer_diameter, section.outer_growth),
+         diameter(section.inner_diameter, section.inner_growth),
+         number(sleeve.layer.material.density), number(sleeve.layer.stiffness)});
+    first = end;
   }
   PartsTable discs{
       "Discs",

@@ -89,11 +89,13 @@ class RotorReport {
 
   void start() {
     const double low = system_.lowest_speed, high = system_.highest_speed;
-    page_.text(
-        fmt::format("{}, running from {:.5g} to {:.5g} rad/s ({} to {} rpm). Modes and stability "
-                    "at {:.5g} rad/s "
-                    "({} rpm). SI units: m, kg, s, N, rad.",
-                    system_.model, low, high, rpm(low), rpm(high), speed_, rpm(speed_)));
+    const std::string runs = low == high
+                                 ? fmt::format("running at {:.5g} rad/s ({} rpm)", high, rpm(high))
+                                 : fmt::format("running from {:.5g} to {:.5g} rad/s ({} to {} rpm)",
+                                               low, high, rpm(low), rpm(high));
+    page_.text(fmt::format(
+        "{}, {}. Modes and stability at {:.5g} rad/s ({} rpm). SI units: m, kg, s, N, rad.",
+        system_.model, runs, speed_, rpm(speed_)));
     const std::string& note = built().setup().note;
     if (!note.empty()) {
       page_.text("As it is stepped: " + note + ".");

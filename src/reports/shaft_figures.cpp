@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ namespace {
 constexpr int kWidth = 1000;       // px
 constexpr double kMargins = 80.0;  // px, beside the chart
 constexpr double kAround = 90.0;   // px, above and below it
+constexpr double kCarries = 0.05;  // of the weight: a bearing that is marked
 constexpr double kNamed = 14.0;    // node numbers along the shaft, at most
 
 Chart alongShaft(const char* label) {
@@ -94,7 +96,8 @@ Figure staticsFigure(const RotorSheet& sheet) {
   moment.series = {lineAtZero(sheet), bends};
   std::vector<int> named;
   for (const BearingLoad& bearing : sheet.statics->bearings) {
-    if (std::find(named.begin(), named.end(), bearing.node) == named.end()) {
+    const bool carries = std::fabs(bearing.force.y) > kCarries * sheet.body.mass * sheet.gravity;
+    if (carries && std::find(named.begin(), named.end(), bearing.node) == named.end()) {
       named.push_back(bearing.node);
       const double at = sheet.statics->nodes[static_cast<std::size_t>(bearing.node)].position;
       sag.vertical.push_back({at, fmt::format("bearing at node {}", bearing.node)});
