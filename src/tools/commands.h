@@ -35,6 +35,7 @@ void addLogCommand(CLI::App& twin, int& status);
 void addExportCommand(CLI::App& twin, int& status);
 void addRecordCommand(CLI::App& twin, int& status);
 void addPlayCommand(CLI::App& twin, int& status);
+void addSpyCommand(CLI::App& twin, int& status);
 void addFitCommand(CLI::App& twin, int& status);
 void addFollowCommand(CLI::App& twin, int& status);
 void addStabilityCommand(CLI::App& twin, int& status);

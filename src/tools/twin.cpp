@@ -120,6 +120,7 @@ int run(int argc, const char* const* argv) {
   addLogCommand(twin, status);
   addRecordCommand(twin, status);
   addPlayCommand(twin, status);
+  addSpyCommand(twin, status);
   addExportCommand(twin, status);
   addMonitorCommand(twin, status);
   addFitCommand(twin, status);

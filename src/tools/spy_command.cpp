@@ -1,0 +1,231 @@
+// `twin spy`.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "messages/names.h"
+#include "messages/refusal.h"
+#include "reports/live_lines.h"
+#include "reports/message_text.h"
+#include "reports/output.h"
+#include "tools/channel_filter.h"
+#include "tools/commands.h"
+#include "tools/interrupt.h"
+#include "transport/channel_counts.h"
+#include "transport/channel_tap.h"
+#include "transport/lcm_connection.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr const char* kDescription =
+    "Shows live what is on LCM: channels, rates, sizes, losses, and what was said last.";
+
+constexpr const char* kFooter =
+    "In a terminal it is drawn anew five times a second, until Ctrl-C; into a file or a pipe a "
+    "table\n"
+    "goes every second. Of the twin's own types the newest message is shown field by field, of "
+    "others\n"
+    "the size; `lost` is what is missing by the steps. Rates are of the last second, those of "
+    "--json\n"
+    "and --once of all of the time. Another twin's fields: --lcm-prefix PLANT_. Exit status: 0 "
+    "something\n"
+    "came, 1 nothing, 2 bad input.\n"
+    "\n"
+    "Examples:\n"
+    "  twin spy\n"
+    "  twin spy --channel '*_WHIRL' --once\n"
+    "  twin spy --duration 10 --json";
+
+using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+struct Request {
+  std::string url = kDefaultLcmUrl;
+  std::string lcm_prefix = kDefaultLcmPrefix;
+  std::optional<double> duration;  // s
+  ChannelFilter channels;
+  bool once = false;
+  bool json = false;
+};
+
+/// How much has come on a channel, or came a second.
+struct Flow {
+  double events = 0.0;
+  double bytes = 0.0;
+};
+
+using Flows = std::map<std::string, Flow>;
+
+class Spy {
+ public:
+  explicit Spy(const Request& request)
+      : request_(request),
+        counts_(request.lcm_prefix),
+        tap_(openLcm(request.url), ".*",
+             [this](const std::string& channel, std::int64_t received, const std::uint8_t* data,
+                    std::size_t size) {
+               if (selects(request_.channels, channel)) {
+                 counts_.add(channel, received, data, size);
+               }
+             }) {}
+
+  void watch() {
+    const bool live = !request_.json && !request_.once;
+    const double between = lines_.onTerminal() ? 0.2 : 1.0;  // s
+    auto drawn = begin_;
+    while (!interrupted() && !isOver()) {
+      tap_.receive(std::chrono::milliseconds(50));
+      if (since(measured_) >= 1.0) {
+        measure();
+      }
+      if (live && since(drawn) >= between) {
+        drawn = Clock::now();
+        lines_.show(table(rates_));
+      }
+    }
+    constexpr int kAll = 100000;
+    tap_.receive(std::chrono::microseconds(0), kAll);  // what arrived before the end
+    if (request_.json) {
+      printJson(json());
+    } else {
+      lines_.show(table(live ? rates_ : meanRates()));
+    }
+  }
+
+  const ChannelCounts& counts() const { return counts_; }
+
+ private:
+  bool isOver() const {
+    const std::optional<double> duration =
+        request_.once && !request_.duration ? 1.0 : request_.duration;
+    return duration && since(begin_) >= *duration;
+  }
+
+  Flows totals() const {
+    Flows all;
+    for (const auto& [channel, count] : counts_.channels()) {
+      all[channel] = {static_cast<double>(count.events), static_cast<double>(count.bytes)};
+    }
+    return all;
+  }
+
+  void measure() {
+    const double time = since(measured_);
+    measured_ = Clock::now();
+    const Flows now = totals();
+    for (const auto& [channel, total] : now) {
+      const Flow before = before_[channel];
+      rates_[channel] = {(total.events - before.events) / time,
+                         (total.bytes - before.bytes) / time};
+    }
+    before_ = now;
+  }
+
+  Flows meanRates() const {
+    Flows all = totals();
+    for (auto& [channel, flow] : all) {
+      flow.events /= since(begin_);
+      flow.bytes /= since(begin_);
+    }
+    return all;
+  }
+
+  std::vector<std::string> table(const Flows& rates) const {
+    Flow sum;
+    for (const auto& [channel, rate] : rates) {
+      sum.events += rate.events;
+      sum.bytes += rate.bytes;
+    }
+    std::vector<std::string> lines{
+        fmt::format("{:.1f} s: {} events, {} lost, {} corrupt; now {:.1f} /s, {:.1f} kB/s",
+                    since(begin_), counts_.events(), counts_.lost(), counts_.rejected(), sum.events,
+                    1.0e-3 * sum.bytes),
+        fmt::format("{:<28} {:<10} {:>8} {:>8} {:>7} {:>6}  {}", "channel", "kind", "1/s", "kB/s",
+                    "bytes", "lost", "last")};
+    for (const auto& [channel, count] : counts_.channels()) {
+      const auto found = rates.find(channel);
+      const Flow rate = found == rates.end() ? Flow{} : found->second;
+      std::string last = count.newest ? messageText(*count.newest) : "";
+      if (count.rejected > 0) {
+        last = fmt::format("{} corrupt; {}", count.rejected, last);
+      }
+      lines.push_back(fmt::format("{:<28} {:<10} {:>8.1f} {:>8.1f} {:>7} {:>6}  {}",
+                                  printable(channel, kMaxChannelLength), count.kind, rate.events,
+                                  1.0e-3 * rate.bytes, count.bytes / count.events,
+                                  count.steps.lost(), last));
+    }
+    return lines;
+  }
+
+  Json json() const {
+    Json json = {{"duration", since(begin_)},
+                 {"events", counts_.events()},
+                 {"lost", counts_.lost()},
+                 {"rejected", counts_.rejected()},
+                 {"channels", Json::object()}};
+    const Flows rates = meanRates();
+    for (const auto& [channel, count] : counts_.channels()) {
+      json["channels"][printable(channel, kMaxChannelLength)] = {
+          {"kind", count.kind},
+          {"events", count.events},
+          {"bytes", count.bytes},
+          {"rate", rates.at(channel).events},
+          {"lost", count.steps.lost()},
+          {"repeated", count.steps.repeated()},
+          {"rejected", count.rejected},
+          {"last", count.newest ? messageJson(*count.newest) : Json()}};
+    }
+    return json;
+  }
+
+  const Request& request_;
+  LiveLines lines_;
+  ChannelCounts counts_;
+  Clock::time_point begin_ = Clock::now();
+  Clock::time_point measured_ = begin_;
+  Flows before_, rates_;
+  ChannelTap tap_;  // last: it calls counts_
+};
+
+int spy(const Request& request) {
+  requireLcmPrefix(request.lcm_prefix);
+  if (request.duration && !(*request.duration > 0.0 && std::isfinite(*request.duration))) {
+    throw Refusal(fmt::format("--duration: must be above 0 s, found {:g}", *request.duration));
+  }
+  catchInterrupts();
+  Spy spy(request);
+  complain(fmt::format("twin spy: listening to {}\n", request.url));
+  spy.watch();
+  return spy.counts().events() > 0 ? kDone : kFailed;
+}
+
+}  // namespace
+
+void addSpyCommand(CLI::App& twin, int& status) {
+  CLI::App* command = twin.add_subcommand("spy", kDescription);
+  const auto request = std::make_shared<Request>();
+  command->add_option("--duration", request->duration, "s, wall time; default: until Ctrl-C")
+      ->type_name("S");
+  command->add_flag("--once", request->once, "one table, of one second or of --duration");
+  addChannelOption(command, request->channels);
+  command->add_option("--lcm-url", request->url, std::string("default: ") + kDefaultLcmUrl)
+      ->type_name("URL");
+  command
+      ->add_option("--lcm-prefix", request->lcm_prefix,
+                   "what the channels of the twin begin with; default: TWIN_")
+      ->type_name("PREFIX");
+  command->add_flag("--json", request->json, "print one JSON object at the end");
+  command->footer(kFooter);
+  command->callback([request, &status] { status = spy(*request); });
+}
+
+}  // namespace whirl_twin
