@@ -17,7 +17,7 @@ _twin() {
       *' --results' | *' --'[ailmopstw]*) ;; # a value of its own, mostly a file
       'models '* | 'new '*) words=$(twin models | sed -nE 's/^([a-z0-9_]+): .*/\1/p') ;;
       'controllers '*) words=$(twin controllers | sed -nE 's/^([a-z0-9_]+): .*/\1/p') ;;
-      'routh '* | 'log '* | 'record '* | 'play '* | 'spy '* | 'export '* | 'import '* | 'fit '* | 'sweep '* | 'scenes '*) ;;
+      'routh '* | 'log '* | 'record '* | 'play '* | 'spy '* | 'watch '* | 'export '* | 'import '* | 'fit '* | 'sweep '* | 'scenes '*) ;;
       *) words=$(_twin_scenes) ;;
     esac
   fi

@@ -36,6 +36,7 @@ void addExportCommand(CLI::App& twin, int& status);
 void addRecordCommand(CLI::App& twin, int& status);
 void addPlayCommand(CLI::App& twin, int& status);
 void addSpyCommand(CLI::App& twin, int& status);
+void addWatchCommand(CLI::App& twin, int& status);
 void addFitCommand(CLI::App& twin, int& status);
 void addFollowCommand(CLI::App& twin, int& status);
 void addStabilityCommand(CLI::App& twin, int& status);

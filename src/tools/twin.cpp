@@ -121,6 +121,7 @@ int run(int argc, const char* const* argv) {
   addRecordCommand(twin, status);
   addPlayCommand(twin, status);
   addSpyCommand(twin, status);
+  addWatchCommand(twin, status);
   addExportCommand(twin, status);
   addMonitorCommand(twin, status);
   addFitCommand(twin, status);

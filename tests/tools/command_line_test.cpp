@@ -14,10 +14,10 @@ bool contains(const std::string& text, const std::string& part) {
 
 /// In the order of `twin --help`.
 constexpr const char* kCommands[] = {
-    "check",  "scenes",  "models",   "controllers", "new",      "import", "simulate",
-    "plot",   "analyze", "campbell", "response",    "orbit",    "map",    "stability",
-    "report", "loop",    "modes",    "balance",     "tradeoff", "sweep",  "routh",
-    "log",    "record",  "play",     "spy",         "export",   "monitor", "fit", "follow"};
+    "check",   "scenes",   "models",   "controllers", "new",   "import",    "simulate", "plot",
+    "analyze", "campbell", "response", "orbit",       "map",   "stability", "report",   "loop",
+    "modes",   "balance",  "tradeoff", "sweep",       "routh", "log",       "record",   "play",
+    "spy",     "watch",    "export",   "monitor",     "fit",   "follow"};
 
 /// "; there are: check, scenes, ...", as it is said where a command is none.
 std::string thereAre() {
@@ -55,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(Commands, CommandHelp,
                                          "analyze", "campbell", "response", "orbit", "map",
                                          "stability", "report", "loop", "modes", "balance",
                                          "tradeoff", "sweep", "routh", "log", "record", "play",
-                                         "spy", "export", "monitor", "follow"));
+                                         "spy", "watch", "export", "monitor", "follow"));
 
 TEST(CommandLine, TheVersionIsThatOfThePackage) {
   const std::string package = contentsOf(WHIRL_TWIN_SOURCE "/package.xml");

@@ -1,0 +1,277 @@
+// `twin watch`.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "messages/refusal.h"
+#include "reports/live_lines.h"
+#include "reports/message_text.h"
+#include "reports/output.h"
+#include "tools/commands.h"
+#include "tools/interrupt.h"
+#include "transport/lcm_connection.h"
+#include "transport/lcm_receiver.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr const char* kDescription =
+    "Watches a running twin in the terminal, by LCM: its loop, its systems, its alarms.";
+
+constexpr const char* kFooter =
+    "In a terminal it is drawn anew five times a second, until Ctrl-C; into a file or a pipe it "
+    "goes\n"
+    "every second. Of alerts it knows those that were raised or changed while it watched; how "
+    "many\n"
+    "stand is told by the monitor. Exit status: 0 a twin was heard, 1 none, 2 bad input.\n"
+    "\n"
+    "Examples:\n"
+    "  twin watch\n"
+    "  twin watch --lcm-prefix PLANT_\n"
+    "  twin watch --duration 3 --json";
+
+using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+struct Request {
+  std::string url = kDefaultLcmUrl;
+  std::string lcm_prefix = kDefaultLcmPrefix;
+  std::optional<double> duration;  // s
+  bool json = false;
+};
+
+/// The newest of a kind, and when it came.
+template <class State>
+struct Heard {
+  std::optional<State> newest;
+  Clock::time_point at{};
+
+  void take(const State& state) {
+    newest = state;
+    at = Clock::now();
+  }
+  /// [s], of those that come once a second; "" while they do.
+  std::string silence(const char* who) const {
+    constexpr double kPatience = 3.0;  // s
+    return since(at) > kPatience ? fmt::format("{} is silent for {:.0f} s", who, since(at)) : "";
+  }
+};
+
+struct System {
+  std::optional<state::WhirlState> whirl;
+  std::optional<state::PendulumState> pendulum;
+  std::optional<state::StabilityMargin> margin;
+};
+
+std::string text(const System& system) {
+  std::string out;
+  const auto say = [&out](const std::string& part) { out += (out.empty() ? "" : ", ") + part; };
+  if (system.whirl) {
+    constexpr double kRpm = 60.0 / (2.0 * 3.14159265358979323846);
+    say(fmt::format("speed {:.2f} rad/s ({:.1f} rpm), whirl {:.1f} um", system.whirl->speed,
+                    kRpm * system.whirl->speed, 1.0e6 * system.whirl->radius));
+  }
+  if (system.pendulum) {
+    for (std::size_t i = 0; i < system.pendulum->name.size(); ++i) {
+      say(fmt::format("{} {:.4g}", system.pendulum->name[i], system.pendulum->angle[i]));
+    }
+  }
+  if (system.margin) {
+    say(system.margin->verdict_name);
+    if (std::isfinite(system.margin->decay_rate)) {
+      say(fmt::format("decay rate {:.3g} 1/s", system.margin->decay_rate));
+    }
+  }
+  return out;
+}
+
+std::string text(const state::Alert& alert) {
+  constexpr const char* kSeverities[] = {"INFO", "WARNING", "DANGER"};
+  return fmt::format("  {} since {:.3f} s: {}{}", kSeverities[static_cast<int>(alert.severity)],
+                     alert.raised_time, alert.text, alert.acknowledged ? " (acknowledged)" : "");
+}
+
+class Watch {
+ public:
+  explicit Watch(const Request& request)
+      : request_(request),
+        receiver_(
+            openLcm(request.url),
+            kindsOf<state::LoopStatistics, state::WhirlState, state::PendulumState,
+                    state::StabilityMargin, state::Alert, state::MonitorStatus>(),
+            [this](const Message& message) {
+              std::visit([this](const auto& state) { take(state); }, message);
+            },
+            request.lcm_prefix) {}
+
+  void watch() {
+    const double between = lines_.onTerminal() ? 0.2 : 1.0;  // s
+    const auto begin = Clock::now();
+    auto drawn = begin;
+    while (!interrupted() && !(request_.duration && since(begin) >= *request_.duration)) {
+      receiver_.receive(std::chrono::milliseconds(50));
+      if (!request_.json && since(drawn) >= between) {
+        drawn = Clock::now();
+        lines_.show(lines());
+      }
+    }
+    if (request_.json) {
+      printJson(json());
+    }
+  }
+
+  bool heard() const { return receiver_.received() > 0; }
+
+ private:
+  void take(const state::LoopStatistics& loop) { loop_.take(loop); }
+  void take(const state::MonitorStatus& monitor) { monitor_.take(monitor); }
+  void take(const state::WhirlState& whirl) {
+    systems_[whirl.system].whirl = whirl;
+    time_ = whirl.at.time;
+  }
+  void take(const state::PendulumState& pendulum) {
+    systems_[pendulum.system].pendulum = pendulum;
+    time_ = pendulum.at.time;
+  }
+  void take(const state::StabilityMargin& margin) { systems_[margin.system].margin = margin; }
+  void take(const state::Alert& alert) {
+    if (alert.raised) {
+      alerts_[alert.id] = alert;
+    } else {
+      alerts_.erase(alert.id);
+    }
+  }
+  template <class State>
+  void take(const State&) {}  // not asked for
+
+  std::vector<std::string> lines() const {
+    if (!heard()) {
+      return {fmt::format("nothing heard of {}* on {}", request_.lcm_prefix, request_.url)};
+    }
+    std::vector<std::string> lines{fmt::format("{:.3f} s", time_)};
+    addLoop(lines);
+    for (const auto& [name, system] : systems_) {
+      lines.push_back(name + ": " + text(system));
+    }
+    addMonitor(lines);
+    return lines;
+  }
+
+  void addLoop(std::vector<std::string>& lines) const {
+    if (!loop_.newest) {
+      return;
+    }
+    const state::LoopStatistics& loop = *loop_.newest;
+    const std::string silence = loop_.silence("the simulation");
+    lines.push_back(fmt::format("loop: {}, step {:g} ms, {} {}, real-time factor {:.3g}",
+                                !silence.empty() ? silence
+                                : loop.paused    ? "paused"
+                                                 : "running",
+                                1.0e3 * loop.step_size, loop.policy, loop.priority,
+                                loop.achieved_factor));
+    lines.push_back(fmt::format(
+        "  woken late p99 {:.0f} us, at most {:.0f} us; a step takes p99 {:.0f} us, at most {:.0f} "
+        "us",
+        1.0e6 * loop.wakeup_latency_p99, 1.0e6 * loop.wakeup_latency_max,
+        1.0e6 * loop.execution_p99, 1.0e6 * loop.execution_max));
+    lines.push_back(fmt::format(
+        "  {} overruns ({} woken late), {} steps skipped, {} states not published, {} not sent on "
+        "LCM, {} lost by subscribers",
+        loop.overruns, loop.late_wakeups, loop.skipped_steps, loop.dropped_snapshots,
+        loop.lcm_failed, loop.ros_lost));
+    for (std::size_t i = 0; i < loop.system.size(); ++i) {
+      if (loop.stopped[i] != 0) {
+        lines.push_back(fmt::format("  STOPPED: {}", loop.stopped_why[i]));
+      }
+    }
+  }
+
+  void addMonitor(std::vector<std::string>& lines) const {
+    if (!monitor_.newest) {
+      lines.push_back("monitor: none heard");
+      return;
+    }
+    const state::MonitorStatus& monitor = *monitor_.newest;
+    const std::string silence = monitor_.silence("the monitor");
+    lines.push_back(
+        silence.empty()
+            ? fmt::format("monitor: {} alerts stand, {} of them DANGER; {:.1f} % of a core",
+                          monitor.alerts, monitor.dangers, 100.0 * monitor.load)
+            : "monitor: " + silence + ", nothing is being watched");
+    for (const auto& [id, alert] : alerts_) {
+      lines.push_back(text(alert));
+    }
+  }
+
+  Json json() const {
+    Json json = {{"time", time_},
+                 {"loop", loop_.newest ? messageJson(*loop_.newest) : Json()},
+                 {"monitor", monitor_.newest ? messageJson(*monitor_.newest) : Json()},
+                 {"systems", Json::object()},
+                 {"alerts", Json::array()}};
+    for (const auto& [name, system] : systems_) {
+      Json& one = json["systems"][name] = Json::object();
+      const auto add = [&one](const char* kind, const auto& state) {
+        if (state) {
+          one[kind] = messageJson(*state);
+        }
+      };
+      add("whirl", system.whirl);
+      add("pendulum", system.pendulum);
+      add("stability", system.margin);
+    }
+    for (const auto& [id, alert] : alerts_) {
+      json["alerts"].push_back(messageJson(alert));
+    }
+    return json;
+  }
+
+  const Request& request_;
+  LiveLines lines_;
+  double time_ = 0.0;  ///< [s], simulated
+  Heard<state::LoopStatistics> loop_;
+  Heard<state::MonitorStatus> monitor_;
+  std::map<std::string, System> systems_;
+  std::map<std::uint32_t, state::Alert> alerts_;
+  LcmReceiver receiver_;  // last: it calls take()
+};
+
+int watch(const Request& request) {
+  requireLcmPrefix(request.lcm_prefix);
+  if (request.duration && !(*request.duration > 0.0 && std::isfinite(*request.duration))) {
+    throw Refusal(fmt::format("--duration: must be above 0 s, found {:g}", *request.duration));
+  }
+  catchInterrupts();
+  Watch watch(request);
+  complain(fmt::format("twin watch: listening to {} for {}*\n", request.url, request.lcm_prefix));
+  watch.watch();
+  return watch.heard() ? kDone : kFailed;
+}
+
+}  // namespace
+
+void addWatchCommand(CLI::App& twin, int& status) {
+  CLI::App* command = twin.add_subcommand("watch", kDescription);
+  const auto request = std::make_shared<Request>();
+  command->add_option("--duration", request->duration, "s, wall time; default: until Ctrl-C")
+      ->type_name("S");
+  command->add_option("--lcm-url", request->url, std::string("default: ") + kDefaultLcmUrl)
+      ->type_name("URL");
+  command
+      ->add_option("--lcm-prefix", request->lcm_prefix,
+                   "what the channels of the twin begin with; default: TWIN_")
+      ->type_name("PREFIX");
+  command->add_flag("--json", request->json, "print one JSON object at the end");
+  command->footer(kFooter);
+  command->callback([request, &status] { status = watch(*request); });
+}
+
+}  // namespace whirl_twin
