@@ -84,6 +84,16 @@ TEST(Map, GoesFromTheRigidBodyToTheShaftBetweenPins) {
   EXPECT_GT(at["critical_speeds"][0][1].get<double>(), 86.7);
 }
 
+// Fourteen nodes are held; the two that carry the rotor are varied, its seals are not.
+TEST(Map, LeavesSealsOut) {
+  const Json rotor = rotorOf(
+      twin({"map", WHIRL_TWIN_SOURCE "/config/scenes/compressor.yaml", "--points", "5", "--json"}));
+  ASSERT_EQ(rotor["bearings"].size(), 2u);
+  EXPECT_EQ(rotor["bearings"][0]["node"], 6);
+  EXPECT_EQ(rotor["bearings"][1]["node"], 52);
+  EXPECT_EQ(rotor["left_out"].size(), 12u);
+}
+
 TEST(Map, IsOfFlexibleRotors) {
   const Ending end = twin({"map", kDemo});
   EXPECT_EQ(end.status, 2);
