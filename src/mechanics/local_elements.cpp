@@ -40,7 +40,7 @@ class ElementLaw final : public LocalLaw {
       return false;
     }
     const FilmForce<double> force = element_.force(
-        LocalMotion<double>{at.place[0], at.place[1], at.rate[0], at.rate[1], at.speed});
+        PushedMotion<double>{at.place[0], at.place[1], at.rate[0], at.rate[1], at.speed});
     out.force = {force.x, force.y};
     out.size = std::fabs(force.x) + std::fabs(force.y);
     return true;
@@ -49,8 +49,8 @@ class ElementLaw final : public LocalLaw {
   LocalSlopes slopes(const LocalState& at) const noexcept override {
     using Dual = Gradient<double, 4>;
     const FilmForce<Dual> force =
-        element_.force(LocalMotion<Dual>{Dual(at.place[0], 0), Dual(at.place[1], 1),
-                                         Dual(at.rate[0], 2), Dual(at.rate[1], 3), at.speed});
+        element_.force(PushedMotion<Dual>{Dual(at.place[0], 0), Dual(at.place[1], 1),
+                                          Dual(at.rate[0], 2), Dual(at.rate[1], 3), at.speed});
     LocalSlopes slopes;
     slopes.stiffness << -force.x.slope[0], -force.x.slope[1], -force.y.slope[0], -force.y.slope[1];
     slopes.damping << -force.x.slope[2], -force.x.slope[3], -force.y.slope[2], -force.y.slope[3];

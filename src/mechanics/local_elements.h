@@ -24,7 +24,7 @@ namespace whirl_twin {
 
 /// Of a place x, y [m] with rates vx, vy [m/s] at a speed of the shaft [rad/s].
 template <class S>
-struct LocalMotion {
+struct PushedMotion {
   S x, y, vx, vy;
   double speed;
 };
@@ -33,7 +33,7 @@ struct CubicSpring {
   double stiffness = 0.0;  ///< [N/m^3]
 
   template <class S>
-  FilmForce<S> force(const LocalMotion<S>& at) const {
+  FilmForce<S> force(const PushedMotion<S>& at) const {
     const S pull = -stiffness * (at.x * at.x + at.y * at.y);
     return {pull * at.x, pull * at.y};
   }
@@ -49,7 +49,7 @@ struct Rub {
   double radius = 0.0;     ///< [m], of the surface that rubs
 
   template <class S>
-  FilmForce<S> force(const LocalMotion<S>& at) const {
+  FilmForce<S> force(const PushedMotion<S>& at) const {
     const S squared = at.x * at.x + at.y * at.y;
     if (!(squared > clearance * clearance)) {
       return {S(0.0), S(0.0)};
@@ -78,7 +78,7 @@ struct OilFilm {
   }
 
   template <class S>
-  FilmForce<S> force(const LocalMotion<S>& at) const {
+  FilmForce<S> force(const PushedMotion<S>& at) const {
     const FilmForce<S> film = bearing.force(at.x, at.y, at.vx, at.vy, S(turns ? at.speed : 0.0));
     const double damping = linearDamping();
     return {film.x + damping * at.vx, film.y + damping * at.vy};
