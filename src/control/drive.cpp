@@ -136,21 +136,26 @@ void Drive::beginInProfile() noexcept {
         static_cast<std::uint64_t>(until_) - static_cast<std::uint64_t>(time_);
     remaining_ = static_cast<double>(ticks) / 1e9 - next_lead_;
   }
+  within_ = kAngleUnknown;
   if (steady_) {
-    within_ = kAngleUnknown;
     return;
   }
   const Segment& segment = segments()[cursor_];
   const SpeedSegment& motion = segment.motion;
-  const SplitTime tau = later(splitTime(time_ - segment.first_tick), segment.lead);
-  angle_ = advance(segment.angle, motion.speed, motion.acceleration, motion.jerk, tau);
-  within_ = remaining_;
-  speed_ = motion.speed + tau.high * (motion.acceleration + 0.5 * tau.high * motion.jerk);
-  acceleration_ = motion.acceleration + tau.high * motion.jerk;
+  const double tau = static_cast<double>(time_ - first_tick_) / 1e9 + segment.lead;
+  speed_ = motion.speed + tau * (motion.acceleration + 0.5 * tau * motion.jerk);
+  acceleration_ = motion.acceleration + tau * motion.jerk;
 }
 
 void Drive::findAngle() const noexcept {
-  angle_ = turn_.at(time_ - first_tick_);
+  if (steady_) {
+    angle_ = turn_.at(time_ - first_tick_);
+  } else {
+    const Segment& segment = segments()[cursor_];
+    const SpeedSegment& motion = segment.motion;
+    angle_ = advance(segment.angle, motion.speed, motion.acceleration, motion.jerk,
+                     later(splitTime(time_ - first_tick_), segment.lead));
+  }
   within_ = remaining_;
 }
 

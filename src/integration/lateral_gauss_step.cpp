@@ -157,7 +157,7 @@ WHIRL_TWIN_INLINE void take(const LateralGaussStep& step, LateralGaussResult& re
     coupling[i] = r.coupling + r.coupling_slope * speed;
   }
   for (int sweep = 0; sweep < step.sweeps; ++sweep) {
-    Sums<lanes, kVectors> at{step.axes[0].deflections.data(), step.axes[1].deflections.data()};
+    Sums<lanes, kVectors> at{step.axes[0]->deflections.data(), step.axes[1]->deflections.data()};
     at.template addAll<count>(x_force, y_force, step.y);
     for (int i = 0; i < kVectors; ++i) {
       x_forces[i] = (outer_x[i] - coupling[i] * at.y[i]) + r.load[0];
@@ -165,7 +165,7 @@ WHIRL_TWIN_INLINE void take(const LateralGaussStep& step, LateralGaussResult& re
     }
   }
   constexpr int kRows = (count + 4) / lanes;
-  Sums<lanes, kRows> rates{step.axes[0].rates.data(), step.axes[1].rates.data()};
+  Sums<lanes, kRows> rates{step.axes[0]->rates.data(), step.axes[1]->rates.data()};
   rates.template addAll<count>(x_force, y_force, step.y);
   result.increment = {rates.x[kVectors][0], rates.y[kVectors][0], rates.x[kVectors][1],
                       rates.y[kVectors][1]};
@@ -183,6 +183,107 @@ WHIRL_TWIN_INLINE void take(const LateralGaussStep& step, LateralGaussResult& re
   result.work = r.mass * step.length * power;
 }
 
+/// {x[0], y[0], x[1], y[1]} as vectors of a motion.
+template <class Doubles>
+WHIRL_TWIN_INLINE void interleave(const Doubles& x, const Doubles& y, Doubles* both) {
+  if constexpr (sizeof(Doubles) == 4 * sizeof(double)) {
+    both[0] = Doubles{x[0], y[0], x[1], y[1]};
+  } else {
+    both[0] = Doubles{x[0], y[0]};
+    both[1] = Doubles{x[1], y[1]};
+  }
+}
+
+template <int lanes, int count>
+WHIRL_TWIN_INLINE StepStatus goOnWith(const LateralGaussGoOn& step, LateralMotion& motion) {
+  using Doubles = typename Vector<lanes>::Doubles;
+  constexpr int kVectors = count / lanes;
+  constexpr int kRows = (count + 4) / lanes;
+  const LateralRotor& r = step.rotor;
+  const double a = step.acceleration;
+  const auto* const nodes = reinterpret_cast<const Doubles*>(step.nodes);
+  const auto* const weights = reinterpret_cast<const Doubles*>(step.weights);
+  const auto* const columns = reinterpret_cast<const Doubles*>(step.axis.rates.data());
+  // The start first: it is there before the forces are.
+  Doubles x_sum[kRows], y_sum[kRows];
+  for (int i = 0; i < kRows; ++i) {
+    const Doubles by_place = columns[count * kRows + i];
+    const Doubles by_rate = columns[(count + 1) * kRows + i];
+    x_sum[i] = by_place * motion.y[0] + by_rate * motion.y[2];
+    y_sum[i] = by_place * motion.y[1] + by_rate * motion.y[3];
+  }
+  alignas(32) double x_force[count];
+  alignas(32) double y_force[count];
+  Doubles x_turning[kVectors], y_turning[kVectors];  // without the load
+  const LateralRotor::Complex* const e = r.eccentricity.data();
+  const LateralRotor::Complex* const b = r.bow_force.data();
+  const double x_cosine = a * e[0].imag() + b[0].real();
+  const double x_sine = b[0].imag() - a * e[0].real();
+  const double y_cosine = a * e[1].imag() + b[1].real();
+  const double y_sine = b[1].imag() - a * e[1].real();
+#pragma GCC unroll 8
+  for (int i = 0; i < kVectors; ++i) {
+    const Doubles speed = step.speed + (step.length * a) * nodes[i];
+    const Doubles square = speed * speed;
+    Doubles sine, cosine;
+    goOn<lanes>(step.phasors, i, sine, cosine);
+    x_turning[i] =
+        cosine * (square * e[0].real() + x_cosine) - sine * (square * e[0].imag() + x_sine);
+    y_turning[i] =
+        cosine * (square * e[1].real() + y_cosine) - sine * (square * e[1].imag() + y_sine);
+    reinterpret_cast<Doubles*>(x_force)[i] = x_turning[i] + r.load[0];
+    reinterpret_cast<Doubles*>(y_force)[i] = y_turning[i] + r.load[1];
+  }
+#pragma GCC unroll 4
+  for (int k = 0; k < count; ++k) {
+    for (int i = 0; i < kRows; ++i) {
+      const Doubles column = columns[k * kRows + i];
+      x_sum[i] += column * x_force[k];
+      y_sum[i] += column * y_force[k];
+    }
+  }
+  Doubles powers{};
+  for (int i = 0; i < kVectors; ++i) {
+    powers += weights[i] * (x_sum[i] * (x_turning[i] - r.damping[0] * x_sum[i]) +
+                            y_sum[i] * (y_turning[i] - r.damping[1] * y_sum[i]));
+  }
+  constexpr int kParts = 4 / lanes;
+  Doubles increment[kParts], next[kParts], corrected[kParts];
+  interleave(x_sum[kVectors], y_sum[kVectors], increment);
+  auto* const y = reinterpret_cast<Doubles*>(motion.y.data());
+  auto* const low = reinterpret_cast<Doubles*>(motion.low.data());
+  double power = 0.0;
+  for (int lane = 0; lane < lanes; ++lane) {
+    power += powers[lane];
+  }
+  Doubles none{};
+  for (int i = 0; i < kParts; ++i) {
+    corrected[i] = increment[i] + low[i];
+    next[i] = y[i] + corrected[i];
+    none += next[i] - next[i];
+  }
+  double nothing = none[0] + none[1];
+  if constexpr (lanes == 4) {
+    nothing += none[2] + none[3];
+  }
+  CompensatedSum work = motion.work;
+  work.add(r.mass * step.length * power + nothing);  // no number where one of them is none
+  if (__builtin_expect(!(work.high - work.high == 0.0), 0)) {
+    return StepStatus::kNotFinite;
+  }
+  for (int i = 0; i < kParts; ++i) {
+    low[i] = corrected[i] - (next[i] - y[i]);
+    y[i] = next[i];
+  }
+  motion.work = work;
+  return StepStatus::kOk;
+}
+
+template <int count>
+StepStatus goOnByTwos(const LateralGaussGoOn& step, LateralMotion& motion) noexcept {
+  return goOnWith<2, count>(step, motion);
+}
+
 template <int count>
 void takeByTwos(const LateralGaussStep& step, LateralGaussResult& result) noexcept {
   take<2, count>(step, result);
@@ -193,6 +294,12 @@ template <int count>
 [[gnu::target("avx2,fma")]] void takeByFours(const LateralGaussStep& step,
                                              LateralGaussResult& result) noexcept {
   take<4, count>(step, result);
+}
+
+template <int count>
+[[gnu::target("avx2,fma")]] StepStatus goOnByFours(const LateralGaussGoOn& step,
+                                                   LateralMotion& motion) noexcept {
+  return goOnWith<4, count>(step, motion);
 }
 
 bool fourWide() noexcept {
@@ -209,6 +316,15 @@ TakeLateralGaussStep lateralGaussStep(std::size_t nodes) noexcept {
   }
 #endif
   return nodes == 4 ? takeByTwos<4> : nodes == 8 ? takeByTwos<8> : takeByTwos<12>;
+}
+
+GoOnLateralGauss lateralGaussGoOn(std::size_t nodes) noexcept {
+#ifdef WHIRL_TWIN_FOUR_WIDE
+  if (fourWide()) {
+    return nodes == 4 ? goOnByFours<4> : nodes == 8 ? goOnByFours<8> : goOnByFours<12>;
+  }
+#endif
+  return nodes == 4 ? goOnByTwos<4> : nodes == 8 ? goOnByTwos<8> : goOnByTwos<12>;
 }
 
 }  // namespace whirl_twin

@@ -15,6 +15,7 @@
 #include <cstddef>
 
 #include "control/drive.h"
+#include "integration/lateral_motion.h"
 #include "integration/lateral_rotor.h"
 
 namespace whirl_twin {
@@ -48,7 +49,7 @@ struct LateralGaussStep {
   const LateralRotor& rotor;
   const double* nodes;    ///< 0..1, aligned to 32 bytes
   const double* weights;  ///< sum 1, likewise
-  const std::array<LateralGaussWeights, 2>& axes;
+  std::array<const LateralGaussWeights*, 2> axes;
   double length;      ///< [s]
   ShaftMotion shaft;  ///< at its start
   int sweeps;         ///< for what couples the axes
@@ -66,5 +67,22 @@ struct LateralGaussResult {
 using TakeLateralGaussStep = void (*)(const LateralGaussStep&, LateralGaussResult&) noexcept;
 /// By so many nodes, for the processor this runs on.
 TakeLateralGaussStep lateralGaussStep(std::size_t nodes) noexcept;
+
+/// A step that goes on with the phasors of the last, both axes by the same weights and nothing
+/// between them: what most steps of a run-up are.
+struct LateralGaussGoOn {
+  const LateralRotor& rotor;
+  const double* nodes;    ///< as above
+  const double* weights;  ///< likewise
+  const LateralGaussWeights& axis;
+  double length;        ///< [s]
+  double speed;         ///< [rad/s], of the shaft at its start
+  double acceleration;  ///< [rad/s^2], throughout
+  NodePhasors& phasors;
+};
+
+/// Advances the motion; one that would not be finite stays as it was.
+using GoOnLateralGauss = StepStatus (*)(const LateralGaussGoOn&, LateralMotion&) noexcept;
+GoOnLateralGauss lateralGaussGoOn(std::size_t nodes) noexcept;
 
 }  // namespace whirl_twin

@@ -11,8 +11,6 @@ namespace {
 
 /// Parts shorter than this share of a step are rounding.
 constexpr double kSliver = 1.0e-12;
-/// One step in so many is taken twice, the second time in halves.
-constexpr int kEstimateEvery = 64;
 /// [rad]: stiffer rotors go by the table over speed.
 constexpr double kLongest = 640.0;
 

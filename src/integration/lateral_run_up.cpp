@@ -10,8 +10,6 @@ namespace whirl_twin {
 
 namespace {
 
-/// (w + p) h up to which each set of nodes leaves 1e-12 or less.
-constexpr std::array<double, 3> kReach{0.41, 4.4, 11.0};
 /// How far sweeps are to come down, and from where twelve of them do.
 constexpr double kSwept = 1.0e-15;
 constexpr double kMostCoupling = 0.5;
@@ -20,7 +18,11 @@ constexpr int kMostParts = 1 << 16;
 
 }  // namespace
 
-LateralRunUp::Set::Set(std::size_t count) : stretches(count), take(lateralGaussStep(count)) {
+LateralRunUp::Set::Set(std::size_t count, double farthest)
+    : stretches(count),
+      reach(farthest),
+      take(lateralGaussStep(count)),
+      go_on(lateralGaussGoOn(count)) {
   for (std::size_t j = 0; j < count; ++j) {
     nodes[j] = stretches.nodes.nodes[j];
     weights[j] = stretches.nodes.weights[j];
@@ -28,13 +30,15 @@ LateralRunUp::Set::Set(std::size_t count) : stretches(count), take(lateralGaussS
 }
 
 const std::array<LateralRunUp::Set, LateralRunUp::kSets>& LateralRunUp::sets() {
-  static const std::array<Set, kSets> all{Set(4), Set(8), Set(12)};
+  static const std::array<Set, kSets> all{Set(4, 0.41), Set(8, 4.4), Set(12, 11.0)};
   return all;
 }
 
 LateralRunUp::LateralRunUp(const LateralRotor& rotor, double h)
     : rotor_(rotor),
       h_(h),
+      alike_(rotor.damping[0] == rotor.damping[1] && rotor.stiffness[0] == rotor.stiffness[1]),
+      plain_(alike_ && rotor.coupling == 0.0 && rotor.coupling_slope == 0.0),
       sets_(&sets()),
       fastest_(rotor.fastest()),
       flexibility_(1.0 / std::sqrt(std::min(rotor.stiffness[0], rotor.stiffness[1]))),
@@ -43,12 +47,21 @@ LateralRunUp::LateralRunUp(const LateralRotor& rotor, double h)
     nanoseconds_ = 0;
   }
   for (std::size_t set = 0; set < kSets; ++set) {
-    whole_[set] = std::make_unique<Weights>();
+    fastest_turn_[set] = (*sets_)[set].reach / h - fastest_;
+    whole_[set] = room();
     prepare(*whole_[set], set, h);
   }
   for (std::unique_ptr<Weights>& other : other_) {
-    other = std::make_unique<Weights>();
+    other = room();
   }
+}
+
+std::unique_ptr<LateralRunUp::Weights> LateralRunUp::room() const {
+  auto weights = std::make_unique<Weights>();
+  if (!alike_) {
+    weights->second = std::make_unique<LateralGaussWeights>();
+  }
+  return weights;
 }
 
 void LateralRunUp::prepare(LateralGaussWeights& axis, std::size_t of, const Set& set,
@@ -96,11 +109,9 @@ void LateralRunUp::prepare(LateralGaussWeights& axis, std::size_t of, const Set&
 void LateralRunUp::prepare(Weights& weights, std::size_t set, double length) const noexcept {
   weights.length = length;
   weights.set = set;
-  prepare(weights.axes[0], 0, (*sets_)[set], length);
-  if (rotor_.damping[0] == rotor_.damping[1] && rotor_.stiffness[0] == rotor_.stiffness[1]) {
-    weights.axes[1] = weights.axes[0];
-  } else {
-    prepare(weights.axes[1], 1, (*sets_)[set], length);
+  prepare(weights.first, 0, (*sets_)[set], length);
+  if (!alike_) {
+    prepare(*weights.second, 1, (*sets_)[set], length);
   }
 }
 
@@ -114,7 +125,7 @@ const LateralRunUp::Weights& LateralRunUp::weightsFor(std::size_t set, double le
     }
   }
   Weights& anew = *other_[oldest_];
-  oldest_ = 1 - oldest_;
+  oldest_ = (oldest_ + 1) % other_.size();
   prepare(anew, set, length);
   return anew;
 }
@@ -125,11 +136,6 @@ double LateralRunUp::couplingWithin(double highest_speed, double length) const n
       std::fabs(rotor_.coupling) + std::fabs(rotor_.coupling_slope) * highest_speed;
   const double impulse = 0.5 * length < flexibility_ ? 0.5 * length : flexibility_;
   return coupling * length * impulse;
-}
-
-void LateralRunUp::goTo(const Drive& drive) noexcept {
-  next_ = drive.nanoseconds() + nanoseconds_;
-  piece_ = drive.piece();
 }
 
 /// Of a step of h from the drive's begin(). The first of many does without phasors: steps may not
@@ -164,7 +170,7 @@ StepStatus LateralRunUp::advance(const Drive& drive, double offset, double lengt
   const double reach = (fastest_ + fastest_turn) * length;
   int parts = 1;
   double coupled = couplingWithin(fastest_turn, length);
-  while (!(reach <= parts * kReach.back() && coupled <= kMostCoupling)) {
+  while (!(reach <= parts * sets_->back().reach && coupled <= kMostCoupling)) {
     parts *= 2;
     if (parts > kMostParts) {
       return StepStatus::kOutOfRange;
@@ -172,7 +178,7 @@ StepStatus LateralRunUp::advance(const Drive& drive, double offset, double lengt
     coupled = couplingWithin(fastest_turn, length / parts);
   }
   std::size_t set = 0;
-  while (reach > parts * kReach[set]) {
+  while (reach > parts * (*sets_)[set].reach) {
     ++set;
   }
   int sweeps = 0;
@@ -191,11 +197,16 @@ StepStatus LateralRunUp::advance(const Drive& drive, double offset, double lengt
     use = whole && parts == 1 ? beginOrNot(drive, start, set) : PhasorUse::kNone;
   }
   for (int i = 0; i < parts; ++i) {
-    const LateralGaussStep step{
-        rotor_,       nodes.nodes.data(), nodes.weights.data(),
-        weights.axes, weights.length,     i == 0 ? start : drive.at(offset + i * weights.length),
-        sweeps,       motion.y,           use,
-        phasors_};
+    const LateralGaussStep step{rotor_,
+                                nodes.nodes.data(),
+                                nodes.weights.data(),
+                                {&weights.first, alike_ ? &weights.first : weights.second.get()},
+                                weights.length,
+                                i == 0 ? start : drive.at(offset + i * weights.length),
+                                sweeps,
+                                motion.y,
+                                use,
+                                phasors_};
     LateralGaussResult result;
     nodes.take(step, result);
     motion.advance(result.increment, result.work);

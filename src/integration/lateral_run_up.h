@@ -19,6 +19,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -57,6 +58,24 @@ class LateralRunUp {
     return begun_.speed + begun_.acceleration * ((NodePhasors::kSteps + 1 - turns_left_) * h_);
   }
 
+  /// Advances by h from the drive's begin() on, if the last step ended there and all is as it was
+  /// then; false, with nothing done, where it is not, and once in a while. A motion that would not
+  /// be finite stays as it was.
+  bool goesOn(const Drive& drive, LateralMotion& motion, StepStatus& status) noexcept {
+    const std::optional<double> speed = speedAt(drive);
+    if (!speed || !plain_ || drive.nextCorner(0.0) < h_ ||
+        !(std::fabs(*speed) + std::fabs(begun_.acceleration) * h_ <= fastest_turn_[of_set_])) {
+      return false;
+    }
+    --turns_left_;
+    goTo(drive);
+    const Set& set = (*sets_)[of_set_];
+    status = set.go_on({rotor_, set.nodes.data(), set.weights.data(), whole_[of_set_]->first, h_,
+                        *speed, begun_.acceleration, phasors_},
+                       motion);
+    return true;
+  }
+
   /// Advances by a length [s] from offset [s] after the drive's begin(), with no corner of its
   /// motion inside. A length other than h is prepared for first. kOutOfRange where the shaft turns
   /// too far for any number of parts that a step may take.
@@ -70,17 +89,21 @@ class LateralRunUp {
   struct Weights {
     double length = 0.0;  ///< [s], prepared for
     std::size_t set = 0;
-    std::array<LateralGaussWeights, 2> axes;
+    LateralGaussWeights first;                    ///< of x, and of y too
+    std::unique_ptr<LateralGaussWeights> second;  ///< but where its own are others
   };
   struct Set {
-    explicit Set(std::size_t count);
+    Set(std::size_t count, double farthest);
     GaussStretches stretches;
+    double reach;  ///< (w + p) h up to which it leaves 1e-12 or less
     TakeLateralGaussStep take;
+    GoOnLateralGauss go_on;
     alignas(32) std::array<double, kMostGaussNodes> nodes{};
     alignas(32) std::array<double, kMostGaussNodes> weights{};
   };
   static const std::array<Set, kSets>& sets();
 
+  std::unique_ptr<Weights> room() const;
   void prepare(Weights& weights, std::size_t set, double length) const noexcept;
   void prepare(LateralGaussWeights& axis, std::size_t of, const Set& set,
                double length) const noexcept;
@@ -90,15 +113,22 @@ class LateralRunUp {
     return drive.nanoseconds() == next_ && drive.piece() == piece_;
   }
   PhasorUse beginOrNot(const Drive& drive, const ShaftMotion& start, std::size_t set) noexcept;
-  void goTo(const Drive& drive) noexcept;
+  void goTo(const Drive& drive) noexcept {
+    next_ = drive.nanoseconds() + nanoseconds_;
+    piece_ = drive.piece();
+  }
 
   LateralRotor rotor_;
-  double h_;  ///< [s]
+  double h_;    ///< [s]
+  bool alike_;  ///< of both axes the weights are the same
+  bool plain_;  ///< and nothing is between them
   const std::array<Set, kSets>* sets_;
-  double fastest_;      ///< [1/s], of the free motion
-  double flexibility_;  ///< [s], largest deflection after a unit impulse
+  double fastest_;                          ///< [1/s], of the free motion
+  std::array<double, kSets> fastest_turn_;  ///< [rad/s], up to which each set does for h
+  double flexibility_;                      ///< [s], largest deflection after a unit impulse
   std::array<std::unique_ptr<Weights>, kSets> whole_;
-  std::array<std::unique_ptr<Weights>, 2> other_;      ///< lengths met on the way
+  /// Lengths met on the way: of halves of a step with each set of nodes, of parts at a corner.
+  std::array<std::unique_ptr<Weights>, 5> other_;
   std::size_t oldest_ = 0;                             ///< of those
   NodePhasors phasors_;                                ///< of steps of h
   std::int64_t nanoseconds_;                           ///< h, if it is whole
