@@ -6,6 +6,7 @@
 
 #include "algebra/eigenvalues.h"
 #include "algebra/lu.h"
+#include "integration/step_methods.h"
 #include "integration/stoermer_growth.h"
 
 namespace whirl_twin {
@@ -54,7 +55,8 @@ bool growsNothing(const Scene& one, const ModelSetup& setup, const Trajectory& m
   const auto scheme =
       std::find_if(kStoermerSchemes.begin(), kStoermerSchemes.end(),
                    [&](const StoermerScheme& s) { return setting.integrator == s.name; });
-  const double h = 1.0e-9 * static_cast<double>(setting.step) / setting.substeps * times;
+  const double h = 1.0e-9 * static_cast<double>(setting.step) /
+                   stepMethod(setting.integrator).stepsFor(setting.substeps) * times;
   const Dynamics& dynamics = *setup.dynamics;
   const auto dof = static_cast<Eigen::Index>(motion.dof);
   const std::size_t stride = std::max<std::size_t>(1, motion.samples() / kLooks);

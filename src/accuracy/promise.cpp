@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "integration/step_methods.h"
 #include "models/model_registry.h"
 
 namespace whirl_twin {
@@ -61,7 +62,7 @@ StepJudge::StepJudge(const Scene& one, const ModelSetup& setup, EvaluationBudget
   const bool by_itself = setup.integrators.size() == 1;
   const double evaluations = exact_ || by_itself ? kExactEvaluations : kEvaluations;
   const double affordable =
-      before / (evaluations * budget.cost({kExact, one.step, spec.substeps}, one.step, 1));
+      before / (evaluations * budget.cost({kExact, one.step, ownSubsteps(one)}, one.step, 1));
   const double seen = std::min(steps, std::max(affordable, 8.0));
   std::int64_t stride = 1;
   while (seen / static_cast<double>(stride) > kMostSamples) {
@@ -113,7 +114,8 @@ double StepJudge::excessAtLongerSteps(const StepSetting& setting, int times) {
 
 double StepJudge::knownSteps(const StepSetting& setting) const {
   return static_cast<double>(known_) * static_cast<double>(interval_) /
-         static_cast<double>(setting.step) * setting.substeps;
+         static_cast<double>(setting.step) *
+         stepMethod(setting.integrator).stepsFor(setting.substeps);
 }
 
 Promise StepJudge::promise(const StepSetting& setting) {

@@ -61,7 +61,8 @@ double EvaluationBudget::cost(const StepSetting& setting, std::int64_t interval,
                               std::size_t samples) const {
   const double steps = static_cast<double>(samples) * static_cast<double>(interval) /
                        static_cast<double>(setting.step);
-  return size_ * steps * setting.substeps * stepMethod(setting.integrator).evaluations;
+  const StepMethod& method = stepMethod(setting.integrator);
+  return size_ * steps * method.stepsFor(setting.substeps) * method.evaluations;
 }
 
 bool EvaluationBudget::take(double cost) {
@@ -167,7 +168,7 @@ ReferenceTrajectory referenceTrajectory(const Scene& one, const std::string& met
     return budget.cost({method, step, substeps / 2 * 3}, interval, 1) +
            budget.cost(settingOf(others.front(), substeps), interval, 1);
   };
-  for (int substeps = 2 * one.systems.front().substeps; substeps <= kMostSubsteps;) {
+  for (int substeps = 2 * ownSubsteps(one); substeps <= kMostSubsteps;) {
     const StepSetting setting{method, step, substeps / 2 * 3};
     const double of_one = costOfOne(substeps);
     const bool first = best.trajectory.samples() == 0;

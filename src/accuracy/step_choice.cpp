@@ -6,9 +6,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <optional>
 
-#include "accuracy/past_margin.h"
+#include "accuracy/step_search.h"
 #include "integration/step_methods.h"
 #include "models/model_registry.h"
 #include "realtime/denormals.h"
@@ -25,24 +24,10 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMostCalibrations = 32;
-/// Of a step: substeps are no shorter than this, but for so many as there always may be.
-constexpr std::int64_t kShortestSubstep = 500;  // ns
-constexpr int kFewSubsteps = 64;
-constexpr int kMostSubsteps = 4096;
 constexpr double kHorizons = 3.0;      // looked ahead, without a profile
 constexpr double kLookBudget = 5.0e5;  // evaluations, for that
 constexpr int kRounds = 2;
 constexpr std::int64_t kLook = 64;
-/// A method that is not symplectic has to be this much cheaper than gauss_legendre_6.
-constexpr double kWorthwhile = 0.7;
-constexpr double kBelieved = 1.0e12;  // an excess beyond says only that the motion was lost
-constexpr double kGain = 0.7;
-constexpr double kMostDoublings = 16.0;
-/// A step of twice the length may be wrong by so much more.
-constexpr double kRoundingExcess = 1.0e-3;
-/// Of a method with a past: so many times its past, and so many times the step.
-constexpr double kOwnSteps = 50.0;
-constexpr int kPastMargin = 4;
 constexpr double kFastRate = 1.0e3;  // [m/s] or [rad/s]
 constexpr double kLengthsOfParts = 36.0;
 /// Coordinates of a rotor whose steps are tables over speed, and of one at a constant speed, that
@@ -86,25 +71,6 @@ bool roundsInItsLoop(const Scene& one) {
   return std::any_of(one.controllers.begin(), one.controllers.end(), [](const ControllerSpec& c) {
     return c.sensor.resolution > 0.0 || c.actuator.resolution > 0.0;
   });
-}
-
-/// How often the substeps have to be doubled for so many times the error allowed.
-int doublings(double times, int order) {
-  const double missing = std::ceil(std::log2(std::min(times, kBelieved)) / (order > 0 ? order : 4));
-  return static_cast<int>(std::clamp(missing, 1.0, kMostDoublings));
-}
-
-double cost(const StepChoice& choice) {
-  return choice.substeps * stepMethod(choice.integrator).evaluations;
-}
-
-StepSetting settingOf(const Scene& one, const StepChoice& choice) {
-  return {choice.integrator, one.step, choice.substeps};
-}
-
-int mostSubsteps(const Scene& one) {
-  return static_cast<int>(
-      std::clamp<std::int64_t>(one.step / kShortestSubstep, kFewSubsteps, kMostSubsteps));
 }
 
 std::string reasonFor(const StepChoice& choice, const SystemSpec& spec) {
@@ -160,6 +126,10 @@ StepChoice lasting(const Scene& one, const ModelSetup& setup, StepChoice choice)
     if (!(estimate > spec.tolerance)) {
       break;
     }
+    if (method.ahead) {
+      choice.raised = true;  // as what it may not be
+      break;
+    }
     const int more = doublings(std::min(estimate / spec.tolerance, 1.0e6), method.order);
     if (choice.substeps > mostSubsteps(one) >> more) {
       break;
@@ -170,90 +140,6 @@ StepChoice lasting(const Scene& one, const ModelSetup& setup, StepChoice choice)
   return choice;
 }
 
-/// An explicit method near its limit of stability is no choice: it must be sound at longer steps.
-bool soundAtLongerSteps(StepJudge& judge, const StepSetting& setting, int times,
-                        const StepMethod& method, double excess) {
-  return judge.excessAtLongerSteps(setting, times) <=
-         std::pow(times, method.order + 3) * std::max(excess, kRoundingExcess);
-}
-
-/// Finds the cheapest of the ways to step that are good enough, and the best if none is.
-class Search {
- public:
-  Search(const Scene& one, const ModelSetup& setup, StepJudge& judge)
-      : one_(one), setup_(setup), judge_(judge) {}
-
-  void tryMethod(const StepMethod& method) {
-    const SystemSpec& spec = one_.systems.front();
-    StepChoice choice;
-    choice.integrator = method.name;
-    choice.substeps = spec.substeps;
-    const int most = std::max(mostSubsteps(one_), spec.substeps);
-    double before = kInfinity;
-    while (
-        (!found_ || cost(choice) < cost(*found_)) &&
-        (method.symplectic || method.order == 0 || cost(choice) < kWorthwhile * implicit_cost_)) {
-      const StepSetting setting = settingOf(one_, choice);
-      const double excess = judge_.excess(setting);
-      if (excess < best_excess_ && method.past == 0) {
-        best_excess_ = excess;
-        best_ = choice;
-      }
-      if (excess <= 1.0) {
-        if (method.implicit || method.order == 0 ||
-            (soundAtLongerSteps(judge_, setting, 2, method, excess) &&
-             (method.past == 0 || isProvenWithAPast(setting, method, excess)))) {
-          found_ = choice;
-          if (method.name == kReference) {
-            implicit_cost_ = cost(choice);
-          }
-        }
-        return;
-      }
-      if (std::isfinite(before) && excess > kGain * before) {
-        return;  // shorter steps are no better
-      }
-      before = excess;
-      const int more = doublings(excess, method.order);
-      if (choice.substeps > most >> more) {
-        return;
-      }
-      choice.substeps <<= more;
-    }
-  }
-  bool found() const { return found_.has_value(); }
-  /// With what there is to begin with if nothing was any good.
-  StepChoice best() const {
-    if (found_ || best_) {
-      return found_ ? *found_ : *best_;
-    }
-    StepChoice plain;
-    const SystemSpec& spec = one_.systems.front();
-    plain.integrator = chooseIntegrator(setup_, spec.drive.has_value()).integrator;
-    plain.substeps = spec.substeps;
-    return plain;
-  }
-
- private:
-  /// A method with a past does not lose digits beyond its limit but the motion, and the limit is
-  /// low where much is damped: it has to have shown many steps of its own, on its own, and to be
-  /// sound at four times the step, by its errors and by its growth of any small deviation.
-  bool isProvenWithAPast(const StepSetting& setting, const StepMethod& method, double excess) {
-    return one_.systems.front().inputs.empty() &&
-           judge_.knownSteps(setting) >= kOwnSteps * static_cast<double>(method.past) &&
-           soundAtLongerSteps(judge_, setting, kPastMargin, method, excess) &&
-           growsNothing(one_, setup_, judge_.reference().trajectory, setting, kPastMargin);
-  }
-
-  const Scene& one_;
-  const ModelSetup& setup_;
-  StepJudge& judge_;
-  std::optional<StepChoice> found_;
-  std::optional<StepChoice> best_;
-  double best_excess_ = kInfinity;
-  double implicit_cost_ = kInfinity;
-};
-
 struct Searched {
   StepChoice best;
   StepChoice without_past;  ///< the best of the methods whose steps rest on nothing but the state
@@ -263,7 +149,7 @@ Searched searched(const Scene& one, const ModelSetup& setup, StepJudge& judge) {
   const SystemSpec& spec = one.systems.front();
   const bool on_drive = spec.drive.has_value();
   const IntegratorChoice structural = chooseIntegrator(setup, on_drive);
-  Search search(one, setup, judge);
+  StepSearch search(one, setup, judge);
   if (structural.integrator == kExact || setup.integrators.size() == 1) {
     search.tryMethod(stepMethod(structural.integrator));
     return {search.best(), search.best()};
@@ -276,7 +162,8 @@ Searched searched(const Scene& one, const ModelSetup& setup, StepJudge& judge) {
   const auto tryThose = [&](bool with_past) {
     for (const StepMethod& method : stepMethods()) {
       if ((method.past > 0) == with_past && method.order != 0 && method.name != kReference &&
-          !(method.predicts_rates && rate_forces) && canStepWith(setup, on_drive, method.name)) {
+          !(method.predicts_rates && rate_forces) && !method.ahead && !method.by_name &&
+          canStepWith(setup, on_drive, method.name)) {
         search.tryMethod(method);
       }
     }
@@ -284,6 +171,13 @@ Searched searched(const Scene& one, const ModelSetup& setup, StepJudge& judge) {
   tryThose(false);
   const StepChoice without_past = search.best();
   tryThose(true);
+  if (one.controllers.empty()) {
+    for (const StepMethod& method : stepMethods()) {
+      if (method.ahead && canStepWith(setup, on_drive, method.name)) {
+        search.tryAhead(method);
+      }
+    }
+  }
   return {search.best(), without_past};
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "analysis/cyclic_coordinates.h"
+#include "integration/step_methods.h"
 #include "realtime/denormals.h"
 #include "scene/part_of_scene.h"
 #include "scene/scene_error.h"
@@ -24,6 +25,12 @@ Scene sceneOfOne(const Scene& scene, std::size_t system) {
     one.systems.front().drive_place = 0;
   }
   return one;
+}
+
+int ownSubsteps(const Scene& one) {
+  const SystemSpec& spec = one.systems.front();
+  const bool ahead = spec.integrator != "auto" && stepMethod(spec.integrator).ahead;
+  return ahead ? 1 : spec.substeps;
 }
 
 Scene withSetting(const Scene& one, const StepSetting& setting) {

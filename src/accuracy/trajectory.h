@@ -17,11 +17,14 @@ namespace whirl_twin {
 struct StepSetting {
   std::string integrator;
   std::int64_t step = 0;  ///< [ns], of the twin
-  int substeps = 1;       ///< steps of the method inside one of the twin
+  int substeps = 1;       ///< steps of the method inside one of the twin, or as StepMethod::ahead
 };
 
 /// The scene with one of its systems only, and its controllers unless they tie it to others.
 Scene sceneOfOne(const Scene& scene, std::size_t system);
+
+/// Steps inside one of the twin that a scene of one system asks for, of whatever method.
+int ownSubsteps(const Scene& one);
 
 /// A scene of one system, stepped as the setting says.
 Scene withSetting(const Scene& one, const StepSetting& setting);

@@ -24,6 +24,10 @@ const std::vector<StepMethod>& stepMethods() {
       {kStoermerSchemes[0].name, 6, false, false, false, false, 1.8, kStoermerSchemes[0].terms - 1},
       {DormandPrince8::kName, 8, false, false, false, false, 13.0},
       {kStoermerSchemes[1].name, 9, false, false, false, false, 3.2, kStoermerSchemes[1].terms - 1},
+      {kStoermerSchemes[2].name, 9, false, false, false, false, 3.2, kStoermerSchemes[2].terms - 1,
+       true},
+      {kStoermerSchemes[3].name, 9, false, false, false, false, 1.9, kStoermerSchemes[3].terms - 1,
+       false, true},
       {Exponential<1>::kName, 0, false, true, true, false, 1.0}};
   return methods;
 }
@@ -35,6 +39,12 @@ const StepMethod& stepMethod(const std::string& name) {
     throw std::logic_error("no integrator is called " + name);
   }
   return *found;
+}
+
+std::string stepsText(const std::string& integrator, int substeps) {
+  return stepMethod(integrator).ahead && substeps > 1
+             ? "one for " + std::to_string(substeps) + " steps"
+             : std::to_string(substeps) + " a step";
 }
 
 }  // namespace whirl_twin

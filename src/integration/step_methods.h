@@ -7,7 +7,8 @@
 //     energies, nonlinear: pendulums, free_rotor,     any but          SteppedSystem<Model, Method>
 //     a rotor with film, hysteresis, rub or motor     exponential
 //         Method and energies are one function after compiling. `auto` calibrates. What rests on
-//         earlier steps (stoermer) drops them at corners, commands and changes.
+//         earlier steps (stoermer) drops them at corners, commands and changes. SteppedAhead takes
+//         many of the twin's steps at once where nothing acts from outside (stoermer_ahead).
 //
 //     energies, linear, of two coordinates:           exponential      LateralRotorStepper
 //     jeffcott_rotor
@@ -80,6 +81,13 @@ struct StepMethod {
   double evaluations;
   /// Steps that it has to have taken before it is the method that it says.
   std::size_t past = 0;
+  /// The `substeps` of a system are not its steps in one of the twin, but the twin's in one of its.
+  bool ahead = false;
+  /// Only for whom asks for it: no calibration takes it.
+  bool by_name = false;
+
+  /// Its steps in one of the twin.
+  double stepsFor(int substeps) const { return ahead ? 1.0 / substeps : substeps; }
 };
 
 /// All of them, from the lowest order to the exact step.
@@ -87,5 +95,8 @@ const std::vector<StepMethod>& stepMethods();
 
 /// Throws std::logic_error for an unknown name.
 const StepMethod& stepMethod(const std::string& name);
+
+/// "2 a step", "one for 16 steps": those of a method, in words.
+std::string stepsText(const std::string& integrator, int substeps);
 
 }  // namespace whirl_twin

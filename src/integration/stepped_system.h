@@ -16,6 +16,7 @@
 #include "integration/finite.h"
 #include "integration/input_force.h"
 #include "integration/step_error_sum.h"
+#include "integration/stepped_ahead.h"
 #include "integration/stepper.h"
 #include "mechanics/dynamics.h"
 
@@ -44,7 +45,7 @@ template <class Method>
 struct HasHistory<Method, std::void_t<decltype(Method::kHasHistory)>> : std::true_type {};
 
 template <class Model, class Method>
-class SteppedSystem final : public Stepper {
+class SteppedSystem final : public ReadOffStepper {
  public:
   static constexpr std::size_t n = Model::kDof;
 
@@ -81,6 +82,19 @@ class SteppedSystem final : public Stepper {
   void write(double* out) const noexcept override {
     motion(out);
     out[2 * n] = state_.work.high;
+  }
+  /// Of a method with a past, where no spin is a coordinate.
+  void readOff([[maybe_unused]] const StoermerReading& reading, [[maybe_unused]] bool with_work,
+               [[maybe_unused]] double* out) const noexcept override {
+    if constexpr (kHasHistory) {
+      method_.readOff(reading, state_, with_work, out);
+    }
+  }
+  bool follows() const noexcept override {
+    if constexpr (kHasHistory) {
+      return method_.resolves(state_);
+    }
+    return true;
   }
   bool shaft([[maybe_unused]] ShaftState& out) const noexcept override {
     if constexpr (HasSpin<Model>::value) {

@@ -5,26 +5,31 @@
 //
 //   d' = d + h^2 sum b_k a(n - k),  q' = q + d',  v' = d'/h + h sum g_k a(n - k),  a' = a(q', v')
 //
-// explicitly: `stoermer_6`, one evaluation a step. `stoermer` corrects d' and v' by the polynomial
-// that has a' as well, and evaluates a' again there (PECE, 10 terms). q and d are compensated sums;
-// the work is that of the polynomial through the powers.
+// explicitly: `stoermer_6` and `stoermer_12`, one evaluation a step. `stoermer` corrects d' and v'
+// by the polynomial that has a' as well, and evaluates a' again there (PECE, 10 terms). q and d are
+// compensated sums; the work is that of the polynomial through the powers.
 //
-// Order 6 and 11; what the start is off by falls with the ninth power. Rates are extrapolated, so
-// damping is the limit. Largest h omega that grows by less than 1e-3 a radian, by damping ratio:
+// Order 6, 11 and 12; what the start is off by falls with the ninth power. Rates are extrapolated,
+// so damping is the limit. Largest h omega that grows by less than 1e-3 a radian, by damping ratio:
 //
 //                  0      0.01   0.05   0.2    0.5
 //   stoermer_6     0.56   0.71   0.40   0.13   0.05
 //   stoermer       0.99   1.02   0.77   0.36   0.16
+//   stoermer_12    0.12   0.04   0.01   0.002  0.0005
 //
-// (More explicit terms only pay where next to nothing is damped: eleven are stable up to 0.17, and
-// up to 0.02 at a damping ratio of 0.05.)
+// Twelve explicit terms are for motions that next to nothing damps.
 //
 // Not symplectic. The past belongs to one motion under one law: at a corner of the drive or of an
 // input, a change of a held input, of a parameter or of the state it is dropped. The first steps
 // (terms - 1 of them) are then taken by dormand_prince_8, while accelerations are gathered.
+//
+// `stoermer_ahead` is `stoermer` by steps of many of the twin's, which are read off in between
+// (stepped_ahead.h). Its past is made at once: by so many steps of dormand_prince_8 back in time,
+// along the motion that the present law would have come from.
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "integration/called_equation.h"
@@ -45,6 +50,10 @@ class Stoermer {
   using Array = std::array<double, n>;
 
   explicit Stoermer(const StoermerScheme& scheme) : scheme_(&scheme) {}
+
+  const StoermerScheme& scheme() const { return *scheme_; }
+  /// Of one that steps ahead: the same by the twin's own steps.
+  Stoermer byItself() const { return Stoermer(kSchemes[1]); }
 
   /// Drops the past.
   void restart() {
@@ -69,6 +78,59 @@ class Stoermer {
       error.add(ready_for_ * ready_for_ * scheme_->error[k], past_[newest_ + k]);
     }
     return error.array();
+  }
+
+  /// Were the accelerations of the last step, which ended at `end`, told by those of the past but
+  /// for a ten thousandth? Where not, steps of that length do not follow the motion.
+  bool resolves(const MotionState<n>& end) const noexcept {
+    constexpr double kPart = 1.0e-4;
+    constexpr double kRounding = 1.0e-13;
+    std::array<double, n> largest{};
+    double rounding = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t k = 0; k <= scheme_->terms; ++k) {
+        const double a = std::fabs(past_[newest_ + k].array()[i]);
+        largest[i] = a > largest[i] ? a : largest[i];
+      }
+      rounding = std::fmax(rounding, kRounding * std::fabs(end.q[i]));
+    }
+    const Array error = lastError();
+    for (std::size_t i = 0; i < n; ++i) {
+      const double told = kPart * ready_for_ * ready_for_ * largest[i];
+      if (!(std::fabs(error[i]) <= std::fmax(told, rounding))) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  /// q, v and, if it is asked for, the work that the last step, which ended at `end`, passed on the
+  /// way; hasPast(). Real-time safe.
+  [[gnu::noinline]] void readOff(const StoermerReading& reading, const MotionState<n>& end,
+                                 bool with_work, double* out) const noexcept {
+    const double h = ready_for_;
+    Lanes<n> off{};
+    Lanes<n> v{};
+    double work = 0.0;
+    for (std::size_t k = 0; k < scheme_->terms; ++k) {
+      off.add(h * h * reading.position[k], past_[newest_ + k]);
+      v.add(h * reading.rate[k], past_[newest_ + k]);
+      work += h * reading.work[k] * powers_[newest_ + k];
+    }
+    off.add(reading.share - 1.0, increment_);
+    v.add(per_step_, increment_);
+    Lanes<n> q(end.q);
+    Lanes<n> q_low(end.q_low);
+    addTo(q, q_low, off);
+    for (std::size_t i = 0; i < n; ++i) {
+      out[i] = q.array()[i];
+      out[n + i] = v.array()[i];
+    }
+    if (with_work) {
+      CompensatedSum passed = end.work;
+      passed.add(-work);
+      out[2 * n] = passed.high;
+    }
   }
 
   /// Drops the past if the shaft's motion [rad/s^3, rad/s^2] is another polynomial in time than
@@ -112,11 +174,13 @@ class Stoermer {
     Lanes<n> corrected_increment{};
     Lanes<n> corrected_rate{};
     if (scheme_->corrected) {
-      sumOfPast<kMostTerms>(corrected_position_, corrected_rate_, corrected_increment,
-                            corrected_rate);
+      sumOfPast<kCorrectedTerms>(corrected_position_, corrected_rate_, corrected_increment,
+                                 corrected_rate);
       corrected_rate.add(per_step_, increment_);
     }
-    double work = scheme_->corrected ? prepare<kMostTerms>() : prepare<kFewTerms>();
+    double work = scheme_->corrected            ? prepare<kCorrectedTerms>()
+                  : scheme_->terms == kFewTerms ? prepare<kFewTerms>()
+                                                : prepare<kMostTerms>();
     bool last_evaluation = !scheme_->corrected;
     if (last_evaluation) {
       advance(increment, v, state);
@@ -144,8 +208,10 @@ class Stoermer {
   using Weights = stoermer::Weights;
 
   static constexpr std::size_t kFewTerms = kSchemes[0].terms;
-  static constexpr std::size_t kMostTerms = kSchemes[1].terms;
-  static_assert(!kSchemes[0].corrected && kSchemes[1].corrected && kFewTerms < kMostTerms);
+  static constexpr std::size_t kCorrectedTerms = kSchemes[1].terms;
+  static constexpr std::size_t kMostTerms = kSchemes[3].terms;
+  static_assert(!kSchemes[0].corrected && kSchemes[1].corrected && !kSchemes[3].corrected &&
+                kSchemes[2].terms == kCorrectedTerms && kMostTerms == stoermer::kMostTerms);
   static constexpr std::size_t kLength = stoermer::kMostNodes;
 
   static WHIRL_TWIN_INLINE void addTo(Lanes<n>& high, Lanes<n>& low, const Lanes<n>& increment) {
@@ -209,6 +275,9 @@ class Stoermer {
   [[gnu::noinline, gnu::cold]] StepStatus start(const Equation& equation, double offset, double h,
                                                 MotionState<n>& state) {
     return withCalls(equation, [&](const CalledEquation<n>& called) {
+      if (scheme_->ahead) {
+        return startBackwards(called, offset, h, state);
+      }
       ready_for_ = 0.0;
       if (gathered_ == 0 || h != gathered_at_) {
         past_ = {};
@@ -225,6 +294,31 @@ class Stoermer {
       DormandPrince8 alone;
       return calledStep(alone, called, offset, h, state);
     });
+  }
+  /// Makes the whole past.
+  StepStatus startBackwards(const CalledEquation<n>& called, double offset, double h,
+                            const MotionState<n>& state) {
+    restart();
+    std::array<Derivative<n>, kMostTerms> found;
+    MotionState<n> before = state;
+    DormandPrince8 alone;
+    for (std::size_t k = 0; k < scheme_->terms; ++k) {
+      const double then = offset - static_cast<double>(k) * h;
+      found[k] = called(before.q, before.v, then);
+      if (k + 1 < scheme_->terms) {
+        const StepStatus status = calledStep(alone, called, then, -h, before);
+        if (status != StepStatus::kOk) {
+          return status;
+        }
+      }
+    }
+    past_ = {};
+    powers_ = {};
+    for (std::size_t k = scheme_->terms; k > 0; --k) {
+      keep(Lanes<n>(found[k - 1].acceleration), found[k - 1].power);
+    }
+    begin(h, state);
+    return StepStatus::kOk;
   }
   void begin(double h, const MotionState<n>& state) {
     per_step_ = 1.0 / h;

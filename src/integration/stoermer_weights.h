@@ -9,6 +9,11 @@
 // Each integral is a sum over the nodes (Hairer, Norsett & Wanner, Solving Ordinary Differential
 // Equations I, III.10; the rates as of Adams, ibid. III.1). A predictor's nodes are 0, -1, -2 ...,
 // a corrector's 1, 0, -1 ...
+//
+// Within a step, at a share x of it, what the straight line from q(0) to q(1) leaves out is the
+// deflection of a beam under p, zero at both ends (dense output):
+//
+//   q(x) = q(1) - (1 - x) d(1) + h^2 int_0^x (x - s) p(s) ds - h^2 x int_0^1 (1 - s) p(s) ds
 #pragma once
 
 #include <array>
@@ -19,7 +24,7 @@ namespace whirl_twin {
 namespace stoermer {
 
 /// Accelerations that a step is made of at most, and those that its error is told by.
-inline constexpr std::size_t kMostTerms = 10;
+inline constexpr std::size_t kMostTerms = 12;
 inline constexpr std::size_t kMostNodes = kMostTerms + 1;
 
 /// One for each node, the latest first; 0 beyond the terms of a scheme.
@@ -88,6 +93,20 @@ constexpr Weights errorWeights(std::size_t terms, bool corrected) {
   return error;
 }
 
+/// The coefficient of s^power of p, through the nodes of a corrector.
+constexpr Weights coefficientWeights(std::size_t terms, std::size_t power) {
+  Moments m{};
+  m[power] = 1.0L;
+  return weights(terms, 1, m);
+}
+constexpr std::array<Weights, kMostTerms> polynomial(std::size_t terms) {
+  std::array<Weights, kMostTerms> all{};
+  for (std::size_t i = 0; i < terms; ++i) {
+    all[i] = coefficientWeights(terms, i);
+  }
+  return all;
+}
+
 }  // namespace stoermer
 
 /// A method of the family.
@@ -95,27 +114,43 @@ struct StoermerScheme {
   const char* name;   ///< as in scene files
   std::size_t terms;  ///< accelerations in its history
   bool corrected;     ///< and evaluated again where the correction leads
+  bool ahead;         ///< steps of the twin are read off within one of its own
   stoermer::Weights position, rate;
   stoermer::Weights corrected_position, corrected_rate;
   stoermer::Weights work, backwards;
   stoermer::Weights error;  ///< of a position, at the nodes 1, 0, -1 ...
+  std::array<stoermer::Weights, stoermer::kMostTerms> polynomial;  ///< coefficients of p, likewise
 };
 
-constexpr StoermerScheme stoermerScheme(const char* name, std::size_t terms, bool corrected) {
+constexpr StoermerScheme stoermerScheme(const char* name, std::size_t terms, bool corrected,
+                                        bool ahead = false) {
   using namespace stoermer;
   return {name,
           terms,
           corrected,
+          ahead,
           weights(terms, 0, positionMoments()),
           weights(terms, 0, stepMoments(1)),
           weights(terms, 1, positionMoments()),
           weights(terms, 1, stepMoments(1)),
           weights(terms, 1, stepMoments(0)),
           weights(terms, 0, backwardsMoments()),
-          errorWeights(terms, corrected)};
+          errorWeights(terms, corrected),
+          stoermer::polynomial(terms)};
 }
 
-inline constexpr std::array<StoermerScheme, 2> kStoermerSchemes{
-    stoermerScheme("stoermer_6", 6, false), stoermerScheme("stoermer", 10, true)};
+inline constexpr std::array<StoermerScheme, 4> kStoermerSchemes{
+    stoermerScheme("stoermer_6", 6, false), stoermerScheme("stoermer", 10, true),
+    stoermerScheme("stoermer_ahead", 10, true, true), stoermerScheme("stoermer_12", 12, false)};
+
+/// What is read off within a step, at a share of it: by the straight line, and weights at the nodes
+/// 1, 0, -1 ...
+struct StoermerReading {
+  StoermerReading(const StoermerScheme& scheme, double at);
+
+  double share;                      ///< [-], 0..1
+  stoermer::Weights position, rate;  ///< times h^2, h
+  stoermer::Weights work;            ///< times h, of powers: from there to the end of the step
+};
 
 }  // namespace whirl_twin

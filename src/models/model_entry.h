@@ -1,6 +1,7 @@
 // Makes a ModelInfo of a model struct: every method that suits it, composed at compile time.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -86,15 +87,40 @@ Model makeModel(const ParameterValues& values, double gravity) {
   return model;
 }
 
+/// One that steps ahead of the twin (stepped_ahead.h), `count` of its steps at once; under inputs,
+/// and where a spin is a coordinate, as the twin does.
+template <class Model, class Method>
+std::unique_ptr<Stepper> makeAhead(const Model& model, const Method& method, const Drive& drive,
+                                   const InputForce& inputs, double step, int count) {
+  using System = SteppedSystem<Model, Method>;
+  auto near = std::make_unique<System>(model, drive, inputs, step, 1, method.byItself());
+  if (inputs.acts() || HasSpin<Model>::value || count == 1) {
+    return near;
+  }
+  count = std::min(count, SteppedAhead::kMostSteps);
+  const double length = count * step;
+  return std::make_unique<SteppedAhead>(
+      std::make_unique<System>(model, drive, inputs, length, 1, method), std::move(near),
+      method.scheme(), Model::kHasShaft ? &drive : nullptr, length, count);
+}
+
 /// With that method if it is of the name asked for.
 template <class Model, class Method>
 void makeStepperOf(const Model& model, const std::string& integrator, const Drive& drive,
                    const InputForce& inputs, double step, int substeps,
                    std::unique_ptr<Stepper>& system) {
-  if (const std::optional<Method> method = Integrators<Method>::find(integrator)) {
-    system = std::make_unique<SteppedSystem<Model, Method>>(model, drive, inputs, step, substeps,
-                                                            *method);
+  const std::optional<Method> method = Integrators<Method>::find(integrator);
+  if (!method) {
+    return;
   }
+  if constexpr (HasHistory<Method>::value) {
+    if (method->scheme().ahead) {
+      system = makeAhead(model, *method, drive, inputs, step, substeps);
+      return;
+    }
+  }
+  system =
+      std::make_unique<SteppedSystem<Model, Method>>(model, drive, inputs, step, substeps, *method);
 }
 
 template <class Model, class... Methods>

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "integration/step_methods.h"
 #include "messages/names.h"
 #include "reports/asked_cost.h"
 #include "reports/scene_check.h"
@@ -121,8 +122,8 @@ std::string systemText(const SystemCheck& system) {
   if (!system.note.empty()) {
     out += fmt::format("    set up        {}\n", system.note);
   }
-  out += fmt::format("    integrator    {} ({}), {} a step\n", system.integrator, system.reason,
-                     system.substeps);
+  out += fmt::format("    integrator    {} ({}), {}\n", system.integrator, system.reason,
+                     stepsText(system.integrator, system.substeps));
   for (const PublishedTopic& topic : system.published.topics) {
     out += fmt::format("    ROS           {} ({})\n", topic.topic, topic.type);
   }

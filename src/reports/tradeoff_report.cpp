@@ -36,7 +36,8 @@ std::vector<StepMethod> methodsOf(const Scene& one) {
   const ModelSetup& setup = setupOf(spec, surroundingsOf(one, spec)).made;
   std::vector<StepMethod> suited;
   for (const StepMethod& method : stepMethods()) {
-    if (canStepWith(setup, spec.drive.has_value(), method.name)) {
+    // Steps ahead of the twin's are those of another method, read off.
+    if (!method.ahead && canStepWith(setup, spec.drive.has_value(), method.name)) {
       suited.push_back(method);
     }
   }
@@ -211,7 +212,8 @@ TradeoffReport tradeoffReport(const Scene& one, std::int64_t duration,
   report.compared = judged_by.trajectory.interval * static_cast<double>(judged_by.samples - 1);
   report.growth = judged_by.growth;
   const StepChoice automatic = chooseStep(one);
-  report.automatic = fmt::format("{}, {} a step", automatic.integrator, automatic.substeps);
+  report.automatic = fmt::format("{}, {}", automatic.integrator,
+                                 stepsText(automatic.integrator, automatic.substeps));
 
   double done = 0.0;
   double all = 0.0;

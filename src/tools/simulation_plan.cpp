@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "accuracy/step_choice.h"
+#include "integration/step_methods.h"
 #include "messages/names.h"
 #include "messages/refusal.h"
 #include "models/model_registry.h"
@@ -122,7 +123,11 @@ std::string SimulationPlan::asked() const {
   int substeps = 1;
   std::size_t members = 0;
   for (const SystemSpec& system : scene.systems) {
-    substeps = std::max(substeps, system.substeps);
+    const std::string& method =
+        system.chosen_integrator.empty() ? system.integrator : system.chosen_integrator;
+    if (method == "auto" || !stepMethod(method).ahead) {
+      substeps = std::max(substeps, system.substeps);
+    }
     members = std::max(members, system.ensemble.count);
   }
   return fmt::format("--duration: {} s in {} steps{}{}",

@@ -82,6 +82,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"SwingByStoermer6", kSwing, "stoermer_6", "0.01", 200.0},
                     Case{"SpinByStoermer6", kSpin, "stoermer_6", "0.01", 200.0},
                     Case{"SpinByStoermer", kSpin, "stoermer", "0.02", 200.0},
+                    Case{"SpinAhead", kSpin, "stoermer_ahead, substeps: 5", "0.004", 200.0},
                     Case{"SpinByVerlet", kSpin, "velocity_verlet", "0.004"},
                     Case{"SpinByRungeKutta", kSpin, "runge_kutta_4", "0.004"},
                     Case{"SpinByGaussLegendre4", kSpin, "gauss_legendre_4", "0.004"},

@@ -168,9 +168,26 @@ bool hasPast(const StepChoice& choice) {
 
 // A method with a past at a millisecond, thousands of steps and a hundredth of its limit.
 TEST(StepChoice, TakesAMethodWithAPastWhereItIsProven) {
-  const StepChoice choice = chooseStep(swing("1.0e-6", "0.3", "10.0"));
-  EXPECT_EQ(choice.integrator, "stoermer_6") << choice.reason;
+  const StepChoice choice = chooseStep(swing("1.0e-6", "0.3", "3.0"));
+  EXPECT_TRUE(hasPast(choice)) << choice.reason;
   EXPECT_TRUE(choice.promise.kept) << choice.reason;
+}
+
+// By as many of the twin's steps as are proven, and as good in each of them.
+TEST(StepChoice, StepsAheadWhereNothingActsFromOutside) {
+  for (const char* tolerance : {"1.0e-3", "1.0e-6", "1.0e-9"}) {
+    const Scene scene = swing(tolerance, "0.3", "10.0");
+    const StepChoice choice = chooseStep(scene);
+    EXPECT_EQ(choice.integrator, "stoermer_ahead") << choice.reason;
+    EXPECT_GE(choice.substeps, 4) << choice.reason;
+    EXPECT_TRUE(choice.promise.kept) << choice.reason;
+    const IndependentMotion truth = independentMotion(scene, 7 * scene.step, 1400, 1.0e6);
+    const ErrorCurve error(
+        motion(withSetting(scene, {choice.integrator, scene.step, choice.substeps}), 7 * scene.step,
+               1400),
+        truth.trajectory);
+    EXPECT_LE(error.position(1399), scene.systems.front().tolerance) << choice.reason;
+  }
 }
 
 TEST(StepChoice, TakesNoMethodWithAPastThatHasNotShownMoreThanItsStart) {

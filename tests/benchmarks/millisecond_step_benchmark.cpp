@@ -27,8 +27,12 @@ constexpr std::size_t kSamples = 418;
 constexpr std::int64_t kInterval = 240 * kMillisecond;
 constexpr int kRuns = 60;  // for the dearest step
 constexpr int kSteps = 3000;
-const std::vector<std::string> kMethods{"runge_kutta_4", "dormand_prince_8", "stoermer_6",
-                                        "stoermer"};
+const std::vector<std::string> kMethods{"runge_kutta_4",
+                                        "dormand_prince_8",
+                                        "stoermer_6",
+                                        "stoermer",
+                                        "stoermer_ahead, substeps: 8",
+                                        "stoermer_ahead, substeps: 24"};
 
 Scene pendulum(const std::string& system, const std::string& integrator) {
   return readScene(YAML::Load("{gravity: 9.81, step: 0.001, systems: {pendulum: {" + system +

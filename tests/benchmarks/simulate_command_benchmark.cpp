@@ -52,6 +52,10 @@ const std::vector<Case> kCases{
      "{gravity: 9.81, step: 0.001, systems: {pendulum: {model: double_pendulum, parameters: "
      "{mass1: 1, mass2: 1, length1: 1, length2: 1}, initial: {theta1: 0.2, theta2: 0.3}, "
      "integrator: stoermer_6}}}"},
+    {"double pendulum, stoermer_ahead, 16 steps at once",
+     "{gravity: 9.81, step: 0.001, systems: {pendulum: {model: double_pendulum, parameters: "
+     "{mass1: 1, mass2: 1, length1: 1, length2: 1}, initial: {theta1: 0.2, theta2: 0.3}, "
+     "integrator: stoermer_ahead, substeps: 16}}}"},
     {"double pendulum, dormand_prince_8",
      "{gravity: 9.81, step: 0.001, systems: {pendulum: {model: double_pendulum, parameters: "
      "{mass1: 1, mass2: 1, length1: 1, length2: 1}, initial: {theta1: 0.2, theta2: 0.3}, "

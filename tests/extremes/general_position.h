@@ -27,7 +27,7 @@ inline std::vector<MovingVariant> everyMovingVariant() {
   std::vector<MovingVariant> all;
   for (const VariantUnderTest& variant : everyVariant()) {
     for (const ModelVariant& v : findModel(variant.model)->variants) {
-      for (const std::string& integrator : v.integrators) {
+      for (const std::string& integrator : integratorsOf(v)) {
         if (v.when == variant.when) {
           all.push_back({variant, integrator});
         }

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "models/model_registry.h"
+#include "../models/every_variant.h"
 
 namespace whirl_twin {
 
@@ -36,9 +36,9 @@ inline void expectWithin(double bound, double value, const std::string& what) {
   EXPECT_LE(value, bound) << what;
 }
 
-/// The methods a model can step with, in its plain form.
+/// The methods for any motion that a model can step with, in its plain form.
 inline std::vector<std::string> integratorsOf(const std::string& model) {
-  return findModel(model)->variants.front().integrators;
+  return integratorsOf(findModel(model)->variants.front());
 }
 
 /// Order of a method's error; one not named here has at least the last.

@@ -166,7 +166,7 @@ TEST(NonlinearRotorAtTheCentre, StartsAndPasses) {
       s.gravity = 0.0;
       s.speed = 50.0;
       s.v = {rate, 0.0};
-      for (const std::string& method : findModel(s.model)->variants[1].integrators) {
+      for (const std::string& method : integratorsOf(findModel(s.model)->variants[1])) {
         RunningSystem rotor(s, method, kMillisecond / 10);
         double largest = 0.0;
         double latest = 0.0;

@@ -27,7 +27,7 @@ std::vector<Pair> everyPair() {
   for (const VariantUnderTest& variant : everyVariant()) {
     for (const ModelVariant& v : findModel(variant.model)->variants) {
       if (v.when == variant.when && !v.inputs.empty()) {
-        for (const std::string& method : v.integrators) {
+        for (const std::string& method : integratorsOf(v)) {
           pairs.push_back({variant, method});
         }
       }

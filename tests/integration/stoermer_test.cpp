@@ -98,6 +98,36 @@ TEST(StoermerWeights, AreExactForPolynomials) {
   }
 }
 
+// The same, read off at a share x of the step: what is left out of the straight line, of the mean
+// rate and of the work to the end.
+TEST(StoermerWeights, ReadOffPolynomialsWithinAStep) {
+  for (const StoermerScheme& scheme : kStoermerSchemes) {
+    for (const double x : {0.0, 0.125, 0.5, 0.9, 1.0}) {
+      const StoermerReading reading(scheme, x);
+      for (std::size_t k = 0; k < scheme.terms; ++k) {
+        double position = 0.0;
+        double rate = 0.0;
+        double work = 0.0;
+        double scale = 0.0;
+        for (std::size_t i = 0; i < scheme.terms; ++i) {
+          const double a = std::pow(1.0 - static_cast<double>(i), static_cast<double>(k));
+          position += reading.position[i] * a;
+          rate += reading.rate[i] * a;
+          work += reading.work[i] * a;
+          scale += std::fabs(a) * (std::fabs(reading.position[i]) + std::fabs(reading.rate[i]) +
+                                   std::fabs(reading.work[i]));
+        }
+        const double n = static_cast<double>(k);
+        const double both = (n + 1.0) * (n + 2.0);
+        EXPECT_NEAR(position, (std::pow(x, n + 2.0) - x) / both, 1e-14 * scale) << k << " " << x;
+        EXPECT_NEAR(rate, std::pow(x, n + 1.0) / (n + 1.0) - 1.0 / both, 1e-14 * scale)
+            << k << " " << x;
+        EXPECT_NEAR(work, (1.0 - std::pow(x, n + 1.0)) / (n + 1.0), 1e-14 * scale) << k << " " << x;
+      }
+    }
+  }
+}
+
 TEST_P(Stoermer, ForgetsAtTheCornersOfAProfileBetweenStepsAndInside) {
   for (const double dwell : {0.2, 0.1234567}) {
     RunningSystem::Setup s = onShaft();

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "integration/step_methods.h"
 #include "models/model_registry.h"
 
 namespace whirl_twin {
@@ -25,6 +26,17 @@ struct VariantUnderTest {
     return all;
   }
 };
+
+/// The methods for any motion that a form can step with.
+inline std::vector<std::string> integratorsOf(const ModelVariant& variant) {
+  std::vector<std::string> all;
+  for (const std::string& integrator : variant.integrators) {
+    if (!stepMethod(integrator).by_name) {
+      all.push_back(integrator);
+    }
+  }
+  return all;
+}
 
 /// A number that chooses a form of its model, or belongs to one: 0 in all others.
 inline bool choosesForm(const std::string& parameter) {

@@ -28,7 +28,7 @@ std::vector<Pair> everyPair() {
   for (const VariantUnderTest& variant : everyVariant()) {
     const ModelInfo& model = *findModel(variant.model);
     for (const ModelVariant& v : model.variants) {
-      for (const std::string& integrator : v.integrators) {
+      for (const std::string& integrator : integratorsOf(v)) {
         if (v.when == variant.when) {
           pairs.push_back({variant, integrator});
         }

@@ -1,0 +1,143 @@
+#include "accuracy/step_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "accuracy/past_margin.h"
+#include "models/model_registry.h"
+
+namespace whirl_twin {
+
+namespace {
+
+/// Of a step: substeps are no shorter than this, but for so many as there always may be.
+constexpr std::int64_t kShortestSubstep = 500;  // ns
+constexpr int kFewSubsteps = 64;
+constexpr int kMostSubsteps = 4096;
+/// A method that is not symplectic has to be this much cheaper than gauss_legendre_6.
+constexpr double kWorthwhile = 0.7;
+constexpr double kBelieved = 1.0e12;  // an excess beyond says only that the motion was lost
+constexpr double kGain = 0.7;
+constexpr double kMostDoublings = 16.0;
+/// A step of twice the length may be wrong by so much more.
+constexpr double kRoundingExcess = 1.0e-3;
+/// Of a method with a past: so many times its past, and so many times the step.
+constexpr double kOwnSteps = 50.0;
+constexpr int kPastMargin = 4;
+/// Steps of the twin that one of a method may be read off for: beyond, little is gained.
+constexpr int kMostAhead = 32;
+const char* const kReference = "gauss_legendre_6";
+
+double cost(const StepChoice& choice) {
+  const StepMethod& method = stepMethod(choice.integrator);
+  return method.stepsFor(choice.substeps) * method.evaluations;
+}
+
+}  // namespace
+
+int doublings(double times, int order) {
+  const double missing = std::ceil(std::log2(std::min(times, kBelieved)) / (order > 0 ? order : 4));
+  return static_cast<int>(std::clamp(missing, 1.0, kMostDoublings));
+}
+
+StepSetting settingOf(const Scene& one, const StepChoice& choice) {
+  return {choice.integrator, one.step, choice.substeps};
+}
+
+int mostSubsteps(const Scene& one) {
+  return static_cast<int>(
+      std::clamp<std::int64_t>(one.step / kShortestSubstep, kFewSubsteps, kMostSubsteps));
+}
+
+void StepSearch::tryMethod(const StepMethod& method) {
+  const SystemSpec& spec = one_.systems.front();
+  StepChoice choice;
+  choice.integrator = method.name;
+  choice.substeps = spec.substeps;
+  const int most = std::max(mostSubsteps(one_), spec.substeps);
+  double before = kInfinity;
+  while ((!found_ || cost(choice) < cost(*found_)) &&
+         (method.symplectic || method.order == 0 || cost(choice) < kWorthwhile * implicit_cost_)) {
+    const StepSetting setting = settingOf(one_, choice);
+    const double excess = judge_.excess(setting);
+    if (excess < best_excess_ && method.past == 0) {
+      best_excess_ = excess;
+      best_ = choice;
+    }
+    if (excess <= 1.0) {
+      if (method.implicit || method.order == 0 ||
+          (soundAtLongerSteps(setting, 2, method, excess) &&
+           (method.past == 0 || isProvenWithAPast(setting, method, excess)))) {
+        found_ = choice;
+        if (method.name == kReference) {
+          implicit_cost_ = cost(choice);
+        }
+      }
+      return;
+    }
+    if (std::isfinite(before) && excess > kGain * before) {
+      return;  // shorter steps are no better
+    }
+    before = excess;
+    const int more = doublings(excess, method.order);
+    if (choice.substeps > most >> more) {
+      return;
+    }
+    choice.substeps <<= more;
+  }
+}
+
+void StepSearch::tryAhead(const StepMethod& method) {
+  if (one_.systems.front().substeps > 1) {
+    return;  // shorter steps are asked for
+  }
+  StepChoice choice;
+  choice.integrator = method.name;
+  for (choice.substeps = kMostAhead; choice.substeps > 1; choice.substeps /= 2) {
+    const StepSetting setting = settingOf(one_, choice);
+    if ((found_ && cost(choice) >= cost(*found_)) || cost(choice) >= kWorthwhile * implicit_cost_) {
+      return;
+    }
+    const double excess = hasOwnSteps(setting, method) ? judge_.excess(setting) : kInfinity;
+    if (excess <= 1.0 && soundAtLongerSteps(setting, 2, method, excess) &&
+        isProvenWithAPast(setting, method, excess)) {
+      found_ = choice;
+      return;
+    }
+  }
+}
+
+StepChoice StepSearch::best() const {
+  if (found_ || best_) {
+    return found_ ? *found_ : *best_;
+  }
+  StepChoice plain;
+  const SystemSpec& spec = one_.systems.front();
+  plain.integrator = chooseIntegrator(setup_, spec.drive.has_value()).integrator;
+  plain.substeps = spec.substeps;
+  return plain;
+}
+
+/// An explicit method near its limit of stability is no choice: it must be sound at longer steps.
+bool StepSearch::soundAtLongerSteps(const StepSetting& setting, int times, const StepMethod& method,
+                                    double excess) {
+  return judge_.excessAtLongerSteps(setting, times) <=
+         std::pow(times, method.order + 3) * std::max(excess, kRoundingExcess);
+}
+
+/// A method with a past does not lose digits beyond its limit but the motion, and the limit is
+/// low where much is damped: it has to have shown many steps of its own, on its own, and to be
+/// sound at four times the step, by its errors and by its growth of any small deviation.
+bool StepSearch::isProvenWithAPast(const StepSetting& setting, const StepMethod& method,
+                                   double excess) {
+  return one_.systems.front().inputs.empty() && hasOwnSteps(setting, method) &&
+         soundAtLongerSteps(setting, kPastMargin, method, excess) &&
+         growsNothing(one_, setup_, judge_.reference().trajectory, setting, kPastMargin);
+}
+
+bool StepSearch::hasOwnSteps(const StepSetting& setting, const StepMethod& method) const {
+  return judge_.knownSteps(setting) >= kOwnSteps * static_cast<double>(method.past);
+}
+
+}  // namespace whirl_twin
