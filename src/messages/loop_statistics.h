@@ -67,6 +67,14 @@ struct LoopStatistics {
   double execution_min = kNotTold;        ///< [s], of one step of everything
   double execution_mean = kNotTold;       ///< [s]
   double execution_p999 = kNotTold;       ///< [s]
+  std::string waits_for;  ///< in lockstep: the nodes that it waits for at present; empty: none
+  // One entry for each of its systems, and one for its controllers if it has any; since the start
+  // or the last reset of the statistics. Newer still: none in logs of before.
+  std::vector<std::string> timed;
+  std::vector<double> step_mean;  ///< [s], that it takes of a step of everything
+  std::vector<double> step_max;   ///< [s]
+  std::vector<double>
+      long_steps;  ///< of the overruns that were no late wake-ups, those of which it took most
 
   template <class Visit>
   static void fields(Visit& visit) {
@@ -110,6 +118,12 @@ struct LoopStatistics {
     visit.numbers("s", TWIN_FIELD(wakeup_latency_min), TWIN_FIELD(wakeup_latency_mean),
                   TWIN_FIELD(wakeup_latency_p999), TWIN_FIELD(execution_min),
                   TWIN_FIELD(execution_mean), TWIN_FIELD(execution_p999));
+    visit(TWIN_FIELD(waits_for), "", requireText);
+    const auto timed = TWIN_FIELD(timed);
+    visit.array(TWIN_FIELD(parts), timed, "", each(requireText), Stays::kSame);
+    visit.along(timed, TWIN_FIELD(step_mean), "s");
+    visit.along(timed, TWIN_FIELD(step_max), "s");
+    visit.along(timed, TWIN_FIELD(long_steps), "");
   }
 };
 

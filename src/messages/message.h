@@ -14,6 +14,7 @@
 #include "messages/measurement.h"
 #include "messages/monitor_status.h"
 #include "messages/order_state.h"
+#include "messages/scene_text.h"
 #include "messages/stability_margin.h"
 #include "messages/states.h"
 
@@ -26,7 +27,7 @@ using Message =
                  state::LoopStatistics, state::Measurement, state::InputCommand, state::Alert,
                  state::MonitorStatus, state::OrderState, state::AlarmCommand, state::FollowState,
                  state::ControllerState, state::ControllerMargins, state::ControllerMeasurement,
-                 state::ControllerCommand>;
+                 state::ControllerCommand, state::SceneText>;
 
 /// A kind as a value: typename decltype(kind)::State.
 template <class T>

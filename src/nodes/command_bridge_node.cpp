@@ -3,6 +3,7 @@
 // people are, it has those services, and sends what they are asked for by LCM.
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <ros/ros.h>
 
 #include <chrono>
@@ -101,8 +102,8 @@ void run() {
   std::unique_ptr<CommandTaker> taker;
   std::unique_ptr<CommandSender> sender;
   if (settings.takes) {
-    taker = std::make_unique<CommandTaker>(channels, settings.simulation, settings.lease,
-                                           settings.played);
+    taker = std::make_unique<CommandTaker>(channels, nameOfThisProcess(), settings.simulation,
+                                           settings.lease, settings.played);
   } else {
     sender = std::make_unique<CommandSender>(channels, ros::NodeHandle("~"), nameOfThisProcess(),
                                              settings.timeout);
@@ -119,6 +120,13 @@ void run() {
                      counts.holder.empty() ? "nobody commands" : counts.holder + " commands");
       if (refused.roseLately(counts.refused + channels.malformed(), now)) {
         status.mergeSummary(DiagnosticStatus::WARN, "commands are refused");
+      }
+      if (const auto others = taker->others(); !others.empty()) {
+        const std::string text =
+            fmt::format("{} takes the commands of {}*, too: each is done twice; end one of them",
+                        fmt::join(others, " and "), settings.lcm_prefix);
+        ROS_ERROR_THROTTLE(60.0, "%s", text.c_str());
+        status.mergeSummary(DiagnosticStatus::ERROR, text);
       }
       status.add("taken", counts.taken);
       status.add("refused", counts.refused);
@@ -146,6 +154,9 @@ void run() {
     channels.receive(kPoll);
     if (ros::WallTime::now() >= next_report) {
       next_report = ros::WallTime::now() + kReportPeriod;
+      if (taker) {
+        taker->beat();
+      }
       diagnostics.force_update();
     }
   }

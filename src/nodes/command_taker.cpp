@@ -16,6 +16,8 @@ namespace {
 constexpr std::size_t kMostWaiting = 100;
 constexpr std::int64_t kLongestWay = 5'000'000;  // [us], of a command that is not an old one
 constexpr const char* kRelease = "release";
+constexpr const char* kTaker = "takes commands";  // says an answer to nothing, whose sender does
+constexpr double kMemory = 5.0;                   // [s], of what was heard: some beats
 
 double steadyNow() {
   return ros::SteadyTime::now().toSec();
@@ -46,10 +48,15 @@ void call(const std::string& service, const twin_command_t& command, command_ans
 
 }  // namespace
 
-CommandTaker::CommandTaker(CommandChannels& channels, std::string simulation, double lease,
-                           bool played)
-    : channels_(channels), simulation_(std::move(simulation)), played_(played), lease_(lease) {
+CommandTaker::CommandTaker(CommandChannels& channels, std::string name, std::string simulation,
+                           double lease, bool played)
+    : channels_(channels),
+      name_(std::move(name)),
+      simulation_(std::move(simulation)),
+      played_(played),
+      lease_(lease) {
   channels_.take([this](const twin_command_t& command) { take(command); });
+  channels_.take([this](const command_answer_t& answer) { hear(answer); });
   thread_ = std::thread([this] { run(); });
 }
 
@@ -67,6 +74,35 @@ CommandCounts CommandTaker::counts() const {
   CommandCounts counts = counts_;
   counts.holder = lease_.holder(steadyNow());
   return counts;
+}
+
+void CommandTaker::beat() {
+  command_answer_t beat{};
+  beat.sender = name_;
+  beat.message = kTaker;
+  channels_.send(beat);
+}
+
+void CommandTaker::hear(const command_answer_t& answer) {
+  const std::int64_t way = wallMicroseconds() - answer.utime;
+  if (answer.message == kTaker && answer.number == 0 && answer.sender != name_ &&
+      std::abs(way) <= kLongestWay) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (heard_.size() < kMostWaiting) {
+      heard_[printable(answer.sender)] = steadyNow();
+    }
+  }
+}
+
+std::vector<std::string> CommandTaker::others() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::vector<std::string> others;
+  for (const auto& [name, at] : heard_) {
+    if (steadyNow() - at <= kMemory) {
+      others.push_back(name);
+    }
+  }
+  return others;
 }
 
 void CommandTaker::take(const twin_command_t& command) {

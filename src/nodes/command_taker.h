@@ -9,6 +9,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "nodes/command_channels.h"
 #include "nodes/command_lease.h"
@@ -28,13 +29,19 @@ class CommandTaker {
  public:
   /// simulation: the node, whose services are called. played: also commands that were sent long
   /// ago, as those of a log are. `channels` outlives it.
-  CommandTaker(CommandChannels& channels, std::string simulation, double lease, bool played);
+  CommandTaker(CommandChannels& channels, std::string name, std::string simulation, double lease,
+               bool played);
   ~CommandTaker();
 
   CommandCounts counts() const;
+  /// Says on the channel of the answers that it is there; once a second.
+  void beat();
+  /// Who else takes commands there: each would be done twice.
+  std::vector<std::string> others() const;
 
  private:
   void take(const twin_command_t& command);
+  void hear(const command_answer_t& answer);
   std::string objectionTo(const twin_command_t& command);
   void run();
   void carryOut(const twin_command_t& command);
@@ -42,6 +49,7 @@ class CommandTaker {
   void answer(const twin_command_t& command, command_answer_t answer);
 
   CommandChannels& channels_;
+  std::string name_;
   std::string simulation_;
   bool played_;
   mutable std::mutex mutex_;  // all below
@@ -49,6 +57,7 @@ class CommandTaker {
   CommandLease lease_;
   CommandCounts counts_;
   std::deque<twin_command_t> waiting_;
+  std::map<std::string, double> heard_;  // [s], when another taker was last
   bool ending_ = false;
   std::thread thread_;
 };

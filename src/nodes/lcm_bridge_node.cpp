@@ -1,11 +1,12 @@
 // lcm_bridge_node: LCM channels TWIN_* to the ROS topics of a live twin, for logs being played back
-// and twins elsewhere. Needs no scene. Recorded stability margins and alerts only with
-// ~derived: a monitor listens to the states and publishes its own.
-// Says what it received, lost and rejected, and who else there is, on /diagnostics once a second,
-// and when it ends. The
-// service ~ready (std_srvs/Trigger) is there as soon as the bridge listens.
+// and twins elsewhere. Needs no scene: that of a twin elsewhere comes with its states. Recorded
+// stability margins and alerts only with ~derived: a monitor listens to the states and publishes
+// its own. Says what it received, lost and rejected, and who else there is, on /diagnostics once a
+// second, and when it ends. The service ~ready (std_srvs/Trigger) is there as soon as the bridge
+// listens.
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
 
@@ -24,9 +25,11 @@
 #include "nodes/rising_count.h"
 #include "nodes/rival_report.h"
 #include "nodes/run_node.h"
+#include "scene/yaml_file.h"
 #include "transport/channels.h"
 #include "transport/lcm_connection.h"
 #include "transport/lcm_receiver.h"
+#include "transport/ros_parameters.h"
 
 namespace whirl_twin {
 namespace {
@@ -61,6 +64,21 @@ std::int64_t wallMicroseconds() {
   return std::chrono::duration_cast<std::chrono::microseconds>(
              std::chrono::system_clock::now().time_since_epoch())
       .count();
+}
+
+/// The scene of a twin elsewhere, for the nodes that show it or watch it here and have none.
+void keepScene(const state::SceneText& scene, const ros::NodeHandle& twin) {
+  if (twin.hasParam("scene")) {
+    return;
+  }
+  try {
+    twin.setParam("scene", fromYaml(readYamlText(fmt::format("{}", fmt::join(scene.line, "\n")),
+                                                 scene.source, "a scene", "systems")));
+    twin.setParam("scene_file", scene.source);
+    ROS_INFO("%s is the scene of the twin on LCM", twin.resolveName("scene").c_str());
+  } catch (const Refusal& why) {
+    ROS_WARN_THROTTLE(60.0, "the scene of the twin on LCM cannot be used: %s", why.what());
+  }
 }
 
 std::string countsOf(const LcmReceiver& receiver) {
@@ -120,6 +138,8 @@ void run() {
       [&](const Message& message) {
         if (const auto* loop = std::get_if<state::LoopStatistics>(&message)) {
           rivals.take(*loop);
+        } else if (const auto* scene = std::get_if<state::SceneText>(&message)) {
+          keepScene(*scene, ros::NodeHandle(twinNamespace()));
         }
         states.take(message, receiver->arrived());
       },

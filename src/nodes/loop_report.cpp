@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include "messages/slowest_part.h"
+
 namespace whirl_twin {
 
 namespace {
@@ -73,6 +75,17 @@ state::LoopStatistics loopStatistics(const Twin& twin, const Observer& observer,
   return m;
 }
 
+void addStepTimes(const LiveTwin& live, state::LoopStatistics& loop) {
+  const Twin& twin = live.twin();
+  for (std::size_t i = 0; i < live.stepTimes().parts(); ++i) {
+    const StepTimes::Taken taken = live.stepTimes().of(i);
+    loop.timed.push_back(i < twin.systems().size() ? twin.systems()[i]->spec.name : "controllers");
+    loop.step_mean.push_back(1.0e-9 * taken.mean);
+    loop.step_max.push_back(seconds(taken.longest));
+    loop.long_steps.push_back(static_cast<double>(taken.long_steps));
+  }
+}
+
 void LoopDiagnostics::summarize(const state::LoopStatistics& loop, double time,
                                 diagnostic_updater::DiagnosticStatusWrapper& status) {
   using diagnostic_msgs::DiagnosticStatus;
@@ -116,6 +129,10 @@ void LoopDiagnostics::summarize(const state::LoopStatistics& loop, double time,
   status.add("wake-up latency p99 [s]", loop.wakeup_latency_p99);
   status.add("wake-up latency max [s]", loop.wakeup_latency_max);
   status.add("execution p99 [s]", loop.execution_p99);
+  const std::string slowest = slowestPart(loop);
+  if (!slowest.empty()) {
+    status.add("slowest in a step", slowest);
+  }
   for (std::size_t i = 0; i < loop.external.size(); ++i) {
     status.add(loop.external[i] + ": age of commands p50, p99, max [samples]",
                fmt::format("{}, {}, {}", loop.age_p50[i], loop.age_p99[i], loop.age_max[i]));

@@ -6,6 +6,7 @@
 #include "messages/loop_statistics.h"
 #include "nodes/rising_count.h"
 #include "realtime/fixed_rate_loop.h"
+#include "twin/live_twin.h"
 #include "twin/observer.h"
 
 namespace whirl_twin {
@@ -14,6 +15,9 @@ namespace whirl_twin {
 state::LoopStatistics loopStatistics(const Twin& twin, const Observer& observer,
                                      const RealtimeStatus& status, const LoopTiming& timing,
                                      bool paused, std::uint64_t dropped);
+
+/// What the parts of the twin take of its steps.
+void addStepTimes(const LiveTwin& live, state::LoopStatistics& loop);
 
 class LoopDiagnostics {
  public:

@@ -3,6 +3,7 @@ add_executable(monitor_node
   ${CMAKE_CURRENT_LIST_DIR}/monitor_node.cpp
   ${CMAKE_CURRENT_LIST_DIR}/alarm_services.cpp
   ${CMAKE_CURRENT_LIST_DIR}/alarm_settings_service.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/alert_events.cpp
   ${CMAKE_CURRENT_LIST_DIR}/rival_report.cpp
   ${CMAKE_CURRENT_LIST_DIR}/run_node.cpp)
 target_link_libraries(monitor_node PRIVATE whirl_twin_plugins whirl_twin_transport_ros

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <thread>
 #include <utility>
 
 #include "monitoring/alarm_history.h"
@@ -16,6 +17,7 @@
 #include "monitoring/watched_kinds.h"
 #include "nodes/alarm_services.h"
 #include "nodes/alarm_settings_service.h"
+#include "nodes/alert_events.h"
 #include "nodes/changed_parameters.h"
 #include "nodes/private_parameter.h"
 #include "nodes/rival_report.h"
@@ -52,7 +54,8 @@ constexpr const char* kHelp =
 
 constexpr std::uint32_t kQueue = 5000;        // some seconds at 1 kHz
 constexpr std::uint32_t kPublishQueue = 100;  // ten seconds of margins
-constexpr double kReportPeriod = 1.0;         // s, wall time
+constexpr std::chrono::microseconds kGather{1000};
+constexpr double kReportPeriod = 1.0;  // s, wall time
 
 double wallTime() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -150,6 +153,9 @@ class MonitorNode {
     } else {
       ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(soon ? 2.0e-4 : 1.0e-2));
     }
+    if (!soon) {  // what comes within a moment is taken in one turn
+      std::this_thread::sleep_for(kGather);
+    }
     services_.receive();
     monitor_.tick(wallTime(), paused_);
     publish();
@@ -158,6 +164,7 @@ class MonitorNode {
       next_report_ = wallTime() + kReportPeriod;
       diagnostics_.force_update();
       beat();
+      events_.tellAgain(monitor_.alerts().active(), wallTime());
     }
   }
 
@@ -281,15 +288,7 @@ class MonitorNode {
       if (history_) {
         history_->write(event);
       }
-      lcm_.publish(event);
-      if (!event.raised || event.latched) {
-        ROS_INFO("%s: %s %s: %s", event.system.c_str(), event.type.c_str(),
-                 event.latched ? "latched" : "cleared", event.text.c_str());
-      } else if (event.acknowledged) {
-        ROS_INFO("%s: %s acknowledged", event.system.c_str(), event.type.c_str());
-      } else {
-        ROS_WARN("%s", event.text.c_str());
-      }
+      events_.tell(event);
     }
   }
 
@@ -362,6 +361,7 @@ class MonitorNode {
   TwinMonitor monitor_;
   std::string url_;
   LcmPublisher lcm_;
+  AlertEvents events_{lcm_};
   LcmRivals rivals_;
   RosTopics topics_;
   std::optional<AlarmHistory> history_;

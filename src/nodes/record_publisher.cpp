@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <ros/ros.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <ctime>
@@ -19,7 +20,10 @@ namespace {
 
 constexpr auto kClockPausePeriod = std::chrono::milliseconds(100);
 constexpr auto kReportPeriod = std::chrono::seconds(1);
+constexpr auto kAgainPeriod = std::chrono::seconds(10);
 constexpr auto kLongestSaving = std::chrono::seconds(1);
+constexpr std::chrono::microseconds kIdle{500};         // between looks at the ring
+constexpr std::chrono::microseconds kShortestIdle{25};  // where somebody waits for every step
 constexpr int kMostAtOnce = 64;                   // records, between looks at what else is due
 constexpr std::int64_t kClockStep = 100'000'000;  // [ns]: more is no slewing
 
@@ -37,14 +41,20 @@ std::int64_t wallClockAtZero() {
 }  // namespace
 
 RecordPublisher::RecordPublisher(LiveTwin& live, const FixedRateLoop& loop, StatePublisher states,
-                                 std::int64_t every, bool clock, bool measure)
+                                 LockstepListeners& lockstep, state::SceneText scene,
+                                 std::int64_t every, std::chrono::microseconds batch, bool clock,
+                                 bool measure)
     : live_(live),
       loop_(loop),
       observer_(live.twin(), live.generations()),
       orders_(live.twin()),
       states_(std::move(states)),
+      lockstep_(lockstep),
+      scene_(std::move(scene)),
+      newest_step_(live.stepCount()),
       clock_(clock),
       every_(every),
+      batch_(batch),
       thinning_(live.ringCapacity()),
       started_(wallClock()),
       clock_zero_(wallClockAtZero()),
@@ -86,6 +96,11 @@ void RecordPublisher::run() {
   std::vector<double> record(live_.twin().layout().size);
   auto next_report = std::chrono::steady_clock::now();
   auto next_clock = next_report;
+  auto next_again = next_report + kAgainPeriod;
+  auto next_scene = next_again;
+  scene_.at.stamp = static_cast<std::int64_t>(ros::Time::now().toNSec());
+  states_.tell(scene_);
+  std::chrono::microseconds idle = kIdle;
   while (true) {
     const bool last_round = ending_.load();
     bool stopped_now = false;
@@ -95,8 +110,10 @@ void RecordPublisher::run() {
       thinning_.consumed(live_.waiting());
       ++taken;
     }
+    states_.send();
     if (taken > 0) {  // once for all records, which are not to wait for statistics
       states_.publishEnsembles(observer_);
+      states_.send();
     }
     if (reset_requested_.exchange(false)) {
       forgetCounts();
@@ -107,6 +124,16 @@ void RecordPublisher::run() {
       publishReport();
       next_report = now + kReportPeriod;
     }
+    if (now >= next_scene) {
+      states_.tellAgain(scene_);
+      next_scene = now + kAgainPeriod;
+    }
+    if (taken > 0 || !live_.paused()) {
+      next_again = now + kAgainPeriod;
+    } else if (now >= next_again) {  // it stands; else each is told again between its states
+      states_.tellParametersAgain();
+      next_again = now + kAgainPeriod;
+    }
     if (clock_ && live_.paused() && now >= next_clock) {
       states_.publishClock(observer_);
       next_clock = now + kClockPausePeriod;
@@ -115,7 +142,9 @@ void RecordPublisher::run() {
       return;
     }
     if (taken < kMostAtOnce) {
-      std::this_thread::sleep_for(std::chrono::microseconds(500));
+      idle = lockstep_.on() ? std::min(taken > 0 ? kShortestIdle : 2 * idle, kIdle)
+                            : std::max(kIdle, batch_);
+      std::this_thread::sleep_for(idle);
     }
   }
 }
@@ -140,7 +169,7 @@ void RecordPublisher::putBack(const Checkpoint& checkpoint, const std::string& s
   clock_steps_ = checkpoint.live["clock_steps"].as<std::int64_t>(0);
 }
 
-/// One record; true if a system has just stopped.
+/// One record; true if a system has just stopped. As does tell().
 bool RecordPublisher::take(const double* record) {
   const std::int64_t step = RecordLayout::step(record);
   if (RecordLayout::scheduled(record) == RecordLayout::kSaved) {
@@ -149,6 +178,13 @@ bool RecordPublisher::take(const double* record) {
     saved_anew_.notify_all();
     return false;
   }
+  const bool anew = step < newest_step_;
+  newest_step_ = step;
+  return tell(record, anew);
+}
+
+bool RecordPublisher::tell(const double* record, bool anew) {
+  const std::int64_t step = RecordLayout::step(record);
   const bool due = step % every_ == 0;
   const bool shown = due && step / every_ % thinning_.every() == 0;
   left_out_ += due && !shown ? 1 : 0;
@@ -157,19 +193,22 @@ bool RecordPublisher::take(const double* record) {
     orders_.take(record, observer_);
     return false;
   }
-  const bool reset = step < observer_.step();
-  if (reset) {
+  if (anew) {
     clock_steps_ += observer_.step() + 1;
   }
   observer_.observe(record);
   orders_.take(record, observer_);
   stamp(record);
-  if (reset) {
+  if (anew) {
+    states_.send();
     publishReport();  // the new epoch, ahead of its states
+  }
+  if (shown) {
+    lockstep_.published(step, anew);  // first: an acknowledgement may come at once
   }
   states_.publish(observer_, shown && !observer_.tellsOnlyChange());
   if (measuring_) {
-    measure(reset);
+    measure(anew);
   }
   if (orders_due && !observer_.tellsOnlyChange()) {
     states_.publishOrders(observer_, orders_);
@@ -220,6 +259,8 @@ void RecordPublisher::publishReport() {
   report.publish_every = static_cast<std::uint64_t>(every_ * thinning_.every());
   report.real_time_factor = live_.pace();
   report.achieved_factor = achievedFactor(report);
+  report.waits_for = lockstep_.waitsFor();
+  addStepTimes(live_, report);
   if (report.lcm_failed > lcm_failed_told_) {
     ROS_WARN("%lu messages could not be sent on LCM, %lu in all: is there a route for multicast?",
              static_cast<unsigned long>(report.lcm_failed - lcm_failed_told_),

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <limits>
@@ -16,6 +17,8 @@
 #include <vector>
 
 #include "messages/loop_statistics.h"
+#include "messages/scene_text.h"
+#include "nodes/lockstep_listeners.h"
 #include "nodes/state_publisher.h"
 #include "realtime/even_thinning.h"
 #include "realtime/fixed_rate_loop.h"
@@ -36,11 +39,13 @@ struct SavedObserver {
 
 class RecordPublisher {
  public:
-  /// What is referred to outlives it. every: steps from one publication to the next; clock: stamps
-  /// are simulated time, which a reset does not turn back, else wall time; measure: also what the
-  /// scene's sensors see.
+  /// What is referred to outlives it. every: steps from one publication to the next; batch: how
+  /// long a record may wait to leave with others, where nobody waits for it in lockstep; clock:
+  /// stamps are simulated time, which a reset does not turn back, else wall time; measure: also
+  /// what the scene's sensors see.
   RecordPublisher(LiveTwin& live, const FixedRateLoop& loop, StatePublisher states,
-                  std::int64_t every, bool clock, bool measure);
+                  LockstepListeners& lockstep, state::SceneText scene, std::int64_t every,
+                  std::chrono::microseconds batch, bool clock, bool measure);
   ~RecordPublisher();
 
   /// Before it starts: goes on from what it knew there. Throws Refusal.
@@ -63,6 +68,7 @@ class RecordPublisher {
  private:
   void run();
   bool take(const double* record);
+  bool tell(const double* record, bool anew);
   SavedObserver saved(std::int64_t step);
   void measure(bool reset);
   void measureAnew();
@@ -80,9 +86,13 @@ class RecordPublisher {
   Observer observer_;
   OrderObserver orders_;
   StatePublisher states_;
+  LockstepListeners& lockstep_;
+  state::SceneText scene_;
+  std::int64_t newest_step_;  // of the records
   bool clock_;
   std::int64_t clock_steps_ = 0;  // on the clock before the last reset
   std::int64_t every_;            // steps
+  std::chrono::microseconds batch_;
   EvenThinning thinning_;
   std::int64_t started_;     // [ns], wall clock
   std::int64_t clock_zero_;  // [ns], wall clock at zero of CLOCK_MONOTONIC

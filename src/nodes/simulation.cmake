@@ -3,6 +3,7 @@ add_executable(simulation_node
   ${CMAKE_CURRENT_LIST_DIR}/checkpoint_saver.cpp
   ${CMAKE_CURRENT_LIST_DIR}/external_controllers.cpp
   ${CMAKE_CURRENT_LIST_DIR}/input_commands.cpp
+  ${CMAKE_CURRENT_LIST_DIR}/lockstep_listeners.cpp
   ${CMAKE_CURRENT_LIST_DIR}/loop_report.cpp
   ${CMAKE_CURRENT_LIST_DIR}/record_publisher.cpp
   ${CMAKE_CURRENT_LIST_DIR}/rival_report.cpp

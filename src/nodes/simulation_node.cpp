@@ -11,6 +11,7 @@
 
 #include <chrono>
 #include <optional>
+#include <sstream>
 
 #include "accuracy/step_choice.h"
 #include "messages/monitor_pulse.h"
@@ -18,6 +19,7 @@
 #include "nodes/checkpoint_saver.h"
 #include "nodes/external_controllers.h"
 #include "nodes/input_commands.h"
+#include "nodes/lockstep_listeners.h"
 #include "nodes/loop_report.h"
 #include "nodes/private_parameter.h"
 #include "nodes/publish_rate.h"
@@ -50,6 +52,7 @@ constexpr const char* kHelp =
     "\n"
     "private parameters (_NAME:=VALUE on the command line, or <param> in a launch file):\n"
     "  ~publish_rate      Hz, default 0: every step\n"
+    "  ~batch             s, 0 to 0.1, that states may wait to be sent together, default 0\n"
     "  ~real_time_factor  simulated seconds in one of wall time, 0.01 to 1000, default 1; 0: as "
     "fast as it goes\n"
     "  ~lcm_url           default udpm://239.255.76.67:7667?ttl=0; empty: no LCM\n"
@@ -68,6 +71,11 @@ constexpr const char* kHelp =
     "  ~clock_rate        Hz, of /clock, default 250\n"
     "  ~paused            true or false, default false: stands at its start until ~resume or "
     "~step\n"
+    "  ~lockstep          nodes, separated by commas, that acknowledge each step on the topic "
+    "lockstep, and that\n"
+    "                     simulated time waits for; default: none\n"
+    "  ~lockstep_ahead    publications beyond what is acknowledged, 1 to 1000, default 1\n"
+    "  ~lockstep_timeout  s without an acknowledgement after which it pauses, default 5\n"
     "  ~measure           true or false, default false: tell what the scene's sensors see, on "
     "measured/SOURCE\n"
     "  ~checkpoint        a file, in which the twin is saved while it runs and at its end; "
@@ -82,6 +90,7 @@ constexpr double kClockRate = 250.0;               // Hz
 constexpr double kSlowestClock = 1.0e-3;           // Hz
 constexpr double kFastestClock = 1.0e5;            // Hz
 constexpr std::int64_t kShortestStep = 10'000;     // ns, that the fixed-rate loop takes
+constexpr double kLongestBatch = 0.1;              // s
 constexpr double kLongestGiveUp = 86400.0;         // s
 constexpr double kCheckpointPeriod = 5.0;          // s
 constexpr double kShortestCheckpointPeriod = 0.1;  // s
@@ -93,6 +102,7 @@ constexpr double kCommandPoll = 0.002;  // s, where there are ramps or commands 
 /// The node's private parameters.
 struct Settings {
   std::int64_t every;  ///< steps from one publication to the next
+  std::chrono::microseconds batch;
   std::string lcm_url;
   std::string lcm_prefix;
   bool clock;
@@ -103,15 +113,24 @@ struct Settings {
   std::string checkpoint;    ///< file; empty: none
   double checkpoint_period;  ///< [s]
   std::string resume;        ///< file; empty: none
+  Lockstep::Settings lockstep;
   FixedRateLoop::Options loop;
 };
 
 Settings readSettings(const Scene& scene) {
-  requireKnownParameters({"publish_rate", "lcm_url", "lcm_prefix", "clock", "realtime", "priority",
-                          "overrun", "cpu", "give_up", "busy_wait", "real_time_factor", "measure",
-                          "clock_rate", "paused", "checkpoint", "checkpoint_period", "resume"});
+  requireKnownParameters({"publish_rate",    "lcm_url",   "lcm_prefix",       "clock",
+                          "realtime",        "priority",  "overrun",          "cpu",
+                          "give_up",         "busy_wait", "real_time_factor", "measure",
+                          "clock_rate",      "paused",    "checkpoint",       "checkpoint_period",
+                          "resume",          "batch",     "lockstep",         "lockstep_ahead",
+                          "lockstep_timeout"});
   Settings s;
   s.every = stepsToPublish(scene);
+  const double batch = privateParameter("batch", "a number of seconds", 0.0);
+  if (!(batch >= 0.0 && batch <= kLongestBatch)) {
+    throw Refusal(fmt::format("batch: must be from 0 to {:g} s, found {}", kLongestBatch, batch));
+  }
+  s.batch = std::chrono::microseconds(std::llround(batch * 1.0e6));
   s.lcm_url = privateParameter<std::string>("lcm_url", "an LCM url, or nothing", kDefaultLcmUrl);
   s.lcm_prefix = lcmPrefixParameter();
   s.clock = privateParameter("clock", "true or false", false);
@@ -124,6 +143,7 @@ Settings readSettings(const Scene& scene) {
                               kFastestClock, s.clock_rate));
   }
   s.paused = privateParameter("paused", "true or false", false);
+  s.lockstep = lockstepParameters(s.every);
   s.measure = privateParameter("measure", "true or false", false);
   if (s.measure && scene.sensors.empty()) {
     throw Refusal("measure: the scene has no sensors");
@@ -168,6 +188,16 @@ Settings readSettings(const Scene& scene) {
   return s;
 }
 
+state::SceneText textOf(const ParameterTree& scene) {
+  state::SceneText text;
+  text.source = scene.source;
+  std::istringstream lines(YAML::Dump(scene.tree));
+  for (std::string line; std::getline(lines, line);) {
+    text.line.push_back(line);
+  }
+  return text;
+}
+
 void run() {
   ros::NodeHandle node(twinNamespace());
   ros::NodeHandle private_node("~");
@@ -196,12 +226,13 @@ void run() {
   if (settings.paused) {
     live.putBack(true);
   }
+  LockstepListeners lockstep(live, node, settings.lockstep);
   RecordPublisher publisher(
       live, loop,
       StatePublisher(live.twin(), live.ensembles(), node,
                      LcmPublisher(settings.lcm_url, settings.lcm_prefix),
                      settings.clock ? std::llround(1.0e9 / settings.clock_rate) : 0),
-      settings.every, settings.clock, settings.measure);
+      lockstep, textOf(given), settings.every, settings.batch, settings.clock, settings.measure);
   if (resumed) {
     publisher.putBack(*resumed, settings.resume);
     ROS_INFO("goes on from step %ld, t = %g s, of %s", static_cast<long>(resumed->step),
@@ -213,6 +244,7 @@ void run() {
       private_node.advertiseService<std_srvs::TriggerRequest, std_srvs::TriggerResponse>(
           "reset_statistics", [&](std_srvs::TriggerRequest&, std_srvs::TriggerResponse& response) {
             loop.resetTiming();
+            live.resetStepTimes();
             publisher.resetCounts();
             response.success = 1;
             response.message = "latencies and counts begin anew";
@@ -238,6 +270,7 @@ void run() {
     if (!silence.empty()) {
       status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, silence);
     }
+    lockstep.summarize(status);
     if (external.any()) {
       status.add("refused commands of controllers", external.refused());
     }
@@ -280,6 +313,7 @@ void run() {
     saver.saveIfDue();
     commands.receive();
     rivals.receive();
+    lockstep.watch();
     if (std::chrono::steady_clock::now() >= next_report) {
       next_report = std::chrono::steady_clock::now() + kReportPeriod;
       diagnostics.force_update();

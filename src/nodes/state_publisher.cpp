@@ -46,12 +46,14 @@ StatePublisher::StatePublisher(const Twin& twin, EnsembleObserver ensembles, ros
       lcm_(std::move(lcm)),
       clock_period_(clock_period),
       last_clock_(-clock_period) {
+  topics_.collect();
   messages_.announce([this](auto kind, const std::string& subject) {
     using State = typename decltype(kind)::State;
     requireChannelFits(channelName(State::kKind, subject, lcm_.prefix()));
     topics_.advertise<State>(subject);
   });
   topics_.advertise<state::LoopStatistics>();
+  topics_.advertise<state::SceneText>();
   if (clock_period > 0) {
     clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", 10);
   }
@@ -64,6 +66,10 @@ void StatePublisher::publish(const Observer& observer, bool all) {
     publishClock(observer);
     last_clock_ = time;
   }
+}
+
+void StatePublisher::tellParametersAgain() {
+  messages_.tellAgain(StepSink{topics_, lcm_});
 }
 
 void StatePublisher::publishEnsembles(const Observer& observer) {

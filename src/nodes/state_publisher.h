@@ -22,6 +22,8 @@ class StatePublisher {
   StatePublisher(const Twin& twin, EnsembleObserver ensembles, ros::NodeHandle node,
                  LcmPublisher lcm, std::int64_t clock_period = 0);
 
+  /// On ROS messages leave with the next send(), but those of latched topics.
+  void send() { topics_.send(); }
   /// Publishes what the observer stands at; all: also what leaves every step, and not only the
   /// parameters that have changed. Messages without a subscriber, and channels with LCM off, are
   /// not filled.
@@ -31,6 +33,13 @@ class StatePublisher {
   void publishEnsembles(const Observer& observer);
   /// Publishes the orders that are due at the observer's step.
   void publishOrders(const Observer& observer, const OrderObserver& orders);
+  /// On LCM, which latches nothing, once more what has not changed: the parameters,
+  void tellParametersAgain();
+  /// and what was told.
+  template <class State>
+  void tellAgain(const State& state) {
+    lcm_.publish(state);
+  }
   /// Publishes what does not come from a record: the loop's statistics, what sensors measure, what
   /// a follower has learned.
   template <class State>

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "messages/refusal.h"
+#include "messages/slowest_part.h"
 #include "reports/live_lines.h"
 #include "reports/message_text.h"
 #include "reports/output.h"
@@ -26,9 +27,9 @@ constexpr const char* kDescription =
 constexpr const char* kFooter =
     "In a terminal it is drawn anew five times a second, until Ctrl-C; into a file or a pipe it "
     "goes\n"
-    "every second. Of alerts it knows those that were raised or changed while it watched; how "
-    "many\n"
-    "stand is told by the monitor. Exit status: 0 a twin was heard, 1 none, 2 bad input.\n"
+    "every second. The alerts that stand are known within five seconds. Exit status: 0 a twin "
+    "was heard, 1 none,\n"
+    "2 bad input.\n"
     "\n"
     "Examples:\n"
     "  twin watch\n"
@@ -132,7 +133,12 @@ class Watch {
 
  private:
   void take(const state::LoopStatistics& loop) { loop_.take(loop); }
-  void take(const state::MonitorStatus& monitor) { monitor_.take(monitor); }
+  void take(const state::MonitorStatus& monitor) {
+    monitor_.take(monitor);
+    if (monitor.alerts == 0) {
+      alerts_.clear();  // that they were cleared may have been lost
+    }
+  }
   void take(const state::WhirlState& whirl) {
     systems_[whirl.system].whirl = whirl;
     time_ = whirl.at.time;
@@ -187,6 +193,12 @@ class Watch {
         "LCM, {} lost by subscribers",
         loop.overruns, loop.late_wakeups, loop.skipped_steps, loop.dropped_snapshots,
         loop.lcm_failed, loop.ros_lost));
+    if (const std::string slowest = slowestPart(loop); !slowest.empty()) {
+      lines.push_back("  slowest in a step: " + slowest);
+    }
+    if (!loop.waits_for.empty()) {
+      lines.push_back("  in lockstep: waits for " + loop.waits_for);
+    }
     for (std::size_t i = 0; i < loop.system.size(); ++i) {
       if (loop.stopped[i] != 0) {
         lines.push_back(fmt::format("  STOPPED: {}", loop.stopped_why[i]));

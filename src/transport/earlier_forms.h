@@ -40,12 +40,13 @@ inline constexpr std::array<EarlierForm, 4> kEarlierForms<state::StabilityMargin
      {0x4058c40523023a98, "iidbsd"},
      {0x2dc55037686885d0, "sd"}}};
 template <>
-inline constexpr std::array<EarlierForm, 5> kEarlierForms<state::LoopStatistics>{
-    {{0xe676f1d3c287e44f, "llllddlsnSDDDildddddd"},
-     {0x9af8de11c53ac49c, "ddlsnSDDDildddddd"},
-     {0x2a3f5309642532d1, "lsnSDDDildddddd"},
-     {0x221db61304d694dd, "nSDDDildddddd"},
-     {0x0116770a44453e47, "ildddddd"}}};
+inline constexpr std::array<EarlierForm, 6> kEarlierForms<state::LoopStatistics>{
+    {{0xe676f1d3c287e44f, "llllddlsnSDDDilddddddsnSDDD"},
+     {0x9af8de11c53ac49c, "ddlsnSDDDilddddddsnSDDD"},
+     {0x2a3f5309642532d1, "lsnSDDDilddddddsnSDDD"},
+     {0x221db61304d694dd, "nSDDDilddddddsnSDDD"},
+     {0x0116770a44453e47, "ilddddddsnSDDD"},
+     {0xa07d41b077898d97, "snSDDD"}}};
 template <>
 inline constexpr std::array<EarlierForm, 1> kEarlierForms<state::Alert>{
     {{0x966688c34b63f52f, "bbbidd"}}};

@@ -19,6 +19,7 @@
 #include "whirl_twin/order_state_t.hpp"
 #include "whirl_twin/parameter_change_t.hpp"
 #include "whirl_twin/pendulum_state_t.hpp"
+#include "whirl_twin/scene_text_t.hpp"
 #include "whirl_twin/stability_margin_t.hpp"
 #include "whirl_twin/whirl_state_t.hpp"
 
@@ -44,6 +45,7 @@ controller_state_t lcmTypeOf(const state::ControllerState&);
 controller_margins_t lcmTypeOf(const state::ControllerMargins&);
 controller_measurement_t lcmTypeOf(const state::ControllerMeasurement&);
 controller_command_t lcmTypeOf(const state::ControllerCommand&);
+scene_text_t lcmTypeOf(const state::SceneText&);
 
 template <class State>
 using LcmType = decltype(lcmTypeOf(std::declval<State>()));

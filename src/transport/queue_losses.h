@@ -1,9 +1,9 @@
 // Messages that roscpp throws away because a subscriber does not take them: a topic keeps `queue`
-// of them for each, and then drops the oldest without a word. They are counted by what is still
-// held when the next one is published.
+// writes of them for each, and then drops the oldest without a word. They are counted by what is
+// still held when the next one is published.
 #pragma once
 
-#include <ros/serialization.h>
+#include <ros/serialized_message.h>
 
 #include <atomic>
 #include <boost/shared_array.hpp>
@@ -18,16 +18,13 @@ class QueueLosses {
  public:
   explicit QueueLosses(std::size_t queue) : queue_(queue) {}
 
-  /// The message as bytes that tell when nobody needs them any more.
-  template <class RosMessage>
-  ros::SerializedMessage serialized(const RosMessage& message) {
-    ros::SerializedMessage bytes = ros::serialization::serializeMessage(message);
-    // A queue that is full, and the message that is being written: the slowest subscriber's oldest
-    // goes for this one.
-    lost_ += held_->fetch_add(1) > queue_ ? 1 : 0;
+  /// Has bytes of so many messages tell when nobody needs them any more.
+  void watch(ros::SerializedMessage& bytes, std::size_t messages) {
+    // A queue that is full, and the write that is under way: the slowest subscriber's oldest goes
+    // for this one, and has about as many messages.
+    lost_ += held_->fetch_add(1) > queue_ ? messages : 0;
     const auto done = [held = held_, kept = bytes.buf](std::uint8_t*) { held->fetch_sub(1); };
     bytes.buf = boost::shared_array<std::uint8_t>(bytes.buf.get(), done);
-    return bytes;
   }
 
   /// Messages that at least one subscriber has missed.

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
 #include "messages/refusal.h"
 
 namespace whirl_twin {
@@ -34,6 +38,60 @@ YAML::Node toYaml(XmlRpc::XmlRpcValue& value) {
     default:
       return YAML::Node(YAML::NodeType::Null);
   }
+}
+
+namespace {
+
+constexpr int kDeepest = 20;
+constexpr int kMostValues = 1'000'000;
+
+XmlRpc::XmlRpcValue scalarOf(const YAML::Node& node) {
+  const std::string& text = node.Scalar();
+  const bool quoted = node.Tag() == "!";
+  if (!quoted && (text == "true" || text == "false")) {
+    return {text == "true"};
+  }
+  char* end = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  const bool begins = !text.empty() && text.find_first_of("+-.0123456789") == 0;
+  if (quoted || !begins || *end != '\0') {
+    return {text};
+  }
+  const bool whole = text.find_first_not_of("+-0123456789") == std::string::npos;
+  if (whole && std::fabs(number) <= std::numeric_limits<int>::max()) {
+    return {static_cast<int>(number)};
+  }
+  return {number};
+}
+
+XmlRpc::XmlRpcValue fromYaml(const YAML::Node& node, int depth, int& left) {
+  if (depth > kDeepest || --left < 0) {
+    throw Refusal("deeper or larger than any scene");
+  }
+  XmlRpc::XmlRpcValue value;
+  if (node.IsMap()) {
+    value.begin();  // makes it a struct
+    for (const auto& member : node) {
+      value[member.first.Scalar()] = fromYaml(member.second, depth + 1, left);
+    }
+  } else if (node.IsSequence()) {
+    value.setSize(0);
+    for (std::size_t i = 0; i < node.size(); ++i) {
+      value[static_cast<int>(i)] = fromYaml(node[i], depth + 1, left);
+    }
+  } else if (node.IsScalar()) {
+    return scalarOf(node);
+  } else {
+    return {""};
+  }
+  return value;
+}
+
+}  // namespace
+
+XmlRpc::XmlRpcValue fromYaml(const YAML::Node& tree) {
+  int left = kMostValues;
+  return fromYaml(tree, 0, left);
 }
 
 ParameterTree parameterTree(const ros::NodeHandle& node, const std::string& name) {

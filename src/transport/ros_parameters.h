@@ -20,4 +20,8 @@ ParameterTree parameterTree(const ros::NodeHandle& node, const std::string& name
 /// A parameter as YAML.
 YAML::Node toYaml(XmlRpc::XmlRpcValue& value);
 
+/// YAML as a parameter, as rosparam would load it. Throws Refusal for one that is too deep or too
+/// large for a scene, as a few lines of aliases make it.
+XmlRpc::XmlRpcValue fromYaml(const YAML::Node& tree);
+
 }  // namespace whirl_twin

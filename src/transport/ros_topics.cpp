@@ -4,20 +4,51 @@
 
 namespace whirl_twin {
 
-std::vector<std::string> listenersOf(const std::string& topic) {
+std::vector<TopicLink> linksOf(const std::string& topic) {
   const ros::PublicationPtr publication = ros::TopicManager::instance()->lookupPublication(topic);
-  std::vector<std::string> nodes;
+  std::vector<TopicLink> found;
   if (!publication) {
-    return nodes;
+    return found;
   }
   XmlRpc::XmlRpcValue links;
   links.setSize(0);
   publication->getInfo(links);  // [[connection, node, ...], ...]
   // NOLINTNEXTLINE(modernize-loop-convert): XmlRpcValue iterates structs only.
   for (int i = 0; i < links.size(); ++i) {
-    nodes.push_back(links[i][1]);
+    found.push_back({links[i][0], links[i][1]});
+  }
+  return found;
+}
+
+std::vector<std::string> listenersOf(const std::string& topic) {
+  std::vector<std::string> nodes;
+  for (const TopicLink& link : linksOf(topic)) {
+    nodes.push_back(link.node);
   }
   return nodes;
+}
+
+void RosTopics::send(const ros::Publisher& publisher, JoinedMessages& messages) {
+  const std::uint64_t before = messages.lost();
+  const std::string topic = publisher.getTopic();
+  messages.send(topic);
+  if (messages.lost() > before) {
+    lost_ += messages.lost() - before;
+    lost_last_ = topic;
+  }
+}
+
+void RosTopics::send() {
+  for (auto& [kind, subjects] : topics_) {
+    for (auto& [subject, topics] : subjects) {
+      if (!topics.states.empty()) {
+        send(topics.state, topics.states);
+      }
+      if (!topics.joint_state_list.empty()) {
+        send(topics.joint_states, topics.joint_state_list);
+      }
+    }
+  }
 }
 
 void RosTopics::publishAlerts(const std::vector<state::Alert>& alerts, std::int64_t stamp) {

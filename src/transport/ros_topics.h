@@ -2,7 +2,6 @@
 #pragma once
 
 #include <ros/ros.h>
-#include <ros/topic_manager.h>
 
 #include <cstdint>
 #include <functional>
@@ -12,11 +11,18 @@
 #include <vector>
 
 #include "transport/channels.h"
-#include "transport/queue_losses.h"
+#include "transport/joined_messages.h"
 #include "transport/ros_converters.h"
 
 namespace whirl_twin {
 
+/// A connection to a topic of this node; a node that was started again has another.
+struct TopicLink {
+  int id;
+  std::string node;
+};
+
+std::vector<TopicLink> linksOf(const std::string& topic);
 /// The nodes that are connected to a topic of this node.
 std::vector<std::string> listenersOf(const std::string& topic);
 
@@ -42,6 +48,11 @@ class RosTopics {
            (topics.joint_states && topics.joint_states.getNumSubscribers() > 0);
   }
 
+  /// From now on messages wait for send(), but those of latched topics, which are news.
+  void collect() { collecting_ = true; }
+  /// What waits leaves.
+  void send();
+
   /// Publishes to those who listen; advertises where that has not been done.
   template <class State>
   void publish(const State& state) {
@@ -58,14 +69,14 @@ class RosTopics {
     if constexpr (State::kKind.has(MessageKind::kLatched)) {
       topics.state.publish(toRos(state));
     } else if (topics.state.getNumSubscribers() > 0) {
-      publishCounted(topics.state, toRos(state), topics.state_losses);
+      publishCounted(topics.state, toRos(state), topics.states);
     }
     if constexpr (State::kKind.has(MessageKind::kJointStates)) {
       if (is_new && topics.joint_states) {
         advertised_(topics.joint_states);
       }
       if (topics.joint_states.getNumSubscribers() > 0) {
-        publishCounted(topics.joint_states, toJointState(state), topics.joint_state_losses);
+        publishCounted(topics.joint_states, toJointState(state), topics.joint_state_list);
       }
     }
   }
@@ -80,26 +91,22 @@ class RosTopics {
 
  private:
   struct Topics {
-    explicit Topics(std::uint32_t queue) : state_losses(queue), joint_state_losses(queue) {}
+    explicit Topics(std::uint32_t queue) : states(queue), joint_state_list(queue) {}
     ros::Publisher state;  // null while ROS is shutting down
     ros::Publisher joint_states;
-    QueueLosses state_losses;
-    QueueLosses joint_state_losses;
+    JoinedMessages states;
+    JoinedMessages joint_state_list;
   };
 
   template <class RosMessage>
   void publishCounted(const ros::Publisher& publisher, const RosMessage& message,
-                      QueueLosses& losses) {
-    const std::uint64_t before = losses.lost();
-    const std::string topic = publisher.getTopic();
-    ros::SerializedMessage bytes;
-    ros::TopicManager::instance()->publish(
-        topic, [&] { return losses.serialized(message); }, bytes);
-    if (losses.lost() > before) {
-      lost_ += losses.lost() - before;
-      lost_last_ = topic;
+                      JoinedMessages& messages) {
+    messages.add(message);
+    if (!collecting_ || messages.full()) {
+      send(publisher, messages);
     }
   }
+  void send(const ros::Publisher& publisher, JoinedMessages& messages);
 
   template <class State>
   Topics& topicsOf(const std::string& subject) {
@@ -121,6 +128,7 @@ class RosTopics {
   std::uint32_t queue_;  // messages a slow subscriber may fall behind
   std::function<void(const ros::Publisher&)> advertised_;
   std::map<const MessageKind*, std::map<std::string, Topics>> topics_;
+  bool collecting_ = false;
   std::uint64_t lost_ = 0;
   std::string lost_last_;  // a topic
 };

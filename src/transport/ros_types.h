@@ -23,6 +23,7 @@
 #include "whirl_twin/OrderState.h"
 #include "whirl_twin/ParameterChange.h"
 #include "whirl_twin/PendulumState.h"
+#include "whirl_twin/SceneText.h"
 #include "whirl_twin/StabilityMargin.h"
 #include "whirl_twin/WhirlState.h"
 
@@ -47,6 +48,7 @@ ControllerState rosTypeOf(const state::ControllerState&);
 ControllerMargins rosTypeOf(const state::ControllerMargins&);
 ControllerMeasurement rosTypeOf(const state::ControllerMeasurement&);
 ControllerCommand rosTypeOf(const state::ControllerCommand&);
+SceneText rosTypeOf(const state::SceneText&);
 Alert rosTypeOf(const state::Alert&);  // one of an AlertArray
 
 template <class State>

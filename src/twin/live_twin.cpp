@@ -1,14 +1,28 @@
 #include "twin/live_twin.h"
 
+#include <algorithm>
+
 #include "realtime/monotonic_clock.h"
 
 namespace whirl_twin {
+
+namespace {
+
+constexpr std::int64_t kLongestStay = 50'000'000;  // [ns], in a cycle, that commands are heard
+
+/// [ns], of what is done as fast as it goes, and of waiting: the rest of a period is others'.
+std::int64_t endOfCycle(std::int64_t scheduled, std::int64_t period) noexcept {
+  return scheduled + std::min(period / 10 * 8, kLongestStay);
+}
+
+}  // namespace
 
 LiveTwin::LiveTwin(const Scene& scene, std::size_t ring_capacity)
     : twin_(scene),
       generations_(std::make_shared<SystemGenerations>(twin_)),
       ring_(twin_.layout().size, ring_capacity),
-      record_(twin_.layout().size) {
+      record_(twin_.layout().size),
+      times_(twin_.timedParts(), scene.step) {
   twin_.buildEnsembles();
 }
 
@@ -21,11 +35,20 @@ LiveTwin::~LiveTwin() {
 }
 
 bool LiveTwin::cycle(std::int64_t scheduled) noexcept {
+  times_.beginCycle();
+  const bool more = goOn(scheduled);
+  times_.endCycle(scheduled);
+  return more;
+}
+
+bool LiveTwin::goOn(std::int64_t scheduled) noexcept {
   carryOutCommands();
   if (at_start_) {
-    at_start_ = false;
     asked_ = scheduled;
-    publish(scheduled);
+    if (gate_.letsStart(twin_.stepCount())) {
+      at_start_ = false;
+      publish(scheduled);
+    }
     return true;
   }
   if (holds()) {
@@ -36,6 +59,7 @@ bool LiveTwin::cycle(std::int64_t scheduled) noexcept {
     stepWhileThereIsTime(scheduled);
     return true;
   }
+  const std::int64_t end = endOfCycle(scheduled, twin_.scene().step);
   const std::int64_t due = pace_.due();
   for (std::int64_t i = 0; i < due; ++i) {
     if (i > 0) {
@@ -44,10 +68,10 @@ bool LiveTwin::cycle(std::int64_t scheduled) noexcept {
         break;
       }
     }
-    if (!mayStep(scheduled)) {
+    if (!mayStep(scheduled, end)) {
       break;
     }
-    step(scheduled + i * twin_.scene().step / due);
+    step(scheduled + i * twin_.scene().step / due, due > 1);
   }
   return true;
 }
@@ -75,14 +99,22 @@ bool LiveTwin::holds() const noexcept {
   return paused_.load(std::memory_order_relaxed) && steps_to_do_ == 0;
 }
 
-bool LiveTwin::mayStep(std::int64_t now) noexcept {
+bool LiveTwin::mayStep(std::int64_t now, std::int64_t end) noexcept {
+  if (!gate_.isOpen() && !(hasRoom() && gate_.waitFor(twin_.stepCount() + 1, end))) {
+    asked_ = now;  // nobody is asked
+    return false;
+  }
   const std::int64_t elapsed = now - asked_;
   asked_ = now;
   return twin_.mayStep(elapsed);
 }
 
-void LiveTwin::step(std::int64_t scheduled) noexcept {
-  twin_.step();
+void LiveTwin::step(std::int64_t scheduled, bool several) noexcept {
+  if (times_.isDue(several)) {
+    twin_.step(times_);
+  } else {
+    twin_.step();
+  }
   step_.store(twin_.stepCount(), std::memory_order_relaxed);
   publish(scheduled);
   if (steps_to_do_ > 0 && --steps_to_do_ == 0) {
@@ -91,17 +123,17 @@ void LiveTwin::step(std::int64_t scheduled) noexcept {
 }
 
 void LiveTwin::stepWhileThereIsTime(std::int64_t scheduled) noexcept {
-  const std::int64_t end = scheduled + twin_.scene().step / 10 * 8;  // the rest is others'
+  const std::int64_t end = endOfCycle(scheduled, twin_.scene().step);
   std::int64_t now = scheduled;
   const auto goesOn = [&] {
     return now < end && !at_start_ && !holds() &&
            (steps_to_do_ > 0 || pace_.factor() == Pace::kAsFastAsItGoes);
   };
   do {
-    if (!ring_.hasRoomFor(7 * ring_.capacity() / 8) || !mayStep(now)) {
+    if (!hasRoom() || !mayStep(now, end)) {
       return;
     }
-    step(now);
+    step(now, true);
     carryOutCommands();
     now = monotonicNow();
   } while (goesOn());
@@ -113,6 +145,9 @@ void LiveTwin::carryOut(const TwinCommand& command) noexcept {
       paused_.store(false, std::memory_order_relaxed);
       return finish(true, 0.0);
     case TwinCommand::Kind::kReset:
+      if (twin_.stepCount() > 0) {
+        gate_.beginRun();
+      }
       twin_.reset();
       resets_.fetch_add(1, std::memory_order_relaxed);  // before the record that begins anew
       at_start_ = true;

@@ -3,7 +3,7 @@
 //
 // What goes as fast as it goes (the factor 0, and the steps of a command in a pause) takes most of
 // a period, and waits while more than an eighth of the ring waits for its reader: nothing of it is
-// lost.
+// lost. Nor is anything where a gate lets it step only so far (twin/lockstep.h).
 #pragma once
 
 #include <atomic>
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "realtime/record_ring.h"
+#include "realtime/step_gate.h"
 #include "twin/ensemble_observer.h"
 #include "twin/pace.h"
 #include "twin/system_generations.h"
@@ -108,6 +109,11 @@ class LiveTwin {
   /// The real-time factor, that Pace::canBe(); of commands it is independent.
   void setPace(double factor) noexcept { pace_.set(factor); }
   double pace() const noexcept { return pace_.factor(); }
+  /// How far it may step.
+  StepGate& gate() noexcept { return gate_; }
+  /// What its parts take of a step.
+  const StepTimes& stepTimes() const noexcept { return times_; }
+  void resetStepTimes() noexcept { times_.reset(); }
   /// Resets carried out.
   std::uint64_t resets() const { return resets_.load(std::memory_order_relaxed); }
   /// The step reached.
@@ -128,8 +134,10 @@ class LiveTwin {
   void carryOutCommands() noexcept;
   void pauseNow() noexcept;
   bool holds() const noexcept;
-  bool mayStep(std::int64_t now) noexcept;
-  void step(std::int64_t scheduled) noexcept;
+  bool goOn(std::int64_t scheduled) noexcept;
+  bool mayStep(std::int64_t now, std::int64_t end) noexcept;
+  bool hasRoom() const noexcept { return ring_.hasRoomFor(7 * ring_.capacity() / 8); }
+  void step(std::int64_t scheduled, bool several) noexcept;
   void stepWhileThereIsTime(std::int64_t scheduled) noexcept;
   void carryOut(const TwinCommand& command) noexcept;
   void look(std::size_t drive) noexcept;
@@ -156,6 +164,8 @@ class LiveTwin {
   std::unique_ptr<Controller> retired_law_;  ///< likewise, kReplaceLaw
   std::uint64_t steps_to_do_ = 0;            ///< of a kStep under way
   Pace pace_;
+  StepGate gate_;
+  StepTimes times_;
   std::int64_t asked_ = 0;  ///< [ns], the twin last whether it may step
   bool at_start_ = true;    ///< the state at step 0 has not been published
 };

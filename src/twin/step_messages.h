@@ -78,6 +78,16 @@ class StepMessages {
     orders.tell(observer, systems_, sink);
   }
 
+  /// The parameters as they were told last, as sink.again(change), for those who have come since.
+  template <class Sink>
+  void tellAgain(Sink&& sink) const {
+    for (const Told& told : told_) {
+      if (!told.parameters.system.empty()) {
+        sink.again(told.parameters);
+      }
+    }
+  }
+
   /// Tells `sink` as sink(subject, make) the spread of those ensembles of which take(system, now,
   /// out) has one.
   template <class Take, class Sink>

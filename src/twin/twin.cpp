@@ -62,6 +62,7 @@ RecordLayout layoutOf(const BuiltScene& scene) {
 
 void Twin::buildEnsembles() {
   stepped_ensembles_.clear();
+  stepped_of_.clear();
   for (std::size_t i = 0; i < systems().size(); ++i) {
     const BuiltSystem& system = *systems()[i];
     if (system.spec.ensemble.count == 0) {
@@ -80,6 +81,7 @@ void Twin::buildEnsembles() {
       throw refused(error);
     }
     stepped_ensembles_.push_back(ensembles_[i].get());
+    stepped_of_.push_back(i);
     accompanied_ = true;
   }
   reset();
@@ -101,9 +103,20 @@ double Twin::seconds(std::int64_t steps) const noexcept {
 // A rotor's own step takes so little that what is around it counts: what a scene may do without is
 // out of the way.
 void Twin::step() noexcept {
+  stepMarked(NoMarks{});
+}
+
+[[gnu::noinline]] void Twin::step(StepTimes& times) noexcept {
+  times.beginStep();
+  stepMarked(TimingMarks{times});
+  times.endStep();
+}
+
+template <class Marks>
+inline void Twin::stepMarked(const Marks& marks) noexcept {
   const double time = this->time();
   if (__builtin_expect(control_.any(), 0)) {
-    stepControlled(time);
+    stepControlled(time, marks);
     return;
   }
   Stepper* const* const running = running_.data();
@@ -112,9 +125,10 @@ void Twin::step() noexcept {
     if (status[i] == StepStatus::kOk) {
       status[i] = running[i]->step(time);
     }
+    marks(i);
   }
   if (accompanied_) {
-    goOnAccompanied(time);
+    goOnAccompanied(time, marks);
   } else {
     ++steps_;
     beginDrives();
@@ -122,29 +136,35 @@ void Twin::step() noexcept {
 }
 
 /// From instant to instant of the controllers, what they measure and act on; the others whole.
-[[gnu::noinline]] void Twin::stepControlled(double time) noexcept {
+template <class Marks>
+[[gnu::noinline]] void Twin::stepControlled(double time, const Marks& marks) noexcept {
   control_.stop(status_);
   const std::int64_t start = now();
   const std::int64_t length = scene().step;
   for (std::int64_t from = 0; from < length;) {
     control_.act(start + from, static_cast<double>(from) / 1e9, running_, drives_);
     const std::int64_t to = std::min(control_.nextInstant() - start, length);
+    marks(running_.size());
     const bool whole = from == 0 && to == length;
     for (std::size_t i = 0; i < running_.size(); ++i) {
       if (status_[i] == StepStatus::kOk && (from == 0 || control_.controls(i))) {
         status_[i] = whole || !control_.controls(i) ? running_[i]->step(time)
                                                     : running_[i]->stepPart(time, from, to);
       }
+      marks(i);
     }
     control_.follow(start + to, running_);
+    marks(running_.size());
     from = to;
   }
-  goOnAccompanied(time);
+  goOnAccompanied(time, marks);
 }
 
-void Twin::goOnAccompanied(double time) noexcept {
-  for (Ensemble* const ensemble : stepped_ensembles_) {
-    ensemble->step(time);
+template <class Marks>
+void Twin::goOnAccompanied(double time, const Marks& marks) noexcept {
+  for (std::size_t k = 0; k < stepped_ensembles_.size(); ++k) {
+    stepped_ensembles_[k]->step(time);
+    marks(stepped_of_[k]);
   }
   ++steps_;
   beginStep();

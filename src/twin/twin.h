@@ -14,6 +14,7 @@
 #include "twin/control_loop.h"
 #include "twin/ensemble.h"
 #include "twin/record.h"
+#include "twin/step_times.h"
 
 namespace whirl_twin {
 
@@ -58,6 +59,9 @@ class Twin {
   }
   /// One step of everything that has not stopped.
   void step() noexcept;
+  /// The same, with what each system and the controllers take of it: timedParts() parts.
+  void step(StepTimes& times) noexcept;
+  std::size_t timedParts() const noexcept { return running_.size() + (control_.any() ? 1 : 0); }
   /// Back to the scene's start, with the scene's own systems.
   void reset() noexcept;
   /// Puts another in the place of a system, with its coordinates and rates as they are, known from
@@ -98,8 +102,12 @@ class Twin {
   std::int64_t now() const noexcept { return scene().time + steps_ * scene().step; }
   void beginStep() noexcept;
   void beginDrives() noexcept;
-  void goOnAccompanied(double time) noexcept;
-  void stepControlled(double time) noexcept;
+  template <class Marks>
+  void stepMarked(const Marks& marks) noexcept;
+  template <class Marks>
+  void goOnAccompanied(double time, const Marks& marks) noexcept;
+  template <class Marks>
+  void stepControlled(double time, const Marks& marks) noexcept;
 
   BuiltScene built_;
   std::vector<Drive> drives_;                           // steppers keep references to them
@@ -112,6 +120,7 @@ class Twin {
   std::vector<std::int64_t> generation_;                // of running_; 0: the scene's
   std::vector<std::unique_ptr<Ensemble>> ensembles_;    // of each system; null: none
   std::vector<Ensemble*> stepped_ensembles_;            // those that there are
+  std::vector<std::size_t> stepped_of_;                 // the systems that have them
   std::vector<Inputs*> begun_inputs_;                   // of inputs_, of systems that have any
   bool accompanied_ = false;                            // by ensembles or inputs
   std::vector<double> state_;                           // room for q, v and work of the largest

@@ -1,11 +1,13 @@
 #!/usr/bin/python3
-"""/clock goes at the rate asked for, and a reset, which begins the twin's own time anew, does not turn it back."""
+"""/clock goes at the rate asked for, and a reset, which begins the twin's own time anew, does not turn it back. States that
+leave together are all there, each as it would be alone."""
 import os
 import sys
 
 import rospy
 import rostest
 from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 from whirl_twin.msg import WhirlState
 
@@ -37,6 +39,20 @@ class ClockOfTheTwin(NodeTrial):
         self.assertEqual(stamps, sorted(set(stamps)), 'no instant twice')
         self.assertEqual(sum(whirl.step == 0 for whirl in whirls[1:]), 2, 'the time of the twin begins anew')
         self.assertGreater(clocks[-1], 1e9 * whirls[-1].time)
+
+    def test_states_that_leave_together(self):
+        load_scene(os.path.join(SCENES, 'demo.yaml'))
+        whirls, joints = [], []
+        self.listen('/twin/rotor/whirl', WhirlState, whirls.append)
+        self.listen('/twin/pendulum/joint_states', JointState, joints.append)
+        self.start('simulation_node', '_realtime:=ignore', '_lcm_url:=', '_batch:=0.05', '_clock:=true')
+        self.assertTrue(wait_until(lambda: len(whirls) > 500 and len(joints) > 500))
+        steps = [whirl.step for whirl in whirls]
+        self.assertEqual(steps, list(range(steps[0], steps[0] + len(steps))))
+        self.assertEqual([whirl.header.stamp.to_nsec() for whirl in whirls], [1000000 * step for step in steps])
+        for heard in (whirls, joints):
+            counted = [message.header.seq for message in heard]
+            self.assertEqual(counted, list(range(counted[0], counted[0] + len(counted))))
 
 
 if __name__ == '__main__':

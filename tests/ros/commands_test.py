@@ -17,7 +17,7 @@ from std_srvs.srv import Trigger
 from whirl_twin.srv import SetInput, SetParameter, SetSpeed, StepN
 from whirl_twin_lcm.whirl_twin import command_answer_t, twin_command_t
 
-from node_trial import OK, WARN, NodeTrial, load_scene, wait_until
+from node_trial import ERROR, OK, WARN, NodeTrial, load_scene, wait_until
 
 sys.path.append(os.path.join(rospkg.RosPack().get_path('whirl_twin'), 'examples/listeners'))
 from lcm_receiver import LcmReceiver  # noqa: E402
@@ -123,6 +123,15 @@ class Commands(NodeTrial):
         self.assertRegex(self.command('first', *speed).message, '^second commands')
         self.assertTrue(self.command('second', 'release').done)
         self.assertTrue(self.command('first', *speed).done)
+
+    def test_two_that_take_them_name_each_other(self):
+        name = 'taker: commands'
+        self.assertFalse(self.diagnosed(name, ERROR))
+        second = self.start('command_bridge_node', '__name:=second')
+        self.assertTrue(wait_until(lambda: self.diagnosed(name, ERROR, '/second on .* takes the commands of TWIN_')))
+        self.assertTrue(wait_until(lambda: self.diagnosed('second: commands', ERROR, '/taker on ')))
+        self.end(second)
+        self.assertTrue(wait_until(lambda: self.diagnosed(name, OK)), 'forgotten when it has gone')
 
     def test_a_pause_ends_a_step_under_way(self):
         self.assertTrue(self.command('first', 'pause').done)

@@ -1,15 +1,17 @@
 #!/usr/bin/python3
 """The bridge passes on every message, or of states the newest at a rate: never an older one behind it, and the last one
-too. Parameters are never left out, and who comes later gets them."""
+too. Parameters are never left out, and who comes later gets them. One that comes late to a twin that has long stood hears
+by LCM what ROS would have latched: the scene, the parameters, the alerts that stand."""
 import os
 import subprocess
 import sys
 
 import rospy
 import rostest
-from whirl_twin.msg import DriveState, ParameterChange, WhirlState
+from std_srvs.srv import Trigger
+from whirl_twin.msg import AlertArray, DriveState, ParameterChange, WhirlState
 
-from node_trial import NodeTrial, wait_until
+from node_trial import NodeTrial, load_scene, wait_until
 
 TWIN = os.environ['WHIRL_TWIN_PROGRAM']
 LAST = 2000  # steps
@@ -63,6 +65,28 @@ class NewestStates(NodeTrial):
         self.assertGreater(told, 4)
         self.assertLess(told, LAST / 2)
         self.assertGreater(int(counts['left out for newer ones']), LAST)
+
+    def test_who_comes_late(self):
+        scene = os.path.join(self.folder.name, 'critical.yaml')
+        with open(scene, 'w') as file:
+            file.write(SCENE.replace('20.0', '60.0') + '    initial: {x: 250 um}\n')
+        load_scene(scene)
+        self.addCleanup(rospy.delete_param, '/twin/scene')
+        alerts, far_alerts, far_parameters = [], [], []
+        self.listen('/twin/alerts', AlertArray, lambda m: alerts.append(m.alerts))
+        self.start('simulation_node', '_realtime:=ignore')
+        self.start('monitor_node')
+        self.assertTrue(wait_until(lambda: alerts and alerts[-1]))
+        rospy.wait_for_service('/simulation_node/pause', 30)
+        self.assertTrue(rospy.ServiceProxy('/simulation_node/pause', Trigger)().success)
+        self.listen('/far/alerts', AlertArray, lambda m: far_alerts.append(m.alerts))
+        self.listen('/far/rotor/parameters', ParameterChange, far_parameters.append)
+        self.start('lcm_bridge_node', '__ns:=/far', '_lcm_prefix:=TWIN_', '_derived:=true')
+        self.assertTrue(wait_until(lambda: far_parameters and rospy.has_param('/far/scene') and far_alerts and far_alerts[-1]))
+        self.assertEqual(rospy.get_param('/far/scene'), rospy.get_param('/twin/scene'))
+        self.assertEqual(dict(zip(far_parameters[-1].names, far_parameters[-1].values))['stiffness'], 7200.0)
+        stand = [(alert.id, alert.text) for alert in alerts[-1]]
+        self.assertTrue(wait_until(lambda: [(alert.id, alert.text) for alert in far_alerts[-1]] == stand))
 
 
 if __name__ == '__main__':

@@ -113,6 +113,9 @@ class StateSamples {
     s.age_p50 = numbers(s.external.size());
     s.age_p99 = numbers(s.external.size());
     s.age_max = numbers(s.external.size());
+    s.step_mean = numbers(s.timed.size());
+    s.step_max = numbers(s.timed.size());
+    s.long_steps = numbers(s.timed.size());
     s.started = static_cast<std::int64_t>(below(kMaxStamp));
     return s;
   }
@@ -280,6 +283,7 @@ class StateSamples {
   auto of(KindOf<state::ControllerMeasurement>) {
     return exchanged<state::ControllerMeasurement>();
   }
+  auto of(KindOf<state::SceneText>) { return sample<state::SceneText>(); }
   auto of(KindOf<state::ControllerCommand>) { return exchanged<state::ControllerCommand>(); }
 
   template <class State>

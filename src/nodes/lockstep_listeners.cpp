@@ -1,0 +1,214 @@
+#include "nodes/lockstep_listeners.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+#include <sstream>
+#include <thread>
+
+#include "nodes/private_parameter.h"
+#include "transport/ros_topics.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr std::uint32_t kQueue = 1000;
+constexpr const char* kTopic = "lockstep";
+constexpr int kMostAhead = 1000;
+constexpr double kShortestTimeout = 0.1;  // s
+constexpr double kLongestTimeout = 86400.0;
+constexpr double kPatience = 0.3;  // s that one may take without being looked after, and named
+const ros::WallDuration kLook(0.1);
+
+double now() {
+  return ros::SteadyTime::now().toSec();
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+}  // namespace
+
+Lockstep::Settings lockstepParameters(std::int64_t every) {
+  Lockstep::Settings settings;
+  settings.every = every;
+  std::string names =
+      privateParameter<std::string>("lockstep", "names of nodes, separated by commas", "");
+  std::replace(names.begin(), names.end(), ',', ' ');
+  std::istringstream words(names);
+  std::string word;
+  while (words >> word) {
+    std::string fault;
+    if (!ros::names::validate(word, fault)) {
+      throw Refusal(
+          fmt::format("lockstep: must be names of nodes, found {}", whirl_twin::quoted(word)));
+    }
+    const std::string name = ros::names::resolve(word);
+    if (std::count(settings.who.begin(), settings.who.end(), name) > 0) {
+      throw Refusal(fmt::format("lockstep: {} is named twice", name));
+    }
+    settings.who.push_back(name);
+  }
+  settings.ahead = privateParameter("lockstep_ahead", "a whole number of publications", 1);
+  if (settings.ahead < 1 || settings.ahead > kMostAhead) {
+    throw Refusal(
+        fmt::format("lockstep_ahead: must be from 1 to {}, found {}", kMostAhead, settings.ahead));
+  }
+  settings.timeout = privateParameter("lockstep_timeout", "a number of seconds", settings.timeout);
+  if (!(settings.timeout >= kShortestTimeout && settings.timeout <= kLongestTimeout)) {
+    throw Refusal(fmt::format("lockstep_timeout: must be from {} to {} s, found {}",
+                              kShortestTimeout, kLongestTimeout, settings.timeout));
+  }
+  return settings;
+}
+
+LockstepListeners::LockstepListeners(LiveTwin& live, ros::NodeHandle node,
+                                     const Lockstep::Settings& settings)
+    : live_(live), lockstep_(live.gate(), settings, live.stepCount()) {
+  if (!on()) {
+    return;
+  }
+  node.setCallbackQueue(&queue_);
+  const boost::function<void(const Number&)> callback = [this](const Number& event) {
+    take(event);
+  };
+  ros::SubscribeOptions options;
+  options.initByFullCallbackType<const Number&>(kTopic, kQueue, callback);
+  options.transport_hints = ros::TransportHints().tcpNoDelay();
+  acknowledgements_ = node.subscribe(options);
+  thread_.start();
+}
+
+LockstepListeners::~LockstepListeners() {
+  thread_.stop();
+}
+
+void LockstepListeners::take(const Number& event) {
+  if (!lockstep_.acknowledge(event.getPublisherName(), event.getConstMessage()->data, now())) {
+    strays_.fetch_add(1, std::memory_order_relaxed);
+  }
+}
+
+void LockstepListeners::published(std::int64_t step, bool anew) {
+  if (on()) {
+    lockstep_.published(step, anew, now());
+  }
+}
+
+std::string LockstepListeners::waitsFor() const {
+  return joined(lockstep_.gathers() ? lockstep_.missing() : lockstep_.waitsFor(now(), kPatience));
+}
+
+/// Nodes that the master knows to publish acknowledgements; none while not all of them are
+/// connected.
+std::vector<std::string> LockstepListeners::acknowledging() const {
+  XmlRpc::XmlRpcValue request, response, all;
+  request[0] = ros::this_node::getName();
+  std::vector<std::string> nodes;
+  if (!ros::master::execute("getSystemState", request, response, all, false)) {
+    return nodes;
+  }
+  // NOLINTBEGIN(modernize-loop-convert): XmlRpcValue iterates structs only.
+  XmlRpc::XmlRpcValue& published = all[0];  // [[topic, [node, ...]], ...]
+  for (int i = 0; i < published.size(); ++i) {
+    if (std::string(published[i][0]) == acknowledgements_.getTopic()) {
+      for (int k = 0; k < published[i][1].size(); ++k) {
+        nodes.push_back(published[i][1][k]);
+      }
+    }
+  }
+  // NOLINTEND(modernize-loop-convert)
+  if (acknowledgements_.getNumPublishers() < nodes.size()) {
+    nodes.clear();
+  }
+  return nodes;
+}
+
+/// One that would hear the next state and be heard is there, once it is in two looks: a connection
+/// takes a moment to be one at both of its ends. One that has none of its connections any more was
+/// started again.
+void LockstepListeners::see() {
+  std::map<std::string, std::set<int>> links;
+  for (const std::string& node : acknowledging()) {
+    links[node];
+  }
+  std::vector<std::string> topics;
+  ros::this_node::getAdvertisedTopics(topics);
+  for (const std::string& topic : topics) {
+    for (const TopicLink& link : linksOf(topic)) {
+      const auto place = links.find(link.node);
+      if (place != links.end() && topic != "/rosout") {
+        place->second.insert(link.id);
+      }
+    }
+  }
+  for (const std::string& who : lockstep_.settings().who) {
+    const std::set<int>& now_there = links[who];
+    std::set<int>& before = seen_[who];
+    const bool kept =
+        std::any_of(before.begin(), before.end(), [&](int id) { return now_there.count(id) > 0; });
+    lockstep_.see(who, kept, now());
+    before = now_there;
+  }
+}
+
+void LockstepListeners::watch() {
+  if (!on() || ros::SteadyTime::now() < next_look_) {
+    return;
+  }
+  next_look_ = ros::SteadyTime::now() + kLook;
+  if (lockstep_.gathers() || !lockstep_.waitsFor(now(), kPatience).empty() ||
+      !lockstep_.leftOut().empty()) {
+    see();
+  }
+  const std::vector<std::string> overdue = lockstep_.overdue(now());
+  if (!overdue.empty()) {
+    live_.pause();
+    for (int i = 0; live_.pausing() && i < 1000; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    lockstep_.leaveOut(overdue);
+    ROS_ERROR(
+        "lockstep: paused at step %ld: nothing acknowledged for %g s by %s; ~resume goes on "
+        "without",
+        static_cast<long>(live_.stepCount()), lockstep_.settings().timeout,
+        joined(overdue).c_str());
+  }
+  tellNews();
+}
+
+void LockstepListeners::tellNews() {
+  const std::string waits = lockstep_.gathers() ? waitsFor() : "";
+  const std::string out = joined(lockstep_.leftOut());
+  const std::string news = !waits.empty()
+                               ? fmt::format("waits for {} to listen to it, and to publish {}",
+                                             waits, acknowledgements_.getTopic())
+                           : !out.empty() ? fmt::format("nobody waits for {}", out)
+                                          : "all are in step";
+  if (news != told_) {
+    ROS_INFO("lockstep: %s", news.c_str());
+    told_ = news;
+  }
+}
+
+void LockstepListeners::summarize(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+  using diagnostic_msgs::DiagnosticStatus;
+  if (!on()) {
+    return;
+  }
+  if (const std::string waits = waitsFor(); !waits.empty()) {
+    status.mergeSummary(DiagnosticStatus::WARN, "lockstep: waits for " + waits);
+  }
+  if (const std::string out = joined(lockstep_.leftOut()); !out.empty()) {
+    status.mergeSummary(live_.paused() ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN,
+                        "lockstep: nothing is acknowledged by " + out);
+  }
+  status.add("lockstep with", joined(lockstep_.settings().who));
+  status.add("stray acknowledgements", strays_.load(std::memory_order_relaxed));
+}
+
+}  // namespace whirl_twin
