@@ -58,9 +58,10 @@ bool hasRateForces(const ModelSetup& setup, const SystemSpec& spec) {
 /// ways of it? That goes as the cube of the coordinates, and as the lengths of the parts that steps
 /// are taken in: at the steps of a reference those never come again.
 bool dearToPrepare(const Scene& one, const ModelSetup& setup) {
-  const bool over_speed = !one.drives.empty() && !one.drives.front().profile.empty();
+  const bool over_speed =
+      !one.drives.empty() && (!one.drives.front().profile.empty() || one.drives.front().motor);
   const double lengths = one.controllers.empty() ? 1.0 : kLengthsOfParts;
-  return setup.integrators.size() == 1 && setup.dynamics->hasShaft() &&
+  return setup.integrators.size() == 1 && setup.dynamics->isRotor() &&
          std::cbrt(lengths) * setup.dynamics->dof() >
              (over_speed ? kMostInTables : kMostAtOneSpeed);
 }

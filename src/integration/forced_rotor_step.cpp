@@ -14,8 +14,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kRoot6 = 2.44948974278317809820;
-constexpr std::array<double, 3> kTimes{0.4 - 0.1 * kRoot6, 0.4 + 0.1 * kRoot6, 1.0};
+constexpr std::array<double, 3> kTimes = kRadauNodes;
 constexpr int kMostNewtonSteps = 50;
 constexpr double kLeastShare = 1.0e-3;
 constexpr int kMostRounds = 30;      // of a run-up
@@ -56,19 +55,25 @@ ForcedRotorStep::ForcedRotorStep(const LinearRotor& rotor, double h,
       inputs_(forcing.inputs),
       h_(h),
       acting_(forcing.inputs, forcing.directions, directionsOf(forces_, rotor.dof())),
-      whole_(rotor, h, speeds, constant_speeds, acting_),
+      torque_(forcing.torque),
+      whole_(rotor, h, speeds, constant_speeds, acting_, forcing.spin == nullptr),
       from_(rotor.dof()) {
+  if (forcing.spin != nullptr) {
+    spin_.emplace(rotor, *forcing.spin, h);
+  }
+  const bool changes = speeds.second > speeds.first;
+  for (std::size_t i = 0; (!forces_.empty() || spin_) && changes && i + 1 < kNodes; ++i) {
+    to_nodes_.emplace_back(rotor, kTimes[i] * h, speeds, std::vector<double>(), acting_,
+                           forcing.spin == nullptr);
+  }
   if (forces_.empty()) {
     return;
   }
   for (const double speed : constant_speeds) {
     responses_.push_back(response(rotor, speed));
   }
-  if (speeds.second > speeds.first) {
+  if (changes) {
     responses_.push_back(response(rotor, 0.5 * (speeds.first + speeds.second)));
-    for (std::size_t i = 0; i + 1 < kNodes; ++i) {
-      to_nodes_.emplace_back(rotor, kTimes[i] * h, speeds, std::vector<double>(), acting_);
-    }
   }
   const Index n = unknowns();
   states_.resize(kNodes * forces_.size());
@@ -138,6 +143,15 @@ const ForcedRotorStep::Response& ForcedRotorStep::responseNear(double speed) con
                            });
 }
 
+/// At a time [s] after begin(), in the piece that starts at or before `piece` [ns].
+double ForcedRotorStep::inputAt(std::size_t input, double time, std::int64_t piece) const noexcept {
+  if (inputs_->isHarmonic(input)) {
+    const InputSignal& signal = inputs_->signal(input);
+    return signal.amplitude * std::cos(inputs_->phase(input) + signal.frequency * time);
+  }
+  return inputs_->piece(input, piece).at(time);
+}
+
 /// Of the nodes of a step from offset [s] on.
 void ForcedRotorStep::setInputs(double offset) noexcept {
   if (inputs_ == nullptr) {
@@ -150,19 +164,24 @@ void ForcedRotorStep::setInputs(double offset) noexcept {
       LocalState& at = states_[node * forces_.size() + k];
       for (std::size_t i = 0; i < 2; ++i) {
         const std::size_t input = forces_[k].inputs[i];
-        if (input == LocalForce::kNoInput) {
-          continue;
-        }
-        if (inputs_->isHarmonic(input)) {
-          const InputSignal& signal = inputs_->signal(input);
-          at.input[i] =
-              signal.amplitude * std::cos(inputs_->phase(input) + signal.frequency * time);
-        } else {
-          at.input[i] = inputs_->piece(input, piece).at(time);
-        }
+        at.input[i] = input != LocalForce::kNoInput ? inputAt(input, time, piece) : at.input[i];
       }
     }
   }
+}
+
+/// On the spin, from outside and of the laws.
+double ForcedRotorStep::torqueAt(std::size_t node, double offset) const noexcept {
+  double sum = 0.0;
+  if (inputs_ != nullptr && torque_ != LocalForce::kNoInput && inputs_->acts(torque_)) {
+    const double time = offset + kTimes[node] * h_;
+    // A corner between is seen where the node is.
+    sum = inputAt(torque_, time, static_cast<std::int64_t>(std::floor(time * 1e9 - 1e-3)));
+  }
+  for (std::size_t k = 0; k < forces_.size(); ++k) {
+    sum += forces_[k].law->moment(states_[node * forces_.size() + k]);
+  }
+  return sum;
 }
 
 /// The laws' forces at places; false where one has none.
@@ -439,6 +458,33 @@ StepStatus ForcedRotorStep::advance(const Drive& drive, double offset,
   return changingStep(drive, offset, motion);
 }
 
+/// From the start of the step, from_, to one of its nodes.
+template <class Shaft>
+StepStatus ForcedRotorStep::goTo(std::size_t node, const Shaft& shaft, double offset,
+                                 LinearMotion& motion) noexcept {
+  RotorStep& step = node < to_nodes_.size() ? to_nodes_[node] : whole_;
+  pushCourses(step, kTimes[node]);
+  motion = from_;
+  step.restart();
+  const StepStatus status = step.move(shaft, offset, motion);
+  readPlaces(motion, node);
+  return status;
+}
+
+/// The rotor having been taken along to places_ with the forces forced_: those of the laws.
+StepStatus ForcedRotorStep::findForces(const Response& response, int round, bool& agreed) noexcept {
+  given_ = forced_;
+  if (round == 0) {
+    predict(response.force);
+  }
+  const StepStatus status = solve(response.force);
+  agreed = status == StepStatus::kOk;
+  for (Index i = 0; agreed && i < given_.size(); ++i) {
+    agreed = std::fabs(forced_[i] - given_[i]) <= kAgreed * (sizes_[i] + rounding_[i]);
+  }
+  return status;
+}
+
 StepStatus ForcedRotorStep::changingStep(const Drive& drive, double offset,
                                          LinearMotion& motion) noexcept {
   if (to_nodes_.empty()) {
@@ -447,32 +493,63 @@ StepStatus ForcedRotorStep::changingStep(const Drive& drive, double offset,
   const Response& response = responseNear(drive.at(offset).speed);
   from_ = motion;
   for (int round = 0; round < kMostRounds; ++round) {
-    for (std::size_t node = 0; node < kNodes; ++node) {
-      RotorStep& step = node < to_nodes_.size() ? to_nodes_[node] : whole_;
-      pushCourses(step, kTimes[node]);
-      motion = from_;
-      step.restart();
-      const StepStatus status = step.advance(drive, offset, motion);
-      if (status != StepStatus::kOk) {
-        return status;
-      }
-      readPlaces(motion, node);
+    StepStatus status = StepStatus::kOk;
+    for (std::size_t node = 0; status == StepStatus::kOk && node < kNodes; ++node) {
+      status = goTo(node, drive, offset, motion);
     }
-    given_ = forced_;
-    if (round == 0) {
-      predict(response.force);
-    }
-    const StepStatus status = solve(response.force);
+    bool agreed = true;
+    status = status == StepStatus::kOk ? findForces(response, round, agreed) : status;
     if (status != StepStatus::kOk) {
       return status;
     }
-    bool agreed = true;
-    for (Index i = 0; i < given_.size(); ++i) {
-      agreed = agreed && std::fabs(forced_[i] - given_[i]) <= kAgreed * (sizes_[i] + rounding_[i]);
-    }
     if (agreed) {
+      motion.work.add(whole_.work(drive, offset, from_.state, motion.state));
       return StepStatus::kOk;
     }
+  }
+  return StepStatus::kNotConverged;
+}
+
+StepStatus ForcedRotorStep::advance(double offset, SpinMotion& spin,
+                                    LinearMotion& motion) noexcept {
+  spin_->begin(offset, spin, motion);
+  setInputs(offset);
+  const auto setSpeeds = [&] {
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+      states_[i].speed = spin_->speed(i / forces_.size());
+    }
+  };
+  setSpeeds();
+  if (!begin(motion)) {
+    return StepStatus::kNoGap;
+  }
+  const Response* const response = forces_.empty() ? nullptr : &responseNear(spin.speed.high);
+  from_ = motion;
+  for (int round = 0; round < kMostRounds; ++round) {
+    StepStatus status = StepStatus::kOk;
+    for (std::size_t node = 0; status == StepStatus::kOk && node < kNodes; ++node) {
+      status = goTo(node, spin_->course(), offset, motion);
+      spin_->take(node, motion);
+    }
+    bool agreed = true;
+    if (status == StepStatus::kOk && response != nullptr) {
+      status = findForces(*response, round, agreed);
+    }
+    for (std::size_t node = 0; node < kNodes; ++node) {
+      spin_->add(node, torqueAt(node, offset));
+    }
+    if (status == StepStatus::kOk && !spin_->mend()) {
+      status = StepStatus::kNotFinite;
+    }
+    if (status != StepStatus::kOk) {
+      return status;
+    }
+    if (agreed && spin_->agrees()) {
+      motion.work.add(whole_.work(spin_->course(), offset, from_.state, motion.state));
+      motion.work.add(spin_->finish(spin));
+      return StepStatus::kOk;
+    }
+    setSpeeds();
   }
   return StepStatus::kNotConverged;
 }

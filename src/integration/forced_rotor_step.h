@@ -16,7 +16,9 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -27,8 +29,10 @@
 #include "integration/motion_state.h"
 #include "integration/packed_matrix.h"
 #include "integration/rotor_step.h"
+#include "integration/shaft_spin.h"
 #include "mechanics/linear_rotor.h"
 #include "mechanics/local_force.h"
+#include "mechanics/spin_coupling.h"
 #include "realtime/state_image.h"
 
 namespace whirl_twin {
@@ -38,6 +42,8 @@ struct RotorForcing {
   const Inputs* inputs = nullptr;  ///< of the model, outlives the steps; nullptr: nothing acts
   Eigen::MatrixXd directions;      ///< a column an input
   std::vector<LocalForce> forces;
+  const SpinCoupling* spin = nullptr;  ///< of a shaft that moves by itself; needed to prepare only
+  std::size_t torque = LocalForce::kNoInput;  ///< the input on that shaft
 };
 
 class ForcedRotorStep {
@@ -56,6 +62,8 @@ class ForcedRotorStep {
   /// As RotorStep. kNoGap: the step would take the rotor to where a law has no place;
   /// kNotConverged: forces and places could not be made to agree.
   StepStatus advance(const Drive& drive, double offset, LinearMotion& motion) noexcept;
+  /// The same of a rotor with a spin of its own, from offset [s] after begin() of the inputs.
+  StepStatus advance(double offset, SpinMotion& spin, LinearMotion& motion) noexcept;
   /// As RotorStep; never with local forces.
   bool advanceInParts(const Drive& drive, std::int64_t from, std::int64_t to,
                       LinearMotion& motion) noexcept {
@@ -63,7 +71,7 @@ class ForcedRotorStep {
   }
 
  private:
-  static constexpr std::size_t kNodes = 3;
+  static constexpr std::size_t kNodes = kRadauNodes.size();
 
   /// How the places answer, at a constant speed.
   struct Response {
@@ -85,7 +93,13 @@ class ForcedRotorStep {
   void factor() noexcept;
   void substitute() noexcept;
   void pushCourses(RotorStep& step, double length) noexcept;
+  template <class Shaft>
+  StepStatus goTo(std::size_t node, const Shaft& shaft, double offset,
+                  LinearMotion& motion) noexcept;
   StepStatus changingStep(const Drive& drive, double offset, LinearMotion& motion) noexcept;
+  StepStatus findForces(const Response& response, int round, bool& agreed) noexcept;
+  double torqueAt(std::size_t node, double offset) const noexcept;
+  double inputAt(std::size_t input, double time, std::int64_t piece) const noexcept;
   void readPlaces(const LinearMotion& motion, std::size_t node) noexcept;
   bool begin(const LinearMotion& motion) noexcept;
   void predict(const Eigen::MatrixXd& response) noexcept;
@@ -95,7 +109,9 @@ class ForcedRotorStep {
   const Inputs* inputs_;
   double h_;
   ActingInputs acting_;
+  std::size_t torque_;
   RotorStep whole_;
+  std::optional<ShaftSpin> spin_;
   std::vector<RotorStep> to_nodes_;  ///< inside the step; where the speed changes
   std::vector<Response> responses_;
   // Room for a step. Places: x, y, x', y' of each force at the first node, then at the next.

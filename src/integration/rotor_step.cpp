@@ -8,6 +8,7 @@
 
 #include "algebra/cholesky.h"
 #include "algebra/lu.h"
+#include "integration/shaft_course.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {
@@ -49,7 +50,8 @@ void requireFinite(const MatrixXd& matrix) {
 }  // namespace
 
 RotorStep::RotorStep(const LinearRotor& rotor, double h, const std::pair<double, double>& speeds,
-                     const std::vector<double>& constant_speeds, const ActingInputs& acting)
+                     const std::vector<double>& constant_speeds, const ActingInputs& acting,
+                     bool driven)
     : n_(rotor.dof()), h_(h), channels_(forceChannels(rotor)), acting_(acting) {
   for (const double speed : constant_speeds) {
     const RotorMap map(rotor, channels_, acting_, speed, h, 0);
@@ -64,7 +66,7 @@ RotorStep::RotorStep(const LinearRotor& rotor, double h, const std::pair<double,
       }
     }
   }
-  work_ = RotorWork(rotor, channels_, acting_, h, speeds);
+  work_ = RotorWork(rotor, channels_, acting_, h, speeds, driven);
   boundaries_ = {speeds.first};
   if (speeds.second > speeds.first) {
     prepare(rotor, speeds);
@@ -200,19 +202,53 @@ StepStatus RotorStep::advance(const Drive& drive, double offset, LinearMotion& m
       return StepStatus::kOk;
     }
   }
-  nodes_.sample(drive, offset, h_);
-  acting_.follow(offset, h_);
-  const double mean_speed = nodes_.meanSpeed();
-  // A speed held at the edge may lie beyond it by rounding.
-  const double sliver = 1.0e-9 * (1.0 + std::fabs(mean_speed));
-  if (cells_.empty() || !(mean_speed >= boundaries_.front() - sliver) ||
-      !(mean_speed <= boundaries_.back() + sliver)) {
+  Cell* const cell = cellOf(drive, offset);
+  if (cell == nullptr) {
     return StepStatus::kOutOfRange;
   }
-  const auto above = std::upper_bound(boundaries_.begin() + 1, boundaries_.end() - 1, mean_speed);
-  changingStep(cells_[static_cast<std::size_t>(above - boundaries_.begin()) - 1], drive, offset,
-               motion);
+  work_.start(cell->work, drive, offset, acting_, motion.state);
+  changingStep(*cell, motion);
+  motion.advance(increment_.data(),
+                 work_.work(cell->work, drive, offset, nodes_, acting_, y_.head(2 * n_)));
   return StepStatus::kOk;
+}
+
+template <class Shaft>
+StepStatus RotorStep::move(const Shaft& drive, double offset, LinearMotion& motion) noexcept {
+  Cell* const cell = cellOf(drive, offset);
+  if (cell == nullptr) {
+    return StepStatus::kOutOfRange;
+  }
+  changingStep(*cell, motion);
+  motion.advance(increment_.data(), 0.0);
+  return StepStatus::kOk;
+}
+
+template <class Shaft>
+double RotorStep::work(const Shaft& drive, double offset, const Eigen::VectorXd& from,
+                       const Eigen::VectorXd& to) noexcept {
+  Cell* const cell = cellAt(nodes_.meanSpeed());
+  work_.start(cell->work, drive, offset, acting_, from);
+  return work_.work(cell->work, drive, offset, nodes_, acting_, to);
+}
+
+/// Takes up the motion of the shaft and the inputs over a step; nullptr: there is no cell for it.
+template <class Shaft>
+RotorStep::Cell* RotorStep::cellOf(const Shaft& drive, double offset) noexcept {
+  nodes_.sample(drive, offset, h_);
+  acting_.follow(offset, h_);
+  return cellAt(nodes_.meanSpeed());
+}
+
+RotorStep::Cell* RotorStep::cellAt(double speed) noexcept {
+  // A speed held at the edge may lie beyond it by rounding.
+  const double sliver = 1.0e-9 * (1.0 + std::fabs(speed));
+  if (cells_.empty() || !(speed >= boundaries_.front() - sliver) ||
+      !(speed <= boundaries_.back() + sliver)) {
+    return nullptr;
+  }
+  const auto above = std::upper_bound(boundaries_.begin() + 1, boundaries_.end() - 1, speed);
+  return &cells_[static_cast<std::size_t>(above - boundaries_.begin()) - 1];
 }
 
 bool RotorStep::advanceInParts(const Drive& drive, std::int64_t from, std::int64_t to,
@@ -349,11 +385,10 @@ void RotorStep::shear(Cell& cell, double s, double e, const double* rates) noexc
   shear_ *= e;
 }
 
-void RotorStep::changingStep(Cell& cell, const Drive& drive, double offset,
-                             LinearMotion& motion) noexcept {
+/// From a motion to y_, by increment_.
+void RotorStep::changingStep(Cell& cell, const LinearMotion& motion) noexcept {
   y_.head(2 * n_) = motion.state;
   increment_.setZero();
-  work_.start(cell.work, drive, offset, acting_, y_.head(2 * n_));
   project();
   const double e = nodes_.meanLead();
   const double s = (nodes_.meanSpeed() - cell.centre) / cell.half_width;
@@ -379,8 +414,13 @@ void RotorStep::changingStep(Cell& cell, const Drive& drive, double offset,
     y_.segment(n_, n_) -= shear_.head(n_);
     increment_.tail(n_) -= shear_.head(n_);
   }
-  motion.advance(increment_.data(),
-                 work_.work(cell.work, drive, offset, nodes_, acting_, y_.head(2 * n_)));
 }
+
+template StepStatus RotorStep::move(const Drive&, double, LinearMotion&) noexcept;
+template StepStatus RotorStep::move(const ShaftCourse&, double, LinearMotion&) noexcept;
+template double RotorStep::work(const Drive&, double, const Eigen::VectorXd&,
+                                const Eigen::VectorXd&) noexcept;
+template double RotorStep::work(const ShaftCourse&, double, const Eigen::VectorXd&,
+                                const Eigen::VectorXd&) noexcept;
 
 }  // namespace whirl_twin

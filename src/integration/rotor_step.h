@@ -44,10 +44,11 @@ namespace whirl_twin {
 class RotorStep {
  public:
   /// Prepares steps of h [s] for speeds [rad/s] between `speeds.first` and `speeds.second`, and the
-  /// plain exact step for `constant_speeds`. Throws RunFailure for matrices beyond the range
-  /// of doubles.
+  /// plain exact step for `constant_speeds`; driven: as RotorWork. Throws RunFailure for matrices
+  /// beyond the range of doubles.
   RotorStep(const LinearRotor& rotor, double h, const std::pair<double, double>& speeds,
-            const std::vector<double>& constant_speeds, const ActingInputs& acting = {});
+            const std::vector<double>& constant_speeds, const ActingInputs& acting = {},
+            bool driven = true);
 
   double lowestSpeed() const { return boundaries_.front(); }  ///< [rad/s]
   double highestSpeed() const { return boundaries_.back(); }  ///< [rad/s]
@@ -65,6 +66,14 @@ class RotorStep {
   /// Advances by h from offset [s] after the drive's begin(). Real-time safe. kOutOfRange, with the
   /// motion left as it was, where the mean speed is not between those prepared for.
   StepStatus advance(const Drive& drive, double offset, LinearMotion& motion) noexcept;
+  /// The same by the table over speed, without the work: for steps that are taken again and again.
+  /// Shaft: a Drive or a ShaftCourse.
+  template <class Shaft>
+  StepStatus move(const Shaft& drive, double offset, LinearMotion& motion) noexcept;
+  /// [J], of the last move(), from a state (q, v) to another.
+  template <class Shaft>
+  double work(const Shaft& drive, double offset, const Eigen::VectorXd& from,
+              const Eigen::VectorXd& to) noexcept;
   /// What advance() would start from at one of the constant speeds, in the order of RotorMap with
   /// degree 0, valid until it is called; nullptr at any other speed. Real-time safe.
   const double* constantStart(const Drive& drive, double offset, const LinearMotion& motion,
@@ -98,7 +107,10 @@ class RotorStep {
                        const LinearMotion& motion) noexcept;
   void constantStep(PackedMatrix& map, const ShaftMotion& shaft, double offset, std::int64_t piece,
                     LinearMotion& motion) noexcept;
-  void changingStep(Cell& cell, const Drive& drive, double offset, LinearMotion& motion) noexcept;
+  template <class Shaft>
+  Cell* cellOf(const Shaft& drive, double offset) noexcept;
+  Cell* cellAt(double speed) noexcept;
+  void changingStep(Cell& cell, const LinearMotion& motion) noexcept;
   Eigen::Index tableInputs() const;
   Eigen::MatrixXd tableMap(const LinearRotor& rotor, double speed) const;
   Eigen::MatrixXd cubic(const LinearRotor& rotor, double low, double high) const;

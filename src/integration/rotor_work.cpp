@@ -7,6 +7,7 @@
 #include "algebra/cholesky.h"
 #include "algebra/lu.h"
 #include "algebra/qr.h"
+#include "integration/shaft_course.h"
 
 namespace whirl_twin {
 
@@ -84,8 +85,9 @@ std::size_t terms(const Polynomial& p) {
 }  // namespace
 
 RotorWork::RotorWork(const LinearRotor& rotor, const std::vector<ForceChannel>& channels,
-                     const ActingInputs& acting, double h, const std::pair<double, double>& speeds)
-    : h_(h), channels_(channels), directions_(acting.directions()) {
+                     const ActingInputs& acting, double h, const std::pair<double, double>& speeds,
+                     bool driven)
+    : h_(h), driven_(driven), channels_(channels), directions_(acting.directions()) {
   const Index n = rotor.dof();
   directions_.conservativeResize(n, Eigen::NoChange);
   const MatrixXd phasors = phasorColumns(channels, n);
@@ -244,7 +246,8 @@ void RotorWork::evaluate(RotorWorkCell& cell, const ShaftMotion& shaft, const Ac
   cell.end.multiply(inputs_.data(), end.data());
 }
 
-void RotorWork::start(RotorWorkCell& cell, const Drive& drive, double offset,
+template <class Shaft>
+void RotorWork::start(RotorWorkCell& cell, const Shaft& drive, double offset,
                       const ActingInputs& acting,
                       const Eigen::Ref<const Eigen::VectorXd>& state) noexcept {
   const double hair = ShaftNodes::kSliver * h_;
@@ -263,7 +266,8 @@ void RotorWork::start(RotorWorkCell& cell, const Drive& drive, double offset,
 /// Where the profile has a corner the drive's acceleration jumps, and with it the second and third
 /// derivative of z: what grows from the jump until the end is taken from the interpolant, and put
 /// back behind the corner.
-void RotorWork::takeJump(const Drive& drive, double offset, double corner) noexcept {
+template <class Shaft>
+void RotorWork::takeJump(const Shaft& drive, double offset, double corner) noexcept {
   const Index size = basis_.cols();
   const double hair = ShaftNodes::kSliver;
   jump_.setZero();
@@ -316,6 +320,9 @@ double RotorWork::power(RotorWorkCell& cell, const ShaftNode& node,
   pull_.setZero();
   Index column = 0;
   for (const ForceChannel& channel : channels_) {
+    if (!driven_) {
+      break;
+    }
     Complex value = node.turn;
     for (int m = 1; m < std::abs(channel.harmonic); ++m) {
       value *= node.turn;
@@ -327,6 +334,7 @@ double RotorWork::power(RotorWorkCell& cell, const ShaftNode& node,
     pull_ += value.real() * force_.col(column) + value.imag() * force_.col(column + 1);
     column += 2;
   }
+  column = 2 * static_cast<Index>(channels_.size());
   for (Index k = 0; k < acting.count(); ++k) {
     pull_ += acting.value(k, node.tau) * force_.col(column + k);
   }
@@ -347,7 +355,8 @@ double RotorWork::power(RotorWorkCell& cell, const ShaftNode& node,
   return watts + z_rate_.dot(pull_);
 }
 
-double RotorWork::work(RotorWorkCell& cell, const Drive& drive, double offset,
+template <class Shaft>
+double RotorWork::work(RotorWorkCell& cell, const Shaft& drive, double offset,
                        const ShaftNodes& nodes, const ActingInputs& acting,
                        const Eigen::Ref<const Eigen::VectorXd>& state) noexcept {
   if (basis_.cols() == 0) {
@@ -373,5 +382,16 @@ double RotorWork::work(RotorWorkCell& cell, const Drive& drive, double offset,
   }
   return h_ * sum;
 }
+
+template void RotorWork::start(RotorWorkCell&, const Drive&, double, const ActingInputs&,
+                               const Eigen::Ref<const Eigen::VectorXd>&) noexcept;
+template void RotorWork::start(RotorWorkCell&, const ShaftCourse&, double, const ActingInputs&,
+                               const Eigen::Ref<const Eigen::VectorXd>&) noexcept;
+template double RotorWork::work(RotorWorkCell&, const Drive&, double, const ShaftNodes&,
+                                const ActingInputs&,
+                                const Eigen::Ref<const Eigen::VectorXd>&) noexcept;
+template double RotorWork::work(RotorWorkCell&, const ShaftCourse&, double, const ShaftNodes&,
+                                const ActingInputs&,
+                                const Eigen::Ref<const Eigen::VectorXd>&) noexcept;
 
 }  // namespace whirl_twin

@@ -40,12 +40,15 @@ struct RotorWorkCell {
 class RotorWork {
  public:
   RotorWork() = default;
+  /// driven: the forces that turn with the shaft do work, which a shaft that moves by itself has of
+  /// its own.
   RotorWork(const LinearRotor& rotor, const std::vector<ForceChannel>& channels,
-            const ActingInputs& acting, double h, const std::pair<double, double>& speeds);
+            const ActingInputs& acting, double h, const std::pair<double, double>& speeds,
+            bool driven = true);
 
   RotorWorkCell cell(const LinearRotor& rotor, double low, double high) const;
 
-  // Real-time safe.
+  // Real-time safe. Shaft: a Drive or a ShaftCourse.
 
   /// The state no longer follows from the last step.
   void restart() noexcept { continued_ = false; }
@@ -53,10 +56,12 @@ class RotorWork {
     image(from_, to_, continued_, last_acceleration_, last_jerk_);
   }
   /// The state (q, v) before the step that starts at offset [s], which the inputs have taken up.
-  void start(RotorWorkCell& cell, const Drive& drive, double offset, const ActingInputs& acting,
+  template <class Shaft>
+  void start(RotorWorkCell& cell, const Shaft& drive, double offset, const ActingInputs& acting,
              const Eigen::Ref<const Eigen::VectorXd>& state) noexcept;
   /// [J], with the state after it; `nodes` of the same step.
-  double work(RotorWorkCell& cell, const Drive& drive, double offset, const ShaftNodes& nodes,
+  template <class Shaft>
+  double work(RotorWorkCell& cell, const Shaft& drive, double offset, const ShaftNodes& nodes,
               const ActingInputs& acting, const Eigen::Ref<const Eigen::VectorXd>& state) noexcept;
 
  private:
@@ -65,7 +70,8 @@ class RotorWork {
   void evaluate(RotorWorkCell& cell, const ShaftMotion& shaft, const ActingInputs& acting,
                 double tau, const Eigen::Ref<const Eigen::VectorXd>& state,
                 Eigen::VectorXd& end) noexcept;
-  void takeJump(const Drive& drive, double offset, double corner) noexcept;
+  template <class Shaft>
+  void takeJump(const Shaft& drive, double offset, double corner) noexcept;
   Weights weightsAt(double tau) const noexcept;
   void deflectionAt(double tau, const Weights& weights, double corner) noexcept;
   double power(RotorWorkCell& cell, const ShaftNode& node, const ActingInputs& acting) noexcept;
@@ -73,6 +79,7 @@ class RotorWork {
   void setPhasors(const ShaftMotion& shaft, double* phasors, double* rates) const noexcept;
 
   double h_ = 0.0;
+  bool driven_ = true;
   std::vector<ForceChannel> channels_;
   Eigen::MatrixXd basis_;       ///< L [n x size], orthonormal columns
   Eigen::MatrixXd directions_;  ///< of the inputs [n x .]

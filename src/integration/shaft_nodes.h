@@ -31,8 +31,10 @@ struct ShaftNode {
 
 class ShaftNodes {
  public:
-  /// Samples a step of h [s] from offset [s] after the drive's begin(). Real-time safe.
-  void sample(const Drive& drive, double offset, double h) noexcept {
+  /// Samples a step of h [s] from offset [s] after the drive's begin(). Real-time safe. Shaft: a
+  /// Drive or a ShaftCourse.
+  template <class Shaft>
+  void sample(const Shaft& drive, double offset, double h) noexcept {
     const ShaftMotion start = drive.at(offset);
     const ShaftMotion end = drive.at(offset + h);
     start_turn_ = {std::cos(start.angle), std::sin(start.angle)};

@@ -43,6 +43,11 @@
 //         Fixed sizes at compile time end at a few coordinates. linearRotorSetup(). Forces at
 //         places that are not linear are solved for beside it (forced_rotor_step.h).
 //
+//     matrices as functions of speed, on a motor:     exponential,     SpinningRotorStepper
+//     flexible_rotor                                  no other         (ForcedRotorStep)
+//         The whirl as in a run-up, along the course of a speed that is sought with it
+//         (shaft_spin.h). spinningRotorSetup().
+//
 //     matrices and harmonic forces: linear_system,    any but          LinearStepper
 //     cantilever_beam, hinged_beam (geometry: small)  stoermer         (LinearStep)
 //         Every method is linear here: one matrix, made once (linear_methods.h). linearSetup().

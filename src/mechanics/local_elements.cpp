@@ -31,6 +31,14 @@ double lengthOf(const OilFilm& film) {
 }
 
 template <class Element>
+double momentOf(const Element&, const PushedMotion<double>&) {
+  return 0.0;
+}
+double momentOf(const Rub& rub, const PushedMotion<double>& at) {
+  return rub.moment(at);
+}
+
+template <class Element>
 class ElementLaw final : public LocalLaw {
  public:
   explicit ElementLaw(const Element& element) : element_(element) {}
@@ -55,6 +63,11 @@ class ElementLaw final : public LocalLaw {
     slopes.stiffness << -force.x.slope[0], -force.x.slope[1], -force.y.slope[0], -force.y.slope[1];
     slopes.damping << -force.x.slope[2], -force.x.slope[3], -force.y.slope[2], -force.y.slope[3];
     return slopes;
+  }
+
+  double moment(const LocalState& at) const noexcept override {
+    return momentOf(
+        element_, PushedMotion<double>{at.place[0], at.place[1], at.rate[0], at.rate[1], at.speed});
   }
 
   double room(const Eigen::Vector2d& place) const noexcept override {

@@ -9,10 +9,13 @@
 //   journal bearing  Ocvirk's film (rotors/short_journal_bearing.h), wherever the journal is
 //   squeeze film     the same film around what does not turn: a damper
 //
+// Of these only friction acts on the shaft's spin: a film's drag there is the motor's.
+//
 // Of a film the damping in its middle, pi mu R L^3 / (2 c^3), is the rotor's own: undamped modes
 // that turn many times within a step would not feel it otherwise.
 #pragma once
 
+#include <cmath>
 #include <memory>
 
 #include "mechanics/elementary.h"
@@ -62,6 +65,16 @@ struct Rub {
     const S normal = load + damping * (ex * at.vx + ey * at.vy);
     const S drag = friction * load * (sliding / sqrt(sliding * sliding + kSlip * kSlip));
     return {drag * ey - normal * ex, -normal * ey - drag * ex};
+  }
+  /// [N m], of the friction on the shaft's spin.
+  double moment(const PushedMotion<double>& at) const {
+    const double r = std::hypot(at.x, at.y);
+    if (!(r > clearance)) {
+      return 0.0;
+    }
+    const double sliding = (at.x * at.vy - at.y * at.vx) / r + radius * at.speed;
+    return -radius * friction * stiffness * (r - clearance) * sliding /
+           std::sqrt(sliding * sliding + kSlip * kSlip);
   }
 };
 

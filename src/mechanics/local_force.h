@@ -42,6 +42,8 @@ class LocalLaw {
   virtual bool push(const LocalState& at, LocalPush& out) const noexcept = 0;
   /// Real-time safe.
   virtual LocalSlopes slopes(const LocalState& at) const noexcept = 0;
+  /// [N m], on the shaft's spin, where a motor turns it. Real-time safe.
+  virtual double moment(const LocalState& /*at*/) const noexcept { return 0.0; }
   /// [m], how far a place is from where there is none; infinite where there is a place everywhere.
   virtual double room(const Eigen::Vector2d& /*place*/) const noexcept {
     return std::numeric_limits<double>::infinity();

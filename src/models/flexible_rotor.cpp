@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <string>
@@ -236,6 +237,13 @@ RotorReduction reduction(const LinearRotor& rotor, const std::vector<Station>& s
   return reduceRotor(rotor, stations, highest, count, pushed);
 }
 
+/// Of all that the motor turns.
+SpinCoupling spinOf(const FlexibleShaft& shaft, const RotorAssembly& assembly,
+                    const ParameterValues& values, const Motor& motor) {
+  return {rotorBody(shaft).polar_inertia + values.at("driven_inertia"), motor,
+          assembly.circulatoryPerSpeed(), assembly.turningDamping()};
+}
+
 void requireFinite(const LinearRotor& rotor) {
   const Linearization l = rotor.matrices(0.0);
   if (!l.mass.allFinite() || !l.stiffness.allFinite() || !l.damping.allFinite() ||
@@ -298,8 +306,26 @@ ModelSetup setUpFlexibleRotor(const ParameterValues& values, const Settings& set
   for (LocalForce& force : forcesOf(elements, shaft, assembly)) {
     forces.push_back(std::move(force));
   }
-  ModelSetup setup =
-      linearRotorSetup(dynamicsOf(std::move(description), std::move(rotor)), std::move(forces));
+  const double fastest = std::isfinite(highest_speed)       ? highest_speed
+                         : values.at("highest_speed") > 0.0 ? values.at("highest_speed")
+                         : around.motor                     ? usualHighestSpeed(rotor)
+                                                            : 0.0;
+  const std::shared_ptr<const Dynamics> linear =
+      dynamicsOf(std::move(description), std::move(rotor));
+  ModelSetup setup;
+  if (around.motor) {
+    try {
+      setup = spinningRotorSetup(linear, std::move(forces),
+                                 spinOf(shaft, assembly, values, *around.motor), fastest);
+    } catch (const Refusal&) {
+      throw SetupError(
+          "unbalances",
+          "must each be less than what the mass there can carry with a motor: the "
+          "mass centre lies farther out than the radius of gyration of all that turns");
+    }
+  } else {
+    setup = linearRotorSetup(linear, std::move(forces));
+  }
   setup.note = fmt::format("{}", fmt::join(notes, "; "));
   return setup;
 }
@@ -322,6 +348,8 @@ ModelInfo flexibleRotorInfo() {
        "up to which reduced modes must hold; 0: twice the fourth natural frequency", 0.0, ""},
       {"tolerance", "-", Range::kPositive, "of the unbalance response, for modes: auto", 1.0e-6,
        ""},
+      {"driven_inertia", "kg m^2", Range::kNotNegative,
+       "with a motor: polar, of what it turns besides the shaft and its discs", 0.0, ""},
       {"phase_mark", "rad", Range::kAny,
        "from the shaft's mark, that the phase of the whirl counts from", 0.0, ""}};
   info.parameters.insert(info.parameters.end(), further.begin(), further.end());
@@ -347,6 +375,13 @@ ModelInfo flexibleRotorInfo() {
                              {"current_x_NODE", "A", {}, "of a magnet, along x"},
                              {"current_y_NODE", "A", {}, "of a magnet, along y"}};
   info.has_shaft = true;
+  info.takes_motor = true;
+  ModelVariant on_motor = info.variants[0];
+  on_motor.when = "a motor";
+  on_motor.linear = false;
+  on_motor.motor = true;
+  on_motor.inputs.push_back({"torque", "N m", {}, "on the shaft, besides the motor's"});
+  info.variants.push_back(on_motor);
   info.setUp = setUpFlexibleRotor;
   return info;
 }

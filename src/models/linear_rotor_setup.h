@@ -7,6 +7,7 @@
 #include "integration/jacobi_integral.h"
 #include "mechanics/dynamics.h"
 #include "mechanics/local_force.h"
+#include "mechanics/spin_coupling.h"
 #include "models/model_info.h"
 
 namespace whirl_twin {
@@ -16,6 +17,12 @@ namespace whirl_twin {
 /// setup's dynamics have them all.
 ModelSetup linearRotorSetup(std::shared_ptr<const Dynamics> dynamics,
                             std::vector<LocalForce> forces = {});
+
+/// The same of a rotor whose shaft a motor turns, prepared for speeds up to the one at which the
+/// motor's torque comes down to its drag; up to `highest_speed` [rad/s] where there is no such, and
+/// where something else acts on the shaft. Throws Refusal as SpinningRotor does.
+ModelSetup spinningRotorSetup(std::shared_ptr<const Dynamics> held, std::vector<LocalForce> forces,
+                              SpinCoupling coupling, double highest_speed);
 
 /// A setup of a linear model with a shaft, in the fixed frame, whose `exponential` follows a
 /// changing speed: of two coordinates without inputs by LateralRotorStepper, else by that step.

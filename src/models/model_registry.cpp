@@ -141,8 +141,13 @@ IntegratorChoice chooseIntegrator(const ModelSetup& setup, bool speed_changes) {
   if (dynamics.linear()) {
     return {"gauss_legendre_6", "its matrices change with the drive's speed"};
   }
-  if (setup.integrators == std::vector<std::string>{"exponential"}) {
-    return {"exponential", "its linear part by the exact step, local forces by order 4"};
+  const bool exact_rest = setup.integrators == std::vector<std::string>{"exponential"};
+  if (exact_rest && !dynamics.hasShaft()) {
+    return {"exponential",
+            "its linear part by the exact step, its spin and local forces by order 5"};
+  }
+  if (exact_rest) {
+    return {"exponential", "its linear part by the exact step, local forces by order 5"};
   }
   return {"gauss_legendre_6", "nonlinear: order 6, symplectic, stable at any step"};
 }

@@ -11,6 +11,7 @@
 #include "models/linear_rotor_setup.h"
 #include "models/model_entry.h"
 #include "models/models.h"
+#include "models/spinning_setup.h"
 
 namespace whirl_twin {
 
@@ -82,7 +83,9 @@ SettingInfo choiceOf(const char* name, const char* meaning, std::vector<std::str
 
 ModelInfo rigidDiscRotorInfo() {
   ModelInfo info = modelInfo<RigidDiscRotor>();
+  info.takes_motor = true;
   info.variants.push_back(variant<TurningRigidDiscRotor>("frame: rotating"));
+  info.variants.push_back(spinningVariant<RigidDiscRotor>("a motor"));
   info.settings.push_back(choiceOf("frame", "of the coordinates: fixed, or turning with the shaft",
                                    {"fixed", "rotating"}));
   info.settings.push_back(choiceOf(
@@ -116,16 +119,27 @@ ModelInfo rigidDiscRotorInfo() {
     const ParameterValues complete = withShaft(values, settings);
     const double gravity = heavy ? around.gravity : 0.0;
     if (turning) {
+      if (around.motor) {
+        throw SetupError("frame", "must be fixed with a motor");
+      }
       if (!magnetRows(settings).empty()) {
         throw SetupError("magnets", "need frame: fixed, where they stand");
       }
       return setUp<TurningRigidDiscRotor>(complete, gravity);
     }
     const std::vector<PlacedMagnet> magnets = placed(settings);
+    if (!magnets.empty() && around.motor) {
+      throw SetupError("magnets", "need a drive with a profile: a rotor on magnets has no motor");
+    }
     if (!magnets.empty()) {
       return levitatedRotorSetup(std::make_shared<LagrangianDynamics<RigidDiscRotor>>(
                                      makeModel<RigidDiscRotor>(complete, gravity)),
                                  magnets);
+    }
+    if (around.motor) {
+      Surroundings felt = around;
+      felt.gravity = gravity;
+      return setUpSpinning<RigidDiscRotor>(complete, felt);
     }
     const RigidDiscRotor rotor = makeModel<RigidDiscRotor>(complete, gravity);
     return withExactRunUps(setUp(rotor), jacobiIntegral(rotor));

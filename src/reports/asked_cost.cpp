@@ -96,13 +96,19 @@ AskedCost& AskedCost::operator+=(const AskedCost& other) {
 AskedCost costOfSteps(const BuiltScene& scene, std::size_t system) {
   const BuiltSystem& built = *scene.systems[system];
   const std::vector<std::string>& methods = built.setup().integrators;
-  if (!built.dynamics->linear() || !built.dynamics->hasShaft() || methods.size() != 1) {
+  if (!built.dynamics->isRotor() || methods.size() != 1) {
     return {};
   }
   const auto [low, high] = scene.driveOf(built).speedRange();
+  const bool on_motor = !built.dynamics->hasShaft();
+  const bool changes = low < high || on_motor;
   const int coordinates = static_cast<int>(built.dynamics->dof());
-  AskedCost cost = bySize(built.spec.name, coordinates, low < high ? kTable : kOneSpeed);
-  cost.memory = low < high ? kTableMemory * square(coordinates) : cost.memory;
+  AskedCost cost = bySize(built.spec.name, coordinates, changes ? kTable : kOneSpeed);
+  cost.memory = changes ? kTableMemory * square(coordinates) : cost.memory;
+  if (on_motor) {  // to three nodes of a step
+    cost.seconds *= 3.0;
+    cost.memory *= 3.0;
+  }
   if (isControlled(scene.scene, system)) {  // a step in parts: half as much again for each length
     const double lengths = 1.0 + 0.5 * static_cast<double>(partLengths(scene.scene).size());
     cost.seconds *= lengths;

@@ -69,7 +69,7 @@ inline void addCompanions(VariantUnderTest& v) {
     v.parameters["motor_inertia2"] = 0.1;
     v.parameters["gear_ratio2"] = -2.0;
   }
-  if (v.motor) {
+  if (v.motor && v.model != "flexible_rotor") {  // whose elements have one
     v.parameters["polar_inertia"] = 0.3;
   }
 }

@@ -108,6 +108,36 @@ systems:
   }
 }
 
+// A shaft of elements, with the disc of the Jeffcott rotor above in its middle.
+TEST(CaptureAlarm, AFlexibleRotorIsWatchedLikeAJeffcottRotor) {
+  WatchedTwin watched(sceneOf(R"(
+name: shaft
+step: 0.001
+drives:
+  engine: {motor: {stall_torque: 0.3, no_load_speed: 400.0}, speed: 150.0}
+systems:
+  rotor:
+    model: flexible_rotor
+    drive: engine
+    parameters:
+      {youngs_modulus: 2.1e+11, density: 7800.0, elements: [{length: 0.15, outer_diameter: 0.0172, count: 4}],
+      discs: [{node: 2, mass: 4.0, polar_inertia: 0.02, transverse_inertia: 0.013}],
+      bearings: [{node: 0, kxx: 1.0e+8}, {node: 4, kxx: 1.0e+8}, {node: 2, cxx: 40.0}],
+      unbalances: [{node: 2, magnitude: 1.0e-3}], modes: 4, highest_speed: 400.0}
+)"));
+  watched.run(20.0);
+  const state::Alert* foretold = firstOf(watched, state::Severity::kWarning);
+  ASSERT_NE(foretold, nullptr);
+  ASSERT_FALSE(watched.margins.empty());
+  ASSERT_GE(watched.margins[0].critical_speeds.size(), 1u);
+  EXPECT_LT(foretold->speed, watched.margins[0].critical_speeds[0].band_low);
+  const state::Alert* danger = firstOf(watched, state::Severity::kDanger);
+  ASSERT_NE(danger, nullptr);
+  EXPECT_NEAR(watched.observer.drive(0).speed, danger->critical_speed,
+              0.03 * danger->critical_speed);
+  EXPECT_NE(danger->text.find("captured near"), std::string::npos) << danger->text;
+}
+
 // Nonlinear rotors have critical speeds too: those of their small motion where they hang.
 TEST(NonlinearRotors, HaveCriticalSpeedsAndBandAlerts) {
   WatchedTwin watched(sceneOf(R"(

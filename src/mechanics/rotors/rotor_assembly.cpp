@@ -170,7 +170,8 @@ RotorAssembly::RotorAssembly(const FlexibleShaft& shaft) {
     put(element.gyroscopic, gyroscopic_per_speed_);
     put(element.of_axial_force, of_axial_force);
   }
-  constant_.damping = shaft.internal_damping * constant_.stiffness;
+  turning_damping_ = shaft.internal_damping * constant_.stiffness;
+  constant_.damping = turning_damping_;
   const MatrixXd circulatory = -constant_.damping * quarterTurn(n);
   circulatory_per_speed_ = 0.5 * (circulatory - circulatory.transpose());
   constant_.damping += shaft.mass_damping * constant_.mass;
@@ -306,6 +307,7 @@ RotorAssembly RotorAssembly::in(const MatrixXd& shapes) const {
                  skew(constant_.circulatory)};
   r.gyroscopic_per_speed_ = skew(gyroscopic_per_speed_);
   r.circulatory_per_speed_ = skew(circulatory_per_speed_);
+  r.turning_damping_ = symmetric(turning_damping_);
   for (PlacedBearing& placed : r.speed_bearings_) {
     placed.place = shapes.transpose() * placed.place;
   }

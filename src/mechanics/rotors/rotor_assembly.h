@@ -109,6 +109,9 @@ class RotorAssembly {
   /// Of the shaft's pedestals, in their order.
   std::vector<Station> pedestals() const { return pedestals_; }
   const std::vector<ShaftForce>& forces() const { return forces_; }
+  /// Of what turns with the shaft (spin_coupling.h): N_1, and its damping there.
+  const Eigen::MatrixXd& circulatoryPerSpeed() const { return circulatory_per_speed_; }
+  const Eigen::MatrixXd& turningDamping() const { return turning_damping_; }
   /// With q = shapes * amplitudes. [dof x n]
   RotorAssembly in(const Eigen::MatrixXd& shapes) const;
   LinearRotor linearRotor() const;
@@ -123,7 +126,7 @@ class RotorAssembly {
   void makeBands();
 
   Linearization constant_;
-  Eigen::MatrixXd gyroscopic_per_speed_, circulatory_per_speed_;
+  Eigen::MatrixXd gyroscopic_per_speed_, circulatory_per_speed_, turning_damping_;
   std::vector<PlacedBearing> speed_bearings_;
   std::vector<ShaftForce> forces_;
   Eigen::VectorXd load_;
