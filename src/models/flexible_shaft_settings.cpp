@@ -60,6 +60,7 @@ std::vector<ShaftSection> elementsOf(const Settings& settings, const ShaftMateri
       ShaftSection section = ring.section(row.at("length"), part / count, (part + 1) / count);
       section.material = materials.of(rows[i], key);
       section.axial_force = row.at("axial_force");
+      section.torque = row.at("torque");
       elements.push_back(section);
     }
   }
@@ -67,6 +68,39 @@ std::vector<ShaftSection> elementsOf(const Settings& settings, const ShaftMateri
     throw SetupError("elements", "missing; the shaft's elements, from node 0 on");
   }
   return elements;
+}
+
+/// Elements that are a coupling's: without mass, which is in the discs at their nodes.
+void addCouplings(const Settings& settings, FlexibleShaft& shaft) {
+  const std::vector<TableRow>& rows = rowsOf(settings, "couplings");
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::string key = fmt::format("couplings[{}]", i);
+    const auto& n = rows[i].numbers;
+    const int element = indexIn(rows[i], key, "element", shaft.nodes() - 2);
+    ShaftSection& section = shaft.elements[static_cast<std::size_t>(element)];
+    if (section.coupling) {
+      throw SetupError(key + ".element", fmt::format("stands twice, found {}", element));
+    }
+    section.coupling = {n.at("lateral_stiffness"), n.at("bending_stiffness"),
+                        n.at("lateral_damping"), n.at("bending_damping")};
+    section.material = section.material.value_or(shaft.material);
+    section.material->density = 0.0;
+  }
+}
+
+std::vector<DampingRatio> modalDampingOf(const Settings& settings) {
+  std::vector<DampingRatio> ratios;
+  const std::vector<TableRow>& rows = rowsOf(settings, "modal_damping");
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double frequency = rows[i].numbers.at("frequency");
+    if (!ratios.empty() && !(frequency > ratios.back().frequency)) {
+      throw SetupError(fmt::format("modal_damping[{}].frequency", i),
+                       fmt::format("must be > {} rad/s, the row before, found {}",
+                                   ratios.back().frequency, frequency));
+    }
+    ratios.push_back({frequency, rows[i].numbers.at("ratio")});
+  }
+  return ratios;
 }
 
 /// The room that an element and the sleeves on it take.
@@ -127,6 +161,9 @@ void addSleeves(const Settings& settings, const ShaftMaterials& materials, Flexi
     }
     for (int element = from; element < to; ++element) {
       const auto e = static_cast<std::size_t>(element);
+      if (shaft.elements[e].coupling) {
+        throw SetupError(key, fmt::format("must sit on a shaft; element {} is a coupling", e));
+      }
       const ShaftSection section = sleeveOn(taken[e], shaft.elements[e].length, row, key);
       shaft.sleeves.push_back({element, {materials.of(rows[i], key), section, share}});
     }
@@ -186,14 +223,25 @@ std::vector<SettingInfo> flexibleShaftSettings() {
       ofMaterial(
           rows("elements",
                "of the shaft; element i joins node i and node i + 1. A row tapers evenly to its "
-               "diameters at its _end; its axial force pulls",
+               "diameters at its _end; its axial force pulls, its torque turns what follows with x "
+               "towards y",
                {{"length", "m", Range::kPositive, kRequired},
                 {"outer_diameter", "m", Range::kPositive, kRequired},
                 {"outer_diameter_end", "m", Range::kPositive, 0.0, "outer_diameter"},
                 {"inner_diameter", "m", Range::kNotNegative, 0.0},
                 {"inner_diameter_end", "m", Range::kNotNegative, 0.0, "inner_diameter"},
                 {"axial_force", "N", Range::kAny, 0.0},
+                {"torque", "N m", Range::kAny, 0.0},
                 {"count", "-", Range::kCount, 1.0}})),
+      rows("couplings",
+           "elements that are a joint between two rigid arms: without mass, which discs at their "
+           "nodes have; of the row in elements their length and what is drawn. They turn with the "
+           "shaft",
+           {{"element", "-", Range::kNotNegative, kRequired},
+            {"lateral_stiffness", "N/m", Range::kNotNegative, kRequired},
+            {"bending_stiffness", "N m/rad", Range::kNotNegative, kRequired},
+            {"lateral_damping", "N s/m", Range::kNotNegative, 0.0},
+            {"bending_damping", "N m s/rad", Range::kNotNegative, 0.0}}),
       materialsSetting(),
       ofMaterial(rows("sleeves",
                       "on the elements between two nodes, or in their bore, one upon another; "
@@ -224,6 +272,11 @@ std::vector<SettingInfo> flexibleShaftSettings() {
             {node,
              {"magnitude", "kg m", Range::kNotNegative, kRequired},
              {"angle", "rad", Range::kAny, 0.0}}),
+       rows("modal_damping",
+            "damping ratio over the natural frequency at rest, of every mode of rotor and bearings "
+            "without theirs, not turning; linear between rows, beyond them as the nearest",
+            {{"frequency", "rad/s", Range::kNotNegative, 0.0},
+             {"ratio", "-", Range::kNotNegative, kRequired}}),
        rows("stations",
             "nodes whose whirl is published as SYSTEM_node_N, beside that of probe_node", {node}),
        {"shear_deformation",
@@ -250,6 +303,8 @@ FlexibleShaft flexibleShaft(const ParameterValues& values, const Settings& setti
   shaft.stiffness_damping = values.at("stiffness_damping");
   shaft.elements = elementsOf(settings, materials);
   shaft.gravity = settings.choices.at("gravity_on_shaft") == "true" ? gravity : 0.0;
+  shaft.modal_damping = modalDampingOf(settings);
+  addCouplings(settings, shaft);
   addSleeves(settings, materials, shaft);
   const int last = shaft.nodes() - 1;
   const std::vector<TableRow>& discs = rowsOf(settings, "discs");
@@ -270,7 +325,7 @@ FlexibleShaft flexibleShaft(const ParameterValues& values, const Settings& setti
 std::vector<std::string> shaftNotes(const ParameterValues& values, const Settings& settings,
                                     const FlexibleShaft& shaft) {
   std::vector<std::string> notes = ShaftMaterials(values, settings).notes();
-  for (const char* table : {"bearings", "bearing_tables"}) {
+  for (const char* table : {"bearings", "bearing_tables", "pedestal_tables"}) {
     for (std::string& note : followingNotes(settings, table)) {
       notes.push_back(std::move(note));
     }

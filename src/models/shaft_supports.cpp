@@ -53,24 +53,26 @@ SpeedBearing withMass(SpeedBearing bearing, const BearingCoefficients& mass) {
   return bearing;
 }
 
-/// The rows of bearing_tables, by the bearing they are of.
-std::vector<std::vector<BearingRow>> bearingTables(const Settings& settings, std::size_t bearings) {
-  std::vector<std::vector<BearingRow>> tables(bearings);
-  const std::vector<TableRow>& rows = rowsOf(settings, "bearing_tables");
+/// The rows of `name`, by the `of` of `count` that each is of.
+std::vector<std::vector<BearingRow>> speedTables(const Settings& settings, const std::string& name,
+                                                 const char* of, std::size_t count) {
+  std::vector<std::vector<BearingRow>> tables(count);
+  const std::vector<TableRow>& rows = rowsOf(settings, name);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const std::string key = fmt::format("bearing_tables[{}]", i);
-    if (bearings == 0) {
-      throw SetupError(key + ".bearing", "there is no row in bearings that it could be of");
+    const std::string key = fmt::format("{}[{}]", name, i);
+    if (count == 0) {
+      throw SetupError(fmt::format("{}.{}", key, of),
+                       fmt::format("there is no row in {}s that it could be of", of));
     }
-    const auto of =
-        static_cast<std::size_t>(indexIn(rows[i], key, "bearing", static_cast<int>(bearings) - 1));
+    const auto which =
+        static_cast<std::size_t>(indexIn(rows[i], key, of, static_cast<int>(count) - 1));
     const double speed = rows[i].numbers.at("speed");
-    if (!tables[of].empty() && !(speed > tables[of].back().speed)) {
+    if (!tables[which].empty() && !(speed > tables[which].back().speed)) {
       throw SetupError(key + ".speed",
-                       fmt::format("must be > {} rad/s, the row before of this bearing, found {}",
-                                   tables[of].back().speed, speed));
+                       fmt::format("must be > {} rad/s, the row before of this {}, found {}",
+                                   tables[which].back().speed, of, speed));
     }
-    tables[of].push_back({speed, coefficientsOf(rows[i])});
+    tables[which].push_back({speed, coefficientsOf(rows[i])});
   }
   return tables;
 }
@@ -78,7 +80,7 @@ std::vector<std::vector<BearingRow>> bearingTables(const Settings& settings, std
 void addBearings(const Settings& settings, FlexibleShaft& shaft) {
   const int last = shaft.nodes() - 1;
   const std::vector<TableRow>& rows = rowsOf(settings, "bearings");
-  const auto tables = bearingTables(settings, rows.size());
+  const auto tables = speedTables(settings, "bearing_tables", "bearing", rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::string key = fmt::format("bearings[{}]", i);
     const RotorBearing bearing{indexIn(rows[i], key, "node", last),
@@ -114,6 +116,7 @@ void addPedestals(const Settings& settings, FlexibleShaft& shaft) {
   const std::vector<NodeMagnet> magnets = nodeMagnets(settings, shaft.nodes());
   const std::vector<NodeElement> elements = nodeElements(settings, shaft.nodes());
   const std::vector<TableRow>& rows = rowsOf(settings, "pedestals");
+  const auto tables = speedTables(settings, "pedestal_tables", "pedestal", rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::string key = fmt::format("pedestals[{}]", i);
     const auto& n = rows[i].numbers;
@@ -142,6 +145,17 @@ void addPedestals(const Settings& settings, FlexibleShaft& shaft) {
       }
     }
     shaft.pedestals.push_back({node, n.at("mass"), n.at("mass_y"), coefficientsOf(rows[i])});
+    if (tables[i].empty()) {
+      continue;
+    }
+    RotorPedestal& pedestal = shaft.pedestals.back();
+    if (isGiven(pedestal.coefficients)) {
+      throw SetupError(key,
+                       "must give its node and mass only: pedestal_tables gives its coefficients");
+    }
+    const SpeedBearing law = tabulatedBearing(node, tables[i]);
+    pedestal.over_speed = law.coefficients;
+    pedestal.knots = law.knots;
   }
 }
 
@@ -193,6 +207,10 @@ std::vector<SettingInfo> supportSettings() {
            coefficientColumns({node,
                                {"mass", "kg", Range::kNotNegative, kRequired},
                                {"mass_y", "kg", Range::kNotNegative, 0.0, "mass"}})),
+      rows("pedestal_tables",
+           "coefficients of pedestals[pedestal] over the shaft's speed, as of its frequency",
+           coefficientColumns({{"pedestal", "-", Range::kNotNegative, kRequired},
+                               {"speed", "rad/s", Range::kAny, kRequired}})),
       magnetsSetting({node}, "current_x_NODE, current_y_NODE")};
 }
 

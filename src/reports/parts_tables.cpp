@@ -22,7 +22,8 @@ bool alike(const ShaftSection& a, const ShaftSection& b) {
   const auto density = [](const ShaftSection& s) { return s.material ? s.material->density : 0.0; };
   return !a.tapers() && !b.tapers() && a.length == b.length &&
          a.outer_diameter == b.outer_diameter && a.inner_diameter == b.inner_diameter &&
-         a.axial_force == b.axial_force && density(a) == density(b);
+         a.axial_force == b.axial_force && a.torque == b.torque && !a.coupling && !b.coupling &&
+         density(a) == density(b);
 }
 
 /// The same sleeve over the next element.
@@ -48,7 +49,7 @@ Rows elementRows(const FlexibleShaft& shaft) {
     rows.push_back({fmt::format("{} to {}", first, end), number(e.length),
                     diameter(e.outer_diameter, e.outer_growth),
                     diameter(e.inner_diameter, e.inner_growth), number(material.youngs_modulus),
-                    number(material.density), number(e.axial_force)});
+                    number(material.density), number(e.axial_force), number(e.torque)});
     first = end;
   }
   return rows;
@@ -76,8 +77,19 @@ std::vector<PartsTable> partsTables(const FlexibleShaft& shaft, double speed) {
   std::vector<PartsTable> all;
   all.push_back({"Elements",
                  {"nodes", "length each, m", "outer diameter, m", "inner diameter, m", "E, Pa",
-                  "density, kg/m³", "axial force, N"},
+                  "density, kg/m³", "axial force, N", "torque, N m"},
                  elementRows(shaft)});
+  PartsTable couplings{
+      "Couplings, in place of their elements",
+      {"nodes", "across, N/m", "in bending, N m/rad", "across, N s/m", "in bending, N m s/rad"},
+      {}};
+  for (std::size_t i = 0; i < shaft.elements.size(); ++i) {
+    if (const std::optional<ShaftCoupling>& c = shaft.elements[i].coupling) {
+      couplings.rows.push_back({fmt::format("{} to {}", i, i + 1), number(c->lateral_stiffness),
+                                number(c->bending_stiffness), number(c->lateral_damping),
+                                number(c->bending_damping)});
+    }
+  }
   PartsTable sleeves{
       "Sleeves",
       {"nodes", "outer diameter, m", "inner diameter, m", "density, kg/m³", "share of stiffness"},
@@ -114,7 +126,10 @@ std::vector<PartsTable> partsTables(const FlexibleShaft& shaft, double speed) {
                         "cxx, N s/m", "cyy, N s/m"},
                        {}};
   for (const RotorPedestal& pedestal : shaft.pedestals) {
-    const BearingCoefficients& c = pedestal.coefficients;
+    BearingCoefficients c = pedestal.coefficients;
+    if (pedestal.over_speed) {
+      c = pedestal.over_speed(speed);
+    }
     pedestals.rows.push_back({std::to_string(pedestal.node), number(pedestal.mass_x),
                               number(pedestal.mass_y), number(c.kxx), number(c.kyy), number(c.cxx),
                               number(c.cyy)});
@@ -124,7 +139,12 @@ std::vector<PartsTable> partsTables(const FlexibleShaft& shaft, double speed) {
     unbalances.rows.push_back(
         {std::to_string(unbalance.node), number(unbalance.magnitude), number(unbalance.angle)});
   }
-  for (PartsTable* table : {&sleeves, &discs, &bearings, &pedestals, &unbalances}) {
+  PartsTable ratios{"Damping by mode, not turning", {"frequency, rad/s", "damping ratio"}, {}};
+  for (const DampingRatio& at : shaft.modal_damping) {
+    ratios.rows.push_back({number(at.frequency), number(at.ratio)});
+  }
+  for (PartsTable* table :
+       {&couplings, &sleeves, &discs, &bearings, &pedestals, &ratios, &unbalances}) {
     if (!table->rows.empty()) {
       all.push_back(*table);
     }

@@ -14,8 +14,9 @@ struct PartsTable {
   std::vector<std::vector<std::string>> rows;
 };
 
-/// Elements (alike ones that follow each other in one row), sleeves, discs, bearings with their
-/// coefficients at a speed [rad/s], pedestals, unbalances: those that it has.
+/// Elements (alike ones that follow each other in one row), couplings, sleeves, discs, bearings and
+/// pedestals with their coefficients at a speed [rad/s], damping by mode, unbalances: those that it
+/// has.
 std::vector<PartsTable> partsTables(const FlexibleShaft& shaft, double speed);
 
 }  // namespace whirl_twin

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "messages/names.h"
+#include "reports/ross_coupling.h"
 #include "reports/ross_file.h"
 #include "reports/rotor_drawing.h"
 #include "scene/scene_error.h"
@@ -15,6 +16,7 @@ namespace whirl_twin {
 
 namespace {
 
+constexpr double kCouplingLength = 0.2;  // m, and its diameter, unless they are given
 constexpr double kNoStiffness = 1.0e-3;  // of the shaft's modulus: a layer that is mass only
 
 /// Whatever they are called.
@@ -47,7 +49,8 @@ class RossReader {
   struct Layer {
     int node = 0;
     double length = 0.0, inner = 0.0, inner_end = 0.0, outer = 0.0, outer_end = 0.0;
-    double axial_force = 0.0;
+    double axial_force = 0.0, torque = 0.0;
+    bool coupling = false;
     RossMaterial material;
     RossEntry entry;
   };
@@ -69,9 +72,22 @@ class RossReader {
     }
   }
 
+  Layer coupling(const RossEntry& entry) {
+    Layer layer;
+    layer.coupling = true;
+    layer.node = file_.node(entry);
+    layer.length = file_.number(entry, "L", "m", kCouplingLength);
+    layer.outer = layer.outer_end = file_.number(entry, "o_d", "m", kCouplingLength);
+    layer.entry = entry;
+    return layer;
+  }
+
   std::vector<Layer> layers() {
     std::vector<Layer> all;
     for (const RossEntry& entry : file_.entries()) {
+      if (is(entry, "CouplingElement")) {
+        all.push_back(coupling(entry));
+      }
       if (!is(entry, "ShaftElement")) {
         continue;
       }
@@ -83,12 +99,10 @@ class RossReader {
       layer.inner_end = file_.number(entry, "idr", "m", layer.inner);
       layer.outer_end = file_.number(entry, "odr", "m", layer.outer);
       layer.axial_force = file_.number(entry, "axial_force", "N", 0.0);
+      layer.torque = file_.number(entry, "torque", "N m", 0.0);
       layer.material = file_.material(entry);
       layer.entry = entry;
       all.push_back(layer);
-      if (file_.number(entry, "torque", "N m", 0.0) != 0.0) {
-        leaveOut(entry.key + ": torque");
-      }
       for (const char* effect : {"rotary_inertia", "gyroscopic"}) {
         if (!file_.flag(entry, effect)) {
           leaveOut(fmt::format("{}: {}: false; elements have it here", entry.key, effect));
@@ -104,19 +118,25 @@ class RossReader {
 
   void readShaft() {
     const std::vector<Layer> all = layers();
-    if (all.empty()) {
+    const auto real =
+        std::find_if(all.begin(), all.end(), [](const Layer& layer) { return !layer.coupling; });
+    if (real == all.end()) {
       complaints_.add("", "has no ShaftElement");
       return;
     }
-    const RossMaterial& shaft = all.front().material;
+    const RossMaterial& shaft = real->material;
     drawing_.youngs_modulus = shaft.youngs_modulus;
     drawing_.shear_modulus = shaft.shear_modulus;
     drawing_.density = shaft.density;
-    const RossEntry& first = all.front().entry;
+    const RossEntry& first = real->entry;
     drawing_.shear_deformation = file_.flag(first, "shear_effects");
     drawing_.mass_damping = file_.number(first, "alpha", "1/s", 0.0);
     drawing_.stiffness_damping = file_.number(first, "beta", "s", 0.0);
     for (const Layer& layer : all) {
+      if (layer.coupling) {
+        addCoupling(layer);
+        continue;
+      }
       if (file_.flag(layer.entry, "shear_effects") != drawing_.shear_deformation) {
         leaveOut(layer.entry.key + ": shear_effects other than the first element's");
       }
@@ -133,12 +153,28 @@ class RossReader {
     }
   }
 
-  void addElement(const Layer& layer) {
+  void takeNodes(const Layer& layer) {
     if (layer.node != last_node_) {
       complaints_.add(layer.entry.key + ".n",
                       fmt::format("there is no shaft element from node {}", last_node_));
     }
     last_node_ = layer.node + 1;
+  }
+
+  void addCoupling(const Layer& layer) {
+    takeNodes(layer);
+    drawing_.elements.push_back(
+        {{"length", drawn(layer.length)}, {"outer_diameter", drawn(layer.outer)}});
+    const RossCoupling coupling = rossCoupling(file_, layer.entry, layer.node);
+    drawing_.couplings.push_back(coupling.row);
+    drawing_.discs.insert(drawing_.discs.end(), coupling.hubs.begin(), coupling.hubs.end());
+    for (const std::string& line : coupling.left_out) {
+      leaveOut(line);
+    }
+  }
+
+  void addElement(const Layer& layer) {
+    takeNodes(layer);
     DrawnRow row;
     if (const std::string name = nameOfMaterial(layer, false); !name.empty()) {
       row.emplace_back("material", name);
@@ -157,6 +193,9 @@ class RossReader {
     }
     if (layer.axial_force != 0.0) {
       row.emplace_back("axial_force", drawn(layer.axial_force));
+    }
+    if (layer.torque != 0.0) {
+      row.emplace_back("torque", drawn(layer.torque));
     }
     drawing_.elements.push_back(row);
   }
@@ -319,11 +358,17 @@ class RossReader {
       if (along_x != along_y) {
         row.emplace_back("mass_y", drawn(along_y));
       }
-      const std::size_t count = std::max<std::size_t>(file_.frequencies(*below).size(), 1);
-      if (count > 1) {
-        leaveOut(below->key + ": a pedestal over frequency; its first coefficients are taken");
+      const std::vector<double> speeds = file_.frequencies(*below);
+      const std::size_t count = std::max<std::size_t>(speeds.size(), 1);
+      if (speeds.size() < 2) {
+        addCoefficients(*below, 0, count, row);
       }
-      addCoefficients(*below, 0, count, row);
+      for (std::size_t k = 0; speeds.size() >= 2 && k < count; ++k) {
+        DrawnRow of_speed{{"pedestal", std::to_string(drawing_.pedestals.size())},
+                          {"speed", drawn(speeds[k])}};
+        addCoefficients(*below, k, count, of_speed);
+        drawing_.pedestal_tables.push_back(of_speed);
+      }
       drawing_.pedestals.push_back(row);
       above = &*below;
     }
@@ -332,7 +377,7 @@ class RossReader {
   void nameOthers() {
     for (const RossEntry& entry : file_.entries()) {
       if (!is(entry, "ShaftElement") && !is(entry, "DiskElement") && !is(entry, "PointMass") &&
-          !isSupport(entry)) {
+          !is(entry, "CouplingElement") && !isSupport(entry)) {
         leaveOut(fmt::format("{}: a {}", entry.key, entry.kind));
       }
     }

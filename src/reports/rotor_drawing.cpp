@@ -88,11 +88,13 @@ std::string sceneText(const RotorDrawing& drawing) {
   }
   out += tableText("materials", drawing.materials);
   out += tableText("elements", counted(drawing.elements));
+  out += tableText("couplings", drawing.couplings);
   out += tableText("sleeves", drawing.sleeves);
   out += tableText("discs", drawing.discs);
   out += tableText("bearings", drawing.bearings);
   out += tableText("bearing_tables", drawing.bearing_tables);
   out += tableText("pedestals", drawing.pedestals);
+  out += tableText("pedestal_tables", drawing.pedestal_tables);
   return out;
 }
 

@@ -22,7 +22,8 @@ struct RotorDrawing {
   double speed = 0.0;                   ///< [rad/s]
   std::optional<double> highest_speed;  ///< [rad/s]
   bool shear_deformation = true;
-  std::vector<DrawnRow> materials, elements, sleeves, discs, bearings, bearing_tables, pedestals;
+  std::vector<DrawnRow> materials, elements, couplings, sleeves, discs, bearings, bearing_tables,
+      pedestals, pedestal_tables;
   std::vector<std::string> left_out;  ///< what the scene does not say, a line each
 };
 
@@ -36,9 +37,10 @@ std::string drawn(double value);
 /// A name for the scene of a file.
 std::string nameOf(const std::string& path);
 
-/// Of a file of ROSS (Rotor.save(): .toml, or .json) with shaft elements and their layers, discs,
-/// point masses, bearings and seals by coefficients, constant or over speed, and supports below
-/// them. Throws Refusal: "FILE: ENTRY.KEY: what was expected, what was found", all at once.
+/// Of a file of ROSS (Rotor.save(): .toml, or .json) with shaft elements and their layers,
+/// couplings, discs, point masses, bearings and seals by coefficients, constant or over speed, and
+/// supports below them. Throws Refusal: "FILE: ENTRY.KEY: what was expected, what was found", all
+/// at once.
 RotorDrawing drawingOfRoss(const std::string& path);
 
 /// Of a table of elements from node 0 on (.csv), a row each, whose columns are those of `elements`

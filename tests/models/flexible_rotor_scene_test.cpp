@@ -124,6 +124,13 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{withShaft("magnets: [{node: 1, ki: 100, ks: 1}], pedestals: [{node: 1, mass: 9}]"),
                 "pedestals[0].node: must have no magnet, whose force is one between shaft and "
                 "ground, found 1"},
+        Refusal{withShaft("couplings: [{element: 6, lateral_stiffness: 1, bending_stiffness: 1}]"),
+                "couplings[0].element: must be a whole number from 0 to 5, found 6"},
+        Refusal{withShaft("couplings: [{element: 2, lateral_stiffness: 1, bending_stiffness: 1}], "
+                          "sleeves: [{from: 2, to: 3, outer_diameter: 0.06}]"),
+                "sleeves[0]: must sit on a shaft; element 2 is a coupling"},
+        Refusal{withShaft("modal_damping: [{ratio: 0.01}, {ratio: 0.02}]"),
+                "modal_damping[1].frequency: must be > 0 rad/s, the row before, found 0"},
         Refusal{withShaft("bearings: [{node: 0, kxx: 1, mxx: 1, mxy: 2}]"),
                 "bearings[0].mxy: must be a mass matrix's, mxy^2 <= mxx myy = 1 kg^2, found 2"}));
 
@@ -143,6 +150,12 @@ INSTANTIATE_TEST_SUITE_P(
                           "{bearing: 0, speed: 5}]"),
                 "bearing_tables[1].speed: must be > 5 rad/s, the row before of this bearing, found "
                 "5"},
+        Refusal{withShaft("pedestal_tables: [{pedestal: 0, speed: 1}]"),
+                "pedestal_tables[0].pedestal: there is no row in pedestals that it could be of"},
+        Refusal{withShaft("bearings: [{node: 0, kxx: 1}], pedestals: [{node: 0, mass: 9, kxx: 1}], "
+                          "pedestal_tables: [{pedestal: 0, speed: 5, kxx: 1}]"),
+                "pedestals[0]: must give its node and mass only: pedestal_tables gives its "
+                "coefficients"},
         Refusal{withShaft("bearings: [{node: 0, kxx: 3}], bearing_tables: [{bearing: 0, speed: 5, "
                           "kxx: 1}]"),
                 "bearings[0]: must give its node only: bearing_tables gives its coefficients"}));
@@ -210,6 +223,40 @@ TEST(FlexibleRotorScene, HasItsPedestalsBehindTheirNodes) {
   EXPECT_EQ(names[33].name, "pedestal_y_6");
   const ModelSetup reduced = setupOf(kRotor + pedestals + ", modes: 8");
   EXPECT_EQ(reduced.note.rfind("8 of 34 modes", 0), 0u) << reduced.note;
+}
+
+// What a scene says of couplings, torque, damping by mode and pedestals over the speed is what
+// tests/mechanics/rotor_parts_test.cpp holds to closed forms.
+TEST(FlexibleRotorScene, HasItsCouplingsTorquesAndDampings) {
+  const auto with = [](const std::string& more) {
+    return setupOf(std::string(kShaft) +
+                   ", modes: 0, bearings: [{node: 0, kxx: 1.0e+6}, {node: 6, "
+                   "kxx: 1.0e+6}], discs: [{node: 2, mass: 9}, {node: 3, "
+                   "mass: 9}]" +
+                   more)
+        .dynamics->linearRotor()
+        .matrices(50.0);
+  };
+  const Linearization plain = with("");
+  const Linearization joined = with(
+      ", couplings: [{element: 2, lateral_stiffness: 1.0e+5, bending_stiffness: 2.0e+3, "
+      "lateral_damping: 40}]");
+  EXPECT_LT(joined.mass.sum(), plain.mass.sum());
+  EXPECT_NEAR(joined.stiffness(8, 12), -1.0e5, 1e-6);
+  EXPECT_NEAR(joined.stiffness(11, 15), 1.0e5 * 0.125 * 0.125 - 2.0e3, 1e-6);
+  EXPECT_NEAR(joined.circulatory(8, 13), -50.0 * 40.0, 1e-6) << "it turns with the shaft";
+  const Linearization damped = with(", modal_damping: [{ratio: 0.02}]");
+  EXPECT_GT(damped.damping.trace(), 0.0);
+  EXPECT_EQ(damped.circulatory.norm(), 0.0);
+  const Linearization standing = with(
+      ", pedestals: [{node: 0, mass: 30}], pedestal_tables: [{pedestal: 0, speed: 0, kxx: 4.0e+6}, "
+      "{pedestal: 0, speed: 100, kxx: 2.0e+6}]");
+  EXPECT_NEAR(standing.stiffness(4, 4), 1.0e6 + 3.0e6, 1.0);
+  const std::string twisted =
+      "youngs_modulus: 211.0e+9, density: 7810, modes: 0, elements: [{length: 0.25, "
+      "outer_diameter: 0.05, torque: 800, count: 2}]";
+  EXPECT_NEAR(setupOf(twisted).dynamics->linearRotor().matrices(0.0).circulatory(2, 3), -400.0,
+              1e-9);
 }
 
 // A disc of 0.3 m, bore 0.05 m and 0.04 m: m = rho pi (D^2 - d^2) b / 4, I_p = m (D^2 + d^2) / 8,

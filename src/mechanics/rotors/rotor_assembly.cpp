@@ -152,31 +152,9 @@ RotorAssembly::RotorAssembly(const FlexibleShaft& shaft) {
   const MatrixXd zero = MatrixXd::Zero(n, n);
   constant_ = {zero, zero, zero, zero, zero};
   gyroscopic_per_speed_ = zero;
-  MatrixXd of_axial_force = zero;
-  for (int i = 0; i + 1 < shaft.nodes(); ++i) {
-    const double axial_force = shaft.elements[static_cast<std::size_t>(i)].axial_force;
-    const ShaftElement element = shaftElement(shaft.layers(i), axial_force);
-    const auto put = [&](const ShaftElement::Matrix& from, MatrixXd& to) {
-      constexpr Index kOne = kNodeCoordinates;
-      const Index ends[] = {shaft.firstOf(i), shaft.firstOf(i + 1)};
-      for (Index a = 0; a < 2; ++a) {
-        for (Index b = 0; b < 2; ++b) {
-          to.block<kOne, kOne>(ends[a], ends[b]) += from.block<kOne, kOne>(a * kOne, b * kOne);
-        }
-      }
-    };
-    put(element.mass, constant_.mass);
-    put(element.stiffness, constant_.stiffness);
-    put(element.gyroscopic, gyroscopic_per_speed_);
-    put(element.of_axial_force, of_axial_force);
-  }
-  turning_damping_ = shaft.internal_damping * constant_.stiffness;
-  constant_.damping = turning_damping_;
-  const MatrixXd circulatory = -constant_.damping * quarterTurn(n);
+  turning_damping_ = addElements(shaft);
+  const MatrixXd circulatory = -turning_damping_ * quarterTurn(n);
   circulatory_per_speed_ = 0.5 * (circulatory - circulatory.transpose());
-  constant_.damping += shaft.mass_damping * constant_.mass;
-  constant_.damping += shaft.stiffness_damping * constant_.stiffness;
-  constant_.stiffness += of_axial_force;
 
   for (const RotorDisc& disc : shaft.discs) {
     const Index x = shaft.firstOf(disc.node);
@@ -215,7 +193,45 @@ RotorAssembly::RotorAssembly(const FlexibleShaft& shaft) {
   }
   load_ = -shaft.gravity * (constant_.mass * along_y);
   addSupports(shaft);
+  if (!shaft.modal_damping.empty()) {
+    const Linearization at_rest = matrices(0.0);
+    constant_.damping += modalDamping(at_rest.mass, at_rest.stiffness, shaft.modal_damping);
+  }
   makeBands();
+}
+
+MatrixXd RotorAssembly::addElements(const FlexibleShaft& shaft) {
+  const Index n = shaft.coordinates();
+  MatrixXd of_loads = MatrixXd::Zero(n, n);
+  MatrixXd turning = MatrixXd::Zero(n, n);
+  MatrixXd of_couplings = MatrixXd::Zero(n, n);
+  for (int i = 0; i + 1 < shaft.nodes(); ++i) {
+    const ShaftSection& section = shaft.elements[static_cast<std::size_t>(i)];
+    const ShaftElement element =
+        section.coupling ? couplingElement(*section.coupling, section.length, section.axial_force,
+                                           section.torque)
+                         : shaftElement(shaft.layers(i), section.axial_force, section.torque);
+    const auto put = [&](const ShaftElement::Matrix& from, MatrixXd& to) {
+      constexpr Index kOne = kNodeCoordinates;
+      const Index ends[] = {shaft.firstOf(i), shaft.firstOf(i + 1)};
+      for (Index a = 0; a < 2; ++a) {
+        for (Index b = 0; b < 2; ++b) {
+          to.block<kOne, kOne>(ends[a], ends[b]) += from.block<kOne, kOne>(a * kOne, b * kOne);
+        }
+      }
+    };
+    put(element.mass, constant_.mass);
+    put(element.stiffness, section.coupling ? of_couplings : constant_.stiffness);
+    put(element.gyroscopic, gyroscopic_per_speed_);
+    put(element.of_loads, of_loads);
+    put(element.circulatory, constant_.circulatory);
+    put(element.damping, turning);
+  }
+  turning += shaft.internal_damping * constant_.stiffness;
+  constant_.damping =
+      turning + shaft.mass_damping * constant_.mass + shaft.stiffness_damping * constant_.stiffness;
+  constant_.stiffness += of_couplings + of_loads;
+  return turning;
 }
 
 void RotorAssembly::addSupports(const FlexibleShaft& shaft) {
@@ -244,7 +260,11 @@ void RotorAssembly::addSupports(const FlexibleShaft& shaft) {
     const Index x = shaft.firstOf(pedestal.node) + kNodeCoordinates + 2 * above[node]++;
     constant_.mass(x, x) += pedestal.mass_x;
     constant_.mass(x + 1, x + 1) += pedestal.mass_y;
-    add(pedestal.coefficients, place(x, pedestal.node, above[node]), constant_);
+    const MatrixXd below = place(x, pedestal.node, above[node]);
+    add(pedestal.coefficients, below, constant_);
+    if (pedestal.over_speed) {
+      speed_bearings_.push_back({{pedestal.node, pedestal.over_speed, pedestal.knots}, below});
+    }
     pedestals_.push_back({"pedestal_" + std::to_string(pedestals_.size()), z[node],
                           Eigen::VectorXd::Unit(n, x), Eigen::VectorXd::Unit(n, x + 1)});
   }

@@ -9,8 +9,9 @@
 // I_p) tau turns with it (rigid_disc.h). A shaft's material with stress = E (strain + eta strain
 // rate), in the frame that turns with it, resists the velocity seen from there: eta K_shaft (q' - w
 // J q), J the quarter turn from x to y. Forward whirl faster than the shaft is damped, slower than
-// it is fed (Kimball 1924; Zorzi and Nelson, J. Engineering for Power 99, 1977). Damping in
-// proportion to the mass and the stiffness of the elements does not turn.
+// it is fed (Kimball 1924; Zorzi and Nelson, J. Engineering for Power 99, 1977); so is the joint of
+// a coupling. Damping in proportion to the mass and the stiffness of the elements does not turn,
+// nor does damping by the modes at rest (modal_damping.h).
 #pragma once
 
 #include <Eigen/Core>
@@ -20,6 +21,7 @@
 
 #include "mechanics/banded_linearization.h"
 #include "mechanics/linear_rotor.h"
+#include "mechanics/rotors/modal_damping.h"
 #include "mechanics/rotors/shaft_element.h"
 #include "mechanics/rotors/short_journal_bearing.h"
 
@@ -60,6 +62,9 @@ struct RotorPedestal {
   int node = 0;
   double mass_x = 0.0, mass_y = 0.0;  ///< [kg]
   BearingCoefficients coefficients;   ///< between it and what it stands on
+  /// Besides, where they follow the shaft's speed [rad/s]; none: they do not.
+  std::function<BearingCoefficients(double speed)> over_speed = {};
+  std::vector<double> knots = {};  ///< [rad/s], of those, as a SpeedBearing's
 };
 
 struct NodeUnbalance {
@@ -81,6 +86,7 @@ struct FlexibleShaft {
   std::vector<RotorPedestal> pedestals = {};
   double mass_damping = 0.0;       ///< [1/s], of the elements: C = this * M
   double stiffness_damping = 0.0;  ///< [s], of the elements: C = this * K
+  std::vector<DampingRatio> modal_damping = {};
 
   int nodes() const { return static_cast<int>(elements.size()) + 1; }
   /// Of an element, the shaft first.
@@ -122,6 +128,8 @@ class RotorAssembly {
     Eigen::MatrixXd place;  ///< [dof x 2], of x and y
   };
 
+  /// Returns what the elements damp while they turn.
+  Eigen::MatrixXd addElements(const FlexibleShaft& shaft);
   void addSupports(const FlexibleShaft& shaft);
   void makeBands();
 

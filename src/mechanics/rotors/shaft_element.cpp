@@ -74,9 +74,9 @@ Inertia inertiaAt(const std::vector<ShaftLayer>& layers, double share) {
   return sum;
 }
 
-/// Deflection, rotation and slope [1/m] of a point, by the coordinates of the plane.
+/// Deflection, rotation, slope [1/m] and curvature of a point, by the coordinates of the plane.
 struct Shapes {
-  PlaneVector deflection, rotation, slope;
+  PlaneVector deflection, rotation, slope, curvature;
 };
 
 /// Of a uniform element.
@@ -96,7 +96,10 @@ Shapes uniformShapes(double s, double length, double shear) {
                       1.0 + 0.5 * shear - (4.0 + shear) * s + 3.0 * s2,
                       (shear + 6.0 * s - 6.0 * s2) / length,
                       -0.5 * shear + (shear - 2.0) * s + 3.0 * s2) /
-              by};
+              by,
+          PlaneVector(6.0 * (2.0 * s - 1.0) / length, 6.0 * s - 4.0 - shear,
+                      6.0 * (1.0 - 2.0 * s) / length, 6.0 * s - 2.0 + shear) /
+              (by * length)};
 }
 
 PlaneMatrix uniformStiffness(double bending, double l, double shear) {
@@ -113,6 +116,7 @@ PlaneMatrix uniformStiffness(double bending, double l, double shear) {
 struct Flexibility {
   Eigen::Matrix2d at_point = Eigen::Matrix2d::Zero();     ///< deflection and rotation of the point
   Eigen::RowVector2d shear = Eigen::RowVector2d::Zero();  ///< its shear strain
+  Eigen::RowVector2d curvature = Eigen::RowVector2d::Zero();  ///< [1/m]
 };
 
 Flexibility flexibility(const std::vector<ShaftLayer>& layers, double share) {
@@ -136,6 +140,7 @@ Flexibility flexibility(const std::vector<ShaftLayer>& layers, double share) {
   if (here.shear > 0.0) {
     f.shear(0) = 1.0 / here.shear;
   }
+  f.curvature << length * (1.0 - share) / here.bending, 1.0 / here.bending;
   return f;
 }
 
@@ -175,7 +180,8 @@ class Plane {
     moved(0, 1) += share * length_;
     moved(1, 1) += 1.0;
     const PlaneVector rotation = moved.row(1).transpose();
-    return {moved.row(0).transpose(), rotation, rotation + (f.shear * forces).transpose()};
+    return {moved.row(0).transpose(), rotation, rotation + (f.shear * forces).transpose(),
+            (f.curvature * forces).transpose()};
   }
 
  private:
@@ -185,6 +191,39 @@ class Plane {
   double bending_ = 0.0, shear_ = 0.0;  // of a uniform one; P
   Eigen::Matrix<double, 2, 4> bends_;   // of one that tapers
   Eigen::Matrix2d end_stiffness_;
+};
+
+/// An element's matrices, of those of its planes.
+class BothPlanes {
+ public:
+  using Matrix = ShaftElement::Matrix;
+
+  BothPlanes() {
+    for (Eigen::Index node = 0; node < 2; ++node) {
+      const Eigen::Index first = node * kNodeCoordinates;
+      in_x_(2 * node, first) = in_y_(2 * node, first + 1) = 1.0;
+      in_x_(2 * node + 1, first + 3) = 1.0;
+      in_y_(2 * node + 1, first + 2) = -1.0;
+    }
+  }
+  Matrix each(const PlaneMatrix& m) const {
+    return in_x_.transpose() * m * in_x_ + in_y_.transpose() * m * in_y_;
+  }
+  /// Of x in the first factor, y in the second, less the transposed.
+  Matrix across(const PlaneMatrix& m) const {
+    return in_x_.transpose() * m * in_y_ - in_y_.transpose() * m.transpose() * in_x_;
+  }
+  /// Of a torque, by the integral of curvature rotation^T.
+  void addTorque(double torque, const PlaneMatrix& m, ShaftElement& element) const {
+    const Matrix all = torque * (in_x_.transpose() * m * in_y_ - in_y_.transpose() * m * in_x_);
+    element.of_loads += 0.5 * (all + all.transpose());
+    element.circulatory += 0.5 * (all - all.transpose());
+  }
+
+ private:
+  // Places of (x, beta) and (y, -alpha) in the element's coordinates.
+  Eigen::Matrix<double, 4, 2 * kNodeCoordinates> in_x_ = decltype(in_x_)::Zero();
+  Eigen::Matrix<double, 4, 2 * kNodeCoordinates> in_y_ = decltype(in_y_)::Zero();
 };
 
 /// Calls `take` with places [0, 1] along an element and the lengths that they stand for.
@@ -227,39 +266,48 @@ ShaftElement shaftElement(const ShaftMaterial& material, const ShaftSection& sec
   return shaftElement({{material, section}});
 }
 
-ShaftElement shaftElement(const std::vector<ShaftLayer>& layers, double axial_force) {
+ShaftElement shaftElement(const std::vector<ShaftLayer>& layers, double axial_force,
+                          double torque) {
   const Plane plane(layers);
   PlaneMatrix mass = PlaneMatrix::Zero();
   PlaneMatrix rotary = PlaneMatrix::Zero();
   PlaneMatrix of_axial_force = PlaneMatrix::Zero();
+  PlaneMatrix turned = PlaneMatrix::Zero();
   alongElement(layers.front().section.length, plane.tapers(), [&](double share, double dz) {
     const Shapes at = plane.shapes(share);
     const Inertia inertia = inertiaAt(layers, share);
     mass += inertia.mass * dz * at.deflection * at.deflection.transpose();
     rotary += inertia.rotary * dz * at.rotation * at.rotation.transpose();
     of_axial_force += axial_force * dz * at.slope * at.slope.transpose();
+    turned += dz * at.curvature * at.rotation.transpose();
   });
-  const PlaneMatrix stiffness = plane.stiffness();
-
-  // Places of (x, beta) and (y, -alpha) in the element's coordinates.
-  Eigen::Matrix<double, 4, 2 * kNodeCoordinates> in_x = decltype(in_x)::Zero();
-  Eigen::Matrix<double, 4, 2 * kNodeCoordinates> in_y = decltype(in_y)::Zero();
-  for (Eigen::Index node = 0; node < 2; ++node) {
-    const Eigen::Index first = node * kNodeCoordinates;
-    in_x(2 * node, first) = in_y(2 * node, first + 1) = 1.0;
-    in_x(2 * node + 1, first + 3) = 1.0;
-    in_y(2 * node + 1, first + 2) = -1.0;
-  }
-  const auto inBothPlanes = [&](const PlaneMatrix& m) -> ShaftElement::Matrix {
-    return in_x.transpose() * m * in_x + in_y.transpose() * m * in_y;
-  };
+  const BothPlanes planes;
   ShaftElement element;
-  element.mass = inBothPlanes(mass + rotary);
-  element.stiffness = inBothPlanes(stiffness);
-  element.of_axial_force = inBothPlanes(of_axial_force);
+  element.mass = planes.each(mass + rotary);
+  element.stiffness = planes.each(plane.stiffness());
+  element.of_loads = planes.each(of_axial_force);
+  planes.addTorque(torque, turned, element);
   // The polar moment is twice that about a diameter.
-  const ShaftElement::Matrix polar = 2.0 * in_x.transpose() * rotary * in_y;
-  element.gyroscopic = polar - polar.transpose();
+  element.gyroscopic = planes.across(2.0 * rotary);
+  return element;
+}
+
+ShaftElement couplingElement(const ShaftCoupling& coupling, double length, double axial_force,
+                             double torque) {
+  const PlaneVector apart(-1.0, -0.5 * length, 1.0, -0.5 * length);  // of the arms in the middle
+  const PlaneVector bend(0.0, -1.0, 0.0, 1.0);
+  const PlaneVector turn(0.0, 0.5, 0.0, 0.5);
+  const auto joint = [&](double across, double bending) -> PlaneMatrix {
+    return across * apart * apart.transpose() + bending * bend * bend.transpose();
+  };
+  const PlaneVector arms(0.0, 1.0, 0.0, 1.0);
+  const BothPlanes planes;
+  ShaftElement element;
+  element.mass = element.gyroscopic = ShaftElement::Matrix::Zero();
+  element.stiffness = planes.each(joint(coupling.lateral_stiffness, coupling.bending_stiffness));
+  element.damping = planes.each(joint(coupling.lateral_damping, coupling.bending_damping));
+  element.of_loads = planes.each(0.5 * axial_force * length * PlaneMatrix(arms.asDiagonal()));
+  planes.addTorque(torque, bend * turn.transpose(), element);
   return element;
 }
 
@@ -277,7 +325,7 @@ ElementBody elementBody(const std::vector<ShaftLayer>& layers) {
     about_end += (inertia.rotary + inertia.mass * z * z) * dz;
     body.polar_inertia += 2.0 * inertia.rotary * dz;
   });
-  body.centre = moment / body.mass;
+  body.centre = body.mass > 0.0 ? moment / body.mass : 0.5 * length;
   body.transverse_inertia = about_end - moment * body.centre;
   return body;
 }

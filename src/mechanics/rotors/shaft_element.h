@@ -22,6 +22,17 @@
 //
 // by quadrature, and the stiffness is exact. Under an axial force N (tension > 0) each plane has
 // besides N times the integral of deflection' squared.
+//
+// A torque T about z on its second end, -T on its first, keeps that direction where it enters and
+// leaves (Greenhill 1883; Ziegler, Principles of Structural Stability, 1968): EI w''' - i T w'' is
+// constant of w = x + i y, and of a virtual motion
+//
+//   T times the integral of (d rotation_x' rotation_y - d rotation_y' rotation_x)
+//
+// What of this is not symmetric, T/2 at either end, cancels between elements of one torque.
+//
+// A flexible coupling is an element, too: two arms without mass, rigid, and in its middle a joint
+// that gives across the shaft and in bending, and turns with the shaft.
 #pragma once
 
 #include <Eigen/Core>
@@ -39,6 +50,14 @@ struct ShaftMaterial {
   bool shear_deformation = true;  ///< false: Rayleigh's beam
 };
 
+/// The joint of a flexible coupling, the same in both planes.
+struct ShaftCoupling {
+  double lateral_stiffness = 0.0;  ///< [N/m]
+  double bending_stiffness = 0.0;  ///< [N m/rad]
+  double lateral_damping = 0.0;    ///< [N s/m], turning with the shaft
+  double bending_damping = 0.0;    ///< [N m s/rad], likewise
+};
+
 /// A hollow cylinder or cone.
 struct ShaftSection {
   double length = 0.0;          ///< [m]
@@ -48,6 +67,8 @@ struct ShaftSection {
   double inner_growth = 0.0;    ///< [m]
   std::optional<ShaftMaterial> material = std::nullopt;  ///< none: that of the shaft
   double axial_force = 0.0;                              ///< [N], tension > 0
+  double torque = 0.0;                                   ///< [N m], about +z on its second end
+  std::optional<ShaftCoupling> coupling = std::nullopt;  ///< its joint, in place of a shaft
 
   bool tapers() const { return outer_growth != 0.0 || inner_growth != 0.0; }
   /// The cylinder of its diameters at `share` of its length.
@@ -69,15 +90,20 @@ double shearCoefficient(const ShaftSection& section, double poissons_ratio);
 /// In x, y, alpha, beta of the first node, then of the second.
 struct ShaftElement {
   using Matrix = Eigen::Matrix<double, 2 * kNodeCoordinates, 2 * kNodeCoordinates>;
-  Matrix mass;                             ///< [kg], [kg m], [kg m^2]
-  Matrix stiffness;                        ///< [N/m], [N], [N m]
-  Matrix gyroscopic;                       ///< per unit of spin, skew
-  Matrix of_axial_force = Matrix::Zero();  ///< [N/m], [N], [N m]: no stiffness of the material
+  Matrix mass;                          ///< [kg], [kg m], [kg m^2]
+  Matrix stiffness;                     ///< [N/m], [N], [N m]
+  Matrix gyroscopic;                    ///< per unit of spin, skew
+  Matrix of_loads = Matrix::Zero();     ///< of axial force and torque: no stiffness of the material
+  Matrix circulatory = Matrix::Zero();  ///< of the torque, skew
+  Matrix damping = Matrix::Zero();      ///< of a coupling's joint, turning with it
 };
 
 ShaftElement shaftElement(const ShaftMaterial& material, const ShaftSection& section);
 /// Layers of one length, the first of which is the shaft.
-ShaftElement shaftElement(const std::vector<ShaftLayer>& layers, double axial_force = 0.0);
+ShaftElement shaftElement(const std::vector<ShaftLayer>& layers, double axial_force = 0.0,
+                          double torque = 0.0);
+ShaftElement couplingElement(const ShaftCoupling& coupling, double length, double axial_force = 0.0,
+                             double torque = 0.0);
 
 /// An element as a rigid body.
 struct ElementBody {

@@ -1,0 +1,46 @@
+#include "mechanics/rotors/modal_damping.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "algebra/cholesky.h"
+#include "algebra/eigenvalues.h"
+
+namespace whirl_twin {
+
+double ratioAt(const std::vector<DampingRatio>& ratios, double frequency) {
+  const auto above = std::find_if(ratios.begin(), ratios.end(), [frequency](const DampingRatio& r) {
+    return r.frequency > frequency;
+  });
+  if (above == ratios.begin() || above == ratios.end()) {
+    return above == ratios.begin() ? ratios.front().ratio : ratios.back().ratio;
+  }
+  const DampingRatio& below = *(above - 1);
+  const double share = (frequency - below.frequency) / (above->frequency - below.frequency);
+  return below.ratio + share * (above->ratio - below.ratio);
+}
+
+Eigen::MatrixXd modalDamping(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& stiffness,
+                             const std::vector<DampingRatio>& ratios) {
+  // Turns and displacements of one size first: the frequencies of a long shaft span six decades.
+  const Eigen::VectorXd unit = mass.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::LLT<Eigen::MatrixXd> factor(unit.asDiagonal() * mass * unit.asDiagonal());
+  if (!mass.allFinite() || !stiffness.allFinite() || factor.info() != Eigen::Success) {
+    return Eigen::MatrixXd::Zero(mass.rows(), mass.cols());
+  }
+  const Eigen::MatrixXd half =
+      factor.matrixL().solve(unit.asDiagonal() * stiffness * unit.asDiagonal());
+  const Eigen::MatrixXd whole = factor.matrixL().solve(half.transpose());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(
+      Eigen::MatrixXd(0.5 * (whole + whole.transpose())));
+  Eigen::VectorXd by_rate(mass.rows());
+  for (Eigen::Index i = 0; i < by_rate.size(); ++i) {
+    const double frequency = std::sqrt(std::max(0.0, modes.eigenvalues()[i]));
+    by_rate[i] = 2.0 * ratioAt(ratios, frequency) * frequency;
+  }
+  const Eigen::MatrixXd shapes =
+      unit.cwiseInverse().asDiagonal() * Eigen::MatrixXd(factor.matrixL()) * modes.eigenvectors();
+  return shapes * by_rate.asDiagonal() * shapes.transpose();
+}
+
+}  // namespace whirl_twin
