@@ -39,15 +39,21 @@ void RosTopics::send(const ros::Publisher& publisher, JoinedMessages& messages) 
 }
 
 void RosTopics::send() {
+  bool any = false;
   for (auto& [kind, subjects] : topics_) {
     for (auto& [subject, topics] : subjects) {
       if (!topics.states.empty()) {
+        any = true;
         send(topics.state, topics.states);
       }
       if (!topics.joint_state_list.empty()) {
+        any = true;
         send(topics.joint_states, topics.joint_state_list);
       }
     }
+  }
+  if (any) {
+    wakeSender();
   }
 }
 

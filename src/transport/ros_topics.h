@@ -104,6 +104,7 @@ class RosTopics {
     messages.add(message);
     if (!collecting_ || messages.full()) {
       send(publisher, messages);
+      wakeSender();
     }
   }
   void send(const ros::Publisher& publisher, JoinedMessages& messages);
@@ -114,11 +115,16 @@ class RosTopics {
     if (is_new) {
       using Type =
           std::conditional_t<std::is_same_v<State, state::Alert>, AlertArray, RosType<State>>;
-      place->second.state = twin_.advertise<Type>(topicName(State::kKind, subject), queue_,
-                                                  State::kKind.has(MessageKind::kLatched));
+      const std::string topic = topicName(State::kKind, subject);
+      if constexpr (State::kKind.has(MessageKind::kLatched)) {
+        place->second.state = twin_.advertise<Type>(topic, queue_, true);
+      } else {
+        auto options = withoutHeader<Type>(topic, queue_);
+        place->second.state = twin_.advertise(options);
+      }
       if constexpr (State::kKind.has(MessageKind::kJointStates)) {
-        place->second.joint_states =
-            twin_.advertise<sensor_msgs::JointState>(subject + "/joint_states", queue_);
+        auto options = withoutHeader<sensor_msgs::JointState>(subject + "/joint_states", queue_);
+        place->second.joint_states = twin_.advertise(options);
       }
     }
     return place->second;
