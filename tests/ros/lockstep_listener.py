@@ -20,7 +20,8 @@ def take(whirl):
     heard = time.monotonic()
     time.sleep(float(seconds))
     log.write('%d %.9f %.9f\n' % (whirl.step, heard, time.monotonic()))
-    acknowledged.publish(whirl.step)
+    if not rospy.is_shutdown():
+        acknowledged.publish(whirl.step)
 
 
 rospy.Subscriber('/twin/rotor/whirl', WhirlState, take, tcp_nodelay=True)
