@@ -69,6 +69,9 @@ CampbellDiagram campbell(const LinearRotor& rotor, const std::vector<Station>& s
     for (std::size_t i = 0; i < modes.size(); ++i) {
       diagram.branches[i].push_back(campbellPoint(modes[i]));
     }
+    if (request.progress) {
+      request.progress(k + 1);
+    }
   }
   std::sort(diagram.crossings.begin(), diagram.crossings.end(),
             [](const CampbellCrossing& a, const CampbellCrossing& b) {

@@ -3,6 +3,8 @@
 // (W. Campbell, Trans. ASME 46, 1924): Im s(w) = h w.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "analysis/mode_tracking.h"
@@ -37,6 +39,8 @@ struct CampbellRequest {
   std::vector<double> speeds;             ///< [rad/s], ascending
   std::vector<double> harmonics = {1.0};  ///< of the speed
   std::size_t branches = 12;              ///< the modes of lowest frequency at the first speed
+  /// Called after each speed, with how many are done.
+  std::function<void(std::size_t)> progress = {};
 };
 
 /// Crossings are refined to the last digits of the eigenvalues.

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "display/scale_bar.h"
-#include "display/whirl_scale.h"
+#include "mechanics/round_number.h"
 
 namespace whirl_twin {
 

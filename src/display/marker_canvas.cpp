@@ -82,6 +82,12 @@ MarkerCanvas MarkerCanvas::turned(const Eigen::Vector3d& at,
   return {markers_, system_, pose};
 }
 
+MarkerCanvas MarkerCanvas::moved(const Eigen::Isometry3d& pose) const {
+  MarkerCanvas canvas(markers_, system_, world_from_system_ * pose);
+  canvas.lifetime_ = lifetime_;
+  return canvas;
+}
+
 MarkerCanvas MarkerCanvas::beside(const std::string& name, double lifetime) const {
   MarkerCanvas canvas(markers_, system_ + "/" + name, world_from_system_);
   canvas.lifetime_ = lifetime;

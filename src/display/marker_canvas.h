@@ -32,6 +32,9 @@ class MarkerCanvas {
   /// The same system's, with other axes: at a point in the system's axes, turned in the world.
   MarkerCanvas turned(const Eigen::Vector3d& at, const Eigen::Matrix3d& world_axes) const;
 
+  /// The same system's, with the axes of a pose in its axes.
+  MarkerCanvas moved(const Eigen::Isometry3d& pose) const;
+
   /// Another picture of the same system, in the same axes: its parts are "<name>/<part>".
   /// @param lifetime [s], after which what is not drawn again goes by itself
   MarkerCanvas beside(const std::string& name, double lifetime) const;

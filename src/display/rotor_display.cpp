@@ -1,12 +1,10 @@
 #include "display/rotor_display.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <cstddef>
 #include <utility>
 
-#include "display/status_text.h"
+#include "display/rotor_parts.h"
 
 namespace whirl_twin {
 namespace {
@@ -24,17 +22,10 @@ constexpr Color kIron{0.48F, 0.52F, 0.58F};
 constexpr Color kBase{0.75F, 0.80F, 0.88F};
 constexpr Color kCalmDisc{0.30F, 0.62F, 0.52F};
 constexpr Color kMark{1.0F, 0.93F, 0.45F};
-constexpr Color kTrail{0.35F, 0.85F, 1.0F};
-constexpr Color kCalmLimit{0.35F, 0.80F, 0.45F};
 constexpr Color kThin{0.80F, 0.83F, 0.87F, 0.55F};
 
 Eigen::Isometry3d at(double x, double y, double z) {
   return Eigen::Isometry3d(Eigen::Translation3d(x, y, z));
-}
-
-// "500", "0.02", "1 000 000": a round number as one writes it.
-std::string scaleNumber(double scale) {
-  return scale >= 1.0 ? fmt::format("{:.0f}", scale) : fmt::format("{:.3g}", scale);
 }
 
 }  // namespace
@@ -120,35 +111,9 @@ void RotorDisplay::drawOrbit(MarkerCanvas& canvas) const {
   for (const auto& point : trail_.points()) {
     orbit.emplace_back(scale_.value() * point.x(), scale_.value() * point.y(), plane);
   }
-  canvas.line("orbit", orbit, 0.014, kTrail, true);
+  canvas.line("orbit", orbit, 0.014, kOrbitColor, true);
   const Eigen::Vector3d centre = bodyPose().translation() + plane * Eigen::Vector3d::UnitZ();
-  canvas.line("whirl_radius", {{0.0, 0.0, plane}, centre}, 0.006, kTrail);
-}
-
-void RotorDisplay::drawLimits(const SystemStatus& status, MarkerCanvas& canvas) const {
-  constexpr std::size_t kMostLimits = 5;  // three zones, two levels
-  constexpr double kLargest = 0.5;        // m, in the picture
-  constexpr int kSides = 48;
-  const double plane = 0.5 * kDiscThickness + 0.010;
-  for (std::size_t i = 0; i < kMostLimits; ++i) {
-    std::vector<Eigen::Vector3d> circle;
-    Color color{0.0F, 0.0F, 0.0F};
-    if (i < status.limits.size() && scale_.value() * status.limits[i].radius <= kLargest) {
-      const VibrationLimit& limit = status.limits[i];
-      Eigen::Vector2d centre = Eigen::Vector2d::Zero();
-      if (limit.about_mean && status.orders) {
-        centre = scale_.value() * Eigen::Vector2d(status.orders->mean_x, status.orders->mean_y);
-      }
-      for (int k = 0; k <= kSides; ++k) {
-        const double angle = 2.0 * M_PI * k / kSides;
-        const double radius = scale_.value() * limit.radius;
-        circle.emplace_back(centre.x() + radius * std::cos(angle),
-                            centre.y() + radius * std::sin(angle), plane);
-      }
-      color = limit.severity == Alert::INFO ? kCalmLimit : severityColor(limit.severity);
-    }
-    canvas.line("limit", circle, 0.010, color);
-  }
+  canvas.line("whirl_radius", {{0.0, 0.0, plane}, centre}, 0.006, kOrbitColor);
 }
 
 void RotorDisplay::draw(const SystemStatus& status, MarkerCanvas& canvas) const {
@@ -156,27 +121,16 @@ void RotorDisplay::draw(const SystemStatus& status, MarkerCanvas& canvas) const 
   drawShaft(canvas);
   drawDisc(severityColor(status.alerts, kCalmDisc), canvas);
   drawOrbit(canvas);
-  drawLimits(status, canvas);
+  MarkerCanvas plane = canvas.moved(at(0.0, 0.0, 0.5 * kDiscThickness + 0.010));
+  drawLimits(status.limits, status.orders.get(), scale_.value(), plane);
   // Beside the shaft; where there is little room, before the base.
   const Eigen::Vector3d beside = status.compact
                                      ? Eigen::Vector3d(-0.41, -0.54, 0.43)
                                      : Eigen::Vector3d(0.0, -0.14, 0.5 * kShaftLength + 0.25);
-  canvas.text("scale", beside, status.compact ? 0.11 : 0.072,
-              "whirl x " + scaleNumber(scale_.value()), kTrail);
-
-  std::vector<std::string> lines;
-  if (status.live.margin) {
-    lines = marginLines(*status.live.margin);
-  }
-  std::string whirl = whirlText(state_);
-  if (status.orders) {
-    whirl += ", " + ordersText(*status.orders);
-  }
-  lines.insert(lines.begin(), {speedText(state_.speed), whirl});
-  if (!status.limits.empty()) {
-    lines.push_back(limitsText(status.limits));
-  }
-  drawStatus(name_, lines, state_.speed, status, kTextFoot * Eigen::Vector3d::UnitY(), canvas);
+  canvas.text("scale", beside, status.compact ? 0.11 : 0.072, exaggerationText(scale_.value()),
+              kOrbitColor);
+  drawStatus(name_, whirlLines(state_, status), state_.speed, status,
+             kTextFoot * Eigen::Vector3d::UnitY(), canvas);
 }
 
 }  // namespace whirl_twin

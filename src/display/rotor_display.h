@@ -35,7 +35,6 @@ class RotorDisplay : public SystemDisplay {
   void drawShaft(MarkerCanvas& canvas) const;
   void drawDisc(const Color& color, MarkerCanvas& canvas) const;
   void drawOrbit(MarkerCanvas& canvas) const;
-  void drawLimits(const SystemStatus& status, MarkerCanvas& canvas) const;
 
   std::string name_;
   WhirlState state_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -23,9 +24,10 @@ struct SystemStatus {
   FollowState::ConstPtr follow;        ///< of a twin that follows its machine, else null
   std::vector<Alert> alerts;           ///< active, most severe first
   std::vector<VibrationLimit> limits;  ///< of a rotor
-  std::vector<Command> commands;       ///< of controllers that act on it
-  std::vector<std::string> loops;      ///< how far their loops are from instability
-  bool compact = false;                ///< there is little room: its name, instruments, one alert
+  std::map<std::string, std::vector<VibrationLimit>> further_limits;  ///< of its further places
+  std::vector<Command> commands;   ///< of controllers that act on it
+  std::vector<std::string> loops;  ///< how far their loops are from instability
+  bool compact = false;            ///< there is little room: its name, instruments, one alert
 };
 
 class SystemDisplay {

@@ -16,7 +16,8 @@ class WhirlScale {
   static constexpr double kPeakDecayTime = 3.0;    ///< [s], time constant of the peak-hold
 
   /// @param fixed [-], a scale that is kept whatever the whirl does; 0: chosen automatically.
-  explicit WhirlScale(double fixed = 0.0);
+  /// @param room [-], how much there is: the radii above are times this
+  explicit WhirlScale(double fixed = 0.0, double room = 1.0);
 
   /// Takes the next whirl radius into account. A radius that is not finite is passed over.
   /// @param radius [m]  @param time [s], simulated; a step backwards starts the peak-hold anew
@@ -26,13 +27,10 @@ class WhirlScale {
   double value() const { return value_; }
 
  private:
-  double fixed_;
+  double fixed_, room_;
   double value_;
   double peak_ = 0.0;  // [m]
   double time_ = 0.0;  // [s]
 };
-
-/// The largest of ... 0.5, 1, 2, 5, 10 ... that is not above `number` (> 0).
-double roundDown125(double number);
 
 }  // namespace whirl_twin

@@ -10,6 +10,31 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kConeRods = 4;
+constexpr double kSeal = 0.1;        // of the stiffest bearing: what is less carries nothing
+constexpr double kSealRing = 1.35;   // of the shaft's radius
+constexpr double kSealWidth = 0.01;  // of the shaft's length
+
+double size(const BearingCoefficients& b) {
+  return std::max(std::fabs(b.kxx), std::fabs(b.kyy));
+}
+
+/// A node and how stiffly it is held: of what follows the speed at the last speed of its table.
+struct Held {
+  int node;
+  double stiffness;
+};
+
+std::vector<Held> heldNodes(const FlexibleShaft& shaft) {
+  std::vector<Held> held;
+  for (const RotorBearing& bearing : shaft.bearings) {
+    held.push_back({bearing.node, size(bearing.coefficients)});
+  }
+  for (const SpeedBearing& bearing : shaft.speed_bearings) {
+    const double speed = bearing.knots.empty() ? 0.0 : bearing.knots.back();
+    held.push_back({bearing.node, size(bearing.coefficients(speed))});
+  }
+  return held;
+}
 
 SketchPoint between(const SketchPoint& a, const SketchPoint& b, double share) {
   return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z)};
@@ -25,7 +50,8 @@ FlexibleRotorPicture::FlexibleRotorPicture(const FlexibleShaft& shaft,
       probe_node_(probe_node) {
   length_ = stations_.back().position;
   for (std::size_t i = 0; i < shaft.elements.size(); ++i) {
-    addRods(static_cast<int>(i), shaft.elements[i], SketchRole::kBody);
+    addRods(static_cast<int>(i), shaft.elements[i],
+            shaft.elements[i].coupling ? SketchRole::kSpring : SketchRole::kBody);
   }
   for (const ShaftSleeve& sleeve : shaft.sleeves) {
     addRods(sleeve.element, sleeve.layer.section, SketchRole::kMass);
@@ -48,17 +74,33 @@ FlexibleRotorPicture::FlexibleRotorPicture(const FlexibleShaft& shaft,
       widest = std::max(widest, discs_.back().radius);
     }
   }
-  for (const RotorBearing& bearing : shaft.bearings) {
-    bearings_.push_back(bearing.node);
+  const std::vector<Held> held = heldNodes(shaft);
+  double stiffest = 0.0;
+  for (const Held& at : held) {
+    stiffest = std::max(stiffest, at.stiffness);
   }
-  for (const SpeedBearing& bearing : shaft.speed_bearings) {
-    bearings_.push_back(bearing.node);
+  for (const Held& at : held) {
+    if (at.stiffness < kSeal * stiffest && shaft.pedestalsOf(at.node) == 0) {
+      seals_.push_back({at.node, kSealRing * radiusAt(at.node)});
+    } else {
+      bearings_.push_back(at.node);
+    }
   }
   std::vector<int> above(stations_.size(), 0);
   for (const RotorPedestal& pedestal : shaft.pedestals) {
     pedestals_.push_back({pedestal.node, above[static_cast<std::size_t>(pedestal.node)]++});
   }
   height_ = std::max(0.3 * length_, 2.4 * widest);
+}
+
+double FlexibleRotorPicture::radiusAt(int node) const {
+  double radius = 0.0;
+  for (const Rod& rod : rods_) {
+    if (rod.element == node - 1 || rod.element == node) {
+      radius = std::max(radius, rod.radius);
+    }
+  }
+  return radius;
 }
 
 void FlexibleRotorPicture::addRods(int element, const ShaftSection& section, SketchRole role) {
@@ -98,6 +140,12 @@ Sketch FlexibleRotorPicture::operator()(const Eigen::VectorXd& q, double angle) 
                             disc.thickness,
                             angle - 0.5 * kPi,
                             SketchRole::kMass});
+  }
+  for (const Seal& seal : seals_) {
+    const double z = stations_[static_cast<std::size_t>(seal.node)].position;
+    const double half = 0.5 * kSealWidth * length_;
+    sketch.rods.push_back(
+        {{z - half, 0.0, 0.0}, {z + half, 0.0, 0.0}, seal.radius, SketchRole::kSupport});
   }
   const double ground = -0.45 * height_;
   const SketchPoint size{0.06 * length_, 0.06 * length_, 0.02 * length_};

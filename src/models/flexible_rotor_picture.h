@@ -1,4 +1,5 @@
-// A flexible rotor from the side: its bent shaft, discs and bearings, to scale.
+// A flexible rotor from the side: its bent shaft, discs and bearings, to scale. What holds it by
+// less than a tenth of the stiffest bearing is a seal, a ring that stands still around the shaft.
 #pragma once
 
 #include <Eigen/Core>
@@ -36,11 +37,18 @@ class FlexibleRotorPicture {
     int depth;  ///< 0: under the bearing
   };
 
+  struct Seal {
+    int node;
+    double radius;  ///< [m]
+  };
+
+  double radiusAt(int node) const;
   void addRods(int element, const ShaftSection& section, SketchRole role);
 
   std::vector<Rod> rods_;
   std::vector<Disc> discs_;
   std::vector<int> bearings_;
+  std::vector<Seal> seals_;
   std::vector<Pedestal> pedestals_;
   std::vector<Station> stations_, pedestal_stations_;
   int probe_node_;

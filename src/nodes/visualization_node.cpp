@@ -18,6 +18,7 @@
 #include "display/mechanism_display.h"
 #include "display/rotor_display.h"
 #include "display/scene_dynamics.h"
+#include "display/shaft_display.h"
 #include "display/twin_listener.h"
 #include "display/twin_panel.h"
 #include "display/vibration_limits.h"
@@ -89,8 +90,14 @@ class VisualizationNode {
             privateParameter<std::string>("monitor", "must be a name", "monitor_node"))) {
     ros::NodeHandle node;
     publisher_ = node.advertise<visualization_msgs::MarkerArray>(twinNamespace() + "/markers", 2);
-    listener_.onWhirl([this](const std::string& system, const WhirlState& state) {
-      rotors_.try_emplace(system, system, whirl_scale_, trail_turns_).first->second.update(state);
+    listener_.onWhirl([this](const std::string& published, const WhirlState& state) {
+      const std::string system = scene_.systemOf(published);
+      if (ShaftDisplay* shaft = shaftOf(system)) {
+        shaft->update(published, state);
+        return;
+      }
+      rotors_.try_emplace(published, published, whirl_scale_, trail_turns_)
+          .first->second.update(state);
     });
     listener_.onPendulum([this](const std::string& system, const PendulumState& state) {
       const DriveState* drive = listener_.drive(scene_.driveOf(system));
@@ -125,12 +132,33 @@ class VisualizationNode {
                : mechanisms_.try_emplace(system, system, scene_.dynamics(system)).first->second;
   }
 
+  /// Null for a rotor that has no shaft with places along it, or is not known.
+  ShaftDisplay* shaftOf(const std::string& system) {
+    const auto found = shafts_.find(system);
+    if (found != shafts_.end()) {
+      return &found->second;
+    }
+    if (rotors_.count(system) > 0) {
+      return nullptr;
+    }
+    const auto dynamics = scene_.dynamics(system);
+    if (!ShaftDisplay::shows(dynamics.get())) {
+      return nullptr;
+    }
+    return &shafts_.try_emplace(system, system, dynamics, whirl_scale_, trail_turns_).first->second;
+  }
+
   void takeParameters(const ParameterChange& change) {
     const std::string system = change.header.frame_id;
     parameters_[system] = change;
-    const auto mechanism = mechanisms_.find(system);
-    if (scene_.take(change) && mechanism != mechanisms_.end()) {
+    if (!scene_.take(change)) {
+      return;
+    }
+    if (const auto mechanism = mechanisms_.find(system); mechanism != mechanisms_.end()) {
       mechanism->second.setDynamics(scene_.dynamics(system));
+    }
+    if (const auto shaft = shafts_.find(system); shaft != shafts_.end()) {
+      shaft->second.setDynamics(scene_.dynamics(system));
     }
   }
 
@@ -152,8 +180,13 @@ class VisualizationNode {
     for (auto it = rotors_.begin(); it != rotors_.end();) {
       it = gone(*it) ? rotors_.erase(it) : std::next(it);
     }
+    for (auto it = shafts_.begin(); it != shafts_.end();) {
+      it = gone(*it) ? shafts_.erase(it) : std::next(it);
+    }
     if (scene_.refresh()) {
       mechanisms_.clear();
+      rotors_.clear();
+      shafts_.clear();
       controllers_.clear();
       for (const auto& [system, change] : parameters_) {  // latched: they came before
         scene_.take(change);
@@ -165,6 +198,10 @@ class VisualizationNode {
     std::vector<std::string> rotors;
     for (const auto& entry : rotors_) {
       rotors.push_back(entry.first);
+    }
+    for (const auto& entry : shafts_) {
+      const std::vector<std::string> published = entry.second.published();
+      rotors.insert(rotors.end(), published.begin(), published.end());
     }
     settings_ = settingsOfMonitor(monitor_, rotors);
   }
@@ -178,6 +215,9 @@ class VisualizationNode {
     std::vector<std::pair<std::string, const SystemDisplay*>> displays;
     for (const auto& [name, rotor] : rotors_) {
       displays.emplace_back(name, &rotor);
+    }
+    for (const auto& [name, shaft] : shafts_) {
+      displays.emplace_back(name, &shaft);
     }
     for (const auto& [name, mechanism] : mechanisms_) {
       displays.emplace_back(name, &mechanism);
@@ -200,6 +240,9 @@ class VisualizationNode {
       MarkerCanvas canvas(markers, name, pose);
       SystemStatus status = statusOf(name);
       status.compact = layout.compact;
+      if (const auto shaft = shafts_.find(name); shaft != shafts_.end()) {
+        addPlaces(shaft->second, status);
+      }
       display->draw(status, canvas);
       transforms.push_back(stampedTransform(MarkerCanvas::kWorldFrame, name, now, pose));
       transforms.push_back(
@@ -254,8 +297,7 @@ class VisualizationNode {
         status.alerts.push_back(alert);
       }
     }
-    std::stable_sort(status.alerts.begin(), status.alerts.end(),
-                     [](const Alert& a, const Alert& b) { return a.severity > b.severity; });
+    mostSevereFirst(status.alerts);
     if (!silence.empty()) {
       Alert silent;
       silent.severity = Alert::WARNING;
@@ -267,6 +309,28 @@ class VisualizationNode {
     return status;
   }
 
+  /// Of the further places of a shaft their limits and alerts.
+  void addPlaces(const ShaftDisplay& shaft, SystemStatus& status) {
+    const std::vector<std::string> names = shaft.published();
+    for (std::size_t i = 1; i < names.size(); ++i) {
+      const auto readout = listener_.systems().find(names[i]);
+      if (readout != listener_.systems().end() && readout->second.whirl) {
+        status.further_limits[names[i]] =
+            vibrationLimits(settings_, names[i], readout->second.whirl->speed);
+      }
+      if (listener_.monitorSilence().empty()) {
+        const std::vector<Alert> alerts = listener_.alertsOf(names[i]);
+        status.alerts.insert(status.alerts.end(), alerts.begin(), alerts.end());
+      }
+    }
+    mostSevereFirst(status.alerts);
+  }
+
+  static void mostSevereFirst(std::vector<Alert>& alerts) {
+    std::stable_sort(alerts.begin(), alerts.end(),
+                     [](const Alert& a, const Alert& b) { return a.severity > b.severity; });
+  }
+
   double whirl_scale_;  // -
   double trail_turns_;
   double rate_;  // Hz
@@ -275,6 +339,7 @@ class VisualizationNode {
   LoopHealth loop_;
   TwinListener listener_;
   std::map<std::string, RotorDisplay> rotors_;
+  std::map<std::string, ShaftDisplay> shafts_;
   SceneDynamics scene_;
   std::map<std::string, ParameterChange> parameters_;  // the latest of each system
   std::map<std::string, MechanismDisplay> mechanisms_;

@@ -416,6 +416,16 @@ TEST(FlexibleRotorScene, IsDrawnWithItsDiscsAndBearings) {
   EXPECT_EQ(sketch.rods[2].radius, 0.025);
   // A steel disc 0.28 m across and 0.07 m wide, on this shaft (32.6 kg; its bore is filled here).
   EXPECT_NEAR(sketch.discs[0].radius, 0.14, 0.005);
+  // What holds it far less than the bearings do is a ring around the shaft that stands still.
+  const ModelSetup sealed = setupOf(
+      withShaft("modes: 0, bearings: [{node: 0, kxx: 1.0e+6}, {node: 3, kxx: 5.0e+4}, {node: 6, "
+                "kxx: 1.0e+6}]"));
+  const Sketch whirling = sealed.dynamics->sketch(Eigen::VectorXd::Constant(28, 1.0e-3), {});
+  EXPECT_EQ(whirling.springs.size(), 2u);
+  ASSERT_EQ(whirling.rods.size(), 7u);
+  EXPECT_GT(whirling.rods[6].radius, 0.025);
+  EXPECT_EQ(whirling.rods[6].from.z, 0.0);
+  EXPECT_NEAR(0.5 * (whirling.rods[6].from.x + whirling.rods[6].to.x), 0.75, 1e-12);
 }
 
 TEST(FlexibleRotor, WhirlsAtItsPublishedNodeAsTheHarmonicResponseSays) {

@@ -9,6 +9,7 @@
 
 #include "display/rotor_display.h"
 #include "drawn_markers.h"
+#include "mechanics/round_number.h"
 
 namespace whirl_twin {
 namespace {
