@@ -20,7 +20,7 @@ SteppedAhead::SteppedAhead(std::unique_ptr<ReadOffStepper> far, std::unique_ptr<
       length_(length),
       count_(count),
       passed_(count),
-      state_(2 * far_->dof() + 1) {
+      state_(2 * far_->dof() + 2) {
   for (int i = 1; i < count; ++i) {
     readings_.emplace_back(scheme, static_cast<double>(i) / count);
   }
@@ -30,11 +30,15 @@ bool SteppedAhead::mayStepFar() const noexcept {
   return near_left_ == 0 && (drive_ == nullptr || drive_->constantFor(length_));
 }
 
-/// Hands the state on to the other stepper, or anew to the same one.
-[[gnu::noinline]] void SteppedAhead::goOnBy(bool far) noexcept {
+/// Keeps the state, for the other stepper or for the same one anew.
+void SteppedAhead::keep() noexcept {
   write(state_.data());
-  work_before_ = {state_.back(), 0.0};
-  errors_before_ = errorSum();
+  state_.back() = errorSum();
+}
+
+void SteppedAhead::goOnBy(bool far) noexcept {
+  work_before_ = {state_[2 * dof()], 0.0};
+  errors_before_ = state_.back();
   Stepper& next = far ? static_cast<Stepper&>(*far_) : *near_;
   next.set(state_.data(), state_.data() + dof());
   by_far_ = far;
@@ -45,23 +49,21 @@ bool SteppedAhead::mayStepFar() const noexcept {
   if (mayStepFar()) {
     const bool goes_on =
         by_far_ && passed_ == count_ && (drive_ == nullptr || drive_->piece() == piece_);
+    keep();
     if (!goes_on) {
       goOnBy(true);
     }
-    if (far_->step(time) == StepStatus::kOk) {
+    if (far_->step(time) == StepStatus::kOk && far_->follows()) {
       passed_ = 1;
       piece_ = drive_ == nullptr ? 0 : drive_->piece();
-      if (!far_->follows()) {
-        goOnBy(false);
-        near_left_ = kPause * count_;
-      }
       return StepStatus::kOk;
     }
-    // The state is what it was: shorter steps find out how far it goes.
     near_left_ = kPause * count_;
+    goOnBy(false);
   }
   near_left_ -= near_left_ > 0 ? 1 : 0;
   if (by_far_) {
+    keep();
     goOnBy(false);
   }
   return near_->step(time);
@@ -69,6 +71,7 @@ bool SteppedAhead::mayStepFar() const noexcept {
 
 StepStatus SteppedAhead::stepPart(double time, std::int64_t from, std::int64_t to) noexcept {
   if (by_far_) {
+    keep();
     goOnBy(false);
   }
   return near_->stepPart(time, from, to);

@@ -60,6 +60,7 @@ class SteppedAhead final : public Stepper {
  private:
   StepStatus begin(double time) noexcept;
   bool mayStepFar() const noexcept;
+  void keep() noexcept;
   void goOnBy(bool far) noexcept;
 
   std::unique_ptr<ReadOffStepper> far_;
@@ -72,8 +73,8 @@ class SteppedAhead final : public Stepper {
   int near_left_ = 0;    ///< steps of the twin until a long one may be tried again
   /// Steps of the twin in the present long one; count_: it is over, or there is none.
   int passed_;
-  std::uint64_t piece_ = 0;  ///< of the drive, in which it began
-  std::vector<double> state_;
+  std::uint64_t piece_ = 0;     ///< of the drive, in which it began
+  std::vector<double> state_;   ///< kept: as write(), then the sum of errors
   CompensatedSum work_before_;  ///< [J], of the other stepper's steps
   double errors_before_ = 0.0;  ///< likewise
 };

@@ -84,11 +84,13 @@ class Stoermer {
   /// for a ten thousandth? Where not, steps of that length do not follow the motion.
   bool resolves(const MotionState<n>& end) const noexcept {
     constexpr double kPart = 1.0e-4;
+    // What was long ago may be far larger: a past that was made backwards.
+    constexpr std::size_t kLately = 3;
     constexpr double kRounding = 1.0e-13;
     std::array<double, n> largest{};
     double rounding = 0.0;
     for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t k = 0; k <= scheme_->terms; ++k) {
+      for (std::size_t k = 0; k < kLately; ++k) {
         const double a = std::fabs(past_[newest_ + k].array()[i]);
         largest[i] = a > largest[i] ? a : largest[i];
       }

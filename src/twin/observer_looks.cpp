@@ -99,7 +99,7 @@ bool Observer::look(const Twin& now) {
       continue;
     }
     const Stepper& running = now.running(i);
-    running.write(looked_.data());
+    running.motion(looked_.data());
     if (coarse || errorFound(i, running.errorSum()) || !whirl.follow(step, looked_.data())) {
       return false;
     }

@@ -120,14 +120,14 @@ TEST(SteppedAhead, IsAsExactBetweenAsAtTheEndsOfItsSteps) {
                         return at_ends;
                       }());
   };
-  const auto coarse = errors(40);
-  const auto fine = errors(20);
+  const auto coarse = errors(20);
+  const auto fine = errors(10);
   ASSERT_GT(fine.first, 1e-13) << "rounding: longer steps are wanted";
   // The order is that of the steps themselves.
   EXPECT_GT(coarse.first / fine.first, std::pow(2.0, 8.5));
   EXPECT_GT(coarse.second / fine.second, std::pow(2.0, 8.5));
-  EXPECT_LT(coarse.first, 5.0 * ends(40).first);
-  EXPECT_LT(coarse.second, 5.0 * ends(40).second);
+  EXPECT_LT(coarse.first, 5.0 * ends(20).first);
+  EXPECT_LT(coarse.second, 5.0 * ends(20).second);
 }
 
 TEST(SteppedAhead, ClosesTheAuditWithinItsSteps) {
@@ -163,13 +163,15 @@ TEST(SteppedAhead, TakesTheTwinsStepsThroughAProfileAndItsCorners) {
   EXPECT_LT(difference(ahead, fine).first, 1e-10);
 }
 
-// Its damping is a hundred times what these steps are stable for.
+// Long steps are not stable where so much is damped, or lose the motion at once.
 TEST(SteppedAhead, TakesTheTwinsStepsWhereItsOwnDoNotFollow) {
-  RunningSystem::Setup s = onShaft();
-  s.parameters["damping"] = 10.0;
-  const auto ahead = Read(s, "stoermer_ahead", kMillisecond, 64).run(4000, 1);
-  const auto fine = Read(s, "gauss_legendre_6", kMillisecond, 4).run(4000, 1);
-  EXPECT_LT(difference(ahead, fine).first, 1e-4);
+  for (const double damping : {3.0, 10.0, 30.0}) {
+    RunningSystem::Setup s = onShaft();
+    s.parameters["damping"] = damping;
+    const auto ahead = Read(s, "stoermer_ahead", kMillisecond, 64).run(4000, 1);
+    const auto fine = Read(s, "gauss_legendre_6", kMillisecond, 4).run(4000, 1);
+    EXPECT_LT(difference(ahead, fine).first, 1e-4) << damping;
+  }
 }
 
 // Whatever was looked at, and when.
