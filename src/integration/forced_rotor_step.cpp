@@ -56,7 +56,8 @@ ForcedRotorStep::ForcedRotorStep(const LinearRotor& rotor, double h,
       h_(h),
       acting_(forcing.inputs, forcing.directions, directionsOf(forces_, rotor.dof())),
       torque_(forcing.torque),
-      whole_(rotor, h, speeds, constant_speeds, acting_, forcing.spin == nullptr),
+      whole_(rotor, h, speeds, constant_speeds, acting_,
+             forcing.spin == nullptr ? AuditedWork::kAll : AuditedWork::kWithoutShaft),
       from_(rotor.dof()) {
   if (forcing.spin != nullptr) {
     spin_.emplace(rotor, *forcing.spin, h);
@@ -64,7 +65,7 @@ ForcedRotorStep::ForcedRotorStep(const LinearRotor& rotor, double h,
   const bool changes = speeds.second > speeds.first;
   for (std::size_t i = 0; (!forces_.empty() || spin_) && changes && i + 1 < kNodes; ++i) {
     to_nodes_.emplace_back(rotor, kTimes[i] * h, speeds, std::vector<double>(), acting_,
-                           forcing.spin == nullptr);
+                           AuditedWork::kNone);
   }
   if (forces_.empty()) {
     return;

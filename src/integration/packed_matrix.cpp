@@ -68,11 +68,15 @@ void PackedMatrix::multiply(const double* y, double* result) noexcept {
                  columns_, y, result);
 }
 
-PackedMatrix stepMatrix(const Eigen::MatrixXd& increment, const Eigen::MatrixXd& work) {
+Eigen::MatrixXd stackedStep(const Eigen::MatrixXd& increment, const Eigen::MatrixXd& work) {
   Eigen::MatrixXd both(increment.rows() + work.rows(), increment.cols());
   both << increment, 2.0 * Eigen::MatrixXd(work.triangularView<Eigen::StrictlyUpper>());
   both.bottomRows(work.rows()).diagonal() = work.diagonal();
-  return PackedMatrix(both);
+  return both;
+}
+
+PackedMatrix stepMatrix(const Eigen::MatrixXd& increment, const Eigen::MatrixXd& work) {
+  return PackedMatrix(stackedStep(increment, work));
 }
 
 }  // namespace whirl_twin

@@ -40,8 +40,11 @@ class PackedMatrix {
   std::vector<double, boost::alignment::aligned_allocator<double, 64>> entries_;
 };
 
-/// The matrix of a step: the increments' rows and below them, for the work y^T W y of symmetric W,
-/// those of the upper triangle U with y^T U y = y^T W y.
+/// The increments' rows and below them, for the work y^T W y of symmetric W, those of the upper
+/// triangle U with y^T U y = y^T W y.
+Eigen::MatrixXd stackedStep(const Eigen::MatrixXd& increment, const Eigen::MatrixXd& work);
+
+/// The same as the matrix of a step.
 PackedMatrix stepMatrix(const Eigen::MatrixXd& increment, const Eigen::MatrixXd& work);
 
 }  // namespace whirl_twin

@@ -121,15 +121,17 @@ MatrixXd RotorMap::increment() const {
   return unscaledIncrement(exponentialLessIdentity<Eigen::Dynamic>(MatrixXd(h_ * a_)));
 }
 
-MatrixXd RotorMap::power() const {
+MatrixXd RotorMap::power(bool driven) const {
   MatrixXd s = MatrixXd::Zero(a_.rows(), a_.rows());
   s.block(n_, n_, n_, n_) = -l_.damping;
   s.block(n_, 0, n_, n_) = -0.5 * l_.circulatory;
   s.block(0, n_, n_, n_) = s.block(n_, 0, n_, n_).transpose();
   Index input = 2 * n_;
   for (const ForceChannel& channel : channels_) {
-    s.block(n_, input, n_, 2) = 0.5 * columns(channel);
-    s.block(input, n_, 2, n_) = s.block(n_, input, n_, 2).transpose();
+    if (driven) {
+      s.block(n_, input, n_, 2) = 0.5 * columns(channel);
+      s.block(input, n_, 2, n_) = s.block(n_, input, n_, 2).transpose();
+    }
     input += 2 * (degree_ + 1);
   }
   ++input;
@@ -141,8 +143,8 @@ MatrixXd RotorMap::power() const {
   return s;
 }
 
-MatrixXd RotorMap::work() const {
-  const MatrixXd scaled = unscale_.transpose() * power() * unscale_;
+MatrixXd RotorMap::work(bool driven) const {
+  const MatrixXd scaled = unscale_.transpose() * power(driven) * unscale_;
   return scale_.transpose() * quadraticIntegral<Eigen::Dynamic>(a_, scaled, h_) * scale_;
 }
 

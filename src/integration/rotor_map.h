@@ -49,13 +49,14 @@ class RotorMap {
 
   /// B: (dq, dv) = B y. [2 dof x inputs]
   Eigen::MatrixXd increment() const;
-  /// W: the work done on the system, dh/dt integrated over the step, is y^T W y. [inputs x inputs]
-  Eigen::MatrixXd work() const;
+  /// W: the work done on the system, dh/dt integrated over the step, is y^T W y; driven: with that
+  /// of the forces that turn with the shaft. [inputs x inputs]
+  Eigen::MatrixXd work(bool driven = true) const;
   /// Of steps of 1, 2, 4 ... nanoseconds up to h; the units of y stay those of h.
   std::vector<RotorStepMatrices> parts() const;
 
  private:
-  Eigen::MatrixXd power() const;
+  Eigen::MatrixXd power(bool driven = true) const;
   Eigen::MatrixXd unscaledIncrement(const Eigen::MatrixXd& e) const;
 
   Eigen::Index n_;

@@ -21,6 +21,7 @@ using Eigen::MatrixXd;
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kTableError = 1.0e-12;  // of a cell's map, relative to its largest entry
+constexpr double kSmoothError = 0.1 * kTableError;  // of what the cells are taken from
 constexpr double kMostRounding = 1.0e-9;
 constexpr double kSlopeRounding = 1.0e-10;
 constexpr double kMostCells = 4096.0;
@@ -51,8 +52,8 @@ void requireFinite(const MatrixXd& matrix) {
 
 RotorStep::RotorStep(const LinearRotor& rotor, double h, const std::pair<double, double>& speeds,
                      const std::vector<double>& constant_speeds, const ActingInputs& acting,
-                     bool driven)
-    : n_(rotor.dof()), h_(h), channels_(forceChannels(rotor)), acting_(acting) {
+                     AuditedWork audited)
+    : n_(rotor.dof()), h_(h), channels_(forceChannels(rotor)), acting_(acting), audited_(audited) {
   for (const double speed : constant_speeds) {
     const RotorMap map(rotor, channels_, acting_, speed, h, 0);
     const MatrixXd increment = map.increment();
@@ -66,7 +67,9 @@ RotorStep::RotorStep(const LinearRotor& rotor, double h, const std::pair<double,
       }
     }
   }
-  work_ = RotorWork(rotor, channels_, acting_, h, speeds, driven);
+  work_ = RotorWork(rotor, channels_, acting_, h, speeds, audited == AuditedWork::kAll);
+  by_form_ =
+      audited != AuditedWork::kNone && acting_.arePushed() && !stiffnessChanges(rotor, speeds);
   boundaries_ = {speeds.first};
   if (speeds.second > speeds.first) {
     prepare(rotor, speeds);
@@ -91,14 +94,20 @@ void RotorStep::prepare(const LinearRotor& rotor, const std::pair<double, double
   }
   ends.push_back(speeds.second);
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+    const MapOverSpeed map([&](double speed) { return tableMap(rotor, speed); }, ends[i],
+                           ends[i + 1],
+                           [this](const MatrixXd& error, const MatrixXd& exact) {
+                             return relativeError(error, exact);
+                           },
+                           kSmoothError, kMostRounding);
     // Narrow enough at both ends of a stretch of smooth matrices: narrow enough throughout.
     const double range = ends[i + 1] - ends[i];
     double count = 1.0;
     double before = std::numeric_limits<double>::infinity();
     while (true) {
       const double width = range / count;
-      const double error = std::max(cubicError(rotor, ends[i], ends[i] + width),
-                                    cubicError(rotor, ends[i + 1] - width, ends[i + 1]));
+      const double error = std::max(cubicError(map, ends[i], ends[i] + width),
+                                    cubicError(map, ends[i + 1] - width, ends[i + 1]));
       // What no longer falls is the rounding of a very stiff rotor's map.
       const bool rounding = error < kMostRounding && error > 0.5 * before;
       if (error <= kTableError || rounding) {
@@ -114,7 +123,7 @@ void RotorStep::prepare(const LinearRotor& rotor, const std::pair<double, double
     count = std::ceil(count);
     for (double k = 0.0; k < count; k += 1.0) {
       const double high = k + 1.0 == count ? ends[i + 1] : ends[i] + range * (k + 1.0) / count;
-      cells_.push_back(cell(rotor, boundaries_.back(), high));
+      cells_.push_back(cell(rotor, map, boundaries_.back(), high));
       boundaries_.push_back(high);
     }
   }
@@ -124,22 +133,39 @@ Index RotorStep::tableInputs() const {
   return RotorMap::inputs(n_, channels_.size(), acting_, kDegree);
 }
 
+/// The increments and below them, where the work is taken by it, the upper triangle of W.
 MatrixXd RotorStep::tableMap(const LinearRotor& rotor, double speed) const {
-  return RotorMap(rotor, channels_, acting_, speed, h_, kDegree).increment();
+  const RotorMap map(rotor, channels_, acting_, speed, h_, kDegree);
+  return by_form_ ? stackedStep(map.increment(), map.work(audited_ == AuditedWork::kAll))
+                  : map.increment();
+}
+
+/// Does K follow the speed? Then the change of its energy is work besides.
+bool RotorStep::stiffnessChanges(const LinearRotor& rotor,
+                                 const std::pair<double, double>& speeds) const {
+  const MatrixXd first = rotor.matrices(speeds.first).stiffness;
+  const double rounding = kTableError * first.cwiseAbs().maxCoeff();
+  for (const double share : {0.3, 0.7, 1.0}) {
+    const double speed = speeds.first + share * (speeds.second - speeds.first);
+    if ((rotor.matrices(speed).stiffness - first).cwiseAbs().maxCoeff() > rounding) {
+      return true;
+    }
+  }
+  return false;
 }
 
 /// The map as a cubic in s: its coefficients side by side.
-MatrixXd RotorStep::cubic(const LinearRotor& rotor, double low, double high) const {
+MatrixXd RotorStep::cubic(const MapOverSpeed& map, double low, double high) const {
   Eigen::Matrix4d powers;
   std::array<MatrixXd, 4> at;
   for (int i = 0; i < 4; ++i) {
     const double s = std::cos((2 * i + 1) * kPi / 8.0);
     powers.row(i) << 1.0, s, s * s, s * s * s;
-    at[static_cast<std::size_t>(i)] = tableMap(rotor, 0.5 * (low + high) + 0.5 * s * (high - low));
+    at[static_cast<std::size_t>(i)] = map.at(0.5 * (low + high) + 0.5 * s * (high - low));
   }
   const Eigen::Matrix4d coefficients = powers.inverse();
   const Index inputs = tableInputs();
-  MatrixXd all = MatrixXd::Zero(2 * n_, 4 * inputs);
+  MatrixXd all = MatrixXd::Zero(at[0].rows(), 4 * inputs);
   for (int k = 0; k < 4; ++k) {
     for (int i = 0; i < 4; ++i) {
       all.middleCols(k * inputs, inputs) += coefficients(k, i) * at[static_cast<std::size_t>(i)];
@@ -150,10 +176,13 @@ MatrixXd RotorStep::cubic(const LinearRotor& rotor, double low, double high) con
 }
 
 /// In the middle of a cell the cubic through the Chebyshev nodes is off by most.
-double RotorStep::cubicError(const LinearRotor& rotor, double low, double high) const {
-  const MatrixXd exact = tableMap(rotor, 0.5 * (low + high));
-  const MatrixXd error = cubic(rotor, low, high).leftCols(tableInputs()) - exact;
-  // Positions and rates have their own sizes, and so has each input.
+double RotorStep::cubicError(const MapOverSpeed& map, double low, double high) const {
+  const MatrixXd exact = map.at(0.5 * (low + high));
+  return relativeError(cubic(map, low, high).leftCols(tableInputs()) - exact, exact);
+}
+
+/// Positions and rates have their own sizes, and so has each input.
+double RotorStep::relativeError(const MatrixXd& error, const MatrixXd& exact) const {
   double largest = 0.0;
   for (Index j = 0; j < exact.cols(); ++j) {
     for (const Index rows : {Index{0}, n_}) {
@@ -168,11 +197,12 @@ double RotorStep::cubicError(const LinearRotor& rotor, double low, double high) 
   return largest;
 }
 
-RotorStep::Cell RotorStep::cell(const LinearRotor& rotor, double low, double high) const {
+RotorStep::Cell RotorStep::cell(const LinearRotor& rotor, const MapOverSpeed& map, double low,
+                                double high) const {
   Cell c;
   c.centre = 0.5 * (low + high);
   c.half_width = 0.5 * (high - low);
-  c.increment = PackedMatrix(cubic(rotor, low, high));
+  c.increment = PackedMatrix(cubic(map, low, high));
   if (rotor.speed_dependent) {
     const Eigen::LLT<MatrixXd> mass(rotor.matrices(low).mass);
     const MatrixXd below = -mass.solve(forceSlope(rotor, low));
@@ -189,7 +219,9 @@ RotorStep::Cell RotorStep::cell(const LinearRotor& rotor, double low, double hig
       c.slope = PackedMatrix(slope);
     }
   }
-  c.work = work_.cell(rotor, low, high);
+  if (!by_form_ && audited_ != AuditedWork::kNone) {
+    c.work = work_.cell(rotor, low, high);
+  }
   return c;
 }
 
@@ -206,10 +238,13 @@ StepStatus RotorStep::advance(const Drive& drive, double offset, LinearMotion& m
   if (cell == nullptr) {
     return StepStatus::kOutOfRange;
   }
-  work_.start(cell->work, drive, offset, acting_, motion.state);
+  if (!by_form_) {
+    work_.start(cell->work, drive, offset, acting_, motion.state);
+  }
   changingStep(*cell, motion);
-  motion.advance(increment_.data(),
-                 work_.work(cell->work, drive, offset, nodes_, acting_, y_.head(2 * n_)));
+  motion.advance(increment_.data(), by_form_ ? form_work_
+                                             : work_.work(cell->work, drive, offset, nodes_,
+                                                          acting_, y_.head(2 * n_)));
   return StepStatus::kOk;
 }
 
@@ -227,6 +262,9 @@ StepStatus RotorStep::move(const Shaft& drive, double offset, LinearMotion& moti
 template <class Shaft>
 double RotorStep::work(const Shaft& drive, double offset, const Eigen::VectorXd& from,
                        const Eigen::VectorXd& to) noexcept {
+  if (by_form_) {
+    return form_work_;
+  }
   Cell* const cell = cellAt(nodes_.meanSpeed());
   work_.start(cell->work, drive, offset, acting_, from);
   return work_.work(cell->work, drive, offset, nodes_, acting_, to);
@@ -404,6 +442,7 @@ void RotorStep::changingStep(Cell& cell, const LinearMotion& motion) noexcept {
     powers_.segment(k * inputs, inputs) = s * powers_.segment((k - 1) * inputs, inputs);
   }
   cell.increment.multiply(powers_.data(), result_.data());
+  form_work_ = by_form_ ? y_.head(inputs).dot(result_.segment(2 * n_, inputs)) : 0.0;
   increment_ += result_.head(2 * n_);
   y_.head(2 * n_) += result_.head(2 * n_);
   if (sheared) {

@@ -13,11 +13,14 @@
 // theta - theta_0 - w_m s, - a h^2 / 12, made at the start of the step and undone at its end. What
 // is left is of order h^5 a and, like that, does not add up from step to step.
 //
-// e^(A(w) h) over speed is a table: cells in which it is a cubic in the speed to 1e-12. Preparing
-// it takes a matrix exponential every few rad/s.
+// e^(A(w) h) over speed is a table: cells in which it is a cubic in the speed to 1e-12, a few rad/s
+// wide. Matrix exponentials are taken at a dozen speeds in each smooth part of the range, and the
+// cells from the polynomial through them (map_over_speed.h).
 //
 // The audited work is y^T W y, exact, at constant speed, and a quadrature in a run-up
-// (rotor_work.h).
+// (rotor_work.h). Of a rotor that is pushed at places (ActingInputs::push()) it is y^T W(w_m) y in
+// a run-up, too, W from the table: forces that are stiff leave a motion within the step that no
+// quadrature sees. What that leaves open is of order a h^2 of the work.
 //
 // Inputs are exact likewise (acting_inputs.h). A corner of one of them inside a step at constant
 // speed parts it in steps of 2^k nanoseconds, each exact; in a run-up the input is projected on a
@@ -33,6 +36,7 @@
 #include "control/drive.h"
 #include "integration/acting_inputs.h"
 #include "integration/linear_step.h"
+#include "integration/map_over_speed.h"
 #include "integration/packed_matrix.h"
 #include "integration/rotor_map.h"
 #include "integration/rotor_work.h"
@@ -41,14 +45,21 @@
 
 namespace whirl_twin {
 
+/// What of the work on the rotor a step audits.
+enum class AuditedWork {
+  kAll,
+  kWithoutShaft,  ///< without that of what turns with a shaft that moves by itself
+  kNone
+};
+
 class RotorStep {
  public:
   /// Prepares steps of h [s] for speeds [rad/s] between `speeds.first` and `speeds.second`, and the
-  /// plain exact step for `constant_speeds`; driven: as RotorWork. Throws RunFailure for matrices
+  /// plain exact step for `constant_speeds`. Throws RunFailure for matrices
   /// beyond the range of doubles.
   RotorStep(const LinearRotor& rotor, double h, const std::pair<double, double>& speeds,
             const std::vector<double>& constant_speeds, const ActingInputs& acting = {},
-            bool driven = true);
+            AuditedWork audited = AuditedWork::kAll);
 
   double lowestSpeed() const { return boundaries_.front(); }  ///< [rad/s]
   double highestSpeed() const { return boundaries_.back(); }  ///< [rad/s]
@@ -100,8 +111,9 @@ class RotorStep {
   };
 
   void prepare(const LinearRotor& rotor, const std::pair<double, double>& speeds);
-  Cell cell(const LinearRotor& rotor, double low, double high) const;
-  double cubicError(const LinearRotor& rotor, double low, double high) const;
+  Cell cell(const LinearRotor& rotor, const MapOverSpeed& map, double low, double high) const;
+  double relativeError(const Eigen::MatrixXd& error, const Eigen::MatrixXd& exact) const;
+  double cubicError(const MapOverSpeed& map, double low, double high) const;
   ConstantSpeed* constantAt(double speed) noexcept;
   Eigen::Index startOf(const ShaftMotion& shaft, double offset, std::int64_t piece,
                        const LinearMotion& motion) noexcept;
@@ -113,7 +125,8 @@ class RotorStep {
   void changingStep(Cell& cell, const LinearMotion& motion) noexcept;
   Eigen::Index tableInputs() const;
   Eigen::MatrixXd tableMap(const LinearRotor& rotor, double speed) const;
-  Eigen::MatrixXd cubic(const LinearRotor& rotor, double low, double high) const;
+  bool stiffnessChanges(const LinearRotor& rotor, const std::pair<double, double>& speeds) const;
+  Eigen::MatrixXd cubic(const MapOverSpeed& map, double low, double high) const;
   void project() noexcept;
   void shear(Cell& cell, double s, double e, const double* rates) noexcept;
 
@@ -125,6 +138,9 @@ class RotorStep {
   std::vector<double> boundaries_;  ///< [rad/s], of the cells
   std::vector<Cell> cells_;
   RotorWork work_;
+  AuditedWork audited_;
+  bool by_form_ = false;    ///< the work is y^T W y at any speed
+  double form_work_ = 0.0;  ///< [J], of the last step of the table
   // Room for a step.
   ShaftNodes nodes_;
   Eigen::VectorXd y_;       ///< inputs of a map

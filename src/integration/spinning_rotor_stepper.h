@@ -52,7 +52,7 @@ class SpinningRotorStepper final : public Stepper {
   SpinMotion spin_, next_spin_, finer_spin_;
   std::vector<char> angular_;              ///< of each coordinate
   std::vector<double> taken_, in_halves_;  ///< q and v after a step
-  StepErrorSum errors_{kLinearErrorEvery};
+  StepErrorSum errors_{kLinearErrorEvery, false};
 };
 
 }  // namespace whirl_twin

@@ -45,8 +45,8 @@
 //
 //     matrices as functions of speed, on a motor:     exponential,     SpinningRotorStepper
 //     flexible_rotor                                  no other         (ForcedRotorStep)
-//         The whirl as in a run-up, along the course of a speed that is sought with it
-//         (shaft_spin.h). spinningRotorSetup().
+//         The whirl as in a run-up, along a course of the speed that is found with it
+//         (shaft_spin.h): spinningRotorSetup().
 //
 //     matrices and harmonic forces: linear_system,    any but          LinearStepper
 //     cantilever_beam, hinged_beam (geometry: small)  stoermer         (LinearStep)

@@ -34,11 +34,16 @@ void add(const BearingCoefficients& b, const MatrixXd& place, Linearization& l) 
   k << b.kxx, b.kxy, b.kyx, b.kyy;
   c << b.cxx, b.cxy, b.cyx, b.cyy;
   m << b.mxx, b.mxy, b.mxy, b.myy;
-  l.mass += place * m * place.transpose();
-  l.stiffness += place * (0.5 * (k + k.transpose())) * place.transpose();
-  l.circulatory += place * (0.5 * (k - k.transpose())) * place.transpose();
-  l.damping += place * (0.5 * (c + c.transpose())) * place.transpose();
-  l.gyroscopic += place * (0.5 * (c - c.transpose())) * place.transpose();
+  const auto part = [&place](const Eigen::Matrix2d& of, MatrixXd& even, MatrixXd& odd) {
+    const MatrixXd whole = (place * of) * place.transpose();
+    even += 0.5 * (whole + whole.transpose());
+    odd += 0.5 * (whole - whole.transpose());
+  };
+  part(k, l.stiffness, l.circulatory);
+  part(c, l.damping, l.gyroscopic);
+  if (!m.isZero(0.0)) {
+    l.mass += place * m * place.transpose();
+  }
 }
 
 /// The same of matrices near their diagonals.
