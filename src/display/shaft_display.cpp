@@ -16,13 +16,15 @@ namespace whirl_twin {
 namespace {
 
 // Sizes of the picture [m]. Machines are drawn true to length as long as they fit their place.
-constexpr double kWidest = 1.6;
-constexpr double kNarrowest = 1.2;
-constexpr double kTallest = 1.0;
+constexpr double kWidest = 2.2;
+constexpr double kNarrowest = 1.8;
+constexpr double kTallest = 1.2;
 constexpr double kBaseHeight = 0.04;
 constexpr double kTextGap = 0.16;       // between the picture and its words
 constexpr double kLowestText = 0.40;    // above the shaft
 constexpr double kTowardsViewer = 0.6;  // rad, that the shaft is turned from across the view
+constexpr double kBeforeDisc = 0.012;   // of an orbit, which a disc would hide
+constexpr double kSamePlace = 1.0e-9;   // of the picture's size
 constexpr double kRoom = 0.4;           // of the picture's height: what the whirl may take
 
 constexpr Color kCalmDisc{0.30F, 0.62F, 0.52F};
@@ -142,10 +144,21 @@ void ShaftDisplay::drawBase(MarkerCanvas& canvas) const {
   canvas.line("bearing_line", {{0.0, 0.0, -half}, {0.0, 0.0, half}}, 0.004, kThin);
 }
 
+double ShaftDisplay::inFront(double position) const {
+  double half = 0.0;
+  for (const Sketch::Disc& disc : at_rest_.discs) {
+    if (std::fabs(disc.at.x - position) < kSamePlace * at_rest_.size) {
+      half = std::max(half, 0.5 * picture_scale_ * disc.thickness);
+    }
+  }
+  return half;
+}
+
 void ShaftDisplay::drawOrbit(const Place& place, const SystemStatus& status,
                              MarkerCanvas& canvas) const {
   Eigen::Isometry3d plane = Eigen::Isometry3d::Identity();
   plane.translation() = drawnAt(place.station.position, 0.0, 0.0);
+  plane.translation().z() += kBeforeDisc + inFront(place.station.position);
   MarkerCanvas there = canvas.beside(place.station.name, 0.0).moved(plane);
   std::vector<Eigen::Vector3d> orbit;
   for (const Eigen::Vector2d& point : place.trail.points()) {
@@ -191,7 +204,7 @@ void ShaftDisplay::draw(const SystemStatus& status, MarkerCanvas& canvas) const 
   if (std::fabs(picture_scale_ - 1.0) > 0.005) {
     scales = fmt::format("lengths x {:.2g}, {}", picture_scale_, scales);
   }
-  canvas.text("scale", {-0.3, -0.5 * height() - 0.06, 0.0}, status.compact ? 0.11 : 0.066, scales,
+  canvas.text("scale", {-0.3, -0.5 * height() - 0.06, -0.4}, status.compact ? 0.11 : 0.066, scales,
               kOrbitColor);
   const Eigen::Vector3d foot(0.0, std::max(0.5 * height() + kTextGap, kLowestText), 0.0);
   drawStatus(name_, whirlLines(state, status), state.speed, status, foot, canvas);

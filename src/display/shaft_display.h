@@ -58,6 +58,8 @@ class ShaftDisplay : public SystemDisplay {
   /// In the picture [m], of a place at `position` [m] of the shaft that whirls by x, y [m].
   Eigen::Vector3d drawnAt(double position, double x, double y) const;
   double height() const { return picture_scale_ * at_rest_.height; }
+  /// [m], in the picture: half of the thickest disc at a place.
+  double inFront(double position) const;
   double longestRadius(const Eigen::VectorXd& q) const;
   void drawBase(MarkerCanvas& canvas) const;
   void drawOrbit(const Place& place, const SystemStatus& status, MarkerCanvas& canvas) const;
