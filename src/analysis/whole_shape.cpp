@@ -61,7 +61,8 @@ void WholeShape::prepare(double speed) {
       steady_ = synchronousResponse(rotor_, {}, speed).q;
     }
   }
-  const Eigen::MatrixXd bent = held.factor.solve(places_);
+  // Of unit forces there, and of the inertia of what they bend: nearly the lowest modes.
+  const Eigen::MatrixXd bent = held.factor.solve(l.mass * held.factor.solve(places_));
   Eigen::MatrixXd given = places_.transpose() * bent;
   given.diagonal().array() += kSamePlace * given.trace();
   corrections_ = bent * given.llt().solve(Eigen::MatrixXd::Identity(given.rows(), given.cols()));

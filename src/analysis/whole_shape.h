@@ -3,9 +3,9 @@
 //
 // It is where its bearings hold it under its load, K^-1 f_0, and besides as much of its steady
 // motion at that speed as the whirl seen shows (all of it once that is steady, less where a run-up
-// passes a resonance); what is then left at the places seen, forces there would make: the stiffest
-// shapes that fit. At the places seen it is exact, between them as smooth as the shaft. Of a rotor
-// whose bearings do not hold it by themselves, in magnets or films, it is those shapes alone.
+// passes a resonance); what is then left at the places seen are the slow shapes K^-1 M K^-1 of
+// forces there, nearly the lowest modes. At the places seen it is exact. Of a rotor whose bearings
+// do not hold it by themselves, in magnets or films, it is those shapes alone.
 #pragma once
 
 #include <Eigen/Core>

@@ -104,8 +104,8 @@ TEST(RotorParts, aTorqueThatGoesOnTakesNothingFromTheNodesBetween) {
   EXPECT_LT((n - wanted).norm(), 1e-9 * wanted.norm());
 }
 
-// Nicolai (1928): what enters at a free end feeds an undamped whirl. With M = 1 of its shape the rate
-// is (T/2) |difference of the squares of its slopes where T enters and leaves| / 2 w.
+// Nicolai (1928): what enters at a free end feeds an undamped whirl. With M = 1 of its shape the
+// rate is (T/2) |difference of the squares of its slopes where T enters and leaves| / 2 w.
 TEST(RotorParts, aTorqueFeedsAWhirlWhereItEntersAtAFreeEnd) {
   const double torque = 20.0;
   const auto rotor = [](double twist) {
