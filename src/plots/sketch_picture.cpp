@@ -39,9 +39,15 @@ SketchBounds boundsOfAll(const SketchPicture& picture, const SketchView& view) {
   for (const Sketch& ghost : picture.ghosts) {
     include(boundsOf(ghost, view));
   }
-  for (const SketchPoint& point : picture.trace) {
-    const Spot spot = view.at(point);
-    include({spot.x, spot.y, spot.x, spot.y});
+  const auto includePath = [&](const std::vector<SketchPoint>& path) {
+    for (const SketchPoint& point : path) {
+      const Spot spot = view.at(point);
+      include({spot.x, spot.y, spot.x, spot.y});
+    }
+  };
+  includePath(picture.trace);
+  for (const std::vector<SketchPoint>& orbit : picture.orbits) {
+    includePath(orbit);
   }
   return all;
 }
@@ -81,17 +87,25 @@ std::string sketchImage(const SketchPicture& picture, ImageFormat format) {
 
   Canvas canvas(format, static_cast<int>(std::lround(sheet_width)),
                 static_cast<int>(std::lround(sheet_height)), picture.title,
-                fmt::format("{} later positions faintly", picture.ghosts.size()));
+                picture.note.empty()
+                    ? fmt::format("{} later positions faintly", picture.ghosts.size())
+                    : picture.note);
   canvas.text({0.5 * sheet_width, 20.0}, picture.title, title);
   for (auto ghost = picture.ghosts.rbegin(); ghost != picture.ghosts.rend(); ++ghost) {
     drawParts(*ghost, view, kGhost, canvas);
   }
-  std::vector<Spot> trace;
-  for (const SketchPoint& point : picture.trace) {
-    trace.push_back(view.at(point));
-  }
   drawParts(picture.sketch, view, 0.0, canvas);
-  canvas.line(thinned(trace), {paler(ink::kVermilion, 0.15), 1.4});
+  const auto drawPath = [&](const std::vector<SketchPoint>& path) {
+    std::vector<Spot> spots;
+    for (const SketchPoint& point : path) {
+      spots.push_back(view.at(point));
+    }
+    canvas.line(thinned(spots), {paler(ink::kVermilion, 0.15), 1.4});
+  };
+  drawPath(picture.trace);
+  for (const std::vector<SketchPoint>& orbit : picture.orbits) {
+    drawPath(orbit);
+  }
 
   const ScaleBar bar = scaleBar(sheet_width / view.scale);
   const double y = sheet_height - 18.0;
@@ -101,6 +115,7 @@ std::string sketchImage(const SketchPicture& picture, ImageFormat format) {
   canvas.line({{kMargin, y}, {end, y}}, pen);
   canvas.line({{end, y - 4.0}, {end, y + 4.0}}, pen);
   canvas.text({end + 9.0, y}, bar.label, Lettering{13.0, ink::kGrey});
+  canvas.text({sheet_width - kMargin, y}, picture.note, Lettering{13.0, ink::kGrey, Align::kEnd});
   return canvas.finish();
 }
 

@@ -13,8 +13,10 @@ namespace whirl_twin {
 struct SketchPicture {
   std::string title;
   Sketch sketch;
-  std::vector<Sketch> ghosts;      ///< later positions, drawn faintly behind it
-  std::vector<SketchPoint> trace;  ///< where the tracer has been; may be empty
+  std::vector<Sketch> ghosts;                         ///< later positions, drawn faintly behind it
+  std::vector<SketchPoint> trace;                     ///< where the tracer has been; may be empty
+  std::vector<std::vector<SketchPoint>> orbits = {};  ///< closed paths, drawn as the trace is
+  std::string note = "";                              ///< at the foot
 };
 
 /// Whether a sheet can show it: all its parts are at places within 1e100 m, and it has an extent.

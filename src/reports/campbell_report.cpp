@@ -60,9 +60,11 @@ std::string crossingsText(const CampbellReport& r) {
 }  // namespace
 
 CampbellReport campbellReport(const RotorSystem& system, const SpeedRange& range,
-                              const std::vector<double>& harmonics, std::size_t branches) {
+                              const std::vector<double>& harmonics, std::size_t branches,
+                              const std::function<void(std::size_t)>& progress) {
   CampbellReport r{&system, range, {}, {}, {}, 0};
-  r.diagram = campbell(system.rotor, system.stations, {range.speeds(), harmonics, branches});
+  r.diagram =
+      campbell(system.rotor, system.stations, {range.speeds(), harmonics, branches, progress});
   try {
     r.undamped = undampedCriticalSpeeds(system.rotor, system.stations, range.to);
   } catch (const RunFailure&) {

@@ -1,6 +1,7 @@
 // What `twin campbell` shows of one rotor.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "analysis/campbell.h"
@@ -23,8 +24,10 @@ struct CampbellReport {
   std::size_t beyond = 0;
 };
 
+/// `progress` is told how many speeds of the diagram are done.
 CampbellReport campbellReport(const RotorSystem& system, const SpeedRange& range,
-                              const std::vector<double>& harmonics, std::size_t branches);
+                              const std::vector<double>& harmonics, std::size_t branches,
+                              const std::function<void(std::size_t)>& progress = {});
 
 Json json(const CampbellReport& report);
 std::string text(const CampbellReport& report);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "reports/shaft_picture.h"
+
 namespace whirl_twin {
 
 namespace {
@@ -42,6 +44,10 @@ double range(const std::vector<Sketch>& sketches) {
 
 std::optional<SketchPicture> motionPicture(const std::string& title, const Dynamics& dynamics,
                                            const PlotHistory& history) {
+  if (std::optional<SketchPicture> shaft = shaftPicture(dynamics, history)) {
+    shaft->title = title;
+    return shaft;
+  }
   SketchPicture picture;
   picture.title = title;
   picture.sketch = sketchAt(dynamics, history, 0);

@@ -1,4 +1,5 @@
-// A picture of a system at the start of a run, with some later positions and the path of a point.
+// A picture of a system at the start of a run, with some later positions and the path of a point;
+// of a rotor with places along its shaft where it is bent most (shaft_picture.h).
 #pragma once
 
 #include <optional>

@@ -1,3 +1,4 @@
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -9,6 +10,7 @@
 #include "scene/scene_reader.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
+#include "tools/progress_bar.h"
 #include "tools/shipped_scenes.h"
 
 namespace whirl_twin {
@@ -66,9 +68,15 @@ int campbellOf(const Request& request) {
   all["scene"] = scene.scene.name;
   std::string report;
   CsvTables csv;
+  ProgressBar bar(cost.cause, static_cast<std::int64_t>(systems.size()) * request.range.points,
+                  false, request.insist);
+  std::int64_t before = 0;  // speeds of the systems that are done
   for (const RotorSystem& system : systems) {
-    const CampbellReport one = campbellReport(system, request.range.of(system), request.harmonics,
-                                              static_cast<std::size_t>(request.modes));
+    const CampbellReport one = campbellReport(
+        system, request.range.of(system), request.harmonics,
+        static_cast<std::size_t>(request.modes),
+        [&](std::size_t done) { bar.show(before + static_cast<std::int64_t>(done)); });
+    before += request.range.points;
     all["systems"][system.name] = json(one);
     append(csv, system.name, tables(one));
     report += (report.empty() ? "" : "\n") + text(one);
@@ -76,6 +84,7 @@ int campbellOf(const Request& request) {
       writePicture(pictureName(*request.plot, system.name, systems.size() > 1), figure(one));
     }
   }
+  bar.clear();
   if (request.csv) {
     writeCsv(*request.csv, csv);
   }

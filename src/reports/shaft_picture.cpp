@@ -1,0 +1,107 @@
+#include "reports/shaft_picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mechanics/round_number.h"
+
+namespace whirl_twin {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kBent = 0.12;           // of the shaft's length, drawn at most
+constexpr std::size_t kLookedAt = 2000;  // samples of a run
+constexpr int kCorners = 72;             // of an orbit
+constexpr double kStill = 1.0e-15;       // of the shaft's length: no motion
+
+Eigen::VectorXd sample(const std::vector<std::vector<double>>& values, std::size_t i) {
+  Eigen::VectorXd all(static_cast<Eigen::Index>(values.size()));
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    all[static_cast<Eigen::Index>(k)] = values[k][i];
+  }
+  return all;
+}
+
+double longestRadius(const std::vector<Station>& stations, const Eigen::VectorXd& q) {
+  double longest = 0.0;
+  for (const Station& station : stations) {
+    longest = std::max(longest, std::hypot(station.along_x.dot(q), station.along_y.dot(q)));
+  }
+  return longest;
+}
+
+/// What of the run is looked at: where all of it is known.
+std::vector<std::size_t> samplesOf(const PlotHistory& history) {
+  std::vector<std::size_t> samples;
+  const std::size_t stride = 1 + history.time.size() / kLookedAt;
+  for (std::size_t i = 0; i < history.time.size() && std::isfinite(history.kinetic[i]);
+       i += stride) {
+    samples.push_back(i);
+  }
+  return samples;
+}
+
+/// "500", "0.02"
+std::string roundNumber(double number) {
+  return number >= 1.0 ? fmt::format("{:.0f}", number) : fmt::format("{:.3g}", number);
+}
+
+}  // namespace
+
+std::optional<SketchPicture> shaftPicture(const Dynamics& dynamics, const PlotHistory& history) {
+  const std::vector<Station> stations = dynamics.stations();
+  const std::vector<std::size_t> samples = samplesOf(history);
+  if (!dynamics.isRotor() || stations.size() < 2 || samples.empty() ||
+      history.coordinates.size() != static_cast<std::size_t>(dynamics.dof())) {
+    return std::nullopt;
+  }
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(dynamics.dof());
+  double longest = 0.0;
+  std::size_t widest = 0;
+  for (const std::size_t i : samples) {
+    const Eigen::VectorXd q = sample(history.coordinates, i);
+    mean += q / static_cast<double>(samples.size());
+    const double radius = longestRadius(stations, q);
+    if (radius > longest) {
+      longest = radius;
+      widest = i;
+    }
+  }
+  const Sketch still = dynamics.sketch(Eigen::VectorXd::Zero(dynamics.dof()), {});
+  if (still.empty() || !(longest > kStill * still.size)) {
+    return std::nullopt;
+  }
+  const double factor = roundDown125(kBent * still.size / longest);
+  const Eigen::VectorXd q = sample(history.coordinates, widest);
+  const Eigen::VectorXd v = sample(history.rates, widest);
+  const double speed = history.speed[widest];
+  SketchPicture picture;
+  picture.sketch = dynamics.sketch(factor * q, history.moments[widest]);
+  picture.sketch.lines.push_back({{{still.centre.x - 0.5 * still.size, 0.0, 0.0},
+                                   {still.centre.x + 0.5 * still.size, 0.0, 0.0}},
+                                  SketchRole::kMark});
+  // The orbit through this state if all of it went with the shaft, about the middle of the run.
+  for (std::size_t i = 0; speed != 0.0 && i < stations.size(); ++i) {
+    if (i > 0 && !stations[i].published) {
+      continue;
+    }
+    std::vector<SketchPoint> orbit;
+    for (int k = 0; k <= kCorners; ++k) {
+      const double turn = 2.0 * kPi * k / kCorners;
+      const Eigen::VectorXd there = mean + std::cos(turn) * (q - mean) + std::sin(turn) / speed * v;
+      orbit.push_back({stations[i].position, factor * stations[i].along_x.dot(there),
+                       factor * stations[i].along_y.dot(there)});
+    }
+    picture.orbits.push_back(orbit);
+  }
+  picture.note = fmt::format("bent x {}, at {:.4g} s", roundNumber(factor), history.time[widest]);
+  if (speed != 0.0) {
+    picture.note += fmt::format(" and {:.4g} rad/s", speed);
+  }
+  return picture;
+}
+
+}  // namespace whirl_twin
