@@ -1,5 +1,6 @@
 #include "mechanics/pendulums/double_pendulum.h"
 
+#include "mechanics/pendulums/dragged_double_pendulum.h"
 #include "mechanics/pendulums/motor_double_pendulum.h"
 #include "mechanics/pendulums/relative_double_pendulum.h"
 #include "models/model_entry.h"
@@ -13,9 +14,17 @@ bool hasMotors(const ParameterValues& values, const Settings&) {
   return values.at("motor_inertia1") != 0.0 || values.at("motor_inertia2") != 0.0;
 }
 
-void requireRelative(const Settings& settings) {
+bool hasDrag(const ParameterValues& values, const Settings&) {
+  return values.at("drag1") != 0.0 || values.at("drag2") != 0.0;
+}
+
+bool isRelative(const Settings& settings) {
   const auto found = settings.choices.find("coordinates");
-  if (found == settings.choices.end() || found->second != "relative") {
+  return found != settings.choices.end() && found->second == "relative";
+}
+
+void requireRelative(const Settings& settings) {
+  if (!isRelative(settings)) {
     throw SetupError("motor_inertia1", "motors at the joints need coordinates: relative");
   }
 }
@@ -24,9 +33,14 @@ void requireRelative(const Settings& settings) {
 
 ModelInfo doublePendulumInfo() {
   ModelInfo info = modelInfo<DoublePendulum>();
+  addVariant<DraggedDoublePendulum>(info, "drag1 or drag2 > 0", hasDrag);
   addVariant<RelativeDoublePendulum>(info, "coordinates", "absolute", "relative",
                                      "the lower angle from the vertical, or from the upper rod");
-  addVariant<MotorDoublePendulum>(info, "motor_inertia1 or motor_inertia2 > 0", hasMotors);
+  addVariant<MotorDoublePendulum>(info, "motor_inertia1 or motor_inertia2 > 0",
+                                  [](const ParameterValues& values, const Settings& settings) {
+                                    return hasMotors(values, settings) ||
+                                           (isRelative(settings) && hasDrag(values, settings));
+                                  });
   info.setUp = [plain = info.setUp](const ParameterValues& values, const Settings& settings,
                                     const Surroundings& around) {
     if (hasMotors(values, settings)) {

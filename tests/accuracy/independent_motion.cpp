@@ -54,12 +54,13 @@ class PlainDoublePendulum {
       }
     }
     // What a scene leaves out, and what its defaults mean the same by: masses at the ends, and
-    // numbers of the friction and of the motors that are not there.
+    // numbers of the friction, the motors and the air that are not there.
     const std::map<std::string, Real> plain{{"center1", l1_}, {"center2", l2_}};
     for (const auto& [name, value] : spec.parameters) {
       if (plain.count(name) != 0) {
         is_it_ = is_it_ && value == plain.at(name);
-      } else if (own.count(name) == 0 && name != "coulomb_rate" && name.rfind("gear_ratio") != 0) {
+      } else if (own.count(name) == 0 && name != "coulomb_rate" && name.rfind("gear_ratio") != 0 &&
+                 name.rfind("drag_reach") != 0) {
         is_it_ = is_it_ && value == 0.0;
       }
     }

@@ -82,6 +82,45 @@ TEST(HandWritten, MotorsOfADoublePendulum) {
   }
 }
 
+// Air that meets each arm at one point, against its velocity u: F = -k |u| u. What it adds to M a
+// is the sum of (du / dv_j) . F, however the coordinates are chosen.
+TEST(HandWritten, AirOnADoublePendulum) {
+  std::mt19937_64 random(1726);
+  const ParameterValues air{
+      {"drag1", 0.3}, {"drag2", 0.2}, {"drag_reach1", 0.4}, {"drag_reach2", 0.7}};
+  for (const bool relative : {false, true}) {
+    VariantUnderTest in_air{"double_pendulum", "", {}, air, {}};
+    in_air.settings.choices["coordinates"] = relative ? "relative" : "absolute";
+    for (int i = 0; i < kStates; ++i) {
+      const RandomState with = randomState(in_air, random);
+      ParameterValues parameters = with.parameters;
+      parameters["drag1"] = parameters["drag2"] = 0.0;
+      const auto without = findModel("double_pendulum")
+                               ->setUp(parameters, in_air.settings, Surroundings(with.gravity))
+                               .dynamics;
+      const Eigen::MatrixXd mass = with.dynamics->massMatrix(with.q, with.v, with.at);
+      const Vector added = mass * (with.dynamics->acceleration(with.q, with.v, with.at) -
+                                   without->acceleration(with.q, with.v, with.at));
+      const double theta2 = with.q[1] + (relative ? with.q[0] : 0.0);
+      const Eigen::Vector2d across1(std::cos(with.q[0]), std::sin(with.q[0]));
+      const Eigen::Vector2d across2(std::cos(theta2), std::sin(theta2));
+      // Velocities of the two points by the coordinates' rates.
+      Eigen::Matrix2d u1 = Eigen::Matrix2d::Zero(), u2;
+      u1.col(0) = 0.4 * across1;
+      u2.col(0) = parameters.at("length1") * across1;
+      u2.col(1) = 0.7 * across2;
+      if (relative) {
+        u2.col(0) += u2.col(1);
+      }
+      const Eigen::Vector2d v1 = u1 * with.v, v2 = u2 * with.v;
+      const Vector by_hand =
+          -0.3 * v1.norm() * u1.transpose() * v1 - 0.2 * v2.norm() * u2.transpose() * v2;
+      const double size = mass.norm() * with.dynamics->acceleration(with.q, with.v, with.at).norm();
+      ASSERT_LE((added - by_hand).norm(), 1e-12 * (size + by_hand.norm())) << "state " << i;
+    }
+  }
+}
+
 // m l^2 th'' = m l^2 w^2 sin th cos th - m g l sin th - c th', whatever the shaft's acceleration.
 TEST(HandWritten, SpinningPendulum) {
   std::mt19937_64 random(1788);

@@ -29,7 +29,8 @@ inline RandomState anyRandomState(const VariantUnderTest& variant, std::mt19937_
   const ModelInfo& model = *findModel(variant.model);
   RandomState s;
   for (const ParameterInfo& p : model.parameters) {
-    if (p.name.rfind("motor_", 0) == 0 || p.name.rfind("gear_", 0) == 0) {
+    if (p.name.rfind("motor_", 0) == 0 || p.name.rfind("gear_", 0) == 0 ||
+        p.name.rfind("drag", 0) == 0) {
       s.parameters[p.name] = 0.0;  // unless the form says otherwise
       continue;
     }

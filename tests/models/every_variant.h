@@ -42,7 +42,7 @@ inline std::vector<std::string> integratorsOf(const ModelVariant& variant) {
 inline bool choosesForm(const std::string& parameter) {
   for (const char* start :
        {"regularization", "friction_force", "loss_factor", "rub_", "rotor_radius", "bearing_",
-        "journal_", "stiffness_asymmetry", "motor_", "gear_"}) {
+        "journal_", "stiffness_asymmetry", "motor_", "gear_", "drag"}) {
     if (parameter.rfind(start, 0) == 0) {
       return true;
     }
@@ -68,6 +68,13 @@ inline void addCompanions(VariantUnderTest& v) {
     v.parameters["gear_ratio1"] = 3.0;
     v.parameters["motor_inertia2"] = 0.1;
     v.parameters["gear_ratio2"] = -2.0;
+    v.parameters["drag2"] = 0.1;  // which this form has, too
+    v.parameters["drag_reach2"] = 0.5;
+  }
+  if (v.parameters.count("drag1") != 0) {
+    v.parameters["drag_reach1"] = 0.4;
+    v.parameters["drag2"] = 0.2;
+    v.parameters["drag_reach2"] = 0.6;
   }
   if (v.motor && v.model != "flexible_rotor") {  // whose elements have one
     v.parameters["polar_inertia"] = 0.3;

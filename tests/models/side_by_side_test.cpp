@@ -137,7 +137,11 @@ struct Pendulums {
                                  {"motor_inertia1", 0.0},
                                  {"motor_inertia2", 0.0},
                                  {"gear_ratio1", 1.0},
-                                 {"gear_ratio2", 1.0}},
+                                 {"gear_ratio2", 1.0},
+                                 {"drag1", 0.0},
+                                 {"drag2", 0.0},
+                                 {"drag_reach1", 1.0},
+                                 {"drag_reach2", 0.5}},
                                 {}, Surroundings(9.81)));
     }
     return all;

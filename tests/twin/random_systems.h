@@ -197,7 +197,11 @@ class RandomSystems {
                        {"motor_inertia1", 0.0},
                        {"motor_inertia2", 0.0},
                        {"gear_ratio1", 1.0},
-                       {"gear_ratio2", 1.0}};
+                       {"gear_ratio2", 1.0},
+                       {"drag1", 0.0},
+                       {"drag2", 0.0},
+                       {"drag_reach1", l1},
+                       {"drag_reach2", l2}};
     spec.q = {between(-2.0, 2.0), between(-2.0, 2.0)};
     spec.v = {between(-2.0, 2.0), between(-2.0, 2.0)};
     return 25.0;  // the lower arm whips round, faster than it swings

@@ -63,9 +63,14 @@ struct DoublePendulum {
   double motor_inertia2 = 0.0;  ///< [kg m^2], J2
   double gear_ratio1 = 0.0;     ///< [-], G1
   double gear_ratio2 = 0.0;     ///< [-], G2
-  double gravity = 0.0;         ///< [m/s^2], of the scene
+  // Of the air, a form of its own (dragged_double_pendulum.h).
+  double drag1 = 0.0;        ///< [kg/m], drag of the upper arm per square of its speed
+  double drag2 = 0.0;        ///< [kg/m], of the lower arm
+  double drag_reach1 = 0.0;  ///< [m], upper joint to where the air acts on the upper arm
+  double drag_reach2 = 0.0;  ///< [m], lower joint to where it acts on the lower arm
+  double gravity = 0.0;      ///< [m/s^2], of the scene
 
-  static constexpr std::array<Parameter<DoublePendulum>, 17> parameters() {
+  static constexpr std::array<Parameter<DoublePendulum>, 21> parameters() {
     return {{{"mass1", "kg", Range::kPositive, &DoublePendulum::mass1, "of the upper bob"},
              {"mass2", "kg", Range::kPositive, &DoublePendulum::mass2, "of the lower bob"},
              {"length1", "m", Range::kPositive, &DoublePendulum::length1, "of the upper rod"},
@@ -95,7 +100,15 @@ struct DoublePendulum {
              {"gear_ratio1", "-", Range::kAny, &DoublePendulum::gear_ratio1,
               "turns of that rotor for one of the upper joint", 1.0},
              {"gear_ratio2", "-", Range::kAny, &DoublePendulum::gear_ratio2,
-              "turns of that rotor for one of the lower joint, < 0 if it is reversed", 1.0}}};
+              "turns of that rotor for one of the lower joint, < 0 if it is reversed", 1.0},
+             {"drag1", "kg/m", Range::kNotNegative, &DoublePendulum::drag1,
+              "of the air on the upper arm, force per square of its speed", 0.0},
+             {"drag2", "kg/m", Range::kNotNegative, &DoublePendulum::drag2,
+              "of the air on the lower arm, force per square of its speed", 0.0},
+             {"drag_reach1", "m", Range::kPositive, &DoublePendulum::drag_reach1,
+              "upper joint to where the air acts on the upper arm", kGiven, "length1"},
+             {"drag_reach2", "m", Range::kPositive, &DoublePendulum::drag_reach2,
+              "lower joint to where the air acts on the lower arm", kGiven, "length2"}}};
   }
 
   std::string singularMass() const {

@@ -13,7 +13,7 @@ struct RelativeDoublePendulum : DoublePendulum {
   static constexpr std::array<Coordinate, kDof> kCoordinates{
       {{"theta1", "rad"}, {"theta3", "rad"}}};
 
-  static constexpr std::array<Parameter<RelativeDoublePendulum>, 17> parameters() {
+  static constexpr std::array<Parameter<RelativeDoublePendulum>, 21> parameters() {
     return inherited<RelativeDoublePendulum>(DoublePendulum::parameters());
   }
 
@@ -48,7 +48,7 @@ struct RelativeDoublePendulum : DoublePendulum {
     return DoublePendulum::sketch(absolute(q), at);
   }
 
- private:
+ protected:
   template <class S>
   WHIRL_TWIN_INLINE static std::array<S, 2> absolute(const std::array<S, 2>& x) {
     return {x[0], x[0] + x[1]};
