@@ -16,6 +16,7 @@ namespace whirl_twin {
 struct GivenOrFitted {
   double value = 0.0;
   bool fitted = false;
+  bool each_run = false;  ///< found for each run by itself, of those that are validated, too
 };
 
 /// A column that measures a coordinate or a rate of the system: column = scale * state + offset.

@@ -289,15 +289,17 @@ class StudyReader {
     if (!map.has(name)) {
       return {fallback, false};
     }
-    if (map.at(name).IsScalar() && map.at(name).Scalar() == "fit") {
-      return {fallback, true};
+    for (const char* word : {"fit", "each_run"}) {
+      if (map.at(name).IsScalar() && map.at(name).Scalar() == word) {
+        return {fallback, true, std::string(word) == "each_run"};
+      }
     }
     const auto number =
         map.at(name).IsScalar() ? parseQuantity(map.at(name).Scalar(), unit) : std::nullopt;
     if (!number) {
       complaints_.add(map.key(name),
-                      fmt::format("must be a finite number of {}, or `fit`, found {}", unit,
-                                  shown(map.at(name))));
+                      fmt::format("must be a finite number of {}, `fit` or `each_run`, found {}",
+                                  unit, shown(map.at(name))));
       return {fallback, false};
     }
     return {*number, false};

@@ -104,11 +104,15 @@ void Shooting::chooseDifferences(const std::vector<Window>& windows,
   for (int k = 0; k < kTries; ++k) {
     setPoint(theta_, true);
     for (Eigen::Index i = 0; i < change_.size(); ++i) {
+      const Unknown& unknown = maker_.unknowns()[static_cast<std::size_t>(i)];
       const Neighbours& n = neighbours_[static_cast<std::size_t>(i)];
       const std::optional<Candidate>& there = n.above ? n.above : n.below;
       double square = 0.0;
       double count = 0.0;
-      for (std::size_t w = 0; there && w < windows.size(); w += stride) {
+      for (std::size_t w = 0; there && w < windows.size(); w += unknown.run ? 1 : stride) {
+        if (!unknown.concerns(windows[w].run)) {
+          continue;
+        }
         Eigen::VectorXd here, moved;
         if (residuals(windows[w], starts[w], here) &&
             residualsOf(*there, windows[w], starts[w], moved)) {
@@ -120,7 +124,7 @@ void Shooting::chooseDifferences(const std::vector<Window>& windows,
         continue;  // without effect
       }
       const double by = kMoved * measured / std::sqrt(square / count);
-      const double about = maker_.unknowns()[static_cast<std::size_t>(i)].size(theta_[i]);
+      const double about = unknown.size(theta_[i]);
       change_[i] *= std::clamp(by, 1.0e-4, 1.0e4);
       if (about > 0.0) {
         change_[i] = std::min(change_[i], kMostOfUnknown * about);
@@ -156,6 +160,10 @@ bool Shooting::derivatives(const Window& window, const Eigen::VectorXd& start, b
   out.by_unknowns.resize(rows, unknowns_wanted ? unknowns() : 0);
   for (Eigen::Index i = 0; i < out.by_unknowns.cols(); ++i) {
     const Neighbours& n = neighbours_[static_cast<std::size_t>(i)];
+    if (!maker_.unknowns()[static_cast<std::size_t>(i)].concerns(window.run)) {
+      out.by_unknowns.col(i).setZero();
+      continue;
+    }
     above = below = out.residuals;
     if ((n.above && !residualsOf(*n.above, window, start, above)) ||
         (n.below && !residualsOf(*n.below, window, start, below))) {

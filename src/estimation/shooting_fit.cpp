@@ -77,9 +77,8 @@ void measure(const FitStudy& study, const Candidate& candidate, std::size_t r, F
   }
 }
 
-FittedRun predictedRun(const FitStudy& study, ShootingSolver& solver, std::size_t r) {
-  ShootingStage stage = solver.stageOf(study.window, r);
-  solver.findStarts(stage);
+FittedRun predictedRun(const FitStudy& study, ShootingSolver& solver, const ShootingStage& stage,
+                       std::size_t r) {
   FittedRun run;
   for (std::size_t w = 0; w < stage.windows.size(); ++w) {
     const Eigen::MatrixXd states = solver.states(stage, w);
@@ -87,7 +86,30 @@ FittedRun predictedRun(const FitStudy& study, ShootingSolver& solver, std::size_
     run.states.rightCols(states.cols()) = states;
   }
   measure(study, solver.candidate(), r, run);
+  for (Eigen::Index i = 0; i < solver.theta().size(); ++i) {
+    const Unknown& u = solver.maker().unknowns()[static_cast<std::size_t>(i)];
+    if (u.run == r) {
+      run.own.emplace_back(u, solver.theta()[i]);
+    }
+  }
   return run;
+}
+
+/// A run with the starts of its windows, and with what it has for itself where that is not found
+/// yet.
+FittedRun predictedRun(const FitStudy& study, ShootingSolver& solver, std::size_t r) {
+  ShootingStage stage = solver.stageOf(study.window, r);
+  const std::vector<bool> arrived = solver.findStarts(stage);
+  if (!study.runs[r].train || study.validate_only) {
+    CandidateMaker maker = solver.maker().ofRun(r, solver.theta());
+    if (!maker.unknowns().empty() &&
+        std::all_of(arrived.begin(), arrived.end(), [](bool there) { return there; })) {
+      ShootingSolver own(study, std::move(maker));
+      own.solve(stage, true, Eigen::MatrixXd(0, own.theta().size()));
+      return predictedRun(study, own, stage, r);
+    }
+  }
+  return predictedRun(study, solver, stage, r);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "estimation/fit_study.h"
@@ -19,6 +20,8 @@ struct FittedRun {
   std::vector<double> rms;  ///< of each channel [its unit], over all windows
   /// Of each channel, correlation of a residual with the next one: 0 for white ones.
   std::vector<double> persistence;
+  /// The numbers of sensors that it has for itself, with their values.
+  std::vector<std::pair<Unknown, double>> own;
 };
 
 struct ShootingFit {

@@ -9,6 +9,7 @@
 #include <limits>
 #include <memory>
 #include <thread>
+#include <utility>
 
 #include "estimation/shooting_costs.h"
 #include "messages/refusal.h"
@@ -37,8 +38,8 @@ ceres::Solver::Options quiet(int iterations) {
 
 }  // namespace
 
-ShootingSolver::ShootingSolver(const FitStudy& study)
-    : study_(study), maker_(study), shooting_(study, maker_) {
+ShootingSolver::ShootingSolver(const FitStudy& study, CandidateMaker maker)
+    : study_(study), maker_(std::move(maker)), shooting_(study, maker_) {
   theta_.resize(shooting_.unknowns());
   for (Eigen::Index i = 0; i < theta_.size(); ++i) {
     const Unknown& u = unknown(i);
@@ -130,6 +131,7 @@ void ShootingSolver::solve(ShootingStage& stage, bool thorough, const Eigen::Mat
   if (summary.termination_type == ceres::FAILURE) {
     throw RunFailure(fmt::format("{}: the fit failed: {}", study_.source, summary.message));
   }
+  shooting_.setPoint(theta_, false);
 }
 
 NormalEquations ShootingSolver::normalEquations(const ShootingStage& stage) {

@@ -28,7 +28,8 @@ class ShootingSolver final : public ceres::EvaluationCallback {
 
   /// At the start values of the study, which outlives it. Throws Refusal for those that the model
   /// cannot have.
-  explicit ShootingSolver(const FitStudy& study);
+  explicit ShootingSolver(const FitStudy& study) : ShootingSolver(study, CandidateMaker(study)) {}
+  ShootingSolver(const FitStudy& study, CandidateMaker maker);
 
   const CandidateMaker& maker() const { return maker_; }
   const Eigen::VectorXd& theta() const { return theta_; }

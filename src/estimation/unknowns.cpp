@@ -17,7 +17,7 @@ constexpr double kLongestDelay = 1.0;  // s
 
 void addOnce(std::vector<Unknown>& all, Unknown unknown) {
   const bool known = std::any_of(all.begin(), all.end(), [&](const Unknown& u) {
-    return u.kind == unknown.kind && u.subject == unknown.subject;
+    return u.kind == unknown.kind && u.subject == unknown.subject && u.run == unknown.run;
   });
   if (!known) {
     all.push_back(std::move(unknown));
@@ -45,64 +45,80 @@ Unknown parameterUnknown(const FittedParameter& fitted, const ModelInfo& model) 
   return u;
 }
 
-void addSensors(const StudyRun& run, std::vector<Unknown>& all) {
+/// One number of a sensor; name and subject without the run.
+struct SensorNumber {
+  const GivenOrFitted& number;
+  Unknown unknown;
+};
+
+std::vector<SensorNumber> numbersOf(const StudyRun& run) {
+  std::vector<SensorNumber> all;
   for (const MeasuredChannel& c : run.measured) {
-    if (c.offset.fitted) {
-      addOnce(all, {Unknown::Kind::kChannelOffset, c.name, c.name + ".offset", c.unit,
-                    c.offset.value, -kNoBound, kNoBound});
-    }
-    if (c.scale.fitted) {
-      addOnce(all, {Unknown::Kind::kChannelScale, c.name, c.name + ".scale", "-", c.scale.value,
-                    kLeastScale, kNoBound});
-    }
+    all.push_back({c.offset,
+                   {Unknown::Kind::kChannelOffset, c.name, c.name + ".offset", c.unit,
+                    c.offset.value, -kNoBound, kNoBound}});
+    all.push_back({c.scale,
+                   {Unknown::Kind::kChannelScale, c.name, c.name + ".scale", "-", c.scale.value,
+                    kLeastScale, kNoBound}});
   }
   for (const MeasuredInput& i : run.inputs) {
-    if (i.offset.fitted) {
-      addOnce(all, {Unknown::Kind::kInputOffset, i.name, i.name + ".offset", "", i.offset.value,
-                    -kNoBound, kNoBound});
+    all.push_back({i.offset,
+                   {Unknown::Kind::kInputOffset, i.name, i.name + ".offset", "", i.offset.value,
+                    -kNoBound, kNoBound}});
+    all.push_back({i.scale,
+                   {Unknown::Kind::kInputScale, i.name, i.name + ".scale", "-", i.scale.value,
+                    kLeastScale, kNoBound}});
+    all.push_back({i.delay,
+                   {Unknown::Kind::kInputDelay, i.name, i.name + ".delay", "s", i.delay.value,
+                    -kLongestDelay, kLongestDelay}});
+  }
+  return all;
+}
+
+void addSensors(const FitStudy& study, std::size_t r, bool shared, std::vector<Unknown>& all) {
+  for (SensorNumber& one : numbersOf(study.runs[r])) {
+    if (!one.number.fitted || !(shared || one.number.each_run)) {
+      continue;
     }
-    if (i.scale.fitted) {
-      addOnce(all, {Unknown::Kind::kInputScale, i.name, i.name + ".scale", "-", i.scale.value,
-                    kLeastScale, kNoBound});
+    if (one.number.each_run) {
+      one.unknown.run = r;
+      one.unknown.name += " of " + study.runs[r].file;
     }
-    if (i.delay.fitted) {
-      addOnce(all, {Unknown::Kind::kInputDelay, i.name, i.name + ".delay", "s", i.delay.value,
-                    -kLongestDelay, kLongestDelay});
-    }
+    addOnce(all, std::move(one.unknown));
   }
 }
 
 template <class Column>
-void takeValue(std::vector<Column>& columns, const std::string& name, GivenOrFitted Column::*which,
+void takeValue(std::vector<Column>& columns, const Unknown& unknown, GivenOrFitted Column::*which,
                double value) {
   for (Column& column : columns) {
-    if (column.name == name && (column.*which).fitted) {
-      (column.*which).value = value;
+    GivenOrFitted& number = column.*which;
+    if (column.name == unknown.subject && number.fitted &&
+        number.each_run == unknown.run.has_value()) {
+      number.value = value;
     }
   }
 }
 
-void take(std::vector<StudyRun>& runs, const Unknown& unknown, double value) {
-  for (StudyRun& run : runs) {
-    switch (unknown.kind) {
-      case Unknown::Kind::kParameter:
-        break;
-      case Unknown::Kind::kChannelOffset:
-        takeValue(run.measured, unknown.subject, &MeasuredChannel::offset, value);
-        break;
-      case Unknown::Kind::kChannelScale:
-        takeValue(run.measured, unknown.subject, &MeasuredChannel::scale, value);
-        break;
-      case Unknown::Kind::kInputOffset:
-        takeValue(run.inputs, unknown.subject, &MeasuredInput::offset, value);
-        break;
-      case Unknown::Kind::kInputScale:
-        takeValue(run.inputs, unknown.subject, &MeasuredInput::scale, value);
-        break;
-      case Unknown::Kind::kInputDelay:
-        takeValue(run.inputs, unknown.subject, &MeasuredInput::delay, value);
-        break;
-    }
+void take(StudyRun& run, const Unknown& unknown, double value) {
+  switch (unknown.kind) {
+    case Unknown::Kind::kParameter:
+      break;
+    case Unknown::Kind::kChannelOffset:
+      takeValue(run.measured, unknown, &MeasuredChannel::offset, value);
+      break;
+    case Unknown::Kind::kChannelScale:
+      takeValue(run.measured, unknown, &MeasuredChannel::scale, value);
+      break;
+    case Unknown::Kind::kInputOffset:
+      takeValue(run.inputs, unknown, &MeasuredInput::offset, value);
+      break;
+    case Unknown::Kind::kInputScale:
+      takeValue(run.inputs, unknown, &MeasuredInput::scale, value);
+      break;
+    case Unknown::Kind::kInputDelay:
+      takeValue(run.inputs, unknown, &MeasuredInput::delay, value);
+      break;
   }
 }
 
@@ -130,9 +146,9 @@ std::vector<Unknown> unknownsOf(const FitStudy& study, const SharedSystem& syste
   for (const FittedParameter& fitted : study.fit) {
     all.push_back(parameterUnknown(fitted, *system->model));
   }
-  for (const StudyRun& run : study.runs) {
-    if (run.train) {
-      addSensors(run, all);
+  for (std::size_t r = 0; r < study.runs.size(); ++r) {
+    if (study.runs[r].train) {
+      addSensors(study, r, true, all);
     }
   }
   return all;
@@ -143,6 +159,15 @@ CandidateMaker::CandidateMaker(const FitStudy& study)
       scene_(build(study.scene)),
       unknowns_(unknownsOf(study, scene_.systems.front())) {}
 
+CandidateMaker CandidateMaker::ofRun(std::size_t run, const Eigen::VectorXd& theta) const {
+  CandidateMaker own = *this;
+  own.known_ = unknowns_;
+  own.known_values_ = theta;
+  own.unknowns_.clear();
+  addSensors(study_, run, false, own.unknowns_);
+  return own;
+}
+
 Candidate CandidateMaker::at(const Eigen::VectorXd& theta) const {
   Candidate candidate;
   std::vector<std::string> paths;
@@ -150,14 +175,22 @@ Candidate CandidateMaker::at(const Eigen::VectorXd& theta) const {
   for (const StudyRun& run : study_.runs) {
     candidate.runs.push_back({run.file, run.train, run.measured, run.inputs, {}});
   }
-  for (std::size_t i = 0; i < unknowns_.size(); ++i) {
-    const double value = theta[static_cast<Eigen::Index>(i)];
-    if (unknowns_[i].kind == Unknown::Kind::kParameter) {
-      paths.push_back(unknowns_[i].subject);
+  const auto apply = [&](const Unknown& unknown, double value) {
+    if (unknown.kind == Unknown::Kind::kParameter) {
+      paths.push_back(unknown.subject);
       values.push_back(value);
-    } else {
-      take(candidate.runs, unknowns_[i], value);
     }
+    for (std::size_t r = 0; r < candidate.runs.size(); ++r) {
+      if (unknown.concerns(r)) {
+        take(candidate.runs[r], unknown, value);
+      }
+    }
+  };
+  for (std::size_t i = 0; i < known_.size(); ++i) {
+    apply(known_[i], known_values_[static_cast<Eigen::Index>(i)]);
+  }
+  for (std::size_t i = 0; i < unknowns_.size(); ++i) {
+    apply(unknowns_[i], theta[static_cast<Eigen::Index>(i)]);
   }
   const SharedSystem& base = scene_.systems.front();
   candidate.system = paths.empty() ? base : base->with(paths, values, study_.source);

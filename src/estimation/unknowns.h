@@ -1,10 +1,12 @@
 // The numbers that a fit finds, as one vector: parameters of the system first, then zeros, scales
 // and delays of sensors. A zero or a scale of the same coordinate or input is one unknown, in
-// whichever runs it is asked for.
+// whichever runs it is asked for, or one for each run.
 #pragma once
 
 #include <Eigen/Core>
 #include <cmath>
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,8 +30,10 @@ struct Unknown {
   std::string name;     ///< as told: `mass1`, `theta1.offset`, `torque1.delay`
   std::string unit;     ///< "" where the model's are not known, of a path into a table
   double start = 0.0;
-  double least = 0.0, most = 0.0;  ///< may be infinite
+  double least = 0.0, most = 0.0;                 ///< may be infinite
+  std::optional<std::size_t> run = std::nullopt;  ///< the only one that it belongs to
 
+  bool concerns(std::size_t a_run) const { return !run || *run == a_run; }
   /// What its changes are measured by where it has this value; 0 where it has none.
   double size(double value) const { return std::fmax(std::fabs(value), std::fabs(start)); }
 };
@@ -50,6 +54,9 @@ class CandidateMaker {
   /// The study outlives it.
   explicit CandidateMaker(const FitStudy& study);
 
+  /// The unknowns that a run has for itself, all others at these values.
+  CandidateMaker ofRun(std::size_t run, const Eigen::VectorXd& theta) const;
+
   const std::vector<Unknown>& unknowns() const { return unknowns_; }
   const BuiltScene& scene() const { return scene_; }
   /// Throws Refusal for parameters that the model cannot have.
@@ -58,6 +65,8 @@ class CandidateMaker {
  private:
   const FitStudy& study_;
   BuiltScene scene_;
+  std::vector<Unknown> known_;  ///< at these values:
+  Eigen::VectorXd known_values_;
   std::vector<Unknown> unknowns_;
 };
 

@@ -9,6 +9,10 @@
 
 namespace whirl_twin {
 
+/// What is odd about the runs of a study, with their rows.
+std::string checkText(const FitStudy& study);
+Json checkJson(const FitStudy& study);
+
 std::string text(const FitStudy& study, const ShootingFit& fit);
 Json json(const FitStudy& study, const ShootingFit& fit);
 /// The parameters.

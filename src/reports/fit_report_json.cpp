@@ -17,6 +17,18 @@ CsvTables tables(const ShootingFit& fit) {
   return {table};
 }
 
+Json checkJson(const FitStudy& study) {
+  Json json;
+  json["runs"] = Json::object();
+  for (const StudyRun& run : study.runs) {
+    Json& one = json["runs"][run.file];
+    one["rows"] = run.data.time.size();
+    one["duration"] = run.data.duration();
+    one["remarks"] = run.data.remarks;
+  }
+  return json;
+}
+
 Json json(const FitStudy& study, const ShootingFit& fit) {
   Json json;
   json["scene"] = study.scene_path;
@@ -49,6 +61,9 @@ Json json(const FitStudy& study, const ShootingFit& fit) {
     for (std::size_t c = 0; c < run.measured.size(); ++c) {
       one["rms"][run.measured[c].name] = fit.runs[r].rms[c];
       one["persistence"][run.measured[c].name] = fit.runs[r].persistence[c];
+    }
+    for (const auto& [own, value] : fit.runs[r].own) {
+      one["own"][own.name] = value;
     }
     one["remarks"] = run.data.remarks;
   }

@@ -76,6 +76,11 @@ std::string runText(const FitStudy& study, const ShootingFit& fit) {
       persistent = persistent || fit.runs[r].persistence[c] > kPersistent;
     }
     out += "\n";
+    for (const auto& [own, value] : fit.runs[r].own) {
+      if (!run.train || study.validate_only) {  // others stand among what was found
+        out += fmt::format("      {} {:.4g} {}\n", printable(own.name, 60), value, own.unit);
+      }
+    }
     for (const std::string& remark : run.data.remarks) {
       out += "      " + printable(remark, 200) + "\n";
     }
@@ -89,6 +94,19 @@ std::string runText(const FitStudy& study, const ShootingFit& fit) {
 }
 
 }  // namespace
+
+std::string checkText(const FitStudy& study) {
+  std::string out;
+  for (const StudyRun& run : study.runs) {
+    out += fmt::format("{}: {} rows, {:.6g} s\n", printable(run.file), run.data.time.size(),
+                       run.data.duration());
+    for (const std::string& remark : run.data.remarks) {
+      out += "  " + printable(remark, 200) + "\n";
+    }
+    out += run.data.remarks.empty() ? "  nothing odd\n" : "";
+  }
+  return out;
+}
 
 std::string directionText(const ShootingFit& fit, const UntoldDirection& direction) {
   std::vector<Eigen::Index> places(static_cast<std::size_t>(direction.parts.size()));

@@ -46,6 +46,8 @@ constexpr const char* kFooter =
     "A coordinate, or its rate as theta1_rate, is scale * state + offset:\n"
     "  measured: {theta1: {column: q1, offset: fit, scale: 1.0, deviation: 0.001}}\n"
     "  inputs: {torque1: {column: tau, scale: fit, offset: fit, delay: fit, hold: true}}\n"
+    "A number that is `fit` is one for all runs; `each_run`: another in each, validated ones, "
+    "too.\n"
     "Values start as in the scene. In directions that the runs do not tell they stay there, and "
     "that is\nsaid. Exit status: 0 fitted; 1 no fit was found; 2 a study, scene or run that cannot "
     "be used.";
@@ -56,6 +58,7 @@ struct Request {
   std::optional<std::string> plot, csv;
   std::string lcm_prefix = kDefaultLcmPrefix;
   bool validate_only = false;
+  bool check = false;
   bool json = false;
   bool insist = false;
 };
@@ -82,11 +85,19 @@ int fit(const Request& request) {
   requireLcmPrefix(request.lcm_prefix);
   requireCsvName(request.csv);
   const FitStudy study =
-      readFitStudy(request.study, request.validate_only,
+      readFitStudy(request.study, request.validate_only || request.check,
                    [&](const std::string& path, const std::string& time,
                        const std::vector<std::string>& columns) {
                      return readRecordedRun(path, request.lcm_prefix, time, columns);
                    });
+  if (request.check) {
+    if (request.json) {
+      printJson(checkJson(study));
+    } else {
+      printText(checkText(study));
+    }
+    return kDone;
+  }
   std::optional<ProgressBar> bar;
   const ShootingFit fit = fitByShooting(study, [&](int done, int of) {
     if (!bar) {
@@ -134,6 +145,8 @@ void addFitCommand(CLI::App& twin, int& status) {
       ->type_name("PREFIX");
   command->add_flag("--validate-only", request->validate_only,
                     "find nothing but the starts of windows");
+  command->add_flag("--check", request->check,
+                    "fit nothing: tell what is odd about the runs, with its rows");
   addCsvOption(command, request->csv);
   command->add_flag("--json", request->json, "print one JSON object");
   addInsistOption(command, request->insist);

@@ -12,6 +12,7 @@
 #include <functional>
 #include <limits>
 #include <random>
+#include <string>
 
 #include "estimation/window_motion.h"
 #include "scene/scene_reader.h"
@@ -178,6 +179,41 @@ TEST(ShootingFit, FindsZeroScaleAndDelayOfSensors) {
   EXPECT_NEAR(found(fit, "torque.scale"), 2.0, 2e-3);
   EXPECT_NEAR(found(fit, "torque.offset"), -0.2, 1e-3);
   EXPECT_NEAR(found(fit, "torque.delay"), -0.012, 2e-4);
+}
+
+/// An encoder that is zeroed where a dry joint happens to hang has another zero in each run: one
+/// for all is wrong, and so are then the parameters; a run that is left out has its own, too.
+TEST(ShootingFit, FindsAZeroOfEachRun) {
+  const double zeros[] = {0.03, -0.05, 0.04};
+  std::vector<StudyRun> runs;
+  for (const double zero : zeros) {
+    runs.push_back(recorded({pendulum(0.7, 0.02, 0.03, 0.05), {0.4 - zero, 0.0}, 5.0, 0.0, torque},
+                            "run " + std::to_string(runs.size() + 1), 1));
+    for (double& angle : runs.back().data.columns[0].values) {
+      angle += zero;
+    }
+    runs.back().measured[0].offset.fitted = runs.back().measured[0].offset.each_run = true;
+  }
+  runs[2].train = false;
+  FitStudy study =
+      studyOf(pendulum(0.7, 0.05, 0.01, 0.01), runs, {"inertia", "damping", "coulomb"});
+  const ShootingFit fit = fitted(study);
+  EXPECT_NEAR(found(fit, "inertia"), 0.02, 1e-6);
+  EXPECT_NEAR(found(fit, "coulomb"), 0.05, 1e-6);
+  EXPECT_NEAR(found(fit, "theta.offset of run 1"), zeros[0], 1e-6);
+  EXPECT_NEAR(found(fit, "theta.offset of run 2"), zeros[1], 1e-6);
+  ASSERT_EQ(fit.runs[2].own.size(), 1u);
+  EXPECT_EQ(fit.runs[2].own[0].first.name, "theta.offset of run 3");
+  EXPECT_NEAR(fit.runs[2].own[0].second, zeros[2], 1e-6);
+  EXPECT_LT(fit.runs[2].rms[0], 1e-6);
+  EXPECT_EQ(fit.unknowns.size(), 5u);
+  // One zero for all is far off.
+  for (StudyRun& run : study.runs) {
+    run.measured[0].offset.each_run = false;
+  }
+  const ShootingFit shared = fitted(study);
+  EXPECT_GT(shared.runs[0].rms[0], 0.01);
+  EXPECT_TRUE(shared.runs[2].own.empty());
 }
 
 /// A free swing does not tell a mass: all of it may be any number of times as large.

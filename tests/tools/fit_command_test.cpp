@@ -97,6 +97,23 @@ TEST_F(Fit, ValidateOnlyFindsStartsAlone) {
   EXPECT_GT(end.json()["runs"]["swing_1.csv"]["rms"]["theta"], 1e-3);  // a wrong guess
 }
 
+TEST_F(Fit, ChecksRunsWithoutAnyFit) {
+  directory_.write("stuck.csv",
+                   "time,q\n0.00,0.1\n0.01,0.2\n0.01,0.2\n0.02,0.3\n0.03,0.5\n0.50,0.4\n"
+                   "0.51,0.2\n0.52,0.1\n0.53,0.0\n");
+  const std::string study =
+      std::string(kRuns) + "  - {file: stuck.csv, measured: {theta: q}}\nfit: {inertia: }\n";
+  const Ending end = fit(study, {"--check"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  EXPECT_THAT(end.out, HasSubstr("swing_1.csv: 801 rows, 4 s\n  nothing odd\n"));
+  EXPECT_THAT(end.out, HasSubstr("stuck.csv: 8 rows, 0.53 s\n"));
+  EXPECT_THAT(end.out, HasSubstr("gap"));
+  const nlohmann::json json = fit(study, {"--check", "--json"}).json();
+  EXPECT_TRUE(json["runs"]["swing_1.csv"]["remarks"].empty());
+  EXPECT_FALSE(json["runs"]["stuck.csv"]["remarks"].empty());
+  EXPECT_FALSE(json.contains("parameters"));
+}
+
 TEST_F(Fit, SaysWhatIsNotTold) {
   const Ending end = fit(std::string(kRuns) + "fit: {mass: , inertia: , damping: , coulomb: }\n");
   ASSERT_EQ(end.status, 0) << end.err;

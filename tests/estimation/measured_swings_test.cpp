@@ -1,0 +1,117 @@
+// The measured swings that are shipped: a double pendulum on a laboratory rig, fitted on some of
+// them, predicts the others.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "estimation/shooting_fit.h"
+#include "scene/built_scene.h"
+#include "scene/scene_reader.h"
+
+namespace whirl_twin {
+namespace {
+
+constexpr double kBetweenSwings = 1.0;  // s, at least
+constexpr double kBar = 1.8e-3;         // rad
+
+MeasuredChannel channel(const std::string& name, std::size_t state) {
+  MeasuredChannel c;
+  c.name = c.column = name;
+  c.state = state;
+  c.unit = "rad";
+  c.offset.fitted = true;
+  return c;
+}
+
+/// The record has one swing after another, with nothing measured between.
+std::vector<StudyRun> swings() {
+  const MeasuredRun all = readMeasuredRun(WHIRL_TWIN_SOURCE "/config/records/multi_arm_swings.csv",
+                                          "time", {"theta1", "theta2"});
+  std::vector<StudyRun> runs;
+  for (std::size_t k = 0; k < all.time.size(); ++k) {
+    if (k == 0 || all.time[k] - all.time[k - 1] > kBetweenSwings) {
+      StudyRun run;
+      run.file = "swing " + std::to_string(runs.size() + 1);
+      run.train = true;
+      run.measured = {channel("theta1", 0), channel("theta2", 1)};
+      run.data.columns = {{"theta1", {}}, {"theta2", {}}};
+      runs.push_back(run);
+    }
+    MeasuredRun& data = runs.back().data;
+    data.time.push_back(all.time[k]);
+    data.columns[0].values.push_back(all.column("theta1")[k]);
+    data.columns[1].values.push_back(all.column("theta2")[k]);
+  }
+  return runs;
+}
+
+/// Of the swings as one window each; what is `absent` is 0.
+FitStudy study(const std::vector<std::string>& parameters,
+               const std::vector<std::string>& absent = {}) {
+  FitStudy study;
+  study.source = "study.yaml";
+  study.scene = readSceneFile(WHIRL_TWIN_SOURCE "/config/scenes/measured_swing.yaml");
+  study.scene.sensors.clear();
+  study.scene.step = 2'000'000;  // ns
+  for (const std::string& path : absent) {
+    study.scene.systems.front().parameters[path] = 0.0;
+  }
+  study.system = "pendulum";
+  study.runs = swings();
+  study.window = std::numeric_limits<double>::infinity();
+  const SharedSystem system = build(study.scene).systems.front();
+  for (const std::string& path : parameters) {
+    study.fit.push_back({path, system->parameter(path).value()});
+  }
+  return study;
+}
+
+/// Over both angles and the whole swing [rad].
+double rms(const FittedRun& run) {
+  return std::sqrt(0.5 * (run.rms[0] * run.rms[0] + run.rms[1] * run.rms[1]));
+}
+
+/// Three swings tell what the other five do, of which the widest lies beyond all that they show.
+TEST(MeasuredSwings, ThatAreLeftOutArePredicted) {
+  FitStudy three = study({"length1", "center1", "center2", "inertia1", "damping1", "coulomb1",
+                          "coulomb2", "drag2", "drag_reach2"},
+                         {"damping2"});
+  ASSERT_EQ(three.runs.size(), 8u);
+  for (const std::size_t left_out : {0u, 2u, 4u, 6u, 7u}) {
+    three.runs[left_out].train = false;
+  }
+  const ShootingFit fit = fitByShooting(three, [](int, int) {});
+  EXPECT_TRUE(fit.converged);
+  for (std::size_t r = 0; r < three.runs.size(); ++r) {
+    EXPECT_LT(rms(fit.runs[r]), kBar) << three.runs[r].file;
+  }
+  for (Eigen::Index i = 0; i < fit.theta.size(); ++i) {
+    const Unknown& u = fit.unknowns[static_cast<std::size_t>(i)];
+    EXPECT_TRUE(u.kind != Unknown::Kind::kParameter || fit.theta[i] >= 0.0) << u.name;
+  }
+}
+
+/// The widest and the smallest: neither friction that grows with the rate nor that of the joints
+/// alone explains both.
+TEST(MeasuredSwings, NeedDryFrictionAndAir) {
+  const auto ofTwo = [](const std::vector<std::string>& parameters,
+                        const std::vector<std::string>& absent) {
+    FitStudy two = study(parameters, absent);
+    two.runs = {two.runs.front(), two.runs.back()};
+    const ShootingFit fit = fitByShooting(two, [](int, int) {});
+    return std::max(rms(fit.runs[0]), rms(fit.runs[1]));
+  };
+  EXPECT_GT(ofTwo({"length1", "center1", "center2", "inertia1", "damping1", "coulomb1", "coulomb2"},
+                  {"damping2", "drag2"}),
+            2.0 * kBar);
+  EXPECT_GT(ofTwo({"length1", "center1", "center2", "inertia1", "damping1", "drag2", "drag_reach2"},
+                  {"damping2", "coulomb1", "coulomb2"}),
+            kBar);
+}
+
+}  // namespace
+}  // namespace whirl_twin
