@@ -9,7 +9,7 @@
 #include "estimation/bearing_forces.h"
 #include "estimation/drift_watch.h"
 #include "estimation/residual_watch.h"
-#include "estimation/system_filter.h"
+#include "estimation/starting_filter.h"
 #include "messages/follow_state.h"
 #include "twin/twin.h"
 
@@ -27,7 +27,7 @@ struct FollowedTrack {
   void tellWhatIsKnown(double time);
 
   std::size_t index;  // of the twin's systems
-  SystemFilter filter;
+  StartingFilter filter;
   std::size_t drive;
   bool runs = false;
   std::int64_t began = 0;      // [ns], to be followed

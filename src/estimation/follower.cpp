@@ -108,10 +108,10 @@ void Follower::addSensors(const FollowSettings& settings) {
     const std::string& name = scene.systems[system].name;
     const std::size_t drive = twin_.systems()[system]->drive;
     if (drive < twin_.driveCount() && twin_.isMotor(drive)) {
-      throw Refusal(
-          fmt::format("{}: systems.{}: is turned by a motor, whose torque nobody "
-                      "measures: give it a drive, and a keyphasor",
-                      scene.source, name));
+      throw Refusal(fmt::format(
+          "{}: systems.{}: is turned by a motor, whose torque nobody measures: give its "
+          "shaft a keyphasor, which tells how it turns, or another drive",
+          scene.source, name));
     }
     if (std::all_of(channels.begin(), channels.end(),
                     [](const FollowedChannel& c) { return c.input.has_value(); })) {
@@ -370,7 +370,7 @@ void Follower::writeRecord(std::int64_t step) {
       continue;
     }
     FollowedTrack& followed = *system;
-    SystemFilter& filter = followed.filter;
+    StartingFilter& filter = followed.filter;
     if (followed.runs && filter.model().system() != followed.model &&
         instant >= followed.next_generation) {
       followed.model = filter.model().system();

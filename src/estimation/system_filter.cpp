@@ -253,7 +253,9 @@ void SystemFilter::turnWhatTurns(double angle) {
 
 void SystemFilter::goOn(const ShaftInstant& there) {
   const ShaftPath path = pathBetween(now_, there);
-  model_.follow(numbers());
+  if (!held_) {
+    model_.follow(numbers());
+  }
   if (!stations_.empty()) {
     const Eigen::LDLT<Eigen::MatrixXd> mass(
         model_.system()->dynamics->massMatrix(q(), v(), path.at(0.0)));
@@ -517,11 +519,20 @@ Innovation SystemFilter::take(std::size_t channel, double value, double deviatio
 /// themselves, is about how far it may be off, in radians and logarithms: that much of what it
 /// knows is no better than noise, or a filter that begins with little would soon be too sure.
 double SystemFilter::derivativeDoubt() const {
-  double doubt = filter_.covariance().diagonal().segment(2 * n_, m_).sum();
+  double doubt = held_ ? 0.0 : parameterVariance();
   if (!model_.system()->dynamics->linear()) {
     doubt += filter_.covariance().diagonal().head(n_).cwiseProduct(angles_).sum();
   }
   return doubt;
+}
+
+double SystemFilter::parameterVariance() const {
+  return filter_.covariance().diagonal().segment(2 * n_, m_).sum();
+}
+
+bool SystemFilter::holdModel(const Eigen::VectorXd& numbers) {
+  held_ = model_.follow(numbers);
+  return held_;
 }
 
 double SystemFilter::parameter(std::size_t index) const {

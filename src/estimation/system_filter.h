@@ -100,6 +100,16 @@ class SystemFilter {
   Eigen::Vector2d unbalance(std::size_t station) const;
   Eigen::Matrix2d unbalanceCovariance(std::size_t station) const;
   double offset(std::size_t channel) const;
+
+  /// The numbers of the parameters (followed_model.h), their deviations, and their variances
+  /// summed.
+  Eigen::VectorXd numbers() const { return filter_.state().segment(2 * n_, m_); }
+  double numberDeviation(Eigen::Index i) const { return filter_.deviation(2 * n_ + i); }
+  double parameterVariance() const;
+  /// Derivatives are those at these numbers from now on, wherever the estimate goes, and are taken
+  /// for right. False where a system cannot have them.
+  bool holdModel(const Eigen::VectorXd& numbers);
+  void releaseModel() { held_ = false; }
   bool hasOffset(std::size_t channel) const { return offset_of_[channel] >= 0; }
 
  private:
@@ -127,7 +137,6 @@ class SystemFilter {
   Eigen::MatrixXd unbalanceColumns(const ShaftPath& path, double part) const;
   Eigen::VectorXd rowOf(std::size_t channel) const;
   double derivativeDoubt() const;
-  Eigen::VectorXd numbers() const { return filter_.state().segment(2 * n_, m_); }
 
   std::vector<FollowedChannel> channels_;
   SystemFollowing settings_;
@@ -145,6 +154,7 @@ class SystemFilter {
   KalmanFilter filter_;
   ShaftInstant now_;
   bool by_probes_ = false;
+  bool held_ = false;                   // the model stays at the numbers that it is set up for
   double shaft_deviation_ = 0.0;        // [rad], where it is not by the probes
   std::int64_t began_ = 0;              // [ns]
   Eigen::MatrixXd by_parameter_;        // of the last step, in its middle [n x m]

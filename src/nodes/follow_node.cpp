@@ -14,6 +14,7 @@
 
 #include "estimation/clock_watch.h"
 #include "estimation/follow_settings_reader.h"
+#include "estimation/followed_scene.h"
 #include "estimation/followed_sources.h"
 #include "estimation/follower.h"
 #include "nodes/changed_parameters.h"
@@ -24,7 +25,6 @@
 #include "nodes/rival_report.h"
 #include "nodes/run_node.h"
 #include "plugins/plugins.h"
-#include "scene/scene_reader.h"
 #include "transport/channels.h"
 #include "transport/lcm_connection.h"
 #include "transport/ros_parameters.h"
@@ -89,7 +89,7 @@ void run() {
   ros::NodeHandle node(twinNamespace());
   usePlugins();
   const ParameterTree given = parameterTree(node, "scene");
-  Twin twin(readScene(given.tree, given.source));
+  Twin twin(readFollowedScene(given.tree, given.source));
   const auto machine =
       privateParameter<std::string>("machine", "the machine's namespace", "/machine");
   const auto input = privateParameter<std::string>("input", "ros or lcm", "ros");

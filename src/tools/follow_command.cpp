@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "estimation/follow_settings_reader.h"
+#include "estimation/followed_scene.h"
 #include "reports/followed_log.h"
-#include "scene/scene_reader.h"
 #include "scene/yaml_file.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
@@ -77,7 +77,7 @@ std::unique_ptr<SampleWriter> writerOf(const Request& request, const Twin& twin)
 
 int follow(const Request& request) {
   requireLcmPrefix(request.lcm_prefix);
-  const Twin twin(readSceneFile(scenePath(request.scene)));
+  const Twin twin(readFollowedSceneFile(scenePath(request.scene)));
   const FollowSettings settings =
       request.settings
           ? readFollowSettings(readYamlFile(*request.settings, "settings of a follower", "systems"),

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "estimation/followed_scene.h"
 #include "estimation/follower.h"
 #include "scene/scene_reader.h"
 #include "twin/measurements.h"
@@ -56,7 +57,7 @@ class Machine {
 class Twinned {
  public:
   Twinned(const std::string& scene, const FollowSettings& settings)
-      : twin_(sceneOf(scene)),
+      : twin_(build(readFollowedScene(YAML::Load(scene), "a test"))),
         follower(twin_, std::make_shared<SystemGenerations>(twin_), settings, 10, listener()) {}
 
   const state::FollowState& last() const { return told.back(); }
@@ -67,6 +68,7 @@ class Twinned {
   std::vector<double> time;   ///< [s], of each record
   std::vector<double> angle;  ///< [rad], of the shaft in each record
   double recorded = 0.0;      ///< [s], of the newest record
+  double speed = 0.0;         ///< [rad/s], of the shaft there
 
  private:
   FollowerListener listener() {
@@ -77,6 +79,7 @@ class Twinned {
               recorded = twin_.seconds(RecordLayout::step(record));
               time.push_back(recorded);
               angle.push_back(RecordLayout::shaft(record, 0).angle().total());
+              speed = RecordLayout::shaft(record, 0).speed();
             },
             [this](const state::FollowState& state) { told.push_back(state); }};
   }

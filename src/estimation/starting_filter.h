@@ -1,0 +1,53 @@
+// A filter that looks at its start again. One that begins with little, 10 % of a length or half of
+// a damping, learns from derivatives that are wrong by as much, and is soon too sure. So it keeps
+// what it was told since it began, and when it knows its parameters well enough, or has kept
+// enough, goes through all of it once more with the derivatives of where it has come to, until they
+// stay the same (the iterated filter, B. M. Bell, SIAM J. Optimization 4 (1994): Gauss and Newton's
+// method). What it began with is used once, whatever the number of looks.
+//
+// It costs what the steps of the start have cost, for each look, at one sample.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "estimation/system_filter.h"
+
+namespace whirl_twin {
+
+class StartingFilter final : public SystemFilter {
+ public:
+  using SystemFilter::SystemFilter;
+
+  // As those of the filter.
+  void begin(const ShaftInstant& at, std::int64_t to_twin = 0, double shaft_deviation = 0.0);
+  void goTo(const ShaftInstant& there, double shaft_deviation = 0.0);
+  Innovation take(std::size_t channel, double value, double deviation = 0.0);
+  void takeInput(std::size_t channel, const InputSample& sample);
+  void forgetMotion();
+  void startOver();
+
+  bool looksAtItsStart() const { return begun_ != nullptr; }
+
+ private:
+  struct Told {
+    enum class Kind { kBegin, kGoTo, kTake, kInput, kForget } kind = Kind::kGoTo;
+    ShaftInstant shaft{};
+    std::int64_t to_twin = 0;
+    std::size_t channel = 0;
+    double value = 0.0;
+    double deviation = 0.0;  // of a value, or of the shaft's angle
+    std::int64_t time = 0;   // of an input's sample
+  };
+
+  void keep(const Told& told);
+  void lookAgain();
+  void tell(SystemFilter& filter) const;
+
+  std::shared_ptr<const SystemFilter> begun_;  // as it was; none where nothing is kept
+  std::vector<Told> told_;
+};
+
+}  // namespace whirl_twin

@@ -1,0 +1,107 @@
+// A rotor that a motor turns, followed by its probes and its keyphasor.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "estimation/followed_scene.h"
+#include "followed_machine.h"
+#include "messages/refusal.h"
+
+namespace whirl_twin {
+namespace {
+
+using testing::HasSubstr;
+
+/// Hangs below its critical speed of 200 rad/s for a second, where the whirl takes all the torque,
+/// then more is given, and it passes.
+const std::string kMotor = R"(
+name: rig
+step: 0.0005
+drives:
+  shaft: {speed: 150.0, motor: {stall_torque: 0.9, no_load_speed: 400.0}}
+systems:
+  rotor:
+    model: jeffcott_rotor
+    drive: shaft
+    parameters: {mass: 5.0, stiffness: 2.0e5, damping: 40.0, eccentricity: 2.0e-4, polar_inertia: 0.02}
+    inputs: {torque: {amplitude: 0.1, frequency: 10.0}}
+sensors:
+  probes:
+    rate: 2000.0
+    channels:
+      x: {measures: rotor.x, noise: 3.0e-6}
+      y: {measures: rotor.y, noise: 3.0e-6}
+)";
+const std::string kTacho = "  tacho: {keyphasor: shaft, jitter: 1.0e-6}\n";
+
+TEST(FollowedMotor, IsFollowedByItsKeyphasor) {
+  FollowSettings settings;
+  settings.systems["rotor"].disturbance = 2.0e-3;
+  settings.systems["rotor"].parameters = {{"stiffness", {0.03, 0.0}}, {"damping", {0.3, 0.0}}};
+  std::string model = kMotor + kTacho;
+  model.replace(model.find("2.0e5"), 5, "2.04e5");
+  model.replace(model.find("40.0"), 4, "50.0");
+  Twinned twin(model, settings);
+  Machine machine(kMotor + kTacho);
+  double fastest = 0.0;
+  for (int k = 0; k < 20'000; ++k) {
+    for (const state::Measurement& m : machine.step()) {
+      twin.follower.take(m);
+    }
+    fastest = std::max(fastest, twin.speed);
+  }
+  EXPECT_GT(fastest, 300.0) << "it has passed";
+  ASSERT_FALSE(twin.told.empty());
+  const state::FollowState& told = twin.last();
+  EXPECT_EQ(twin.follower.restarts(), 0);
+  EXPECT_LT(told.refused, told.used / 100);
+  EXPECT_NEAR(told.value[0], 2.0e5, 0.005 * 2.0e5);
+  EXPECT_NEAR(told.value[1], 40.0, 0.2 * 40.0);
+  EXPECT_LT(told.mismatch, told.mismatch_limit);
+}
+
+TEST(FollowedMotor, OfWhichNothingTellsTheAngleIsRefused) {
+  try {
+    const Twinned twin(kMotor, {});
+    FAIL() << "followed";
+  } catch (const Refusal& refusal) {
+    EXPECT_THAT(refusal.what(), HasSubstr("systems.rotor: is turned by a motor"));
+    EXPECT_THAT(refusal.what(), HasSubstr("keyphasor"));
+  }
+}
+
+TEST(FollowedMotor, WhoseSpinIsMeasuredByAnotherSensorIsRefused) {
+  std::string scene = kMotor + kTacho;
+  scene.replace(scene.find("rotor.y"), 7, "rotor.spin");
+  try {
+    readFollowedScene(YAML::Load(scene), "a test");
+    FAIL() << "read";
+  } catch (const Refusal& refusal) {
+    EXPECT_THAT(refusal.what(), HasSubstr("sensors.probes.y: measures the spin"));
+  }
+}
+
+/// Its controller is the machine's, and only what a keyphasor looks at is measured.
+TEST(FollowedMotor, LosesItsControllerAndNothingElse) {
+  const std::string controlled = kMotor + kTacho + R"(
+controllers:
+  governor:
+    type: speed
+    rate: 1000.0
+    measures: [rotor.spin_rate]
+    acts_on: [rotor.torque]
+    parameters: {speed: 300.0, max_acceleration: 15.0, max_jerk: 60.0, inertia: 0.02, kp: 0.5, ki: 1.0,
+                 motor: [{speed: 0.0, torque: 0.6}]}
+)";
+  const Scene followed = readFollowedScene(YAML::Load(controlled), "a test");
+  EXPECT_TRUE(followed.controllers.empty());
+  EXPECT_FALSE(followed.drives[0].motor.has_value());
+  EXPECT_EQ(followed.drives[0].speed, 150.0);
+  EXPECT_EQ(followed.systems[0].q.size(), 2u);
+  EXPECT_TRUE(readFollowedScene(YAML::Load(kMotor), "a test").drives[0].motor.has_value());
+}
+
+}  // namespace
+}  // namespace whirl_twin
