@@ -113,7 +113,10 @@ TEST_P(EveryInput, OfHeldValuesClosesTheAudit) {
   if (coarse > 1e-9) {
     // The truncation of a method of low order: it falls as that does, from parts that the
     // instants make shorter than a step anyway.
-    const double order = stepMethod(GetParam().method).order;
+    // A spin that the exact step of its rotor goes with sees a torque's jump at three nodes.
+    const bool own_spin = setup.dynamics->isRotor() && !setup.dynamics->hasShaft() &&
+                          GetParam().method == "exponential";
+    const double order = own_spin ? 2.0 : stepMethod(GetParam().method).order;
     const double fine = residual(setup, inputs, step / 32);
     EXPECT_GT(order, 0.0);
     EXPECT_LT(fine, std::max(1e-9, coarse * std::pow(8.0, 0.5 - order)));
