@@ -24,7 +24,7 @@ RotorForcing forcingOf(const SpinningRotor& dynamics, const Inputs* inputs) {
 }
 
 bool finite(const LinearMotion& motion, const SpinMotion& spin) noexcept {
-  return isFinite(motion) && std::isfinite(spin.speed.high);
+  return isFinite(motion) && std::isfinite(spin.speed.high) && std::isfinite(spin.angle.high);
 }
 
 }  // namespace
@@ -57,6 +57,12 @@ SpinningRotorStepper::SpinningRotorStepper(std::shared_ptr<const SpinningRotor> 
 StepStatus SpinningRotorStepper::step(double) noexcept {
   next_ = state_;
   next_spin_ = spin_;
+  if (!finite(state_, spin_)) {
+    return StepStatus::kNotFinite;
+  }
+  if (std::fabs(spin_.angle.high) > 2.0 * ShaftAngle::kTurn) {
+    return StepStatus::kOutOfRange;
+  }
   const double h = step_ / substeps_;
   for (int i = 0; i < substeps_; ++i) {
     const StepStatus status = method_.advance(i * h, next_spin_, next_);
@@ -139,9 +145,12 @@ void SpinningRotorStepper::write(double* out) const noexcept {
 void SpinningRotorStepper::set(const double* q, const double* v) noexcept {
   const std::size_t n = dof();
   state_.set(q, v);
-  const double angle =
-      std::isfinite(q[n - 1]) && std::fabs(q[n - 1]) < kLargestStart ? q[n - 1] : 0.0;
-  spin_.set(angle, v[n - 1], free_.freeAcceleration(v[n - 1]));
+  const double angle = q[n - 1];
+  const bool has_phase = std::isfinite(angle) && std::fabs(angle) < kLargestStart;
+  spin_.set(has_phase ? angle : 0.0, v[n - 1], free_.freeAcceleration(v[n - 1]));
+  if (!has_phase) {
+    spin_.angle.high = angle;  // no step goes on from there
+  }
   method_.restart();
   errors_.restart();
 }
