@@ -11,6 +11,8 @@ namespace {
 
 /// Parts shorter than this share of a step are rounding.
 constexpr double kSliver = 1.0e-12;
+/// One step in so many is taken twice, the second time in halves.
+constexpr int kEstimateEvery = 64;
 /// [rad]: stiffer rotors go by the table over speed.
 constexpr double kLongest = 640.0;
 
@@ -63,9 +65,12 @@ LateralRotorStepper::LateralRotorStepper(const LateralRotor& rotor, const Drive&
       energy_turns_(energyTurns(rotor)),
       substeps_(substeps) {}
 
+/// Apart from the plain step, which is the faster the less stands beside it.
 StepStatus LateralRotorStepper::otherStep() noexcept {
   StepStatus status;
-  if (drive_.constantFor(step_)) {
+  if (steps_since_estimate_ + 1 < kEstimateEvery && run_up_.goesOn(drive_, motion_, status)) {
+    ++steps_since_estimate_;
+  } else if (drive_.constantFor(step_)) {
     status = exact_.advance(drive_, motion_);
   } else {
     status = changingStep();

@@ -51,17 +51,10 @@ class LateralRotorStepper : public Stepper {
     if (__builtin_expect(exact_.goesOn<lanes>(drive_, motion_, status), 1)) {
       return __builtin_expect(status == StepStatus::kOk, 1) ? status : stopped(status);
     }
-    if (steps_since_estimate_ + 1 < kEstimateEvery && run_up_.goesOn(drive_, motion_, status)) {
-      ++steps_since_estimate_;
-      return __builtin_expect(status == StepStatus::kOk, 1) ? status : stopped(status);
-    }
     return otherStep();
   }
 
  private:
-  /// One step in so many is taken twice, the second time in halves.
-  static constexpr int kEstimateEvery = 64;
-
   StepStatus otherStep() noexcept;
   /// The shaft goes on without the rotor: what energy it has besides is that of now.
   StepStatus stopped(StepStatus why) noexcept;
