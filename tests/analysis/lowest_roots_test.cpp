@@ -7,13 +7,10 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "analysis/growth_radius.h"
 #include "analysis/lowest_eigenvalues.h"
-#include "models/flexible_shaft_settings.h"
 #include "random_shafts.h"
-#include "scene/scene_reader.h"
 
 namespace whirl_twin {
 namespace {
@@ -96,35 +93,6 @@ TEST(LowestRoots, AreThoseOfTheDenseSolutionAndNoneThatGrowsIsAmongTheOmitted) {
   }
   EXPECT_GE(proved, 25);
   EXPECT_GE(growing, 10);
-}
-
-// Of those whose dense solution in extended precision is a matter of seconds; in double precision
-// it is not good to 1e-9 itself.
-TEST(LowestRoots, OfTheShippedRotorsAreThoseOfTheDenseSolution) {
-  int rotors = 0;
-  for (const auto& file : std::filesystem::directory_iterator(WHIRL_TWIN_SOURCE "/config/scenes")) {
-    const Scene scene = readSceneFile(file.path().string());
-    for (const SystemSpec& system : scene.systems) {
-      if (system.model != "flexible_rotor") {
-        continue;
-      }
-      const RotorAssembly rotor(flexibleShaft(system.parameters, system.settings, scene.gravity));
-      constexpr double kSpeed = 400.0;
-      const auto lowest = lowestRoots(pencilOf(rotor.bandedMatrices(kSpeed)), 12);
-      if (!lowest || rotor.dof() > 100) {
-        continue;
-      }
-      std::vector<Complex> values;
-      for (const PencilRoot& root : lowest->roots) {
-        values.push_back(root.value);
-      }
-      EXPECT_GE(values.size(), 12u);
-      EXPECT_LE(worstDifference(values, allEigenvalues(rotor.matrices(kSpeed))), 1.0e-9)
-          << file.path();
-      ++rotors;
-    }
-  }
-  EXPECT_GE(rotors, 3);
 }
 
 // Twice each, forward and backward: a method of single vectors finds one of them.
