@@ -53,6 +53,8 @@ class Commands(NodeTrial):
         self.remote = self.start('command_bridge_node', '__name:=remote', '_role:=send')
         self.assertTrue(wait_until(lambda: self.diagnosed('taker: commands', OK, 'nobody commands')),
                         '\n'.join(map(self.log, self.processes)) + str(self.status))
+        for service in ('pause', 'resume', 'step', 'set_speed', 'set_parameter', 'set_input'):
+            rospy.wait_for_service('/simulation_node/' + service, 30)
 
     def hear(self):
         for channel, data in LcmReceiver('udpm://239.255.76.67:7667'):
