@@ -204,7 +204,7 @@ void ShaftDisplay::draw(const SystemStatus& status, MarkerCanvas& canvas) const 
   if (std::fabs(picture_scale_ - 1.0) > 0.005) {
     scales = fmt::format("lengths x {:.2g}, {}", picture_scale_, scales);
   }
-  canvas.text("scale", {-0.3, -0.5 * height() - 0.06, -0.4}, status.compact ? 0.11 : 0.066, scales,
+  canvas.text("scale", {-0.75, -0.5 * height() - 0.06, -0.3}, status.compact ? 0.11 : 0.066, scales,
               kOrbitColor);
   const Eigen::Vector3d foot(0.0, std::max(0.5 * height() + kTextGap, kLowestText), 0.0);
   drawStatus(name_, whirlLines(state, status), state.speed, status, foot, canvas);

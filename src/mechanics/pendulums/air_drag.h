@@ -11,7 +11,7 @@ namespace whirl_twin {
 /// Of D = k |v|^3 / 3, by the square of the speed. At rest its root would have no derivative.
 template <class S>
 WHIRL_TWIN_INLINE S dragDissipation(double drag, const S& square_of_speed) {
-  constexpr double kStill = 1.0e-12;  // (um/s)^2
+  constexpr double kStill = 1.0e-100;  // (m/s)^2: beside any speed that moves, nothing, in any unit
   const S s = square_of_speed + kStill;
   return (drag / 3.0) * (s * sqrt(s));
 }
