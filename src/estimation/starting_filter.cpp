@@ -25,7 +25,7 @@ void StartingFilter::begin(const ShaftInstant& at, std::int64_t to_twin, double 
     told.to_twin = to_twin;
     told.deviation = shaft_deviation;
     keep(told);
-  } else if (parameterVariance() > kFarOff) {
+  } else if (!model().system()->dynamics->linear() && parameterVariance() > kFarOff) {
     begun_ = std::make_shared<const SystemFilter>(*this);
     told_.clear();
     told_.reserve(kMostTold);
