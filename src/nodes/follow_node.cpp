@@ -141,6 +141,7 @@ void run() {
     clocks.take(message.lastInstant(), now);
     publisher.publish(message);
     follower.take(message);
+    publisher.send();
     if (follower.clockSettings() != restarts) {
       restarts = follower.clockSettings();
       clocks.restart();

@@ -47,6 +47,7 @@ void FollowPublisher::publishSilence(double silent, double step_seconds) {
     std::fill(told.residual.begin(), told.residual.end(), state::FollowState::kNone);
     states_.tell(told);
   }
+  send();
 }
 
 }  // namespace whirl_twin

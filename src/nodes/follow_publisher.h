@@ -25,12 +25,15 @@ class FollowPublisher {
   FollowPublisher(Twin& twin, std::shared_ptr<SystemGenerations> generations,
                   const std::vector<std::string>& sources, ros::NodeHandle node, LcmPublisher lcm);
 
+  /// Messages leave on ROS with the next send(); on LCM they have left.
+  void send() { states_.send(); }
   /// [ns], of what is published from now on.
   void setStamp(std::int64_t stamp) { stamp_ = stamp; }
   void publish(const double* record);
   void publish(state::FollowState told);
   void publish(const state::Measurement& raw) { states_.tell(raw); }
-  /// Nothing has come for so long [s]: what is known, and that every channel is silent.
+  /// Nothing has come for so long [s]: what is known, and that every channel is silent; it leaves
+  /// at once.
   void publishSilence(double silent, double step_seconds);
   /// The last of each system.
   const std::map<std::string, state::FollowState>& told() const { return told_; }

@@ -40,7 +40,8 @@ Log readLog(const std::string& path) {
         [&](auto& state) {
           using State = std::decay_t<decltype(state)>;
           if constexpr (!State::kKind.has(MessageKind::kJudged) &&
-                        !std::is_same_v<State, state::LoopStatistics>) {
+                        !std::is_same_v<State, state::LoopStatistics> &&
+                        !std::is_same_v<State, state::SceneText>) {
             state.at.stamp = 0;
             log[event->channel][state.at.step] = bitsOf(state);
           }
