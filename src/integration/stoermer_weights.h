@@ -33,29 +33,44 @@ using Weights = std::array<double, kMostNodes>;
 /// Of the integral over s^i, i = 0, 1, 2 ...
 using Moments = std::array<long double, kMostNodes>;
 
-/// Weights at the nodes first, first - 1, ... with these moments: integrals of their Lagrange
-/// polynomials.
-constexpr Weights weights(std::size_t terms, int first, const Moments& moments) {
+/// The Lagrange polynomials of the nodes first, first - 1, ..., by their coefficients of 1, s, s^2
+/// ...: found once for all integrals over them, for compilers bound what a constant may cost.
+struct LagrangePolynomials {
+  constexpr LagrangePolynomials(std::size_t terms, int first) : terms(terms) {
+    for (std::size_t j = 0; j < terms; ++j) {
+      std::array<long double, kMostNodes + 1>& polynomial = coefficients[j];
+      polynomial[0] = 1.0L;
+      for (std::size_t k = 0; k < terms; ++k) {
+        if (k == j) {
+          continue;
+        }
+        const long double node = first - static_cast<long double>(k);
+        for (std::size_t i = terms; i > 0; --i) {
+          polynomial[i] = polynomial[i - 1] - node * polynomial[i];
+        }
+        polynomial[0] *= -node;
+        denominators[j] *= static_cast<long double>(k) - static_cast<long double>(j);
+      }
+    }
+  }
+
+  std::size_t terms;
+  std::array<std::array<long double, kMostNodes + 1>, kMostNodes>
+      coefficients{};  ///< whole numbers below 2^53,
+  std::array<long double, kMostNodes> denominators{
+      1.0L, 1.0L, 1.0L, 1.0L, 1.0L, 1.0L, 1.0L,
+      1.0L, 1.0L, 1.0L, 1.0L, 1.0L, 1.0L};  ///< to be divided by these
+};
+
+/// Weights at the nodes with these moments: integrals of their Lagrange polynomials.
+constexpr Weights weights(const LagrangePolynomials& lagrange, const Moments& moments) {
   Weights result{};
-  for (std::size_t j = 0; j < terms; ++j) {
-    std::array<long double, kMostNodes + 1> coefficients{1.0L};  // whole numbers below 2^53
-    long double denominator = 1.0L;
-    for (std::size_t k = 0; k < terms; ++k) {
-      if (k == j) {
-        continue;
-      }
-      const long double node = first - static_cast<long double>(k);
-      for (std::size_t i = terms; i > 0; --i) {
-        coefficients[i] = coefficients[i - 1] - node * coefficients[i];
-      }
-      coefficients[0] *= -node;
-      denominator *= static_cast<long double>(k) - static_cast<long double>(j);
-    }
+  for (std::size_t j = 0; j < lagrange.terms; ++j) {
     long double integral = 0.0L;
-    for (std::size_t i = 0; i < terms; ++i) {
-      integral += coefficients[i] * moments[i];
+    for (std::size_t i = 0; i < lagrange.terms; ++i) {
+      integral += lagrange.coefficients[j][i] * moments[i];
     }
-    result[j] = static_cast<double>(integral / denominator);
+    result[j] = static_cast<double>(integral / lagrange.denominators[j]);
   }
   return result;
 }
@@ -85,24 +100,21 @@ constexpr Moments stepMoments(std::size_t power) {
 
 /// Of the polynomial with one node more, less those of a scheme of so many terms.
 constexpr Weights errorWeights(std::size_t terms, bool corrected) {
-  Weights error = weights(terms + 1, 1, positionMoments());
-  const Weights own = weights(terms, corrected ? 1 : 0, positionMoments());
+  Weights error = weights({terms + 1, 1}, positionMoments());
+  const Weights own = weights({terms, corrected ? 1 : 0}, positionMoments());
   for (std::size_t k = 0; k < terms; ++k) {
     error[corrected ? k : k + 1] -= own[k];
   }
   return error;
 }
 
-/// The coefficient of s^power of p, through the nodes of a corrector.
-constexpr Weights coefficientWeights(std::size_t terms, std::size_t power) {
-  Moments m{};
-  m[power] = 1.0L;
-  return weights(terms, 1, m);
-}
-constexpr std::array<Weights, kMostTerms> polynomial(std::size_t terms) {
+/// The coefficients of p: of 1, s, s^2 ...
+constexpr std::array<Weights, kMostTerms> polynomial(const LagrangePolynomials& lagrange) {
   std::array<Weights, kMostTerms> all{};
-  for (std::size_t i = 0; i < terms; ++i) {
-    all[i] = coefficientWeights(terms, i);
+  for (std::size_t i = 0; i < lagrange.terms; ++i) {
+    for (std::size_t j = 0; j < lagrange.terms; ++j) {
+      all[i][j] = static_cast<double>(lagrange.coefficients[j][i] / lagrange.denominators[j]);
+    }
   }
   return all;
 }
@@ -125,18 +137,19 @@ struct StoermerScheme {
 constexpr StoermerScheme stoermerScheme(const char* name, std::size_t terms, bool corrected,
                                         bool ahead = false) {
   using namespace stoermer;
+  const LagrangePolynomials predicting(terms, 0), correcting(terms, 1);
   return {name,
           terms,
           corrected,
           ahead,
-          weights(terms, 0, positionMoments()),
-          weights(terms, 0, stepMoments(1)),
-          weights(terms, 1, positionMoments()),
-          weights(terms, 1, stepMoments(1)),
-          weights(terms, 1, stepMoments(0)),
-          weights(terms, 0, backwardsMoments()),
+          weights(predicting, positionMoments()),
+          weights(predicting, stepMoments(1)),
+          weights(correcting, positionMoments()),
+          weights(correcting, stepMoments(1)),
+          weights(correcting, stepMoments(0)),
+          weights(predicting, backwardsMoments()),
           errorWeights(terms, corrected),
-          stoermer::polynomial(terms)};
+          stoermer::polynomial(correcting)};
 }
 
 inline constexpr std::array<StoermerScheme, 4> kStoermerSchemes{
