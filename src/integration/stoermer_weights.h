@@ -36,16 +36,16 @@ using Moments = std::array<long double, kMostNodes>;
 /// The Lagrange polynomials of the nodes first, first - 1, ..., by their coefficients of 1, s, s^2
 /// ...: found once for all integrals over them, for compilers bound what a constant may cost.
 struct LagrangePolynomials {
-  constexpr LagrangePolynomials(std::size_t terms, int first) : terms(terms) {
-    for (std::size_t j = 0; j < terms; ++j) {
+  constexpr LagrangePolynomials(std::size_t nodes, int first) : terms(nodes) {
+    for (std::size_t j = 0; j < nodes; ++j) {
       std::array<long double, kMostNodes + 1>& polynomial = coefficients[j];
       polynomial[0] = 1.0L;
-      for (std::size_t k = 0; k < terms; ++k) {
+      for (std::size_t k = 0; k < nodes; ++k) {
         if (k == j) {
           continue;
         }
         const long double node = first - static_cast<long double>(k);
-        for (std::size_t i = terms; i > 0; --i) {
+        for (std::size_t i = nodes; i > 0; --i) {
           polynomial[i] = polynomial[i - 1] - node * polynomial[i];
         }
         polynomial[0] *= -node;
