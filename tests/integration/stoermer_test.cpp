@@ -67,10 +67,10 @@ TEST(StoermerWeights, AreThoseOfTheBooks) {
       EXPECT_NEAR(found[i], i < times.size() ? times[i] / over : 0.0, 1e-15) << i;
     }
   };
-  expect(weights(5, 0, positionMoments()), {299.0, -176.0, 194.0, -96.0, 19.0}, 240.0);
-  expect(weights(5, 1, positionMoments()), {19.0, 204.0, 14.0, 4.0, -1.0}, 240.0);
-  expect(weights(4, 0, stepMoments(0)), {55.0, -59.0, 37.0, -9.0}, 24.0);
-  expect(weights(6, 1, stepMoments(0)), {475.0, 1427.0, -798.0, 482.0, -173.0, 27.0}, 1440.0);
+  expect(weights({5, 0}, positionMoments()), {299.0, -176.0, 194.0, -96.0, 19.0}, 240.0);
+  expect(weights({5, 1}, positionMoments()), {19.0, 204.0, 14.0, 4.0, -1.0}, 240.0);
+  expect(weights({4, 0}, stepMoments(0)), {55.0, -59.0, 37.0, -9.0}, 24.0);
+  expect(weights({6, 1}, stepMoments(0)), {475.0, 1427.0, -798.0, 482.0, -173.0, 27.0}, 1440.0);
 }
 
 // q'' = t^k: a step of exact history and of these weights makes no error up to k = terms - 1.
