@@ -4,9 +4,11 @@
 
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <mutex>
 #include <thread>
 
 #include "messages/refusal.h"
@@ -41,6 +43,45 @@ bool waitForMaster(const char* name) {
   return true;
 }
 
+/// What a node has, to end by itself, once it is asked to.
+constexpr auto kGrace = std::chrono::seconds(5);
+
+/// Ends a node that is asked to stop and cannot, for the master went away under it: a topic or a
+/// service that is being registered asks again for ever, and is deaf to stopRequested(), but not to
+/// ROS's own end.
+class EndWithoutMaster {
+ public:
+  EndWithoutMaster() : thread_([this] { watch(); }) {}
+  ~EndWithoutMaster() {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      over_ = true;
+    }
+    changed_.notify_all();
+    thread_.join();
+  }
+
+ private:
+  bool isOverWithin(std::chrono::milliseconds time) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    return changed_.wait_for(lock, time, [this] { return over_; });
+  }
+
+  void watch() {
+    while (!isOverWithin(std::chrono::milliseconds(500))) {
+      if (stopRequested() && !isOverWithin(kGrace) && !ros::master::check()) {
+        ros::requestShutdown();
+        return;
+      }
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool over_ = false;
+  std::thread thread_;  // last: it looks at the others
+};
+
 }  // namespace
 
 bool stopRequested() {
@@ -59,6 +100,7 @@ int runNode(int argc, char** argv, const char* name, const char* help,
     if (waitForMaster(name)) {
       const ros::NodeHandle
           kept;  // with the last one, as that by which a parameter is read, ROS ends
+      const EndWithoutMaster end_without_master;
       run();
     }
   } catch (const RunFailure& failure) {

@@ -7,8 +7,11 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
+import xmlrpc.client
+import xmlrpc.server
 
 import roslib.packages
 import rosgraph
@@ -28,6 +31,28 @@ def wait_until(condition):
     while not condition() and time.monotonic() < end:
         time.sleep(0.2)
     return condition()
+
+
+class DyingMaster(xmlrpc.server.SimpleXMLRPCServer):
+    """Hands on to the master at `uri` what it is asked, until somebody registers a subscriber: from then on nobody
+    hears it."""
+
+    def __init__(self, uri):
+        super().__init__(('127.0.0.1', 0), logRequests=False)
+        self.uri = uri
+        self.dead = threading.Event()
+        threading.Thread(target=self.serve_forever, kwargs={'poll_interval': 0.05}, daemon=True).start()
+
+    def _dispatch(self, method, arguments):
+        if method == 'registerSubscriber':
+            self.dead.set()
+            threading.Thread(target=self.die).start()
+            time.sleep(1.0)  # the listening socket is closed before the answer
+            raise ConnectionError('dead')
+        return getattr(xmlrpc.client.ServerProxy(self.uri, allow_none=True), method)(*arguments)
+
+    def die(self):
+        self.socket.close()
 
 
 class MasterRestart(unittest.TestCase):
@@ -86,6 +111,17 @@ class MasterRestart(unittest.TestCase):
                                 env=self.environment, timeout=PATIENCE, stdout=subprocess.PIPE,
                                 universal_newlines=True)
         self.assertIn('success: True', answer.stdout)
+
+    def test_one_that_dies_while_a_node_subscribes_does_not_keep_the_node(self):
+        dying = DyingMaster(self.environment['ROS_MASTER_URI'])
+        self.environment['ROS_MASTER_URI'] = 'http://127.0.0.1:%d' % dying.server_address[1]
+        self.start_node('monitor_node')
+        self.assertTrue(dying.dead.wait(PATIENCE))
+        time.sleep(2.0)
+        monitor = self.processes[-1]
+        self.assertIsNone(monitor.poll())
+        monitor.send_signal(signal.SIGINT)
+        monitor.wait(20)
 
     def test_everything_is_back(self):
         log = os.path.join(self.folder.name, 'run.lcmlog')
