@@ -50,7 +50,15 @@ using DoubleDouble = SplitTime;
   return {high, std::fma(-6.0, high, value) * (1.0 / 6.0)};
 }
 
+// Beyond, turns cannot be counted, and a double resolves none: a motor that nothing holds may come
+// here, a step before its state is no longer finite.
+constexpr double kFarthest = 1e17;  // rad
+constexpr double kFastest = 0.25;   // turns in a nanosecond
+
 [[gnu::always_inline]] inline ShaftAngle add(const ShaftAngle& angle, const DoubleDouble& turned) {
+  if (__builtin_expect(!(std::fabs(turned.high) < kFarthest), 0)) {
+    return angle;
+  }
   const double ratio = turned.high * (1.0 / kTwoPi);
   std::int64_t turns = static_cast<std::int64_t>(ratio + (ratio < 0.0 ? -0.5 : 0.5));
 
@@ -107,7 +115,13 @@ namespace {
 
 __extension__ typedef __int128 Int128;
 
-// Turns in a nanosecond at a speed [rad/s], times 2^128.
+// In a nanosecond at a speed [rad/s].
+DoubleDouble turnsAt(double speed) {
+  const DoubleDouble turns = times({kTurnRate, kTurnRateLow}, speed);
+  return std::fabs(turns.high) < kFastest ? turns : DoubleDouble{};
+}
+
+// These, times 2^128.
 Int128 turnRate(const DoubleDouble& turns) {
   return static_cast<Int128>(turns.high * 0x1p128) + static_cast<Int128>(turns.low * 0x1p128);
 }
@@ -116,7 +130,7 @@ Int128 turnRate(const DoubleDouble& turns) {
 
 SteadyTurn::SteadyTurn(const ShaftAngle& angle, double speed, double lead) noexcept
     : start_(angle) {
-  const DoubleDouble turns = times({kTurnRate, kTurnRateLow}, speed);
+  const DoubleDouble turns = turnsAt(speed);
   const Int128 rate = turnRate(turns);
   rate_high_ = static_cast<std::int64_t>(rate >> 64);
   rate_low_ = static_cast<std::uint64_t>(rate);
@@ -126,7 +140,7 @@ SteadyTurn::SteadyTurn(const ShaftAngle& angle, double speed, double lead) noexc
 SplitAngle turnIn(double speed, std::int64_t nanoseconds) noexcept {
   __extension__ typedef unsigned __int128 Whole;
   // Modulo one turn, by overflow; as a signed number from half a turn back to half a turn on.
-  const Int128 rate = turnRate(times({kTurnRate, kTurnRateLow}, speed));
+  const Int128 rate = turnRate(turnsAt(speed));
   const auto part = static_cast<Int128>(static_cast<Whole>(rate) * static_cast<Whole>(nanoseconds));
   constexpr int kRest = 128 - 53;  // bits
   const Int128 head = part >> kRest;

@@ -52,7 +52,8 @@ SplitTime splitTime(std::int64_t nanoseconds) noexcept;
 /// The time and a further `seconds`, to a relative 2^-104.
 SplitTime later(const SplitTime& time, double seconds) noexcept;
 
-/// An angle [rad] of any size and sign as turns and remainder; |angle| <= 1e15 rad.
+/// An angle [rad] of any size and sign as turns and remainder; |angle| <= 1e15 rad. Beyond 1e17
+/// rad, as of all that advance, and beyond 1e9 rad/s at a constant speed, nothing is turned.
 ShaftAngle shaftAngle(double angle) noexcept;
 
 /// A shaft that turns at a constant speed.

@@ -9,6 +9,7 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <random>
 
 namespace whirl_twin {
@@ -181,6 +182,24 @@ TEST(ShaftAngle, WholeTurnsLeaveNoRemainderOutsideTheRange) {
     }
   }
   EXPECT_TRUE(remainderInRange(shaftAngle(-1e-300)));
+}
+
+TEST(ShaftAngle, StaysWhereItIsWhereTurnsCannotBeCounted) {
+  const ShaftAngle start{7, 1.5};
+  const auto expectStart = [&](const ShaftAngle& angle) {
+    EXPECT_EQ(angle.turns, start.turns);
+    EXPECT_EQ(angle.remainder, start.remainder);
+  };
+  for (const double far : {1e18, -1e18, 1e300, -1e300, std::numeric_limits<double>::infinity(),
+                           std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_EQ(shaftAngle(far).turns, 0);
+    EXPECT_EQ(shaftAngle(far).remainder, 0.0);
+    expectStart(advance(start, far, 0.0, 0.0, {1.0, 0.0}));
+    expectStart(advance(start, 0.0, far, 0.0, {3.0, 0.0}));
+    expectStart(advance(start, 0.0, 0.0, far, {3.0, 0.0}));
+    expectStart(advance(start, far, std::int64_t{1000000000}));
+    EXPECT_EQ(turnIn(far, 1000000).high, 0.0);
+  }
 }
 
 TEST(ShaftAngle, TotalIsTheRoundedAngle) {
