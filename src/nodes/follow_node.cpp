@@ -55,6 +55,7 @@ constexpr const char* kHelp =
 const ros::WallDuration kReportPeriod(1.0);
 const ros::WallDuration kSilence(1.0);         // of the machine, from which on it is told
 const ros::WallDuration kSilenceTelling(0.2);  // from one such message to the next
+const ros::WallDuration kAgainPeriod(10.0);    // of what LCM does not latch
 
 FollowSettings readSettings(const BuiltScene& scene) {
   const ros::NodeHandle node("~");
@@ -115,7 +116,8 @@ void run() {
   }
 
   const auto generations = std::make_shared<SystemGenerations>(twin);
-  FollowPublisher publisher(twin, generations, sources, node, LcmPublisher(lcm_url, own_prefix));
+  FollowPublisher publisher(twin, generations, sources, node, LcmPublisher(lcm_url, own_prefix),
+                            sceneTextOf(given));
   std::int64_t ahead = 0;  // [ns], of the wall clock before the machine's
   Follower* following = nullptr;
   FollowerListener listener;
@@ -166,6 +168,7 @@ void run() {
   ROS_INFO("follows %s by %s", machine.c_str(), input.c_str());
   ros::WallTime next_report = ros::WallTime::now();
   ros::WallTime next_silence = next_report;
+  ros::WallTime next_again = next_report + kAgainPeriod;
   while (ros::ok() && !stopRequested()) {
     measurements->receive();
     const ros::WallTime now = ros::WallTime::now();
@@ -176,6 +179,10 @@ void run() {
     if (now >= next_report) {
       next_report = now + kReportPeriod;
       diagnostics.force_update();
+    }
+    if (now >= next_again) {
+      next_again = now + kAgainPeriod;
+      publisher.tellAgain();
     }
   }
   master.stop();

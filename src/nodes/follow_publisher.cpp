@@ -8,16 +8,19 @@ namespace whirl_twin {
 
 FollowPublisher::FollowPublisher(Twin& twin, std::shared_ptr<SystemGenerations> generations,
                                  const std::vector<std::string>& sources, ros::NodeHandle node,
-                                 LcmPublisher lcm)
+                                 LcmPublisher lcm, state::SceneText scene)
     : observer_(twin, std::move(generations)),
       orders_(twin),
-      states_(twin, EnsembleObserver(twin), node, std::move(lcm)) {
+      states_(twin, EnsembleObserver(twin), node, std::move(lcm)),
+      scene_(std::move(scene)) {
   for (const SystemSpec& system : twin.scene().systems) {
     states_.advertise<state::FollowState>(system.name);
   }
   for (const std::string& source : sources) {
     states_.advertise<state::Measurement>(source);
   }
+  scene_.at.stamp = static_cast<std::int64_t>(ros::Time::now().toNSec());
+  states_.tell(scene_);
 }
 
 void FollowPublisher::publish(const double* record) {
@@ -28,6 +31,11 @@ void FollowPublisher::publish(const double* record) {
   if (orders_.dueAt(observer_.step())) {
     states_.publishOrders(observer_, orders_);
   }
+}
+
+void FollowPublisher::tellAgain() {
+  states_.tellAgain(scene_);
+  states_.tellParametersAgain();
 }
 
 void FollowPublisher::publish(state::FollowState told) {

@@ -12,6 +12,7 @@
 
 #include "messages/follow_state.h"
 #include "messages/measurement.h"
+#include "messages/scene_text.h"
 #include "nodes/state_publisher.h"
 #include "transport/lcm_publisher.h"
 #include "twin/observer.h"
@@ -21,9 +22,10 @@ namespace whirl_twin {
 
 class FollowPublisher {
  public:
-  /// Advertises under `node`; sources: that measure.
+  /// Advertises under `node`, and tells the scene; sources: that measure.
   FollowPublisher(Twin& twin, std::shared_ptr<SystemGenerations> generations,
-                  const std::vector<std::string>& sources, ros::NodeHandle node, LcmPublisher lcm);
+                  const std::vector<std::string>& sources, ros::NodeHandle node, LcmPublisher lcm,
+                  state::SceneText scene);
 
   /// Messages leave on ROS with the next send(); on LCM they have left.
   void send() { states_.send(); }
@@ -35,6 +37,8 @@ class FollowPublisher {
   /// Nothing has come for so long [s]: what is known, and that every channel is silent; it leaves
   /// at once.
   void publishSilence(double silent, double step_seconds);
+  /// On LCM, which latches nothing, once more: the scene, and the parameters as they are known.
+  void tellAgain();
   /// The last of each system.
   const std::map<std::string, state::FollowState>& told() const { return told_; }
 
@@ -42,6 +46,7 @@ class FollowPublisher {
   Observer observer_;
   OrderObserver orders_;
   StatePublisher states_;
+  state::SceneText scene_;
   std::int64_t stamp_ = 0;  // [ns]
   std::map<std::string, state::FollowState> told_;
 };

@@ -11,7 +11,6 @@
 
 #include <chrono>
 #include <optional>
-#include <sstream>
 
 #include "accuracy/step_choice.h"
 #include "messages/monitor_pulse.h"
@@ -188,16 +187,6 @@ Settings readSettings(const Scene& scene) {
   return s;
 }
 
-state::SceneText textOf(const ParameterTree& scene) {
-  state::SceneText text;
-  text.source = scene.source;
-  std::istringstream lines(YAML::Dump(scene.tree));
-  for (std::string line; std::getline(lines, line);) {
-    text.line.push_back(line);
-  }
-  return text;
-}
-
 void run() {
   ros::NodeHandle node(twinNamespace());
   ros::NodeHandle private_node("~");
@@ -232,7 +221,8 @@ void run() {
       StatePublisher(live.twin(), live.ensembles(), node,
                      LcmPublisher(settings.lcm_url, settings.lcm_prefix),
                      settings.clock ? std::llround(1.0e9 / settings.clock_rate) : 0),
-      lockstep, textOf(given), settings.every, settings.batch, settings.clock, settings.measure);
+      lockstep, sceneTextOf(given), settings.every, settings.batch, settings.clock,
+      settings.measure);
   if (resumed) {
     publisher.putBack(*resumed, settings.resume);
     ROS_INFO("goes on from step %ld, t = %g s, of %s", static_cast<long>(resumed->step),

@@ -96,9 +96,10 @@ void PrintTo(const Case& c, std::ostream* out) {
 std::vector<Case> everyCase() {
   std::vector<Case> all;
   for (const auto& [name, setup] :
-       {std::pair("Undamped", undamped), std::pair("Damped", damped),
-        std::pair("RotatingDamping", rotatingDamping), std::pair("Overdamped", overdamped),
-        std::pair("Gyroscopic", gyroscopic), std::pair("Chain", chain)}) {
+       {std::make_pair("Undamped", undamped), std::make_pair("Damped", damped),
+        std::make_pair("RotatingDamping", rotatingDamping),
+        std::make_pair("Overdamped", overdamped), std::make_pair("Gyroscopic", gyroscopic),
+        std::make_pair("Chain", chain)}) {
     for (const std::string& method : integratorsOf(setup().model)) {
       all.push_back({name, setup, method});
     }
