@@ -11,7 +11,8 @@
 // The unknowns are three values of each force, whatever the number of coordinates: how the places
 // answer to them is a small matrix, prepared for each constant speed, and Newton's method with the
 // laws' slopes solves for them. In a run-up the prepared matrix is nearly right: there the rotor is
-// taken along again until forces and places agree.
+// taken along again until forces and places agree; where the rotor's matrices do not follow the
+// speed it is right, and once is enough.
 #pragma once
 
 #include <Eigen/Core>
@@ -108,6 +109,7 @@ class ForcedRotorStep {
   std::vector<LocalForce> forces_;
   const Inputs* inputs_;
   double h_;
+  bool steady_;  ///< the matrices do not follow the speed: a response is that at any
   ActingInputs acting_;
   std::size_t torque_;
   RotorStep whole_;

@@ -9,6 +9,15 @@
 
 namespace whirl_twin {
 
+namespace {
+
+/// Coordinates up to which steps of further lengths cost little to prepare.
+constexpr int kMostStarted = 8;
+/// Of a step, its first part.
+constexpr double kFirstPart = 1.0 / 32.0;
+
+}  // namespace
+
 LinearRotorStepper::LinearRotorStepper(std::shared_ptr<const Dynamics> dynamics,
                                        JacobiIntegral jacobi, const Excitation& excitation,
                                        double step, int substeps, std::vector<LocalForce> forces)
@@ -42,6 +51,11 @@ LinearRotorStepper::LinearRotorStepper(std::shared_ptr<const Dynamics> dynamics,
       state_(dynamics_->dof()),
       next_(dynamics_->dof()),
       finer_(dynamics_->dof()) {
+  for (double part = kFirstPart;
+       !forcing_.forces.empty() && dynamics_->dof() <= kMostStarted && part < 0.5; part *= 2.0) {
+    starting_.emplace_back(dynamics_->linearRotor(), part * step / substeps, speeds,
+                           constant_speeds_, forcing_);
+  }
   for (const CoordinateInfo& c : dynamics_->coordinates()) {
     angular_.push_back(c.isAngle());
   }
@@ -80,9 +94,11 @@ StepStatus LinearRotorStepper::step(double) noexcept {
   if (!corner || !method_.advanceInParts(excitation_.drive, 0, length, next_)) {
     for (int i = 0; i < substeps_; ++i) {
       const double h = step_ / substeps_;
-      const StepStatus status = method_.advance(excitation_.drive, i * h, next_);
+      const StepStatus status = i == 0 && at_start_ && !starting_.empty()
+                                    ? startingStep()
+                                    : method_.advance(excitation_.drive, i * h, next_);
       if (status != StepStatus::kOk) {
-        return status;
+        return isFinite(state_) ? status : StepStatus::kNotFinite;
       }
     }
   }
@@ -97,7 +113,23 @@ StepStatus LinearRotorStepper::step(double) noexcept {
     }
   }
   std::swap(state_, next_);
+  at_start_ = false;
   return StepStatus::kOk;
+}
+
+/// A step in parts that double: a motion that begins anywhere comes to the slow one that stiff
+/// forces leave it within the first of them, and a whole step would not see how.
+StepStatus LinearRotorStepper::startingStep() noexcept {
+  const Drive& drive = excitation_.drive;
+  const double h = step_ / substeps_;
+  StepStatus status = starting_.front().advance(drive, 0.0, next_);
+  double offset = kFirstPart * h;
+  for (std::size_t i = 0; i < starting_.size() && status == StepStatus::kOk; ++i, offset *= 2.0) {
+    starting_[i].restart();
+    status = starting_[i].advance(drive, offset, next_);
+  }
+  halves_.restart();
+  return status == StepStatus::kOk ? halves_.advance(drive, offset, next_) : status;
 }
 
 StepStatus LinearRotorStepper::stepPart(double, std::int64_t from, std::int64_t to) noexcept {
@@ -109,13 +141,14 @@ StepStatus LinearRotorStepper::stepPart(double, std::int64_t from, std::int64_t 
           return part.advance(excitation_.drive, offset, next_);
         });
     if (status != StepStatus::kOk) {
-      return status;
+      return isFinite(state_) ? status : StepStatus::kNotFinite;
     }
   }
   if (!isFinite(next_)) {
     return StepStatus::kNotFinite;
   }
   std::swap(state_, next_);
+  at_start_ = false;
   return StepStatus::kOk;
 }
 
@@ -147,6 +180,7 @@ void LinearRotorStepper::write(double* out) const noexcept {
 void LinearRotorStepper::set(const double* q, const double* v) noexcept {
   state_.set(q, v);
   method_.restart();
+  at_start_ = true;
   errors_.restart();
   further_energy_ = furtherEnergy();
 }

@@ -35,7 +35,7 @@ class LinearRotorStepper final : public Stepper {
   double errorSum() const noexcept override { return errors_.sum(); }
   void set(const double* q, const double* v) noexcept override;
   void exchange(StateImage& image) noexcept override {
-    image(state_, method_, errors_, further_energy_);
+    image(state_, method_, errors_, further_energy_, at_start_);
   }
   std::unique_ptr<Stepper> readyFor(double lowest_speed, double highest_speed) const override;
 
@@ -47,6 +47,7 @@ class LinearRotorStepper final : public Stepper {
   double furtherEnergy() const noexcept;
   std::int64_t nextCorner(std::int64_t offset) const noexcept;  ///< [ns] after begin()
   void estimateError() noexcept;
+  StepStatus startingStep() noexcept;
 
   std::shared_ptr<const Dynamics> dynamics_;
   JacobiIntegral jacobi_;  ///< may be empty
@@ -59,7 +60,9 @@ class LinearRotorStepper final : public Stepper {
   double further_energy_ = 0.0;  ///< [J], at the start
   RotorForcing forcing_;
   ForcedRotorStep method_;
-  ForcedRotorStep halves_;  ///< of half the length
+  ForcedRotorStep halves_;                 ///< of half the length
+  std::vector<ForcedRotorStep> starting_;  ///< shortest first, each twice the one before
+  bool at_start_ = false;
   StepParts<ForcedRotorStep> parts_;
   LinearMotion state_;
   LinearMotion next_;

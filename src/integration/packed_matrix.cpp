@@ -13,29 +13,67 @@ typedef double Eight __attribute__((vector_size(64)));
 /// Eight doubles that may lie anywhere.
 typedef double EightAnywhere __attribute__((vector_size(64), aligned(8)));
 
+/// Runs of a panel that are parted by fewer columns of zeros are one.
+constexpr Index kFewZeros = 4;
+
 WHIRL_TWIN_VECTOR_WIDTHS
-void multiplyPanels(const double* entries, const PackedMatrix::Panel* panels, Index count,
-                    bool backward, Index columns, const double* y, double* result) noexcept {
+void multiplyPanels(const double* entries, const PackedMatrix::Panel* panels,
+                    const PackedMatrix::Run* runs, Index count, bool backward, const double* y,
+                    double* result) noexcept {
   for (Index p = 0; p < count; ++p) {
     const Index panel = backward ? count - 1 - p : p;
     const double* entry = entries + panels[panel].start;
     // Four columns at a time: eight sums under way.
     Eight low[4] = {};
     Eight high[4] = {};
-    Index j = panels[panel].first_column;
-    for (; j + 3 < columns; j += 4, entry += 4 * PackedMatrix::kPanel) {
-      for (int k = 0; k < 4; ++k) {
-        low[k] += *reinterpret_cast<const Eight*>(entry + PackedMatrix::kPanel * k) * y[j + k];
-        high[k] += *reinterpret_cast<const Eight*>(entry + PackedMatrix::kPanel * k + 8) * y[j + k];
+    const PackedMatrix::Run* const first = runs + panels[panel].first_run;
+    for (const PackedMatrix::Run* run = first; run != first + panels[panel].runs; ++run) {
+      Index j = run->first;
+      for (; j + 3 < run->end; j += 4, entry += 4 * PackedMatrix::kPanel) {
+        for (int k = 0; k < 4; ++k) {
+          low[k] += *reinterpret_cast<const Eight*>(entry + PackedMatrix::kPanel * k) * y[j + k];
+          high[k] +=
+              *reinterpret_cast<const Eight*>(entry + PackedMatrix::kPanel * k + 8) * y[j + k];
+        }
       }
-    }
-    for (; j < columns; ++j, entry += PackedMatrix::kPanel) {
-      low[0] += *reinterpret_cast<const Eight*>(entry) * y[j];
-      high[0] += *reinterpret_cast<const Eight*>(entry + 8) * y[j];
+      for (; j < run->end; ++j, entry += PackedMatrix::kPanel) {
+        low[0] += *reinterpret_cast<const Eight*>(entry) * y[j];
+        high[0] += *reinterpret_cast<const Eight*>(entry + 8) * y[j];
+      }
     }
     double* const sums = result + panel * PackedMatrix::kPanel;
     *reinterpret_cast<EightAnywhere*>(sums) = (low[0] + low[1]) + (low[2] + low[3]);
     *reinterpret_cast<EightAnywhere*>(sums + 8) = (high[0] + high[1]) + (high[2] + high[3]);
+  }
+}
+
+/// Half a panel at a time: the sums of five vectors stay in the registers.
+WHIRL_TWIN_VECTOR_WIDTHS
+void multiplyPanelsTogether(const double* entries, const PackedMatrix::Panel* panels,
+                            const PackedMatrix::Run* runs, Index count, bool backward,
+                            const double* y, double* result) noexcept {
+  constexpr auto kVectors = static_cast<Index>(PackedMatrix::kTogether);
+  for (Index p = 0; p < count; ++p) {
+    const Index panel = backward ? count - 1 - p : p;
+    const PackedMatrix::Run* const first = runs + panels[panel].first_run;
+    for (Index half = 0; half < PackedMatrix::kPanel; half += 8) {
+      const double* entry = entries + panels[panel].start + half;
+      Eight sums[kVectors] = {};
+      for (const PackedMatrix::Run* run = first; run != first + panels[panel].runs; ++run) {
+        for (Index j = run->first; j < run->end; ++j, entry += PackedMatrix::kPanel) {
+          const Eight eight = *reinterpret_cast<const Eight*>(entry);
+          for (Index k = 0; k < kVectors; ++k) {
+            sums[k] += eight * y[kVectors * j + k];
+          }
+        }
+      }
+      double* const out = result + kVectors * (panel * PackedMatrix::kPanel + half);
+      for (Index row = 0; row < 8; ++row) {
+        for (Index k = 0; k < kVectors; ++k) {
+          out[kVectors * row + k] = sums[k][row];
+        }
+      }
+    }
   }
 }
 
@@ -49,14 +87,24 @@ PackedMatrix::PackedMatrix(const Eigen::MatrixXd& matrix)
   std::size_t size = 0;
   for (Index p = 0; p < rows_ / kPanel; ++p) {
     const auto panel = padded.middleRows(p * kPanel, kPanel);
-    Index first = 0;
-    while (first < columns_ && (panel.col(first).array() == 0.0).all()) {
-      ++first;
+    const auto first_run = static_cast<Index>(runs_.size());
+    panels_.push_back({static_cast<Index>(size), first_run, 0});
+    for (Index j = 0; j < columns_; ++j) {
+      if ((panel.col(j).array() == 0.0).all()) {
+        continue;
+      }
+      const bool goes_on =
+          static_cast<Index>(runs_.size()) > first_run && j - runs_.back().end < kFewZeros;
+      if (!goes_on) {
+        runs_.push_back({j, j});
+      }
+      const Index from = runs_.back().end;
+      runs_.back().end = j + 1;
+      Eigen::Map<Eigen::MatrixXd>(entries_.data() + size, kPanel, j + 1 - from) =
+          panel.middleCols(from, j + 1 - from);
+      size += static_cast<std::size_t>(kPanel * (j + 1 - from));
     }
-    panels_.push_back({static_cast<Index>(size), first});
-    Eigen::Map<Eigen::MatrixXd>(entries_.data() + size, kPanel, columns_ - first) =
-        panel.rightCols(columns_ - first);
-    size += static_cast<std::size_t>(kPanel * (columns_ - first));
+    panels_.back().runs = static_cast<Index>(runs_.size()) - first_run;
   }
   entries_.resize(size);
   entries_.shrink_to_fit();
@@ -64,8 +112,14 @@ PackedMatrix::PackedMatrix(const Eigen::MatrixXd& matrix)
 
 void PackedMatrix::multiply(const double* y, double* result) noexcept {
   backward_ = !backward_;
-  multiplyPanels(entries_.data(), panels_.data(), static_cast<Index>(panels_.size()), backward_,
-                 columns_, y, result);
+  multiplyPanels(entries_.data(), panels_.data(), runs_.data(), static_cast<Index>(panels_.size()),
+                 backward_, y, result);
+}
+
+void PackedMatrix::multiplyTogether(const double* y, double* result) noexcept {
+  backward_ = !backward_;
+  multiplyPanelsTogether(entries_.data(), panels_.data(), runs_.data(),
+                         static_cast<Index>(panels_.size()), backward_, y, result);
 }
 
 Eigen::MatrixXd stackedStep(const Eigen::MatrixXd& increment, const Eigen::MatrixXd& work) {

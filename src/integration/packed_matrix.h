@@ -1,14 +1,16 @@
 // A dense matrix made to be multiplied by a vector once a step: the whole cost of an exact linear
 // step.
 //
-// Its rows lie in panels of sixteen, each read once from end to end; columns that are zero at the
-// start of a panel are left out, so that a triangle costs half. On x86-64 the loop is compiled
+// Its rows lie in panels of sixteen, each read once from end to end; columns that are zero
+// throughout a panel are left out, so that a triangle costs half, and blocks of zeros nothing. On
+// x86-64 the loop is compiled
 // for several vector widths and the machine's own is taken at start; machines with fused products
 // and sums differ from others in the last bits.
 #pragma once
 
 #include <Eigen/Core>
 #include <boost/align/aligned_allocator.hpp>
+#include <cstddef>
 #include <vector>
 
 namespace whirl_twin {
@@ -17,9 +19,17 @@ class PackedMatrix {
  public:
   static constexpr Eigen::Index kPanel = 16;  ///< rows
 
+  static constexpr std::size_t kTogether = 5;
+
+  /// Columns of a panel that stand side by side.
+  struct Run {
+    Eigen::Index first;
+    Eigen::Index end;
+  };
   struct Panel {
-    Eigen::Index start;         ///< of its entries
-    Eigen::Index first_column;  ///< that is not zero
+    Eigen::Index start;      ///< of its entries
+    Eigen::Index first_run;  ///< of its runs
+    Eigen::Index runs;
   };
 
   PackedMatrix() = default;
@@ -30,11 +40,15 @@ class PackedMatrix {
 
   /// result[0 .. rows()) = M y, zero beyond the matrix' own rows. Real-time safe.
   void multiply(const double* y, double* result) noexcept;
+  /// The same of kTogether vectors, whose numbers lie side by side, one of each at a time, as do
+  /// those of the results: entries are read once for all of them.
+  void multiplyTogether(const double* y, double* result) noexcept;
 
  private:
   Eigen::Index rows_ = 0;
   Eigen::Index columns_ = 0;
   std::vector<Panel> panels_;
+  std::vector<Run> runs_;
   bool backward_ = false;  ///< every other time: what was read last is still in the cache
   /// At the start of a cache line: a load of eight that straddles two costs twice.
   std::vector<double, boost::alignment::aligned_allocator<double, 64>> entries_;

@@ -25,16 +25,14 @@ namespace whirl_twin {
 
 /// The matrices of a cell of speeds as polynomials of s = (w - centre) / half_width.
 struct RotorWorkCell {
-  using Polynomial = std::array<Eigen::MatrixXd, 3>;
-
   double centre = 0.0;      ///< [rad/s]
   double half_width = 1.0;  ///< [rad/s]
   /// From the inputs x, s x, s^2 x, a x, 2 s a x of the state x = (q, v), a = acceleration /
   /// half_width, then p, s p, s^2 p of the phasors, 1 and the inputs p, then p' to z, h z', h^2
   /// z'', h^3 z'''.
   PackedMatrix end;
-  Polynomial damping, circulatory, stiffness_slope;  ///< L^T C L, L^T N L, L^T (dK/dw) L
-  std::size_t damping_terms = 0, circulatory_terms = 0, stiffness_slope_terms = 0;
+  /// From z', s z', s^2 z', z, s z, s^2 z to L^T (C z' + N z) and L^T (dK/dw) z.
+  PackedMatrix forces;
 };
 
 class RotorWork {
@@ -74,7 +72,9 @@ class RotorWork {
   void takeJump(const Shaft& drive, double offset, double corner) noexcept;
   Weights weightsAt(double tau) const noexcept;
   void deflectionAt(double tau, const Weights& weights, double corner) noexcept;
-  double power(RotorWorkCell& cell, const ShaftNode& node, const ActingInputs& acting) noexcept;
+  void takeNode(const RotorWorkCell& cell, const ShaftNode& node, const Weights& weights,
+                double corner, std::size_t place) noexcept;
+  double power(const ShaftNode& node, const ActingInputs& acting, std::size_t place) noexcept;
   Eigen::Index phasorCount() const noexcept;
   void setPhasors(const ShaftMotion& shaft, double* phasors, double* rates) const noexcept;
 
@@ -95,6 +95,7 @@ class RotorWork {
   Eigen::VectorXd jump_;  ///< h^2 z'' and h^3 z''', at a corner
   Eigen::VectorXd inputs_, phasors_, rates_;
   Eigen::VectorXd z_, z_rate_, pull_;
+  Eigen::VectorXd moved_, pulled_;  ///< of RotorWorkCell::forces, for PackedMatrix::kTogether nodes
 };
 
 }  // namespace whirl_twin

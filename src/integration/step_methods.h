@@ -5,7 +5,7 @@
 //     what the model is                               integrator       engine
 //     ----------------------------------------------------------------------------------------
 //     energies, nonlinear: pendulums, free_rotor,     any but          SteppedSystem<Model, Method>
-//     a rotor with film, hysteresis, rub or motor     exponential
+//     a rotor with hysteresis, rub, motor or films    exponential
 //         Method and energies are one function after compiling. `auto` calibrates. What rests on
 //         earlier steps (stoermer) drops them at corners, commands and changes. SteppedAhead takes
 //         many of the twin's steps at once where nothing acts from outside (stoermer_ahead).
@@ -42,6 +42,10 @@
 //     flexible_rotor; any rotor on magnets            no other         (RotorStep)
 //         Fixed sizes at compile time end at a few coordinates. linearRotorSetup(). Forces at
 //         places that are not linear are solved for beside it (forced_rotor_step.h).
+//
+//     energies, a linear part and forces at           exponential      LinearRotorStepper
+//     places: jeffcott_rotor in journal bearings                       (ForcedRotorStep)
+//         The same of a rotor whose energies other methods step: withExactLinearPart().
 //
 //     matrices as functions of speed, on a motor:     exponential,     SpinningRotorStepper
 //     flexible_rotor                                  no other         (ForcedRotorStep)

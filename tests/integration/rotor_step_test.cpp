@@ -13,6 +13,7 @@
 
 #include "allocation_guard.h"
 #include "integration/linear_rotor_stepper.h"
+#include "integration/packed_matrix.h"
 #include "messages/refusal.h"
 #include "models/linear_rotor_setup.h"
 #include "running_system.h"
@@ -356,6 +357,36 @@ TEST(RotorStep, DoesNotAllocate) {
     run.advance();
   }
   EXPECT_EQ(guard.allocations(), 0u);
+}
+
+TEST(PackedMatrix, ProductsAreThoseOfTheWholeMatrixWhateverItLeavesOut) {
+  MatrixXd matrix = MatrixXd::Zero(37, 50);
+  // A full block, a triangle, single columns, and rows of nothing.
+  for (Eigen::Index i = 0; i < 37; ++i) {
+    for (Eigen::Index j = 0; j < 50; ++j) {
+      const bool is_there = (i < 12 && j > 20 && j < 33) || (i > 20 && j < i - 20) || j == 41;
+      matrix(i, j) = is_there && i != 36 ? std::sin(1.0 + 3.0 * i + 7.0 * j) : 0.0;
+    }
+  }
+  PackedMatrix packed(matrix);
+  constexpr Eigen::Index kTogether = PackedMatrix::kTogether;
+  MatrixXd vectors(kTogether, 50);
+  MatrixXd products(kTogether, packed.rows());
+  for (Eigen::Index k = 0; k < vectors.size(); ++k) {
+    vectors.data()[k] = std::cos(0.3 * k);
+  }
+  for (int again = 0; again < 2; ++again) {
+    packed.multiplyTogether(vectors.data(), products.data());
+    for (Eigen::Index k = 0; k < kTogether; ++k) {
+      const VectorXd one = vectors.row(k);
+      VectorXd product(packed.rows());
+      packed.multiply(one.data(), product.data());
+      const VectorXd whole = matrix * one;
+      EXPECT_LT((product.head(37) - whole).norm(), 1e-14 * whole.norm());
+      EXPECT_LT((products.row(k).head(37).transpose() - whole).norm(), 1e-14 * whole.norm());
+      EXPECT_EQ(product.tail(packed.rows() - 37).norm(), 0.0);
+    }
+  }
 }
 
 }  // namespace
