@@ -27,6 +27,13 @@ constexpr double kEvaluations = 100.0;
 constexpr double kExactEvaluations = 5.0;
 const char* const kExact = "exponential";
 
+/// Is it stepped by the exact step of its linear part, whatever else it could be stepped with?
+bool byExactLinearPart(const Scene& one, const ModelSetup& setup) {
+  return setup.integrators.size() == 1 ||
+         (!setup.dynamics->linear() &&
+          chooseIntegrator(setup, one.systems.front().drive.has_value()).integrator == kExact);
+}
+
 }  // namespace
 
 bool stepsAreExact(const Scene& one, const ModelSetup& setup) {
@@ -41,8 +48,8 @@ ReferenceTrajectory referenceOf(const Scene& one, const ModelSetup& setup, std::
   const std::string own = chooseIntegrator(setup, on_drive).integrator;
   std::vector<std::string> others;
   for (const char* name : {"dormand_prince_8", "gauss_legendre_6", "gauss_legendre_4"}) {
-    if (!stepsAreExact(one, setup) && canStepWith(setup, on_drive, name) && name != own &&
-        others.size() < 2) {
+    if (!stepsAreExact(one, setup) && !byExactLinearPart(one, setup) &&
+        canStepWith(setup, on_drive, name) && name != own && others.size() < 2) {
       others.push_back(name);
     }
   }
@@ -59,7 +66,7 @@ StepJudge::StepJudge(const Scene& one, const ModelSetup& setup, EvaluationBudget
   EvaluationBudget part = budget.upTo(exact_ ? kExactBudget : kReferencePart * budget.left());
   const double before = part.left();
   const double steps = std::max(1.0, std::ceil(spec.horizon / one.stepSeconds() - 1.0e-6));
-  const bool by_itself = setup.integrators.size() == 1;
+  const bool by_itself = byExactLinearPart(one, setup);
   const double evaluations = exact_ || by_itself ? kExactEvaluations : kEvaluations;
   const double affordable =
       before / (evaluations * budget.cost({kExact, one.step, ownSubsteps(one)}, one.step, 1));

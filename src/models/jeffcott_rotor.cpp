@@ -15,7 +15,8 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kFilmCost = 30.0;
+constexpr double kFilmCost = 30.0;      // by implicit steps
+constexpr double kExactFilmCost = 6.0;  // by the exact step of all else
 constexpr double kKinkCost = 8.0;
 
 bool given(const ParameterValues& values, const char* name) {
@@ -124,9 +125,10 @@ ModelInfo jeffcottRotorInfo() {
                        : given(values, "bearing_length") ? setUpJournalJeffcott(values, felt)
                                                          : setUpLinear(values, felt);
     // At a kink, as of a rub, implicit steps are solved by many evaluations.
-    setup.evaluation_cost = given(values, "bearing_length") ? kFilmCost
-                            : isNonlinear(values)           ? kKinkCost
-                                                            : 1.0;
+    setup.evaluation_cost = given(values, "bearing_length")
+                                ? (around.motor ? kFilmCost : kExactFilmCost)
+                            : isNonlinear(values) ? kKinkCost
+                                                  : 1.0;
     return setup;
   };
   return info;

@@ -9,6 +9,7 @@
 #include "integration/lateral_rotor_stepper.h"
 #include "integration/linear_rotor_stepper.h"
 #include "integration/spinning_rotor_stepper.h"
+#include "mechanics/linear_rotor_dynamics.h"
 #include "mechanics/locally_forced_rotor.h"
 #include "mechanics/spinning_rotor.h"
 #include "models/exact_stepper.h"
@@ -19,7 +20,10 @@ namespace {
 
 constexpr double kBeyond = 1.05;      // of the motor's highest speed: a whirl swings the spin, too
 constexpr double kBackwards = -0.02;  // of it: a heavy rotor that stands may swing back
-constexpr double kNoLimit = 9.0e5;    // [rad/s], highestSpeed() of a motor without one is beyond
+// What a step takes besides its products, in accelerations of a pendulum of two coordinates.
+constexpr double kForcedStep = 80.0;
+constexpr double kSpinningStep = 150.0;
+constexpr double kNoLimit = 9.0e5;  // [rad/s], highestSpeed() of a motor without one is beyond
 
 /// Speeds [rad/s] that a rotor on its motor may come to.
 std::pair<double, double> speedsOn(const Motor& motor, const Excitation& excitation,
@@ -33,6 +37,12 @@ std::pair<double, double> speedsOn(const Motor& motor, const Excitation& excitat
   return {std::min(kBackwards * fastest, kBeyond * start), std::max(fastest, kBeyond * start)};
 }
 
+/// ModelSetup::evaluation_cost of steps that take so much besides.
+double evaluationCost(const Dynamics& dynamics, double besides) {
+  const double pairs = std::max(1.0, 0.5 * dynamics.dof());
+  return 1.0 + besides / (pairs * pairs);
+}
+
 }  // namespace
 
 std::unique_ptr<Stepper> exactStepper(std::shared_ptr<const Dynamics> dynamics,
@@ -44,7 +54,8 @@ std::unique_ptr<Stepper> exactStepper(std::shared_ptr<const Dynamics> dynamics,
 
 ModelSetup linearRotorSetup(std::shared_ptr<const Dynamics> dynamics,
                             std::vector<LocalForce> forces) {
-  if (!forces.empty()) {
+  const bool locally_forced = !forces.empty();
+  if (locally_forced) {
     dynamics = std::make_shared<LocallyForcedRotor>(std::move(dynamics), forces);
   }
   ModelSetup setup;
@@ -56,6 +67,7 @@ ModelSetup linearRotorSetup(std::shared_ptr<const Dynamics> dynamics,
                                                 substeps, forces);
   };
   setup.exact_run_ups = true;
+  setup.evaluation_cost = locally_forced ? evaluationCost(*dynamics, kForcedStep) : 1.0;
   return setup;
 }
 
@@ -77,6 +89,7 @@ ModelSetup spinningRotorSetup(std::shared_ptr<const Dynamics> held, std::vector<
                  highest_speed));
   };
   setup.exact_run_ups = true;
+  setup.evaluation_cost = evaluationCost(*dynamics, kSpinningStep);
   return setup;
 }
 
@@ -94,6 +107,42 @@ ModelSetup withExactRunUps(ModelSetup setup, JacobiIntegral jacobi) {
       }
     }
     return exactStepper(dynamics, jacobi, excitation, step, substeps);
+  };
+  setup.exact_run_ups = true;
+  return setup;
+}
+
+ModelSetup withExactLinearPart(ModelSetup setup, std::shared_ptr<const Dynamics> linear,
+                               double damping, JacobiIntegral jacobi,
+                               std::vector<LocalForce> forces) {
+  RotorDescription description;
+  description.model = linear->model();
+  description.coordinates = linear->coordinates();
+  description.stations = linear->stations();
+  description.inputs = linear->inputs();
+  LinearRotor rotor = linear->linearRotor();
+  Eigen::MatrixXd damped = Eigen::MatrixXd::Zero(linear->dof(), linear->dof());
+  for (const LocalForce& force : forces) {
+    damped += damping * (force.along_x * force.along_x.transpose() +
+                         force.along_y * force.along_y.transpose());
+  }
+  rotor.matrices = [linear = std::move(linear), plain = rotor.matrices, damped](double speed) {
+    Linearization l = plain(speed);
+    l.damping += damped;
+    return l;
+  };
+  const auto stepped =
+      std::make_shared<LinearRotorDynamics>(std::move(description), std::move(rotor));
+  setup.integrators.emplace_back(Exponential<1>::kName);
+  setup.system = [stepped, plain = setup.system, jacobi = std::move(jacobi),
+                  forces = std::move(forces)](const std::string& integrator,
+                                              const Excitation& excitation, double step,
+                                              int substeps) -> std::unique_ptr<Stepper> {
+    if (integrator != Exponential<1>::kName) {
+      return plain(integrator, excitation, step, substeps);
+    }
+    return std::make_unique<LinearRotorStepper>(stepped, jacobi, excitation, step, substeps,
+                                                forces);
   };
   setup.exact_run_ups = true;
   return setup;

@@ -28,4 +28,12 @@ ModelSetup spinningRotorSetup(std::shared_ptr<const Dynamics> held, std::vector<
 /// changing speed: of two coordinates without inputs by LateralRotorStepper, else by that step.
 ModelSetup withExactRunUps(ModelSetup setup, JacobiIntegral jacobi);
 
+/// A setup of a nonlinear model with a shaft that is a linear rotor, in the fixed frame, and a few
+/// forces at places along it: its `exponential` keeps that linear part exact, as of
+/// linearRotorSetup(). What of the forces is linear, `damping` of their own places [N s/m], is
+/// added to it; `jacobi` is that of LinearRotorStepper.
+ModelSetup withExactLinearPart(ModelSetup setup, std::shared_ptr<const Dynamics> linear,
+                               double damping, JacobiIntegral jacobi,
+                               std::vector<LocalForce> forces);
+
 }  // namespace whirl_twin

@@ -141,7 +141,7 @@ IntegratorChoice chooseIntegrator(const ModelSetup& setup, bool speed_changes) {
   if (dynamics.linear()) {
     return {"gauss_legendre_6", "its matrices change with the drive's speed"};
   }
-  const bool exact_rest = setup.integrators == std::vector<std::string>{"exponential"};
+  const bool exact_rest = setup.exact_run_ups;
   if (exact_rest && !dynamics.hasShaft()) {
     return {"exponential",
             "its linear part by the exact step, its spin and local forces by order 5"};

@@ -118,6 +118,29 @@ TEST(LocalElements, SettleInFilmsAsAJeffcottRotorDoes) {
   EXPECT_LT((placeOf(twin, 1, "node_1") - jeffcott).norm(), 2e-6 * jeffcott.norm());
 }
 
+// A Jeffcott rotor in its films by the exact step of its linear part, in a run-up, beside another
+// method of another order at a quarter of the step. It is let go outside the films' balance: within
+// a tenth of the first step they carry it.
+TEST(LocalElements, OfAJeffcottRotorInFilmsGoAsByAnotherMethod) {
+  const auto rotor = [](double step, const char* integrator) {
+    return sceneWith(
+        step, "speed: 60.0, profile: [{speed: 150.0, max_acceleration: 300.0, dwell: 1.0}]",
+        fmt::format("j: {{model: jeffcott_rotor, drive: shaft, integrator: {}, parameters: {{mass: "
+                    "2.0, stiffness: 20000.0, damping: 2.0, internal_damping: 3.0, "
+                    "cross_coupling: 50.0, eccentricity: 5.0e-5, bow: 1.0e-5, gravity_on_shaft: "
+                    "true, bearing_length: 0.01, bearing_diameter: 0.025, bearing_clearance: "
+                    "1.0e-4, bearing_viscosity: 0.1, journal_mass: 0.2}}, initial: {{y: -1.0e-3, "
+                    "journal_y: -2.0e-5}}}}",
+                    integrator));
+  };
+  Twin twin(rotor(5.0e-4, "exponential"));
+  Twin judge(rotor(1.25e-4, "gauss_legendre_6"));
+  run(twin, 5.0e-4, 0.1);
+  run(judge, 1.25e-4, 0.1);
+  const Eigen::Vector2d disc = placeOf(judge, 0, "disc");
+  EXPECT_LT((placeOf(twin, 0, "disc") - disc).norm(), 1e-7 * disc.norm());
+}
+
 // Where the weight is carried: Ocvirk's locus, by Newton's method on all coordinates.
 TEST(LocalElements, RestWhereTheirFilmsCarryTheWeight) {
   const Scene scene = sceneWith(1.0e-4, "speed: 150.0", "f: " + filmsOf("modes: auto}"));

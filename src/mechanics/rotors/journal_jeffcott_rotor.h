@@ -22,17 +22,17 @@
 
 namespace whirl_twin {
 
-struct JournalJeffcottRotor : JeffcottRotor {
+/// Its linear part: without the films.
+struct FilmlessJeffcottRotor : JeffcottRotor {
   static constexpr std::size_t kDof = 4;
-  static constexpr bool kLinear = false;
   static constexpr std::array<Coordinate, kDof> kCoordinates{
       {{"x", "m"}, {"y", "m"}, {"journal_x", "m"}, {"journal_y", "m"}}};
 
   static constexpr auto parameters() {
-    return inherited<JournalJeffcottRotor>(JeffcottRotor::parameters());
+    return inherited<FilmlessJeffcottRotor>(JeffcottRotor::parameters());
   }
-  JournalJeffcottRotor balanced() const {
-    JournalJeffcottRotor same = *this;
+  FilmlessJeffcottRotor balanced() const {
+    FilmlessJeffcottRotor same = *this;
     same.eccentricity = same.bow = 0.0;
     return same;
   }
@@ -61,12 +61,41 @@ struct JournalJeffcottRotor : JeffcottRotor {
            internalDissipation(deflection(q), deflection(v), at);
   }
   template <class S>
+  WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>& q,
+                                              const std::array<S, kDof>&, const Moment<S>&) const {
+    return {-cross_coupling * q[1], cross_coupling * q[0], S(0.0), S(0.0)};
+  }
+
+ private:
+  template <class S>
+  static WHIRL_TWIN_INLINE std::array<S, 2> deflection(const std::array<S, kDof>& q) {
+    return {q[0] - q[2], q[1] - q[3]};
+  }
+};
+
+struct JournalJeffcottRotor : FilmlessJeffcottRotor {
+  static constexpr bool kLinear = false;
+
+  static constexpr auto parameters() {
+    return inherited<JournalJeffcottRotor>(JeffcottRotor::parameters());
+  }
+  JournalJeffcottRotor balanced() const {
+    JournalJeffcottRotor same = *this;
+    same.eccentricity = same.bow = 0.0;
+    return same;
+  }
+
+  ShortJournalBearing bearing() const {
+    return {bearing_length, bearing_diameter, bearing_clearance, bearing_viscosity};
+  }
+  template <class S>
   std::array<S, kDof> force(const std::array<S, kDof>& q, const std::array<S, kDof>& v,
                             const Moment<S>& at) const {
-    const ShortJournalBearing bearing{bearing_length, bearing_diameter, bearing_clearance,
-                                      bearing_viscosity};
-    const FilmForce<S> film = bearing.force(q[2], q[3], v[2], v[3], at.speed);
-    return {-cross_coupling * q[1], cross_coupling * q[0], 2.0 * film.x, 2.0 * film.y};
+    std::array<S, kDof> all = FilmlessJeffcottRotor::force(q, v, at);
+    const FilmForce<S> film = bearing().force(q[2], q[3], v[2], v[3], at.speed);
+    all[2] = 2.0 * film.x;
+    all[3] = 2.0 * film.y;
+    return all;
   }
 
   std::vector<Condition> conditions(const std::array<double, kDof>& q,
@@ -74,12 +103,6 @@ struct JournalJeffcottRotor : JeffcottRotor {
                                     const std::array<double, kDof>&, const Moment<double>&) const {
     return {{"oil_film", "m", bearing_clearance - std::hypot(q[2], q[3]),
              "the journals touch their bearings"}};
-  }
-
- private:
-  template <class S>
-  static WHIRL_TWIN_INLINE std::array<S, 2> deflection(const std::array<S, kDof>& q) {
-    return {q[0] - q[2], q[1] - q[3]};
   }
 };
 
