@@ -14,6 +14,7 @@
 #include "judged_promise.h"
 #include "measured.h"
 #include "models/model_registry.h"
+#include "random_elements.h"
 #include "scene/surroundings.h"
 #include "scene/system_setup.h"
 
@@ -179,6 +180,22 @@ TEST(RandomPromises, AreKept) {
     SCOPED_TRACE(fmt::format("scene {}: {}, step {:g} s, tolerance {:g}, horizon {:g} s", i,
                              one.systems.front().model, one.stepSeconds(),
                              one.systems.front().tolerance, one.systems.front().horizon));
+    judge(one, judged);
+  }
+  judged.expectMost();
+}
+
+// Of rotors with films, rubs and cubic springs at their nodes, and of such on motors.
+TEST(RandomPromises, OfShaftsWithElementsAreKept) {
+  const auto scenes = static_cast<std::uint64_t>(runOf(4, 200));
+  JudgedPromises judged(kRounding);
+  for (std::uint64_t i = 0; i < scenes; ++i) {
+    Dice dice(seedOr(kSeed) + 2000003 * i);
+    Scene one = shaftWithElements(dice);
+    one.systems.front().tolerance = std::pow(10.0, -std::floor(dice.uniform(3.0, 8.0)));
+    SCOPED_TRACE(fmt::format("scene {}: step {:g} s, tolerance {:g}, horizon {:g} s", i,
+                             one.stepSeconds(), one.systems.front().tolerance,
+                             one.systems.front().horizon));
     judge(one, judged);
   }
   judged.expectMost();
