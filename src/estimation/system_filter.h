@@ -109,7 +109,11 @@ class SystemFilter {
   /// Derivatives are those at these numbers from now on, wherever the estimate goes, and are taken
   /// for right. False where a system cannot have them.
   bool holdModel(const Eigen::VectorXd& numbers);
+  /// Likewise, of where the estimate has come to. Until now it went by a straight line: a number
+  /// that has grown by d has made the parameter 1 + d times as large, and is log(1 + d) for that.
+  bool holdModelHere();
   void releaseModel() { held_ = false; }
+  bool holdsModel() const { return held_; }
   bool hasOffset(std::size_t channel) const { return offset_of_[channel] >= 0; }
 
  private:
@@ -155,6 +159,7 @@ class SystemFilter {
   ShaftInstant now_;
   bool by_probes_ = false;
   bool held_ = false;                   // the model stays at the numbers that it is set up for
+  Eigen::VectorXd held_at_;             // these
   double shaft_deviation_ = 0.0;        // [rad], where it is not by the probes
   std::int64_t began_ = 0;              // [ns]
   Eigen::MatrixXd by_parameter_;        // of the last step, in its middle [n x m]

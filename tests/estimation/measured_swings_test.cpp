@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "estimation/follow_settings_reader.h"
 #include "estimation/shooting_fit.h"
+#include "estimation/starting_filter.h"
 #include "scene/built_scene.h"
 #include "scene/scene_reader.h"
 
@@ -111,6 +113,51 @@ TEST(MeasuredSwings, NeedDryFrictionAndAir) {
   EXPECT_GT(ofTwo({"length1", "center1", "center2", "inertia1", "damping1", "drag2", "drag_reach2"},
                   {"damping2", "coulomb1", "coulomb2"}),
             kBar);
+}
+
+/// One after another, each sample once, from a guess of friction and drag that is off by times.
+TEST(MeasuredSwings, FollowedOnLineTellWhatPredictsThem) {
+  FitStudy all = study({});
+  all.validate_only = true;
+  const BuiltScene scene =
+      build(readSceneFile(WHIRL_TWIN_SOURCE "/config/scenes/measured_swing.yaml"));
+  const std::string settings = WHIRL_TWIN_SOURCE "/config/follow/measured_swing.yaml";
+  const SystemFollowing following =
+      readFollowSettings(YAML::LoadFile(settings), settings, scene).of("pendulum");
+  std::vector<FollowedChannel> channels;
+  for (const SensorChannelSpec& sensed : scene.scene.sensors.front().channels) {
+    FollowedChannel encoder;
+    encoder.name = scene.scene.sensors.front().name + "/" + sensed.name;
+    encoder.signal = sensed.signal;
+    encoder.deviation = sensed.sensor.noise;
+    encoder.offset = following.offset.at(encoder.name);
+    channels.push_back(encoder);
+  }
+  StartingFilter filter(scene, 0, following, channels);
+  for (StudyRun& run : all.runs) {
+    run.train = false;
+    for (std::size_t k = 0; k < run.data.time.size(); ++k) {
+      const ShaftInstant now{std::llround(1.0e9 * run.data.time[k]), {}, 0.0};
+      if (k == 0) {
+        filter.begin(now);
+      }
+      filter.goTo(now);
+      filter.take(0, run.data.columns[0].values[k]);
+      filter.take(1, run.data.columns[1].values[k]);
+    }
+  }
+  for (std::size_t i = 0; i < following.parameters.size(); ++i) {
+    all.scene.systems.front().parameters[following.parameters[i].path] = filter.parameter(i);
+  }
+  for (StudyRun& run : all.runs) {
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      run.measured[c].offset = {filter.offset(c), false};
+    }
+  }
+  const ShootingFit predicted = fitByShooting(all, [](int, int) {});
+  for (std::size_t r = 0; r < all.runs.size(); ++r) {
+    EXPECT_LT(rms(predicted.runs[r]), kBar) << all.runs[r].file;
+  }
 }
 
 }  // namespace
