@@ -43,7 +43,8 @@ FollowedTrack::FollowedTrack(const Twin& twin, std::size_t system, const SystemF
       drive(twin.systems()[system]->drive),
       residuals(filter.channels().size(), {kWindow, false_alarms}),
       drift(settings.parameters.size(), {kWindow, kWarmUp, kMatters, false_alarms}),
-      innovations(filter.channels().size(), kNaN) {
+      innovations(filter.channels().size(), kNaN),
+      surest(innovations) {
   told.system = twin.systems()[system]->spec.name;
   for (const FollowedParameter& p : filter.model().parameters()) {
     told.parameter.push_back(p.path);
@@ -75,7 +76,8 @@ bool FollowedTrack::settled(std::int64_t instant) const {
 
 void FollowedTrack::endInstant() {
   if (settled(at)) {
-    residuals.take(static_cast<double>(at) * 1.0e-9, innovations.data(), innovations.size());
+    residuals.take(static_cast<double>(at) * 1.0e-9, innovations.data(), innovations.size(),
+                   surest.data());
   }
   std::fill(innovations.begin(), innovations.end(), kNaN);
 }

@@ -35,8 +35,8 @@ struct FollowedTrack {
   std::int64_t last_used = 0;  // [ns]
   ResidualWatch residuals;
   DriftWatch drift;
-  std::vector<double> innovations;  // of that instant
-  std::vector<double> squares;      // of the residuals of each channel
+  std::vector<double> innovations, surest;  // of that instant
+  std::vector<double> squares;              // of the residuals of each channel
   std::vector<std::int64_t> counts;
   std::vector<std::int64_t> heard;  // [ns], of each channel: its newest sample
   std::int64_t overtaken = 0;       // samples, by those of channels with less delay

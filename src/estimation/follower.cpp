@@ -283,6 +283,7 @@ void Follower::takeSample(const MeasuredSample& sample) {
     set_status(state::ChannelStatus::kUsed);
     if (!system.filter.byProbes()) {  // else they are of another model
       system.innovations[channel.place] = innovation.normalized();
+      system.surest[channel.place] = innovation.normalizedSurest();
     }
     system.last_used = instant;
     if (system.settled(instant)) {

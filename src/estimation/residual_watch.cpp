@@ -23,11 +23,12 @@ ResidualWatch::ResidualWatch(std::size_t channels, const ResidualWatchSettings& 
 void ResidualWatch::restart() {
   begin_ = newest_ = kNone;
   numbers_ = pairs_ = 0;
-  squares_ = products_ = 0.0;
+  squares_ = surest_ = products_ = 0.0;
   std::fill(last_.begin(), last_.end(), kNone);
 }
 
-bool ResidualWatch::take(double time, const double* innovation, std::size_t channels) {
+bool ResidualWatch::take(double time, const double* innovation, std::size_t channels,
+                         const double* surest) {
   if (time < newest_) {
     restart();
   }
@@ -40,13 +41,14 @@ bool ResidualWatch::take(double time, const double* innovation, std::size_t chan
     ended = true;
     begin_ = time;
     numbers_ = pairs_ = 0;
-    squares_ = products_ = 0.0;
+    squares_ = surest_ = products_ = 0.0;
   }
   for (std::size_t i = 0; i < std::min(channels, last_.size()); ++i) {
     const double e = innovation[i];
     if (!std::isnan(e)) {
       ++numbers_;
       squares_ += e * e;
+      surest_ += surest == nullptr ? e * e : surest[i] * surest[i];
       if (!std::isnan(last_[i])) {
         ++pairs_;
         products_ += e * last_[i];
@@ -61,11 +63,12 @@ void ResidualWatch::judge(double time) {
   const auto n = static_cast<double>(numbers_);
   const auto pairs = static_cast<double>(pairs_);
   verdict_.time = time;
-  verdict_.mismatch = squares_ / n;
+  const double mean = squares_ / n;
+  verdict_.mismatch = std::max(mean, std::min(surest_ / n, 1.0));
   verdict_.mismatch_least = meanSquareLimit(numbers_, -z_);
   verdict_.mismatch_limit = meanSquareLimit(numbers_, z_);
   // Of as many squares as there are pairs: the correlation, whatever the size.
-  verdict_.whiteness = squares_ > 0.0 ? products_ / pairs / verdict_.mismatch : 0.0;
+  verdict_.whiteness = squares_ > 0.0 ? products_ / pairs / mean : 0.0;
   verdict_.whiteness_limit = z_ / std::sqrt(pairs);
 }
 

@@ -10,6 +10,10 @@
 // to each end. What is too large has forces or noise that the model has not, what is too small has
 // less noise than it was told, and what is not white is predicted wrongly in a way that lasts.
 //
+// A part of what is expected may be an allowance, as for a shaft whose angle is off by as much for
+// a while: residuals that are smaller by no more than the allowance are no mismatch. The mean of
+// the squares is then 1, or as far below as without it.
+//
 // It assumes that a window's numbers are independent, among channels of one instant, too: those of
 // several channels come one after the other (sequential updates), or from nu' S^-1 nu's root.
 #pragma once
@@ -47,7 +51,9 @@ class ResidualWatch {
   /// The normalised innovations of an instant [s], one a channel, at most as many as there are;
   /// NaN: the channel had none. An instant before the last one begins anew. True where it has ended
   /// a window.
-  bool take(double time, const double* innovation, std::size_t channels);
+  /// surest: likewise, over the deviations without the allowance in them; none: the same.
+  bool take(double time, const double* innovation, std::size_t channels,
+            const double* surest = nullptr);
   /// The present window begins anew, and its last instant is forgotten; the verdict stays.
   void restart();
   /// Of the last window.
@@ -64,6 +70,7 @@ class ResidualWatch {
   std::size_t numbers_ = 0;
   std::size_t pairs_ = 0;
   double squares_ = 0.0;
+  double surest_ = 0.0;  // likewise without the allowance: as large or larger
   double products_ = 0.0;
   Verdict verdict_;
 };

@@ -217,16 +217,18 @@ Eigen::VectorXd SystemFilter::rowOf(std::size_t channel) const {
 
 Innovation SystemFilter::take(std::size_t channel, double value, double deviation) {
   const Eigen::VectorXd h = rowOf(channel);
+  double by_shaft = 0.0;
   double noise = deviation > 0.0 ? deviation : channels_[channel].deviation;
   if (by_probes_ && run_out_of_[channel] >= 0) {
     noise = std::hypot(noise, filter_.state().segment<2>(run_out_of_[channel]).norm());
   } else if (!by_probes_ && shaft_deviation_ > 0.0 && now_.speed != 0.0) {
     // A motion that turns with the shaft is seen as far off as the shaft's angle is.
-    noise = std::hypot(noise, shaft_deviation_ * std::hypot(h.head(n_).dot(q()),
-                                                            h.head(n_).dot(v()) / now_.speed));
+    by_shaft = shaft_deviation_ * std::hypot(h.head(n_).dot(q()), h.head(n_).dot(v()) / now_.speed);
+    noise = std::hypot(noise, by_shaft);
   }
   const KalmanFilter::Expected expected = filter_.expect(h, noise);
   Innovation innovation{value - expected.value, expected.deviation, false};
+  innovation.surest = std::sqrt((expected.deviation - by_shaft) * (expected.deviation + by_shaft));
   if (!(std::fabs(innovation.value) <= kGate * innovation.deviation)) {
     return innovation;
   }

@@ -52,7 +52,9 @@ struct Innovation {
   double value = 0.0;      ///< measured less expected, in the channel's unit
   double deviation = 0.0;  ///< that it was expected to have
   bool used = false;       ///< false: too far off to be of this motion
+  double surest = 0.0;     ///< the deviation that it had if the shaft's angle were known exactly
   double normalized() const { return value / deviation; }
+  double normalizedSurest() const { return value / surest; }
 };
 
 class SystemFilter {

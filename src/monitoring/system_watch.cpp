@@ -4,6 +4,8 @@
 #include <memory>
 #include <utility>
 
+#include "scene/held_rotor.h"
+
 namespace whirl_twin {
 namespace {
 
@@ -20,6 +22,12 @@ AlarmSettings settingsFor(const Dynamics& dynamics, AlarmSettings settings) {
     settings.decay_rate_alarm = 0.0;
   }
   return settings;
+}
+
+/// On a drive, or on a motor: either way what follows it has to know its angle.
+bool hasShaft(const BuiltSystem& system) {
+  return system.dynamics->hasShaft() ||
+         (system.spec.drive.has_value() && rotorOnMotor(system).has_value());
 }
 
 }  // namespace
@@ -42,7 +50,7 @@ SystemWatch::SystemWatch(SharedSystem built, JudgedSpeeds first, const AlarmSett
       voted_alarm(built->spec.name, settings),
       order_alarm(built->spec.name, settings),
       decay_alarm(built->spec.name, settings),
-      following_alarm(built->spec.name, built->dynamics->hasShaft(), settings),
+      following_alarm(built->spec.name, hasShaft(*built), settings),
       critical_speed_alarm(built->spec.name, settings),
       capture_alarm(built->spec.name, settings),
       stability_alarm(built->spec.name, settingsFor(*built->dynamics, settings)),
@@ -113,7 +121,7 @@ void SystemWatch::restart(const AlarmSettings& settings) {
   voted_alarm = VotedAlarm(name, settings);
   order_alarm = OrderAlarm(name, settings);
   decay_alarm = DecayAlarm(name, settings);
-  following_alarm = FollowingAlarm(name, dynamics->hasShaft(), settings);
+  following_alarm = FollowingAlarm(name, hasShaft(*system), settings);
   critical_speed_alarm = CriticalSpeedAlarm(name, settings);
   capture_alarm = CaptureAlarm(name, settings);
   seen.reset();

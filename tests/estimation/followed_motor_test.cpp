@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -60,6 +61,30 @@ TEST(FollowedMotor, IsFollowedByItsKeyphasor) {
   EXPECT_NEAR(told.value[0], 2.0e5, 0.005 * 2.0e5);
   EXPECT_NEAR(told.value[1], 40.0, 0.2 * 40.0);
   EXPECT_LT(told.mismatch, told.mismatch_limit);
+}
+
+/// Held at its critical speed, a whirl of 4 mm is expected to be seen as far off as the shaft's
+/// angle may be. That it is not as far off is no sign of a sensor that is stuck.
+TEST(FollowedMotor, CapturedByItsCriticalSpeedHasTheNoiseOfItsProbes) {
+  std::string scene = kMotor + "  tacho: {keyphasor: shaft, jitter: 5.0e-6}\n";
+  scene.replace(scene.find("stall_torque: 0.9"), 17, "stall_torque: 0.3");
+  scene.replace(scene.find("speed: 150.0"), 12, "speed: 190.0");
+  scene.replace(scene.find("    inputs:"), scene.find("sensors:") - scene.find("    inputs:"), "");
+  FollowSettings settings;
+  settings.systems["rotor"].disturbance = 2.0e-3;
+  Twinned twin(scene, settings);
+  Machine machine(scene);
+  double widest = 0.0;
+  for (int k = 0; k < 12'000; ++k) {
+    for (const state::Measurement& m : machine.step()) {
+      twin.follower.take(m);
+    }
+    widest = std::max(widest, std::hypot(machine.x(), machine.y()));
+  }
+  EXPECT_GT(widest, 3.0e-3) << "captured";
+  ASSERT_FALSE(twin.told.empty());
+  EXPECT_GT(twin.last().mismatch, twin.last().mismatch_least);
+  EXPECT_LT(twin.last().mismatch, twin.last().mismatch_limit);
 }
 
 TEST(FollowedMotor, OfWhichNothingTellsTheAngleIsRefused) {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <random>
+#include <utility>
 
 #include "allocation_guard.h"
 #include "control/counter_noise.h"
@@ -153,6 +155,23 @@ TEST(AlarmLimits, OfACumulativeSumArePassedOnceInItsRunLength) {
       }
     }
     EXPECT_NEAR(static_cast<double>(kNumbers) / passed, 1000.0, 200.0) << allowance;
+  }
+}
+
+/// What a part of the deviation is an allowance for may be missing, but no more than that.
+TEST(ResidualWatch, AnAllowanceThatIsNotTakenIsNoMismatch) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  for (const auto& [size, least] : {std::pair(0.8, 1.0), std::pair(0.3, 0.3 * 0.3 / 0.64)}) {
+    ResidualWatch watch(1);
+    double e = 0.0, surest = 0.0;
+    for (int k = 0; k <= 1000; ++k) {
+      e = size * normal(random);
+      surest = e / 0.8;
+      watch.take(0.001 * k, &e, 1, &surest);
+    }
+    EXPECT_NEAR(watch.verdict().mismatch, least, 0.1 * least);
+    EXPECT_EQ(watch.verdict().mismatched(), size < 0.5) << size;
   }
 }
 

@@ -224,6 +224,35 @@ TEST(FollowingAlarm, AHundredDeadChannelsFitATextThatAMessageCarries) {
   EXPECT_TRUE(has(told.text(alert_type::kSensor), "..."));
 }
 
+/// What a motor turns is followed by its pulses: without them its shaft is not known.
+TEST(FollowingAlarm, AKeyphasorIsMissedOfAShaftOnAMotorToo) {
+  for (const char* drive :
+       {"{motor: {stall_torque: 0.3, no_load_speed: 400.0}}", "{speed: 45.0}"}) {
+    std::string scene = R"(
+name: rig
+step: 0.001
+drives: {shaft: DRIVE}
+systems:
+  rotor:
+    model: jeffcott_rotor
+    drive: shaft
+    parameters: {mass: 5.0, stiffness: 2.0e5, damping: 40.0, eccentricity: 2.0e-4, polar_inertia: 0.02}
+)";
+    WatchedTwin watched(sceneOf(scene.replace(scene.find("DRIVE"), 5, drive)));
+    watched.run(0.5);
+    state::FollowState follow = wellFollowed();
+    follow.shaft_known = false;
+    for (follow.at.time = 0.5; follow.at.time < 4.0; follow.at.time += 0.1) {
+      watched.wall += 0.1;
+      watched.monitor.take(follow, watched.wall);
+    }
+    const state::Alert* alert = watched.monitor.alerts().find("rotor", alert_type::kSensor);
+    ASSERT_NE(alert, nullptr) << drive;
+    EXPECT_TRUE(has(alert->text, "the shaft's angle is not known; look at the keyphasor"))
+        << alert->text;
+  }
+}
+
 TEST(FollowingAlarm, IsInTheMonitor) {
   WatchedTwin watched(sceneOf(kThreeSystems));
   watched.run(1.0);
