@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <set>
 
+#include "estimation/run_units.h"
 #include "messages/names.h"
 #include "messages/refusal.h"
 #include "scene/built_scene.h"
@@ -175,7 +176,12 @@ class StudyReader {
       return;
     }
     try {
-      run.data = read_((folder_ / run.file).string(), map.text("time", "time"), columns);
+      const std::string time = map.text("time", "time");
+      run.data = read_((folder_ / run.file).string(), time, columns);
+      settleUnits(run, time, built_->dynamics->inputs(), study_.scene.stepSeconds());
+      if (!study_.validate_only) {
+        requireUse(run, study_.window);
+      }
       study_.runs.push_back(std::move(run));
     } catch (const Refusal& error) {
       complaints_.add(map.key("file"), fmt::format("{}: {}", printable(run.file), error.what()));

@@ -30,6 +30,14 @@ double median(std::vector<double> x) {
   return *middle;
 }
 
+std::vector<double> stepsOf(const std::vector<double>& time) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < time.size(); ++i) {
+    steps.push_back(time[i] - time[i - 1]);
+  }
+  return steps;
+}
+
 /// Rows whose instants are later than all before; `rows` are those they stand on.
 void keepAscending(MeasuredRun& run, std::vector<std::size_t>& rows) {
   std::size_t kept = 0;
@@ -68,10 +76,7 @@ void keepAscending(MeasuredRun& run, std::vector<std::size_t>& rows) {
 }
 
 void remarkOnTime(MeasuredRun& run, const std::vector<std::size_t>& rows) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < run.time.size(); ++i) {
-    steps.push_back(run.time[i] - run.time[i - 1]);
-  }
+  const std::vector<double> steps = stepsOf(run.time);
   const double usual = median(steps);
   const auto widest = std::max_element(steps.begin(), steps.end());
   const auto gaps =
@@ -134,6 +139,10 @@ void remarkOnColumn(const MeasuredRun& run, const std::vector<std::size_t>& rows
 }
 
 }  // namespace
+
+double MeasuredRun::usualStep() const {
+  return median(stepsOf(time));
+}
 
 const std::vector<double>& MeasuredRun::column(const std::string& name) const {
   const auto found = std::find_if(columns.begin(), columns.end(),

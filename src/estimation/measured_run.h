@@ -21,6 +21,7 @@ struct MeasuredRun {
   /// Throws std::logic_error where there is none of that name.
   const std::vector<double>& column(const std::string& name) const;
   double duration() const { return time.back() - time.front(); }
+  double usualStep() const;  ///< [s], the median
 };
 
 /// A run of columns as they came. Rows that repeat the instant [s] of the one before are left out,

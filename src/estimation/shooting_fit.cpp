@@ -14,16 +14,18 @@ namespace {
 
 constexpr double kHeldTo = 1.0e-2;  // deviations along an untold direction, of its parts
 constexpr double kAtBound = 1.0e-9;
+constexpr double kFirstRows = 10.0;  // that the shortest windows have
 
 /// From short windows to those of the study.
 std::vector<double> stageLengths(const FitStudy& study) {
-  double longest = 0.0;
+  double longest = 0.0, usual = 0.0;
   for (const StudyRun& run : study.runs) {
     longest = std::max(longest, run.data.duration());
+    usual = std::max(usual, run.data.usualStep());
   }
   std::vector<double> lengths;
-  for (double length = ShootingSolver::kFirstWindow; length < std::min(study.window, longest);
-       length *= ShootingSolver::kLonger) {
+  for (double length = std::max(ShootingSolver::kFirstWindow, kFirstRows * usual);
+       length < std::min(study.window, longest); length *= ShootingSolver::kLonger) {
     lengths.push_back(length);
   }
   lengths.push_back(study.window);

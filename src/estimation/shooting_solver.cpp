@@ -3,6 +3,7 @@
 #include <ceres/ceres.h>
 #include <ceres/normal_prior.h>
 #include <fmt/format.h>
+#include <glog/logging.h>
 
 #include <algorithm>
 #include <cmath>
@@ -46,6 +47,8 @@ ShootingSolver::ShootingSolver(const FitStudy& study, CandidateMaker maker)
     theta_[i] = std::clamp(u.start, u.least, u.most);
   }
   begin_ = theta_;
+  // What ends a solution is told in words of the study; Ceres's own go to standard error beside.
+  FLAGS_minloglevel = google::GLOG_FATAL;
   maker_.at(theta_);  // refused in words, where the model cannot have them
 }
 

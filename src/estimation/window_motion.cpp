@@ -96,6 +96,9 @@ std::pair<double, double> quadraticAtZero(const std::vector<double>& x,
                                           const std::vector<double>& y) {
   Eigen::MatrixXd a(static_cast<Eigen::Index>(x.size()), 3);
   const double width = std::max(std::fabs(x.front()), std::fabs(x.back()));
+  if (width == 0.0) {
+    return {y.front(), 0.0};  // a row alone
+  }
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double u = x[i] / width;
     a.row(static_cast<Eigen::Index>(i)) << 1.0, u, u * u;
@@ -123,6 +126,11 @@ std::vector<Window> windowsOf(const FitStudy& study, std::size_t run, double len
       break;
     }
     const std::size_t upto = whole ? std::max(last, first + 1) : time.size() - 1;
+    if (whole && upto == first + 1 && !all.empty()) {  // alone before a gap, it tells no motion
+      ++all.back().count;
+      first = upto;
+      continue;
+    }
     all.push_back({run, first, upto - first + (whole ? 0 : 1)});
     first = upto;
     if (!whole) {

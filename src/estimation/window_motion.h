@@ -18,7 +18,7 @@ struct Window {
 
 /// The windows of a run: as many of `length` [s] as it has, each from the row at which the one
 /// before ends; what is left over belongs to the last one, or is one of its own where it is longer
-/// than half of that.
+/// than half of that. A row that a gap leaves alone belongs to the window before it.
 std::vector<Window> windowsOf(const FitStudy& study, std::size_t run, double length);
 
 /// Steps the candidate through the window's rows with the system's own method and the scene's step,

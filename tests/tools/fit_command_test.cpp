@@ -3,7 +3,12 @@
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <vector>
 
 #include "twin_program.h"
 
@@ -151,6 +156,85 @@ TEST_F(Fit, FitsALogOfWhatWasMeasured) {
   EXPECT_EQ(several.status, 2);
   EXPECT_THAT(several.err, HasSubstr("of one source"));
   EXPECT_THAT(several.err, HasSubstr("found encoder/theta, other/theta"));
+}
+
+/// The first swing with each line of numbers changed, or left out.
+class ChangedSwing : public Fit {
+ protected:
+  using Change = std::function<std::string(double time, double theta)>;  // "": left out
+  void write(const std::string& names, const Change& change) const {
+    std::ifstream in(directory_.file("swing_1.csv"));
+    std::ofstream out(directory_.file("changed.csv"));
+    std::string line;
+    std::getline(in, line);
+    out << names << '\n';
+    while (std::getline(in, line)) {
+      out << change(std::stod(line), std::stod(line.substr(line.find(',') + 1)));
+    }
+  }
+  Ending fitChanged(const std::string& column, const std::vector<std::string>& options) const {
+    return fit(
+        "scene: guess.yaml\nsystem: arm\nruns:\n  - {file: changed.csv, measured: {theta: '" +
+            column + "'}}\nfit: {inertia: {min: 0.0}, damping: , coulomb: {min: 0.0}}\n",
+        options);
+  }
+  static std::string row(double time, double theta) {
+    return std::to_string(time) + "," + std::to_string(theta) + "\n";
+  }
+};
+
+/// Half a second in which nothing was recorded, from the row at which a window ends.
+TEST_F(ChangedSwing, WithAGapIsFitted) {
+  write("time,q",
+        [](double t, double theta) { return t > 1.0001 && t < 1.5 ? "" : row(t, theta); });
+  const Ending end = fitChanged("q", {"--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  EXPECT_NEAR(end.json()["parameters"]["coulomb"]["value"], 0.05, 1e-3);
+  EXPECT_THAT(end.json()["runs"]["changed.csv"]["remarks"][0], HasSubstr("1 gap"));
+}
+
+TEST_F(ChangedSwing, InAUnitThatItsColumnNamesIsTakenInIt) {
+  write("time,q[deg]", [](double t, double theta) { return row(t, theta / 0.017453292519943295); });
+  const Ending end = fitChanged("q[deg]", {"--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  EXPECT_NEAR(end.json()["parameters"]["damping"]["value"], 0.03, 1e-3);
+}
+
+/// In one message, and nothing else on standard error.
+TEST_F(ChangedSwing, ThatCannotBeUsedIsSaid) {
+  const auto refused = [&](const std::string& column,
+                           const std::vector<std::string>& options = {}) {
+    const Ending end = fitChanged(column, options);
+    EXPECT_EQ(end.status, 2) << end.err;
+    EXPECT_EQ(std::count(end.err.begin(), end.err.end(), '\n'), 1) << end.err;
+    return end.err;
+  };
+  write("time,q[mm]", row);
+  EXPECT_THAT(refused("q[mm]", {"--check"}),
+              HasSubstr("column 'q[mm]': is in mm, and theta must be in rad"));
+  write("time,q", [](double t, double theta) { return row(t, 1.0e9 * theta); });
+  EXPECT_THAT(refused("q", {"--check"}),
+              HasSubstr("column 'q': theta must be within 1e+06 rad, found 1e+09 at 0 s"));
+  write("time,q", [](double t, double) { return row(t, 0.3); });
+  EXPECT_THAT(refused("q"), HasSubstr("the same in every row"));
+  write("time,q", [](double t, double theta) { return row(1000.0 * t, theta); });
+  EXPECT_THAT(refused("q"), HasSubstr("rows are 5 s apart, and windows of 1 s hold less than 5"));
+}
+
+TEST_F(ChangedSwing, ThatHardlyCanBeMeantIsRemarked) {
+  const auto remark = [&] {
+    const Ending end = fitChanged("q", {"--check"});
+    EXPECT_EQ(end.status, 0) << end.err;
+    return end.out;
+  };
+  write("time,q", [](double t, double theta) { return row(t, 57.3 * theta); });
+  EXPECT_THAT(remark(), HasSubstr("turns: is it in degrees?"));
+  write("time,q",
+        [](double t, double theta) { return row(t, theta < 0.0 ? theta + 6.28 : theta); });
+  EXPECT_THAT(remark(), HasSubstr("wrapped at a turn, or in degrees?"));
+  write("time,q", [](double t, double theta) { return row(1000.0 * t, theta); });
+  EXPECT_THAT(remark(),
+              HasSubstr("rows are 5 s apart, 5e+03 steps of the scene: is the time in s?"));
 }
 
 TEST_F(Fit, TellsAllMistakesOfAStudyAtOnce) {
