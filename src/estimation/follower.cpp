@@ -1,132 +1,24 @@
 #include "estimation/follower.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
-
-#include "messages/refusal.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kNanosecond = 1.0e-9;                  // s
 constexpr std::int64_t kLongestGap = 1'000'000'000;     // ns, that a motion is believed through
 constexpr std::int64_t kTelling = 100'000'000;          // ns, from one FollowState to the next
 constexpr std::int64_t kLost = 250'000'000;             // ns, of nothing but refused samples
 constexpr std::int64_t kNewParameters = 1'000'000'000;  // ns, from one generation to the next
-constexpr double kPatience = 0.25;                      // s, beside the longest block
 constexpr std::int64_t kShaftWait = 1'000'000'000;      // ns, for the first pulses
 
 ShaftInstant instantOf(std::int64_t instant, const ShaftEstimate& at) {
   return {instant, at.angle, at.speed};
 }
 
-std::int64_t nanoseconds(double seconds) {
-  return std::llround(seconds / kNanosecond);
-}
-
-/// [s]
-double patienceFor(const Scene& scene) {
-  double longest = 0.0;
-  for (const SensorSpec& sensor : scene.sensors) {
-    longest = std::max(longest, sensor.block);
-  }
-  return kPatience + longest;
-}
-
 }  // namespace
-
-Follower::Follower(const Twin& twin, std::shared_ptr<SystemGenerations> generations,
-                   const FollowSettings& settings, std::int64_t every, FollowerListener listener)
-    : twin_(twin),
-      generations_(std::move(generations)),
-      listener_(std::move(listener)),
-      every_(every),
-      queue_(settings.patience.value_or(patienceFor(twin.scene()))),
-      record_(twin.layout().size) {
-  for (std::size_t i = 0; i < twin.driveCount(); ++i) {
-    shafts_.push_back({FollowedShaft(twin.drive(i)), std::nullopt});
-  }
-  systems_.resize(twin.systems().size());
-  addSensors(settings);
-  twin.write(record_.data());
-  RecordLayout::setScheduled(record_.data(), 0);
-  for (const auto& system : systems_) {
-    if (system) {
-      system->first_energy = heldEnergy(*system);
-    }
-  }
-}
-
-Follower::~Follower() = default;
-
-void Follower::addSensors(const FollowSettings& settings) {
-  const Scene& scene = twin_.scene();
-  std::map<std::size_t, std::vector<FollowedChannel>> followed;
-  for (const FollowedSource& source : followedSources(scene, settings)) {
-    channels_.emplace_back();
-    pulses_.emplace_back();
-    if (source.keyphasor) {
-      pulses_.back() = source.drive;
-      shafts_[source.drive].motion.listenTo(*source.keyphasor);
-      shafts_[source.drive].source = queue_.addSource(source.name, {"keyphasor"}, {""});
-      channels_.back().emplace_back();
-      continue;
-    }
-    const std::size_t number = queue_.addSource(source.name, source.names(), source.units());
-    for (const FollowedSource::Channel& c : source.channels) {
-      const SystemFollowing& of = settings.of(scene.systems[c.system].name);
-      std::vector<FollowedChannel>& channels = followed[c.system];
-      FollowedChannel channel;
-      channel.name = source.name + "/" + c.name;
-      channel.signal = c.signal;
-      channel.signal.unit = c.unit;
-      channel.deviation = c.deviation;
-      channel.input = c.input;
-      if (!c.input && !(channel.deviation > 0.0)) {
-        throw Refusal(
-            fmt::format("{}: sensors.{}.{}: needs noise or resolution: how far it can be trusted",
-                        scene.source, source.name, c.name));
-      }
-      const auto offset = of.offset.find(channel.name);
-      channel.offset = offset == of.offset.end() ? 0.0 : offset->second;
-      const bool displacement = !c.input && c.signal.kind == SignalSpec::Kind::kDisplacement;
-      channel.run_out = displacement ? of.run_out : 0.0;
-      if (c.input) {
-        inputs_.push_back({c.system, number, channels_.back().size()});
-      }
-      channels_.back().push_back({c.system, channels.size(), nanoseconds(c.delay), c.input});
-      longest_delay_ = std::max(longest_delay_, channels_.back().back().delay);
-      channels.push_back(channel);
-    }
-  }
-  for (auto& [system, channels] : followed) {
-    const std::string& name = scene.systems[system].name;
-    const std::size_t drive = twin_.systems()[system]->drive;
-    if (drive < twin_.driveCount() && twin_.isMotor(drive)) {
-      throw Refusal(fmt::format(
-          "{}: systems.{}: is turned by a motor, whose torque nobody measures: give its "
-          "shaft a keyphasor, which tells how it turns, or another drive",
-          scene.source, name));
-    }
-    if (std::all_of(channels.begin(), channels.end(),
-                    [](const FollowedChannel& c) { return c.input.has_value(); })) {
-      throw Refusal(
-          fmt::format("{}: sensors: must measure the motion of {}, whose inputs are measured",
-                      scene.source, name));
-    }
-    systems_[system] = std::make_unique<FollowedTrack>(twin_, system, settings.of(name),
-                                                       std::move(channels), settings.false_alarms);
-  }
-  if (followed.empty()) {
-    throw Refusal(scene.source +
-                  ": sensors: must name what is measured of a system to be followed");
-  }
-}
 
 const SystemFilter* Follower::filter(std::size_t system) const {
   return systems_[system] ? &systems_[system]->filter : nullptr;
