@@ -158,6 +158,36 @@ TEST_F(Fit, FitsALogOfWhatWasMeasured) {
   EXPECT_THAT(several.err, HasSubstr("found encoder/theta, other/theta"));
 }
 
+/// A measured pendulum, whose torque comes from the current of its motor: a swing-up tells its
+/// period, not its weight beside the torque's scale; where its weight is balanced, nothing is told.
+TEST_F(Fit, OfAMeasuredTorqueTellsWhatItIsWorth) {
+  const auto ofRecord = [&](const std::string& name, const std::string& measured) {
+    return fit("scene: guess.yaml\nsystem: arm\nruns:\n  - {file: " WHIRL_TWIN_SOURCE
+               "/config/records/torque_limited_" +
+               name + ".csv, measured: {theta: " + measured +
+               "}, inputs: {torque: {column: torque, scale: fit, hold: true}}}\n"
+               "fit: {mass: {min: 0.01}, inertia: {min: 0.0}, damping: {min: 0.0}, coulomb: {min: "
+               "0.0}}\n");
+  };
+  std::string guess = scene(0.01, 0.001, 0.05, 0.0);
+  guess.replace(guess.find("step: 0.001"), 11, "step: 0.002");
+  guess.replace(guess.find("coulomb: "), 0, "coulomb_rate: 0.05, ");
+  directory_.write("guess.yaml", guess);
+  const Ending swing = ofRecord("swing_up", "{column: theta, offset: fit}");
+  ASSERT_EQ(swing.status, 0) << swing.err;
+  const nlohmann::json told = swing.json();
+  const double mass = told["parameters"]["mass"]["value"];
+  const double inertia = told["parameters"]["inertia"]["value"];
+  EXPECT_NEAR((0.25 * mass + inertia) / (0.25 * mass), 1.0, 0.02) << "J/(m g l) beside l/g";
+  const nlohmann::json held = ofRecord("held", "theta").json();
+  for (const char* name : {"mass", "torque.scale"}) {
+    EXPECT_THAT(told["undetermined"], testing::Contains(name));
+    EXPECT_THAT(held["undetermined"], testing::Contains(name));
+  }
+  EXPECT_THAT(held["undetermined"], testing::Contains("inertia"));
+  EXPECT_LT(told["runs"].begin().value()["rms"]["theta"].get<double>(), 5.0e-3);
+}
+
 /// The first swing with each line of numbers changed, or left out.
 class ChangedSwing : public Fit {
  protected:
