@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -154,7 +155,8 @@ TEST(Inputs, AllocateNothing) {
     for (std::int64_t time = 0; time < 500; time += 10) {
       inputs.set(0, 1.0, time + 5);
       inputs.begin(time);
-      sum += inputs.value(2, 3e-9) + inputs.piece(2, inputs.nextCorner(0)).value;
+      sum += inputs.value(2, 3e-9) +
+             inputs.piece(2, std::min<std::int64_t>(inputs.nextCorner(0), 300)).value;
     }
     inputs.reset();
     EXPECT_EQ(guard.allocations(), 0u);

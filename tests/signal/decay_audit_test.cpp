@@ -59,17 +59,22 @@ class NoisyRotor {
     const double t = static_cast<double>(index_) * kStep;
     const double angle = speed_ * t;
     for (int m = 0; m < 2; ++m) {
-      modes_[m] = std::exp(poles_[m] * kStep) * modes_[m] +
-                  Complex(normal_(random_), normal_(random_)) * 1e-5;
+      modes_[m] = std::exp(poles_[m] * kStep) * modes_[m] + noise() * 1e-5;
     }
     const Complex z = modes_[0] + modes_[1] + std::polar(5e-5, angle - 0.3) + Complex(0.0, -1e-4) +
-                      probe_noise_ * Complex(normal_(random_), normal_(random_));
+                      probe_noise_ * noise();
     const double turns = std::floor(angle / (2.0 * kPi));
     return {index_++, t,       static_cast<std::int64_t>(turns), angle - 2.0 * kPi * turns, speed_,
             z.real(), z.imag()};
   }
 
  private:
+  // One after the other: the order of two arguments is the compiler's.
+  Complex noise() {
+    const double imaginary = normal_(random_);
+    return {normal_(random_), imaginary};
+  }
+
   static constexpr double kStep = 1.0e-3;
   double speed_, probe_noise_;
   Complex poles_[2], modes_[2];
