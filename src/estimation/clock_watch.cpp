@@ -41,6 +41,9 @@ void ClockWatch::take(std::int64_t machine, std::int64_t twin) {
 void ClockWatch::restart() {
   windows_.clear();
   most_ = -std::numeric_limits<double>::infinity();
+  if (std::fabs(seconds(first_)) >= kDay) {
+    began_ = false;
+  }
 }
 
 double ClockWatch::offset() const {

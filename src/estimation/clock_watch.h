@@ -16,7 +16,7 @@ class ClockWatch {
   /// the twin's.
   void take(std::int64_t machine, std::int64_t twin);
   /// Begins anew, as where the machine's clock has been set; the offset stays in relation to the
-  /// first.
+  /// first; but a clock that counts from elsewhere, from the machine's own start, has a new one.
   void restart();
 
   /// [s], machine less twin. Of clocks that are more than a day apart, which do not count from the

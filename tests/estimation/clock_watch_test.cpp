@@ -37,6 +37,21 @@ TEST(ClockWatch, ClocksThatCountFromElsewhereAreComparedWithTheirStart) {
   EXPECT_NEAR(watch.drift(), -2.0e-3, 1.0e-4);
 }
 
+/// One that counts from its own start was started again; one that shows the time of day was set.
+TEST(ClockWatch, AMachineThatIsStartedAgainHasAClockOfItsOwn) {
+  for (const std::int64_t epoch : {std::int64_t{0}, kEpoch}) {
+    ClockWatch watch;
+    for (int k = 0; k < 4000; ++k) {
+      if (k == 2000) {
+        watch.restart();
+      }
+      watch.take(epoch + std::llround(0.01 * (k % 2000) * 1.0e9),
+                 kEpoch + std::llround(0.01 * k * 1.0e9));
+    }
+    EXPECT_NEAR(watch.offset(), epoch == 0 ? 0.0 : -20.0, 1.0e-6);
+  }
+}
+
 /// A busy machine, where all messages of some seconds are late: no clock gains.
 TEST(ClockWatch, DelaysThatComeAndGoAreNoDrift) {
   for (unsigned seed = 1; seed <= 20; ++seed) {

@@ -83,7 +83,7 @@ TEST(LoopAlarm, WarnsWhereTheSensitivityIsBeyondZoneB) {
   EXPECT_GT(fragile.loop_margins.back().sensitivity_peak, 5.0);
   EXPECT_EQ(fragile.loop_margins.back().zone, "D");
   ASSERT_EQ(fragile.count(alert_type::kLoopSensitivity, true), 1u);
-  const state::Alert& alert = fragile.monitor.alerts().active()[0];
+  const state::Alert alert = fragile.monitor.alerts().active()[0];
   EXPECT_EQ(alert.system, "pd");
   EXPECT_EQ(alert.severity, state::Severity::kWarning);
   EXPECT_NE(alert.text.find("zone D"), std::string::npos) << alert.text;
