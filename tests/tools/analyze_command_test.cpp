@@ -34,7 +34,8 @@ TEST(Analyze, HasEveryKey) {
   const Ending end = twin({"analyze", kDemo, "--json"});
   ASSERT_EQ(end.status, 0) << end.err;
   EXPECT_EQ(keys(end.json()["systems"]), (std::set<std::string>{"rotor", "pendulum"}));
-  for (const auto& [name, system] : end.json()["systems"].items()) {
+  const nlohmann::json systems = end.json()["systems"];
+  for (const auto& [name, system] : systems.items()) {
     EXPECT_EQ(keys(system), (std::set<std::string>{"model",
                                                    "coordinates",
                                                    "time",

@@ -14,16 +14,20 @@ TEST(Scenes, EveryModelOfTheProgramIsInAShippedSceneThatSaysWhatToWatch) {
   const Ending end = twin({"scenes", "--json"});
   ASSERT_EQ(end.status, 0) << end.err;
   std::set<std::string> shown;
-  for (const auto& [name, scene] : end.json()["scenes"].items()) {
+  const nlohmann::json scenes = end.json()["scenes"];
+  ASSERT_FALSE(scenes.empty());
+  for (const auto& [name, scene] : scenes.items()) {
     EXPECT_TRUE(scene["refusal"].is_null()) << name << ": " << scene["refusal"];
     EXPECT_GT(scene["about"].get<std::string>().size(), 20u) << name;
-    EXPECT_EQ(scene["watch"].get<std::string>().rfind("Watch ", 0), 0u) << name;
+    EXPECT_GT(scene["watch"].get<std::string>().size(), 20u) << name;
     for (const auto& [system, model] : scene["systems"].items()) {
       shown.insert(model.get<std::string>());
     }
   }
   const Ending models = twin({"models", "--json"});
-  for (const auto& [model, info] : models.json()["models"].items()) {
+  const nlohmann::json all = models.json()["models"];
+  ASSERT_FALSE(all.empty());
+  for (const auto& [model, info] : all.items()) {
     EXPECT_EQ(shown.count(model), 1u) << "no scene shows " << model;
   }
 }
