@@ -122,6 +122,7 @@ StepStatus LinearRotorStepper::step(double) noexcept {
 StepStatus LinearRotorStepper::startingStep() noexcept {
   const Drive& drive = excitation_.drive;
   const double h = step_ / substeps_;
+  starting_.front().restart();
   StepStatus status = starting_.front().advance(drive, 0.0, next_);
   double offset = kFirstPart * h;
   for (std::size_t i = 0; i < starting_.size() && status == StepStatus::kOk; ++i, offset *= 2.0) {

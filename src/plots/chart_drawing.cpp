@@ -17,10 +17,7 @@ const Lettering kChartTitle{14.0, ink::kBlack, Align::kMiddle, Align::kMiddle, t
 const Lettering kAxisLabel{14.0, ink::kBlack, Align::kMiddle, Align::kMiddle};
 const Lettering kTickLabel{13.0, ink::kBlack, Align::kMiddle, Align::kMiddle};
 const Lettering kLegend{13.0, ink::kBlack, Align::kStart, Align::kMiddle};
-const Lettering kReference{12.0, ink::kGrey, Align::kEnd, Align::kEnd};
-constexpr double kMark = 4.5;          // px, radius
 constexpr double kSecondScale = 34.0;  // px, of the horizontal axis above the chart
-constexpr double kWordsHeight = 15.0;  // px
 constexpr double kRightMargin = 22.0;  // px
 constexpr double kPixelsOfRpm = 90.0;  // a mark of the scale above, at least
 
@@ -59,10 +56,6 @@ MarkedAxis scaled(const MarkedAxis& axis, const SecondScale& second, int most) {
 std::string nameOf(const SecondScale& second, const MarkedAxis& axis) {
   return axis.labels.exponent == 0 ? second.label
                                    : second.label + " \u00d7" + powerOfTen(axis.labels.exponent);
-}
-
-bool seen(double place) {
-  return place > -1.0e-6 && place < 1.0 + 1.0e-6;
 }
 
 }  // namespace
@@ -248,101 +241,6 @@ void ChartDrawing::drawScaleOnTheRight() {
   upwards.upwards = true;
   canvas_.text({place_.right() - 14.0, plot_.top + 0.5 * plot_.height},
                nameOf(*chart_.y.second, *right_), upwards);
-}
-
-/// Names of reference lines, and notes.
-void ChartDrawing::drawWords() {
-  if (chart_.vertical.empty() && chart_.horizontal.empty() && chart_.notes.empty()) {
-    return;
-  }
-  LabelPlaces places(plot_);
-  for (const Series& series : chart_.series) {
-    std::vector<Spot> line;
-    for (std::size_t i = 0; i < series.x.size(); ++i) {
-      line.push_back(at(series.x[i], series.y[i]));
-      if (series.marks != Marks::kNone) {
-        places.avoid(
-            Rectangle{line.back().x - kMark, line.back().y - kMark, 2.0 * kMark, 2.0 * kMark});
-      }
-    }
-    if (series.line) {
-      places.avoid(line);
-    }
-  }
-  nameReferences(places);
-  for (const Note& note : chart_.notes) {
-    const Spot spot = at(note.x, note.y);
-    if (!std::isfinite(spot.x) || !std::isfinite(spot.y)) {
-      continue;
-    }
-    const double width = canvas_.textWidth(note.text, kReference);
-    std::vector<Rectangle> around;
-    for (const double away : {7.0, 13.0}) {
-      for (const auto& [across, down] :
-           {std::pair{1, 0}, {-1, 0}, {0, -1}, {0, 1}, {1, -1}, {-1, -1}, {1, 1}, {-1, 1}}) {
-        around.push_back({spot.x + across * (away + 0.5 * width) - 0.5 * width,
-                          spot.y + down * (away + 0.5 * kWordsHeight) - 0.5 * kWordsHeight, width,
-                          kWordsHeight});
-      }
-    }
-    const auto place = std::find_if(around.begin(), around.end(),
-                                    [&](const Rectangle& near) { return places.free(near); });
-    if (place != around.end()) {  // farther away they would be another point's
-      places.avoid(*place);
-      canvas_.text({place->left, place->top + 0.5 * kWordsHeight}, note.text,
-                   {kReference.size, ink::kBlack, Align::kStart, Align::kMiddle});
-    }
-  }
-}
-
-/// Each beside its line: at a vertical one upright, the higher the better, or level where that
-/// finds no room; along a horizontal one, the farther right the better.
-void ChartDrawing::nameReferences(LabelPlaces& places) {
-  constexpr double kStride = 10.0;  // px
-  Lettering upright{kReference.size, ink::kGrey, Align::kMiddle, Align::kMiddle};
-  const Lettering level = upright;
-  upright.upwards = true;
-  for (const ReferenceLine& line : chart_.vertical) {
-    const double x = plot_.left + x_.place(line.at) * plot_.width;
-    places.avoid({{x, plot_.top}, {x, plot_.bottom()}});
-  }
-  const auto drawAt = [&](const std::vector<Rectangle>& beside, const std::string& words) {
-    const Rectangle place = places.take(beside);
-    canvas_.text({place.left + 0.5 * place.width, place.top + 0.5 * place.height}, words,
-                 place.width > place.height ? level : upright);
-  };
-  for (const ReferenceLine& line : chart_.vertical) {
-    if (line.label.empty() || !seen(x_.place(line.at))) {
-      continue;
-    }
-    const double x = plot_.left + x_.place(line.at) * plot_.width;
-    const double length = canvas_.textWidth(line.label, level);
-    std::vector<Rectangle> beside;
-    for (double y = plot_.top + 5.0; beside.empty() || y + length < plot_.bottom(); y += kStride) {
-      beside.push_back({x - 2.0 - kWordsHeight, y, kWordsHeight, length});
-      beside.push_back({x + 2.0, y, kWordsHeight, length});
-    }
-    for (const double away : {2.0, 20.0, 40.0, 60.0}) {
-      for (double y = plot_.top + 5.0; y < plot_.top + 60.0; y += kStride) {
-        beside.push_back({x + away, y, length, kWordsHeight});
-        beside.push_back({x - away - length, y, length, kWordsHeight});
-      }
-    }
-    drawAt(beside, line.label);
-  }
-  for (const ReferenceLine& line : chart_.horizontal) {
-    if (line.label.empty() || !seen(y_.place(line.at))) {
-      continue;
-    }
-    const double y = plot_.bottom() - y_.place(line.at) * plot_.height;
-    const double length = canvas_.textWidth(line.label, level);
-    std::vector<Rectangle> beside;
-    for (double x = plot_.right() - 5.0 - length; beside.empty() || x > plot_.left; x -= kStride) {
-      beside.push_back({x, y - 2.0 - kWordsHeight, length, kWordsHeight});
-      beside.push_back({x, y + 2.0, length, kWordsHeight});
-    }
-    drawAt(beside, line.label);
-  }
 }
 
 void ChartDrawing::drawArea(const Series& series) {

@@ -24,6 +24,11 @@ class ChartDrawing {
   void draw(double left_margin, double right_margin);
 
  private:
+  static constexpr double kMark = 4.5;  ///< [px], radius
+
+  /// Does a place along an axis, in parts of it, lie in the chart?
+  static bool seen(double place) { return place > -1.0e-6 && place < 1.0 + 1.0e-6; }
+
   struct LegendEntry {
     std::string name;
     Spot spot;
