@@ -23,6 +23,9 @@ constexpr double kHopeless = 0.25;
 /// that it stands for.
 constexpr double kDisturbance = 1.0e-13;
 constexpr double kRounding = 2.0e-15;
+/// Errors that have grown so much may have met what bounds them: a limit, a slew, a stop.
+constexpr double kGrown = 1.0e4;
+constexpr double kInProportion = 4.0;
 constexpr std::size_t kFewSamples = 16;
 constexpr std::int64_t kFinerSensing = 8;
 
@@ -73,11 +76,25 @@ bool EvaluationBudget::take(double cost) {
   return true;
 }
 
+namespace {
+
+/// What rounding has become where a disturbance has become `disturbed`: in proportion to it, unless
+/// one as small as rounding itself has become more than that, for what bounds both makes them
+/// alike.
+double roundingBeside(double disturbed, double slightly) {
+  const double in_proportion = disturbed / kDisturbance * kRounding;
+  return slightly > kInProportion * in_proportion ? 2.0 * std::max(disturbed, slightly)
+                                                  : in_proportion;
+}
+
+}  // namespace
+
 double ReferenceTrajectory::magnifiedRounding(std::size_t sample) const {
   if (disturbed.samples() == 0) {
     return 0.0;
   }
-  return disturbed.position(sample) / kDisturbance * kRounding;
+  return roundingBeside(disturbed.position(sample),
+                        slightly.samples() == 0 ? 0.0 : slightly.position(sample));
 }
 
 double ReferenceTrajectory::error(std::size_t sample) const {
@@ -85,8 +102,12 @@ double ReferenceTrajectory::error(std::size_t sample) const {
 }
 
 double ReferenceTrajectory::rateError(std::size_t sample) const {
-  const double growth = disturbed.samples() == 0 ? 0.0 : disturbed.rate(sample) / kDisturbance;
-  return std::max(2.0 * difference.rate(sample), growth * kRounding);
+  const double rounding =
+      disturbed.samples() == 0
+          ? 0.0
+          : roundingBeside(disturbed.rate(sample),
+                           slightly.samples() == 0 ? 0.0 : slightly.rate(sample));
+  return std::max(2.0 * difference.rate(sample), rounding);
 }
 
 std::size_t ReferenceTrajectory::lastWithin(double most) const {
@@ -120,8 +141,8 @@ ReferenceTrajectory pair(const Scene& one, const StepSetting& setting, const Ste
 
 /// How far one goes astray that starts slightly off: by parts of the largest coordinates, and in
 /// parts of them, for at the start there may be none.
-ErrorCurve disturbed(const Scene& one, const StepSetting& setting, std::int64_t interval,
-                     const Trajectory& right) {
+ErrorCurve disturbedBy(double disturbance, const Scene& one, const StepSetting& setting,
+                       std::int64_t interval, const Trajectory& right) {
   std::vector<double> largest(right.dof);
   for (std::size_t i = 0; i < right.coordinates.size(); ++i) {
     double& own = largest[i % right.dof];
@@ -130,13 +151,27 @@ ErrorCurve disturbed(const Scene& one, const StepSetting& setting, std::int64_t 
   Scene off = withSetting(one, setting);
   for (std::size_t i = 0; i < right.dof; ++i) {
     off.systems.front().q[i] +=
-        kDisturbance * (right.angular[i] ? std::min(largest[i], 1.0) : largest[i]);
+        disturbance * (right.angular[i] ? std::min(largest[i], 1.0) : largest[i]);
   }
   ErrorCurve curve = ErrorCurve::inPartsOf(right);
   motion(off, interval, right.samples(), [&](const Trajectory& t) {
     return curve.take(t, right) && curve.position(curve.samples() - 1) < kParted;
   });
   return curve;
+}
+
+/// What disturbances do to its motion.
+void disturb(ReferenceTrajectory& reference, const Scene& one, std::int64_t interval,
+             EvaluationBudget& budget) {
+  const Trajectory& right = reference.trajectory;
+  const double cost = budget.cost(reference.other, interval, right.samples());
+  reference.disturbed = disturbedBy(kDisturbance, one, reference.other, interval, right);
+  const std::size_t followed = reference.disturbed.samples();
+  budget.take(std::min(cost, budget.left()));
+  if (followed > 0 && reference.disturbed.position(followed - 1) > kGrown * kDisturbance) {
+    budget.take(std::min(cost, budget.left()));
+    reference.slightly = disturbedBy(kRounding, one, reference.other, interval, right);
+  }
 }
 
 /// Is a pair by shorter steps worth them?
@@ -207,8 +242,8 @@ ReferenceTrajectory referenceTrajectory(const Scene& one, const std::string& met
     parted = got < asked;
     const std::size_t agreed = now.lastWithin(wanted);
     const bool enough = agreed + 1 >= samples;
-    if (magnifies && !enough && budget.take(budget.cost(now.other, interval, got))) {
-      now.disturbed = disturbed(one, now.other, interval, now.trajectory);
+    if (magnifies && !enough && budget.left() > budget.cost(now.other, interval, got)) {
+      disturb(now, one, interval, budget);
     }
     // Shorter steps do not help where rounding has grown as large as that.
     const bool rounding = now.magnifiedRounding(agreed + 1) > kHopeless * now.error(agreed + 1);
@@ -236,7 +271,7 @@ ReferenceTrajectory referenceTrajectory(const Scene& one, const std::string& met
     }
   }
   if (magnifies && best.trajectory.samples() > 0 && best.disturbed.samples() == 0) {
-    best.disturbed = disturbed(one, best.other, interval, best.trajectory);
+    disturb(best, one, interval, budget);
   }
   return best;
 }

@@ -4,9 +4,11 @@
 // is a multiple of the other, both finer than the scene's: what the two differ by, twice over,
 // bounds the error of the better one. Of a motion that magnifies errors, by luck they may have
 // got the same ones: there some roundings, magnified as a small disturbance of the start is, bound
-// it too. Both steps are made finer until they agree as well as is wanted, or it helps no more.
-// What happens at the very end of a step neither need see before the next: the error at a sample
-// is that of the sample after it, and where one of the two stops there, the sample is not known.
+// it too; and where those have grown until something holds them, a limit of an actuator say, what
+// that disturbance has become. Both steps are made finer until they agree as well as is wanted, or
+// it helps no more. What happens at the very end of a step neither need see before the next: the
+// error at a sample is that of the sample after it, and where one of the two stops there, the
+// sample is not known.
 #pragma once
 
 #include <cstdint>
@@ -41,7 +43,8 @@ struct ReferenceTrajectory {
   StepSetting other;      ///< that it was compared with
   Trajectory trajectory;  ///< coordinates and rates, at most as many samples as were asked for
   ErrorCurve difference;  ///< of the two, at the sample after
-  ErrorCurve disturbed;   ///< of one from a start slightly off; none: errors are not magnified
+  ErrorCurve disturbed;   ///< of one from a start a little off; none: errors are not magnified
+  ErrorCurve slightly;    ///< of one off by no more than rounding; none: they are not much
 
   /// Bound of its position error up to a sample; infinite where the two have parted for good.
   double error(std::size_t sample) const;

@@ -159,6 +159,29 @@ TEST(Promise, IsNotMadeBeyondWhereADisturbedMotionParted) {
   EXPECT_TRUE(std::isinf(reference.rateError(2)));
 }
 
+// What holds a disturbance, the slew of an actuator say, does not hold rounding to a part of it.
+TEST(Promise, HasNoPartOfADisturbanceWhereRoundingBecomesAsLarge) {
+  Trajectory right;
+  right.interval = 1.0;
+  right.dof = 1;
+  right.angular = {true};
+  right.coordinates = right.rates = {1.0, 1.0, 1.0};
+  const auto off = [&](double first, double then) {
+    Trajectory t = right;
+    t.coordinates[1] = t.rates[1] = 1.0 + first;
+    t.coordinates[2] = t.rates[2] = 1.0 + then;
+    return ErrorCurve(t, right);
+  };
+  ReferenceTrajectory reference;
+  reference.difference = ErrorCurve(right, right);
+  reference.disturbed = off(1.0e-8, 4.0e-5);
+  EXPECT_NEAR(reference.error(2), 0.02 * 4.0e-5, 1.0e-9) << "in proportion";
+  reference.slightly = off(2.0e-10, 3.0e-5);
+  EXPECT_NEAR(reference.error(1), 2.0e-10, 1.0e-12) << "in proportion still";
+  EXPECT_GE(reference.error(2), 4.0e-5);
+  EXPECT_GE(reference.rateError(2), 4.0e-5);
+}
+
 // Their errors grow e-fold 2.4 times a second, whatever was asked of them.
 TEST(Promise, OfChaosDoesNotDependOnTheHorizon) {
   const auto promised = [](const std::string& tolerance, const std::string& horizon) {

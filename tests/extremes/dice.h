@@ -10,6 +10,7 @@
 
 namespace whirl_twin {
 
+/// Draw no two of them among a call's arguments: compilers evaluate those in any order.
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : generator_(seed) {}

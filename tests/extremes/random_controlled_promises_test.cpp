@@ -30,14 +30,18 @@ constexpr int kFiner = 8;
 
 InputSignal anySignal(Dice& dice) {
   switch (dice.below(3)) {
-    case 0:
-      return InputSignal::harmonic(dice.uniform(-0.5, 0.5), dice.anySize(0.5, 30.0), 0.3);
+    case 0: {
+      const double amplitude = dice.uniform(-0.5, 0.5);
+      return InputSignal::harmonic(amplitude, dice.anySize(0.5, 30.0), 0.3);
+    }
     case 1:
       return InputSignal::constant(dice.uniform(-0.3, 0.3));
-    default:
-      return InputSignal::table({0, 100'000'007, 200'000'000, 300'000'000},
-                                {0.0, dice.uniform(-0.5, 0.5), dice.uniform(-0.5, 0.5), 0.0},
+    default: {
+      const std::vector<double> values = {0.0, dice.uniform(-0.5, 0.5), dice.uniform(-0.5, 0.5),
+                                          0.0};
+      return InputSignal::table({0, 100'000'007, 200'000'000, 300'000'000}, values,
                                 dice.below(2) == 0);
+    }
   }
 }
 
