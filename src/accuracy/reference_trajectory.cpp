@@ -78,36 +78,35 @@ bool EvaluationBudget::take(double cost) {
 
 namespace {
 
-/// What rounding has become where a disturbance has become `disturbed`: in proportion to it, unless
-/// one as small as rounding itself has become more than that, for what bounds both makes them
-/// alike.
+/// What rounding has become where a disturbance has become `disturbed`.
+double inProportion(double disturbed) {
+  return disturbed / kDisturbance * kRounding;
+}
+
+/// Likewise, unless a disturbance as small as rounding itself has become more than that: what
+/// bounds both makes them alike.
 double roundingBeside(double disturbed, double slightly) {
-  const double in_proportion = disturbed / kDisturbance * kRounding;
+  const double in_proportion = inProportion(disturbed);
   return slightly > kInProportion * in_proportion ? 2.0 * std::max(disturbed, slightly)
                                                   : in_proportion;
 }
 
 }  // namespace
 
-double ReferenceTrajectory::magnifiedRounding(std::size_t sample) const {
-  if (disturbed.samples() == 0) {
-    return 0.0;
-  }
-  return roundingBeside(disturbed.position(sample),
-                        slightly.samples() == 0 ? 0.0 : slightly.position(sample));
-}
-
 double ReferenceTrajectory::error(std::size_t sample) const {
-  return std::max(2.0 * difference.position(sample), magnifiedRounding(sample));
+  return std::max(2.0 * difference.position(sample),
+                  disturbed.samples() == 0
+                      ? 0.0
+                      : roundingBeside(disturbed.position(sample),
+                                       slightly.samples() == 0 ? 0.0 : slightly.position(sample)));
 }
 
 double ReferenceTrajectory::rateError(std::size_t sample) const {
-  const double rounding =
-      disturbed.samples() == 0
-          ? 0.0
-          : roundingBeside(disturbed.rate(sample),
-                           slightly.samples() == 0 ? 0.0 : slightly.rate(sample));
-  return std::max(2.0 * difference.rate(sample), rounding);
+  return std::max(2.0 * difference.rate(sample),
+                  disturbed.samples() == 0
+                      ? 0.0
+                      : roundingBeside(disturbed.rate(sample),
+                                       slightly.samples() == 0 ? 0.0 : slightly.rate(sample)));
 }
 
 std::size_t ReferenceTrajectory::lastWithin(double most) const {
@@ -246,7 +245,9 @@ ReferenceTrajectory referenceTrajectory(const Scene& one, const std::string& met
       disturb(now, one, interval, budget);
     }
     // Shorter steps do not help where rounding has grown as large as that.
-    const bool rounding = now.magnifiedRounding(agreed + 1) > kHopeless * now.error(agreed + 1);
+    const bool rounding =
+        now.disturbed.samples() > 0 &&
+        inProportion(now.disturbed.position(agreed + 1)) > kHopeless * now.error(agreed + 1);
     if (first || isBetter(now, best, wanted)) {
       best = std::move(now);
     } else if (spent > kCheap * all) {

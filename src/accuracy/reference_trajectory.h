@@ -49,7 +49,6 @@ struct ReferenceTrajectory {
   /// Bound of its position error up to a sample; infinite where the two have parted for good.
   double error(std::size_t sample) const;
   double rateError(std::size_t sample) const;
-  double magnifiedRounding(std::size_t sample) const;  ///< the part of `error` that rounding has
   /// The last sample up to which its error is at most that.
   std::size_t lastWithin(double error) const;
 };

@@ -82,6 +82,17 @@ class Drive {
             acceleration_ + offset * jerk_, jerk_};
   }
 
+  /// Motion at offset [s] >= 0 after begin(), with an angle of 0: that takes longer than the rest.
+  ShaftMotion withoutAngle(double offset) const noexcept {
+    if (__builtin_expect(offset > remaining_, 0)) {
+      ShaftMotion motion = beyond(offset);
+      motion.angle = 0.0;
+      return motion;
+    }
+    return {0.0, speed_ + offset * (acceleration_ + offset * (0.5 * jerk_)),
+            acceleration_ + offset * jerk_, jerk_};
+  }
+
   /// Angle at begin().
   ShaftAngle angle() const noexcept {
     if (within_ == kAngleUnknown) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <type_traits>
 
 #include "control/drive.h"
 #include "integration/acceleration_jacobian.h"
@@ -10,6 +11,13 @@
 #include "mechanics/lagrangian.h"
 
 namespace whirl_twin {
+
+/// A model whose energies and forces do not depend on its shaft's angle says so.
+template <class Model, class = void>
+struct HasShaftAngle : std::bool_constant<Model::kHasShaft> {};
+template <class Model>
+struct HasShaftAngle<Model, std::void_t<decltype(Model::kHasShaftAngle)>>
+    : std::bool_constant<Model::kHasShaftAngle> {};
 
 /// q'' = a(q, v, t) of a model on its drive during one step; offset [s] counts from its start.
 template <class Model>
@@ -24,7 +32,8 @@ struct DrivenEquation {
 
   WHIRL_TWIN_INLINE Moment<double> moment(double offset) const {
     if constexpr (Model::kHasShaft) {
-      const ShaftMotion shaft = drive.at(offset);
+      const ShaftMotion shaft =
+          HasShaftAngle<Model>::value ? drive.at(offset) : drive.withoutAngle(offset);
       return {time + offset, shaft.angle, shaft.speed, shaft.acceleration};
     } else {
       return {time + offset, 0.0, 0.0, 0.0};

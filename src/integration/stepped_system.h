@@ -140,7 +140,7 @@ class SteppedSystem final : public ReadOffStepper {
   WHIRL_TWIN_INLINE StepStatus take(double time, double offset, int count, double h) noexcept {
     const DrivenEquation<Model> equation{model_, drive_, time};
     if constexpr (kHasHistory && Model::kHasShaft) {
-      const ShaftMotion shaft = drive_.at(0.0);  // a command may have changed its course
+      const ShaftMotion shaft = drive_.withoutAngle(0.0);  // a command may have changed its course
       method_.follow(shaft.jerk, shaft.acceleration);
     }
     MotionState<n> next = state_;

@@ -34,6 +34,7 @@
 
 #include "integration/called_equation.h"
 #include "integration/dormand_prince_8.h"
+#include "integration/four_doubles.h"
 #include "integration/lanes.h"
 #include "integration/motion_state.h"
 #include "integration/stoermer_weights.h"
@@ -238,11 +239,36 @@ class Stoermer {
     known_rate_.add(per_step_, increment_);
   }
 
+  /// The sum over all but the node that is yet to be evaluated, of one coordinate: four at a time
+  /// of what is old; the newest, which has just been stored, would be late as one of four.
+  template <std::size_t terms>
+  static WHIRL_TWIN_INLINE double inFours(const Weights& weights, const double* values) {
+    constexpr std::size_t kFours = (terms - 2) / 4;
+    constexpr std::size_t kNew = terms - 1 - 4 * kFours;
+    typename FourDoubles<4>::Part fours{};
+    for (std::size_t k = 0; k < kFours; ++k) {
+      const std::size_t from = kNew + 4 * k;
+      fours += FourDoubles<4>::load(&weights[1 + from]).part[0] *
+               FourDoubles<4>::load(values + from).part[0];
+    }
+    double sum = (fours[0] + fours[2]) + (fours[1] + fours[3]);
+    for (std::size_t k = kNew; k > 0; --k) {
+      sum += weights[k] * values[k - 1];
+    }
+    return sum;
+  }
+
   /// The sums over all but the node that is yet to be evaluated.
   template <std::size_t terms>
   WHIRL_TWIN_INLINE void sumOfPast(const Weights& position, const Weights& rate,
                                    Lanes<n>& of_position, Lanes<n>& of_rate) const {
     const Lanes<n>* const past = &past_[newest_];
+    if constexpr (n == 1) {
+      const double* const values = past->array().data();
+      of_position = Lanes<1>({inFours<terms>(position, values)});
+      of_rate = Lanes<1>({inFours<terms>(rate, values)});
+      return;
+    }
     unrolled<terms - 1>([&](auto from_last) WHIRL_TWIN_FLAT {
       constexpr std::size_t k = terms - 1 - decltype(from_last)::value;
       of_position.add(position[k], past[k - 1]);
@@ -257,6 +283,9 @@ class Stoermer {
     known_of_rate_ = {};
     sumOfPast<terms>(position_, rate_, known_increment_, known_of_rate_);
     const double* const powers = &powers_[newest_];
+    if constexpr (n == 1) {
+      return inFours<terms>(work_, powers);
+    }
     double work = 0.0;
     unrolled<terms - 1>([&](auto from_last) WHIRL_TWIN_FLAT {
       constexpr std::size_t k = terms - 1 - decltype(from_last)::value;

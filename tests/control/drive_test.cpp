@@ -10,6 +10,7 @@
 #include <limits>
 #include <random>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "messages/refusal.h"
@@ -52,6 +53,9 @@ TEST(Drive, AtAnOffsetIsTheMotionOfTheStepThatBeginsThere) {
       ASSERT_NEAR(reached.speed, begun.speed, 1e-12) << t << " + " << h;
       ASSERT_NEAR(reached.acceleration, begun.acceleration, 1e-11) << t << " + " << h;
       ASSERT_EQ(reached.jerk, begun.jerk) << t << " + " << h;
+      const ShaftMotion without = here.withoutAngle(seconds(h));
+      ASSERT_EQ(std::tuple(without.angle, without.speed, without.acceleration, without.jerk),
+                std::tuple(0.0, reached.speed, reached.acceleration, reached.jerk));
       // The angle counts on from the remainder at the step's start, without a jump of 2 pi.
       ASSERT_NEAR(reached.angle,
                   here.angle().remainder + there.angle().total() - here.angle().total(), 1e-10);

@@ -1,6 +1,7 @@
 // Small systems that one looks for by name, against what theory says of their motion.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -8,6 +9,8 @@
 #include "../analysis/models_under_test.h"
 #include "../integration/running_system.h"
 #include "analysis/equilibria.h"
+#include "integration/driven_equation.h"
+#include "mechanics/pendulums/spinning_pendulum.h"
 
 namespace whirl_twin {
 namespace {
@@ -23,6 +26,22 @@ RunningSystem::Setup setup(const std::string& model, const ParameterValues& para
   s.gravity = kGravity;
   s.q = std::move(q);
   return s;
+}
+
+// Its steps leave the angle out, which they say (kHasShaftAngle).
+TEST(SpinningPendulum, MovesAlikeWhateverTheAngleOfItsShaft) {
+  static_assert(!SpinningPendulum::kHasShaftAngle);
+  const SpinningPendulum pendulum{1.2, 0.7, 0.05, kGravity};
+  const auto motion = [&](double angle) {
+    return derivative(pendulum, std::array{0.4}, std::array{-1.3},
+                      Moment<double>{2.0, angle, 5.0, 0.8});
+  };
+  EXPECT_EQ(motion(std::nan("")).acceleration[0], motion(0.0).acceleration[0]);
+  EXPECT_EQ(motion(std::nan("")).power, motion(0.0).power);
+  EXPECT_NEAR(motion(0.0).acceleration[0],
+              25.0 * std::sin(0.4) * std::cos(0.4) - kGravity / 0.7 * std::sin(0.4) +
+                  0.05 * 1.3 / (1.2 * 0.7 * 0.7),
+              1e-13);
 }
 
 TEST(MassSpringDamper, RingsOutAsTheTextbookSays) {

@@ -24,6 +24,7 @@ struct SpinningPendulum {
   static constexpr std::size_t kDof = 1;
   static constexpr bool kLinear = false;
   static constexpr bool kHasShaft = true;
+  static constexpr bool kHasShaftAngle = false;  ///< only a picture needs it
   static constexpr std::array<Coordinate, kDof> kCoordinates{{{"theta", "rad"}}};
 
   double mass = 0.0;     ///< [kg]
