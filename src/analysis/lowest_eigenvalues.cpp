@@ -17,10 +17,10 @@ constexpr double kRounding = 1.0e-13;  // of s: a real part that is none
 constexpr double kNoDamping = 1.0e-18;
 constexpr double kFarther = 8.0;  // radii, that are looked at for the sake of a proof
 
-/// Those found, and more where the proof wants them.
-std::optional<LowestRoots> rootsFor(const BandedPencil<double>& pencil, std::size_t modes,
-                                    const std::optional<double>& growth_radius) {
-  auto found = lowestRoots(pencil, 2 * modes);
+/// Those found, and more where the proof that no other grows wants them.
+std::optional<LowestRoots> asFarAsProved(std::optional<LowestRoots> found,
+                                         const BandedPencil<double>& pencil,
+                                         const std::optional<double>& growth_radius) {
   if (found && growth_radius && *growth_radius > found->radius &&
       *growth_radius < kFarther * found->radius) {
     if (auto more = rootsWithin(pencil, *growth_radius)) {
@@ -28,6 +28,37 @@ std::optional<LowestRoots> rootsFor(const BandedPencil<double>& pencil, std::siz
     }
   }
   return found;
+}
+
+/// The values of those found; none is told yet. Small real parts are those of the energy.
+LowestEigenvalues valuesOf(const LowestRoots& found, const BandedLinearization& l,
+                           const std::optional<double>& growth_radius) {
+  LowestEigenvalues lowest;
+  lowest.omitted_are_sure = growth_radius && *growth_radius <= found.radius;
+  lowest.undamped = growth_radius == 0.0 && l.damping.isZero();
+  // What is fed and what is dissipated differ by no less than their rounding; alone, the latter has
+  // none but that of a shape, squared.
+  const double none = growth_radius == 0.0 ? kNoDamping : kRounding;
+  for (const PencilRoot& root : found.roots) {
+    Complex s = root.value;
+    if (lowest.undamped) {
+      s = {0.0, s.imag()};
+    } else if (std::fabs(s.real()) <= kDoubtful * std::abs(s)) {
+      const double decay = decayByEnergy(l, root);
+      s = {std::fabs(decay) > none * std::abs(s) ? -decay : 0.0, s.imag()};
+    }
+    lowest.roots.push_back(s);
+  }
+  return lowest;
+}
+
+/// Leaves out those behind the first `count` that are told, but those that grow.
+LowestEigenvalues tell(LowestEigenvalues lowest, std::size_t count, Eigen::Index size) {
+  for (std::size_t i = lowest.roots.size(); i > count && lowest.roots[i - 1].real() <= 0.0; --i) {
+    lowest.roots.pop_back();
+  }
+  lowest.omitted = 2 * static_cast<std::size_t>(size) - lowest.roots.size();
+  return lowest;
 }
 
 }  // namespace
@@ -48,36 +79,31 @@ double decayByEnergy(const BandedLinearization& l, const PencilRoot& root) {
 std::optional<LowestEigenvalues> lowestEigenvalues(const BandedLinearization& l,
                                                    std::size_t modes) {
   const std::optional<double> growth_radius = growthRadius(l);
-  const std::optional<LowestRoots> found = rootsFor(pencilOf(l), modes, growth_radius);
+  const BandedPencil<double> pencil = pencilOf(l);
+  const auto found = asFarAsProved(lowestRoots(pencil, 2 * modes), pencil, growth_radius);
   if (!found) {
     return std::nullopt;
   }
-  LowestEigenvalues lowest;
-  lowest.omitted_are_sure = growth_radius && *growth_radius <= found->radius;
-  lowest.undamped = growth_radius == 0.0 && l.damping.isZero();
-  // What is fed and what is dissipated differ by no less than their rounding; alone, the latter has
-  // none but that of a shape, squared.
-  const double none = growth_radius == 0.0 ? kNoDamping : kRounding;
-  std::size_t told = 0;
-  for (const PencilRoot& root : found->roots) {
-    Complex s = root.value;
-    if (lowest.undamped) {
-      s = {0.0, s.imag()};
-    } else if (std::fabs(s.real()) <= kDoubtful * std::abs(s)) {
-      const double decay = decayByEnergy(l, root);
-      s = {std::fabs(decay) > none * std::abs(s) ? -decay : 0.0, s.imag()};
-    }
-    lowest.roots.push_back(s);
-    const std::size_t count = lowest.roots.size();
-    const bool other_of_pair =
-        count == 2 * modes + 1 && s.imag() != 0.0 && s == std::conj(lowest.roots[count - 2]);
-    if (count <= 2 * modes || other_of_pair || s.real() > 0.0) {
-      told = count;
-    }
+  LowestEigenvalues lowest = valuesOf(*found, l, growth_radius);
+  std::size_t count = 2 * modes;
+  if (count > 0 && count < lowest.roots.size() && lowest.roots[count].imag() != 0.0 &&
+      lowest.roots[count] == std::conj(lowest.roots[count - 1])) {
+    ++count;  // the other of a pair
   }
-  lowest.roots.resize(told);
-  lowest.omitted = 2 * static_cast<std::size_t>(l.size()) - told;
-  return lowest;
+  return tell(std::move(lowest), count, l.size());
+}
+
+std::optional<LowestEigenvalues> eigenvaluesWithin(const BandedLinearization& l, double radius) {
+  const std::optional<double> growth_radius = growthRadius(l);
+  const BandedPencil<double> pencil = pencilOf(l);
+  const auto found = asFarAsProved(rootsWithin(pencil, radius), pencil, growth_radius);
+  if (!found) {
+    return std::nullopt;
+  }
+  LowestEigenvalues lowest = valuesOf(*found, l, growth_radius);
+  const auto count = std::count_if(lowest.roots.begin(), lowest.roots.end(),
+                                   [&](const Complex& s) { return std::abs(s) <= radius; });
+  return tell(std::move(lowest), static_cast<std::size_t>(count), l.size());
 }
 
 }  // namespace whirl_twin

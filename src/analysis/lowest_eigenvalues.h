@@ -30,4 +30,8 @@ double decayByEnergy(const BandedLinearization& matrices, const PencilRoot& root
 std::optional<LowestEigenvalues> lowestEigenvalues(const BandedLinearization& matrices,
                                                    std::size_t modes);
 
+/// Likewise those within a circle of at least this radius [1/s], and beyond it those that grow.
+std::optional<LowestEigenvalues> eigenvaluesWithin(const BandedLinearization& matrices,
+                                                   double radius);
+
 }  // namespace whirl_twin

@@ -7,6 +7,7 @@
 
 #include "analysis/determinant_winding.h"
 #include "analysis/krylov_space.h"
+#include "analysis/polished_root.h"
 
 namespace whirl_twin {
 
@@ -20,38 +21,9 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr Index kMostDimensions = 330;
 constexpr Index kNarrow = 6;           // widths, of a matrix that is worth it
 constexpr double kConverged = 1.0e-8;  // of 1/s: near enough for Newton's method
-constexpr double kMoved = 1.0e-5;      // of s, by Newton's method: it would be another root
-constexpr double kSettled = 1.0e-14;   // of s
-constexpr int kMostSteps = 4;
 constexpr double kApart = 1.0e-3;      // of the radius, at least, from root to circle
 constexpr std::size_t kMostMore = 12;  // roots, for a wide gap to lay the circle through
 constexpr double kReach = 4.0;         // radii, of the roots divided out
-
-/// A pencil in other units of its coordinates and of s.
-template <class Scalar>
-struct Scaled {
-  BandedPencil<Scalar> pencil;
-  Eigen::VectorXd scale;
-  double rate = 1.0;
-};
-
-template <class Scalar>
-Scaled<Scalar> inUnits(const BandedPencil<Scalar>& p, const Eigen::VectorXd& scale, double rate) {
-  Scaled<Scalar> s{{p.a0.scaled(scale), BandedMatrix<Scalar>(p.a0.size(), 0),
-                    BandedMatrix<Scalar>(p.a0.size(), 0)},
-                   scale,
-                   rate};
-  s.pencil.a1.add(rate, p.a1.scaled(scale));
-  s.pencil.a2.add(rate * rate, p.a2.scaled(scale));
-  return s;
-}
-
-/// Coordinates of unit inertia.
-template <class Scalar>
-Eigen::VectorXd unitInertia(const BandedPencil<Scalar>& p) {
-  const Eigen::ArrayXd diagonal = p.a2.diagonal().array().abs();
-  return (diagonal > 0.0).select(diagonal.max(1e-300).rsqrt(), 1.0);
-}
 
 /// About the lowest root's modulus: by inverse iteration without A1. 0 of a singular A0.
 template <class Scalar>
@@ -71,96 +43,6 @@ double lowestRate(const BandedPencil<Scalar>& p) {
     gain = x.norm();
   }
   return gain > 0.0 && std::isfinite(gain) ? 1.0 / std::sqrt(gain) : 0.0;
-}
-
-using Long = long double;
-using LongComplex = std::complex<Long>;
-
-/// (A0 + s A1 + s^2 A2) x, its cancellation in more digits than those of the entries: the lowest
-/// roots of a fine shaft are small beside its entries.
-template <class Scalar>
-VectorXcd residual(const BandedPencil<Scalar>& p, const Complex& s, const VectorXcd& x) {
-  const LongComplex rate(s.real(), s.imag());
-  const LongComplex squared(rate.real() * rate.real() - rate.imag() * rate.imag(),
-                            2.0L * rate.real() * rate.imag());
-  const Index n = x.size();
-  std::vector<LongComplex> sum(static_cast<std::size_t>(n));
-  const auto addTo = [](LongComplex& to, const LongComplex& a, const LongComplex& b) {
-    to += LongComplex(a.real() * b.real() - a.imag() * b.imag(),
-                      a.real() * b.imag() + a.imag() * b.real());
-  };
-  for (Index j = 0; j < n; ++j) {
-    const LongComplex at(x[j].real(), x[j].imag());
-    LongComplex by_rate = 0.0L;
-    LongComplex by_square = 0.0L;
-    addTo(by_rate, rate, at);
-    addTo(by_square, squared, at);
-    const auto part = [&](const BandedMatrix<Scalar>& m, const LongComplex& by) {
-      const Index last = std::min(n - 1, j + m.width());
-      for (Index i = std::max<Index>(0, j - m.width()); i <= last; ++i) {
-        const Complex entry = m(i, j);
-        addTo(sum[static_cast<std::size_t>(i)], LongComplex(entry.real(), entry.imag()), by);
-      }
-    };
-    part(p.a0, at);
-    part(p.a1, by_rate);
-    part(p.a2, by_square);
-  }
-  VectorXcd rounded(n);
-  for (Index i = 0; i < n; ++i) {
-    const LongComplex& of = sum[static_cast<std::size_t>(i)];
-    rounded[i] = {static_cast<double>(of.real()), static_cast<double>(of.imag())};
-  }
-  return rounded;
-}
-
-/// Newton's method (mode_continuation.h) from a root that is nearly one, ended by two steps from
-/// what it leaves of the equation. Nothing if it leaves the root.
-template <class Scalar>
-std::optional<PencilRoot> polished(const BandedPencil<Scalar>& p, const Complex& from,
-                                   const VectorXcd& shape) {
-  Complex s = from;
-  VectorXcd x = shape;
-  double last = kMoved * std::abs(s);
-  for (int step = 0; step < kMostSteps; ++step) {
-    const VectorXcd slope = p.a1.times(x) + 2.0 * s * p.a2.times(x);
-    const BandedLU<Complex> lu(p.at(s));
-    if (lu.singular()) {
-      break;  // there to the last digit
-    }
-    const VectorXcd y = lu.solve(slope);
-    const Complex change = 1.0 / x.dot(y);
-    const double size = std::abs(change);
-    if (!std::isfinite(size) || !(std::abs(s - change - from) <= kMoved * std::abs(from))) {
-      return std::nullopt;
-    }
-    if (step > 0 && size > 0.5 * last) {
-      break;  // rounding lets it come no nearer
-    }
-    s -= change;
-    x = y.normalized();
-    if (size <= kSettled * std::abs(s)) {
-      break;
-    }
-    last = size;
-  }
-  for (int step = 0; step < 2; ++step) {
-    const VectorXcd slope = p.a1.times(x) + 2.0 * s * p.a2.times(x);
-    Eigen::MatrixXcd sides(x.size(), 2);
-    sides << residual(p, s, x), slope;
-    const BandedLU<Complex> lu(p.at(s));
-    if (lu.singular()) {
-      break;
-    }
-    const Eigen::MatrixXcd y = lu.solve(sides);
-    const Complex change = x.dot(y.col(0)) / x.dot(y.col(1));
-    if (!(std::abs(s - change - from) <= kMoved * std::abs(from))) {
-      return std::nullopt;
-    }
-    s -= change;
-    x = (x - y.col(0) + change * y.col(1)).normalized();
-  }
-  return PencilRoot{s, x};
 }
 
 /// Of the roots known, those within a circle through a gap between them.
@@ -192,8 +74,9 @@ std::optional<Cut> widestGap(const std::vector<Ritz>& all, std::size_t least, do
 
 /// The polished roots within the cut; nothing if they cannot be all.
 template <class Scalar>
-std::optional<LowestRoots> confirmed(const Scaled<Scalar>& scaled, const KrylovSpace<Scalar>& space,
-                                     const std::vector<Ritz>& all, const Cut& cut) {
+std::optional<LowestRoots> confirmed(const ScaledPencil<Scalar>& scaled,
+                                     const KrylovSpace<Scalar>& space, const std::vector<Ritz>& all,
+                                     const Cut& cut) {
   constexpr bool kReal = std::is_same_v<Scalar, double>;
   LowestRoots found;
   found.radius = cut.radius * scaled.rate;
@@ -252,7 +135,7 @@ std::optional<LowestRoots> search(const BandedPencil<Scalar>& pencil, std::size_
     return std::nullopt;
   }
   const double rate = std::max(radius, 3.0 * lowest);
-  const Scaled<Scalar> scaled = inUnits(pencil, inertia, rate);
+  const ScaledPencil<Scalar> scaled = inUnits(pencil, inertia, rate);
   KrylovSpace<Scalar> space(scaled.pencil);
   const Index most = std::min(kMostDimensions, 2 * pencil.a0.size() * 3 / 4);
   for (Index m = 24 + 3 * static_cast<Index>(count) / 2; !space.singular(); m += m / 2) {

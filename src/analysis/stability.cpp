@@ -10,9 +10,11 @@
 #include "algebra/eigenvalues.h"
 #include "algebra/lu.h"
 #include "algebra/svd.h"
+#include "analysis/balanced_matrix.h"
 #include "analysis/characteristic_polynomial.h"
 #include "analysis/lowest_eigenvalues.h"
 #include "analysis/quadratic_form.h"
+#include "analysis/refined_eigenvalues.h"
 #include "analysis/rigid_body_modes.h"
 #include "analysis/routh.h"
 #include "analysis/stability_margins.h"
@@ -222,6 +224,52 @@ void setMargins(Stability& s) {
   s.log_decrement = logDecrement(s.damping_ratio);
 }
 
+/// By rising |s|, then Im.
+void sortByModulus(std::vector<std::complex<double>>& roots) {
+  std::sort(roots.begin(), roots.end(), [](const auto& x, const auto& y) {
+    const double ax = std::abs(x);
+    const double ay = std::abs(y);
+    return ax != ay ? ax < ay : x.imag() < y.imag();
+  });
+}
+
+struct Solved {
+  Eigen::MatrixXd matrix;
+  double norm = 0.0;  ///< [1/s], of the balanced matrix
+  std::vector<std::complex<double>> roots;
+};
+
+/// The last ones are kept: equilibria, operating point, verdict and searches begin with the same.
+const Solved& solved(const Linearization& l, std::size_t zeros) {
+  thread_local Solved last;
+  Eigen::MatrixXd a = stateMatrix(l, zeros).matrix;
+  if (last.matrix.rows() == a.rows() && last.matrix == a) {
+    return last;
+  }
+  // In its own units the low ones keep up to three digits more beside the high ones.
+  const Eigen::MatrixXd even = balanced(a);
+  // Overdamped motions beside slow ones keep the iteration busy for longer than Eigen waits.
+  Eigen::EigenSolver<Eigen::MatrixXd> solver(a.rows());
+  solver.setMaxIterations(kMostIterations * a.rows()).compute(even, false);
+  if (solver.info() != Eigen::Success) {
+    throw RunFailure("the eigenvalues of the linearized system cannot be computed");
+  }
+  const Eigen::VectorXcd& values = solver.eigenvalues();
+  std::vector<std::complex<double>> roots(values.data(), values.data() + values.size());
+  sortByModulus(roots);
+  last = {std::move(a), even.norm(), std::move(roots)};
+  return last;
+}
+
+/// eigenvalues(), with the digits that these lack.
+std::vector<std::complex<double>> refinedEigenvalues(const Linearization& l, std::size_t zeros) {
+  const Solved& of = solved(l, zeros);
+  std::vector<std::complex<double>> roots = of.roots;
+  refineEigenvalues(l, of.norm, roots);
+  sortByModulus(roots);
+  return roots;
+}
+
 /// What the lowest eigenvalues say, and the proof of what the others do.
 void judgeLowest(const LowestEigenvalues& lowest, Stability& s) {
   s.eigenvalues = lowest.roots;
@@ -263,31 +311,7 @@ std::vector<std::complex<double>> eigenvalues(const Linearization& l) {
 }
 
 std::vector<std::complex<double>> eigenvalues(const Linearization& l, std::size_t zeros) {
-  // The last ones are kept: equilibria, operating point, verdict and searches begin with the same.
-  struct Solved {
-    Eigen::MatrixXd matrix;
-    std::vector<std::complex<double>> roots;
-  };
-  thread_local Solved last;
-  Eigen::MatrixXd a = stateMatrix(l, zeros).matrix;
-  if (last.matrix.rows() == a.rows() && last.matrix == a) {
-    return last.roots;
-  }
-  // Overdamped motions beside slow ones keep the iteration busy for longer than Eigen waits.
-  Eigen::EigenSolver<Eigen::MatrixXd> solver(a.rows());
-  solver.setMaxIterations(kMostIterations * a.rows()).compute(a, false);
-  if (solver.info() != Eigen::Success) {
-    throw RunFailure("the eigenvalues of the linearized system cannot be computed");
-  }
-  const Eigen::VectorXcd& values = solver.eigenvalues();
-  std::vector<std::complex<double>> roots(values.data(), values.data() + values.size());
-  std::sort(roots.begin(), roots.end(), [](const auto& x, const auto& y) {
-    const double ax = std::abs(x);
-    const double ay = std::abs(y);
-    return ax != ay ? ax < ay : x.imag() < y.imag();
-  });
-  last = {std::move(a), roots};
-  return roots;
+  return solved(l, zeros).roots;
 }
 
 Stability stability(const Linearization& linearization) {
@@ -305,7 +329,7 @@ Stability stability(const Linearization& linearization, std::size_t zeros, std::
       return s;
     }
   }
-  s.eigenvalues = eigenvalues(linearization, zeros);
+  s.eigenvalues = refinedEigenvalues(linearization, zeros);
   const bool bounded_energy = cannotGrow(linearization);
   if (bounded_energy && linearization.damping.isZero(0.0)) {
     for (std::complex<double>& root : s.eigenvalues) {

@@ -80,6 +80,11 @@ struct StabilityMargin {
   std::string log_decrement_coordinate;  ///< whose; "whirl": a rotor's radius; "": not known
   double log_decrement_amplitude =
       std::numeric_limits<double>::quiet_NaN();  ///< [rad] or [m]; infinite: as far as was looked
+  // Of a rotor that is reduced to a few shapes: the rotor that they were taken from. NaN: of
+  // another system.
+  double unreduced_decay_rate = std::numeric_limits<double>::quiet_NaN();     ///< [1/s]
+  double unreduced_log_decrement = std::numeric_limits<double>::quiet_NaN();  ///< [-]
+  bool reduction_disagrees = false;  ///< one of them grows and the other does not
 
   template <class Visit>
   static void fields(Visit& visit) {
@@ -127,6 +132,9 @@ struct StabilityMargin {
     visit(TWIN_FIELD(stable_throughout), "", requireFlag);
     visit(TWIN_FIELD(log_decrement_coordinate), "", requireText);
     visit(TWIN_FIELD(log_decrement_amplitude), "");
+    visit(TWIN_FIELD(unreduced_decay_rate), "1/s");
+    visit(TWIN_FIELD(unreduced_log_decrement), "-");
+    visit(TWIN_FIELD(reduction_disagrees), "", requireFlag);
   }
 };
 

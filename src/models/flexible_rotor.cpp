@@ -17,8 +17,9 @@
 #include "analysis/rotor_statics.h"
 #include "integration/exponential.h"
 #include "mechanics/linear_rotor_dynamics.h"
-#include "mechanics/rotors/bearing_laws.h"
+#include "mechanics/rotors/unreduced_rotor.h"
 #include "messages/refusal.h"
+#include "models/flexible_rotor_elements.h"
 #include "models/flexible_rotor_picture.h"
 #include "models/flexible_shaft_settings.h"
 #include "models/linear_rotor_setup.h"
@@ -32,8 +33,6 @@ namespace whirl_twin {
 namespace {
 
 using Eigen::Index;
-
-constexpr double kUsualGravity = 9.80665;  // [m/s^2]
 
 int probeNode(const Settings& settings, const FlexibleShaft& shaft) {
   const std::string& given = settings.choices.at("probe_node");
@@ -91,51 +90,6 @@ std::vector<PlacedMagnet> placed(const std::vector<NodeMagnet>& magnets,
   return all;
 }
 
-/// What a row of the shaft and its pedestals sees of a node's element: x and y of the one body less
-/// those of the other.
-Station between(const NodeElement& element, const FlexibleShaft& shaft,
-                const RotorAssembly& assembly) {
-  std::vector<Station> pedestals;
-  for (std::size_t i = 0; i < shaft.pedestals.size(); ++i) {
-    if (shaft.pedestals[i].node == element.node) {
-      pedestals.push_back(assembly.pedestals()[i]);
-    }
-  }
-  Station seen = assembly.stations()[static_cast<std::size_t>(element.node)];
-  if (pedestals.empty() || element.between == NodeElement::Between::kShaftAndGround) {
-    return seen;
-  }
-  if (element.between == NodeElement::Between::kPedestalAndGround) {
-    return pedestals.back();
-  }
-  seen.along_x -= pedestals.front().along_x;
-  seen.along_y -= pedestals.front().along_y;
-  return seen;
-}
-
-std::vector<LocalForce> forcesOf(const std::vector<NodeElement>& elements,
-                                 const FlexibleShaft& shaft, const RotorAssembly& assembly) {
-  std::vector<LocalForce> forces;
-  for (const NodeElement& element : elements) {
-    const Station seen = between(element, shaft, assembly);
-    forces.push_back({element.name,
-                      seen.along_x,
-                      seen.along_y,
-                      {LocalForce::kNoInput, LocalForce::kNoInput},
-                      element.law});
-  }
-  return forces;
-}
-
-Eigen::MatrixXd directionsOf(const std::vector<LocalForce>& forces, Index dof) {
-  Eigen::MatrixXd all(dof, 0);
-  for (const LocalForce& force : forces) {
-    all.conservativeResize(Eigen::NoChange, all.cols() + 2);
-    all.rightCols(2) << force.along_x, force.along_y;
-  }
-  return all;
-}
-
 /// In the order of RotorAssembly.
 std::vector<CoordinateInfo> nodeCoordinates(const FlexibleShaft& shaft) {
   std::vector<CoordinateInfo> all;
@@ -159,48 +113,6 @@ std::vector<CoordinateInfo> shapeCoordinates(Index count) {
     all.push_back({fmt::format("q{}", i), "m"});
   }
   return all;
-}
-
-void addDamping(const NodeElement& element, FlexibleShaft& shaft) {
-  if (element.between == NodeElement::Between::kPedestalAndGround) {
-    const auto last =
-        std::find_if(shaft.pedestals.rbegin(), shaft.pedestals.rend(),
-                     [&](const RotorPedestal& pedestal) { return pedestal.node == element.node; });
-    if (last != shaft.pedestals.rend()) {
-      last->coefficients.cxx += element.damping;
-      last->coefficients.cyy += element.damping;
-      return;
-    }
-  }
-  BearingCoefficients coefficients;
-  coefficients.cxx = coefficients.cyy = element.damping;
-  shaft.bearings.push_back({element.node, coefficients});
-}
-
-/// With what of these elements is linear.
-FlexibleShaft withDamping(FlexibleShaft shaft, const std::vector<NodeElement>& elements) {
-  for (const NodeElement& element : elements) {
-    if (element.damping > 0.0) {
-      addDamping(element, shaft);
-    }
-  }
-  return shaft;
-}
-
-/// The rotor as it runs, for the choice of its shapes: on journal bearings as stiff and as damped
-/// as they are under an even share of its weight.
-LinearRotor inItsFilms(FlexibleShaft shaft, const std::vector<NodeElement>& elements) {
-  const auto films = std::count_if(elements.begin(), elements.end(),
-                                   [](const NodeElement& e) { return e.journal.has_value(); });
-  const double load = rotorBody(shaft).mass * kUsualGravity / static_cast<double>(films);
-  for (const NodeElement& element : elements) {
-    if (element.journal) {
-      shaft.speed_bearings.push_back(journalBearing(element.node, *element.journal, load));
-    } else if (element.damping > 0.0) {
-      addDamping(element, shaft);
-    }
-  }
-  return RotorAssembly(shaft).linearRotor();
 }
 
 /// [m]: the mass centre's distance from the shaft if all unbalance were in one place.
@@ -264,6 +176,28 @@ std::shared_ptr<const Dynamics> dynamicsOf(RotorDescription description, LinearR
   }
 }
 
+/// Of magnets, whose currents are the inputs behind those of the nodes, and of elements.
+std::vector<LocalForce> allForcesOf(const std::vector<PlacedMagnet>& magnets,
+                                    const std::vector<NodeElement>& elements,
+                                    const FlexibleShaft& shaft, const RotorAssembly& assembly) {
+  std::vector<LocalForce> forces = localForcesOf(magnets, 2 * assembly.stations().size());
+  for (LocalForce& force : forcesOf(elements, shaft, assembly)) {
+    forces.push_back(std::move(force));
+  }
+  return forces;
+}
+
+std::shared_ptr<const UnreducedRotor> unreducedRotor(const RotorAssembly& assembly,
+                                                     const Eigen::MatrixXd& shapes,
+                                                     const FlexibleShaft& shaft,
+                                                     const Settings& settings,
+                                                     const std::vector<NodeElement>& elements) {
+  const auto magnets = placed(nodeMagnets(settings, shaft.nodes()), assembly.stations());
+  return std::make_shared<const UnreducedRotor>(
+      UnreducedRotor{std::make_shared<const RotorAssembly>(assembly), shapes,
+                     allForcesOf(magnets, elements, shaft, assembly)});
+}
+
 ModelSetup setUpFlexibleRotor(const ParameterValues& values, const Settings& settings,
                               const Surroundings& around) {
   const FlexibleShaft shaft = flexibleShaft(values, settings, around.gravity);
@@ -278,6 +212,7 @@ ModelSetup setUpFlexibleRotor(const ParameterValues& values, const Settings& set
   description.phase_mark = values.at("phase_mark");
   std::vector<std::string> notes = shaftNotes(values, settings, shaft);
   double highest_speed = std::numeric_limits<double>::infinity();
+  std::shared_ptr<const UnreducedRotor> unreduced;
   const std::string& modes = settings.choices.at("modes");
   if (modes == "0") {
     description.coordinates = nodeCoordinates(shaft);
@@ -287,6 +222,9 @@ ModelSetup setUpFlexibleRotor(const ParameterValues& values, const Settings& set
                   everywhere(publishedFirst(assembly.stations(), probe), assembly.pedestals()),
                   directionsOf(forcesOf(elements, shaft, assembly), assembly.dof()), values, modes,
                   !shaft.pedestals.empty());
+    if (kept.shapes.cols() < assembly.dof()) {
+      unreduced = unreducedRotor(assembly, kept.shapes, shaft, settings, elements);
+    }
     assembly = assembly.in(kept.shapes);
     description.coordinates = shapeCoordinates(kept.shapes.cols());
     notes.insert(notes.begin(), kept.note);
@@ -297,15 +235,11 @@ ModelSetup setUpFlexibleRotor(const ParameterValues& values, const Settings& set
   const std::vector<PlacedMagnet> magnets =
       placed(nodeMagnets(settings, shaft.nodes()), assembly.stations());
   description.inputs = inputsAt(assembly.stations(), magnets);
-  const std::size_t first_current = description.inputs.size() - 2 * magnets.size();
   description.sketch =
       FlexibleRotorPicture(shaft, assembly.stations(), assembly.pedestals(), probe);
-  LinearRotor rotor = assembly.linearRotor();
+  LinearRotor rotor = assembly.linearRotor(std::move(unreduced));
   rotor.highest_speed = highest_speed;
-  std::vector<LocalForce> forces = localForcesOf(magnets, first_current);
-  for (LocalForce& force : forcesOf(elements, shaft, assembly)) {
-    forces.push_back(std::move(force));
-  }
+  std::vector<LocalForce> forces = allForcesOf(magnets, elements, shaft, assembly);
   const double fastest = std::isfinite(highest_speed)       ? highest_speed
                          : values.at("highest_speed") > 0.0 ? values.at("highest_speed")
                          : around.motor                     ? usualHighestSpeed(rotor)

@@ -27,6 +27,19 @@ AlarmCondition verdictCondition(std::uint8_t verdict) {
   }
 }
 
+/// A rotor and what it is reduced to on different sides of the limit are a warning.
+AlarmCondition verdictCondition(const state::StabilityMargin& margin) {
+  return margin.reduction_disagrees ? AlarmCondition::kWarning : verdictCondition(margin.verdict);
+}
+
+// Of a reduced rotor and the one that it was made of.
+double lowestDecayRate(const state::StabilityMargin& margin) {
+  return std::fmin(margin.decay_rate, margin.unreduced_decay_rate);
+}
+double leastLogDecrement(const state::StabilityMargin& margin) {
+  return std::fmin(margin.log_decrement, margin.unreduced_log_decrement);
+}
+
 std::string speedText(double speed) {
   return std::isnan(speed) ? std::string() : fmt::format(" at {:.1f} rad/s", speed);
 }
@@ -73,6 +86,12 @@ std::string unstableText(const std::string& system, const state::StabilityMargin
                          where, margin.right, margin.right == 1 ? "root" : "roots",
                          -margin.decay_rate, wayOut(margin));
     case AlarmCondition::kWarning:
+      if (margin.reduction_disagrees) {
+        return fmt::format(
+            "{}: verdict uncertain, the rotor has a decay rate of {:.3g} 1/s, its few shapes of "
+            "{:.3g} 1/s: keep more modes",
+            where, margin.unreduced_decay_rate, margin.decay_rate);
+      }
       return fmt::format("{}: repeated imaginary roots, the motion may grow with time: {}", where,
                          wayOut(margin));
     default:
@@ -107,7 +126,7 @@ void StabilityAlarm::update(const state::StabilityMargin& margin, AlertList& ale
 }
 
 void StabilityAlarm::updateUnstable(const state::StabilityMargin& margin, AlertList& alerts) {
-  const AlarmCondition condition = verdictCondition(margin.verdict);
+  const AlarmCondition condition = verdictCondition(margin);
   const auto change = unstable_alarm_.update(margin.at.time, condition);
   if (change == ConditionAlarm::Change::kCleared) {
     alerts.clear(system_, alert_type::kUnstable, margin.at.time,
@@ -126,22 +145,22 @@ void StabilityAlarm::updateLowDamping(const state::StabilityMargin& margin, Aler
   const AlarmCondition condition = dampingCondition(margin);
   const auto change = low_damping_alarm_.update(margin.at.time, condition);
   if (change == ConditionAlarm::Change::kCleared) {
-    alerts.clear(
-        system_, alert_type::kLowDamping, margin.at.time,
-        fmt::format("{}{}: damped enough again, log decrement {:.3g}, decay rate "
-                    "{:.3g} 1/s",
-                    system_, speedText(margin.speed), margin.log_decrement, margin.decay_rate));
+    alerts.clear(system_, alert_type::kLowDamping, margin.at.time,
+                 fmt::format("{}{}: damped enough again, log decrement {:.3g}, decay rate "
+                             "{:.3g} 1/s",
+                             system_, speedText(margin.speed), leastLogDecrement(margin),
+                             lowestDecayRate(margin)));
   } else if (low_damping_alarm_.active() && isRaising(condition)) {
     state::Alert alert = alertAbout(margin);
     alert.type = alert_type::kLowDamping;
     alert.severity = low_damping_alarm_.severity();
-    if (margin.log_decrement < settings_.log_decrement_warning) {
+    if (leastLogDecrement(margin) < settings_.log_decrement_warning) {
       alert.text = fmt::format("{}{}: log decrement {:.3g}, below {:g}: {}", system_,
-                               speedText(margin.speed), margin.log_decrement,
+                               speedText(margin.speed), leastLogDecrement(margin),
                                settings_.log_decrement_warning, wayToStay(margin));
     } else {
       alert.text = fmt::format("{}{}: decay rate {:.3g} 1/s, below {:g} 1/s: {}", system_,
-                               speedText(margin.speed), margin.decay_rate,
+                               speedText(margin.speed), lowestDecayRate(margin),
                                settings_.decay_rate_alarm, wayToStay(margin));
     }
     alerts.raise(std::move(alert), "low damping");
@@ -199,7 +218,7 @@ void StabilityAlarm::updateSpread(const state::StabilityMargin& margin, AlertLis
 
 AlarmCondition StabilityAlarm::dampingCondition(const state::StabilityMargin& margin) const {
   // Once unstable, UNSTABLE speaks; and a margin that is not a number says nothing.
-  if (verdictCondition(margin.verdict) != AlarmCondition::kClear || !std::isfinite(margin.speed) ||
+  if (verdictCondition(margin) != AlarmCondition::kClear || !std::isfinite(margin.speed) ||
       !std::isfinite(margin.decay_rate)) {
     return AlarmCondition::kHold;
   }
@@ -210,13 +229,13 @@ AlarmCondition StabilityAlarm::dampingCondition(const state::StabilityMargin& ma
   }
   // A limit of zero is switched off; a NaN log decrement, overdamped, is below none.
   const auto below = [](double value, double limit) { return limit > 0.0 && value < limit; };
-  if (below(margin.log_decrement, settings_.log_decrement_warning) ||
-      below(margin.decay_rate, settings_.decay_rate_alarm)) {
+  if (below(leastLogDecrement(margin), settings_.log_decrement_warning) ||
+      below(lowestDecayRate(margin), settings_.decay_rate_alarm)) {
     return AlarmCondition::kWarning;
   }
   const double beyond = 1.0 + settings_.hysteresis;
-  if (below(margin.log_decrement, beyond * settings_.log_decrement_warning) ||
-      below(margin.decay_rate, beyond * settings_.decay_rate_alarm)) {
+  if (below(leastLogDecrement(margin), beyond * settings_.log_decrement_warning) ||
+      below(lowestDecayRate(margin), beyond * settings_.decay_rate_alarm)) {
     return AlarmCondition::kHold;
   }
   return AlarmCondition::kClear;

@@ -14,6 +14,9 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// The threshold of an equilibrium that moves with speed is searched anew this often [s].
 constexpr double kSearchPeriod = 1.0;
+/// Of a speed, and of the place that is judged: what is hardly another. What the reduction of a
+/// long rotor changes takes ten times as long to judge as the reduced one.
+constexpr double kSame = 1.0e-4;
 
 }  // namespace
 
@@ -21,6 +24,8 @@ SystemJudge::SystemJudge(SharedSystem system, std::shared_ptr<const ClosedLoop> 
     : system_(std::move(system)), steady_motions_(system_->dynamics) {
   if (loop) {
     loop_.emplace(system_, std::move(loop));
+  } else {
+    unreduced_ = UnreducedMargins::of(system_->dynamics);
   }
 }
 
@@ -107,6 +112,17 @@ Stability SystemJudge::openStability(const state::Instant& at, const Eigen::Vect
   return s;
 }
 
+ReducedMargins SystemJudge::unreducedMargins(const Eigen::VectorXd& about, double speed) {
+  const bool same =
+      reduction_ && std::fabs(speed - reduction_->speed) <= kSame * std::fabs(speed) &&
+      (system_->dynamics->linear() || (about - reduction_->about).norm() <= kSame * about.norm());
+  if (!same) {
+    reduction_.reset();
+    reduction_ = JudgedReduction{speed, about, unreduced_->at(about, speed)};
+  }
+  return reduction_->margins;
+}
+
 state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::vector<double>& q,
                                           const std::vector<double>& v, double speed,
                                           const SystemMotions& beside) {
@@ -119,13 +135,21 @@ state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::v
   Stability s;
   s.routh.verdict = Verdict::kUncertain;
   s.decay_rate = s.damping_ratio = s.log_decrement = kNaN;
+  std::optional<ReducedMargins> reduction;
   motion_.reset();
   lacks_thresholds_ = false;
   try {
     s = loop_ ? loop_->judge(at.time, {&dynamics, present, rates, shaft_speed}, beside, about)
               : openStability(at, present, rates, shaft_speed, about);
+    if (unreduced_) {
+      reduction = unreducedMargins(
+          about, dynamics.hasShaft() ? speed : (motion_ ? motion_->v : rates)[n - 1]);
+    }
   } catch (const std::exception&) {
     // Numbers beyond the range of double, or a singular mass: uncertain. The others are watched on.
+  }
+  if (reduction && reduction->disagree()) {
+    s.routh.verdict = Verdict::kUncertain;
   }
 
   state::StabilityMargin m;
@@ -149,6 +173,11 @@ state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::v
   m.log_decrement = s.log_decrement;
   m.right_by_eigenvalues = static_cast<std::uint32_t>(s.right_by_eigenvalues);
   m.routh_disagrees = s.right_by_eigenvalues != s.routh.right;
+  if (reduction) {
+    m.unreduced_decay_rate = reduction->unreduced.decay_rate;
+    m.unreduced_log_decrement = reduction->unreduced.log_decrement;
+    m.reduction_disagrees = reduction->disagree();
+  }
   putSpeeds(speed, m);
   return m;
 }

@@ -2,6 +2,9 @@
 // it operates at, applies Routh's test, and measures the distance to its critical and threshold
 // speeds.
 //
+// A rotor that is reduced to a few shapes stands for the one that these were taken from: both are
+// judged, and where they are on different sides of the limit the verdict is uncertain.
+//
 // A system with controllers is judged by its loop (loop_judge.h): no critical and threshold speeds
 // of it are looked for.
 #pragma once
@@ -14,6 +17,7 @@
 #include "analysis/equilibria.h"
 #include "analysis/known_steady_motions.h"
 #include "analysis/steady_motion.h"
+#include "analysis/unreduced_margins.h"
 #include "messages/stability_margin.h"
 #include "monitoring/judged_speeds.h"
 #include "monitoring/loop_judge.h"
@@ -57,10 +61,21 @@ class SystemJudge {
 
   void findSpeeds(double speed, state::StabilityMargin& margin);
 
+  /// The margins before the reduction, about what was judged. Throws what UnreducedMargins does.
+  ReducedMargins unreducedMargins(const Eigen::VectorXd& about, double speed);
+
   SharedSystem system_;
   std::optional<LoopJudge> loop_;
   std::optional<JudgedSpeeds> speeds_;
   KnownSteadyMotions steady_motions_;
+  /// What was found of a reduction last, and where.
+  struct JudgedReduction {
+    double speed = 0.0;  ///< [rad/s]
+    Eigen::VectorXd about;
+    ReducedMargins margins;
+  };
+  std::optional<UnreducedMargins> unreduced_;
+  std::optional<JudgedReduction> reduction_;
   std::optional<SteadyMotion> motion_;
   bool lacks_thresholds_ = false;
   std::optional<double> searched_at_;   ///< [s], simulated: for thresholds

@@ -34,11 +34,12 @@ constexpr std::size_t sizeUnset(std::string_view later) {
 template <class State>
 inline constexpr std::array<EarlierForm, 0> kEarlierForms{};
 template <>
-inline constexpr std::array<EarlierForm, 4> kEarlierForms<state::StabilityMargin>{
-    {{0x04269617e2cfdbe6, "dddsddsdddibiidbsd"},
-     {0x6ff93c955afc2f62, "sddsdddibiidbsd"},
-     {0x4058c40523023a98, "iidbsd"},
-     {0x2dc55037686885d0, "sd"}}};
+inline constexpr std::array<EarlierForm, 5> kEarlierForms<state::StabilityMargin>{
+    {{0x04269617e2cfdbe6, "dddsddsdddibiidbsdddb"},
+     {0x6ff93c955afc2f62, "sddsdddibiidbsdddb"},
+     {0x4058c40523023a98, "iidbsdddb"},
+     {0x2dc55037686885d0, "sdddb"},
+     {0x0517710961ef6cb2, "ddb"}}};
 template <>
 inline constexpr std::array<EarlierForm, 6> kEarlierForms<state::LoopStatistics>{
     {{0xe676f1d3c287e44f, "llllddlsnSDDDilddddddsnSDDD"},

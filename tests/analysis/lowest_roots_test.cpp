@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "all_eigenvalues.h"
 #include "analysis/growth_radius.h"
 #include "analysis/lowest_eigenvalues.h"
 #include "random_shafts.h"
@@ -16,43 +16,6 @@ namespace whirl_twin {
 namespace {
 
 using Complex = std::complex<double>;
-using Long = long double;
-using LongMatrix = Eigen::Matrix<Long, Eigen::Dynamic, Eigen::Dynamic>;
-
-/// All eigenvalues, by rising modulus.
-std::vector<Complex> allEigenvalues(const Linearization& l) {
-  const Eigen::Index n = l.mass.rows();
-  const Eigen::PartialPivLU<LongMatrix> mass(l.mass.cast<Long>());
-  const LongMatrix by_q = mass.solve((l.stiffness + l.circulatory).cast<Long>());
-  const Long scale = std::exp2(std::round(std::log2(std::sqrt(by_q.cwiseAbs().maxCoeff()))));
-  LongMatrix a = LongMatrix::Zero(2 * n, 2 * n);
-  a.topRightCorner(n, n).diagonal().setConstant(scale);
-  a.bottomLeftCorner(n, n) = -by_q / scale;
-  a.bottomRightCorner(n, n) = -mass.solve((l.damping + l.gyroscopic).cast<Long>());
-  Eigen::EigenSolver<LongMatrix> solver;
-  solver.setMaxIterations(400 * 2 * n).compute(a, false);
-  EXPECT_EQ(solver.info(), Eigen::Success);
-  std::vector<Complex> all;
-  for (const auto& s : solver.eigenvalues()) {
-    all.emplace_back(static_cast<double>(s.real()), static_cast<double>(s.imag()));
-  }
-  std::sort(all.begin(), all.end(),
-            [](const Complex& s, const Complex& t) { return std::abs(s) < std::abs(t); });
-  return all;
-}
-
-/// The largest difference from the nearest of `all` that no other has taken, of the modulus.
-double worstDifference(const std::vector<Complex>& found, std::vector<Complex> all) {
-  double worst = 0.0;
-  for (const Complex& s : found) {
-    const auto nearest = std::min_element(
-        all.begin(), all.end(),
-        [&](const auto& a, const auto& b) { return std::abs(a - s) < std::abs(b - s); });
-    worst = std::max(worst, std::abs(*nearest - s) / std::abs(s));
-    all.erase(nearest);
-  }
-  return worst;
-}
 
 TEST(LowestRoots, AreThoseOfTheDenseSolutionAndNoneThatGrowsIsAmongTheOmitted) {
   int proved = 0;

@@ -71,14 +71,18 @@ TEST(LcmDecode, PlaysMarginsInTheirEarlierForms) {
     for (int i = 0; i < 20; ++i) {
       state::StabilityMargin margin = samples.margin();
       const state::StabilityMargin unset;
-      margin.log_decrement_coordinate = "";
-      margin.log_decrement_amplitude = unset.log_decrement_amplitude;
-      if (form.later.size() > 2) {
+      margin.unreduced_decay_rate = margin.unreduced_log_decrement = unset.unreduced_decay_rate;
+      margin.reduction_disagrees = false;
+      if (form.later.size() > 3) {
+        margin.log_decrement_coordinate = "";
+        margin.log_decrement_amplitude = unset.log_decrement_amplitude;
+      }
+      if (form.later.size() > 5) {
         margin.members = margin.members_beyond = 0;
         margin.lowest_decay_rate = unset.lowest_decay_rate;
         margin.stable_throughout = false;
       }
-      if (form.later.size() > 6) {
+      if (form.later.size() > 9) {
         margin.nearest_parameter = margin.nearest_loss = "";
         margin.nearest_change = margin.nearest_value = margin.nearest_frequency =
             unset.nearest_change;
@@ -86,7 +90,7 @@ TEST(LcmDecode, PlaysMarginsInTheirEarlierForms) {
         margin.right_by_eigenvalues = 0;
         margin.routh_disagrees = false;
       }
-      if (form.later.size() > 15) {
+      if (form.later.size() > 18) {
         margin.threshold_below = margin.threshold_above = margin.age = unset.age;
       }
       Payload then = encoded(margin);

@@ -5,6 +5,7 @@
 #include <complex>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace whirl_twin {
 
@@ -44,38 +45,6 @@ void add(const BearingCoefficients& b, const MatrixXd& place, Linearization& l) 
   if (!m.isZero(0.0)) {
     l.mass += place * m * place.transpose();
   }
-}
-
-/// The same of matrices near their diagonals.
-void add(const BearingCoefficients& b, const MatrixXd& place, BandedLinearization& l) {
-  std::vector<Index> coordinates;
-  for (Index i = 0; i < place.rows(); ++i) {
-    if (!place.row(i).isZero(0.0)) {
-      coordinates.push_back(i);
-    }
-  }
-  const auto at = static_cast<Index>(coordinates.size());
-  MatrixXd there(at, 2);
-  for (Index i = 0; i < at; ++i) {
-    there.row(i) = place.row(coordinates[static_cast<std::size_t>(i)]);
-  }
-  const MatrixXd zero = MatrixXd::Zero(at, at);
-  Linearization own{zero, zero, zero, zero, zero};
-  add(b, there, own);
-  const auto put = [&](const MatrixXd& from, BandedMatrix<double>& to) {
-    to.widen(coordinates.back() - coordinates.front());
-    for (Index i = 0; i < at; ++i) {
-      for (Index j = 0; j < at; ++j) {
-        to(coordinates[static_cast<std::size_t>(i)], coordinates[static_cast<std::size_t>(j)]) +=
-            from(i, j);
-      }
-    }
-  };
-  put(own.mass, l.mass);
-  put(own.stiffness, l.stiffness);
-  put(own.circulatory, l.circulatory);
-  put(own.damping, l.damping);
-  put(own.gyroscopic, l.gyroscopic);
 }
 
 void requireNodes(const FlexibleShaft& shaft) {
@@ -118,6 +87,37 @@ std::vector<Index> rigidShapes(const MatrixXd& stiffness, const MatrixXd& shapes
 }
 
 }  // namespace
+
+void addBearing(const BearingCoefficients& b, const MatrixXd& place, BandedLinearization& l) {
+  std::vector<Index> coordinates;
+  for (Index i = 0; i < place.rows(); ++i) {
+    if (!place.row(i).isZero(0.0)) {
+      coordinates.push_back(i);
+    }
+  }
+  const auto at = static_cast<Index>(coordinates.size());
+  MatrixXd there(at, 2);
+  for (Index i = 0; i < at; ++i) {
+    there.row(i) = place.row(coordinates[static_cast<std::size_t>(i)]);
+  }
+  const MatrixXd zero = MatrixXd::Zero(at, at);
+  Linearization own{zero, zero, zero, zero, zero};
+  add(b, there, own);
+  const auto put = [&](const MatrixXd& from, BandedMatrix<double>& to) {
+    to.widen(coordinates.back() - coordinates.front());
+    for (Index i = 0; i < at; ++i) {
+      for (Index j = 0; j < at; ++j) {
+        to(coordinates[static_cast<std::size_t>(i)], coordinates[static_cast<std::size_t>(j)]) +=
+            from(i, j);
+      }
+    }
+  };
+  put(own.mass, l.mass);
+  put(own.stiffness, l.stiffness);
+  put(own.circulatory, l.circulatory);
+  put(own.damping, l.damping);
+  put(own.gyroscopic, l.gyroscopic);
+}
 
 std::vector<double> FlexibleShaft::positions() const {
   std::vector<double> z{0.0};
@@ -296,7 +296,7 @@ BandedLinearization RotorAssembly::bandedMatrices(double speed) const {
   l.gyroscopic.add(speed, banded_gyroscopic_);
   l.circulatory.add(speed, banded_circulatory_);
   for (const PlacedBearing& placed : speed_bearings_) {
-    add(placed.bearing.coefficients(speed), placed.place, l);
+    addBearing(placed.bearing.coefficients(speed), placed.place, l);
   }
   return l;
 }
@@ -350,9 +350,10 @@ RotorAssembly RotorAssembly::in(const MatrixXd& shapes) const {
   return r;
 }
 
-LinearRotor RotorAssembly::linearRotor() const {
+LinearRotor RotorAssembly::linearRotor(std::shared_ptr<const UnreducedRotor> unreduced) const {
   LinearRotor rotor;
-  rotor.matrices = AssembledMatrices{std::make_shared<const RotorAssembly>(*this)};
+  rotor.matrices =
+      AssembledMatrices{std::make_shared<const RotorAssembly>(*this), std::move(unreduced)};
   rotor.speed_dependent = !speed_bearings_.empty() ||
                           (gyroscopic_per_speed_.array() != 0.0).any() ||
                           (circulatory_per_speed_.array() != 0.0).any();

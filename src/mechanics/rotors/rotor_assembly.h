@@ -98,6 +98,12 @@ struct FlexibleShaft {
   std::vector<double> positions() const;  ///< [m], of the nodes
 };
 
+struct UnreducedRotor;
+
+/// Adds a bearing at `place` [dof x 2], x and y as place^T q: the matrices grow as wide as it is.
+void addBearing(const BearingCoefficients& bearing, const Eigen::MatrixXd& place,
+                BandedLinearization& matrices);
+
 /// The parts of a rotor's equations, in all coordinates or in the amplitudes of shapes.
 class RotorAssembly {
  public:
@@ -115,12 +121,15 @@ class RotorAssembly {
   /// Of the shaft's pedestals, in their order.
   std::vector<Station> pedestals() const { return pedestals_; }
   const std::vector<ShaftForce>& forces() const { return forces_; }
+  /// f_0 [N] or [N m].
+  const Eigen::VectorXd& load() const { return load_; }
   /// Of what turns with the shaft (spin_coupling.h): N_1, and its damping there.
   const Eigen::MatrixXd& circulatoryPerSpeed() const { return circulatory_per_speed_; }
   const Eigen::MatrixXd& turningDamping() const { return turning_damping_; }
   /// With q = shapes * amplitudes. [dof x n]
   RotorAssembly in(const Eigen::MatrixXd& shapes) const;
-  LinearRotor linearRotor() const;
+  /// `unreduced`: what in() has made it of, with what else acts there.
+  LinearRotor linearRotor(std::shared_ptr<const UnreducedRotor> unreduced = nullptr) const;
 
  private:
   struct PlacedBearing {
@@ -144,9 +153,11 @@ class RotorAssembly {
 };
 
 /// What LinearRotor::matrices of a RotorAssembly is: whoever finds this in it
-/// (std::function::target) can have its matrices near their diagonals.
+/// (std::function::target) can have its matrices near their diagonals, and the rotor that it was
+/// before it was reduced.
 struct AssembledMatrices {
   std::shared_ptr<const RotorAssembly> assembly;
+  std::shared_ptr<const UnreducedRotor> unreduced = nullptr;  ///< none: it has all coordinates
   Linearization operator()(double speed) const { return assembly->matrices(speed); }
 };
 

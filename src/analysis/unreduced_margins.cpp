@@ -1,0 +1,153 @@
+#include "analysis/unreduced_margins.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "analysis/cyclic_coordinates.h"
+#include "analysis/equilibria.h"
+#include "analysis/lowest_eigenvalues.h"
+#include "analysis/stability.h"
+#include "analysis/stability_margins.h"
+#include "mechanics/locally_forced_rotor.h"
+#include "mechanics/spinning_rotor.h"
+
+namespace whirl_twin {
+
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::VectorXd;
+
+constexpr int kMostSteps = 30;    // of Newton's method
+constexpr double kRests = 1e-12;  // of the place: a step that is none
+constexpr double kRigid = 1e-14;  // of the largest eigenvalue: a motion as a rigid body
+
+LocalState stateAt(const LocalForce& force, const VectorXd& q, double speed) {
+  LocalState at;
+  at.place = {force.along_x.dot(q), force.along_y.dot(q)};
+  at.speed = speed;
+  return at;
+}
+
+/// About rest in q.
+BandedLinearization linearizationAt(const UnreducedRotor& rotor, const VectorXd& q, double speed) {
+  BandedLinearization l = rotor.assembly->bandedMatrices(speed);
+  for (const LocalForce& force : rotor.forces) {
+    const LocalSlopes s = force.law->slopes(stateAt(force, q, speed));
+    const Eigen::Matrix2d& k = s.stiffness;
+    const Eigen::Matrix2d& c = s.damping;
+    Eigen::MatrixXd place(q.size(), 2);
+    place << force.along_x, force.along_y;
+    addBearing({k(0, 0), k(0, 1), k(1, 0), k(1, 1), c(0, 0), c(0, 1), c(1, 0), c(1, 1)}, place, l);
+  }
+  return l;
+}
+
+/// Where it rests next to q; q itself where Newton's method finds no such place.
+VectorXd restNear(const UnreducedRotor& rotor, const VectorXd& q, double speed) {
+  if (rotor.forces.empty()) {
+    return q;
+  }
+  const BandedMatrix<double> linear = rotor.assembly->bandedMatrices(speed).byPlace();
+  VectorXd rest = q;
+  for (int step = 0; step < kMostSteps; ++step) {
+    VectorXd left = rotor.assembly->load() - linear.times(rest).col(0);
+    for (const LocalForce& force : rotor.forces) {
+      LocalPush push;
+      if (!force.law->push(stateAt(force, rest, speed), push)) {
+        return q;
+      }
+      left += push.force[0] * force.along_x + push.force[1] * force.along_y;
+    }
+    const BandedLU<double> slope(linearizationAt(rotor, rest, speed).byPlace());
+    const VectorXd change = slope.solve(left);
+    rest += change;
+    if (!rest.allFinite()) {
+      return q;
+    }
+    if (change.norm() <= kRests * rest.norm()) {
+      return rest;
+    }
+  }
+  return q;
+}
+
+/// Of those with |s| up to `reach`, and of those that grow if there are.
+RotorMargins marginsOf(const std::vector<Complex>& roots, double reach, bool grows) {
+  RotorMargins margins;
+  margins.grows = grows;
+  double rightmost = -std::numeric_limits<double>::infinity();
+  double ratio = std::numeric_limits<double>::quiet_NaN();
+  double largest = 0.0;
+  for (const Complex& s : roots) {
+    largest = std::max(largest, std::abs(s));
+  }
+  for (const Complex& s : roots) {
+    if (std::abs(s) <= reach || (grows && s.real() > 0.0)) {
+      rightmost = std::max(rightmost, s.real());
+      if (std::abs(s) > kRigid * largest) {
+        ratio = std::fmin(ratio, -s.real() / std::abs(s));
+      }
+    }
+  }
+  margins.decay_rate = -rightmost;
+  margins.log_decrement = logDecrement(ratio);
+  return margins;
+}
+
+RotorMargins marginsOf(const Linearization& l, double reach) {
+  const Stability s = reducedStability(l, rigidBodyMotions(l), kAllModes);
+  return marginsOf(s.eigenvalues, reach, s.routh.right > 0);
+}
+
+RotorMargins marginsOf(const BandedLinearization& l, double reach) {
+  const auto found = eigenvaluesWithin(l, reach);
+  if (found && (found->omitted_are_sure || l.size() > kMostCompleteCoordinates)) {
+    const bool grows = std::any_of(found->roots.begin(), found->roots.end(),
+                                   [](const Complex& s) { return s.real() > 0.0; });
+    return marginsOf(found->roots, reach, grows);
+  }
+  return marginsOf(Linearization{l.mass.dense(), l.damping.dense(), l.gyroscopic.dense(),
+                                 l.stiffness.dense(), l.circulatory.dense()},
+                   reach);
+}
+
+}  // namespace
+
+std::optional<UnreducedMargins> UnreducedMargins::of(std::shared_ptr<const Dynamics> dynamics) {
+  const auto* const spinning = dynamic_cast<const SpinningRotor*>(dynamics.get());
+  const Dynamics& held = spinning != nullptr ? spinning->held() : *dynamics;
+  const bool rotor = held.isRotor() && held.hasShaft();
+  if (!rotor || !(held.linear() || dynamic_cast<const LocallyForcedRotor*>(&held) != nullptr)) {
+    return std::nullopt;
+  }
+  UnreducedMargins margins(std::move(dynamics), held);
+  return margins.rotor_ ? std::optional<UnreducedMargins>(std::move(margins)) : std::nullopt;
+}
+
+UnreducedMargins::UnreducedMargins(std::shared_ptr<const Dynamics> dynamics, const Dynamics& held)
+    : dynamics_(std::move(dynamics)), held_(&held) {
+  const LinearRotor rotor = held.linearRotor();
+  highest_speed_ = rotor.highest_speed;
+  if (const auto* const assembled = rotor.matrices.target<AssembledMatrices>()) {
+    rotor_ = assembled->unreduced;
+  }
+}
+
+ReducedMargins UnreducedMargins::at(const VectorXd& q, double speed) const {
+  const VectorXd amplitudes = q.head(rotor_->shapes.cols());
+  const VectorXd zero = VectorXd::Zero(amplitudes.size());
+  ReducedMargins margins;
+  margins.reduced = marginsOf(linearizationAtRest(*held_, amplitudes, speed),
+                              std::numeric_limits<double>::infinity());
+  const VectorXd rest = restNear(*rotor_, rotor_->shapes * amplitudes, speed);
+  margins.unreduced =
+      marginsOf(linearizationAt(*rotor_, rest, speed), std::max(highest_speed_, std::fabs(speed)));
+  return margins;
+}
+
+}  // namespace whirl_twin
