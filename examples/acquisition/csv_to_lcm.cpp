@@ -1,8 +1,10 @@
 // A growing CSV file, or what an acquisition card's program writes into a pipe, as Measurement on
 // LCM: csv_to_lcm FILE SOURCE [URL [QUIET]], or CARD_PROGRAM | csv_to_lcm - SOURCE.
 // The first line has names with units, time,probe_x[m],probe_y[m]; time: s of the machine's clock.
-// What is no number is sent as invalid; a row not later than the one before is left out, and said.
+// What is no number is sent as invalid; a row not later than the one before is left out, and said;
+// two columns of one name end it at once.
 // It ends with the pipe, or when the file has not grown for QUIET seconds, which may be left out.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <fstream>
@@ -16,7 +18,8 @@ using Clock = std::chrono::steady_clock;
 constexpr std::int64_t kLongest = 50'000'000;  // [ns], of a block
 constexpr std::size_t kMostRows = 500;         // of a block
 
-void takeNames(std::istringstream columns, whirl_twin::measurement_t& block) {
+/// False where two columns have one name, and that is said.
+bool takeNames(std::istringstream columns, whirl_twin::measurement_t& block) {
   std::string name;
   for (std::getline(columns, name, ','); std::getline(columns, name, ','); ++block.channels) {
     const std::size_t unit = name.find('[');
@@ -24,6 +27,16 @@ void takeNames(std::istringstream columns, whirl_twin::measurement_t& block) {
     block.unit.push_back(unit == name.npos ? "" : name.substr(unit + 1, name.find(']') - unit - 1));
     block.deviation.push_back(std::nan(""));  // not known: put your probe's here
   }
+  bool different = true;
+  for (auto name_at = block.channel.begin(); name_at != block.channel.end(); ++name_at) {
+    const auto first = std::find(block.channel.begin(), name_at, *name_at);
+    if (first != name_at) {
+      std::cerr << "line 1: columns " << first - block.channel.begin() + 2 << " and "
+                << name_at - block.channel.begin() + 2 << " are called " << *name_at << "\n";
+      different = false;
+    }
+  }
+  return different;
 }
 
 /// False for a row without a time, or not later than the one before.
@@ -88,7 +101,9 @@ int main(int argc, char** argv) {
     if (!file.eof()) {
       grown = Clock::now();
       if (block.channels == 0) {
-        takeNames(std::istringstream(line), block);
+        if (!takeNames(std::istringstream(line), block)) {
+          return 2;
+        }
       } else if (!takeRow(std::istringstream(line), newest, block)) {
         std::cerr << "left out, without a time or not later than the row before: " << line << "\n";
       }

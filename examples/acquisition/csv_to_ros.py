@@ -4,9 +4,9 @@
 usage: csv_to_ros.py FILE|- SOURCE [--quiet S] [--pace P] [--plain]
 
 The first line has names with units, time,probe_x[m],probe_y[m]; time: s of the machine's clock. What is no number is
-sent as invalid; a row not later than the one before is left out, and said. It ends with the pipe, or when the file has
-not grown for S seconds, which may be left out. --pace plays a record P times as fast as it
-was made. --plain needs no ROS: a block a line, as JSON, on standard output.
+sent as invalid; a row not later than the one before is left out, and said; two columns of one name end it at once. It
+ends with the pipe, or when the file has not grown for S seconds, which may be left out. --pace plays a record P times as
+fast as it was made. --plain needs no ROS: a block a line, as JSON, on standard output.
 """
 import argparse
 import decimal
@@ -49,6 +49,13 @@ def blocks(file, quiet):
     for row in rows(file, quiet):
         if row and names is None:
             names = [re.fullmatch(r'(\w+)(?:\[(.*)\])?', name.strip()).groups('') for name in row[1:]]
+            channels = [name for name, _ in names]
+            again = [i for i, name in enumerate(channels) if channels.index(name) < i]
+            for i in again:
+                print(f'line 1: columns {channels.index(channels[i]) + 2} and {i + 2} are called {channels[i]}',
+                      file=sys.stderr)
+            if again:
+                sys.exit(2)
         elif row:
             instant = None if math.isnan(number(row[0])) else int(decimal.Decimal(row[0]).scaleb(9))  # exactly
             if instant is None or instant <= newest:

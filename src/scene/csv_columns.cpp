@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <optional>
 
 #include "messages/names.h"
@@ -47,6 +48,32 @@ std::vector<std::string> fields(const std::string& line) {
   }
 }
 
+/// "2 and 4", "2, 4 and 5"
+std::string listed(const std::vector<std::size_t>& numbers) {
+  const std::size_t last = numbers.size() - 1;
+  return fmt::format("{} and {}", fmt::join(numbers.begin(), numbers.begin() + last, ", "),
+                     numbers[last]);
+}
+
+/// A name that stands over two columns does not say which is meant. Columns without a name do not
+/// matter: nobody can ask for them.
+void requireDifferent(const std::vector<std::string>& header) {
+  std::map<std::string, std::vector<std::size_t>> columns;  // that a name stands over, from 1 on
+  for (std::size_t i = 0; i < header.size(); ++i) {
+    columns[header[i]].push_back(i + 1);
+  }
+  std::vector<std::string> repeated;
+  for (const auto& [name, numbers] : columns) {
+    if (!name.empty() && numbers.size() > 1) {
+      repeated.push_back(fmt::format("columns {} are called {}", listed(numbers), quoted(name)));
+    }
+  }
+  if (!repeated.empty()) {
+    throw Refusal(fmt::format("line 1: each column must have a name of its own; {}",
+                              fmt::join(repeated, "; ")));
+  }
+}
+
 void requireFile(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) {
@@ -71,6 +98,7 @@ std::vector<std::vector<double>> csvColumns(const std::string& path,
     throw Refusal("empty: the first line names the columns");
   }
   const std::vector<std::string> header = fields(line);
+  requireDifferent(header);
   std::vector<std::size_t> places;
   for (const std::string& name : names) {
     const auto found = std::find(header.begin(), header.end(), name);

@@ -7,8 +7,9 @@
 namespace whirl_twin {
 
 /// The columns of these names, each with a number for every row. Throws Refusal with
-/// what is wrong, its row and column named: no file, a larger one than 64 MiB, no such column, a
-/// row without a finite number there.
+/// what is wrong, its row and column named: no file, a larger one than 64 MiB, columns of the
+/// same name (all of them, whether asked for or not), no such column, a row without a finite number
+/// there.
 std::vector<std::vector<double>> csvColumns(const std::string& path,
                                             const std::vector<std::string>& names);
 

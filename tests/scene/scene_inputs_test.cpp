@@ -157,6 +157,9 @@ TEST_F(SceneInputs, TableMayBeWrong) {
   };
   EXPECT_EQ(errors(""), "empty: the first line names the columns");
   EXPECT_EQ(errors("t,taw\n0,1\n"), "no column 'tau'; did you mean 'taw'?");
+  EXPECT_EQ(errors("t,tau,,x, tau,x,\"tau\",\n0,1,2,3,4,5,6,7\n"),
+            "line 1: each column must have a name of its own; columns 2, 5 and 7 are called 'tau'; "
+            "columns 4 and 6 are called 'x'");
   EXPECT_EQ(errors("t,tau\n"), "no rows below the names of the columns");
   EXPECT_EQ(errors("t,tau\n0,1\n1,abc\n"), "line 3: tau must be a finite number, found 'abc'");
   EXPECT_EQ(errors("t,tau\n0,1\n1\n"), "line 3: tau must be a finite number, found nothing");

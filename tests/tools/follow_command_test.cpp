@@ -93,6 +93,16 @@ TEST_F(FollowedArm, ATableIsFollowedAsWell) {
             1.0e-3);
 }
 
+TEST_F(FollowedArm, ATableWithTwoColumnsOfOneNameIsRefused) {
+  const std::string table = directory_.write("twice.csv", "time,theta,theta\n0,0.1,0.2\n");
+  const Ending end = twin({"follow", scene_, table});
+  EXPECT_EQ(end.status, 2);
+  EXPECT_NE(end.err.find("twice.csv: line 1: each column must have a name of its own; columns 2 "
+                         "and 3 are called 'theta'"),
+            std::string::npos)
+      << end.err;
+}
+
 /// A torque that acts on the arm, in a column of its own: what the settings say it is.
 TEST_F(FollowedArm, AColumnOfATableActsOnAnInput) {
   const std::string motion = directory_.file("driven.csv");

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <lcm/lcm-cpp.hpp>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -183,6 +184,21 @@ TEST(Acquisition, OfAPipeEveryRowArrivesOnce) {
       std::system((cat + kPython + "- probes --plain > " + told.path() + " 2>/dev/null").c_str()),
       0);
   EXPECT_EQ(rowsOfJson(told.path()), allRows());
+}
+
+TEST(Acquisition, TwoColumnsOfOneNameEndTheAdapters) {
+  const TemporaryLog file, log, told;
+  std::ofstream(file.path()) << "time,x[m],y[m],x[mm],y[m]\n0,1,2,3,4\n";
+  const std::string to = " 'file://" + log.path() + "?mode=w'";
+  for (const std::string& command : {std::string(CSV_TO_LCM) + " " + file.path() + " probes" + to,
+                                     kPython + file.path() + " probes --plain"}) {
+    const int status = std::system((command + " > /dev/null 2> " + told.path()).c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 2) << command;
+    std::stringstream said;
+    said << std::ifstream(told.path()).rdbuf();
+    EXPECT_EQ(said.str(),
+              "line 1: columns 2 and 4 are called x\nline 1: columns 3 and 5 are called y\n");
+  }
 }
 
 }  // namespace
