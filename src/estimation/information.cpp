@@ -49,29 +49,17 @@ bool Information::told(Eigen::Index unknown) const {
   });
 }
 
-Information information(const NormalEquations& normal, const std::vector<Unknown>& unknowns,
-                        const Eigen::VectorXd& theta) {
+Information information(const NormalEquations& normal, const Eigen::VectorXd& sizes,
+                        double rows_alike) {
   Information result;
-  const Eigen::Index n = theta.size();
+  const Eigen::Index n = sizes.size();
   result.deviation = Eigen::VectorXd::Constant(n, kNaN);
   result.correlation = Eigen::MatrixXd::Constant(n, n, kNaN);
   if (n == 0) {
     return result;
   }
   const double variance = normal.variance();
-  // Each in parts of its own size, or, where it has none, of what residuals tell of it alone.
-  Eigen::VectorXd size(n);
-  std::vector<bool> sized(static_cast<std::size_t>(n));
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    size[i] = unknowns[k].size(theta[i]);
-    sized[k] = size[i] > 0.0;
-    if (!sized[k]) {
-      const double alone = normal.matrix(i, i);
-      size[i] = alone > 0.0 ? std::sqrt(variance / alone) : 1.0;
-    }
-  }
-  const Eigen::MatrixXd scaled = size.asDiagonal() * normal.matrix * size.asDiagonal();
+  const Eigen::MatrixXd scaled = sizes.asDiagonal() * normal.matrix * sizes.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(scaled);
 
   Eigen::MatrixXd known(n, 0);  // directions that are told, in parts
@@ -83,12 +71,11 @@ Information information(const NormalEquations& normal, const std::vector<Unknown
   for (Eigen::Index k = 0; k < n; ++k) {
     const Eigen::VectorXd direction = modes.eigenvectors().col(k);
     const double strength = modes.eigenvalues()[k];
-    const double deviation =
-        strength > 0.0 ? std::sqrt(variance / strength) : std::numeric_limits<double>::infinity();
+    const double deviation = strength > 0.0 ? std::sqrt(rows_alike * variance / strength)
+                                            : std::numeric_limits<double>::infinity();
     Eigen::Index largest = 0;
     direction.cwiseAbs().maxCoeff(&largest);
-    const bool has_size = sized[static_cast<std::size_t>(largest)];
-    if (strength <= nothing || (has_size && deviation > 1.0)) {
+    if (strength <= nothing || deviation > 1.0) {
       result.untold.push_back({direction / direction[largest], deviation});
     } else {
       addKnown(direction);
@@ -101,7 +88,7 @@ Information information(const NormalEquations& normal, const std::vector<Unknown
                                           inner.ldlt().solve(Eigen::MatrixXd(known.transpose())));
   for (Eigen::Index i = 0; i < n; ++i) {
     if (result.told(i)) {
-      result.deviation[i] = size[i] * std::sqrt(covariance(i, i));
+      result.deviation[i] = sizes[i] * std::sqrt(covariance(i, i));
     }
     for (Eigen::Index j = 0; j < n; ++j) {
       if (result.told(i) && result.told(j)) {

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "estimation/shooting.h"
-#include "estimation/unknowns.h"
 
 namespace whirl_twin {
 
@@ -27,7 +26,7 @@ struct NormalEquations {
 /// its own size.
 struct UntoldDirection {
   Eigen::VectorXd parts;  ///< the largest is 1 or -1
-  double deviation;       ///< along it, in these parts; infinite: no residual changes at all
+  double deviation;       ///< along it, in parts of sizes; infinite: no residual changes at all
 };
 
 /// Whoever takes part in a direction by less is told all the same.
@@ -41,10 +40,10 @@ struct Information {
   bool told(Eigen::Index unknown) const;
 };
 
-/// An unknown is told when it is known better than to its own size (that of its start, where this
-/// is larger); one that is 0, and was so at the start, when it has any effect that others have not.
-/// Residuals that are not white make deviations too small: they stand for more than they tell.
-Information information(const NormalEquations& normal, const std::vector<Unknown>& unknowns,
-                        const Eigen::VectorXd& theta);
+/// An unknown is told when it is known better than to its own size (> 0), of residuals of which
+/// only one of `rows_alike` tells anything. Deviations are those of white ones: where residuals are
+/// not white they are too small.
+Information information(const NormalEquations& normal, const Eigen::VectorXd& sizes,
+                        double rows_alike);
 
 }  // namespace whirl_twin

@@ -25,7 +25,11 @@ double spreadOf(const std::vector<double>& values) {
 }  // namespace
 
 Shooting::Shooting(const FitStudy& study, const CandidateMaker& maker)
-    : study_(study), maker_(maker), change_(unknowns()), start_change_(startSize()) {
+    : study_(study),
+      maker_(maker),
+      change_(unknowns()),
+      moving_all_(Eigen::VectorXd::Zero(unknowns())),
+      start_change_(startSize()) {
   const auto n = static_cast<std::size_t>(startSize() / 2);
   const std::vector<Unknown>& all = maker_.unknowns();
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -125,6 +129,7 @@ void Shooting::chooseDifferences(const std::vector<Window>& windows,
       }
       const double by = kMoved * measured / std::sqrt(square / count);
       const double about = unknown.size(theta_[i]);
+      moving_all_[i] = change_[i] * by / kMoved;
       change_[i] *= std::clamp(by, 1.0e-4, 1.0e4);
       if (about > 0.0) {
         change_[i] = std::min(change_[i], kMostOfUnknown * about);

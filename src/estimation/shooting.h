@@ -36,6 +36,9 @@ class Shooting {
   /// Finds the changes that differences are taken over, at the point taken up.
   void chooseDifferences(const std::vector<Window>& windows,
                          const std::vector<Eigen::VectorXd>& starts);
+  /// Of each unknown, the change that moves what is predicted by as much as is measured, by the
+  /// slope there was when differences were chosen; 0 where it moves nothing.
+  const Eigen::VectorXd& movingAll() const { return moving_all_; }
 
   // From several threads at once.
 
@@ -52,7 +55,8 @@ class Shooting {
   const FitStudy& study_;
   const CandidateMaker& maker_;
   Eigen::VectorXd theta_;
-  Eigen::VectorXd change_;        // of each unknown
+  Eigen::VectorXd change_;  // of each unknown
+  Eigen::VectorXd moving_all_;
   Eigen::VectorXd start_change_;  // of each number of a start
   std::optional<Candidate> candidate_;
   struct Neighbours {

@@ -13,6 +13,9 @@ namespace whirl_twin {
 namespace {
 
 constexpr double kHeldTo = 1.0e-2;  // deviations along an untold direction, of its parts
+constexpr double kStays = 0.9;      // of what was left over, when held again
+constexpr int kMostHeld = 4;
+constexpr int kMostTurns = 6;
 constexpr double kAtBound = 1.0e-9;
 constexpr double kFirstRows = 10.0;  // that the shortest windows have
 
@@ -45,19 +48,49 @@ void requireArrival(const FitStudy& study, const ShootingStage& stage,
   }
 }
 
-/// Rows that hold what runs do not tell, in the unknowns themselves.
-Eigen::MatrixXd heldDirections(const Information& information, const std::vector<Unknown>& unknowns,
-                               const Eigen::VectorXd& theta, double deviation) {
-  Eigen::MatrixXd held(static_cast<Eigen::Index>(information.untold.size()), theta.size());
-  for (Eigen::Index k = 0; k < held.rows(); ++k) {
+/// Along what runs do not tell, no way from where the unknowns start.
+Held heldDirections(const Information& information, const Eigen::VectorXd& sizes,
+                    const Eigen::VectorXd& start, double deviation) {
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(information.untold.size()), sizes.size());
+  for (Eigen::Index k = 0; k < rows.rows(); ++k) {
     const Eigen::VectorXd& parts = information.untold[static_cast<std::size_t>(k)].parts;
-    for (Eigen::Index i = 0; i < theta.size(); ++i) {
-      const double size = unknowns[static_cast<std::size_t>(i)].size(theta[i]);
-      held(k, i) = size > 0.0 ? parts[i] / size : parts[i];
-    }
-    held.row(k) *= deviation / (kHeldTo * parts.norm());
+    rows.row(k) = deviation / (kHeldTo * parts.norm()) * parts.cwiseQuotient(sizes).transpose();
   }
-  return held;
+  return {rows, start};
+}
+
+/// Unknowns and starts of the last stage. What the windows do not tell has to be known before it
+/// can be held, and a solution that is free runs away along it to where they tell something else:
+/// so the unknowns are first held about their start values, all of them, as if each were known
+/// there to its own size. What is told goes free then, for it would be off by a part of that.
+Information settle(ShootingSolver& solver, ShootingStage& stage) {
+  LeftOver left = solver.leftOver(stage);
+  for (int pass = 0; pass < kMostHeld; ++pass) {
+    const double before = left.deviation;
+    solver.solve(stage, true, solver.aboutStart(left.deviationAlone()));
+    left = solver.leftOver(stage);
+    if (left.deviation > kStays * before) {
+      break;
+    }
+  }
+  Eigen::VectorXd sizes = solver.sizes().cwiseMax(solver.theta().cwiseAbs());
+  Information result = information(solver.normalEquations(stage), sizes, left.rows_alike);
+  // Directions turn on the way, and sizes are those of where it has come to.
+  for (int pass = 0; pass < kMostTurns; ++pass) {
+    solver.solve(stage, true, heldDirections(result, sizes, solver.start(), left.deviationAlone()));
+    const Eigen::VectorXd now = solver.sizes().cwiseMax(solver.theta().cwiseAbs());
+    const bool same = (now - sizes).cwiseQuotient(sizes).cwiseAbs().maxCoeff() < kHeldTo;
+    sizes = now;
+    Information there = information(solver.normalEquations(stage), sizes, left.rows_alike);
+    const bool held = there.untold.size() <= result.untold.size();
+    if (there.untold.size() >= result.untold.size()) {
+      result = std::move(there);  // of where they are held now
+    }
+    if (result.untold.empty() || (same && held)) {
+      break;
+    }
+  }
+  return result;
 }
 
 void measure(const FitStudy& study, const Candidate& candidate, std::size_t r, FittedRun& run) {
@@ -107,7 +140,8 @@ FittedRun predictedRun(const FitStudy& study, ShootingSolver& solver, std::size_
     if (!maker.unknowns().empty() &&
         std::all_of(arrived.begin(), arrived.end(), [](bool there) { return there; })) {
       ShootingSolver own(study, std::move(maker));
-      own.solve(stage, true, Eigen::MatrixXd(0, own.theta().size()));
+      own.findSizes(stage);
+      settle(own, stage);
       return predictedRun(study, own, stage, r);
     }
   }
@@ -125,26 +159,18 @@ ShootingFit fitByShooting(const FitStudy& study, const FitProgress& progress) {
   const int parts = static_cast<int>(lengths.size() + study.runs.size());
   int done = 0;
   if (n > 0) {
+    ShootingStage stage = solver.stageOf(lengths.front(), std::nullopt);
+    solver.findSizes(stage);
     solver.regress();
-    ShootingStage stage;
     for (const double length : lengths) {
       stage = solver.stageOf(length, std::nullopt);
       requireArrival(study, stage, solver.findStarts(stage));
-      solver.solve(stage, length == study.window, Eigen::MatrixXd(0, n));
-      progress(++done, parts);
-    }
-    NormalEquations normal = solver.normalEquations(stage);
-    fit.information = information(normal, fit.unknowns, solver.theta());
-    // Twice: directions turn a little on the way.
-    for (int pass = 0; pass < 2 && !fit.information.untold.empty(); ++pass) {
-      solver.solve(stage, true,
-                   heldDirections(fit.information, fit.unknowns, solver.theta(),
-                                  std::sqrt(normal.variance())));
-      normal = solver.normalEquations(stage);
-      Information there = information(normal, fit.unknowns, solver.theta());
-      if (there.untold.size() >= fit.information.untold.size()) {
-        fit.information = std::move(there);  // of where they are held now
+      if (length == study.window) {
+        fit.information = settle(solver, stage);
+      } else {
+        solver.solve(stage, false, solver.aboutStart(solver.leftOver(stage).deviationAlone()));
       }
+      progress(++done, parts);
     }
   }
   fit.theta = solver.theta();

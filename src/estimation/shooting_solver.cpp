@@ -26,6 +26,11 @@ constexpr double kTolerance = 1.0e-7;  // of the squares, in an iteration
 constexpr double kParameterTolerance = 1.0e-10;
 constexpr double kRoughly = 1.0e-6;
 constexpr int kMostThreads = 8;
+constexpr int kRegressions = 2;
+constexpr double kSurelyPersistent = 5.0;  // standard deviations of what white residuals have
+constexpr double kMostPersistent = 0.9999;
+/// Of what moves the prediction by all that is measured: no start value is taken for less certain.
+constexpr double kLeastSize = 1.0e-4;
 
 ceres::Solver::Options quiet(int iterations) {
   ceres::Solver::Options options;
@@ -35,6 +40,26 @@ ceres::Solver::Options quiet(int iterations) {
   options.parameter_tolerance = kParameterTolerance;
   options.gradient_tolerance = 0.0;
   return options;
+}
+
+/// What ends a solution is told in words of the study; Ceres writes its own to glog beside, which
+/// has one level for the whole process.
+class QuietLog {
+ public:
+  QuietLog() { FLAGS_minloglevel = google::GLOG_FATAL; }
+  ~QuietLog() { FLAGS_minloglevel = before_; }
+  QuietLog(const QuietLog&) = delete;
+  QuietLog& operator=(const QuietLog&) = delete;
+
+ private:
+  const int before_ = FLAGS_minloglevel;
+};
+
+ceres::Solver::Summary solved(ceres::Problem& problem, const ceres::Solver::Options& options) {
+  const QuietLog quiet_log;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  return summary;
 }
 
 }  // namespace
@@ -47,9 +72,24 @@ ShootingSolver::ShootingSolver(const FitStudy& study, CandidateMaker maker)
     theta_[i] = std::clamp(u.start, u.least, u.most);
   }
   begin_ = theta_;
-  // What ends a solution is told in words of the study; Ceres's own go to standard error beside.
-  FLAGS_minloglevel = google::GLOG_FATAL;
   maker_.at(theta_);  // refused in words, where the model cannot have them
+}
+
+void ShootingSolver::findSizes(const ShootingStage& stage) {
+  shooting_.setPoint(theta_, false);
+  shooting_.chooseDifferences(stage.windows, stage.starts);
+  sizes_ = begin_.cwiseAbs();
+  for (Eigen::Index i = 0; i < sizes_.size(); ++i) {
+    const double moving = shooting_.movingAll()[i];
+    sizes_[i] = std::max(sizes_[i], sizes_[i] > 0.0 ? kLeastSize * moving : moving);
+    if (sizes_[i] == 0.0) {
+      sizes_[i] = 1.0;  // without effect
+    }
+  }
+}
+
+Held ShootingSolver::aboutStart(double deviation) const {
+  return {(deviation * sizes_.cwiseInverse()).asDiagonal(), begin_};
 }
 
 void ShootingSolver::regress() {
@@ -57,15 +97,19 @@ void ShootingSolver::regress() {
   if (equations.empty()) {
     return;
   }
-  ceres::Problem problem;
-  problem.AddResidualBlock(new EquationCost(equations, maker_), nullptr, theta_.data());
-  setBounds(problem);
-  ceres::Solver::Options options = quiet(kIterations);
-  options.function_tolerance = kRoughly;
-  options.linear_solver_type = ceres::DENSE_QR;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
-  iterations_ += static_cast<int>(summary.iterations.size());
+  for (int pass = 0; pass < kRegressions; ++pass) {
+    const double deviation =
+        std::sqrt(equations.residuals(maker_.at(theta_)).array().square().mean());
+    ceres::Problem problem;
+    problem.AddResidualBlock(new EquationCost(equations, maker_), nullptr, theta_.data());
+    hold(problem, aboutStart(deviation));
+    setBounds(problem);
+    ceres::Solver::Options options = quiet(kIterations);
+    options.function_tolerance = kRoughly;
+    options.linear_solver_type = ceres::DENSE_QR;
+    const ceres::Solver::Summary summary = solved(problem, options);
+    iterations_ += static_cast<int>(summary.iterations.size());
+  }
 }
 
 ShootingStage ShootingSolver::stageOf(double length, std::optional<std::size_t> run) {
@@ -97,7 +141,7 @@ std::vector<bool> ShootingSolver::findStarts(ShootingStage& stage) {
   return arrived;
 }
 
-void ShootingSolver::solve(ShootingStage& stage, bool thorough, const Eigen::MatrixXd& held) {
+void ShootingSolver::solve(ShootingStage& stage, bool thorough, const Held& held) {
   shooting_.setPoint(theta_, false);
   shooting_.chooseDifferences(stage.windows, stage.starts);
   ceres::Problem::Options problem_options;
@@ -113,9 +157,7 @@ void ShootingSolver::solve(ShootingStage& stage, bool thorough, const Eigen::Mat
       problem.AddResidualBlock(cost, nullptr, theta_.data());
     }
   }
-  if (held.rows() > 0) {
-    problem.AddResidualBlock(new ceres::NormalPrior(held, begin_), nullptr, theta_.data());
-  }
+  hold(problem, held);
   ordering->AddElementToGroup(theta_.data(), 1);
   setBounds(problem);
   ceres::Solver::Options options = quiet(thorough ? kIterations : kStageIterations);
@@ -127,8 +169,7 @@ void ShootingSolver::solve(ShootingStage& stage, bool thorough, const Eigen::Mat
   } else {
     options.linear_solver_type = ceres::DENSE_QR;
   }
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
+  const ceres::Solver::Summary summary = solved(problem, options);
   iterations_ += static_cast<int>(summary.iterations.size());
   converged_ = summary.termination_type == ceres::CONVERGENCE;
   if (summary.termination_type == ceres::FAILURE) {
@@ -175,6 +216,43 @@ void ShootingSolver::PrepareForEvaluation(bool derivatives, bool new_point) {
   }
 }
 
+void ShootingSolver::hold(ceres::Problem& problem, const Held& held) {
+  if (held.rows.rows() > 0) {
+    problem.AddResidualBlock(new ceres::NormalPrior(held.rows, held.about), nullptr, theta_.data());
+  }
+}
+
+LeftOver ShootingSolver::leftOver(const ShootingStage& stage) const {
+  double squares = 0.0, products = 0.0, rows = 0.0, free = -static_cast<double>(theta_.size());
+  Eigen::Index longest = 1;
+  for (std::size_t w = 0; w < stage.windows.size(); ++w) {
+    Eigen::VectorXd residuals, slope;
+    if (!shooting_.residuals(stage.windows[w], stage.starts[w], residuals)) {
+      continue;
+    }
+    if (study_.huber) {
+      makeRobust(*study_.huber, residuals, slope);
+    }
+    rows += static_cast<double>(residuals.size());
+    free += static_cast<double>(residuals.size());
+    free -= study_.start_estimated ? static_cast<double>(shooting_.startSize()) : 0.0;
+    squares += residuals.squaredNorm();
+    const auto count = static_cast<Eigen::Index>(stage.windows[w].count);
+    longest = std::max(longest, count);
+    for (Eigen::Index first = 0; first < residuals.size(); first += count) {
+      products += residuals.segment(first, count - 1).dot(residuals.segment(first + 1, count - 1));
+    }
+  }
+  LeftOver left;
+  left.deviation = std::sqrt(squares / std::max(1.0, free));
+  const double persistence = squares > 0.0 ? products / squares : 0.0;
+  if (persistence * std::sqrt(rows) > kSurelyPersistent) {
+    left.rows_alike = std::min((1.0 + persistence) / (1.0 - std::min(persistence, kMostPersistent)),
+                               static_cast<double>(longest));
+  }
+  return left;
+}
+
 void ShootingSolver::setBounds(ceres::Problem& problem) {
   for (Eigen::Index i = 0; i < theta_.size(); ++i) {
     if (std::isfinite(unknown(i).least)) {
@@ -205,9 +283,7 @@ bool ShootingSolver::findStart(const Window& window, Eigen::VectorXd& start) {
   problem.AddResidualBlock(new WindowCost(shooting_, window, start, false), nullptr, start.data());
   ceres::Solver::Options options = quiet(kStartIterations);
   options.linear_solver_type = ceres::DENSE_QR;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
-  return summary.IsSolutionUsable();
+  return solved(problem, options).IsSolutionUsable();
 }
 
 }  // namespace whirl_twin

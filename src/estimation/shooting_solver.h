@@ -6,6 +6,7 @@
 #include <ceres/problem.h>
 
 #include <Eigen/Core>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -20,6 +21,23 @@ struct ShootingStage {
   std::vector<Eigen::VectorXd> starts;
 };
 
+/// What windows leave between measured and predicted.
+struct LeftOver {
+  double deviation = 0.0;  ///< of a residual
+  /// Residuals in a row that tell no more than one of them, for they go on from one to the next as
+  /// those of a model that is wrong do: (1 + r) / (1 - r) of their correlation r; 1 of white ones.
+  double rows_alike = 1.0;
+
+  /// Of a residual that stands for itself alone.
+  double deviationAlone() const { return deviation * std::sqrt(rows_alike); }
+};
+
+/// rows * (unknowns - about) counts as residuals do [held x unknowns].
+struct Held {
+  Eigen::MatrixXd rows;
+  Eigen::VectorXd about;
+};
+
 class ShootingSolver final : public ceres::EvaluationCallback {
  public:
   /// A first part of a window: a model that is far off follows for so long [s].
@@ -32,21 +50,30 @@ class ShootingSolver final : public ceres::EvaluationCallback {
   ShootingSolver(const FitStudy& study, CandidateMaker maker);
 
   const CandidateMaker& maker() const { return maker_; }
+  const Eigen::VectorXd& start() const { return begin_; }
   const Eigen::VectorXd& theta() const { return theta_; }
   const Candidate& candidate() const { return shooting_.candidate(); }
   int iterations() const { return iterations_; }
   bool converged() const { return converged_; }
 
-  /// Brings the unknowns to where the equations of motion hold along the runs, roughly.
+  /// Finds what changes of the unknowns are measured by: their start values; of those that start at
+  /// 0, or next to it, what moves the predicted motion in these windows.
+  void findSizes(const ShootingStage& stage);
+  const Eigen::VectorXd& sizes() const { return sizes_; }
+  /// Where the unknowns start, each known to its own size by residuals of this deviation.
+  Held aboutStart(double deviation) const;
+
+  /// Brings the unknowns to where the equations of motion hold along the runs, roughly, and along
+  /// what these do not tell no further than they have to.
   void regress();
   /// The windows [s] of the runs that are trained on, or of one run, with measured starts.
   ShootingStage stageOf(double length, std::optional<std::size_t> run);
   /// The starts alone, over longer and longer parts of their windows. False for a window that is
   /// not got through.
   std::vector<bool> findStarts(ShootingStage& stage);
-  /// Unknowns and starts together; `thorough` for the last stage. `held` [held x unknowns]: that
-  /// much of (unknowns - start values) is held to zero. Throws RunFailure.
-  void solve(ShootingStage& stage, bool thorough, const Eigen::MatrixXd& held);
+  /// Unknowns and starts together; `thorough` for the last stage. Throws RunFailure.
+  void solve(ShootingStage& stage, bool thorough, const Held& held);
+  LeftOver leftOver(const ShootingStage& stage) const;
   NormalEquations normalEquations(const ShootingStage& stage);
   /// Predicted states of a stage's window [2n x rows]; NaN where it is not got through.
   Eigen::MatrixXd states(const ShootingStage& stage, std::size_t window);
@@ -57,6 +84,7 @@ class ShootingSolver final : public ceres::EvaluationCallback {
   const Unknown& unknown(Eigen::Index i) const {
     return maker_.unknowns()[static_cast<std::size_t>(i)];
   }
+  void hold(ceres::Problem& problem, const Held& held);
   void setBounds(ceres::Problem& problem);
   std::vector<Window> growing(const Window& window) const;
   bool findStart(const Window& window, Eigen::VectorXd& start);
@@ -64,7 +92,7 @@ class ShootingSolver final : public ceres::EvaluationCallback {
   const FitStudy& study_;
   CandidateMaker maker_;
   Shooting shooting_;
-  Eigen::VectorXd theta_, begin_;
+  Eigen::VectorXd theta_, begin_, sizes_;
   int iterations_ = 0;
   bool converged_ = true;
 };

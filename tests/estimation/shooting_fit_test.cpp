@@ -241,6 +241,61 @@ TEST(ShootingFit, SaysWhatASwingDoesNotTell) {
   EXPECT_NEAR(moved, 0.0, 0.1);
 }
 
+/// Its weight is balanced by a torque while it moves slowly, at a constant rate: that tells the
+/// ratio of weight and torque's scale, and the encoder's zero, and of inertia and friction nothing.
+/// What is not told stays where it starts, wherever that is, and so does what is told only beside
+/// it, but for what is told.
+TEST(ShootingFit, ABalancedPendulumKeepsWhatItDoesNotTell) {
+  constexpr double kWeight = 0.7 * 0.5 * 9.81;  // N m
+  constexpr double kZero = 0.05;                // rad
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0.0, 1.0);
+  StudyRun run;
+  run.file = "held";
+  run.train = true;
+  run.data.columns = {{"theta", {}}, {"torque", {}}};
+  for (int k = 0; k < 1000; ++k) {
+    const double theta = -0.8 + 0.4 * kInterval * k;
+    run.data.time.push_back(kInterval * k);
+    run.data.columns[0].values.push_back(theta + kZero + 1.0e-3 * noise(random));
+    run.data.columns[1].values.push_back(kWeight * std::sin(theta));
+  }
+  MeasuredChannel channel;
+  channel.name = channel.column = "theta";
+  channel.unit = "rad";
+  channel.offset.fitted = true;
+  run.measured = {channel};
+  MeasuredInput input;
+  input.name = input.column = "torque";
+  input.scale.fitted = true;
+  input.hold = true;
+  run.inputs = {input};
+  std::uniform_real_distribution<double> part(0.5, 2.0);
+  for (int k = 0; k < 4; ++k) {
+    const double mass = 0.7 * part(random), inertia = 0.02 * part(random),
+                 damping = 0.01 * part(random), coulomb = 0.01 * part(random);
+    const FitStudy study = studyOf(pendulum(mass, inertia, damping, coulomb), {run},
+                                   {"mass", "inertia", "damping", "coulomb"});
+    const ShootingFit fit = fitted(study);
+    const std::string where =
+        fmt::format("from {} kg, {} kg m^2, {} N m s, {} N m", mass, inertia, damping, coulomb);
+    EXPECT_TRUE(fit.converged) << where;
+    EXPECT_NEAR(found(fit, "inertia"), inertia, 0.1 * inertia) << where;
+    EXPECT_NEAR(found(fit, "theta.offset"), kZero, 0.02) << where;
+    EXPECT_NEAR(found(fit, "mass") / found(fit, "torque.scale") / 0.7, 1.0, 0.05) << where;
+    // Half the way is that of the mass, and half that of the scale.
+    EXPECT_LT(std::fabs(std::log(found(fit, "mass") / mass)),
+              std::fabs(std::log(0.7 / mass)) + 0.05)
+        << where;
+    for (Eigen::Index i = 0; i < fit.theta.size(); ++i) {
+      const std::string& name = fit.unknowns[static_cast<std::size_t>(i)].name;
+      if (name != "theta.offset") {
+        EXPECT_TRUE(std::isnan(fit.information.deviation[i])) << name << " " << where;
+      }
+    }
+  }
+}
+
 TEST(ShootingFit, TellsCoulombFrictionFromViscous) {
   const StudyRun run = recorded({pendulum(0.7, 0.0, 0.0, 0.05), {1.0, 0.0}, 8.0, 2.0e-4}, "a", 1);
   FitStudy study = studyOf(pendulum(0.7, 0.01, 0.01, 0.0), {run}, {"inertia", "damping"});

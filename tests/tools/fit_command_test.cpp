@@ -158,34 +158,56 @@ TEST_F(Fit, FitsALogOfWhatWasMeasured) {
   EXPECT_THAT(several.err, HasSubstr("found encoder/theta, other/theta"));
 }
 
-/// A measured pendulum, whose torque comes from the current of its motor: a swing-up tells its
-/// period, not its weight beside the torque's scale; where its weight is balanced, nothing is told.
-TEST_F(Fit, OfAMeasuredTorqueTellsWhatItIsWorth) {
-  const auto ofRecord = [&](const std::string& name, const std::string& measured) {
-    return fit("scene: guess.yaml\nsystem: arm\nruns:\n  - {file: " WHIRL_TWIN_SOURCE
-               "/config/records/torque_limited_" +
-               name + ".csv, measured: {theta: " + measured +
-               "}, inputs: {torque: {column: torque, scale: fit, hold: true}}}\n"
-               "fit: {mass: {min: 0.01}, inertia: {min: 0.0}, damping: {min: 0.0}, coulomb: {min: "
-               "0.0}}\n");
-  };
-  std::string guess = scene(0.01, 0.001, 0.05, 0.0);
-  guess.replace(guess.find("step: 0.001"), 11, "step: 0.002");
-  guess.replace(guess.find("coulomb: "), 0, "coulomb_rate: 0.05, ");
-  directory_.write("guess.yaml", guess);
-  const Ending swing = ofRecord("swing_up", "{column: theta, offset: fit}");
-  ASSERT_EQ(swing.status, 0) << swing.err;
-  const nlohmann::json told = swing.json();
+/// A measured pendulum, whose torque comes from the current of its motor.
+class MeasuredTorque : public Fit {
+ protected:
+  MeasuredTorque() {
+    std::string guess = scene(0.01, 0.001, 0.05, 0.0);
+    guess.replace(guess.find("step: 0.001"), 11, "step: 0.002");
+    guess.replace(guess.find("coulomb: "), 0, "coulomb_rate: 0.05, ");
+    directory_.write("guess.yaml", guess);
+  }
+  nlohmann::json ofRecord(const std::string& name, const std::string& measured) const {
+    const Ending end =
+        fit("scene: guess.yaml\nsystem: arm\nruns:\n  - {file: " WHIRL_TWIN_SOURCE
+            "/config/records/torque_limited_" +
+            name + ".csv, measured: {theta: " + measured +
+            "}, inputs: {torque: {column: torque, scale: fit, hold: true}}}\n"
+            "fit: {mass: {min: 0.01}, inertia: {min: 0.0}, damping: {min: 0.0}, coulomb: {min: "
+            "0.0}}\n");
+    EXPECT_EQ(end.status, 0) << end.err;
+    return end.json();
+  }
+};
+
+/// A swing-up tells its period, not its weight beside the torque's scale.
+TEST_F(MeasuredTorque, OfASwingUpTellsThePeriod) {
+  const nlohmann::json told = ofRecord("swing_up", "{column: theta, offset: fit}");
   const double mass = told["parameters"]["mass"]["value"];
   const double inertia = told["parameters"]["inertia"]["value"];
   EXPECT_NEAR((0.25 * mass + inertia) / (0.25 * mass), 1.0, 0.02) << "J/(m g l) beside l/g";
-  const nlohmann::json held = ofRecord("held", "theta").json();
   for (const char* name : {"mass", "torque.scale"}) {
     EXPECT_THAT(told["undetermined"], testing::Contains(name));
-    EXPECT_THAT(held["undetermined"], testing::Contains(name));
   }
-  EXPECT_THAT(held["undetermined"], testing::Contains("inertia"));
   EXPECT_LT(told["runs"].begin().value()["rms"]["theta"].get<double>(), 5.0e-3);
+}
+
+/// Where its weight is balanced, and a hand moves it slowly, nothing but the ratio of weight and
+/// torque is told, with the encoder's zero or without, and what is not told stays where it starts.
+TEST_F(MeasuredTorque, OfABalancedPendulumTellsNothing) {
+  for (const char* measured : {"theta", "{column: theta, offset: fit}"}) {
+    const nlohmann::json held = ofRecord("held", measured);
+    for (const auto& [name, start] :
+         {std::pair("mass", 0.7), std::pair("inertia", 0.01), std::pair("damping", 0.001),
+          std::pair("torque.scale", 1.0)}) {
+      EXPECT_THAT(held["undetermined"], testing::Contains(name)) << measured;
+      EXPECT_NEAR(held["parameters"][name]["value"].get<double>(), start, 0.04 * start)
+          << name << " of " << measured;
+    }
+    if (held["parameters"].contains("theta.offset")) {
+      EXPECT_NEAR(held["parameters"]["theta.offset"]["value"].get<double>(), 0.0, 0.03);
+    }
+  }
 }
 
 /// The first swing with each line of numbers changed, or left out.
@@ -228,6 +250,19 @@ TEST_F(ChangedSwing, InAUnitThatItsColumnNamesIsTakenInIt) {
   const Ending end = fitChanged("q[deg]", {"--json"});
   ASSERT_EQ(end.status, 0) << end.err;
   EXPECT_NEAR(end.json()["parameters"]["damping"]["value"], 0.03, 1e-3);
+}
+
+/// Both runs are told of, with all of their names.
+TEST_F(Fit, RefusesColumnsOfOneName) {
+  directory_.write("swing_1.csv", "time,q,q,tau,tau\n0,1,2,3,4\n");
+  directory_.write("swing_2.csv", "time,arm.theta,time\n0,1,2\n");
+  const Ending end = fit(std::string(kRuns) + "fit: {inertia: }\n");
+  EXPECT_EQ(end.status, 2);
+  EXPECT_THAT(end.err, HasSubstr("swing_1.csv: line 1: each column must have a name of its own; "
+                                 "columns 2 and 3 are called 'q'; columns 4 and 5 are called "
+                                 "'tau'\n"));
+  EXPECT_THAT(end.err, HasSubstr("swing_2.csv: line 1: each column must have a name of its own; "
+                                 "columns 1 and 3 are called 'time'\n"));
 }
 
 /// In one message, and nothing else on standard error.
