@@ -49,8 +49,8 @@ void requireArrival(const FitStudy& study, const ShootingStage& stage,
 }
 
 /// Along what runs do not tell, no way from where the unknowns start.
-Held heldDirections(const Information& information, const Eigen::VectorXd& sizes,
-                    const Eigen::VectorXd& start, double deviation) {
+HeldUnknowns heldDirections(const Information& information, const Eigen::VectorXd& sizes,
+                            const Eigen::VectorXd& start, double deviation) {
   Eigen::MatrixXd rows(static_cast<Eigen::Index>(information.untold.size()), sizes.size());
   for (Eigen::Index k = 0; k < rows.rows(); ++k) {
     const Eigen::VectorXd& parts = information.untold[static_cast<std::size_t>(k)].parts;

@@ -88,7 +88,7 @@ void ShootingSolver::findSizes(const ShootingStage& stage) {
   }
 }
 
-Held ShootingSolver::aboutStart(double deviation) const {
+HeldUnknowns ShootingSolver::aboutStart(double deviation) const {
   return {(deviation * sizes_.cwiseInverse()).asDiagonal(), begin_};
 }
 
@@ -141,7 +141,7 @@ std::vector<bool> ShootingSolver::findStarts(ShootingStage& stage) {
   return arrived;
 }
 
-void ShootingSolver::solve(ShootingStage& stage, bool thorough, const Held& held) {
+void ShootingSolver::solve(ShootingStage& stage, bool thorough, const HeldUnknowns& held) {
   shooting_.setPoint(theta_, false);
   shooting_.chooseDifferences(stage.windows, stage.starts);
   ceres::Problem::Options problem_options;
@@ -216,7 +216,7 @@ void ShootingSolver::PrepareForEvaluation(bool derivatives, bool new_point) {
   }
 }
 
-void ShootingSolver::hold(ceres::Problem& problem, const Held& held) {
+void ShootingSolver::hold(ceres::Problem& problem, const HeldUnknowns& held) {
   if (held.rows.rows() > 0) {
     problem.AddResidualBlock(new ceres::NormalPrior(held.rows, held.about), nullptr, theta_.data());
   }

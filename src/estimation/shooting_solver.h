@@ -33,7 +33,7 @@ struct LeftOver {
 };
 
 /// rows * (unknowns - about) counts as residuals do [held x unknowns].
-struct Held {
+struct HeldUnknowns {
   Eigen::MatrixXd rows;
   Eigen::VectorXd about;
 };
@@ -61,7 +61,7 @@ class ShootingSolver final : public ceres::EvaluationCallback {
   void findSizes(const ShootingStage& stage);
   const Eigen::VectorXd& sizes() const { return sizes_; }
   /// Where the unknowns start, each known to its own size by residuals of this deviation.
-  Held aboutStart(double deviation) const;
+  HeldUnknowns aboutStart(double deviation) const;
 
   /// Brings the unknowns to where the equations of motion hold along the runs, roughly, and along
   /// what these do not tell no further than they have to.
@@ -72,7 +72,7 @@ class ShootingSolver final : public ceres::EvaluationCallback {
   /// not got through.
   std::vector<bool> findStarts(ShootingStage& stage);
   /// Unknowns and starts together; `thorough` for the last stage. Throws RunFailure.
-  void solve(ShootingStage& stage, bool thorough, const Held& held);
+  void solve(ShootingStage& stage, bool thorough, const HeldUnknowns& held);
   LeftOver leftOver(const ShootingStage& stage) const;
   NormalEquations normalEquations(const ShootingStage& stage);
   /// Predicted states of a stage's window [2n x rows]; NaN where it is not got through.
@@ -84,7 +84,7 @@ class ShootingSolver final : public ceres::EvaluationCallback {
   const Unknown& unknown(Eigen::Index i) const {
     return maker_.unknowns()[static_cast<std::size_t>(i)];
   }
-  void hold(ceres::Problem& problem, const Held& held);
+  void hold(ceres::Problem& problem, const HeldUnknowns& held);
   void setBounds(ceres::Problem& problem);
   std::vector<Window> growing(const Window& window) const;
   bool findStart(const Window& window, Eigen::VectorXd& start);

@@ -20,6 +20,8 @@ namespace {
 
 constexpr std::uintmax_t kLargestFile = 64u << 20;  // bytes; two million rows of two numbers
 
+constexpr std::size_t kMostTold = 10;  // names that stand twice, and columns of each
+
 /// Without the blanks around it, the quotes around that, and a byte order mark.
 std::string trimmed(std::string text) {
   const std::string blanks = " \t\r";
@@ -48,11 +50,13 @@ std::vector<std::string> fields(const std::string& line) {
   }
 }
 
-/// "2 and 4", "2, 4 and 5"
+/// "2 and 4", "2, 4 and 5"; of many the first ones.
 std::string listed(const std::vector<std::size_t>& numbers) {
-  const std::size_t last = numbers.size() - 1;
-  return fmt::format("{} and {}", fmt::join(numbers.begin(), numbers.begin() + last, ", "),
-                     numbers[last]);
+  const std::size_t last = std::min(numbers.size(), kMostTold) - 1;
+  const std::size_t more = numbers.size() - last - 1;
+  return fmt::format(
+      "{} and {}", fmt::join(numbers.begin(), numbers.begin() + last, ", "),
+      more == 0 ? fmt::format("{}", numbers[last]) : fmt::format("{} more", more + 1));
 }
 
 /// A name that stands over two columns does not say which is meant. Columns without a name do not
@@ -67,6 +71,11 @@ void requireDifferent(const std::vector<std::string>& header) {
     if (!name.empty() && numbers.size() > 1) {
       repeated.push_back(fmt::format("columns {} are called {}", listed(numbers), quoted(name)));
     }
+  }
+  if (repeated.size() > kMostTold) {
+    const std::size_t more = repeated.size() - kMostTold;
+    repeated.resize(kMostTold);
+    repeated.push_back(fmt::format("and {} more such names", more));
   }
   if (!repeated.empty()) {
     throw Refusal(fmt::format("line 1: each column must have a name of its own; {}",
