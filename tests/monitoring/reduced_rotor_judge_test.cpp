@@ -139,6 +139,23 @@ TEST(ReducedRotorJudge, JudgesFilmsWhereTheRotorItselfRests) {
   }
 }
 
+// The spin of a motor's shaft is a state; what the reduction changes is in the whirl at that spin.
+TEST(ReducedRotorJudge, OnAMotorJudgesTheRotorAtTheSpeedOfItsShaft) {
+  const BuiltScene scene = build(sceneOf(fmt::format(
+      "{{step: 0.001, drives: {{m: {{motor: {{stall_torque: 5.0, no_load_speed: 350.0}}}}}}, "
+      "systems: {{r: {{model: flexible_rotor, drive: m, parameters: {{modes: 4, {}, {}}}}}}}}}",
+      kShaft, kDriven)));
+  std::vector<double> q(5, 0.0);
+  std::vector<double> v(5, 0.0);
+  v.back() = 350.0;
+  const state::StabilityMargin margin =
+      SystemJudge(scene.systems[0]).judge({1, 0.001, 0}, q, v, 350.0);
+  const state::StabilityMargin held = judged(rotorIn("0", kDriven), 350.0);
+  EXPECT_FALSE(margin.reduction_disagrees);
+  EXPECT_NEAR(margin.unreduced_decay_rate, held.decay_rate, 1.0e-6);
+  EXPECT_NEAR(margin.unreduced_log_decrement, held.log_decrement, 1.0e-6);
+}
+
 TEST(ReducedRotorJudge, SaysNothingOfWhatIsNotReduced) {
   const state::StabilityMargin margin = judged(rotorIn("0", kDriven), 100.0);
   EXPECT_TRUE(std::isnan(margin.unreduced_decay_rate));

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <string>
 
 #include "analysis/routh.h"
 #include "messages/alert_types.h"
@@ -235,6 +236,38 @@ TEST(StabilityAlarm, ADecayRateLimitIsWatchedWhenSetAndOffAtZero) {
   on.update(marginOf(1.0, kStable, 0.01, 0.6), list);
   on.update(marginOf(2.0, kStable, 0.01, 0.6), list);
   EXPECT_TRUE(list.active().empty());
+}
+
+TEST_F(StabilityAlarmTest, LowDampingIsThatOfTheRotorAndNotOfItsShapes) {
+  state::StabilityMargin margin = marginOf(0.0, kStable, 0.01, 0.5);
+  margin.unreduced_decay_rate = 3.0;
+  margin.unreduced_log_decrement = 0.4;
+  for (; margin.at.time < 5.0; margin.at.time += 0.5) {
+    alarm_.update(margin, list_);
+  }
+  EXPECT_EQ(lowDamping(), nullptr);
+  margin.log_decrement = 0.4;
+  margin.unreduced_log_decrement = 0.01;
+  for (; margin.at.time < 10.0; margin.at.time += 0.5) {
+    alarm_.update(margin, list_);
+  }
+  ASSERT_NE(lowDamping(), nullptr);
+  EXPECT_NE(lowDamping()->text.find("log decrement 0.01"), std::string::npos);
+}
+
+TEST_F(StabilityAlarmTest, ARotorAndItsShapesThatDisagreeAreAWarning) {
+  state::StabilityMargin margin = marginOf(0.0, kUncertain, 0.1, 0.5);
+  margin.unreduced_decay_rate = -0.2;
+  margin.unreduced_log_decrement = -0.04;
+  margin.reduction_disagrees = true;
+  alarm_.update(margin, list_);
+  ASSERT_NE(unstable(), nullptr);
+  EXPECT_EQ(unstable()->severity, state::Severity::kWarning);
+  EXPECT_EQ(unstable()->text,
+            "rotor at 100.0 rad/s: verdict uncertain, the rotor has a decay rate of -0.2 1/s, its "
+            "few shapes of 0.5 1/s: keep more modes");
+  alarm_.update(marginOf(1.0, kUnstable, -0.05, -2.5), list_);
+  EXPECT_EQ(unstable()->severity, state::Severity::kDanger);
 }
 
 }  // namespace
