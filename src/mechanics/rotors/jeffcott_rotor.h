@@ -122,10 +122,12 @@ struct JeffcottRotor {
   /// [rad], that the phase counts from.
   double phaseMark() const { return phase_mark; }
   /// Without what turns with the shaft: where it rests, and how it is stable.
-  JeffcottRotor balanced() const {
-    JeffcottRotor same = *this;
-    same.eccentricity = same.bow = 0.0;
-    return same;
+  JeffcottRotor balanced() const { return withoutUnbalance(*this); }
+  /// The same of a rotor made of this one.
+  template <class Rotor>
+  static Rotor withoutUnbalance(Rotor rotor) {
+    rotor.eccentricity = rotor.bow = 0.0;
+    return rotor;
   }
 
   std::array<Input<kDof>, 2> inputs() const {

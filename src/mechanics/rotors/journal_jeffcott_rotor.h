@@ -31,11 +31,7 @@ struct FilmlessJeffcottRotor : JeffcottRotor {
   static constexpr auto parameters() {
     return inherited<FilmlessJeffcottRotor>(JeffcottRotor::parameters());
   }
-  FilmlessJeffcottRotor balanced() const {
-    FilmlessJeffcottRotor same = *this;
-    same.eccentricity = same.bow = 0.0;
-    return same;
-  }
+  FilmlessJeffcottRotor balanced() const { return withoutUnbalance(*this); }
   double naturalLength() const { return 0.1 * bearing_clearance; }
 
   std::array<Input<kDof>, 2> inputs() const {
@@ -79,11 +75,7 @@ struct JournalJeffcottRotor : FilmlessJeffcottRotor {
   static constexpr auto parameters() {
     return inherited<JournalJeffcottRotor>(JeffcottRotor::parameters());
   }
-  JournalJeffcottRotor balanced() const {
-    JournalJeffcottRotor same = *this;
-    same.eccentricity = same.bow = 0.0;
-    return same;
-  }
+  JournalJeffcottRotor balanced() const { return withoutUnbalance(*this); }
 
   ShortJournalBearing bearing() const {
     return {bearing_length, bearing_diameter, bearing_clearance, bearing_viscosity};

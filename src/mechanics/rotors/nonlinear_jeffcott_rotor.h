@@ -36,11 +36,7 @@ struct NonlinearJeffcottRotor : JeffcottRotor {
   static constexpr auto parameters() {
     return inherited<NonlinearJeffcottRotor>(JeffcottRotor::parameters());
   }
-  NonlinearJeffcottRotor balanced() const {
-    NonlinearJeffcottRotor same = *this;
-    same.eccentricity = same.bow = 0.0;
-    return same;
-  }
+  NonlinearJeffcottRotor balanced() const { return withoutUnbalance(*this); }
 
   template <class S>
   WHIRL_TWIN_INLINE S potential(const std::array<S, 2>& q, const Moment<S>& at) const {
