@@ -16,6 +16,8 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// Of the largest eigenvalue: differences that are good to six digits leave some 1e-12 of what
 /// should vanish.
 constexpr double kNothing = 1.0e-11;
+constexpr double kTakesPart = 0.1;
+constexpr double kLeastPart = 1.0e-3;  // of a size: less is rounding
 
 }  // namespace
 
@@ -45,12 +47,12 @@ double NormalEquations::variance() const {
 
 bool Information::told(Eigen::Index unknown) const {
   return std::none_of(untold.begin(), untold.end(), [&](const UntoldDirection& direction) {
-    return std::fabs(direction.parts[unknown]) >= kTakesPart;
+    return direction.takes_part[static_cast<std::size_t>(unknown)];
   });
 }
 
-Information information(const NormalEquations& normal, const Eigen::VectorXd& sizes,
-                        double rows_alike) {
+Information information(const NormalEquations& normal, const Eigen::VectorXd& theta,
+                        const Eigen::VectorXd& sizes, double rows_alike) {
   Information result;
   const Eigen::Index n = sizes.size();
   result.deviation = Eigen::VectorXd::Constant(n, kNaN);
@@ -76,7 +78,7 @@ Information information(const NormalEquations& normal, const Eigen::VectorXd& si
     Eigen::Index largest = 0;
     direction.cwiseAbs().maxCoeff(&largest);
     if (strength <= nothing || deviation > 1.0) {
-      result.untold.push_back({direction / direction[largest], deviation});
+      result.untold.push_back({direction / direction[largest], deviation, {}});
     } else {
       addKnown(direction);
     }
@@ -86,6 +88,15 @@ Information information(const NormalEquations& normal, const Eigen::VectorXd& si
       known.cols() == 0 ? Eigen::MatrixXd::Zero(n, n)
                         : Eigen::MatrixXd(variance * known *
                                           inner.ldlt().solve(Eigen::MatrixXd(known.transpose())));
+  for (UntoldDirection& direction : result.untold) {
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double part = std::fabs(direction.parts[i]);
+      const bool of_value =
+          part >= kLeastPart && part * sizes[i] >= kTakesPart * std::fabs(theta[i]);
+      direction.takes_part.push_back(part >= kTakesPart ||
+                                     (of_value && part > std::sqrt(covariance(i, i))));
+    }
+  }
   for (Eigen::Index i = 0; i < n; ++i) {
     if (result.told(i)) {
       result.deviation[i] = sizes[i] * std::sqrt(covariance(i, i));

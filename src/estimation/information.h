@@ -27,10 +27,10 @@ struct NormalEquations {
 struct UntoldDirection {
   Eigen::VectorXd parts;  ///< the largest is 1 or -1
   double deviation;       ///< along it, in parts of sizes; infinite: no residual changes at all
+  /// Of each unknown: it changes along it by a tenth of its size, or by a tenth of its value and
+  /// more than it is known to else. Who takes no part is told all the same.
+  std::vector<bool> takes_part;
 };
-
-/// Whoever takes part in a direction by less is told all the same.
-constexpr double kTakesPart = 0.1;
 
 struct Information {
   Eigen::VectorXd deviation;    ///< standard deviations; NaN where an unknown is not told
@@ -43,7 +43,7 @@ struct Information {
 /// An unknown is told when it is known better than to its own size (> 0), of residuals of which
 /// only one of `rows_alike` tells anything. Deviations are those of white ones: where residuals are
 /// not white they are too small.
-Information information(const NormalEquations& normal, const Eigen::VectorXd& sizes,
-                        double rows_alike);
+Information information(const NormalEquations& normal, const Eigen::VectorXd& theta,
+                        const Eigen::VectorXd& sizes, double rows_alike);
 
 }  // namespace whirl_twin

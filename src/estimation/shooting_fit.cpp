@@ -74,14 +74,16 @@ Information settle(ShootingSolver& solver, ShootingStage& stage) {
     }
   }
   Eigen::VectorXd sizes = solver.sizes().cwiseMax(solver.theta().cwiseAbs());
-  Information result = information(solver.normalEquations(stage), sizes, left.rows_alike);
+  Information result =
+      information(solver.normalEquations(stage), solver.theta(), sizes, left.rows_alike);
   // Directions turn on the way, and sizes are those of where it has come to.
   for (int pass = 0; pass < kMostTurns; ++pass) {
     solver.solve(stage, true, heldDirections(result, sizes, solver.start(), left.deviationAlone()));
     const Eigen::VectorXd now = solver.sizes().cwiseMax(solver.theta().cwiseAbs());
     const bool same = (now - sizes).cwiseQuotient(sizes).cwiseAbs().maxCoeff() < kHeldTo;
     sizes = now;
-    Information there = information(solver.normalEquations(stage), sizes, left.rows_alike);
+    Information there =
+        information(solver.normalEquations(stage), solver.theta(), sizes, left.rows_alike);
     const bool held = there.untold.size() <= result.untold.size();
     if (there.untold.size() >= result.untold.size()) {
       result = std::move(there);  // of where they are held now

@@ -116,7 +116,7 @@ std::string directionText(const ShootingFit& fit, const UntoldDirection& directi
   });
   std::vector<std::string> names, parts;
   for (const Eigen::Index i : places) {
-    if (std::fabs(direction.parts[i]) >= kTakesPart) {
+    if (direction.takes_part[static_cast<std::size_t>(i)]) {
       names.push_back(fit.unknowns[static_cast<std::size_t>(i)].name);
       parts.push_back(fmt::format("{:+.2g}", direction.parts[i]));
     }
