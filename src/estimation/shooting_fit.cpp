@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/qr.h"
 #include "estimation/shooting_solver.h"
 #include "messages/refusal.h"
 
@@ -48,15 +49,21 @@ void requireArrival(const FitStudy& study, const ShootingStage& stage,
   }
 }
 
-/// Along what runs do not tell, no way from where the unknowns start.
-HeldUnknowns heldDirections(const Information& information, const Eigen::VectorXd& sizes,
-                            const Eigen::VectorXd& start, double deviation) {
-  Eigen::MatrixXd rows(static_cast<Eigen::Index>(information.untold.size()), sizes.size());
-  for (Eigen::Index k = 0; k < rows.rows(); ++k) {
+/// Rows of a HeldCost: along what runs do not tell, no way from where the unknowns start.
+Eigen::MatrixXd heldDirections(const Information& information, const Eigen::VectorXd& sizes,
+                               const ShootingSolver& solver, double deviation) {
+  const auto count = static_cast<Eigen::Index>(information.untold.size());
+  Eigen::MatrixXd directions(sizes.size(), count);
+  for (Eigen::Index k = 0; k < count; ++k) {
     const Eigen::VectorXd& parts = information.untold[static_cast<std::size_t>(k)].parts;
-    rows.row(k) = deviation / (kHeldTo * parts.norm()) * parts.cwiseQuotient(sizes).transpose();
+    for (Eigen::Index i = 0; i < sizes.size(); ++i) {
+      directions(i, k) = parts[i] * sizes[i] * solver.distance().slope(i, solver.theta()[i]);
+    }
   }
-  return {rows, start};
+  // Of what has become small all of them may have much.
+  const Eigen::MatrixXd across = Eigen::HouseholderQR<Eigen::MatrixXd>(directions).householderQ() *
+                                 Eigen::MatrixXd::Identity(sizes.size(), count);
+  return deviation / kHeldTo * across.transpose();
 }
 
 /// Unknowns and starts of the last stage. What the windows do not tell has to be known before it
@@ -73,13 +80,16 @@ Information settle(ShootingSolver& solver, ShootingStage& stage) {
       break;
     }
   }
-  Eigen::VectorXd sizes = solver.sizes().cwiseMax(solver.theta().cwiseAbs());
+  const auto sizesHere = [&] {
+    return Eigen::VectorXd(solver.distance().sizes().cwiseMax(solver.theta().cwiseAbs()));
+  };
+  Eigen::VectorXd sizes = sizesHere();
   Information result =
       information(solver.normalEquations(stage), solver.theta(), sizes, left.rows_alike);
   // Directions turn on the way, and sizes are those of where it has come to.
   for (int pass = 0; pass < kMostTurns; ++pass) {
-    solver.solve(stage, true, heldDirections(result, sizes, solver.start(), left.deviationAlone()));
-    const Eigen::VectorXd now = solver.sizes().cwiseMax(solver.theta().cwiseAbs());
+    solver.solve(stage, true, heldDirections(result, sizes, solver, left.deviationAlone()));
+    const Eigen::VectorXd now = sizesHere();
     const bool same = (now - sizes).cwiseQuotient(sizes).cwiseAbs().maxCoeff() < kHeldTo;
     sizes = now;
     Information there =

@@ -1,7 +1,6 @@
 #include "estimation/shooting_solver.h"
 
 #include <ceres/ceres.h>
-#include <ceres/normal_prior.h>
 #include <fmt/format.h>
 #include <glog/logging.h>
 
@@ -71,25 +70,30 @@ ShootingSolver::ShootingSolver(const FitStudy& study, CandidateMaker maker)
     const Unknown& u = unknown(i);
     theta_[i] = std::clamp(u.start, u.least, u.most);
   }
-  begin_ = theta_;
   maker_.at(theta_);  // refused in words, where the model cannot have them
 }
 
 void ShootingSolver::findSizes(const ShootingStage& stage) {
   shooting_.setPoint(theta_, false);
   shooting_.chooseDifferences(stage.windows, stage.starts);
-  sizes_ = begin_.cwiseAbs();
-  for (Eigen::Index i = 0; i < sizes_.size(); ++i) {
+  Eigen::VectorXd sizes = theta_.cwiseAbs();
+  std::vector<Values> values;
+  for (Eigen::Index i = 0; i < sizes.size(); ++i) {
     const double moving = shooting_.movingAll()[i];
-    sizes_[i] = std::max(sizes_[i], sizes_[i] > 0.0 ? kLeastSize * moving : moving);
-    if (sizes_[i] == 0.0) {
-      sizes_[i] = 1.0;  // without effect
+    sizes[i] = std::max(sizes[i], sizes[i] > 0.0 ? kLeastSize * moving : moving);
+    if (sizes[i] == 0.0) {
+      sizes[i] = 1.0;  // without effect
     }
+    const bool any = unknown(i).least < 0.0 || theta_[i] != sizes[i];
+    values.push_back(any                       ? Values::kAny
+                     : unknown(i).least == 0.0 ? Values::kFromZero
+                                               : Values::kPositive);
   }
+  distance_ = DistanceFromStart(theta_, std::move(sizes), std::move(values));
 }
 
-HeldUnknowns ShootingSolver::aboutStart(double deviation) const {
-  return {(deviation * sizes_.cwiseInverse()).asDiagonal(), begin_};
+Eigen::MatrixXd ShootingSolver::aboutStart(double deviation) const {
+  return deviation * Eigen::MatrixXd::Identity(theta_.size(), theta_.size());
 }
 
 void ShootingSolver::regress() {
@@ -141,7 +145,7 @@ std::vector<bool> ShootingSolver::findStarts(ShootingStage& stage) {
   return arrived;
 }
 
-void ShootingSolver::solve(ShootingStage& stage, bool thorough, const HeldUnknowns& held) {
+void ShootingSolver::solve(ShootingStage& stage, bool thorough, const Eigen::MatrixXd& held) {
   shooting_.setPoint(theta_, false);
   shooting_.chooseDifferences(stage.windows, stage.starts);
   ceres::Problem::Options problem_options;
@@ -216,9 +220,9 @@ void ShootingSolver::PrepareForEvaluation(bool derivatives, bool new_point) {
   }
 }
 
-void ShootingSolver::hold(ceres::Problem& problem, const HeldUnknowns& held) {
-  if (held.rows.rows() > 0) {
-    problem.AddResidualBlock(new ceres::NormalPrior(held.rows, held.about), nullptr, theta_.data());
+void ShootingSolver::hold(ceres::Problem& problem, const Eigen::MatrixXd& held) {
+  if (held.rows() > 0) {
+    problem.AddResidualBlock(new HeldCost(held, distance_), nullptr, theta_.data());
   }
 }
 

@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "estimation/held_unknowns.h"
 #include "estimation/information.h"
 #include "estimation/shooting.h"
 
@@ -32,12 +33,6 @@ struct LeftOver {
   double deviationAlone() const { return deviation * std::sqrt(rows_alike); }
 };
 
-/// rows * (unknowns - about) counts as residuals do [held x unknowns].
-struct HeldUnknowns {
-  Eigen::MatrixXd rows;
-  Eigen::VectorXd about;
-};
-
 class ShootingSolver final : public ceres::EvaluationCallback {
  public:
   /// A first part of a window: a model that is far off follows for so long [s].
@@ -50,7 +45,6 @@ class ShootingSolver final : public ceres::EvaluationCallback {
   ShootingSolver(const FitStudy& study, CandidateMaker maker);
 
   const CandidateMaker& maker() const { return maker_; }
-  const Eigen::VectorXd& start() const { return begin_; }
   const Eigen::VectorXd& theta() const { return theta_; }
   const Candidate& candidate() const { return shooting_.candidate(); }
   int iterations() const { return iterations_; }
@@ -59,9 +53,10 @@ class ShootingSolver final : public ceres::EvaluationCallback {
   /// Finds what changes of the unknowns are measured by: their start values; of those that start at
   /// 0, or next to it, what moves the predicted motion in these windows.
   void findSizes(const ShootingStage& stage);
-  const Eigen::VectorXd& sizes() const { return sizes_; }
-  /// Where the unknowns start, each known to its own size by residuals of this deviation.
-  HeldUnknowns aboutStart(double deviation) const;
+  const DistanceFromStart& distance() const { return distance_; }
+  /// Rows of a HeldCost by which each unknown is known at its start to its own size, by residuals
+  /// of this deviation.
+  Eigen::MatrixXd aboutStart(double deviation) const;
 
   /// Brings the unknowns to where the equations of motion hold along the runs, roughly, and along
   /// what these do not tell no further than they have to.
@@ -72,7 +67,7 @@ class ShootingSolver final : public ceres::EvaluationCallback {
   /// not got through.
   std::vector<bool> findStarts(ShootingStage& stage);
   /// Unknowns and starts together; `thorough` for the last stage. Throws RunFailure.
-  void solve(ShootingStage& stage, bool thorough, const HeldUnknowns& held);
+  void solve(ShootingStage& stage, bool thorough, const Eigen::MatrixXd& held);
   LeftOver leftOver(const ShootingStage& stage) const;
   NormalEquations normalEquations(const ShootingStage& stage);
   /// Predicted states of a stage's window [2n x rows]; NaN where it is not got through.
@@ -84,7 +79,7 @@ class ShootingSolver final : public ceres::EvaluationCallback {
   const Unknown& unknown(Eigen::Index i) const {
     return maker_.unknowns()[static_cast<std::size_t>(i)];
   }
-  void hold(ceres::Problem& problem, const HeldUnknowns& held);
+  void hold(ceres::Problem& problem, const Eigen::MatrixXd& held);
   void setBounds(ceres::Problem& problem);
   std::vector<Window> growing(const Window& window) const;
   bool findStart(const Window& window, Eigen::VectorXd& start);
@@ -92,7 +87,8 @@ class ShootingSolver final : public ceres::EvaluationCallback {
   const FitStudy& study_;
   CandidateMaker maker_;
   Shooting shooting_;
-  Eigen::VectorXd theta_, begin_, sizes_;
+  Eigen::VectorXd theta_;
+  DistanceFromStart distance_;
   int iterations_ = 0;
   bool converged_ = true;
 };

@@ -236,9 +236,8 @@ TEST(ShootingFit, SaysWhatASwingDoesNotTell) {
   // What it does tell is right, and along the rest nothing has moved.
   EXPECT_NEAR(found(fit, "inertia") / found(fit, "mass"), 0.02 / 0.7, 1e-4);
   EXPECT_NEAR(found(fit, "damping") / found(fit, "mass"), 0.03 / 0.7, 1e-4);
-  const double moved = fit.information.untold.front().parts.dot(
-      Eigen::Vector3d((fit.theta - start).cwiseQuotient(sizes)));
-  EXPECT_NEAR(moved, 0.0, 0.1);
+  // The times that they have grown are about those that they have shrunk.
+  EXPECT_NEAR(fit.theta.cwiseQuotient(start).prod(), 1.0, 0.2);
 }
 
 /// Its weight is balanced by a torque while it moves slowly, at a constant rate: that tells the
