@@ -30,7 +30,7 @@ bool takeNames(std::istringstream columns, whirl_twin::measurement_t& block) {
   bool different = true;
   for (auto name_at = block.channel.begin(); name_at != block.channel.end(); ++name_at) {
     const auto first = std::find(block.channel.begin(), name_at, *name_at);
-    if (first != name_at) {
+    if (first != name_at && !name_at->empty()) {
       std::cerr << "line 1: columns " << first - block.channel.begin() + 2 << " and "
                 << name_at - block.channel.begin() + 2 << " are called " << *name_at << "\n";
       different = false;

@@ -24,6 +24,7 @@ using Eigen::VectorXd;
 
 constexpr int kMostSteps = 30;    // of Newton's method
 constexpr double kRests = 1e-12;  // of the place: a step that is none
+constexpr double kNearly = 1e-8;  // where rounding lets no step be so short
 constexpr double kRigid = 1e-14;  // of the largest eigenvalue: a motion as a rigid body
 
 LocalState stateAt(const LocalForce& force, const VectorXd& q, double speed) {
@@ -54,6 +55,7 @@ VectorXd restNear(const UnreducedRotor& rotor, const VectorXd& q, double speed) 
   }
   const BandedMatrix<double> linear = rotor.assembly->bandedMatrices(speed).byPlace();
   VectorXd rest = q;
+  double step_length = 1.0;
   for (int step = 0; step < kMostSteps; ++step) {
     VectorXd left = rotor.assembly->load() - linear.times(rest).col(0);
     for (const LocalForce& force : rotor.forces) {
@@ -69,23 +71,27 @@ VectorXd restNear(const UnreducedRotor& rotor, const VectorXd& q, double speed) 
     if (!rest.allFinite()) {
       return q;
     }
-    if (change.norm() <= kRests * rest.norm()) {
+    step_length = change.norm() / rest.norm();
+    if (step_length <= kRests) {
       return rest;
     }
   }
-  return q;
+  return step_length <= kNearly ? rest : q;
 }
 
-/// Of those with |s| up to `reach`, and of those that grow if there are.
+/// Of those with |s| up to `reach`, of the lowest at least, and of those that grow if there are.
 RotorMargins marginsOf(const std::vector<Complex>& roots, double reach, bool grows) {
   RotorMargins margins;
   margins.grows = grows;
   double rightmost = -std::numeric_limits<double>::infinity();
   double ratio = std::numeric_limits<double>::quiet_NaN();
   double largest = 0.0;
+  double lowest = std::numeric_limits<double>::infinity();
   for (const Complex& s : roots) {
     largest = std::max(largest, std::abs(s));
+    lowest = std::min(lowest, std::abs(s));
   }
+  reach = std::max(reach, lowest);
   for (const Complex& s : roots) {
     if (std::abs(s) <= reach || (grows && s.real() > 0.0)) {
       rightmost = std::max(rightmost, s.real());
@@ -105,7 +111,10 @@ RotorMargins marginsOf(const Linearization& l, double reach) {
 }
 
 RotorMargins marginsOf(const BandedLinearization& l, double reach) {
-  const auto found = eigenvaluesWithin(l, reach);
+  auto found = eigenvaluesWithin(l, reach);
+  if (found && found->roots.empty()) {
+    found = lowestEigenvalues(l, 1);
+  }
   if (found && (found->omitted_are_sure || l.size() > kMostCompleteCoordinates)) {
     const bool grows = std::any_of(found->roots.begin(), found->roots.end(),
                                    [](const Complex& s) { return s.real() > 0.0; });
@@ -138,8 +147,12 @@ UnreducedMargins::UnreducedMargins(std::shared_ptr<const Dynamics> dynamics, con
   }
 }
 
+Eigen::Index UnreducedMargins::amplitudes() const {
+  return rotor_->shapes.cols();
+}
+
 ReducedMargins UnreducedMargins::at(const VectorXd& q, double speed) const {
-  const VectorXd amplitudes = q.head(rotor_->shapes.cols());
+  const VectorXd amplitudes = q.head(this->amplitudes());
   const VectorXd zero = VectorXd::Zero(amplitudes.size());
   ReducedMargins margins;
   margins.reduced = marginsOf(linearizationAtRest(*held_, amplitudes, speed),

@@ -17,8 +17,8 @@
 
 namespace whirl_twin {
 
-/// Of all motions; of the full rotor those with |s| up to the highest speed of the reduction, and
-/// those that grow.
+/// Of all motions; of the full rotor those with |s| up to the highest speed of the reduction, the
+/// lowest at least, and those that grow.
 struct RotorMargins {
   double decay_rate = 0.0;     ///< [1/s], of the slowest; negative: it grows
   double log_decrement = 0.0;  ///< [-], the least; NaN where all are overdamped
@@ -37,6 +37,8 @@ class UnreducedMargins {
   /// any other. Keeps `dynamics`.
   static std::optional<UnreducedMargins> of(std::shared_ptr<const Dynamics> dynamics);
 
+  /// Of the shapes: how many entries of a place matter.
+  Eigen::Index amplitudes() const;
   /// About amplitudes q at rest at a shaft speed [rad/s]; entries of q behind those of the shapes
   /// do not matter. Local forces are those of the place where the full rotor rests next to that.
   /// Throws what stability() does.

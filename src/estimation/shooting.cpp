@@ -14,6 +14,7 @@ constexpr double kFirstTry = 1.0e-6;  // of an unknown
 constexpr double kFirstTryOfZero = 1.0e-8;
 constexpr double kMostOfUnknown = 1.0e-2;
 constexpr int kTries = 3;
+constexpr double kNoEffect = 1.0e-10;  // of what is measured: rounding, or as good as that
 constexpr std::size_t kWindowsLookedAt = 4;
 
 /// Root mean square about the mean.
@@ -104,6 +105,7 @@ void Shooting::chooseDifferences(const std::vector<Window>& windows,
       measured = std::max(measured, spreadOf(run.data.column(c.column)) / c.deviation);
     }
   }
+  moving_all_.setZero();
   const std::size_t stride = std::max<std::size_t>(1, windows.size() / kWindowsLookedAt);
   for (int k = 0; k < kTries; ++k) {
     setPoint(theta_, true);
@@ -127,9 +129,10 @@ void Shooting::chooseDifferences(const std::vector<Window>& windows,
       if (square == 0.0) {
         continue;  // without effect
       }
-      const double by = kMoved * measured / std::sqrt(square / count);
+      const double moved = std::sqrt(square / count);
+      const double by = kMoved * measured / moved;
       const double about = unknown.size(theta_[i]);
-      moving_all_[i] = change_[i] * by / kMoved;
+      moving_all_[i] = moved > kNoEffect * measured ? change_[i] * by / kMoved : 0.0;
       change_[i] *= std::clamp(by, 1.0e-4, 1.0e4);
       if (about > 0.0) {
         change_[i] = std::min(change_[i], kMostOfUnknown * about);

@@ -89,6 +89,7 @@ Information settle(ShootingSolver& solver, ShootingStage& stage) {
   // Directions turn on the way, and sizes are those of where it has come to.
   for (int pass = 0; pass < kMostTurns; ++pass) {
     solver.solve(stage, true, heldDirections(result, sizes, solver, left.deviationAlone()));
+    left = solver.leftOver(stage);
     const Eigen::VectorXd now = sizesHere();
     const bool same = (now - sizes).cwiseQuotient(sizes).cwiseAbs().maxCoeff() < kHeldTo;
     sizes = now;

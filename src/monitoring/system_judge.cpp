@@ -113,12 +113,13 @@ Stability SystemJudge::openStability(const state::Instant& at, const Eigen::Vect
 }
 
 ReducedMargins SystemJudge::unreducedMargins(const Eigen::VectorXd& about, double speed) {
+  const Eigen::VectorXd place = about.head(unreduced_->amplitudes());  // without a motor's angle
   const bool same =
       reduction_ && std::fabs(speed - reduction_->speed) <= kSame * std::fabs(speed) &&
-      (system_->dynamics->linear() || (about - reduction_->about).norm() <= kSame * about.norm());
+      (system_->dynamics->linear() || (place - reduction_->place).norm() <= kSame * place.norm());
   if (!same) {
     reduction_.reset();
-    reduction_ = JudgedReduction{speed, about, unreduced_->at(about, speed)};
+    reduction_ = JudgedReduction{speed, place, unreduced_->at(place, speed)};
   }
   return reduction_->margins;
 }

@@ -70,8 +70,8 @@ class SystemJudge {
   KnownSteadyMotions steady_motions_;
   /// What was found of a reduction last, and where.
   struct JudgedReduction {
-    double speed = 0.0;  ///< [rad/s]
-    Eigen::VectorXd about;
+    double speed = 0.0;     ///< [rad/s]
+    Eigen::VectorXd place;  ///< amplitudes
     ReducedMargins margins;
   };
   std::optional<UnreducedMargins> unreduced_;

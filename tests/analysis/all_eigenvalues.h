@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <vector>
 
 #include "mechanics/linearization.h"
@@ -41,8 +42,11 @@ inline std::vector<std::complex<double>> allEigenvalues(const Linearization& l) 
 /// The largest difference from the nearest of `all` that no other has taken, of the modulus.
 inline double worstDifference(const std::vector<std::complex<double>>& found,
                               std::vector<std::complex<double>> all) {
-  double worst = 0.0;
+  double worst = found.size() <= all.size() ? 0.0 : std::numeric_limits<double>::infinity();
   for (const std::complex<double>& s : found) {
+    if (all.empty()) {
+      break;
+    }
     const auto nearest = std::min_element(
         all.begin(), all.end(),
         [&](const auto& a, const auto& b) { return std::abs(a - s) < std::abs(b - s); });

@@ -30,11 +30,11 @@ constexpr const char* kHeldByDamping =
     "internal_damping: 2.0e-5, bearings: [{node: 0, kxx: 1.0e+6, kyy: 1.0e+6, cxx: 3000, cyy: "
     "3000}, {node: 6, kxx: 1.0e+6, kyy: 1.0e+6, cxx: 3000, cyy: 3000}]";
 
-BuiltScene rotorIn(const std::string& modes, const std::string& more) {
+BuiltScene rotorIn(const std::string& modes, const std::string& more, double speed = 100.0) {
   return build(sceneOf(
-      fmt::format("{{step: 0.001, systems: {{r: {{model: flexible_rotor, parameters: {{speed: 100, "
+      fmt::format("{{step: 0.001, systems: {{r: {{model: flexible_rotor, parameters: {{speed: {}, "
                   "modes: {}, {}, {}}}}}}}}}",
-                  modes, kShaft, more)));
+                  speed, modes, kShaft, more)));
 }
 
 state::StabilityMargin judged(const BuiltScene& scene, double speed) {
@@ -121,6 +121,21 @@ TEST(ReducedRotorJudge, IsOfOneMindWithTheRotorWhereItsShapesAreEnough) {
                 1.0e-5 * std::fabs(margin.decay_rate))
         << speed;
   }
+}
+
+// A stiff rotor that turns far below all of its whirls: the lowest of them counts all the same.
+TEST(ReducedRotorJudge, KnowsTheDampingOfARotorFarBelowItsWhirls) {
+  constexpr const char* kUndamped =
+      "bearings: [{node: 0, kxx: 1.0e+6, kyy: 1.0e+6, cxx: 0.1, cyy: 0.1}, {node: 6, kxx: 1.0e+6, "
+      "kyy: 1.0e+6, cxx: 0.1, cyy: 0.1}]";
+  const BuiltScene slow = rotorIn("8", std::string(kUndamped) + ", highest_speed: 20", 10.0);
+  const state::StabilityMargin margin = judged(slow, 10.0);
+  EXPECT_NEAR(margin.unreduced_decay_rate, margin.decay_rate, 0.02 * margin.decay_rate);
+  EXPECT_NEAR(margin.unreduced_log_decrement, margin.log_decrement, 0.02 * margin.log_decrement);
+  StabilityAlarm alarm("r", AlarmSettings{});
+  AlertList alerts;
+  alarm.update(margin, alerts);
+  EXPECT_NE(alerts.find("r", alert_type::kLowDamping), nullptr);
 }
 
 // What stands in films rests elsewhere in few shapes, and is as stiff and as damped as there.

@@ -191,7 +191,7 @@ TEST_F(MeasuredTorque, OfASwingUpTellsThePeriod) {
   }
   // The damping starts at a fifteenth of what it is to the mass: that is no reason to lose the
   // mass.
-  EXPECT_GT(mass, 0.2);
+  EXPECT_GT(mass, 0.25);
   EXPECT_LT(told["runs"].begin().value()["rms"]["theta"].get<double>(), 5.0e-3);
 }
 
