@@ -12,9 +12,9 @@
 // UNSTABLE_WITHIN_SPREAD: a warning when more members of a system's spread than the setting says
 // decay too slowly or grow, or the slowest decay found within the spread is slower than its own.
 // An uncertain verdict neither raises nor clears: a warning does not go away because the numbers
-// can no longer be judged. But of a rotor reduced to a few shapes, which decays while the rotor that
-// they were taken from grows, or the other way, UNSTABLE is a warning; LOW_DAMPING goes by that
-// rotor.
+// can no longer be judged. But of a rotor reduced to a few shapes, which decays while the rotor
+// that they were taken from grows, or the other way, UNSTABLE is a warning; LOW_DAMPING goes by
+// that rotor.
 #pragma once
 
 #include <string>
