@@ -83,30 +83,30 @@ double inProportion(double disturbed) {
   return disturbed / kDisturbance * kRounding;
 }
 
-/// Likewise, unless a disturbance as small as rounding itself has become more than that: what
-/// bounds both makes them alike.
-double roundingBeside(double disturbed, double slightly) {
+/// Of what `of` takes from a curve. Rounding counts in proportion, unless a disturbance as small as
+/// rounding itself has become more than that: what bounds both makes them alike.
+template <class Of>
+double bound(const ReferenceTrajectory& reference, const Of& of) {
+  const auto ofAny = [&](const ErrorCurve& curve) {
+    return curve.samples() == 0 ? 0.0 : of(curve);
+  };
+  const double disturbed = ofAny(reference.disturbed);
+  const double by_rounding = ofAny(reference.disturbed_by_rounding);
   const double in_proportion = inProportion(disturbed);
-  return slightly > kInProportion * in_proportion ? 2.0 * std::max(disturbed, slightly)
-                                                  : in_proportion;
+  const double rounding = by_rounding > kInProportion * in_proportion
+                              ? 2.0 * std::max(disturbed, by_rounding)
+                              : in_proportion;
+  return std::max(2.0 * of(reference.difference), rounding);
 }
 
 }  // namespace
 
 double ReferenceTrajectory::error(std::size_t sample) const {
-  return std::max(2.0 * difference.position(sample),
-                  disturbed.samples() == 0
-                      ? 0.0
-                      : roundingBeside(disturbed.position(sample),
-                                       slightly.samples() == 0 ? 0.0 : slightly.position(sample)));
+  return bound(*this, [&](const ErrorCurve& curve) { return curve.position(sample); });
 }
 
 double ReferenceTrajectory::rateError(std::size_t sample) const {
-  return std::max(2.0 * difference.rate(sample),
-                  disturbed.samples() == 0
-                      ? 0.0
-                      : roundingBeside(disturbed.rate(sample),
-                                       slightly.samples() == 0 ? 0.0 : slightly.rate(sample)));
+  return bound(*this, [&](const ErrorCurve& curve) { return curve.rate(sample); });
 }
 
 std::size_t ReferenceTrajectory::lastWithin(double most) const {
@@ -163,14 +163,14 @@ ErrorCurve disturbedBy(double disturbance, const Scene& one, const StepSetting& 
 void disturb(ReferenceTrajectory& reference, const Scene& one, std::int64_t interval,
              EvaluationBudget& budget) {
   const Trajectory& right = reference.trajectory;
-  const double cost = budget.cost(reference.other, interval, right.samples());
+  double cost = budget.cost(reference.other, interval, right.samples());
   reference.disturbed = disturbedBy(kDisturbance, one, reference.other, interval, right);
   const std::size_t followed = reference.disturbed.samples();
-  budget.take(std::min(cost, budget.left()));
   if (followed > 0 && reference.disturbed.position(followed - 1) > kGrown * kDisturbance) {
-    budget.take(std::min(cost, budget.left()));
-    reference.slightly = disturbedBy(kRounding, one, reference.other, interval, right);
+    reference.disturbed_by_rounding = disturbedBy(kRounding, one, reference.other, interval, right);
+    cost *= 2.0;
   }
+  budget.take(std::min(cost, budget.left()));
 }
 
 /// Is a pair by shorter steps worth them?

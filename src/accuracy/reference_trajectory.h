@@ -44,7 +44,7 @@ struct ReferenceTrajectory {
   Trajectory trajectory;  ///< coordinates and rates, at most as many samples as were asked for
   ErrorCurve difference;  ///< of the two, at the sample after
   ErrorCurve disturbed;   ///< of one from a start a little off; none: errors are not magnified
-  ErrorCurve slightly;    ///< of one off by no more than rounding; none: they are not much
+  ErrorCurve disturbed_by_rounding;  ///< of one off by no more than that; none: they are not much
 
   /// Bound of its position error up to a sample; infinite where the two have parted for good.
   double error(std::size_t sample) const;

@@ -6,14 +6,14 @@
 namespace whirl_twin {
 
 DistanceFromStart::DistanceFromStart(Eigen::VectorXd start, Eigen::VectorXd sizes,
-                                     std::vector<Values> values)
-    : start_(std::move(start)), sizes_(std::move(sizes)), values_(std::move(values)) {}
+                                     std::vector<Range> ranges)
+    : start_(std::move(start)), sizes_(std::move(sizes)), ranges_(std::move(ranges)) {}
 
 bool DistanceFromStart::byTimes(Eigen::Index i, double value) const {
-  switch (values_[static_cast<std::size_t>(i)]) {
-    case Values::kPositive:
+  switch (ranges_[static_cast<std::size_t>(i)]) {
+    case Range::kPositive:
       return true;
-    case Values::kFromZero:
+    case Range::kNotNegative:
       return value > start_[i];
     default:
       return false;

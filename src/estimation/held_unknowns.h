@@ -10,16 +10,16 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace whirl_twin {
+#include "mechanics/model_description.h"
 
-enum class Values { kAny, kFromZero, kPositive };
+namespace whirl_twin {
 
 /// Distances from the start, in sizes of the unknowns.
 class DistanceFromStart {
  public:
   DistanceFromStart() = default;
-  /// values: that each unknown can have; those that are not kAny start above 0, at their size.
-  DistanceFromStart(Eigen::VectorXd start, Eigen::VectorXd sizes, std::vector<Values> values);
+  /// ranges: of the unknowns' values; those that are not kAny start above 0, at their size.
+  DistanceFromStart(Eigen::VectorXd start, Eigen::VectorXd sizes, std::vector<Range> ranges);
 
   const Eigen::VectorXd& sizes() const { return sizes_; }
   double of(Eigen::Index unknown, double value) const;     ///< [-], 0 at the start
@@ -30,7 +30,7 @@ class DistanceFromStart {
   bool byTimes(Eigen::Index unknown, double value) const;
 
   Eigen::VectorXd start_, sizes_;
-  std::vector<Values> values_;
+  std::vector<Range> ranges_;
 };
 
 /// rows * distances counts as residuals do [held x unknowns]. Block: the unknowns.

@@ -60,7 +60,7 @@ Eigen::MatrixXd heldDirections(const Information& information, const Eigen::Vect
       directions(i, k) = parts[i] * sizes[i] * solver.distance().slope(i, solver.theta()[i]);
     }
   }
-  // Of what has become small all of them may have much.
+  // At right angles: what has become small is in all of them, and would leave the rest loose.
   const Eigen::MatrixXd across = Eigen::HouseholderQR<Eigen::MatrixXd>(directions).householderQ() *
                                  Eigen::MatrixXd::Identity(sizes.size(), count);
   return deviation / kHeldTo * across.transpose();

@@ -77,7 +77,7 @@ void ShootingSolver::findSizes(const ShootingStage& stage) {
   shooting_.setPoint(theta_, false);
   shooting_.chooseDifferences(stage.windows, stage.starts);
   Eigen::VectorXd sizes = theta_.cwiseAbs();
-  std::vector<Values> values;
+  std::vector<Range> ranges;
   for (Eigen::Index i = 0; i < sizes.size(); ++i) {
     const double moving = shooting_.movingAll()[i];
     sizes[i] = std::max(sizes[i], sizes[i] > 0.0 ? kLeastSize * moving : moving);
@@ -85,11 +85,11 @@ void ShootingSolver::findSizes(const ShootingStage& stage) {
       sizes[i] = 1.0;  // without effect
     }
     const bool any = unknown(i).least < 0.0 || theta_[i] != sizes[i];
-    values.push_back(any                       ? Values::kAny
-                     : unknown(i).least == 0.0 ? Values::kFromZero
-                                               : Values::kPositive);
+    ranges.push_back(any                       ? Range::kAny
+                     : unknown(i).least == 0.0 ? Range::kNotNegative
+                                               : Range::kPositive);
   }
-  distance_ = DistanceFromStart(theta_, std::move(sizes), std::move(values));
+  distance_ = DistanceFromStart(theta_, std::move(sizes), std::move(ranges));
 }
 
 Eigen::MatrixXd ShootingSolver::aboutStart(double deviation) const {

@@ -141,13 +141,19 @@ TEST(Promise, OfChaosIsKeptAsLongAsItSays) {
   EXPECT_LE(ErrorCurve(chosen, truth.trajectory).position(kept), 1.0e-6) << choice.reason;
 }
 
+/// Three samples alike.
+Trajectory even() {
+  Trajectory t;
+  t.interval = 1.0;
+  t.dof = 1;
+  t.angular = {true};
+  t.coordinates = t.rates = {1.0, 1.0, 1.0};
+  return t;
+}
+
 // A disturbance that has grown out of sight says nothing of what rounding does from then on.
 TEST(Promise, IsNotMadeBeyondWhereADisturbedMotionParted) {
-  Trajectory right;
-  right.interval = 1.0;
-  right.dof = 1;
-  right.angular = {true};
-  right.coordinates = right.rates = {1.0, 1.0, 1.0};
+  const Trajectory right = even();
   Trajectory parted = right;
   parted.keep(2);
   ReferenceTrajectory reference;
@@ -161,11 +167,7 @@ TEST(Promise, IsNotMadeBeyondWhereADisturbedMotionParted) {
 
 // What holds a disturbance, the slew of an actuator say, does not hold rounding to a part of it.
 TEST(Promise, HasNoPartOfADisturbanceWhereRoundingBecomesAsLarge) {
-  Trajectory right;
-  right.interval = 1.0;
-  right.dof = 1;
-  right.angular = {true};
-  right.coordinates = right.rates = {1.0, 1.0, 1.0};
+  const Trajectory right = even();
   const auto off = [&](double first, double then) {
     Trajectory t = right;
     t.coordinates[1] = t.rates[1] = 1.0 + first;
@@ -176,7 +178,7 @@ TEST(Promise, HasNoPartOfADisturbanceWhereRoundingBecomesAsLarge) {
   reference.difference = ErrorCurve(right, right);
   reference.disturbed = off(1.0e-8, 4.0e-5);
   EXPECT_NEAR(reference.error(2), 0.02 * 4.0e-5, 1.0e-9) << "in proportion";
-  reference.slightly = off(2.0e-10, 3.0e-5);
+  reference.disturbed_by_rounding = off(2.0e-10, 3.0e-5);
   EXPECT_NEAR(reference.error(1), 2.0e-10, 1.0e-12) << "in proportion still";
   EXPECT_GE(reference.error(2), 4.0e-5);
   EXPECT_GE(reference.rateError(2), 4.0e-5);
