@@ -18,6 +18,7 @@ namespace whirl_twin {
 namespace {
 
 constexpr auto kSavePeriod = std::chrono::seconds(5);
+constexpr std::int64_t kStepsAtOnce = 16;  // before an interrupt is looked for
 
 }  // namespace
 
@@ -136,12 +137,19 @@ void Simulation::run(SampleWriter* writer, bool results_on_standard_output) {
 std::int64_t Simulation::stepUnseen(std::int64_t due) {
   const std::int64_t quiet = observer_.quietUntil(twin_);
   std::int64_t i = twin_.stepCount();
-  do {
-    twin_.step();
-    ++i;
-  } while (i < due && !interrupted() && !stopsNow() && i != quiet &&
-           (i < quiet || observer_.look(twin_)));
-  return i;
+  std::int64_t next_look = std::max(quiet, i + 1);
+  while (true) {
+    i += twin_.steps(std::min({due, next_look, i + kStepsAtOnce}) - i);
+    if (i == due || i == quiet || interrupted() || stopsNow()) {
+      return i;
+    }
+    if (i == next_look) {
+      next_look = observer_.look(twin_);
+      if (next_look == i) {
+        return i;
+      }
+    }
+  }
 }
 
 /// As stepUnseen(), where the writer follows every record.

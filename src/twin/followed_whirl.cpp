@@ -11,6 +11,10 @@ namespace {
 constexpr std::int64_t kLongestRest = 4096;
 /// Steps, below which finding out is not worth it.
 constexpr std::int64_t kShortestRest = 64;
+/// Steps within which speeds are bounded to put off a look, and looks from one step after another
+/// after it was not worth it.
+constexpr std::int64_t kMostPutOff = 64;
+constexpr int kLooksInTurn = 32;
 /// Part of the largest radius, below which a whirl soon has no angle.
 constexpr double kSmall = 1.0e-6;
 
@@ -27,6 +31,9 @@ void FollowedWhirl::put(const std::vector<Station>& stations) {
       place.across.push_back(place.at.along_y[j]);
     }
   }
+  rest_.reset();
+  rest_sought_ = false;
+  looks_in_turn_ = 0;
   steady_.reset();
   sought_ = std::numeric_limits<double>::quiet_NaN();
 }
@@ -55,15 +62,19 @@ void FollowedWhirl::observe(std::int64_t step, const double* q, const double* v,
                             const ShaftMark& mark) {
   const bool steady = steady_ && step <= steady_until_;
   for (std::size_t k = 0; k < places_.size(); ++k) {
-    places_[k].phase.observe(motion(k, q, v), mark, steady ? steady_->keeps(k) : Kept::kLag);
+    // While looks are put off a whirl stays on its side of the centre, however its shaft turns.
+    const bool put_off = step <= next_look_ && step - places_[k].seen > 1;
+    const Kept otherwise = put_off ? Kept::kDirection : Kept::kLag;
+    places_[k].phase.observe(motion(k, q, v), mark, steady ? steady_->keeps(k) : otherwise);
     places_[k].seen = step;
   }
   told_ = step;
+  next_look_ = step + 1;
   steady_until_ = std::max(steady_until_, step);
 }
 
 bool FollowedWhirl::follow(std::int64_t step, const double* q) noexcept {
-  if (step <= steady_until_) {
+  if (step <= steady_until_ || step > next_look_) {
     return step < steady_until_;
   }
   for (Place& place : places_) {
@@ -76,12 +87,45 @@ bool FollowedWhirl::follow(std::int64_t step, const double* q) noexcept {
       y += across[j + 1] * qj;
     }
     q -= place.across.size() / 2;
-    if (step - place.seen > 1 || !place.phase.follow(x, y)) {
+    if (!place.phase.follow(x, y)) {
       return false;
     }
     place.seen = step;
   }
+  next_look_ = step + 1;
   return true;
+}
+
+void FollowedWhirl::putOff(const Dynamics& dynamics, const double* q, const double* v,
+                           const Drive& drive, double seconds) {
+  if (looks_in_turn_ > 0) {
+    --looks_in_turn_;
+    return;
+  }
+  if (!rest_sought_) {
+    rest_sought_ = true;
+    std::vector<Station> stations;
+    for (const Place& place : places_) {
+      stations.push_back(place.at);
+    }
+    rest_ = WhirlRest::of(dynamics, stations);
+  }
+  const bool wide = std::all_of(places_.begin(), places_.end(),
+                                [](const Place& place) { return place.phase.isWide(kSmall); });
+  std::int64_t steps = 0;
+  if (rest_ && wide) {
+    const ShaftMotion shaft = drive.withoutAngle(0.0);
+    const double longest = std::min(drive.nextCorner(0.0), kMostPutOff * seconds);
+    const double acceleration = std::fabs(shaft.acceleration) + longest * std::fabs(shaft.jerk);
+    const double speed = std::fabs(shaft.speed) + longest * acceleration;
+    const double lasts = rest_->lasts(q, v, speed, acceleration, speed * seconds);
+    steps = static_cast<std::int64_t>(std::min(lasts, longest) / seconds);
+  }
+  if (steps > 1) {
+    next_look_ += steps - 1;
+  } else {
+    looks_in_turn_ = kLooksInTurn;
+  }
 }
 
 void FollowedWhirl::findSteady(const Dynamics& dynamics, const double* q, const double* v,

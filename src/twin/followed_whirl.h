@@ -2,17 +2,20 @@
 // those that are only looked at.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
 
+#include "control/drive.h"
 #include "mechanics/dynamics.h"
 #include "realtime/state_image.h"
 #include "twin/record.h"
 #include "twin/steady_whirl.h"
 #include "twin/whirl_phase.h"
+#include "twin/whirl_rest.h"
 
 namespace whirl_twin {
 
@@ -34,11 +37,18 @@ class FollowedWhirl {
     image(places_, told_);
     if (image.puts()) {
       steady_until_ = told_;
+      next_look_ = told_ + 1;
     }
   }
-  /// One that is looked at, behind the one before. False: it is to be told. Before `steadyUntil()`
-  /// it need not be looked at. The shaft has to turn by less than a quarter of a turn in it.
+  /// One that is looked at, no later than nextLook(). False: it is to be told. The shaft has to
+  /// turn by less than a quarter of a turn in a step.
   bool follow(std::int64_t step, const double* q) noexcept;
+  /// After it: puts the next look off for as long as the whirl is sure to stay where it is
+  /// (whirl_rest.h). The drive is at that step.
+  void putOff(const Dynamics& dynamics, const double* q, const double* v, const Drive& drive,
+              double seconds);
+  /// The step that is to be looked at or told next; those before it need not be.
+  std::int64_t nextLook() const { return std::max(next_look_, steady_until_); }
 
   /// Finds out for how many steps from the one told last the whirl is steady (steady_whirl.h), at a
   /// constant speed that lasts for `steps` steps: they need not be seen. coarse: the shaft turns a
@@ -62,9 +72,13 @@ class FollowedWhirl {
   std::vector<Place> places_;
   std::int64_t told_ = 0;          // step
   std::int64_t steady_until_ = 0;  // step, up to which steady_ holds
+  std::int64_t next_look_ = 1;     // step, without that
   std::optional<SteadyWhirl> steady_;
   double sought_ =
       std::numeric_limits<double>::quiet_NaN();  // [rad/s], that steady_ is of, or none
+  std::optional<WhirlRest> rest_;
+  bool rest_sought_ = false;
+  int looks_in_turn_ = 0;  // before it is tried again to put one off
 };
 
 }  // namespace whirl_twin

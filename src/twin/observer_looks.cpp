@@ -29,10 +29,12 @@ bool isLinearRotor(const BuiltSystem& system) {
 void Observer::prepareLooks() {
   most_passed_ = kMostPassedOfLinearRotors;
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    const BuiltSystem& system = *twin_.systems()[i];
     if (isRotor(i)) {
-      rotors_.push_back(i);
+      rotors_.push_back({i, isLinearRotor(system) && system.spec.inputs.empty() &&
+                                system.spec.q.size() <= kMostCoordinates});
     }
-    if (!isLinearRotor(*twin_.systems()[i])) {
+    if (!isLinearRotor(system)) {
       most_passed_ = kMostPassed;
     }
   }
@@ -70,7 +72,7 @@ bool Observer::look(const double* record) {
     }
   }
   const double h = twin_.scene().stepSeconds();
-  for (const std::size_t i : rotors_) {
+  for (const auto& [i, foreseeable] : rotors_) {
     if (status(i) != StepStatus::kOk) {
       continue;
     }
@@ -86,25 +88,35 @@ bool Observer::look(const double* record) {
   return true;
 }
 
-bool Observer::look(const Twin& now) {
+std::int64_t Observer::look(const Twin& now) {
+  const std::int64_t step = now.stepCount();
   if (has_motors_) {
     now.write(looked_.data());
-    return look(looked_.data());
+    return look(looked_.data()) ? step + 1 : step;
   }
-  const std::int64_t step = now.stepCount();
-  const bool coarse = !(fastest_ * twin_.scene().stepSeconds() < kQuarterTurn);
-  for (const std::size_t i : rotors_) {
+  const double h = twin_.scene().stepSeconds();
+  const bool coarse = !(fastest_ * h < kQuarterTurn);
+  std::int64_t next = std::numeric_limits<std::int64_t>::max();
+  for (const auto& [i, foreseeable] : rotors_) {
     FollowedWhirl& whirl = tracks_[i].whirl;
-    if (now.status(i) != StepStatus::kOk || step < whirl.steadyUntil()) {
+    if (now.status(i) != StepStatus::kOk) {
       continue;
     }
-    const Stepper& running = now.running(i);
-    running.motion(looked_.data());
-    if (coarse || errorFound(i, running.errorSum()) || !whirl.follow(step, looked_.data())) {
-      return false;
+    if (step >= whirl.nextLook()) {
+      const Stepper& running = now.running(i);
+      const double* const q = looked_.data();
+      running.motion(looked_.data());
+      if (coarse || errorFound(i, running.errorSum()) || !whirl.follow(step, q)) {
+        return step;
+      }
+      if (foreseeable) {
+        whirl.putOff(*tracks_[i].dynamics, q, q + running.dof(),
+                     now.drive(twin_.systems()[i]->drive), h);
+      }
     }
+    next = std::min(next, whirl.nextLook());
   }
-  return true;
+  return next;
 }
 
 std::int64_t Observer::quietUntil(const Twin& now) {
@@ -113,15 +125,14 @@ std::int64_t Observer::quietUntil(const Twin& now) {
   }
   const double h = twin_.scene().stepSeconds();
   std::int64_t quiet = std::numeric_limits<std::int64_t>::max();
-  for (const std::size_t i : rotors_) {
+  for (const auto& [i, foreseeable] : rotors_) {
     if (status(i) != StepStatus::kOk) {
       continue;
     }
     const BuiltSystem& system = *twin_.systems()[i];
     const Drive& drive = now.drive(system.drive);
     FollowedWhirl& whirl = tracks_[i].whirl;
-    if (isLinearRotor(system) && system.spec.inputs.empty() &&
-        system.spec.q.size() <= kMostCoordinates && drive.constantFor(0.0)) {
+    if (foreseeable && drive.constantFor(0.0)) {
       const double lasts = std::min(drive.nextCorner(0.0) / h, 1.0e9);
       whirl.findSteady(*tracks_[i].dynamics, coordinates(i), rates(i), shaftOf(i), h,
                        static_cast<std::int64_t>(lasts), !(fastest_ * h < kQuarterTurn));

@@ -3,15 +3,8 @@
 //
 // At constant speed a linear rotor, M q'' + (C + G) q' + (K + N) q = f_0 + Re[F e^(i theta)], moves
 // as q = s + Re[X e^(i theta)] + e. The sag s and the response X (synchronous_response.h) are
-// known; e is free and has in y = (L_K^T e, L_M^T e'), where K = L_K L_K^T and M = L_M L_M^T, the
-// length |y|^2 = 2 (T + V) of e. It obeys
-//
-//   d|y|/dt <= mu |y|,  mu the largest eigenvalue of [0, -B^T/2; -B/2, -L_M^-1 C L_M^-T],
-//                       B = L_M^-1 N L_K^-T
-//
-// (K and G do no work on it; mu is the logarithmic norm, Dahlquist, Trans. Royal Inst. Technology
-// 130 (1959)). At a station z = a . q + i b . q, and no free motion of length |y| is further out
-// there than r |y|, r^2 the largest eigenvalue of [a b]^T K^-1 [a b]. So
+// known; e is free, no longer in its energy than |y(0)| e^(mu t), and at a station no further out
+// than r |y| (free_motion.h). So
 //
 //   z = z_s + f e^(i theta) + b e^(-i theta) + z_e,   |z_e| <= r |y(0)| e^(mu t),
 //
@@ -25,6 +18,7 @@
 #include <vector>
 
 #include "mechanics/dynamics.h"
+#include "twin/free_motion.h"
 #include "twin/whirl_phase.h"
 
 namespace whirl_twin {
@@ -57,11 +51,9 @@ class SteadyWhirl {
   std::optional<StationBound> bound(const Station& station) const;
 
   double speed_ = 0.0;
-  double growth_ = 0.0;             ///< mu [1/s], not below 0
-  Eigen::VectorXd sag_;             ///< s
-  Eigen::VectorXcd response_;       ///< X
-  Eigen::MatrixXd stiffness_root_;  ///< L_K
-  Eigen::MatrixXd mass_root_;       ///< L_M
+  std::optional<FreeMotion> free_;
+  Eigen::VectorXd sag_;        ///< s
+  Eigen::VectorXcd response_;  ///< X
   std::vector<StationBound> stations_;
 };
 

@@ -106,6 +106,19 @@ void Twin::step() noexcept {
   stepMarked(NoMarks{});
 }
 
+std::int64_t Twin::steps(std::int64_t count) noexcept {
+  const auto running = [this] {
+    return std::count(status_.begin(), status_.end(), StepStatus::kOk);
+  };
+  const auto before = running();
+  std::int64_t taken = 0;
+  do {
+    stepMarked(NoMarks{});
+    ++taken;
+  } while (taken < count && running() == before);
+  return taken;
+}
+
 [[gnu::noinline]] void Twin::step(StepTimes& times) noexcept {
   times.beginStep();
   stepMarked(TimingMarks{times});

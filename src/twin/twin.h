@@ -59,7 +59,9 @@ class Twin {
   }
   /// One step of everything that has not stopped.
   void step() noexcept;
-  /// The same, with what each system and the controllers take of it: timedParts() parts.
+  /// Up to `count` > 0 steps, ending with one in which a system stops; how many were taken.
+  std::int64_t steps(std::int64_t count) noexcept;
+  /// One step, with what each system and the controllers take of it: timedParts() parts.
   void step(StepTimes& times) noexcept;
   std::size_t timedParts() const noexcept { return running_.size() + (control_.any() ? 1 : 0); }
   /// Back to the scene's start, with the scene's own systems.

@@ -69,6 +69,8 @@ class WhirlPhase {
   bool valid() const { return valid_; }
   double lag() const;  ///< [rad], of the last record observed; NaN unless valid
   double largestRadius() const { return largest_radius_; }  ///< [m], observed so far
+  /// It was last at least at a part of the largest radius so far.
+  bool isWide(double part) const { return x_ * x_ + y_ * y_ > part * part * largest_square_; }
 
  private:
   /// A radius below this part of the largest so far has no angle worth the name.
