@@ -12,12 +12,19 @@ else()
   set(whirl_twin_library_dir ${CMAKE_INSTALL_LIBDIR})
 endif()
 
-# The programs, what rostopic needs to print their messages, and the types of LCM for Python: all that a demo needs of a
-# build, and all that is installed.
+# The programs, what rostopic needs to print their messages, and the types of LCM for Python: all that is installed. And
+# what demo.launch starts, which is two thirds of it.
 add_custom_target(whirl_twin_programs)
+add_custom_target(whirl_twin_demo)
 if(TARGET whirl_twin_generate_messages_py)
   add_dependencies(whirl_twin_programs whirl_twin_generate_messages_py)
+  add_dependencies(whirl_twin_demo whirl_twin_generate_messages_py)
 endif()
+foreach(node simulation_node monitor_node visualization_node terminal_node)
+  if(TARGET ${node})
+    add_dependencies(whirl_twin_demo ${node})
+  endif()
+endforeach()
 if(TARGET whirl_twin_lcm_python)
   add_dependencies(whirl_twin_programs whirl_twin_lcm_python)
 endif()

@@ -62,7 +62,7 @@ struct Request {
   std::optional<std::string> system, csv;
   std::optional<double> speed;    // rad/s
   std::optional<std::string> at;  // s, as typed
-  ParameterSearch search = ParameterSearch::kWhereQuick;
+  bool all_parameters = false;
   std::string modes = std::to_string(kLowestModes);  // as typed
   bool json = false;
   bool insist = false;
@@ -176,7 +176,9 @@ int analyzeScene(const Request& request) {
   std::string report;
   CsvTables csv;
   for (const std::size_t i : systems) {
-    const SystemAnalysis analysis = analyze(built, i, request.search, modes);
+    const SystemAnalysis analysis = analyze(
+        built, i, request.all_parameters ? ParameterSearch::kOfAll : ParameterSearch::kWhereQuick,
+        modes);
     const MethodAnalysis methods = analyzeMethods(*built.systems[i], analysis);
     all["systems"][analysis.name] = json(analysis);
     all["systems"][analysis.name]["methods"] = json(methods, analysis);
@@ -201,29 +203,28 @@ int analyzeScene(const Request& request) {
 
 }  // namespace
 
-void addAnalyzeCommand(CLI::App& twin, int& status) {
-  CLI::App* command = twin.add_subcommand("analyze", kDescription);
+void addAnalyzeCommand(const Command& twin, int& status) {
+  const Command command = twin.subcommand("analyze", kDescription);
   const auto request = std::make_shared<Request>();
   addSceneOption(command, request->scene);
-  command->add_option("--system", request->system, "show this system only")->type_name("NAME");
-  command->add_option("--speed", request->speed, "rad/s, of the shafts; default: at the start")
-      ->type_name("W");
-  command->add_option("--at", request->at, "s, simulated, from the start to there; default: 0")
-      ->type_name("S");
+  command.option("--system", request->system, "show this system only").type("NAME");
+  command.option("--speed", request->speed, "rad/s, of the shafts; default: at the start")
+      .type("W");
+  command.option("--at", request->at, "s, simulated, from the start to there; default: 0")
+      .type("S");
   command
-      ->add_option("--modes", request->modes,
-                   fmt::format("how many of the lowest, or all, of more than {} coordinates; "
-                               "default: {}",
-                               kMostCompleteCoordinates, kLowestModes))
-      ->type_name("N");
-  command->add_flag_callback(
-      "--parameters", [request] { request->search = ParameterSearch::kOfAll; },
-      "look for the numbers that stability is lost by where that takes minutes, too");
+      .option("--modes", request->modes,
+              fmt::format("how many of the lowest, or all, of more than {} coordinates; "
+                          "default: {}",
+                          kMostCompleteCoordinates, kLowestModes))
+      .type("N");
+  command.flag("--parameters", request->all_parameters,
+               "look for the numbers that stability is lost by where that takes minutes, too");
   addCsvOption(command, request->csv);
-  command->add_flag("--json", request->json, "print one JSON object");
+  command.flag("--json", request->json, "print one JSON object");
   addInsistOption(command, request->insist);
-  command->footer(kFooter);
-  command->callback([request, &status] { status = analyzeScene(*request); });
+  command.footer(kFooter);
+  command.callback([request, &status] { status = analyzeScene(*request); });
 }
 
 }  // namespace whirl_twin

@@ -11,20 +11,19 @@
 
 namespace whirl_twin {
 
-void addSceneOption(CLI::App* command, std::string& scene) {
-  command->add_option("SCENE", scene, "scene file (YAML), or the name of a scene of the package")
-      ->required()
-      ->type_name("");
+void addSceneOption(const Command& command, std::string& scene) {
+  command.option("SCENE", scene, "scene file (YAML), or the name of a scene of the package")
+      .required()
+      .type("");
 }
 
-void addInsistOption(CLI::App* command, bool& insist) {
-  command->add_flag("--insist", insist,
-                    "even if it takes more than a day or more memory than is free");
+void addInsistOption(const Command& command, bool& insist) {
+  command.flag("--insist", insist, "even if it takes more than a day or more memory than is free");
 }
 
-void addCsvOption(CLI::App* command, std::optional<std::string>& csv) {
-  command->add_option("--csv", csv, "write the tables, every row of them: FILE.csv, FILE_NAME.csv")
-      ->type_name("FILE.csv");
+void addCsvOption(const Command& command, std::optional<std::string>& csv) {
+  command.option("--csv", csv, "write the tables, every row of them: FILE.csv, FILE_NAME.csv")
+      .type("FILE.csv");
 }
 
 std::string inSeconds(std::int64_t nanoseconds) {

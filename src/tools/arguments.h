@@ -1,22 +1,23 @@
 // What the command line's words mean: scenes, names, and numbers with a unit.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "tools/command.h"
+
 namespace whirl_twin {
 
 /// The scene that a command is about.
-void addSceneOption(CLI::App* command, std::string& scene);
+void addSceneOption(const Command& command, std::string& scene);
 
 /// --insist: do what takes more than a day, or more memory than is free (reports/asked_cost.h).
-void addInsistOption(CLI::App* command, bool& insist);
+void addInsistOption(const Command& command, bool& insist);
 
 /// --csv: the command's tables, into files (reports/csv_table.h).
-void addCsvOption(CLI::App* command, std::optional<std::string>& csv);
+void addCsvOption(const Command& command, std::optional<std::string>& csv);
 
 /// Seconds, as typed, as the nearest whole number of `unit`s [ns], in nanoseconds; from `low` to
 /// `high` [ns]. Exact: no binary fraction comes in between. What is not a whole number is said on

@@ -157,37 +157,33 @@ int balanceMeasured(const Request& request) {
 
 }  // namespace
 
-void addBalanceCommand(CLI::App& twin, int& status) {
-  CLI::App* command = twin.add_subcommand("balance", kDescription);
+void addBalanceCommand(const Command& twin, int& status) {
+  const Command command = twin.subcommand("balance", kDescription);
   const auto request = std::make_shared<Request>();
-  command->add_option("FILE", request->file, "the runs; with --measured the scene")
-      ->required()
-      ->type_name("");
-  CLI::Option* const measured =
-      command->add_option("--measured", request->measured, "a log of the running machine")
-          ->type_name("LOG");
-  const auto with_log = [measured](CLI::Option* option) { return option->needs(measured); };
-  with_log(command->add_option("--system", request->system, "this rotor")->type_name("NAME"));
+  command.option("FILE", request->file, "the runs; with --measured the scene").required().type("");
+  const Option measured =
+      command.option("--measured", request->measured, "a log of the running machine").type("LOG");
+  const auto with_log = [measured](const Option& option) { return option.needs(measured); };
+  with_log(command.option("--system", request->system, "this rotor").type("NAME"));
   with_log(command
-               ->add_option("--planes", request->unbalance.planes,
-                            "stations where masses can be set; default: where the scene's "
-                            "unbalances are")
-               ->type_name("STATION"));
-  with_log(
-      command->add_option("--from", request->unbalance.from, "rad/s; what was slower is left out")
-          ->type_name("W"));
-  with_log(command->add_option("--to", request->unbalance.to, "rad/s; what was faster is left out")
-               ->type_name("W"));
-  with_log(command->add_flag("--known-run-out", request->unbalance.run_out_known,
-                             "the run-out of the scene's sensors holds, none where they say none"));
+               .option("--planes", request->unbalance.planes,
+                       "stations where masses can be set; default: where the scene's "
+                       "unbalances are")
+               .type("STATION"));
+  with_log(command.option("--from", request->unbalance.from, "rad/s; what was slower is left out")
+               .type("W"));
+  with_log(command.option("--to", request->unbalance.to, "rad/s; what was faster is left out")
+               .type("W"));
+  with_log(command.flag("--known-run-out", request->unbalance.run_out_known,
+                        "the run-out of the scene's sensors holds, none where they say none"));
   with_log(command
-               ->add_option("--lcm-prefix", request->lcm_prefix,
-                            "what the channels of the log begin with; default: TWIN_")
-               ->type_name("PREFIX"));
+               .option("--lcm-prefix", request->lcm_prefix,
+                       "what the channels of the log begin with; default: TWIN_")
+               .type("PREFIX"));
   addCsvOption(command, request->csv);
-  command->add_flag("--json", request->json, "print one JSON object");
-  command->footer(kFooter);
-  command->callback([request, &status] {
+  command.flag("--json", request->json, "print one JSON object");
+  command.footer(kFooter);
+  command.callback([request, &status] {
     requireCsvName(request->csv);
     status = request->measured ? balanceMeasured(*request) : balanceRuns(*request);
   });

@@ -98,27 +98,23 @@ int campbellOf(const Request& request) {
 
 }  // namespace
 
-void addCampbellCommand(CLI::App& twin, int& status) {
-  CLI::App* command = twin.add_subcommand("campbell", kDescription);
+void addCampbellCommand(const Command& twin, int& status) {
+  const Command command = twin.subcommand("campbell", kDescription);
   const auto request = std::make_shared<Request>();
   addSceneOption(command, request->scene);
-  command->add_option("--system", request->system, "this rotor only")->type_name("NAME");
-  command->add_option("--from", request->range.from, "rad/s; default: 0")->type_name("W");
-  command
-      ->add_option("--to", request->range.to, "rad/s; default: 1.2 times the drive's highest speed")
-      ->type_name("W");
-  command->add_option("--points", request->range.points, "speeds; default: 200")->type_name("N");
-  command->add_option("--harmonic", request->harmonics, "multiples of the speed; default: 1")
-      ->type_name("H");
-  command->add_option("--modes", request->modes, "how many, the lowest; default: 12")
-      ->type_name("N");
-  command->add_option("--plot", request->plot, "the diagram, FILE.svg or FILE.png")
-      ->type_name("FILE");
+  command.option("--system", request->system, "this rotor only").type("NAME");
+  command.option("--from", request->range.from, "rad/s; default: 0").type("W");
+  command.option("--to", request->range.to, "rad/s; default: 1.2 times the drive's highest speed")
+      .type("W");
+  command.option("--points", request->range.points, "speeds; default: 200").type("N");
+  command.option("--harmonic", request->harmonics, "multiples of the speed; default: 1").type("H");
+  command.option("--modes", request->modes, "how many, the lowest; default: 12").type("N");
+  command.option("--plot", request->plot, "the diagram, FILE.svg or FILE.png").type("FILE");
   addCsvOption(command, request->csv);
-  command->add_flag("--json", request->json, "print one JSON object");
+  command.flag("--json", request->json, "print one JSON object");
   addInsistOption(command, request->insist);
-  command->footer(kFooter);
-  command->callback([request, &status] { status = campbellOf(*request); });
+  command.footer(kFooter);
+  command.callback([request, &status] { status = campbellOf(*request); });
 }
 
 }  // namespace whirl_twin

@@ -6,13 +6,12 @@
 
 namespace whirl_twin {
 
-void addChannelOption(CLI::App* command, ChannelFilter& filter) {
+void addChannelOption(const Command& command, ChannelFilter& filter) {
   command
-      ->add_option("--channel", filter,
-                   "only channels (of a bag: topics) like this, as '*_WHIRL'; may be said again")
-      ->type_name("PATTERN")
-      ->expected(1)
-      ->take_all();
+      .option("--channel", filter,
+              "only channels (of a bag: topics) like this, as '*_WHIRL'; may be said again")
+      .type("PATTERN")
+      .oneByOne();
 }
 
 bool selects(const ChannelFilter& filter, const std::string& channel) {

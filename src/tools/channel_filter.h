@@ -1,16 +1,17 @@
 // --channel: which channels of a log, or topics of a bag, a command is about.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
+
+#include "tools/command.h"
 
 namespace whirl_twin {
 
 /// Patterns as the shell has them, *, ? and [...]; none means all.
 using ChannelFilter = std::vector<std::string>;
 
-void addChannelOption(CLI::App* command, ChannelFilter& filter);
+void addChannelOption(const Command& command, ChannelFilter& filter);
 
 bool selects(const ChannelFilter& filter, const std::string& channel);
 

@@ -46,17 +46,17 @@ int check(const Request& request) {
 
 }  // namespace
 
-void addCheckCommand(CLI::App& twin, int& status) {
-  CLI::App* command = twin.add_subcommand("check", kDescription);
+void addCheckCommand(const Command& twin, int& status) {
+  const Command command = twin.subcommand("check", kDescription);
   const auto request = std::make_shared<Request>();
   addSceneOption(command, request->scene);
-  command->add_option("--system", request->system, "show this system only")->type_name("NAME");
-  command->add_flag(
+  command.option("--system", request->system, "show this system only").type("NAME");
+  command.flag(
       "--json", request->json,
       "print one JSON object; `accuracy` of each system: what is kept, until when it is known");
   addInsistOption(command, request->insist);
-  command->footer(kFooter);
-  command->callback([request, &status] { status = check(*request); });
+  command.footer(kFooter);
+  command.callback([request, &status] { status = check(*request); });
 }
 
 }  // namespace whirl_twin

@@ -3,9 +3,8 @@
 // Refusal or a RunFailure, which main() turns into messages and an exit status.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include "messages/refusal.h"
+#include "tools/command.h"
 
 namespace whirl_twin {
 
@@ -15,35 +14,35 @@ inline constexpr int kFailed = 1;    ///< the run failed: diverged, a file canno
 inline constexpr int kBadInput = 2;  ///< a scene, a file or an option is wrong
 
 // `status` outlives the command line; it is what the program exits with if nothing is thrown.
-void addCheckCommand(CLI::App& twin, int& status);
-void addScenesCommand(CLI::App& twin, int& status);
-void addModelsCommand(CLI::App& twin, int& status);
-void addControllersCommand(CLI::App& twin, int& status);
-void addNewCommand(CLI::App& twin, int& status);
-void addImportCommand(CLI::App& twin, int& status);
-void addSimulateCommand(CLI::App& twin, int& status);
-void addPlotCommand(CLI::App& twin, int& status);
-void addAnalyzeCommand(CLI::App& twin, int& status);
-void addCampbellCommand(CLI::App& twin, int& status);
-void addResponseCommand(CLI::App& twin, int& status);
-void addOrbitCommand(CLI::App& twin, int& status);
-void addTradeoffCommand(CLI::App& twin, int& status);
-void addBalanceCommand(CLI::App& twin, int& status);
-void addReportCommand(CLI::App& twin, int& status);
-void addRouthCommand(CLI::App& twin, int& status);
-void addLogCommand(CLI::App& twin, int& status);
-void addExportCommand(CLI::App& twin, int& status);
-void addRecordCommand(CLI::App& twin, int& status);
-void addPlayCommand(CLI::App& twin, int& status);
-void addSpyCommand(CLI::App& twin, int& status);
-void addWatchCommand(CLI::App& twin, int& status);
-void addFitCommand(CLI::App& twin, int& status);
-void addFollowCommand(CLI::App& twin, int& status);
-void addStabilityCommand(CLI::App& twin, int& status);
-void addLoopCommand(CLI::App& twin, int& status);
-void addMapCommand(CLI::App& twin, int& status);
-void addModesCommand(CLI::App& twin, int& status);
-void addMonitorCommand(CLI::App& twin, int& status);
-void addSweepCommand(CLI::App& twin, int& status);
+void addCheckCommand(const Command& twin, int& status);
+void addScenesCommand(const Command& twin, int& status);
+void addModelsCommand(const Command& twin, int& status);
+void addControllersCommand(const Command& twin, int& status);
+void addNewCommand(const Command& twin, int& status);
+void addImportCommand(const Command& twin, int& status);
+void addSimulateCommand(const Command& twin, int& status);
+void addPlotCommand(const Command& twin, int& status);
+void addAnalyzeCommand(const Command& twin, int& status);
+void addCampbellCommand(const Command& twin, int& status);
+void addResponseCommand(const Command& twin, int& status);
+void addOrbitCommand(const Command& twin, int& status);
+void addTradeoffCommand(const Command& twin, int& status);
+void addBalanceCommand(const Command& twin, int& status);
+void addReportCommand(const Command& twin, int& status);
+void addRouthCommand(const Command& twin, int& status);
+void addLogCommand(const Command& twin, int& status);
+void addExportCommand(const Command& twin, int& status);
+void addRecordCommand(const Command& twin, int& status);
+void addPlayCommand(const Command& twin, int& status);
+void addSpyCommand(const Command& twin, int& status);
+void addWatchCommand(const Command& twin, int& status);
+void addFitCommand(const Command& twin, int& status);
+void addFollowCommand(const Command& twin, int& status);
+void addStabilityCommand(const Command& twin, int& status);
+void addLoopCommand(const Command& twin, int& status);
+void addMapCommand(const Command& twin, int& status);
+void addModesCommand(const Command& twin, int& status);
+void addMonitorCommand(const Command& twin, int& status);
+void addSweepCommand(const Command& twin, int& status);
 
 }  // namespace whirl_twin

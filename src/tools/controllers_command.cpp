@@ -53,7 +53,7 @@ std::vector<ListedThing> all() {
 
 }  // namespace
 
-void addControllersCommand(CLI::App& twin, int& status) {
+void addControllersCommand(const Command& twin, int& status) {
   addListing(twin, status, {"controller", kDescription, kFooter, all});
 }
 

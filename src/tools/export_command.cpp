@@ -224,26 +224,25 @@ int write(const Request& request) {
 
 }  // namespace
 
-void addExportCommand(CLI::App& twin, int& status) {
-  CLI::App* command = twin.add_subcommand("export", kDescription);
+void addExportCommand(const Command& twin, int& status) {
+  const Command command = twin.subcommand("export", kDescription);
   const auto request = std::make_shared<Request>();
-  command->add_option("LOG", request->file, "LCM log or rosbag, such as demo.lcmlog, night.bag")
-      ->required()
-      ->type_name("");
-  command->add_option("--csv", request->csv, "write tables into this folder")->type_name("FOLDER");
-  command->add_option("--bag", request->bag, "write a rosbag")->type_name("FILE");
-  command->add_option("--mcap", request->mcap, "write an MCAP file")->type_name("FILE");
-  command->add_option("--compress", request->compress, "lz4: the chunks of the MCAP file")
-      ->type_name("lz4");
+  command.option("LOG", request->file, "LCM log or rosbag, such as demo.lcmlog, night.bag")
+      .required()
+      .type("");
+  command.option("--csv", request->csv, "write tables into this folder").type("FOLDER");
+  command.option("--bag", request->bag, "write a rosbag").type("FILE");
+  command.option("--mcap", request->mcap, "write an MCAP file").type("FILE");
+  command.option("--compress", request->compress, "lz4: the chunks of the MCAP file").type("lz4");
   addChannelOption(command, request->channels);
   command
-      ->add_option("--lcm-prefix", request->lcm_prefix,
-                   "what the channels of the recorded twin begin with; default: TWIN_")
-      ->type_name("PREFIX");
-  command->add_flag("--force", request->force, "write over what exists");
-  command->add_flag("--json", request->json, "print one JSON object");
-  command->footer(kFooter);
-  command->callback([request, &status] { status = write(*request); });
+      .option("--lcm-prefix", request->lcm_prefix,
+              "what the channels of the recorded twin begin with; default: TWIN_")
+      .type("PREFIX");
+  command.flag("--force", request->force, "write over what exists");
+  command.flag("--json", request->json, "print one JSON object");
+  command.footer(kFooter);
+  command.callback([request, &status] { status = write(*request); });
 }
 
 }  // namespace whirl_twin

@@ -125,33 +125,30 @@ int fit(const Request& request) {
 
 }  // namespace
 
-void addFitCommand(CLI::App& twin, int& status) {
-  CLI::App* command = twin.add_subcommand("fit", kDescription);
+void addFitCommand(const Command& twin, int& status) {
+  const Command command = twin.subcommand("fit", kDescription);
   const auto request = std::make_shared<Request>();
-  command->add_option("STUDY", request->study, "what to fit to which runs")
-      ->required()
-      ->type_name("");
-  command->add_option("--output", request->output, "write the scene with the values found")
-      ->type_name("FILE.yaml");
+  command.option("STUDY", request->study, "what to fit to which runs").required().type("");
+  command.option("--output", request->output, "write the scene with the values found")
+      .type("FILE.yaml");
   command
-      ->add_option("--plot", request->plot,
-                   "draw each run beside what is predicted: FILE.svg or FILE.png, of several runs "
-                   "FILE_RUN")
-      ->type_name("FILE");
+      .option("--plot", request->plot,
+              "draw each run beside what is predicted: FILE.svg or FILE.png, of several runs "
+              "FILE_RUN")
+      .type("FILE");
   command
-      ->add_option("--lcm-prefix", request->lcm_prefix,
-                   "what the channels of the machine begin with in runs that are logs; default: "
-                   "TWIN_")
-      ->type_name("PREFIX");
-  command->add_flag("--validate-only", request->validate_only,
-                    "find nothing but the starts of windows");
-  command->add_flag("--check", request->check,
-                    "fit nothing: tell what is odd about the runs, with its rows");
+      .option("--lcm-prefix", request->lcm_prefix,
+              "what the channels of the machine begin with in runs that are logs; default: "
+              "TWIN_")
+      .type("PREFIX");
+  command.flag("--validate-only", request->validate_only, "find nothing but the starts of windows");
+  command.flag("--check", request->check,
+               "fit nothing: tell what is odd about the runs, with its rows");
   addCsvOption(command, request->csv);
-  command->add_flag("--json", request->json, "print one JSON object");
+  command.flag("--json", request->json, "print one JSON object");
   addInsistOption(command, request->insist);
-  command->footer(kFooter);
-  command->callback([request, &status] { status = fit(*request); });
+  command.footer(kFooter);
+  command.callback([request, &status] { status = fit(*request); });
 }
 
 }  // namespace whirl_twin

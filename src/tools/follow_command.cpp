@@ -107,36 +107,33 @@ int follow(const Request& request) {
 
 }  // namespace
 
-void addFollowCommand(CLI::App& twin, int& status) {
-  CLI::App* command = twin.add_subcommand("follow", kDescription);
+void addFollowCommand(const Command& twin, int& status) {
+  const Command command = twin.subcommand("follow", kDescription);
   const auto request = std::make_shared<Request>();
   addSceneOption(command, request->scene);
   command
-      ->add_option(
-          "LOG", request->log,
-          "LCM log or rosbag with measurements, rig.lcmlog, rig.bag, or a table, swing.csv")
-      ->required()
-      ->type_name("");
+      .option("LOG", request->log,
+              "LCM log or rosbag with measurements, rig.lcmlog, rig.bag, or a table, swing.csv")
+      .required()
+      .type("");
   command
-      ->add_option("--settings", request->settings,
-                   "what to follow beside the motion: parameters, unbalance, zeros of sensors")
-      ->type_name("FILE");
+      .option("--settings", request->settings,
+              "what to follow beside the motion: parameters, unbalance, zeros of sensors")
+      .type("FILE");
+  command.option("--output", request->output, "write the twin's motion, FILE.csv or FILE.lcmlog")
+      .type("FILE");
   command
-      ->add_option("--output", request->output, "write the twin's motion, FILE.csv or FILE.lcmlog")
-      ->type_name("FILE");
+      .option("--sample", request->sample,
+              "from one sample of the motion to the next, to the nearest step; default: a step")
+      .type("S");
   command
-      ->add_option(
-          "--sample", request->sample,
-          "from one sample of the motion to the next, to the nearest step; default: a step")
-      ->type_name("S");
-  command
-      ->add_option("--lcm-prefix", request->lcm_prefix,
-                   "what the channels of the machine begin with; default: TWIN_")
-      ->type_name("PREFIX");
-  command->add_flag("--json", request->json, "print one JSON object");
+      .option("--lcm-prefix", request->lcm_prefix,
+              "what the channels of the machine begin with; default: TWIN_")
+      .type("PREFIX");
+  command.flag("--json", request->json, "print one JSON object");
   addInsistOption(command, request->insist);
-  command->footer(kFooter);
-  command->callback([request, &status] { status = follow(*request); });
+  command.footer(kFooter);
+  command.callback([request, &status] { status = follow(*request); });
 }
 
 }  // namespace whirl_twin

@@ -60,19 +60,17 @@ int importRotor(const Request& request) {
 
 }  // namespace
 
-void addImportCommand(CLI::App& twin, int& status) {
-  CLI::App* command = twin.add_subcommand("import", kDescription);
+void addImportCommand(const Command& twin, int& status) {
+  const Command command = twin.subcommand("import", kDescription);
   const auto request = std::make_shared<Request>();
-  command->add_option("FORMAT", request->format, "ross or csv")
-      ->required()
-      ->check(CLI::IsMember({"ross", "csv"}))
-      ->type_name("");
-  command->add_option("FILE", request->file, "what the other program wrote")
-      ->required()
-      ->type_name("");
-  command->add_option("--output", request->output, "the scene's file")->type_name("FILE.yaml");
-  command->footer(kFooter);
-  command->callback([request, &status] { status = importRotor(*request); });
+  command.option("FORMAT", request->format, "ross or csv")
+      .required()
+      .among({"ross", "csv"})
+      .type("");
+  command.option("FILE", request->file, "what the other program wrote").required().type("");
+  command.option("--output", request->output, "the scene's file").type("FILE.yaml");
+  command.footer(kFooter);
+  command.callback([request, &status] { status = importRotor(*request); });
 }
 
 }  // namespace whirl_twin

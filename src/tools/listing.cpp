@@ -84,15 +84,14 @@ std::string upper(std::string word) {
 
 }  // namespace
 
-void addListing(CLI::App& twin, int& status, const Listing& listing) {
-  CLI::App* command = twin.add_subcommand(listing.kind + "s", listing.description);
+void addListing(const Command& twin, int& status, const Listing& listing) {
+  const Command command = twin.subcommand(listing.kind + "s", listing.description);
   const auto request = std::make_shared<Request>();
-  command->add_option(upper(listing.kind), request->names, "these " + listing.kind + "s only")
-      ->type_name("");
+  command.option(upper(listing.kind), request->names, "these " + listing.kind + "s only").type("");
   addCsvOption(command, request->csv);
-  command->add_flag("--json", request->json, "print one JSON object");
-  command->footer(listing.footer);
-  command->callback([listing, request, &status] { status = list(listing, *request); });
+  command.flag("--json", request->json, "print one JSON object");
+  command.footer(listing.footer);
+  command.callback([listing, request, &status] { status = list(listing, *request); });
 }
 
 }  // namespace whirl_twin

@@ -2,12 +2,12 @@
 // parameters.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "reports/output.h"
+#include "tools/command.h"
 
 namespace whirl_twin {
 
@@ -27,6 +27,6 @@ struct Listing {
 
 /// Its command takes names, none for all; `status` gets its exit status. It throws Refusal with
 /// every name that there is not.
-void addListing(CLI::App& twin, int& status, const Listing& listing);
+void addListing(const Command& twin, int& status, const Listing& listing);
 
 }  // namespace whirl_twin

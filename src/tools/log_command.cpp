@@ -167,20 +167,18 @@ int summarize(const Request& request) {
 
 }  // namespace
 
-void addLogCommand(CLI::App& twin, int& status) {
-  CLI::App* command = twin.add_subcommand("log", kDescription);
+void addLogCommand(const Command& twin, int& status) {
+  const Command command = twin.subcommand("log", kDescription);
   const auto request = std::make_shared<Request>();
-  command->add_option("FILE", request->file, "LCM log, such as demo.lcmlog")
-      ->required()
-      ->type_name("");
+  command.option("FILE", request->file, "LCM log, such as demo.lcmlog").required().type("");
   command
-      ->add_option("--lcm-prefix", request->lcm_prefix,
-                   "what the channels of the recorded twin begin with; default: TWIN_")
-      ->type_name("PREFIX");
+      .option("--lcm-prefix", request->lcm_prefix,
+              "what the channels of the recorded twin begin with; default: TWIN_")
+      .type("PREFIX");
   addCsvOption(command, request->csv);
-  command->add_flag("--json", request->json, "print one JSON object");
-  command->footer(kFooter);
-  command->callback([request, &status] { status = summarize(*request); });
+  command.flag("--json", request->json, "print one JSON object");
+  command.footer(kFooter);
+  command.callback([request, &status] { status = summarize(*request); });
 }
 
 }  // namespace whirl_twin

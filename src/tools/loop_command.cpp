@@ -64,19 +64,16 @@ int loopsOf(const Request& request) {
 
 }  // namespace
 
-void addLoopCommand(CLI::App& twin, int& status) {
-  CLI::App* command = twin.add_subcommand("loop", kDescription);
+void addLoopCommand(const Command& twin, int& status) {
+  const Command command = twin.subcommand("loop", kDescription);
   const auto request = std::make_shared<Request>();
   addSceneOption(command, request->scene);
-  command
-      ->add_option("--speed", request->speed,
-                   "of all shafts [rad/s], in place of that at the start")
-      ->type_name("W");
-  command->add_option("--plot", request->plot, "the diagrams, FILE.svg or FILE.png")
-      ->type_name("FILE");
-  command->add_flag("--json", request->json, "print one JSON object");
-  command->footer(kFooter);
-  command->callback([request, &status] { status = loopsOf(*request); });
+  command.option("--speed", request->speed, "of all shafts [rad/s], in place of that at the start")
+      .type("W");
+  command.option("--plot", request->plot, "the diagrams, FILE.svg or FILE.png").type("FILE");
+  command.flag("--json", request->json, "print one JSON object");
+  command.footer(kFooter);
+  command.callback([request, &status] { status = loopsOf(*request); });
 }
 
 }  // namespace whirl_twin

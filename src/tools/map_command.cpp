@@ -64,25 +64,23 @@ int mapOf(const Request& request) {
 
 }  // namespace
 
-void addMapCommand(CLI::App& twin, int& status) {
-  CLI::App* command = twin.add_subcommand("map", kDescription);
+void addMapCommand(const Command& twin, int& status) {
+  const Command command = twin.subcommand("map", kDescription);
   const auto request = std::make_shared<Request>();
   addSceneOption(command, request->scene);
-  command->add_option("--system", request->system, "this rotor only")->type_name("NAME");
-  command->add_option("--from", request->map.from, "N/m; default: a decade below the bearings' own")
-      ->type_name("K");
-  command->add_option("--to", request->map.to, "N/m; default: two decades above the bearings' own")
-      ->type_name("K");
-  command->add_option("--points", request->map.points, "stiffnesses; default: 61")->type_name("N");
-  command->add_option("--modes", request->map.modes, "how many, the lowest; default: 4")
-      ->type_name("N");
-  command->add_option("--bearing", request->map.nodes, "nodes whose bearings are varied")
-      ->type_name("NODE");
-  command->add_option("--plot", request->plot, "the map, FILE.svg or FILE.png")->type_name("FILE");
+  command.option("--system", request->system, "this rotor only").type("NAME");
+  command.option("--from", request->map.from, "N/m; default: a decade below the bearings' own")
+      .type("K");
+  command.option("--to", request->map.to, "N/m; default: two decades above the bearings' own")
+      .type("K");
+  command.option("--points", request->map.points, "stiffnesses; default: 61").type("N");
+  command.option("--modes", request->map.modes, "how many, the lowest; default: 4").type("N");
+  command.option("--bearing", request->map.nodes, "nodes whose bearings are varied").type("NODE");
+  command.option("--plot", request->plot, "the map, FILE.svg or FILE.png").type("FILE");
   addCsvOption(command, request->csv);
-  command->add_flag("--json", request->json, "print one JSON object");
-  command->footer(kFooter);
-  command->callback([request, &status] { status = mapOf(*request); });
+  command.flag("--json", request->json, "print one JSON object");
+  command.footer(kFooter);
+  command.callback([request, &status] { status = mapOf(*request); });
 }
 
 }  // namespace whirl_twin

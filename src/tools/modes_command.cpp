@@ -97,34 +97,33 @@ int modesOf(const Request& request) {
 
 }  // namespace
 
-void addModesCommand(CLI::App& twin, int& status) {
-  CLI::App* command = twin.add_subcommand("modes", kDescription);
+void addModesCommand(const Command& twin, int& status) {
+  const Command command = twin.subcommand("modes", kDescription);
   const auto request = std::make_shared<Request>();
   addSceneOption(command, request->scene);
-  command->add_option("--system", request->system, "this rotor only")->type_name("NAME");
-  command->add_option("--measured", request->measured, "a log of the running machine")
-      ->type_name("LOG");
+  command.option("--system", request->system, "this rotor only").type("NAME");
+  command.option("--measured", request->measured, "a log of the running machine").type("LOG");
   command
-      ->add_option("--speed", request->speed,
-                   "rad/s, of the shaft; default: the drive's highest, of a log the one kept for "
-                   "longest")
-      ->type_name("W");
+      .option("--speed", request->speed,
+              "rad/s, of the shaft; default: the drive's highest, of a log the one kept for "
+              "longest")
+      .type("W");
   command
-      ->add_option("--to", request->limit,
-                   "rad/s, of the frequencies that are looked for; default: a little beyond the "
-                   "model's sixth")
-      ->type_name("W");
+      .option("--to", request->limit,
+              "rad/s, of the frequencies that are looked for; default: a little beyond the "
+              "model's sixth")
+      .type("W");
   command
-      ->add_option("--lcm-prefix", request->lcm_prefix,
-                   "what the channels of the log begin with; default: TWIN_")
-      ->type_name("PREFIX");
-  command->add_option("--plot", request->plot, "the shapes of the lowest, FILE.svg or FILE.png")
-      ->type_name("FILE");
-  command->add_option("--modes", request->modes, "how many are drawn; default: 6")->type_name("N");
+      .option("--lcm-prefix", request->lcm_prefix,
+              "what the channels of the log begin with; default: TWIN_")
+      .type("PREFIX");
+  command.option("--plot", request->plot, "the shapes of the lowest, FILE.svg or FILE.png")
+      .type("FILE");
+  command.option("--modes", request->modes, "how many are drawn; default: 6").type("N");
   addCsvOption(command, request->csv);
-  command->add_flag("--json", request->json, "print one JSON object");
-  command->footer(kFooter);
-  command->callback([request, &status] { status = modesOf(*request); });
+  command.flag("--json", request->json, "print one JSON object");
+  command.footer(kFooter);
+  command.callback([request, &status] { status = modesOf(*request); });
 }
 
 }  // namespace whirl_twin

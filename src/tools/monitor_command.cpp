@@ -109,30 +109,29 @@ int monitor(const Request& request) {
 
 }  // namespace
 
-void addMonitorCommand(CLI::App& twin, int& status) {
-  CLI::App* command = twin.add_subcommand("monitor", kDescription);
+void addMonitorCommand(const Command& twin, int& status) {
+  const Command command = twin.subcommand("monitor", kDescription);
   const auto request = std::make_shared<Request>();
   addSceneOption(command, request->scene);
-  command->add_option("LOG", request->log, "LCM log or rosbag, such as demo.lcmlog, night.bag")
-      ->required()
-      ->type_name("");
-  command->add_option("--settings", request->settings, "as config/monitor.yaml; default: that")
-      ->type_name("FILE");
-  command->add_option("--output", request->output, "write the report as a page, FILE.html")
-      ->type_name("FILE");
+  command.option("LOG", request->log, "LCM log or rosbag, such as demo.lcmlog, night.bag")
+      .required()
+      .type("");
+  command.option("--settings", request->settings, "as config/monitor.yaml; default: that")
+      .type("FILE");
+  command.option("--output", request->output, "write the report as a page, FILE.html").type("FILE");
   command
-      ->add_option("--lcm-prefix", request->lcm_prefix,
-                   "what the channels of the recorded twin begin with; default: TWIN_")
-      ->type_name("PREFIX");
+      .option("--lcm-prefix", request->lcm_prefix,
+              "what the channels of the recorded twin begin with; default: TWIN_")
+      .type("PREFIX");
   command
-      ->add_option("--spectrum-at", request->spectrum_at,
-                   "where the window of the full spectrum ends, simulated; default: at the end")
-      ->type_name("S");
+      .option("--spectrum-at", request->spectrum_at,
+              "where the window of the full spectrum ends, simulated; default: at the end")
+      .type("S");
   addCsvOption(command, request->csv);
-  command->add_flag("--json", request->json, "print one JSON object");
+  command.flag("--json", request->json, "print one JSON object");
   addInsistOption(command, request->insist);
-  command->footer(kFooter);
-  command->callback([request, &status] { status = monitor(*request); });
+  command.footer(kFooter);
+  command.callback([request, &status] { status = monitor(*request); });
 }
 
 }  // namespace whirl_twin

@@ -64,12 +64,12 @@ int write(const std::string& name) {
 
 }  // namespace
 
-void addNewCommand(CLI::App& twin, int& status) {
-  CLI::App* command = twin.add_subcommand("new", kDescription);
+void addNewCommand(const Command& twin, int& status) {
+  const Command command = twin.subcommand("new", kDescription);
   const auto model = std::make_shared<std::string>();
-  command->add_option("MODEL", *model, "one of `twin models`")->required()->type_name("");
-  command->footer(kFooter);
-  command->callback([model, &status] { status = write(*model); });
+  command.option("MODEL", *model, "one of `twin models`").required().type("");
+  command.footer(kFooter);
+  command.callback([model, &status] { status = write(*model); });
 }
 
 }  // namespace whirl_twin

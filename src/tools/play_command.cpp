@@ -322,31 +322,26 @@ int play(const Request& request) {
 
 }  // namespace
 
-void addPlayCommand(CLI::App& twin, int& status) {
-  CLI::App* command = twin.add_subcommand("play", kDescription);
+void addPlayCommand(const Command& twin, int& status) {
+  const Command command = twin.subcommand("play", kDescription);
   const auto request = std::make_shared<Request>();
-  command->add_option("LOG", request->file, "LCM log, such as demo.lcmlog")
-      ->required()
-      ->type_name("");
-  command->add_option("--start", request->start, "s, from the log's beginning; default: 0")
-      ->type_name("S");
-  command->add_option("--duration", request->duration, "s, of the log; default: to its end")
-      ->type_name("S");
-  command->add_option("--rate", request->rate, "0.1 to 1000 times as recorded, or max; default: 1")
-      ->type_name("R");
-  command->add_flag("--loop", request->loop, "begin again at the end");
+  command.option("LOG", request->file, "LCM log, such as demo.lcmlog").required().type("");
+  command.option("--start", request->start, "s, from the log's beginning; default: 0").type("S");
+  command.option("--duration", request->duration, "s, of the log; default: to its end").type("S");
+  command.option("--rate", request->rate, "0.1 to 1000 times as recorded, or max; default: 1")
+      .type("R");
+  command.flag("--loop", request->loop, "begin again at the end");
   addChannelOption(command, request->channels);
-  command->add_flag("--commands", request->commands,
-                    "send the commands to twin and monitor in the log, too");
-  command->add_option("--lcm-url", request->url, std::string("default: ") + kDefaultLcmUrl)
-      ->type_name("URL");
+  command.flag("--commands", request->commands,
+               "send the commands to twin and monitor in the log, too");
+  command.option("--lcm-url", request->url, std::string("default: ") + kDefaultLcmUrl).type("URL");
   command
-      ->add_option("--lcm-prefix", request->lcm_prefix,
-                   "what the channels of the recorded twin begin with; default: TWIN_")
-      ->type_name("PREFIX");
-  command->add_flag("--json", request->json, "print one JSON object");
-  command->footer(kFooter);
-  command->callback([request, &status] { status = play(*request); });
+      .option("--lcm-prefix", request->lcm_prefix,
+              "what the channels of the recorded twin begin with; default: TWIN_")
+      .type("PREFIX");
+  command.flag("--json", request->json, "print one JSON object");
+  command.footer(kFooter);
+  command.callback([request, &status] { status = play(*request); });
 }
 
 }  // namespace whirl_twin

@@ -207,28 +207,26 @@ int plot(const PlotRequest& request) {
 
 }  // namespace
 
-void addPlotCommand(CLI::App& twin, int& status) {
-  CLI::App* command = twin.add_subcommand("plot", kDescription);
+void addPlotCommand(const Command& twin, int& status) {
+  const Command command = twin.subcommand("plot", kDescription);
   const auto request = std::make_shared<PlotRequest>();
   addSceneOption(command, request->run.scene);
-  command->add_option("--system", request->run.system, "plot this system only")->type_name("NAME");
+  command.option("--system", request->run.system, "plot this system only").type("NAME");
   command
-      ->add_option(
-          "--duration", request->run.duration,
-          "s, simulated, to the nearest step; default: the longest drive profile, else 10 s")
-      ->type_name("S");
+      .option("--duration", request->run.duration,
+              "s, simulated, to the nearest step; default: the longest drive profile, else 10 s")
+      .type("S");
   command
-      ->add_option("--results", request->results,
-                   "folder of a study's results; SCENE is then the study")
-      ->type_name("FOLDER");
+      .option("--results", request->results, "folder of a study's results; SCENE is then the study")
+      .type("FOLDER");
   command
-      ->add_option("--output", request->folder,
-                   "folder of the files, made if need be; default: this one")
-      ->type_name("FOLDER");
-  command->add_option("--format", request->format, "svg or png; default: svg")->type_name("FORMAT");
+      .option("--output", request->folder,
+              "folder of the files, made if need be; default: this one")
+      .type("FOLDER");
+  command.option("--format", request->format, "svg or png; default: svg").type("FORMAT");
   addInsistOption(command, request->run.insist);
-  command->footer(kFooter);
-  command->callback([request, &status] { status = plot(*request); });
+  command.footer(kFooter);
+  command.callback([request, &status] { status = plot(*request); });
 }
 
 }  // namespace whirl_twin

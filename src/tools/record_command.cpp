@@ -285,28 +285,26 @@ int record(const Request& request) {
 
 }  // namespace
 
-void addRecordCommand(CLI::App& twin, int& status) {
-  CLI::App* command = twin.add_subcommand("record", kDescription);
+void addRecordCommand(const Command& twin, int& status) {
+  const Command command = twin.subcommand("record", kDescription);
   const auto request = std::make_shared<Request>();
-  command->add_option("FILE", request->file, "FILE.lcmlog or FILE.mcap")->required()->type_name("");
-  command->add_option("--duration", request->duration, "s, wall time; default: until Ctrl-C")
-      ->type_name("S");
-  command->add_option("--split-size", request->split_size, "MB, after which another file begins")
-      ->type_name("MB");
-  command->add_option("--split-time", request->split_time, "s, after which another file begins")
-      ->type_name("S");
+  command.option("FILE", request->file, "FILE.lcmlog or FILE.mcap").required().type("");
+  command.option("--duration", request->duration, "s, wall time; default: until Ctrl-C").type("S");
+  command.option("--split-size", request->split_size, "MB, after which another file begins")
+      .type("MB");
+  command.option("--split-time", request->split_time, "s, after which another file begins")
+      .type("S");
   addChannelOption(command, request->channels);
-  command->add_flag("--all", request->all, "every LCM channel, not only the twin's");
-  command->add_option("--lcm-url", request->url, std::string("default: ") + kDefaultLcmUrl)
-      ->type_name("URL");
+  command.flag("--all", request->all, "every LCM channel, not only the twin's");
+  command.option("--lcm-url", request->url, std::string("default: ") + kDefaultLcmUrl).type("URL");
   command
-      ->add_option("--lcm-prefix", request->lcm_prefix,
-                   "what the channels of the twin begin with; default: TWIN_")
-      ->type_name("PREFIX");
-  command->add_flag("--force", request->force, "write over what exists");
-  command->add_flag("--json", request->json, "print one JSON object");
-  command->footer(kFooter);
-  command->callback([request, &status] { status = record(*request); });
+      .option("--lcm-prefix", request->lcm_prefix,
+              "what the channels of the twin begin with; default: TWIN_")
+      .type("PREFIX");
+  command.flag("--force", request->force, "write over what exists");
+  command.flag("--json", request->json, "print one JSON object");
+  command.footer(kFooter);
+  command.callback([request, &status] { status = record(*request); });
 }
 
 }  // namespace whirl_twin

@@ -87,30 +87,30 @@ int reportOf(Request& request) {
 
 }  // namespace
 
-void addReportCommand(CLI::App& twin, int& status) {
-  CLI::App* command = twin.add_subcommand("report", kDescription);
+void addReportCommand(const Command& twin, int& status) {
+  const Command command = twin.subcommand("report", kDescription);
   const auto request = std::make_shared<Request>();
   addSceneOption(command, request->scene);
-  command->add_option("--output", request->output, "where the pages go; made if it is not there")
-      ->required()
-      ->type_name("FOLDER");
-  command->add_option("--system", request->system, "this rotor only")->type_name("NAME");
+  command.option("--output", request->output, "where the pages go; made if it is not there")
+      .required()
+      .type("FOLDER");
+  command.option("--system", request->system, "this rotor only").type("NAME");
   command
-      ->add_option("--speed", request->report.speed,
-                   "rad/s, of modes, margins and stability; default: the drive's highest")
-      ->type_name("W");
+      .option("--speed", request->report.speed,
+              "rad/s, of modes, margins and stability; default: the drive's highest")
+      .type("W");
   command
-      ->add_option("--stage", request->centrifugal,
-                   "W, m, m, -: power, diameter, width, ratio of densities of a centrifugal stage")
-      ->type_size(4)
-      ->type_name("P D H RATIO");
+      .option("--stage", request->centrifugal,
+              "W, m, m, -: power, diameter, width, ratio of densities of a centrifugal stage")
+      .values(4)
+      .type("P D H RATIO");
   command
-      ->add_option("--axial-stage", request->axial,
-                   "W, m, m: power, pitch diameter, height of the blades of an axial stage")
-      ->type_size(3)
-      ->type_name("P D H");
-  command->footer(kFooter);
-  command->callback([request, &status] { status = reportOf(*request); });
+      .option("--axial-stage", request->axial,
+              "W, m, m: power, pitch diameter, height of the blades of an axial stage")
+      .values(3)
+      .type("P D H");
+  command.footer(kFooter);
+  command.callback([request, &status] { status = reportOf(*request); });
 }
 
 }  // namespace whirl_twin

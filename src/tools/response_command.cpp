@@ -79,51 +79,47 @@ int show(const Request& request, const Report& report) {
   return kDone;
 }
 
-void addCommonOptions(CLI::App* command, const std::shared_ptr<Request>& request) {
+void addCommonOptions(const Command& command, const std::shared_ptr<Request>& request) {
   addSceneOption(command, request->scene);
-  command->add_option("--system", request->system, "this rotor only")->type_name("NAME");
-  command->add_option("--plot", request->plot, "a picture, FILE.svg or FILE.png")
-      ->type_name("FILE");
+  command.option("--system", request->system, "this rotor only").type("NAME");
+  command.option("--plot", request->plot, "a picture, FILE.svg or FILE.png").type("FILE");
   addCsvOption(command, request->csv);
-  command->add_flag("--json", request->json, "print one JSON object");
+  command.flag("--json", request->json, "print one JSON object");
 }
 
 }  // namespace
 
-void addResponseCommand(CLI::App& twin, int& status) {
-  CLI::App* command = twin.add_subcommand(
+void addResponseCommand(const Command& twin, int& status) {
+  const Command command = twin.subcommand(
       "response", "Unbalance response of the rotors of a scene over the shaft's speed.");
   const auto request = std::make_shared<Request>();
   addCommonOptions(command, request);
-  command->add_option("--from", request->range.from, "rad/s; default: 0")->type_name("W");
+  command.option("--from", request->range.from, "rad/s; default: 0").type("W");
   command
-      ->add_option(
-          "--to", request->range.to,
-          "rad/s; default: 1.2 times the drive's highest speed; of a force a little beyond "
-          "the sixth mode")
-      ->type_name("W");
-  command->add_option("--points", request->range.points, "speeds, at least; default: 200")
-      ->type_name("N");
-  command->add_option("--station", request->station, "this place along the shaft only")
-      ->type_name("NAME");
-  CLI::Option* force =
-      command->add_option("--force", request->force.force, "a harmonic force that does not turn")
-          ->type_name("NAME");
-  command->add_option("--along", request->force.along, "x or y, of the force; default: x")
-      ->needs(force)
-      ->type_name("AXIS");
-  command->add_option("--at", request->force.at, "places that respond to it; default: its own")
-      ->needs(force)
-      ->type_name("NAME");
+      .option("--to", request->range.to,
+              "rad/s; default: 1.2 times the drive's highest speed; of a force a little beyond "
+              "the sixth mode")
+      .type("W");
+  command.option("--points", request->range.points, "speeds, at least; default: 200").type("N");
+  command.option("--station", request->station, "this place along the shaft only").type("NAME");
+  const Option force =
+      command.option("--force", request->force.force, "a harmonic force that does not turn")
+          .type("NAME");
+  command.option("--along", request->force.along, "x or y, of the force; default: x")
+      .needs(force)
+      .type("AXIS");
+  command.option("--at", request->force.at, "places that respond to it; default: its own")
+      .needs(force)
+      .type("NAME");
   command
-      ->add_option("--speed", request->force.speed,
-                   "rad/s, of the shaft under it; default: the drive's highest")
-      ->needs(force)
-      ->type_name("W");
+      .option("--speed", request->force.speed,
+              "rad/s, of the shaft under it; default: the drive's highest")
+      .needs(force)
+      .type("W");
   addInsistOption(command, request->insist);
-  command->footer(kResponseFooter);
-  command->callback([request, force, &status] {
-    if (force->count() > 0) {
+  command.footer(kResponseFooter);
+  command.callback([request, force, &status] {
+    if (force.given()) {
       request->force.from = request->range.from;
       request->force.to = request->range.to;
       request->force.points = request->range.points;
@@ -140,14 +136,14 @@ void addResponseCommand(CLI::App& twin, int& status) {
   });
 }
 
-void addOrbitCommand(CLI::App& twin, int& status) {
-  CLI::App* command = twin.add_subcommand(
+void addOrbitCommand(const Command& twin, int& status) {
+  const Command command = twin.subcommand(
       "orbit", "Orbits that the unbalance drives at one speed, at every station of the rotors.");
   const auto request = std::make_shared<Request>();
   addCommonOptions(command, request);
-  command->add_option("--speed", request->speed, "rad/s, of the shaft")->required()->type_name("W");
-  command->footer(kOrbitFooter);
-  command->callback([request, &status] {
+  command.option("--speed", request->speed, "rad/s, of the shaft").required().type("W");
+  command.footer(kOrbitFooter);
+  command.callback([request, &status] {
     status = show(*request,
                   [&](const RotorSystem& system) { return orbitReport(system, request->speed); });
   });

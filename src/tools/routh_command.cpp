@@ -288,21 +288,21 @@ int test(const Request& request) {
 
 }  // namespace
 
-void addRouthCommand(CLI::App& twin, int& status) {
-  CLI::App* command = twin.add_subcommand("routh", kDescription);
+void addRouthCommand(const Command& twin, int& status) {
+  const Command command = twin.subcommand("routh", kDescription);
   const auto request = std::make_shared<Request>();
-  command->add_option("COEFFICIENTS", request->coefficients, "A_N ... A_0, highest power first")
-      ->required()
-      ->type_name("");
+  command.option("COEFFICIENTS", request->coefficients, "A_N ... A_0, highest power first")
+      .required()
+      .type("");
   command
-      ->add_option("--parameter", request->parameter,
-                   "a name: for which values of it is the polynomial stable")
-      ->type_name("K");
+      .option("--parameter", request->parameter,
+              "a name: for which values of it is the polynomial stable")
+      .type("K");
   addCsvOption(command, request->csv);
-  command->add_flag("--json", request->json, "print one JSON object");
+  command.flag("--json", request->json, "print one JSON object");
   addInsistOption(command, request->insist);
-  command->footer(kFooter);
-  command->callback([request, &status] { status = test(*request); });
+  command.footer(kFooter);
+  command.callback([request, &status] { status = test(*request); });
 }
 
 }  // namespace whirl_twin

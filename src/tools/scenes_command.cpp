@@ -147,20 +147,19 @@ int showScene(const std::string& name, bool as_json) {
 
 }  // namespace
 
-void addScenesCommand(CLI::App& twin, int& status) {
+void addScenesCommand(const Command& twin, int& status) {
   struct Request {
     std::optional<std::string> folder, show;
     bool json = false;
   };
-  CLI::App* command = twin.add_subcommand("scenes", kDescription);
+  const Command command = twin.subcommand("scenes", kDescription);
   const auto request = std::make_shared<Request>();
-  command->add_option("FOLDER", request->folder, "of scene files; default: the package's")
-      ->type_name("");
-  command->add_option("--show", request->show, "print this scene as it is written, and list none")
-      ->type_name("NAME");
-  command->add_flag("--json", request->json, "print one JSON object");
-  command->footer(kFooter);
-  command->callback([request, &status] {
+  command.option("FOLDER", request->folder, "of scene files; default: the package's").type("");
+  command.option("--show", request->show, "print this scene as it is written, and list none")
+      .type("NAME");
+  command.flag("--json", request->json, "print one JSON object");
+  command.footer(kFooter);
+  command.callback([request, &status] {
     status = request->show ? showScene(*request->show, request->json)
                            : listScenes(request->folder, request->json);
   });

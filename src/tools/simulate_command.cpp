@@ -118,55 +118,50 @@ int simulate(const SimulationRequest& request) {
 
 }  // namespace
 
-void addSimulateCommand(CLI::App& twin, int& status) {
-  CLI::App* command = twin.add_subcommand("simulate", kDescription);
+void addSimulateCommand(const Command& twin, int& status) {
+  const Command command = twin.subcommand("simulate", kDescription);
   const auto request = std::make_shared<SimulationRequest>();
   addSceneOption(command, request->scene);
   command
-      ->add_option(
-          "--duration", request->duration,
-          "s, simulated, to the nearest step; default: the longest drive profile, else 10 s")
-      ->type_name("S");
-  command->add_option("--step", request->step, "s, instead of the scene's: 1e-9 to 10")
-      ->type_name("S");
+      .option("--duration", request->duration,
+              "s, simulated, to the nearest step; default: the longest drive profile, else 10 s")
+      .type("S");
+  command.option("--step", request->step, "s, instead of the scene's: 1e-9 to 10").type("S");
   command
-      ->add_option("--integrator", request->integrator,
-                   "instead of the scene's, for all systems or that of --system")
-      ->type_name("NAME");
+      .option("--integrator", request->integrator,
+              "instead of the scene's, for all systems or that of --system")
+      .type("NAME");
   command
-      ->add_option("--sample", request->sample,
-                   "s between rows, to the nearest step; default: a step")
-      ->type_name("S");
+      .option("--sample", request->sample, "s between rows, to the nearest step; default: a step")
+      .type("S");
   command
-      ->add_option("--output", request->output,
-                   "FILE.csv, FILE.lcmlog or FILE.mcap; default: a table on standard output")
-      ->type_name("FILE");
+      .option("--output", request->output,
+              "FILE.csv, FILE.lcmlog or FILE.mcap; default: a table on standard output")
+      .type("FILE");
   command
-      ->add_option("--members", request->members,
-                   "FILE.csv: of a system with a count, what each member was and came to")
-      ->type_name("FILE");
+      .option("--members", request->members,
+              "FILE.csv: of a system with a count, what each member was and came to")
+      .type("FILE");
   command
-      ->add_option("--measure", request->measure,
-                   "the name of sensors of the scene, or `sensors` for all of them: what they\n"
-                   "measure goes into the log too")
-      ->type_name("NAME");
+      .option("--measure", request->measure,
+              "the name of sensors of the scene, or `sensors` for all of them: what they\n"
+              "measure goes into the log too")
+      .type("NAME");
   command
-      ->add_option(
-          "--checkpoint", request->checkpoint,
-          "a file, in which the run is saved every 5 s of wall time, at its end, and where "
-          "it is interrupted")
-      ->type_name("FILE");
+      .option("--checkpoint", request->checkpoint,
+              "a file, in which the run is saved every 5 s of wall time, at its end, and where "
+              "it is interrupted")
+      .type("FILE");
   command
-      ->add_option(
-          "--resume", request->resume,
-          "a checkpoint of the same scene, to go on from to the bit up to --duration, which "
-          "counts from the scene's start")
-      ->type_name("FILE");
-  command->add_option("--system", request->system, "show this system only")->type_name("NAME");
-  command->add_flag("--json", request->json, "print the final state as one JSON object");
+      .option("--resume", request->resume,
+              "a checkpoint of the same scene, to go on from to the bit up to --duration, which "
+              "counts from the scene's start")
+      .type("FILE");
+  command.option("--system", request->system, "show this system only").type("NAME");
+  command.flag("--json", request->json, "print the final state as one JSON object");
   addInsistOption(command, request->insist);
-  command->footer(kFooter);
-  command->callback([request, &status] { status = simulate(*request); });
+  command.footer(kFooter);
+  command.callback([request, &status] { status = simulate(*request); });
 }
 
 }  // namespace whirl_twin

@@ -210,22 +210,20 @@ int spy(const Request& request) {
 
 }  // namespace
 
-void addSpyCommand(CLI::App& twin, int& status) {
-  CLI::App* command = twin.add_subcommand("spy", kDescription);
+void addSpyCommand(const Command& twin, int& status) {
+  const Command command = twin.subcommand("spy", kDescription);
   const auto request = std::make_shared<Request>();
-  command->add_option("--duration", request->duration, "s, wall time; default: until Ctrl-C")
-      ->type_name("S");
-  command->add_flag("--once", request->once, "one table, of one second or of --duration");
+  command.option("--duration", request->duration, "s, wall time; default: until Ctrl-C").type("S");
+  command.flag("--once", request->once, "one table, of one second or of --duration");
   addChannelOption(command, request->channels);
-  command->add_option("--lcm-url", request->url, std::string("default: ") + kDefaultLcmUrl)
-      ->type_name("URL");
+  command.option("--lcm-url", request->url, std::string("default: ") + kDefaultLcmUrl).type("URL");
   command
-      ->add_option("--lcm-prefix", request->lcm_prefix,
-                   "what the channels of the twin begin with; default: TWIN_")
-      ->type_name("PREFIX");
-  command->add_flag("--json", request->json, "print one JSON object at the end");
-  command->footer(kFooter);
-  command->callback([request, &status] { status = spy(*request); });
+      .option("--lcm-prefix", request->lcm_prefix,
+              "what the channels of the twin begin with; default: TWIN_")
+      .type("PREFIX");
+  command.flag("--json", request->json, "print one JSON object at the end");
+  command.footer(kFooter);
+  command.callback([request, &status] { status = spy(*request); });
 }
 
 }  // namespace whirl_twin

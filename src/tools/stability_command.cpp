@@ -79,33 +79,31 @@ int levelOneOf(Request& request) {
 
 }  // namespace
 
-void addStabilityCommand(CLI::App& twin, int& status) {
-  CLI::App* command = twin.add_subcommand("stability", kDescription);
+void addStabilityCommand(const Command& twin, int& status) {
+  const Command command = twin.subcommand("stability", kDescription);
   const auto request = std::make_shared<Request>();
   addSceneOption(command, request->scene);
-  command->add_option("--system", request->system, "this rotor only")->type_name("NAME");
+  command.option("--system", request->system, "this rotor only").type("NAME");
   command
-      ->add_option("--speed", request->level_one.speed,
-                   "rad/s, of the shaft; default: the drive's highest")
-      ->type_name("W");
-  command->add_option("--at", request->level_one.at, "where it acts; default: at mid-span")
-      ->type_name("NAME");
+      .option("--speed", request->level_one.speed,
+              "rad/s, of the shaft; default: the drive's highest")
+      .type("W");
+  command.option("--at", request->level_one.at, "where it acts; default: at mid-span").type("NAME");
   command
-      ->add_option("--stage", request->centrifugal,
-                   "W, m, m, -: power, diameter, width, ratio of densities of a centrifugal stage")
-      ->type_size(4)
-      ->type_name("P D H RATIO");
+      .option("--stage", request->centrifugal,
+              "W, m, m, -: power, diameter, width, ratio of densities of a centrifugal stage")
+      .values(4)
+      .type("P D H RATIO");
   command
-      ->add_option("--axial-stage", request->axial,
-                   "W, m, m: power, pitch diameter, height of the blades of an axial stage")
-      ->type_size(3)
-      ->type_name("P D H");
-  command->add_option("--plot", request->plot, "the diagram, FILE.svg or FILE.png")
-      ->type_name("FILE");
+      .option("--axial-stage", request->axial,
+              "W, m, m: power, pitch diameter, height of the blades of an axial stage")
+      .values(3)
+      .type("P D H");
+  command.option("--plot", request->plot, "the diagram, FILE.svg or FILE.png").type("FILE");
   addCsvOption(command, request->csv);
-  command->add_flag("--json", request->json, "print one JSON object");
-  command->footer(kFooter);
-  command->callback([request, &status] { status = levelOneOf(*request); });
+  command.flag("--json", request->json, "print one JSON object");
+  command.footer(kFooter);
+  command.callback([request, &status] { status = levelOneOf(*request); });
 }
 
 }  // namespace whirl_twin

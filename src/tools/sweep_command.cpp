@@ -311,28 +311,27 @@ int sweepStudy(const Request& request) {
 
 }  // namespace
 
-void addSweepCommand(CLI::App& twin, int& status) {
-  CLI::App* command = twin.add_subcommand("sweep", kDescription);
+void addSweepCommand(const Command& twin, int& status) {
+  const Command command = twin.subcommand("sweep", kDescription);
   const auto request = std::make_shared<Request>();
-  command->add_option("STUDY", request->study, "what varies, is run and is measured")
-      ->required()
-      ->type_name("");
-  command->add_option("--output", request->output, "the folder of the results, made if need be")
-      ->type_name("FOLDER");
-  command->add_option("--point", request->point, "run this point alone, from 0, and print it")
-      ->type_name("I");
-  command->add_option("--workers", request->workers, "threads; default: one a core, or one a rank")
-      ->type_name("N");
-  command->add_option("--part", request->part, "run every N-th block, from the I-th of them on")
-      ->type_name("I/N");
-  command->add_flag("--merge", request->merge, "run nothing: put together what parts have run");
-  command->add_flag("--status", request->status, "run nothing: tell how far it has come");
-  command->add_flag("--mixed", request->mixed,
-                    "go on with results of another version, compiler or processor");
-  command->add_flag("--json", request->json, "print one JSON object");
+  command.option("STUDY", request->study, "what varies, is run and is measured")
+      .required()
+      .type("");
+  command.option("--output", request->output, "the folder of the results, made if need be")
+      .type("FOLDER");
+  command.option("--point", request->point, "run this point alone, from 0, and print it").type("I");
+  command.option("--workers", request->workers, "threads; default: one a core, or one a rank")
+      .type("N");
+  command.option("--part", request->part, "run every N-th block, from the I-th of them on")
+      .type("I/N");
+  command.flag("--merge", request->merge, "run nothing: put together what parts have run");
+  command.flag("--status", request->status, "run nothing: tell how far it has come");
+  command.flag("--mixed", request->mixed,
+               "go on with results of another version, compiler or processor");
+  command.flag("--json", request->json, "print one JSON object");
   addInsistOption(command, request->insist);
-  command->footer(kFooter);
-  command->callback([request, &status] { status = sweepStudy(*request); });
+  command.footer(kFooter);
+  command.callback([request, &status] { status = sweepStudy(*request); });
 }
 
 }  // namespace whirl_twin

@@ -128,23 +128,22 @@ int tradeoffOf(const Request& request) {
 
 }  // namespace
 
-void addTradeoffCommand(CLI::App& twin, int& status) {
-  CLI::App* command = twin.add_subcommand("tradeoff", kDescription);
+void addTradeoffCommand(const Command& twin, int& status) {
+  const Command command = twin.subcommand("tradeoff", kDescription);
   const auto request = std::make_shared<Request>();
   addSceneOption(command, request->scene);
-  command->add_option("--system", request->system, "this system only")->type_name("NAME");
+  command.option("--system", request->system, "this system only").type("NAME");
   command
-      ->add_option("--duration", request->duration,
-                   "seconds of simulated time; default: the system's horizon")
-      ->type_name("S");
-  command->add_option("--plot", request->plot, "a work-precision plot, FILE.svg or FILE.png")
-      ->type_name("FILE");
-  command->add_option("--output", request->output, "the rows as a table, FILE.csv")
-      ->type_name("FILE");
-  command->add_flag("--json", request->json, "print one JSON object");
+      .option("--duration", request->duration,
+              "seconds of simulated time; default: the system's horizon")
+      .type("S");
+  command.option("--plot", request->plot, "a work-precision plot, FILE.svg or FILE.png")
+      .type("FILE");
+  command.option("--output", request->output, "the rows as a table, FILE.csv").type("FILE");
+  command.flag("--json", request->json, "print one JSON object");
   addInsistOption(command, request->insist);
-  command->footer(kFooter);
-  command->callback([request, &status] { status = tradeoffOf(*request); });
+  command.footer(kFooter);
+  command.callback([request, &status] { status = tradeoffOf(*request); });
 }
 
 }  // namespace whirl_twin

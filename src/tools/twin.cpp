@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -96,36 +97,37 @@ int run(int argc, const char* const* argv) {
   twin.set_version_flag("--version", "twin (whirl_twin) " WHIRL_TWIN_VERSION,
                         "print the version and exit");
   twin.require_subcommand(1);
-  addCheckCommand(twin, status);
-  addScenesCommand(twin, status);
-  addModelsCommand(twin, status);
-  addControllersCommand(twin, status);
-  addNewCommand(twin, status);
-  addImportCommand(twin, status);
-  addSimulateCommand(twin, status);
-  addPlotCommand(twin, status);
-  addAnalyzeCommand(twin, status);
-  addCampbellCommand(twin, status);
-  addResponseCommand(twin, status);
-  addOrbitCommand(twin, status);
-  addMapCommand(twin, status);
-  addStabilityCommand(twin, status);
-  addReportCommand(twin, status);
-  addLoopCommand(twin, status);
-  addModesCommand(twin, status);
-  addBalanceCommand(twin, status);
-  addTradeoffCommand(twin, status);
-  addSweepCommand(twin, status);
-  addRouthCommand(twin, status);
-  addLogCommand(twin, status);
-  addRecordCommand(twin, status);
-  addPlayCommand(twin, status);
-  addSpyCommand(twin, status);
-  addWatchCommand(twin, status);
-  addExportCommand(twin, status);
-  addMonitorCommand(twin, status);
-  addFitCommand(twin, status);
-  addFollowCommand(twin, status);
+  const Command commands(&twin);
+  addCheckCommand(commands, status);
+  addScenesCommand(commands, status);
+  addModelsCommand(commands, status);
+  addControllersCommand(commands, status);
+  addNewCommand(commands, status);
+  addImportCommand(commands, status);
+  addSimulateCommand(commands, status);
+  addPlotCommand(commands, status);
+  addAnalyzeCommand(commands, status);
+  addCampbellCommand(commands, status);
+  addResponseCommand(commands, status);
+  addOrbitCommand(commands, status);
+  addMapCommand(commands, status);
+  addStabilityCommand(commands, status);
+  addReportCommand(commands, status);
+  addLoopCommand(commands, status);
+  addModesCommand(commands, status);
+  addBalanceCommand(commands, status);
+  addTradeoffCommand(commands, status);
+  addSweepCommand(commands, status);
+  addRouthCommand(commands, status);
+  addLogCommand(commands, status);
+  addRecordCommand(commands, status);
+  addPlayCommand(commands, status);
+  addSpyCommand(commands, status);
+  addWatchCommand(commands, status);
+  addExportCommand(commands, status);
+  addMonitorCommand(commands, status);
+  addFitCommand(commands, status);
+  addFollowCommand(commands, status);
 
   std::vector<std::string> arguments = orderedArguments(argc, argv);
   if (unknownCommand(twin, arguments)) {

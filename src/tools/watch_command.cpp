@@ -270,20 +270,18 @@ int watch(const Request& request) {
 
 }  // namespace
 
-void addWatchCommand(CLI::App& twin, int& status) {
-  CLI::App* command = twin.add_subcommand("watch", kDescription);
+void addWatchCommand(const Command& twin, int& status) {
+  const Command command = twin.subcommand("watch", kDescription);
   const auto request = std::make_shared<Request>();
-  command->add_option("--duration", request->duration, "s, wall time; default: until Ctrl-C")
-      ->type_name("S");
-  command->add_option("--lcm-url", request->url, std::string("default: ") + kDefaultLcmUrl)
-      ->type_name("URL");
+  command.option("--duration", request->duration, "s, wall time; default: until Ctrl-C").type("S");
+  command.option("--lcm-url", request->url, std::string("default: ") + kDefaultLcmUrl).type("URL");
   command
-      ->add_option("--lcm-prefix", request->lcm_prefix,
-                   "what the channels of the twin begin with; default: TWIN_")
-      ->type_name("PREFIX");
-  command->add_flag("--json", request->json, "print one JSON object at the end");
-  command->footer(kFooter);
-  command->callback([request, &status] { status = watch(*request); });
+      .option("--lcm-prefix", request->lcm_prefix,
+              "what the channels of the twin begin with; default: TWIN_")
+      .type("PREFIX");
+  command.flag("--json", request->json, "print one JSON object at the end");
+  command.footer(kFooter);
+  command.callback([request, &status] { status = watch(*request); });
 }
 
 }  // namespace whirl_twin

@@ -18,6 +18,7 @@ function(whirl_twin_rostest name file)
     add_executable(${name} ${rostest_SOURCES})
     target_link_libraries(${name} PRIVATE whirl_twin_core whirl_twin_ros whirl_twin_warnings
       ${rostest_LIBRARIES} GTest::gtest)
+    target_precompile_headers(${name} REUSE_FROM whirl_twin_ros_headers)
     add_dependencies(rostest_${name} ${name})
   endif()
   # Not with --text: rostest then passes whatever the test programs report. A file that ran no test
@@ -27,6 +28,6 @@ function(whirl_twin_rostest name file)
     COMMAND ${PROJECT_SOURCE_DIR}/tests/ros/in_private_network
       env -u ROS_HOSTNAME ROS_IP=127.0.0.1 ROS_HOME=${PROJECT_BINARY_DIR}/ros_home/${name}
       ${CATKIN_DEVEL_PREFIX}/env.sh ${ROSTEST} ${file})
-  set_tests_properties(rostest_${name} PROPERTIES LABELS rostest RUN_SERIAL ON TIMEOUT 120
+  set_tests_properties(rostest_${name} PROPERTIES LABELS rostest RESOURCE_LOCK live COST 100 TIMEOUT 120
     FAIL_REGULAR_EXPRESSION "TESTS: 0[^0-9]")
 endfunction()

@@ -1,0 +1,75 @@
+#include "tools/command.h"
+
+#include <CLI/CLI.hpp>
+#include <cstddef>
+#include <optional>
+
+namespace whirl_twin {
+
+Option Option::type(const std::string& name) const {
+  return Option(option_->type_name(name));
+}
+
+Option Option::required() const {
+  return Option(option_->required());
+}
+
+Option Option::needs(const Option& other) const {
+  return Option(option_->needs(other.option_));
+}
+
+Option Option::values(int count) const {
+  return Option(option_->type_size(count));
+}
+
+Option Option::oneByOne() const {
+  return Option(option_->expected(1)->take_all());
+}
+
+Option Option::among(const std::vector<std::string>& values) const {
+  return Option(option_->check(CLI::IsMember(values)));
+}
+
+bool Option::given() const {
+  return option_->count() > 0;
+}
+
+Command Command::subcommand(const std::string& name, const std::string& description) const {
+  return Command(app_->add_subcommand(name, description));
+}
+
+template <class T>
+Option Command::option(const std::string& name, T& value, const std::string& text) const {
+  return Option(app_->add_option(name, value, text));
+}
+
+// NOLINTBEGIN(bugprone-macro-parentheses): a type
+#define WHIRL_TWIN_OPTION(...)                                                   \
+  template Option Command::option<__VA_ARGS__>(const std::string&, __VA_ARGS__&, \
+                                               const std::string&) const;
+// NOLINTEND(bugprone-macro-parentheses)
+WHIRL_TWIN_OPTION(std::string)
+WHIRL_TWIN_OPTION(double)
+WHIRL_TWIN_OPTION(int)
+WHIRL_TWIN_OPTION(unsigned int)
+WHIRL_TWIN_OPTION(std::optional<std::string>)
+WHIRL_TWIN_OPTION(std::optional<double>)
+WHIRL_TWIN_OPTION(std::optional<std::size_t>)
+WHIRL_TWIN_OPTION(std::vector<std::string>)
+WHIRL_TWIN_OPTION(std::vector<double>)
+WHIRL_TWIN_OPTION(std::vector<int>)
+WHIRL_TWIN_OPTION(std::vector<std::vector<double>>)
+
+Option Command::flag(const std::string& name, bool& value, const std::string& text) const {
+  return Option(app_->add_flag(name, value, text));
+}
+
+void Command::footer(const std::string& text) const {
+  app_->footer(text);
+}
+
+void Command::callback(const std::function<void()>& run) const {
+  app_->callback(run);
+}
+
+}  // namespace whirl_twin
