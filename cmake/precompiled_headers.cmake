@@ -6,7 +6,9 @@ set(whirl_twin_common_headers
 
 # whirl_twin_headers(NAME [OPTIONS OPTION...] LIBRARIES LIB... HEADERS HEADER...): a library of nothing but headers read
 # once, for the targets of the same options that have them REUSE_FROM NAME.
-file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/nothing.cpp "")
+if(NOT EXISTS ${PROJECT_BINARY_DIR}/nothing.cpp)
+  file(WRITE ${PROJECT_BINARY_DIR}/nothing.cpp "")
+endif()
 function(whirl_twin_headers name)
   cmake_parse_arguments(headers "" "" "OPTIONS;LIBRARIES;HEADERS" ${ARGN})
   add_library(${name} OBJECT ${PROJECT_BINARY_DIR}/nothing.cpp)

@@ -13,7 +13,7 @@ constexpr std::int64_t kLongestRest = 4096;
 constexpr std::int64_t kShortestRest = 64;
 /// Steps within which speeds are bounded to put off a look, and looks from one step after another
 /// after it was not worth it.
-constexpr std::int64_t kMostPutOff = 64;
+constexpr std::int64_t kMostPutOff = 16;
 constexpr int kLooksInTurn = 32;
 /// Part of the largest radius, below which a whirl soon has no angle.
 constexpr double kSmall = 1.0e-6;
@@ -116,8 +116,12 @@ void FollowedWhirl::putOff(const Dynamics& dynamics, const double* q, const doub
   if (rest_ && wide) {
     const ShaftMotion shaft = drive.withoutAngle(0.0);
     const double longest = std::min(drive.nextCorner(0.0), kMostPutOff * seconds);
-    const double acceleration = std::fabs(shaft.acceleration) + longest * std::fabs(shaft.jerk);
-    const double speed = std::fabs(shaft.speed) + longest * acceleration;
+    const ShaftMotion end = drive.withoutAngle(longest);
+    const double acceleration =
+        std::max(std::fabs(shaft.acceleration), std::fabs(end.acceleration));
+    // Between the two ends it is no further from them than a vertex of the parabola can be.
+    const double speed = std::max(std::fabs(shaft.speed), std::fabs(end.speed)) +
+                         0.125 * longest * longest * std::fabs(shaft.jerk);
     const double lasts = rest_->lasts(q, v, speed, acceleration, speed * seconds);
     steps = static_cast<std::int64_t>(std::min(lasts, longest) / seconds);
   }

@@ -5,9 +5,10 @@
 //
 // observe() works out everything, for a step that somebody is told of. look() costs a few
 // nanoseconds and keeps what must not be missed between such steps: which way round the centre the
-// whirl goes, what a motor gives, that an error was found. Phases are the same to the last bit
-// whichever steps were observed, and from where a radius has been 1e-9 of the largest one on but
-// for whole turns; the energy residual is in parts of the largest energy observed.
+// whirl goes, what a motor gives, that an error was found (where looks are put off, by then).
+// Phases are the same to the last bit whichever steps were observed, and from where a radius has
+// been 1e-9 of the largest one on but for whole turns; the energy residual is in parts of the
+// largest energy observed.
 #pragma once
 
 #include <cstdint>

@@ -10,6 +10,7 @@ namespace whirl_twin {
 
 namespace {
 
+constexpr double kHalfTurn = 3.14159265358979323846;
 /// Of the radius, that a whirl may move where its shaft hardly turns.
 constexpr double kPart = 0.9;
 /// mu t, up to which it is followed, and e to the power of it.
@@ -45,6 +46,9 @@ double WhirlRest::lasts(const double* q, const double* v, double speed, double a
                         double turned) const {
   const double length = free_->length([&](Eigen::Index j) { return q[j] - sag_[j]; },
                                       [&](Eigen::Index j) { return v[j]; });
+  if (!(turned < kHalfTurn)) {
+    return 0.0;
+  }
   double room = std::numeric_limits<double>::infinity();  // of the integral of |y|
   for (const Place& place : places_) {
     double x = 0.0;
@@ -63,7 +67,7 @@ double WhirlRest::lasts(const double* q, const double* v, double speed, double a
   }
   const double push = steady_push_ + inertial_push_ * (speed * speed + acceleration);
   const double lasts = 2.0 * room / (length + std::sqrt(length * length + 2.0 * push * room));
-  return lasts < longest ? lasts : longest;
+  return lasts > 0.0 ? std::min(lasts, longest) : 0.0;
 }
 
 }  // namespace whirl_twin

@@ -27,8 +27,9 @@ class WhirlRest {
                                      const std::vector<Station>& stations);
 
   /// [s] from the state q, v, in which the shaft is nowhere faster than `speed` [rad/s] nor speeds
-  /// up by more than `acceleration` [rad/s^2]. turned: of a turn, by which the shaft turns at most
-  /// from one step to the next [rad]: its mark and the whirl together stay below half a turn.
+  /// up by more than `acceleration` [rad/s^2]; 0: not even now. turned: by how much the shaft turns
+  /// at most from one step to the next [rad]: its mark and the whirl together stay below half a
+  /// turn.
   double lasts(const double* q, const double* v, double speed, double acceleration,
                double turned) const;
 

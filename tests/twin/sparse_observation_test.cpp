@@ -223,6 +223,31 @@ TEST(SparseObservation, WhirlInARunUpIsLookedAtNowAndThen) {
   }
 }
 
+// Within a step the shaft turns by nearly a quarter of a turn, and gets there within a few steps: a
+// bound of how far it turns that is too wide is more than half a turn.
+TEST(SparseObservation, ShaftsThatTurnFarInAStepAreFollowed) {
+  std::int64_t put_off = 0;
+  for (const double stiffness : {5.0, 400.0}) {
+    for (const char* profile :
+         {"speed: 0, profile: [{speed: 150, max_acceleration: 250, max_jerk: 416.67}]",
+          "speed: 0, profile: [{speed: 150, max_acceleration: 2500, max_jerk: 50000}]",
+          "speed: -150, profile: [{speed: 150, max_acceleration: 2000}]",
+          "speed: 120, profile: [{speed: -120, max_acceleration: 800, max_jerk: 9000}]"}) {
+      const Comparison c = compare(
+          sceneOf(fmt::format(
+              "{{step: 0.01, drives: {{shaft: {{{}}}}}, systems: {{rotor: {{model: jeffcott_rotor, "
+              "drive: shaft, integrator: exponential, parameters: {{mass: 1, stiffness: {}, "
+              "damping: "
+              "0, eccentricity: 1e-4}}, initial: {{x: 0.005, y_rate: 0.1}}}}}}}}",
+              profile, stiffness)),
+          400, 20'000);
+      EXPECT_EQ(c.differing, 0) << profile << ", " << stiffness;
+      put_off += c.put_off;
+    }
+  }
+  EXPECT_GT(put_off, 50);
+}
+
 TEST(SparseObservation, EveryStationOfAShaftIsFollowed) {
   const std::string shaft =
       "systems: {rotor: {model: flexible_rotor, drive: d, parameters: {youngs_modulus: 2.1e11, "
