@@ -192,66 +192,87 @@ IsotropicRotors::Forces IsotropicRotors::projected(const Drive& drive,
   return forces;
 }
 
-/// Inlined, so that it is compiled for the width of who calls it.
-template <bool bowed>
-__attribute__((always_inline)) inline void IsotropicRotors::advanceOne(Block& block,
-                                                                       const Forces* forces,
-                                                                       std::size_t parts) noexcept {
-  Block b = block;  // in registers, where there are enough
+/// Of the rotors of a block from `lane` on.
+template <int lanes, bool bowed>
+WHIRL_TWIN_INLINE void IsotropicRotors::advanceSome(Block& block, std::size_t lane,
+                                                    const Forces* forces,
+                                                    std::size_t parts) noexcept {
+  using Some = typename Vector<lanes>::Type;
+  const auto at = [lane](Lanes& numbers) WHIRL_TWIN_FLAT -> Some& {
+    return *reinterpret_cast<Some*>(reinterpret_cast<double*>(&numbers) + lane);
+  };
+  // In registers, where there are enough.
+  Some z_re = at(block.z_re), z_im = at(block.z_im), w_re = at(block.w_re), w_im = at(block.w_im);
+  Some peak_square = at(block.peak_square);
+  const Some p_zz = at(block.p_zz), p_zw = at(block.p_zw);
+  const Some p_wz = at(block.p_wz), p_ww = at(block.p_ww);
+  const Some rest_re = at(block.rest_re), rest_im = at(block.rest_im);
+  Some to_z[kNodes];
+  Some to_w[kNodes];
+  for (std::size_t k = 0; k < kNodes; ++k) {
+    to_z[k] = at(block.to_z[k]);
+    to_w[k] = at(block.to_w[k]);
+  }
   for (std::size_t part = 0; part < parts; ++part) {
     const auto& [unbalance, bow, last] = forces[part];
-    Lanes to_z_re{}, to_z_im{}, to_w_re{}, to_w_im{};
+    Some to_z_re{}, to_z_im{}, to_w_re{}, to_w_im{};
     for (std::size_t k = 0; k < kNodes; ++k) {
-      to_z_re += b.to_z[k] * unbalance.re[k];
-      to_z_im += b.to_z[k] * unbalance.im[k];
-      to_w_re += b.to_w[k] * unbalance.re[k];
-      to_w_im += b.to_w[k] * unbalance.im[k];
+      to_z_re += to_z[k] * unbalance.re[k];
+      to_z_im += to_z[k] * unbalance.im[k];
+      to_w_re += to_w[k] * unbalance.re[k];
+      to_w_im += to_w[k] * unbalance.im[k];
     }
     if (bowed) {
-      Lanes bow_z_re{}, bow_z_im{}, bow_w_re{}, bow_w_im{};
+      Some bow_z_re{}, bow_z_im{}, bow_w_re{}, bow_w_im{};
       for (std::size_t k = 0; k < kNodes; ++k) {
-        bow_z_re += b.to_z[k] * bow.re[k];
-        bow_z_im += b.to_z[k] * bow.im[k];
-        bow_w_re += b.to_w[k] * bow.re[k];
-        bow_w_im += b.to_w[k] * bow.im[k];
+        bow_z_re += to_z[k] * bow.re[k];
+        bow_z_im += to_z[k] * bow.im[k];
+        bow_w_re += to_w[k] * bow.re[k];
+        bow_w_im += to_w[k] * bow.im[k];
       }
-      to_z_re = b.eccentricity * to_z_re + b.bow_re * bow_z_re - b.bow_im * bow_z_im;
-      to_z_im = b.eccentricity * to_z_im + b.bow_re * bow_z_im + b.bow_im * bow_z_re;
-      to_w_re = b.eccentricity * to_w_re + b.bow_re * bow_w_re - b.bow_im * bow_w_im;
-      to_w_im = b.eccentricity * to_w_im + b.bow_re * bow_w_im + b.bow_im * bow_w_re;
+      const Some eccentricity = at(block.eccentricity);
+      const Some bow_re = at(block.bow_re), bow_im = at(block.bow_im);
+      to_z_re = eccentricity * to_z_re + bow_re * bow_z_re - bow_im * bow_z_im;
+      to_z_im = eccentricity * to_z_im + bow_re * bow_z_im + bow_im * bow_z_re;
+      to_w_re = eccentricity * to_w_re + bow_re * bow_w_re - bow_im * bow_w_im;
+      to_w_im = eccentricity * to_w_im + bow_re * bow_w_im + bow_im * bow_w_re;
     }
-    const Lanes z_re = b.p_zz * b.z_re + b.p_zw * b.w_re + to_z_re;
-    const Lanes z_im = b.p_zz * b.z_im + b.p_zw * b.w_im + to_z_im;
-    const Lanes w_re = b.p_wz * b.z_re + b.p_ww * b.w_re + to_w_re;
-    const Lanes w_im = b.p_wz * b.z_im + b.p_ww * b.w_im + to_w_im;
-    b.z_re += z_re;
-    b.z_im += z_im;
-    b.w_re += w_re;
-    b.w_im += w_im;
+    const Some by_z_re = p_zz * z_re + p_zw * w_re + to_z_re;
+    const Some by_z_im = p_zz * z_im + p_zw * w_im + to_z_im;
+    const Some by_w_re = p_wz * z_re + p_ww * w_re + to_w_re;
+    const Some by_w_im = p_wz * z_im + p_ww * w_im + to_w_im;
+    z_re += by_z_re;
+    z_im += by_z_im;
+    w_re += by_w_re;
+    w_im += by_w_im;
     if (last) {
-      const Lanes x = b.z_re + b.rest_re;
-      const Lanes y = b.z_im + b.rest_im;
-      const Lanes square = x * x + y * y;
-      b.peak_square = square > b.peak_square ? square : b.peak_square;
+      const Some x = z_re + rest_re;
+      const Some y = z_im + rest_im;
+      const Some square = x * x + y * y;
+      peak_square = square > peak_square ? square : peak_square;
     }
   }
-  block.z_re = b.z_re;
-  block.z_im = b.z_im;
-  block.w_re = b.w_re;
-  block.w_im = b.w_im;
-  block.peak_square = b.peak_square;
+  at(block.z_re) = z_re;
+  at(block.z_im) = z_im;
+  at(block.w_re) = w_re;
+  at(block.w_im) = w_im;
+  at(block.peak_square) = peak_square;
 }
 
-WHIRL_TWIN_VECTOR_WIDTHS
 void IsotropicRotors::advance(Block* blocks, std::size_t count, const Forces* forces,
                               std::size_t parts, bool bowed) noexcept {
-  for (std::size_t i = 0; i < count; ++i) {
-    if (bowed) {
-      advanceOne<true>(blocks[i], forces, parts);
-    } else {
-      advanceOne<false>(blocks[i], forces, parts);
+  inWidestVectors([&](auto lanes) WHIRL_TWIN_FLAT {
+    constexpr int kSome = decltype(lanes)::value;
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t lane = 0; lane < kLanes; lane += kSome) {
+        if (bowed) {
+          advanceSome<kSome, true>(blocks[i], lane, forces, parts);
+        } else {
+          advanceSome<kSome, false>(blocks[i], lane, forces, parts);
+        }
+      }
     }
-  }
+  });
 }
 
 std::complex<double> IsotropicRotors::position(std::size_t rotor) const noexcept {

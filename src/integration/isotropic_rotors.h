@@ -73,8 +73,8 @@ class IsotropicRotors {
  private:
   static constexpr std::size_t kLanes = 8;
   static constexpr std::size_t kNodes = 6;
-  /// One number of each of eight rotors; narrower machines take them in parts.
-  typedef double Lanes __attribute__((vector_size(64)));
+  /// One number of each of eight rotors.
+  typedef double Lanes __attribute__((vector_size(64), may_alias));
 
   /// Eight rotors, along the mark and across it; positions from where the load holds them, rates in
   /// parts of the frequency.
@@ -99,8 +99,9 @@ class IsotropicRotors {
 
   static void advance(Block* blocks, std::size_t count, const Forces* forces, std::size_t parts,
                       bool bowed) noexcept;
-  template <bool bowed>
-  static void advanceOne(Block& block, const Forces* forces, std::size_t parts) noexcept;
+  template <int lanes, bool bowed>
+  static void advanceSome(Block& block, std::size_t lane, const Forces* forces,
+                          std::size_t parts) noexcept;
   void prepare(Block& block, std::size_t lane, const IsotropicRotor& rotor) const;
   Forces sampled(const Drive& drive, double offset) const noexcept;
   Forces projected(const Drive& drive, double offset) const noexcept;

@@ -22,61 +22,65 @@ constexpr RungeKuttaTable kRungeKutta4{4,
 constexpr RungeKuttaTable kDormandPrince8{dormand_prince::kStages, dormand_prince::kNodes,
                                           dormand_prince::kA, dormand_prince::kWeights};
 
-/// Eight numbers, wherever they are; narrower machines take them in parts.
-constexpr std::size_t kLanes = 8;
-typedef double Lanes __attribute__((vector_size(64), aligned(8), may_alias));
-
 struct Scaled {
   double factor;
   const double* numbers;
 };
 
+// Of `width` numbers, a multiple of eight.
+
 /// out = from + sum of factor x numbers.
-WHIRL_TWIN_VECTOR_WIDTHS
 void addTerms(const double* from, const Scaled* terms, std::size_t count, std::size_t width,
               double* out) noexcept {
-  for (std::size_t i = 0; i < width; i += kLanes) {
-    Lanes sum = terms[0].factor * *reinterpret_cast<const Lanes*>(terms[0].numbers + i);
-    for (std::size_t k = 1; k < count; ++k) {
-      sum += terms[k].factor * *reinterpret_cast<const Lanes*>(terms[k].numbers + i);
+  inWidestVectors([&](auto lanes) WHIRL_TWIN_FLAT {
+    using Some = typename Vector<decltype(lanes)::value>::Anywhere;
+    for (std::size_t i = 0; i < width; i += decltype(lanes)::value) {
+      Some sum = terms[0].factor * *reinterpret_cast<const Some*>(terms[0].numbers + i);
+      for (std::size_t k = 1; k < count; ++k) {
+        sum += terms[k].factor * *reinterpret_cast<const Some*>(terms[k].numbers + i);
+      }
+      *reinterpret_cast<Some*>(out + i) = *reinterpret_cast<const Some*>(from + i) + sum;
     }
-    *reinterpret_cast<Lanes*>(out + i) = *reinterpret_cast<const Lanes*>(from + i) + sum;
-  }
+  });
 }
 
 /// The same to a compensated sum.
-WHIRL_TWIN_VECTOR_WIDTHS
 void addTermsExactly(const Scaled* terms, std::size_t count, std::size_t width, double* high,
                      double* low) noexcept {
-  for (std::size_t i = 0; i < width; i += kLanes) {
-    Lanes corrected = *reinterpret_cast<const Lanes*>(low + i);
-    for (std::size_t k = 0; k < count; ++k) {
-      corrected += terms[k].factor * *reinterpret_cast<const Lanes*>(terms[k].numbers + i);
+  inWidestVectors([&](auto lanes) WHIRL_TWIN_FLAT {
+    using Some = typename Vector<decltype(lanes)::value>::Anywhere;
+    for (std::size_t i = 0; i < width; i += decltype(lanes)::value) {
+      Some corrected = *reinterpret_cast<const Some*>(low + i);
+      for (std::size_t k = 0; k < count; ++k) {
+        corrected += terms[k].factor * *reinterpret_cast<const Some*>(terms[k].numbers + i);
+      }
+      const Some before = *reinterpret_cast<const Some*>(high + i);
+      const Some after = before + corrected;
+      *reinterpret_cast<Some*>(high + i) = after;
+      *reinterpret_cast<Some*>(low + i) = corrected - (after - before);
     }
-    const Lanes before = *reinterpret_cast<const Lanes*>(high + i);
-    const Lanes after = before + corrected;
-    *reinterpret_cast<Lanes*>(high + i) = after;
-    *reinterpret_cast<Lanes*>(low + i) = corrected - (after - before);
-  }
+  });
 }
 
 /// Keeps the largest magnitudes; false where a number is not finite.
-WHIRL_TWIN_VECTOR_WIDTHS
 bool keepPeaks(const double* q, const double* v, std::size_t width, double* peak) noexcept {
-  Lanes off{};
-  for (std::size_t i = 0; i < width; i += kLanes) {
-    const Lanes now = *reinterpret_cast<const Lanes*>(q + i);
-    const Lanes rate = *reinterpret_cast<const Lanes*>(v + i);
-    const Lanes most = *reinterpret_cast<const Lanes*>(peak + i);
-    const Lanes size = now < 0.0 ? -now : now;
-    *reinterpret_cast<Lanes*>(peak + i) = size > most ? size : most;
-    off += (now - now) + (rate - rate);  // no number where one of them is none
-  }
-  double sum = 0.0;
-  for (std::size_t i = 0; i < kLanes; ++i) {
-    sum += off[i];
-  }
-  return sum == 0.0;
+  double all = 0.0;
+  inWidestVectors([&](auto lanes) WHIRL_TWIN_FLAT {
+    using Some = typename Vector<decltype(lanes)::value>::Anywhere;
+    Some off{};
+    for (std::size_t i = 0; i < width; i += decltype(lanes)::value) {
+      const Some now = *reinterpret_cast<const Some*>(q + i);
+      const Some rate = *reinterpret_cast<const Some*>(v + i);
+      const Some most = *reinterpret_cast<const Some*>(peak + i);
+      const Some size = now < 0.0 ? -now : now;
+      *reinterpret_cast<Some*>(peak + i) = size > most ? size : most;
+      off += (now - now) + (rate - rate);  // no number where one of them is none
+    }
+    for (int i = 0; i < decltype(lanes)::value; ++i) {
+      all += off[i];
+    }
+  });
+  return all == 0.0;
 }
 
 }  // namespace

@@ -8,67 +8,69 @@ namespace {
 
 using Eigen::Index;
 
-/// Eight doubles; narrower machines take them in parts.
-typedef double Eight __attribute__((vector_size(64)));
-/// Eight doubles that may lie anywhere.
-typedef double EightAnywhere __attribute__((vector_size(64), aligned(8)));
-
 /// Runs of a panel that are parted by fewer columns of zeros are one.
 constexpr Index kFewZeros = 4;
 
-WHIRL_TWIN_VECTOR_WIDTHS
-void multiplyPanels(const double* entries, const PackedMatrix::Panel* panels,
-                    const PackedMatrix::Run* runs, Index count, bool backward, const double* y,
-                    double* result) noexcept {
+/// Two vectors of rows at a time, four columns at a time: eight sums under way, which have a
+/// register each. Vectors wider than the machine's would not: compilers take them in parts through
+/// memory.
+template <int lanes>
+WHIRL_TWIN_INLINE void multiplyBy(const double* entries, const PackedMatrix::Panel* panels,
+                                  const PackedMatrix::Run* runs, Index count, bool backward,
+                                  const double* y, double* result) noexcept {
+  using Some = typename Vector<lanes>::Type;
+  using Anywhere = typename Vector<lanes>::Anywhere;
   for (Index p = 0; p < count; ++p) {
     const Index panel = backward ? count - 1 - p : p;
-    const double* entry = entries + panels[panel].start;
-    // Four columns at a time: eight sums under way.
-    Eight low[4] = {};
-    Eight high[4] = {};
     const PackedMatrix::Run* const first = runs + panels[panel].first_run;
-    for (const PackedMatrix::Run* run = first; run != first + panels[panel].runs; ++run) {
-      Index j = run->first;
-      for (; j + 3 < run->end; j += 4, entry += 4 * PackedMatrix::kPanel) {
-        for (int k = 0; k < 4; ++k) {
-          low[k] += *reinterpret_cast<const Eight*>(entry + PackedMatrix::kPanel * k) * y[j + k];
-          high[k] +=
-              *reinterpret_cast<const Eight*>(entry + PackedMatrix::kPanel * k + 8) * y[j + k];
+    for (Index row = 0; row < PackedMatrix::kPanel; row += 2 * lanes) {
+      const double* entry = entries + panels[panel].start + row;
+      Some low[4] = {};
+      Some high[4] = {};
+      for (const PackedMatrix::Run* run = first; run != first + panels[panel].runs; ++run) {
+        Index j = run->first;
+        for (; j + 3 < run->end; j += 4, entry += 4 * PackedMatrix::kPanel) {
+          for (int k = 0; k < 4; ++k) {
+            const double* const column = entry + PackedMatrix::kPanel * k;
+            low[k] += *reinterpret_cast<const Some*>(column) * y[j + k];
+            high[k] += *reinterpret_cast<const Some*>(column + lanes) * y[j + k];
+          }
+        }
+        for (; j < run->end; ++j, entry += PackedMatrix::kPanel) {
+          low[0] += *reinterpret_cast<const Some*>(entry) * y[j];
+          high[0] += *reinterpret_cast<const Some*>(entry + lanes) * y[j];
         }
       }
-      for (; j < run->end; ++j, entry += PackedMatrix::kPanel) {
-        low[0] += *reinterpret_cast<const Eight*>(entry) * y[j];
-        high[0] += *reinterpret_cast<const Eight*>(entry + 8) * y[j];
-      }
+      double* const sums = result + panel * PackedMatrix::kPanel + row;
+      *reinterpret_cast<Anywhere*>(sums) = (low[0] + low[1]) + (low[2] + low[3]);
+      *reinterpret_cast<Anywhere*>(sums + lanes) = (high[0] + high[1]) + (high[2] + high[3]);
     }
-    double* const sums = result + panel * PackedMatrix::kPanel;
-    *reinterpret_cast<EightAnywhere*>(sums) = (low[0] + low[1]) + (low[2] + low[3]);
-    *reinterpret_cast<EightAnywhere*>(sums + 8) = (high[0] + high[1]) + (high[2] + high[3]);
   }
 }
 
-/// Half a panel at a time: the sums of five vectors stay in the registers.
-WHIRL_TWIN_VECTOR_WIDTHS
-void multiplyPanelsTogether(const double* entries, const PackedMatrix::Panel* panels,
-                            const PackedMatrix::Run* runs, Index count, bool backward,
-                            const double* y, double* result) noexcept {
+/// A few rows at a time: the sums of five vectors stay in the registers.
+template <int lanes>
+WHIRL_TWIN_INLINE void multiplyTogetherBy(const double* entries, const PackedMatrix::Panel* panels,
+                                          const PackedMatrix::Run* runs, Index count, bool backward,
+                                          const double* y, double* result) noexcept {
+  using Some = typename Vector<lanes>::Type;
   constexpr auto kVectors = static_cast<Index>(PackedMatrix::kTogether);
   for (Index p = 0; p < count; ++p) {
     const Index panel = backward ? count - 1 - p : p;
     const PackedMatrix::Run* const first = runs + panels[panel].first_run;
-    for (Index half = 0; half < PackedMatrix::kPanel; half += 8) {
-      const double* entry = entries + panels[panel].start + half;
-      Eight sums[kVectors] = {};
+    for (Index part = 0; part < PackedMatrix::kPanel; part += lanes) {
+      const double* entry = entries + panels[panel].start + part;
+      Some sums[kVectors] = {};
       for (const PackedMatrix::Run* run = first; run != first + panels[panel].runs; ++run) {
         for (Index j = run->first; j < run->end; ++j, entry += PackedMatrix::kPanel) {
-          const Eight eight = *reinterpret_cast<const Eight*>(entry);
+          const Some some = *reinterpret_cast<const Some*>(entry);
           for (Index k = 0; k < kVectors; ++k) {
-            sums[k] += eight * y[kVectors * j + k];
+            sums[k] += some * y[kVectors * j + k];
           }
         }
       }
-      double* const out = result + kVectors * (panel * PackedMatrix::kPanel + half);
-      for (Index row = 0; row < 8; ++row) {
+      double* const out = result + kVectors * (panel * PackedMatrix::kPanel + part);
+      for (Index row = 0; row < lanes; ++row) {
         for (Index k = 0; k < kVectors; ++k) {
           out[kVectors * row + k] = sums[k][row];
         }
@@ -112,14 +114,19 @@ PackedMatrix::PackedMatrix(const Eigen::MatrixXd& matrix)
 
 void PackedMatrix::multiply(const double* y, double* result) noexcept {
   backward_ = !backward_;
-  multiplyPanels(entries_.data(), panels_.data(), runs_.data(), static_cast<Index>(panels_.size()),
-                 backward_, y, result);
+  inWidestVectors([&](auto lanes) WHIRL_TWIN_FLAT {
+    multiplyBy<decltype(lanes)::value>(entries_.data(), panels_.data(), runs_.data(),
+                                       static_cast<Index>(panels_.size()), backward_, y, result);
+  });
 }
 
 void PackedMatrix::multiplyTogether(const double* y, double* result) noexcept {
   backward_ = !backward_;
-  multiplyPanelsTogether(entries_.data(), panels_.data(), runs_.data(),
-                         static_cast<Index>(panels_.size()), backward_, y, result);
+  inWidestVectors([&](auto lanes) WHIRL_TWIN_FLAT {
+    multiplyTogetherBy<decltype(lanes)::value>(entries_.data(), panels_.data(), runs_.data(),
+                                               static_cast<Index>(panels_.size()), backward_, y,
+                                               result);
+  });
 }
 
 Eigen::MatrixXd stackedStep(const Eigen::MatrixXd& increment, const Eigen::MatrixXd& work) {

@@ -9,32 +9,31 @@
 namespace whirl_twin::comparison {
 namespace {
 
-/// Eight doubles; narrower machines take them in parts.
-typedef double Eight __attribute__((vector_size(64)));
-constexpr std::size_t kVectors = 2 * TwoPlaneProduct::kRoom / 8;
-
 /// sums of both planes = entries x: a pair of columns after the other.
-WHIRL_TWIN_VECTOR_WIDTHS
 void multiplyColumns(const double* entries, const std::array<std::size_t, 2>* columns,
                      std::size_t count, const double* x, double c, double s,
                      double* result) noexcept {
-  const Eight* entry = reinterpret_cast<const Eight*>(entries);
-  Eight sums[kVectors];
-  for (std::size_t k = 0; k < kVectors; ++k) {
-    sums[k] = entry[k] * c + entry[kVectors + k] * s;
-  }
-  entry += 2 * kVectors;
-  for (std::size_t j = 0; j < count; ++j, entry += kVectors) {
-    const double first = x[columns[j][0]];
-    const double second = x[columns[j][1]];
-    for (std::size_t k = 0; k < kVectors / 2; ++k) {
-      sums[k] += entry[k] * first;
-      sums[kVectors / 2 + k] += entry[kVectors / 2 + k] * second;
+  inWidestVectors([&](auto lanes) WHIRL_TWIN_FLAT {
+    using Some = typename Vector<decltype(lanes)::value>::Type;
+    constexpr std::size_t kVectors = 2 * TwoPlaneProduct::kRoom / decltype(lanes)::value;
+    const Some* entry = reinterpret_cast<const Some*>(entries);
+    Some sums[kVectors];
+    for (std::size_t k = 0; k < kVectors; ++k) {
+      sums[k] = entry[k] * c + entry[kVectors + k] * s;
     }
-  }
-  for (std::size_t k = 0; k < kVectors; ++k) {
-    reinterpret_cast<Eight*>(result)[k] = sums[k];
-  }
+    entry += 2 * kVectors;
+    for (std::size_t j = 0; j < count; ++j, entry += kVectors) {
+      const double first = x[columns[j][0]];
+      const double second = x[columns[j][1]];
+      for (std::size_t k = 0; k < kVectors / 2; ++k) {
+        sums[k] += entry[k] * first;
+        sums[kVectors / 2 + k] += entry[kVectors / 2 + k] * second;
+      }
+    }
+    for (std::size_t k = 0; k < kVectors; ++k) {
+      reinterpret_cast<Some*>(result)[k] = sums[k];
+    }
+  });
 }
 
 }  // namespace
