@@ -203,8 +203,8 @@ int analyzeScene(const Request& request) {
 
 }  // namespace
 
-void addAnalyzeCommand(const Command& twin, int& status) {
-  const Command command = twin.subcommand("analyze", kDescription);
+void addAnalyzeCommand(const ProgramCommand& twin, int& status) {
+  const ProgramCommand command = twin.subcommand("analyze", kDescription);
   const auto request = std::make_shared<Request>();
   addSceneOption(command, request->scene);
   command.option("--system", request->system, "show this system only").type("NAME");

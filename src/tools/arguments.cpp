@@ -11,17 +11,17 @@
 
 namespace whirl_twin {
 
-void addSceneOption(const Command& command, std::string& scene) {
+void addSceneOption(const ProgramCommand& command, std::string& scene) {
   command.option("SCENE", scene, "scene file (YAML), or the name of a scene of the package")
       .required()
       .type("");
 }
 
-void addInsistOption(const Command& command, bool& insist) {
+void addInsistOption(const ProgramCommand& command, bool& insist) {
   command.flag("--insist", insist, "even if it takes more than a day or more memory than is free");
 }
 
-void addCsvOption(const Command& command, std::optional<std::string>& csv) {
+void addCsvOption(const ProgramCommand& command, std::optional<std::string>& csv) {
   command.option("--csv", csv, "write the tables, every row of them: FILE.csv, FILE_NAME.csv")
       .type("FILE.csv");
 }

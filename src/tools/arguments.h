@@ -11,13 +11,13 @@
 namespace whirl_twin {
 
 /// The scene that a command is about.
-void addSceneOption(const Command& command, std::string& scene);
+void addSceneOption(const ProgramCommand& command, std::string& scene);
 
 /// --insist: do what takes more than a day, or more memory than is free (reports/asked_cost.h).
-void addInsistOption(const Command& command, bool& insist);
+void addInsistOption(const ProgramCommand& command, bool& insist);
 
 /// --csv: the command's tables, into files (reports/csv_table.h).
-void addCsvOption(const Command& command, std::optional<std::string>& csv);
+void addCsvOption(const ProgramCommand& command, std::optional<std::string>& csv);
 
 /// Seconds, as typed, as the nearest whole number of `unit`s [ns], in nanoseconds; from `low` to
 /// `high` [ns]. Exact: no binary fraction comes in between. What is not a whole number is said on

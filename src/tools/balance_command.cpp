@@ -157,8 +157,8 @@ int balanceMeasured(const Request& request) {
 
 }  // namespace
 
-void addBalanceCommand(const Command& twin, int& status) {
-  const Command command = twin.subcommand("balance", kDescription);
+void addBalanceCommand(const ProgramCommand& twin, int& status) {
+  const ProgramCommand command = twin.subcommand("balance", kDescription);
   const auto request = std::make_shared<Request>();
   command.option("FILE", request->file, "the runs; with --measured the scene").required().type("");
   const Option measured =

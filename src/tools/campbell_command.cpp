@@ -98,8 +98,8 @@ int campbellOf(const Request& request) {
 
 }  // namespace
 
-void addCampbellCommand(const Command& twin, int& status) {
-  const Command command = twin.subcommand("campbell", kDescription);
+void addCampbellCommand(const ProgramCommand& twin, int& status) {
+  const ProgramCommand command = twin.subcommand("campbell", kDescription);
   const auto request = std::make_shared<Request>();
   addSceneOption(command, request->scene);
   command.option("--system", request->system, "this rotor only").type("NAME");

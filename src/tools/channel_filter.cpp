@@ -6,7 +6,7 @@
 
 namespace whirl_twin {
 
-void addChannelOption(const Command& command, ChannelFilter& filter) {
+void addChannelOption(const ProgramCommand& command, ChannelFilter& filter) {
   command
       .option("--channel", filter,
               "only channels (of a bag: topics) like this, as '*_WHIRL'; may be said again")

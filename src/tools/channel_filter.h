@@ -11,7 +11,7 @@ namespace whirl_twin {
 /// Patterns as the shell has them, *, ? and [...]; none means all.
 using ChannelFilter = std::vector<std::string>;
 
-void addChannelOption(const Command& command, ChannelFilter& filter);
+void addChannelOption(const ProgramCommand& command, ChannelFilter& filter);
 
 bool selects(const ChannelFilter& filter, const std::string& channel);
 

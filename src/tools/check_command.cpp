@@ -46,8 +46,8 @@ int check(const Request& request) {
 
 }  // namespace
 
-void addCheckCommand(const Command& twin, int& status) {
-  const Command command = twin.subcommand("check", kDescription);
+void addCheckCommand(const ProgramCommand& twin, int& status) {
+  const ProgramCommand command = twin.subcommand("check", kDescription);
   const auto request = std::make_shared<Request>();
   addSceneOption(command, request->scene);
   command.option("--system", request->system, "show this system only").type("NAME");

@@ -34,19 +34,20 @@ bool Option::given() const {
   return option_->count() > 0;
 }
 
-Command Command::subcommand(const std::string& name, const std::string& description) const {
-  return Command(app_->add_subcommand(name, description));
+ProgramCommand ProgramCommand::subcommand(const std::string& name,
+                                          const std::string& description) const {
+  return ProgramCommand(app_->add_subcommand(name, description));
 }
 
 template <class T>
-Option Command::option(const std::string& name, T& value, const std::string& text) const {
+Option ProgramCommand::option(const std::string& name, T& value, const std::string& text) const {
   return Option(app_->add_option(name, value, text));
 }
 
 // NOLINTBEGIN(bugprone-macro-parentheses): a type
-#define WHIRL_TWIN_OPTION(...)                                                   \
-  template Option Command::option<__VA_ARGS__>(const std::string&, __VA_ARGS__&, \
-                                               const std::string&) const;
+#define WHIRL_TWIN_OPTION(...)                                                          \
+  template Option ProgramCommand::option<__VA_ARGS__>(const std::string&, __VA_ARGS__&, \
+                                                      const std::string&) const;
 // NOLINTEND(bugprone-macro-parentheses)
 WHIRL_TWIN_OPTION(std::string)
 WHIRL_TWIN_OPTION(double)
@@ -60,15 +61,15 @@ WHIRL_TWIN_OPTION(std::vector<double>)
 WHIRL_TWIN_OPTION(std::vector<int>)
 WHIRL_TWIN_OPTION(std::vector<std::vector<double>>)
 
-Option Command::flag(const std::string& name, bool& value, const std::string& text) const {
+Option ProgramCommand::flag(const std::string& name, bool& value, const std::string& text) const {
   return Option(app_->add_flag(name, value, text));
 }
 
-void Command::footer(const std::string& text) const {
+void ProgramCommand::footer(const std::string& text) const {
   app_->footer(text);
 }
 
-void Command::callback(const std::function<void()>& run) const {
+void ProgramCommand::callback(const std::function<void()>& run) const {
   app_->callback(run);
 }
 

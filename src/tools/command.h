@@ -36,11 +36,11 @@ class Option {
 };
 
 /// Refers to a command, or to the command line itself.
-class Command {
+class ProgramCommand {
  public:
-  explicit Command(CLI::App* app) : app_(app) {}
+  explicit ProgramCommand(CLI::App* app) : app_(app) {}
 
-  Command subcommand(const std::string& name, const std::string& description) const;
+  ProgramCommand subcommand(const std::string& name, const std::string& description) const;
   /// value: what it is without the option, and with it once the line is parsed; a string, a number,
   /// an optional or a vector of either (command.cpp lists them).
   template <class T>

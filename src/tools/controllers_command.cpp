@@ -53,7 +53,7 @@ std::vector<ListedThing> all() {
 
 }  // namespace
 
-void addControllersCommand(const Command& twin, int& status) {
+void addControllersCommand(const ProgramCommand& twin, int& status) {
   addListing(twin, status, {"controller", kDescription, kFooter, all});
 }
 

@@ -224,8 +224,8 @@ int write(const Request& request) {
 
 }  // namespace
 
-void addExportCommand(const Command& twin, int& status) {
-  const Command command = twin.subcommand("export", kDescription);
+void addExportCommand(const ProgramCommand& twin, int& status) {
+  const ProgramCommand command = twin.subcommand("export", kDescription);
   const auto request = std::make_shared<Request>();
   command.option("LOG", request->file, "LCM log or rosbag, such as demo.lcmlog, night.bag")
       .required()

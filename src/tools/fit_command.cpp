@@ -125,8 +125,8 @@ int fit(const Request& request) {
 
 }  // namespace
 
-void addFitCommand(const Command& twin, int& status) {
-  const Command command = twin.subcommand("fit", kDescription);
+void addFitCommand(const ProgramCommand& twin, int& status) {
+  const ProgramCommand command = twin.subcommand("fit", kDescription);
   const auto request = std::make_shared<Request>();
   command.option("STUDY", request->study, "what to fit to which runs").required().type("");
   command.option("--output", request->output, "write the scene with the values found")

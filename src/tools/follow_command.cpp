@@ -107,8 +107,8 @@ int follow(const Request& request) {
 
 }  // namespace
 
-void addFollowCommand(const Command& twin, int& status) {
-  const Command command = twin.subcommand("follow", kDescription);
+void addFollowCommand(const ProgramCommand& twin, int& status) {
+  const ProgramCommand command = twin.subcommand("follow", kDescription);
   const auto request = std::make_shared<Request>();
   addSceneOption(command, request->scene);
   command

@@ -60,8 +60,8 @@ int importRotor(const Request& request) {
 
 }  // namespace
 
-void addImportCommand(const Command& twin, int& status) {
-  const Command command = twin.subcommand("import", kDescription);
+void addImportCommand(const ProgramCommand& twin, int& status) {
+  const ProgramCommand command = twin.subcommand("import", kDescription);
   const auto request = std::make_shared<Request>();
   command.option("FORMAT", request->format, "ross or csv")
       .required()

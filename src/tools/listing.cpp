@@ -84,8 +84,8 @@ std::string upper(std::string word) {
 
 }  // namespace
 
-void addListing(const Command& twin, int& status, const Listing& listing) {
-  const Command command = twin.subcommand(listing.kind + "s", listing.description);
+void addListing(const ProgramCommand& twin, int& status, const Listing& listing) {
+  const ProgramCommand command = twin.subcommand(listing.kind + "s", listing.description);
   const auto request = std::make_shared<Request>();
   command.option(upper(listing.kind), request->names, "these " + listing.kind + "s only").type("");
   addCsvOption(command, request->csv);

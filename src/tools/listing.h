@@ -27,6 +27,6 @@ struct Listing {
 
 /// Its command takes names, none for all; `status` gets its exit status. It throws Refusal with
 /// every name that there is not.
-void addListing(const Command& twin, int& status, const Listing& listing);
+void addListing(const ProgramCommand& twin, int& status, const Listing& listing);
 
 }  // namespace whirl_twin

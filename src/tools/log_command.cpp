@@ -167,8 +167,8 @@ int summarize(const Request& request) {
 
 }  // namespace
 
-void addLogCommand(const Command& twin, int& status) {
-  const Command command = twin.subcommand("log", kDescription);
+void addLogCommand(const ProgramCommand& twin, int& status) {
+  const ProgramCommand command = twin.subcommand("log", kDescription);
   const auto request = std::make_shared<Request>();
   command.option("FILE", request->file, "LCM log, such as demo.lcmlog").required().type("");
   command

@@ -64,8 +64,8 @@ int loopsOf(const Request& request) {
 
 }  // namespace
 
-void addLoopCommand(const Command& twin, int& status) {
-  const Command command = twin.subcommand("loop", kDescription);
+void addLoopCommand(const ProgramCommand& twin, int& status) {
+  const ProgramCommand command = twin.subcommand("loop", kDescription);
   const auto request = std::make_shared<Request>();
   addSceneOption(command, request->scene);
   command.option("--speed", request->speed, "of all shafts [rad/s], in place of that at the start")

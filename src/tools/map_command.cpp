@@ -64,8 +64,8 @@ int mapOf(const Request& request) {
 
 }  // namespace
 
-void addMapCommand(const Command& twin, int& status) {
-  const Command command = twin.subcommand("map", kDescription);
+void addMapCommand(const ProgramCommand& twin, int& status) {
+  const ProgramCommand command = twin.subcommand("map", kDescription);
   const auto request = std::make_shared<Request>();
   addSceneOption(command, request->scene);
   command.option("--system", request->system, "this rotor only").type("NAME");

@@ -103,7 +103,7 @@ std::vector<ListedThing> all() {
 
 }  // namespace
 
-void addModelsCommand(const Command& twin, int& status) {
+void addModelsCommand(const ProgramCommand& twin, int& status) {
   addListing(twin, status, {"model", kDescription, kFooter, all});
 }
 

@@ -97,8 +97,8 @@ int modesOf(const Request& request) {
 
 }  // namespace
 
-void addModesCommand(const Command& twin, int& status) {
-  const Command command = twin.subcommand("modes", kDescription);
+void addModesCommand(const ProgramCommand& twin, int& status) {
+  const ProgramCommand command = twin.subcommand("modes", kDescription);
   const auto request = std::make_shared<Request>();
   addSceneOption(command, request->scene);
   command.option("--system", request->system, "this rotor only").type("NAME");

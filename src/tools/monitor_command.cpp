@@ -109,8 +109,8 @@ int monitor(const Request& request) {
 
 }  // namespace
 
-void addMonitorCommand(const Command& twin, int& status) {
-  const Command command = twin.subcommand("monitor", kDescription);
+void addMonitorCommand(const ProgramCommand& twin, int& status) {
+  const ProgramCommand command = twin.subcommand("monitor", kDescription);
   const auto request = std::make_shared<Request>();
   addSceneOption(command, request->scene);
   command.option("LOG", request->log, "LCM log or rosbag, such as demo.lcmlog, night.bag")

@@ -64,8 +64,8 @@ int write(const std::string& name) {
 
 }  // namespace
 
-void addNewCommand(const Command& twin, int& status) {
-  const Command command = twin.subcommand("new", kDescription);
+void addNewCommand(const ProgramCommand& twin, int& status) {
+  const ProgramCommand command = twin.subcommand("new", kDescription);
   const auto model = std::make_shared<std::string>();
   command.option("MODEL", *model, "one of `twin models`").required().type("");
   command.footer(kFooter);

@@ -322,8 +322,8 @@ int play(const Request& request) {
 
 }  // namespace
 
-void addPlayCommand(const Command& twin, int& status) {
-  const Command command = twin.subcommand("play", kDescription);
+void addPlayCommand(const ProgramCommand& twin, int& status) {
+  const ProgramCommand command = twin.subcommand("play", kDescription);
   const auto request = std::make_shared<Request>();
   command.option("LOG", request->file, "LCM log, such as demo.lcmlog").required().type("");
   command.option("--start", request->start, "s, from the log's beginning; default: 0").type("S");

@@ -207,8 +207,8 @@ int plot(const PlotRequest& request) {
 
 }  // namespace
 
-void addPlotCommand(const Command& twin, int& status) {
-  const Command command = twin.subcommand("plot", kDescription);
+void addPlotCommand(const ProgramCommand& twin, int& status) {
+  const ProgramCommand command = twin.subcommand("plot", kDescription);
   const auto request = std::make_shared<PlotRequest>();
   addSceneOption(command, request->run.scene);
   command.option("--system", request->run.system, "plot this system only").type("NAME");

@@ -285,8 +285,8 @@ int record(const Request& request) {
 
 }  // namespace
 
-void addRecordCommand(const Command& twin, int& status) {
-  const Command command = twin.subcommand("record", kDescription);
+void addRecordCommand(const ProgramCommand& twin, int& status) {
+  const ProgramCommand command = twin.subcommand("record", kDescription);
   const auto request = std::make_shared<Request>();
   command.option("FILE", request->file, "FILE.lcmlog or FILE.mcap").required().type("");
   command.option("--duration", request->duration, "s, wall time; default: until Ctrl-C").type("S");

@@ -87,8 +87,8 @@ int reportOf(Request& request) {
 
 }  // namespace
 
-void addReportCommand(const Command& twin, int& status) {
-  const Command command = twin.subcommand("report", kDescription);
+void addReportCommand(const ProgramCommand& twin, int& status) {
+  const ProgramCommand command = twin.subcommand("report", kDescription);
   const auto request = std::make_shared<Request>();
   addSceneOption(command, request->scene);
   command.option("--output", request->output, "where the pages go; made if it is not there")

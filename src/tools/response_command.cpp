@@ -79,7 +79,7 @@ int show(const Request& request, const Report& report) {
   return kDone;
 }
 
-void addCommonOptions(const Command& command, const std::shared_ptr<Request>& request) {
+void addCommonOptions(const ProgramCommand& command, const std::shared_ptr<Request>& request) {
   addSceneOption(command, request->scene);
   command.option("--system", request->system, "this rotor only").type("NAME");
   command.option("--plot", request->plot, "a picture, FILE.svg or FILE.png").type("FILE");
@@ -89,8 +89,8 @@ void addCommonOptions(const Command& command, const std::shared_ptr<Request>& re
 
 }  // namespace
 
-void addResponseCommand(const Command& twin, int& status) {
-  const Command command = twin.subcommand(
+void addResponseCommand(const ProgramCommand& twin, int& status) {
+  const ProgramCommand command = twin.subcommand(
       "response", "Unbalance response of the rotors of a scene over the shaft's speed.");
   const auto request = std::make_shared<Request>();
   addCommonOptions(command, request);
@@ -136,8 +136,8 @@ void addResponseCommand(const Command& twin, int& status) {
   });
 }
 
-void addOrbitCommand(const Command& twin, int& status) {
-  const Command command = twin.subcommand(
+void addOrbitCommand(const ProgramCommand& twin, int& status) {
+  const ProgramCommand command = twin.subcommand(
       "orbit", "Orbits that the unbalance drives at one speed, at every station of the rotors.");
   const auto request = std::make_shared<Request>();
   addCommonOptions(command, request);

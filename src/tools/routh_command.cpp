@@ -288,8 +288,8 @@ int test(const Request& request) {
 
 }  // namespace
 
-void addRouthCommand(const Command& twin, int& status) {
-  const Command command = twin.subcommand("routh", kDescription);
+void addRouthCommand(const ProgramCommand& twin, int& status) {
+  const ProgramCommand command = twin.subcommand("routh", kDescription);
   const auto request = std::make_shared<Request>();
   command.option("COEFFICIENTS", request->coefficients, "A_N ... A_0, highest power first")
       .required()

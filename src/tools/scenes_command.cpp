@@ -147,12 +147,12 @@ int showScene(const std::string& name, bool as_json) {
 
 }  // namespace
 
-void addScenesCommand(const Command& twin, int& status) {
+void addScenesCommand(const ProgramCommand& twin, int& status) {
   struct Request {
     std::optional<std::string> folder, show;
     bool json = false;
   };
-  const Command command = twin.subcommand("scenes", kDescription);
+  const ProgramCommand command = twin.subcommand("scenes", kDescription);
   const auto request = std::make_shared<Request>();
   command.option("FOLDER", request->folder, "of scene files; default: the package's").type("");
   command.option("--show", request->show, "print this scene as it is written, and list none")

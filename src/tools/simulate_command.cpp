@@ -118,8 +118,8 @@ int simulate(const SimulationRequest& request) {
 
 }  // namespace
 
-void addSimulateCommand(const Command& twin, int& status) {
-  const Command command = twin.subcommand("simulate", kDescription);
+void addSimulateCommand(const ProgramCommand& twin, int& status) {
+  const ProgramCommand command = twin.subcommand("simulate", kDescription);
   const auto request = std::make_shared<SimulationRequest>();
   addSceneOption(command, request->scene);
   command

@@ -210,8 +210,8 @@ int spy(const Request& request) {
 
 }  // namespace
 
-void addSpyCommand(const Command& twin, int& status) {
-  const Command command = twin.subcommand("spy", kDescription);
+void addSpyCommand(const ProgramCommand& twin, int& status) {
+  const ProgramCommand command = twin.subcommand("spy", kDescription);
   const auto request = std::make_shared<Request>();
   command.option("--duration", request->duration, "s, wall time; default: until Ctrl-C").type("S");
   command.flag("--once", request->once, "one table, of one second or of --duration");

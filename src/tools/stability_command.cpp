@@ -79,8 +79,8 @@ int levelOneOf(Request& request) {
 
 }  // namespace
 
-void addStabilityCommand(const Command& twin, int& status) {
-  const Command command = twin.subcommand("stability", kDescription);
+void addStabilityCommand(const ProgramCommand& twin, int& status) {
+  const ProgramCommand command = twin.subcommand("stability", kDescription);
   const auto request = std::make_shared<Request>();
   addSceneOption(command, request->scene);
   command.option("--system", request->system, "this rotor only").type("NAME");

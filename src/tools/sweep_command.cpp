@@ -311,8 +311,8 @@ int sweepStudy(const Request& request) {
 
 }  // namespace
 
-void addSweepCommand(const Command& twin, int& status) {
-  const Command command = twin.subcommand("sweep", kDescription);
+void addSweepCommand(const ProgramCommand& twin, int& status) {
+  const ProgramCommand command = twin.subcommand("sweep", kDescription);
   const auto request = std::make_shared<Request>();
   command.option("STUDY", request->study, "what varies, is run and is measured")
       .required()

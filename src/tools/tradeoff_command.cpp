@@ -128,8 +128,8 @@ int tradeoffOf(const Request& request) {
 
 }  // namespace
 
-void addTradeoffCommand(const Command& twin, int& status) {
-  const Command command = twin.subcommand("tradeoff", kDescription);
+void addTradeoffCommand(const ProgramCommand& twin, int& status) {
+  const ProgramCommand command = twin.subcommand("tradeoff", kDescription);
   const auto request = std::make_shared<Request>();
   addSceneOption(command, request->scene);
   command.option("--system", request->system, "this system only").type("NAME");

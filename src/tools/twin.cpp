@@ -97,7 +97,7 @@ int run(int argc, const char* const* argv) {
   twin.set_version_flag("--version", "twin (whirl_twin) " WHIRL_TWIN_VERSION,
                         "print the version and exit");
   twin.require_subcommand(1);
-  const Command commands(&twin);
+  const ProgramCommand commands(&twin);
   addCheckCommand(commands, status);
   addScenesCommand(commands, status);
   addModelsCommand(commands, status);

@@ -270,8 +270,8 @@ int watch(const Request& request) {
 
 }  // namespace
 
-void addWatchCommand(const Command& twin, int& status) {
-  const Command command = twin.subcommand("watch", kDescription);
+void addWatchCommand(const ProgramCommand& twin, int& status) {
+  const ProgramCommand command = twin.subcommand("watch", kDescription);
   const auto request = std::make_shared<Request>();
   command.option("--duration", request->duration, "s, wall time; default: until Ctrl-C").type("S");
   command.option("--lcm-url", request->url, std::string("default: ") + kDefaultLcmUrl).type("URL");

@@ -45,6 +45,11 @@ class Heard:
         self.subscriber.unregister()
 
 
+def once(messages):
+    """Without repetitions: roscpp sends what is latched twice where a subscriber comes as it is published."""
+    return [m for k, m in enumerate(messages) if k == 0 or m.header.stamp != messages[k - 1].header.stamp]
+
+
 class ParameterPlayback(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.mkdtemp()
@@ -82,7 +87,7 @@ class ParameterPlayback(unittest.TestCase):
         interrupt(recorder)
         changes.stop()
         whirls.stop()
-        return changes.messages
+        return once(changes.messages)
 
     def test_a_recorded_change_is_told_again_and_followed(self):
         live = self.record()
@@ -95,13 +100,13 @@ class ParameterPlayback(unittest.TestCase):
         rospy.wait_for_service('/lcm_bridge_node/ready', timeout=PATIENCE)
         self.assertTrue(wait_until(lambda: margins.subscriber.get_num_connections() > 0))
         subprocess.check_call(['lcm-logplayer', '--lcm-url=' + URL, self.log])
-        self.assertTrue(wait_until(lambda: len(changes.messages) >= 2))
+        self.assertTrue(wait_until(lambda: len(once(changes.messages)) >= 2))
         # 60 (1 + 8 / 16): only who has taken the change over knows this threshold.
         self.assertTrue(wait_until(lambda: margins.messages and
                                    abs(margins.messages[-1].instability_speed - 90.0) < 1e-6))
         interrupt(monitor)
         interrupt(bridge)
-        for told, again in zip(live, changes.messages):
+        for told, again in zip(live, once(changes.messages)):
             self.assertEqual(told.header.stamp, again.header.stamp)
             for field in ('step', 'time', 'names', 'values', 'changed', 'previous'):
                 self.assertEqual(getattr(told, field), getattr(again, field), field)
