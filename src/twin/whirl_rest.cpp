@@ -10,7 +10,6 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kHalfTurn = 3.14159265358979323846;
 /// Of the radius, that a whirl may move where its shaft hardly turns.
 constexpr double kPart = 0.9;
 /// mu t, up to which it is followed, and e to the power of it.
@@ -46,7 +45,8 @@ double WhirlRest::lasts(const double* q, const double* v, double speed, double a
                         double turned) const {
   const double length = free_->length([&](Eigen::Index j) { return q[j] - sag_[j]; },
                                       [&](Eigen::Index j) { return v[j]; });
-  if (!(turned < kHalfTurn)) {
+  const double part = kPart * (1.0 - 0.125 * turned * turned);  // 1 - x^2/8 <= cos(x/2)
+  if (!(part > 0.0)) {
     return 0.0;
   }
   double room = std::numeric_limits<double>::infinity();  // of the integral of |y|
@@ -59,7 +59,7 @@ double WhirlRest::lasts(const double* q, const double* v, double speed, double a
     }
     room = std::min(room, std::sqrt(x * x + y * y) / place.fastest);
   }
-  room *= kPart * std::cos(0.5 * turned);
+  room *= part;
   double longest = std::numeric_limits<double>::infinity();
   if (free_->growth() > 0.0) {
     room /= kGrowth;
