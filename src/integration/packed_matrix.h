@@ -3,9 +3,8 @@
 //
 // Its rows lie in panels of sixteen, each read once from end to end; columns that are zero
 // throughout a panel are left out, so that a triangle costs half, and blocks of zeros nothing. On
-// x86-64 the loop is compiled
-// for several vector widths and the machine's own is taken at start; machines with fused products
-// and sums differ from others in the last bits.
+// x86-64 the loop is compiled for several widths of vector (vector_widths.h) and the machine's own
+// is taken; machines with fused products and sums differ from others in the last bits.
 #pragma once
 
 #include <Eigen/Core>

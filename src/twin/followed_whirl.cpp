@@ -38,6 +38,14 @@ void FollowedWhirl::put(const std::vector<Station>& stations) {
   sought_ = std::numeric_limits<double>::quiet_NaN();
 }
 
+std::vector<Station> FollowedWhirl::stations() const {
+  std::vector<Station> all;
+  for (const Place& place : places_) {
+    all.push_back(place.at);
+  }
+  return all;
+}
+
 WhirlMotion FollowedWhirl::motion(std::size_t k, const double* q, const double* v) const {
   const Station& at = places_[k].at;
   const Eigen::Map<const Eigen::VectorXd> places(q, at.along_x.size());
@@ -104,11 +112,7 @@ void FollowedWhirl::putOff(const Dynamics& dynamics, const double* q, const doub
   }
   if (!rest_sought_) {
     rest_sought_ = true;
-    std::vector<Station> stations;
-    for (const Place& place : places_) {
-      stations.push_back(place.at);
-    }
-    rest_ = WhirlRest::of(dynamics, stations);
+    rest_ = WhirlRest::of(dynamics, stations());
   }
   const bool wide = std::all_of(places_.begin(), places_.end(),
                                 [](const Place& place) { return place.phase.isWide(kSmall); });
@@ -140,11 +144,7 @@ void FollowedWhirl::findSteady(const Dynamics& dynamics, const double* q, const 
   }
   if (sought_ != shaft.speed()) {
     sought_ = shaft.speed();
-    std::vector<Station> stations;
-    for (const Place& place : places_) {
-      stations.push_back(place.at);
-    }
-    steady_ = SteadyWhirl::of(dynamics, stations, sought_);
+    steady_ = SteadyWhirl::of(dynamics, stations(), sought_);
   }
   if (!steady_) {
     return;

@@ -69,6 +69,8 @@ class FollowedWhirl {
     void exchange(StateImage& image) noexcept { image(phase, seen); }
   };
 
+  std::vector<Station> stations() const;
+
   std::vector<Place> places_;
   std::int64_t told_ = 0;          // step
   std::int64_t steady_until_ = 0;  // step, up to which steady_ holds
