@@ -143,33 +143,34 @@ class SteppedSystem final : public ReadOffStepper {
       const ShaftMotion shaft = drive_.withoutAngle(0.0);  // a command may have changed its course
       method_.follow(shaft.jerk, shaft.acceleration);
     }
-    MotionState<n> next = state_;
+    const MotionState<n> start = state_;
     for (int i = 0; i < count; ++i) {
-      const StepStatus status = advance(method_, equation, offset + i * h, h, next);
-      if (status != StepStatus::kOk) {
-        return finite(state_) ? status : StepStatus::kNotFinite;
+      const StepStatus status = advance(method_, equation, offset + i * h, h, state_);
+      if (__builtin_expect(status != StepStatus::kOk, 0)) {
+        state_ = start;
+        return finite(start) ? status : StepStatus::kNotFinite;
       }
     }
-    if (!finite(next)) {
-      forget();
-      return StepStatus::kNotFinite;
+    if (__builtin_expect(!finite(state_), 0)) {
+      return goBack(start, StepStatus::kNotFinite);
     }
-    if (!hasPhase(next)) {
-      forget();
-      return StepStatus::kOutOfRange;
+    if (__builtin_expect(!hasPhase(state_), 0)) {
+      return goBack(start, StepStatus::kOutOfRange);
     }
-    if (errors_.countStep()) {
-      estimateError(equation, offset, count, h, next);
+    if (__builtin_expect(errors_.countStep(), 0)) {
+      estimateError(equation, offset, count, h, start);
     }
-    state_ = next;
     wholeTurns();
     return StepStatus::kOk;
   }
-  /// The state stays what it was: the past that the method has is another's.
-  WHIRL_TWIN_INLINE void forget() noexcept {
+  /// The state is again what it was: the past that the method has is another's.
+  [[gnu::noinline, gnu::cold]] StepStatus goBack(const MotionState<n>& start,
+                                                 StepStatus why) noexcept {
+    state_ = start;
     if constexpr (kHasHistory) {
       method_.restart();
     }
+    return why;
   }
 
   static WHIRL_TWIN_INLINE bool finite(const MotionState<n>& state) noexcept {
@@ -346,11 +347,12 @@ class SteppedSystem final : public ReadOffStepper {
     return status;
   }
 
-  /// Takes `count` steps of h [s] from state_ to `end` once more, in halves. A method with a past
+  /// Takes `count` steps of h [s] from `start` to state_ once more, in halves. A method with a past
   /// knows its error without, once it has one.
-  void estimateError(const DrivenEquation<Model>& equation, double offset, int count, double h,
-                     const MotionState<n>& end) noexcept {
-    MotionState<n> finer = state_;
+  [[gnu::noinline]] void estimateError(const DrivenEquation<Model>& equation, double offset,
+                                       int count, double h, const MotionState<n>& start) noexcept {
+    const MotionState<n>& end = state_;
+    MotionState<n> finer = start;
     const auto add = [&] {
       errors_.add(n, end.q, end.v, finer.q, finer.v,
                   [](std::size_t i) { return Model::kCoordinates[i].unit[0] == 'r'; });

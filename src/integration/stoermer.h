@@ -34,10 +34,10 @@
 
 #include "integration/called_equation.h"
 #include "integration/dormand_prince_8.h"
-#include "integration/four_doubles.h"
 #include "integration/lanes.h"
 #include "integration/motion_state.h"
 #include "integration/stoermer_weights.h"
+#include "integration/sums_of_past.h"
 #include "realtime/state_image.h"
 
 namespace whirl_twin {
@@ -118,7 +118,7 @@ class Stoermer {
     for (std::size_t k = 0; k < scheme_->terms; ++k) {
       off.add(h * h * reading.position[k], past_[newest_ + k]);
       v.add(h * reading.rate[k], past_[newest_ + k]);
-      work += h * reading.work[k] * powers_[newest_ + k];
+      work += h * reading.work[k] * powers_[newest_ + k].array()[0];
     }
     off.add(reading.share - 1.0, increment_);
     v.add(per_step_, increment_);
@@ -177,8 +177,9 @@ class Stoermer {
     Lanes<n> corrected_increment{};
     Lanes<n> corrected_rate{};
     if (scheme_->corrected) {
-      sumOfPast<kCorrectedTerms>(corrected_position_, corrected_rate_, corrected_increment,
-                                 corrected_rate);
+      const Lanes<n>* const past = &past_[newest_];
+      corrected_increment = sumOfPast<kCorrectedTerms - 1>(corrected_position_, past);
+      corrected_rate = sumOfPast<kCorrectedTerms - 1>(corrected_rate_, past);
       corrected_rate.add(per_step_, increment_);
     }
     double work = scheme_->corrected            ? prepare<kCorrectedTerms>()
@@ -208,7 +209,7 @@ class Stoermer {
   }
 
  private:
-  using Weights = stoermer::Weights;
+  using Weights = NodeWeights<n>;
 
   static constexpr std::size_t kFewTerms = kSchemes[0].terms;
   static constexpr std::size_t kCorrectedTerms = kSchemes[1].terms;
@@ -239,65 +240,19 @@ class Stoermer {
     known_rate_.add(per_step_, increment_);
   }
 
-  /// The sum over all but the node that is yet to be evaluated, of one coordinate: four at a time
-  /// of what is old; the newest, which has just been stored, would be late as one of four.
-  template <std::size_t terms>
-  static WHIRL_TWIN_INLINE double inFours(const Weights& weights, const double* values) {
-    constexpr std::size_t kFours = (terms - 2) / 4;
-    constexpr std::size_t kNew = terms - 1 - 4 * kFours;
-    typename FourDoubles<4>::Part fours{};
-    for (std::size_t k = 0; k < kFours; ++k) {
-      const std::size_t from = kNew + 4 * k;
-      fours += FourDoubles<4>::load(&weights[1 + from]).part[0] *
-               FourDoubles<4>::load(values + from).part[0];
-    }
-    double sum = (fours[0] + fours[2]) + (fours[1] + fours[3]);
-    for (std::size_t k = kNew; k > 0; --k) {
-      sum += weights[k] * values[k - 1];
-    }
-    return sum;
-  }
-
-  /// The sums over all but the node that is yet to be evaluated.
-  template <std::size_t terms>
-  WHIRL_TWIN_INLINE void sumOfPast(const Weights& position, const Weights& rate,
-                                   Lanes<n>& of_position, Lanes<n>& of_rate) const {
-    const Lanes<n>* const past = &past_[newest_];
-    if constexpr (n == 1) {
-      const double* const values = past->array().data();
-      of_position = Lanes<1>({inFours<terms>(position, values)});
-      of_rate = Lanes<1>({inFours<terms>(rate, values)});
-      return;
-    }
-    unrolled<terms - 1>([&](auto from_last) WHIRL_TWIN_FLAT {
-      constexpr std::size_t k = terms - 1 - decltype(from_last)::value;
-      of_position.add(position[k], past[k - 1]);
-      of_rate.add(rate[k], past[k - 1]);
-    });
-  }
   /// What the next step knows before this one's acceleration; and the work [J] of this one, but for
   /// the power that is yet to be evaluated.
   template <std::size_t terms>
   WHIRL_TWIN_INLINE double prepare() {
-    known_increment_ = {};
-    known_of_rate_ = {};
-    sumOfPast<terms>(position_, rate_, known_increment_, known_of_rate_);
-    const double* const powers = &powers_[newest_];
-    if constexpr (n == 1) {
-      return inFours<terms>(work_, powers);
-    }
-    double work = 0.0;
-    unrolled<terms - 1>([&](auto from_last) WHIRL_TWIN_FLAT {
-      constexpr std::size_t k = terms - 1 - decltype(from_last)::value;
-      work += work_[k] * powers[k - 1];
-    });
-    return work;
+    known_increment_ = sumOfPast<terms - 1>(position_, &past_[newest_]);
+    known_of_rate_ = sumOfPast<terms - 1>(rate_, &past_[newest_]);
+    return sumOfPast<terms - 1>(work_, &powers_[newest_]).array()[0];
   }
   /// In two places, so that the past is in a row wherever it begins.
   WHIRL_TWIN_INLINE void keep(const Lanes<n>& acceleration, double power) {
     newest_ = newest_ == 0 ? kLength - 1 : newest_ - 1;
     past_[newest_] = past_[newest_ + kLength] = acceleration;
-    powers_[newest_] = powers_[newest_ + kLength] = power;
+    powers_[newest_] = powers_[newest_ + kLength] = Lanes<1>({power});
   }
 
   /// One step of dormand_prince_8, or, with all accelerations gathered, what the first of its own
@@ -356,11 +311,11 @@ class Stoermer {
     Lanes<n> behind{};
     for (std::size_t k = 0; k < kMostTerms; ++k) {
       const StoermerScheme& s = *scheme_;
-      position_[k] = h * h * s.position[k];
-      rate_[k] = h * (s.position[k] + s.rate[k]);
-      corrected_position_[k] = h * h * s.corrected_position[k];
-      corrected_rate_[k] = h * (s.corrected_position[k] + s.corrected_rate[k]);
-      work_[k] = h * s.work[k];
+      position_.set(k, h * h * s.position[k]);
+      rate_.set(k, h * (s.position[k] + s.rate[k]));
+      corrected_position_.set(k, h * h * s.corrected_position[k]);
+      corrected_rate_.set(k, h * (s.corrected_position[k] + s.corrected_rate[k]));
+      work_.set(k, h * s.work[k]);
       behind.add(-h * h * s.backwards[k], past_[newest_ + k]);
     }
     behind.add(h, Lanes<n>(state.v));
@@ -385,10 +340,10 @@ class Stoermer {
   Lanes<n> known_of_rate_{}, known_rate_{};          ///< of v' - d/h, of v'
   double per_step_ = 0.0;                            ///< [1/s]
   Weights position_{}, rate_{};                      ///< times h^2, h
-  Weights work_{};                                   ///< times h
+  NodeWeights<1> work_{};                            ///< times h
   Weights corrected_position_{}, corrected_rate_{};  ///< times h^2, h
   std::array<Lanes<n>, 2 * kLength> past_{};         ///< accelerations
-  std::array<double, 2 * kLength> powers_{};         ///< [W]
+  std::array<Lanes<1>, 2 * kLength> powers_{};       ///< [W]
   std::size_t gathered_ = 0;
   double gathered_at_ = 0.0;  ///< [s], step
   double jerk_ = 0.0;

@@ -107,15 +107,12 @@ void Twin::step() noexcept {
 }
 
 std::int64_t Twin::steps(std::int64_t count) noexcept {
-  const auto running = [this] {
-    return std::count(status_.begin(), status_.end(), StepStatus::kOk);
-  };
-  const auto before = running();
   std::int64_t taken = 0;
+  bool all_went_on = true;
   do {
-    stepMarked(NoMarks{});
+    all_went_on = stepMarked(NoMarks{});
     ++taken;
-  } while (taken < count && running() == before);
+  } while (taken < count && all_went_on);
   return taken;
 }
 
@@ -125,18 +122,20 @@ std::int64_t Twin::steps(std::int64_t count) noexcept {
   times.endStep();
 }
 
+/// Did every system that ran take it?
 template <class Marks>
-inline void Twin::stepMarked(const Marks& marks) noexcept {
+inline bool Twin::stepMarked(const Marks& marks) noexcept {
   const double time = this->time();
   if (__builtin_expect(control_.any(), 0)) {
-    stepControlled(time, marks);
-    return;
+    return stepControlled(time, marks);
   }
+  bool all_went_on = true;
   Stepper* const* const running = running_.data();
   StepStatus* const status = status_.data();
   for (std::size_t i = 0, count = running_.size(); i < count; ++i) {
     if (status[i] == StepStatus::kOk) {
       status[i] = running[i]->step(time);
+      all_went_on = all_went_on && status[i] == StepStatus::kOk;
     }
     marks(i);
   }
@@ -146,11 +145,16 @@ inline void Twin::stepMarked(const Marks& marks) noexcept {
     ++steps_;
     beginDrives();
   }
+  return all_went_on;
 }
 
 /// From instant to instant of the controllers, what they measure and act on; the others whole.
 template <class Marks>
-[[gnu::noinline]] void Twin::stepControlled(double time, const Marks& marks) noexcept {
+[[gnu::noinline]] bool Twin::stepControlled(double time, const Marks& marks) noexcept {
+  const auto running = [this] {
+    return std::count(status_.begin(), status_.end(), StepStatus::kOk);
+  };
+  const auto before = running();
   control_.stop(status_);
   const std::int64_t start = now();
   const std::int64_t length = scene().step;
@@ -171,6 +175,7 @@ template <class Marks>
     from = to;
   }
   goOnAccompanied(time, marks);
+  return running() == before;
 }
 
 template <class Marks>

@@ -105,11 +105,11 @@ class Twin {
   void beginStep() noexcept;
   void beginDrives() noexcept;
   template <class Marks>
-  void stepMarked(const Marks& marks) noexcept;
+  bool stepMarked(const Marks& marks) noexcept;
   template <class Marks>
   void goOnAccompanied(double time, const Marks& marks) noexcept;
   template <class Marks>
-  void stepControlled(double time, const Marks& marks) noexcept;
+  bool stepControlled(double time, const Marks& marks) noexcept;
 
   BuiltScene built_;
   std::vector<Drive> drives_;                           // steppers keep references to them
