@@ -70,7 +70,7 @@ void FollowedWhirl::observe(std::int64_t step, const double* q, const double* v,
                             const ShaftMark& mark) {
   const bool steady = steady_ && step <= steady_until_;
   for (std::size_t k = 0; k < places_.size(); ++k) {
-    // While looks are put off a whirl stays on its side of the centre, however its shaft turns.
+    // While looks are put off a whirl goes round by less than half a turn, however its shaft turns.
     const bool put_off = step <= next_look_ && step - places_[k].seen > 1;
     const Kept otherwise = put_off ? Kept::kDirection : Kept::kLag;
     places_[k].phase.observe(motion(k, q, v), mark, steady ? steady_->keeps(k) : otherwise);
@@ -95,7 +95,7 @@ bool FollowedWhirl::follow(std::int64_t step, const double* q) noexcept {
       y += across[j + 1] * qj;
     }
     q -= place.across.size() / 2;
-    if (!place.phase.follow(x, y)) {
+    if (!place.phase.follow(x, y, step - place.seen > 1)) {
       return false;
     }
     place.seen = step;
@@ -126,8 +126,8 @@ void FollowedWhirl::putOff(const Dynamics& dynamics, const double* q, const doub
     // Between the two ends it is no further from them than a vertex of the parabola can be.
     const double speed = std::max(std::fabs(shaft.speed), std::fabs(end.speed)) +
                          0.125 * longest * longest * std::fabs(shaft.jerk);
-    const double lasts = rest_->lasts(q, v, speed, acceleration, speed * seconds);
-    steps = static_cast<std::int64_t>(std::min(lasts, longest) / seconds);
+    steps = static_cast<std::int64_t>(rest_->lasts(q, v, speed, acceleration, seconds, longest) /
+                                      seconds);
   }
   if (steps > 1) {
     next_look_ += steps - 1;

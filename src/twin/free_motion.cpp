@@ -22,6 +22,10 @@ double largestEigenvalue(const Eigen::MatrixXd& m) {
       .maxCoeff();
 }
 
+double squareOfNorm(const Eigen::MatrixXd& m) {
+  return largestEigenvalue(m.transpose() * m);
+}
+
 /// R^-1 m S^-T of lower triangles R and S.
 Eigen::MatrixXd between(const Eigen::MatrixXd& r, const Eigen::MatrixXd& m,
                         const Eigen::MatrixXd& s) {
@@ -57,6 +61,11 @@ std::optional<FreeMotion> FreeMotion::of(const Linearization& l) {
   rate.bottomLeftCorner(n, n) = -0.5 * turning;
   rate.bottomRightCorner(n, n) = -0.5 * (damping + damping.transpose());
   free.growth_ = std::max(0.0, largestEigenvalue(rate));
+  const Eigen::MatrixXd of_place =
+      between(free.mass_root_, l.stiffness + l.circulatory, free.stiffness_root_);
+  const Eigen::MatrixXd of_rate =
+      between(free.mass_root_, l.damping + l.gyroscopic, free.mass_root_);
+  free.pull_ = std::sqrt(squareOfNorm(of_place) + squareOfNorm(of_rate));
   return free;
 }
 

@@ -9,7 +9,8 @@
 // (K and G do no work on it; mu is the logarithmic norm, Dahlquist, Trans. Royal Inst. Technology
 // 130 (1959)). At a station z = a . q + i b . q no motion of length |y| is further out than r |y|,
 // r^2 the largest eigenvalue of [a b]^T K^-1 [a b], and none is faster than s |y|, s^2 that of
-// [a b]^T M^-1 [a b].
+// [a b]^T M^-1 [a b]. Its acceleration there is below s (k |y| + |L_M^-1 f|), k^2 the sum of the
+// squares of the norms of L_M^-1 (K + N) L_K^-T and L_M^-1 (C + G) L_M^-T.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,6 +28,8 @@ class FreeMotion {
 
   /// mu [1/s], not below 0.
   double growth() const { return growth_; }
+  /// k [1/s]
+  double pull() const { return pull_; }
   /// |y| of e and e', given coordinate by coordinate.
   template <class Place, class Rate>
   double length(const Place& place, const Rate& rate) const {
@@ -50,6 +53,7 @@ class FreeMotion {
 
  private:
   double growth_ = 0.0;
+  double pull_ = 0.0;
   Eigen::MatrixXd stiffness_root_, mass_root_;  ///< L_K, L_M
 };
 

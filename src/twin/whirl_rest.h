@@ -1,5 +1,5 @@
-// For how long a whirl is sure to stay within a quarter of a turn of where it is, while the speed
-// of its shaft changes: so long it need not be looked at.
+// For how long a whirl is sure to stay within half a turn of where it is, while the speed of its
+// shaft changes: so long it need not be looked at.
 //
 // With matrices that do not depend on the speed, and with e = q - s about the sag s, the rates of
 // FreeMotion's length |y| (free_motion.h) are bounded by what the shaft's forces can do:
@@ -8,7 +8,10 @@
 //
 // where w and a are the largest speed and acceleration in the meantime. A station is moved from
 // z(0) by less than s e^(mu t) (|y(0)| t + g t^2 / 2). While that is less than a part of |z(0)| the
-// whirl stays on its side of the centre.
+// whirl stays on its side of the centre. And the straight line z(0) + z'(0) t, which goes round the
+// centre by less than a quarter of a turn and hardly nears it unless it is aimed at it, is left by
+// less than s e^(mu t) (k (|y(0)| + g t / 3) + g) t^2 / 2: while that is less than a part of its
+// distance from the centre, the whirl goes round by less than half a turn. The longer one counts.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,12 +29,11 @@ class WhirlRest {
   static std::optional<WhirlRest> of(const Dynamics& dynamics,
                                      const std::vector<Station>& stations);
 
-  /// [s] from the state q, v, in which the shaft is nowhere faster than `speed` [rad/s] nor speeds
-  /// up by more than `acceleration` [rad/s^2]; 0: not even now. turned: by how much the shaft turns
-  /// at most from one step to the next [rad]: its mark and the whirl together stay below half a
-  /// turn.
-  double lasts(const double* q, const double* v, double speed, double acceleration,
-               double turned) const;
+  /// [s] from the state q, v, up to `longest`, in which the shaft is nowhere faster than `speed`
+  /// [rad/s] nor speeds up by more than `acceleration` [rad/s^2]; 0: not even now. From one step
+  /// [s] to the next its mark and the whirl together stay below half a turn.
+  double lasts(const double* q, const double* v, double speed, double acceleration, double step,
+               double longest) const;
 
  private:
   struct Place {

@@ -28,8 +28,9 @@ struct Comparison {
 
 class Same {
  public:
+  /// Of every step, whoever is told: sparse looks may miss the largest.
+  void see(double radius) { largest_ = std::max(largest_, radius); }
   bool operator()(const state::WhirlState& a, const state::WhirlState& b) {
-    largest_ = std::max(largest_, a.radius);
     ended_ = ended_ || a.radius < 4e-9 * largest_;
     if (std::isnan(a.phase) || std::isnan(b.phase)) {
       return ended_ || (std::isnan(a.phase) && std::isnan(b.phase));
@@ -58,6 +59,9 @@ Comparison compare(const Scene& scene, std::int64_t steps, std::int64_t told) {
     twin.step();
     twin.write(record.data());
     every.observe(record.data());
+    for (std::size_t k = 0; k < same.size(); ++k) {
+      same[k].see(every.whirl(0, k).radius);
+    }
     if (i % told == 0 || !records.look(record.data())) {
       records.observe(record.data());
       c.differing += same[0](every.whirl(0), records.whirl(0)) ? 0 : 1;
@@ -219,6 +223,27 @@ TEST(SparseObservation, WhirlInARunUpIsLookedAtNowAndThen) {
           20'000, 20'000);
       EXPECT_EQ(c.differing, 0) << more << " from " << start;
       EXPECT_GT(c.put_off, c.looked) << more << " from " << start;
+    }
+  }
+}
+
+// Free whirls in circles and ellipses, forwards and backwards: from look to look they go round by
+// more than a quarter of a turn, a circle by 1.1 rad.
+TEST(SparseObservation, WhirlThatGoesRoundIsLookedAtSixTimesATurn) {
+  for (const double per_step : {0.071, 0.1, 0.16, 0.35, 0.5}) {
+    for (const double ratio : {1.0, -1.0, 0.7, 1.4, -0.3, 0.05}) {
+      const double omega = per_step / 0.001;
+      const std::string text = fmt::format(
+          "{{step: 0.001, drives: {{shaft: {{speed: -40, profile: [{{speed: 200, "
+          "max_acceleration: 2}}]}}}}, systems: {{rotor: {{model: jeffcott_rotor, drive: shaft, "
+          "parameters: {{mass: 1, stiffness: {}, damping: 0, eccentricity: 0}}, initial: {{x: "
+          "3.0e-4, y: 4.0e-4, x_rate: {}, y_rate: {}}}}}}}}}",
+          omega * omega, -ratio * omega * 4.0e-4, ratio * omega * 3.0e-4);
+      const Comparison c = compare(sceneOf(text), 20'000, 20'000);
+      EXPECT_EQ(c.differing, 0) << text;
+      if (std::abs(ratio) == 1.0) {
+        EXPECT_LT(c.looked + c.observed, 20'000 / std::floor(1.1 / per_step) + 350) << text;
+      }
     }
   }
 }
