@@ -6,6 +6,7 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "analysis/bracketed_root.h"

@@ -16,7 +16,6 @@ class Lanes {
   Lanes() = default;
   WHIRL_TWIN_INLINE explicit Lanes(const std::array<double, n>& x) : x_(x) {}
   WHIRL_TWIN_INLINE const std::array<double, n>& array() const { return x_; }
-  WHIRL_TWIN_INLINE const double* data() const { return x_.data(); }
   WHIRL_TWIN_INLINE void add(double factor, const Lanes& other) {
     for (std::size_t i = 0; i < n; ++i) {
       x_[i] += factor * other.x_[i];
@@ -47,7 +46,6 @@ class Lanes<2> {
   Lanes() = default;
   WHIRL_TWIN_INLINE explicit Lanes(const std::array<double, 2>& x) : x_{x[0], x[1]} {}
   WHIRL_TWIN_INLINE std::array<double, 2> array() const { return {x_[0], x_[1]}; }
-  WHIRL_TWIN_INLINE const double* data() const { return reinterpret_cast<const double*>(&x_); }
   WHIRL_TWIN_INLINE void add(double factor, const Lanes& other) { x_ += factor * other.x_; }
   WHIRL_TWIN_INLINE Lanes operator+(const Lanes& other) const {
     Lanes sum;

@@ -147,8 +147,7 @@ class SteppedSystem final : public ReadOffStepper {
     for (int i = 0; i < count; ++i) {
       const StepStatus status = advance(method_, equation, offset + i * h, h, state_);
       if (__builtin_expect(status != StepStatus::kOk, 0)) {
-        state_ = start;
-        return finite(start) ? status : StepStatus::kNotFinite;
+        return goBack(start, finite(start) ? status : StepStatus::kNotFinite);
       }
     }
     if (__builtin_expect(!finite(state_), 0)) {

@@ -1,5 +1,6 @@
 // Weighted sums over the accelerations of the last steps: what a step of stoermer.h is made of.
-// Four doubles are summed side by side, four nodes of one coordinate or two nodes of two.
+// Of one or two coordinates four doubles are summed side by side, of four nodes or of two; of more,
+// one node after the other.
 #pragma once
 
 #include <array>
@@ -48,13 +49,14 @@ WHIRL_TWIN_INLINE Lanes<2> folded(const Part& fours, Lanes<2>) {
 template <std::size_t nodes, std::size_t n>
 WHIRL_TWIN_INLINE Lanes<n> sumOfPast(const NodeWeights<n>& weights, const Lanes<n>* past) {
   if constexpr (n <= 2) {
+    static_assert(sizeof(Lanes<n>) == n * sizeof(double));
     constexpr std::size_t kSideBySide = 4 / n;
     constexpr std::size_t kVectors = (nodes - 1) / kSideBySide;
     constexpr std::size_t kAlone = nodes - kSideBySide * kVectors;
     typename FourDoubles<4>::Part fours{};
     for (std::size_t k = kAlone; k < nodes; k += kSideBySide) {
       fours += FourDoubles<4>::load(weights.from(k + 1)).part[0] *
-               FourDoubles<4>::load(past[k].data()).part[0];
+               FourDoubles<4>::load(reinterpret_cast<const double*>(past + k)).part[0];
     }
     Lanes<n> sum = folded(fours, Lanes<n>());
     for (std::size_t k = kAlone; k > 0; --k) {

@@ -9,8 +9,10 @@
 #include <ros/ros.h>
 #include <whirl_twin/MonitorStatus.h>
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
+#include <string>
 
 #include "accuracy/step_choice.h"
 #include "messages/monitor_pulse.h"

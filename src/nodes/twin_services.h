@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "messages/input_command.h"
 #include "twin/live_checkpoint.h"

@@ -1,5 +1,6 @@
 #include "realtime/record_ring.h"
 
+#include <boost/lockfree/spsc_queue.hpp>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -23,35 +24,41 @@ std::size_t doublesNeeded(std::size_t record_size, std::size_t capacity_records)
 
 }  // namespace
 
+struct RecordRing::Values : boost::lockfree::spsc_queue<double> {
+  using spsc_queue::spsc_queue;
+};
+
 RecordRing::RecordRing(std::size_t record_size, std::size_t capacity_records)
     : record_size_(record_size),
       capacity_(capacity_records),
-      values_(doublesNeeded(record_size, capacity_records)) {}
+      values_(std::make_unique<Values>(doublesNeeded(record_size, capacity_records))) {}
+
+RecordRing::~RecordRing() = default;
 
 bool RecordRing::push(const double* record) noexcept {
-  if (values_.write_available() < record_size_) {
+  if (values_->write_available() < record_size_) {
     // Only this thread writes the count; an atomic store keeps readers of it honest.
     dropped_.store(dropped() + 1, std::memory_order_relaxed);
     return false;
   }
-  values_.push(record, record_size_);
+  values_->push(record, record_size_);
   return true;
 }
 
 bool RecordRing::hasRoomFor(std::size_t records) const noexcept {
-  return values_.write_available() / record_size_ >= records;
+  return values_->write_available() / record_size_ >= records;
 }
 
 bool RecordRing::pop(double* record) noexcept {
-  if (values_.read_available() < record_size_) {
+  if (values_->read_available() < record_size_) {
     return false;
   }
-  values_.pop(record, record_size_);
+  values_->pop(record, record_size_);
   return true;
 }
 
 std::size_t RecordRing::waiting() const noexcept {
-  return values_.read_available() / record_size_;
+  return values_->read_available() / record_size_;
 }
 
 }  // namespace whirl_twin

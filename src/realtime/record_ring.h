@@ -9,9 +9,9 @@
 #pragma once
 
 #include <atomic>
-#include <boost/lockfree/spsc_queue.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 
 namespace whirl_twin {
 
@@ -19,6 +19,9 @@ class RecordRing {
  public:
   /// `record_size` [doubles] and `capacity_records` are at least 1, else std::logic_error.
   RecordRing(std::size_t record_size, std::size_t capacity_records);
+  ~RecordRing();
+  RecordRing(const RecordRing&) = delete;
+  RecordRing& operator=(const RecordRing&) = delete;
 
   /// Producer: copies recordSize() doubles in; false, and counted, when there is no room for them.
   /// Real-time safe.
@@ -41,9 +44,11 @@ class RecordRing {
   std::size_t recordSize() const noexcept { return record_size_; }
 
  private:
+  struct Values;  ///< the queue: its headers are long, and these are read with every controller
+
   std::size_t record_size_;
   std::size_t capacity_;
-  boost::lockfree::spsc_queue<double> values_;
+  std::unique_ptr<Values> values_;
   std::atomic<std::uint64_t> dropped_{0};
 };
 

@@ -2,6 +2,7 @@
 // cross-coupled stiffness.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "analysis/bracketed_root.h"
