@@ -13,7 +13,7 @@ namespace {
 /// what the residual is a part of. Where every step is a linear rotor's own, which costs less than
 /// its energies do, fewer.
 constexpr std::int64_t kMostPassed = 64;
-constexpr std::int64_t kMostPassedOfLinearRotors = 256;
+constexpr std::int64_t kMostPassedOfLinearRotors = 512;
 constexpr double kQuarterTurn = 0.5 * 3.14159265358979323846;
 
 /// Of rotors with more, a look is little beside a step.

@@ -75,14 +75,17 @@ double WhirlRest::lasts(const double* q, const double* v, double speed, double a
     }
     const double radius = std::sqrt(x * x + y * y);
     const double room = part(turned) * radius / (place.fastest * grown);
-    double here = 2.0 * room / (length + std::sqrt(length * length + 2.0 * push * room));
+    double here = 0.0;
     const double outwards = x * x_rate + y * y_rate;
     const double around = std::fabs(x * y_rate - y * x_rate);
     if (outwards > -kAimed * around) {
       const double rate = std::sqrt(x_rate * x_rate + y_rate * y_rate);
       const double distance = outwards < 0.0 ? around / rate : radius;
       const double beside = part(turned + rate * step / distance) * distance;
-      here = std::max(here, std::sqrt(2.0 * beside / (place.fastest * curved)));
+      here = std::sqrt(2.0 * beside / (place.fastest * curved));
+    }
+    if (!(here * length >= room)) {  // which the way to the side of the centre is no longer than
+      here = std::max(here, 2.0 * room / (length + std::sqrt(length * length + 2.0 * push * room)));
     }
     if (!(here >= lasts)) {  // also where it is no number
       lasts = here;

@@ -310,7 +310,7 @@ TEST(SparseObservation, EnergiesAreObservedNowAndThen) {
   const Twin rotor(
       sceneOf("{step: 0.001, systems: {rotor: {model: jeffcott_rotor, parameters: {mass: 2, "
               "stiffness: 7200, speed: 60}}}}"));
-  EXPECT_EQ(Observer(rotor).mostPassed(), 256);
+  EXPECT_EQ(Observer(rotor).mostPassed(), 512);
 }
 
 // The running estimate of a rotor that rubs, which is found in one step of 64.
