@@ -95,7 +95,7 @@ bool FollowedWhirl::follow(std::int64_t step, const double* q) noexcept {
       y += across[j + 1] * qj;
     }
     q -= place.across.size() / 2;
-    if (!place.phase.follow(x, y, step - place.seen > 1)) {
+    if (!place.phase.follow(x, y)) {
       return false;
     }
     place.seen = step;

@@ -2,9 +2,8 @@
 //
 // Unwrapping takes the lag of a step nearest to that of the step before. What that needs of a step
 // that nobody is told of is only which way round the centre the whirl went: the mark's turns are
-// counted by its shaft, and within half a turn it is the way on whose side of the centre the chord
-// is, which crosses the x axis where the sign of y changes. That is follow(), a few
-// multiplications; the lag is
+// counted by its shaft, and within a quarter of a turn the shorter way crosses the negative x axis
+// where the sign of y changes at negative x. That is follow(), a few multiplications; the lag is
 // worked out where it is asked for, and is the same to the last bit as if it had been all along.
 #pragma once
 
@@ -43,24 +42,19 @@ class WhirlPhase {
   /// The next record. After follow() settle() first.
   void observe(const WhirlMotion& whirl, const ShaftMark& mark, Kept kept = Kept::kLag);
 
-  /// The next step, of which only the place [m] is looked at; or one for which it was foreseen that
-  /// the whirl goes round by less than half a turn until then. False, with nothing done, where it
-  /// went a quarter of a turn or more unforeseen, or through the centre, or has had no angle: the
-  /// step is to be observed. The mark has to have turned by less than a quarter of a turn a step.
-  bool follow(double x, double y, bool foreseen = false) noexcept {
+  /// The next step, of which only the place [m] is looked at. False, with nothing done, where the
+  /// whirl went a quarter of a turn or more, or through the centre, or has had no angle: the step
+  /// is to be observed. The mark has to have turned by less than a quarter of a turn.
+  bool follow(double x, double y) noexcept {
     const double square = x * x + y * y;
-    const bool near = valid_ && (foreseen || x * x_ + y * y_ > 0.0) &&
+    const bool near = valid_ && x * x_ + y * y_ > 0.0 &&
                       square > kSmallestSquare * largest_square_ && square < kInfinite;
     if (!near) {
       return false;
     }
-    if (std::signbit(y) != std::signbit(y_)) {
-      const bool below = std::signbit(y);
-      // The chord is on the axis at this, over y - y_.
-      const double at = x_ * y - x * y_;
-      if (at == 0.0 ? x < 0.0 : below == (at > 0.0)) {
-        around_ += below ? 1 : -1;
-      }
+    // On both sides of the x axis, less than a quarter of a turn apart: x has one sign.
+    if (std::signbit(y) != std::signbit(y_) && x < 0.0) {
+      around_ += std::signbit(y) ? 1 : -1;
     }
     x_ = x;
     y_ = y;

@@ -227,8 +227,8 @@ TEST(SparseObservation, WhirlInARunUpIsLookedAtNowAndThen) {
   }
 }
 
-// Free whirls in circles and ellipses, forwards and backwards: from look to look they go round by
-// more than a quarter of a turn, a circle by 1.1 rad.
+// Free whirls in circles and ellipses, forwards and backwards: from look to look a circle goes
+// round by 1.1 rad.
 TEST(SparseObservation, WhirlThatGoesRoundIsLookedAtSixTimesATurn) {
   for (const double per_step : {0.071, 0.1, 0.16, 0.35, 0.5}) {
     for (const double ratio : {1.0, -1.0, 0.7, 1.4, -0.3, 0.05}) {
