@@ -2,6 +2,7 @@
 set(whirl_twin_node_names
   simulation_node follow_node monitor_node visualization_node lcm_bridge_node lcm_recorder_node command_bridge_node
   terminal_node)
+set(whirl_twin_demo_nodes simulation_node monitor_node visualization_node terminal_node)
 
 if(WHIRL_TWIN_ROS)
   set(whirl_twin_library_dir ${CATKIN_PACKAGE_LIB_DESTINATION})
@@ -13,7 +14,7 @@ else()
 endif()
 
 # The programs, what rostopic needs to print their messages, and the types of LCM for Python: all that is installed. And
-# the nodes without `twin`, two thirds of it, for the first minutes with launch files.
+# the nodes that demo.launch starts, a third of it, for the first minutes.
 add_custom_target(whirl_twin_programs)
 add_custom_target(whirl_twin_demo)
 if(TARGET whirl_twin_generate_messages_py)
@@ -28,7 +29,9 @@ endif()
 foreach(node ${whirl_twin_node_names})
   if(TARGET ${node})
     add_dependencies(whirl_twin_programs ${node})
-    add_dependencies(whirl_twin_demo ${node})
+    if(${node} IN_LIST whirl_twin_demo_nodes)
+      add_dependencies(whirl_twin_demo ${node})
+    endif()
     file(RELATIVE_PATH to_library /${whirl_twin_node_dir} /${whirl_twin_library_dir})
     set_target_properties(${node} PROPERTIES INSTALL_RPATH "$ORIGIN/${to_library}")
     install(TARGETS ${node} RUNTIME DESTINATION ${whirl_twin_node_dir})
@@ -67,11 +70,11 @@ if(TARGET twin AND whirl_twin_python AND NOT CMAKE_CROSSCOMPILING)
     FILES_MATCHING PATTERN "twin*.1" PATTERN "whirl_twin-*.1")
 endif()
 
-install(TARGETS whirl_twin_core
+install(TARGETS whirl_twin_core whirl_twin_studies
   ARCHIVE DESTINATION ${whirl_twin_library_dir}
   LIBRARY DESTINATION ${whirl_twin_library_dir})
-foreach(room ${whirl_twin_core_rooms})
-  install(DIRECTORY src/${room} DESTINATION include/whirl_twin FILES_MATCHING PATTERN *.h)
+foreach(module ${whirl_twin_library_modules})
+  install(DIRECTORY src/${module} DESTINATION include/whirl_twin FILES_MATCHING PATTERN *.h)
 endforeach()
 
 if(NOT WHIRL_TWIN_ROS)

@@ -25,7 +25,7 @@ if(WHIRL_TWIN_NATIVE)
 endif()
 catkin_package(
   INCLUDE_DIRS src
-  LIBRARIES whirl_twin_core
+  LIBRARIES whirl_twin_studies whirl_twin_core
   CATKIN_DEPENDS roscpp std_msgs std_srvs sensor_msgs message_runtime
   CFG_EXTRAS whirl_twin-pluginlib.cmake whirl_twin-extras.cmake)
 

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "algebra/eigenvalues.h"
-#include "algebra/lu.h"
+#include "algebra/dense.h"
 #include "integration/step_methods.h"
 #include "integration/stoermer_growth.h"
 
@@ -33,7 +32,7 @@ std::vector<double> speedsOf(const Scene& one) {
 /// Does a method make of small deviations q'' = by_q q + by_v q' in a step of h [s] no more than
 /// they themselves do?
 bool growsNoFaster(const StoermerScheme& scheme, const Linearization& l, double h) {
-  const Eigen::PartialPivLU<Eigen::MatrixXd> mass(l.mass);
+  const Lu mass(l.mass);
   const Eigen::MatrixXd by_q = -mass.solve(l.stiffness + l.circulatory);
   const Eigen::MatrixXd by_v = -mass.solve(l.damping + l.gyroscopic);
   if (!by_q.allFinite() || !by_v.allFinite()) {
@@ -44,7 +43,7 @@ bool growsNoFaster(const StoermerScheme& scheme, const Linearization& l, double 
   own.topRightCorner(n, n).setIdentity();
   own.bottomLeftCorner(n, n) = by_q;
   own.bottomRightCorner(n, n) = by_v;
-  const double growing = std::max(0.0, own.eigenvalues().real().maxCoeff());
+  const double growing = std::max(0.0, eigenvalues(own).values.real().maxCoeff());
   return growthInAStep(scheme, by_q, by_v, h) <= std::exp(growing * h) * (1.0 + kGrowth);
 }
 

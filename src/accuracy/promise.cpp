@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <vector>
 
+#include "algebra/constants.h"
 #include "integration/step_methods.h"
 #include "models/model_registry.h"
 
@@ -13,32 +13,30 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kSafety = 4.0;     // the error aimed at is so much below the tolerance
-constexpr double kReference = 8.0;  // the reference's own is so much below
-constexpr double kKnown = 2.0;      // at least so much, of the tolerance or of what it judges
-constexpr double kParted = 0.1;
-constexpr double kReferencePart = 0.6;  // of the budget
-constexpr double kExactBudget = 2.0e6;  // evaluations: what their rounding does, it does soon
+constexpr double kSafety = 4.0;           // the error aimed at is so much below the tolerance
+constexpr double kReferenceMargin = 8.0;  // the reference's own is so much below
+constexpr double kKnown = 2.0;            // at least so much, of the tolerance or of what it judges
+constexpr double kReferencePart = 0.6;    // of the budget
+constexpr double kExactBudget = 2.0e6;    // evaluations: what their rounding does, it does soon
 constexpr double kMostSamples = 16384.0;
 /// Of accelerations, that a step of the twin takes of a reference at its coarsest, and of one by
 /// exact steps.
 constexpr double kEvaluations = 100.0;
 constexpr double kExactEvaluations = 5.0;
-const char* const kExact = "exponential";
 
 /// Is it stepped by the exact step of its linear part, whatever else it could be stepped with?
 bool byExactLinearPart(const Scene& one, const ModelSetup& setup) {
   return setup.integrators.size() == 1 ||
          (!setup.dynamics->linear() &&
-          chooseIntegrator(setup, one.systems.front().drive.has_value()).integrator == kExact);
+          chooseIntegrator(setup, one.systems.front().drive.has_value()).integrator ==
+              kExactMethod);
 }
 
 }  // namespace
 
 bool stepsAreExact(const Scene& one, const ModelSetup& setup) {
   const bool on_drive = one.systems.front().drive.has_value();
-  return setup.dynamics->linear() && chooseIntegrator(setup, on_drive).integrator == kExact &&
+  return setup.dynamics->linear() && chooseIntegrator(setup, on_drive).integrator == kExactMethod &&
          (one.drives.empty() || one.drives.front().profile.empty());
 }
 
@@ -69,7 +67,7 @@ StepJudge::StepJudge(const Scene& one, const ModelSetup& setup, EvaluationBudget
   const bool by_itself = byExactLinearPart(one, setup);
   const double evaluations = exact_ || by_itself ? kExactEvaluations : kEvaluations;
   const double affordable =
-      before / (evaluations * budget.cost({kExact, one.step, ownSubsteps(one)}, one.step, 1));
+      before / (evaluations * budget.cost({kExactMethod, one.step, ownSubsteps(one)}, one.step, 1));
   const double seen = std::min(steps, std::max(affordable, 8.0));
   std::int64_t stride = 1;
   while (seen / static_cast<double>(stride) > kMostSamples) {
@@ -79,10 +77,10 @@ StepJudge::StepJudge(const Scene& one, const ModelSetup& setup, EvaluationBudget
   samples_ = 1.0 + std::ceil(steps / static_cast<double>(stride));
   const double asked = std::min(samples_, 1.0 + std::ceil(seen / static_cast<double>(stride)));
   reference_ = referenceOf(one, setup, interval_, static_cast<std::size_t>(asked),
-                           spec.tolerance / kReference, part);
+                           spec.tolerance / kReferenceMargin, part);
   budget.take(before - part.left());
-  known_ = reference_.lastWithin(spec.tolerance / kReference);
-  followed_ = reference_.lastWithin(kParted);
+  known_ = reference_.lastWithin(spec.tolerance / kReferenceMargin);
+  followed_ = reference_.lastWithin(kDivergedDistance);
 }
 
 double StepJudge::seconds(std::size_t sample) const {
@@ -100,7 +98,7 @@ double StepJudge::excessOf(const StepSetting& setting, std::int64_t interval) {
   const Trajectory t =
       motion(withSetting(one_, setting), interval, samples, [&](const Trajectory& now) {
         return curve.take(now, reference_.trajectory) &&
-               curve.position(curve.samples() - 1) < 10.0 * kParted;
+               curve.position(curve.samples() - 1) < 10.0 * kDivergedDistance;
       });
   const double aim = one_.systems.front().tolerance / kSafety;
   const double error = curve.position(known_ / ratio) / aim;

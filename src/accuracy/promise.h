@@ -13,6 +13,9 @@
 
 namespace whirl_twin {
 
+/// The method whose step of linear dynamics has no truncation error.
+inline constexpr const char* kExactMethod = "exponential";
+
 struct Promise {
   double error = 0.0;            ///< [-], bound, of the positions, up to known_until
   double rate_error = 0.0;       ///< [-], of the rates likewise

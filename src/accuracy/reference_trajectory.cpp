@@ -10,14 +10,12 @@ namespace whirl_twin {
 
 namespace {
 
-/// Trajectories that are so far from each other have parted.
-constexpr double kParted = 0.1;
 /// Steps that are shorter by half and do not lessen the difference so much are in vain.
-constexpr double kGain = 0.7;
+constexpr double kHalvingGain = 0.7;
 constexpr double kLonger = 1.02;  // or make it last so much longer
 /// A try that costs less than this part of the budget may be in vain.
 constexpr double kCheap = 0.01;
-constexpr int kMostSubsteps = 1 << 20;
+constexpr int kMaxReferenceSubsteps = 1 << 20;
 constexpr double kHopeless = 0.25;
 /// A disturbance of the start in parts of the largest coordinates, and the rounding of all steps
 /// that it stands for.
@@ -131,7 +129,7 @@ ReferenceTrajectory pair(const Scene& one, const StepSetting& setting, const Ste
   now.trajectory =
       motion(withSetting(one, setting), interval, samples + 1, [&](const Trajectory& t) {
         return now.difference.take(t, beside) &&
-               now.difference.position(now.difference.samples() - 1) < kParted;
+               now.difference.position(now.difference.samples() - 1) < kDivergedDistance;
       });
   now.difference.holdAgainstTheSampleBefore();
   now.trajectory.keep(now.difference.samples());
@@ -154,7 +152,7 @@ ErrorCurve disturbedBy(double disturbance, const Scene& one, const StepSetting& 
   }
   ErrorCurve curve = ErrorCurve::inPartsOf(right);
   motion(off, interval, right.samples(), [&](const Trajectory& t) {
-    return curve.take(t, right) && curve.position(curve.samples() - 1) < kParted;
+    return curve.take(t, right) && curve.position(curve.samples() - 1) < kDivergedDistance;
   });
   return curve;
 }
@@ -181,7 +179,7 @@ bool isBetter(const ReferenceTrajectory& now, const ReferenceTrajectory& best, d
   const std::size_t common = std::min(now.difference.samples(), best.difference.samples());
   return longer(now.lastWithin(wanted), best.lastWithin(wanted)) ||
          longer(now.difference.samples(), best.difference.samples()) ||
-         (common > 0 && now.error(common - 1) < kGain * best.error(common - 1));
+         (common > 0 && now.error(common - 1) < kHalvingGain * best.error(common - 1));
 }
 
 }  // namespace
@@ -202,7 +200,7 @@ ReferenceTrajectory referenceTrajectory(const Scene& one, const std::string& met
     return budget.cost({method, step, substeps / 2 * 3}, interval, 1) +
            budget.cost(settingOf(others.front(), substeps), interval, 1);
   };
-  for (int substeps = 2 * ownSubsteps(one); substeps <= kMostSubsteps;) {
+  for (int substeps = 2 * ownSubsteps(one); substeps <= kMaxReferenceSubsteps;) {
     const StepSetting setting{method, step, substeps / 2 * 3};
     const double of_one = costOfOne(substeps);
     const bool first = best.trajectory.samples() == 0;

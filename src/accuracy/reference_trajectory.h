@@ -21,6 +21,9 @@
 
 namespace whirl_twin {
 
+/// Trajectories whose positions differ by more than this have diverged [-].
+inline constexpr double kDivergedDistance = 0.1;
+
 /// Evaluations of accelerations that are left to spend, those of a pendulum of two coordinates.
 class EvaluationBudget {
  public:

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 #include "accuracy/step_search.h"
+#include "algebra/constants.h"
 #include "integration/step_methods.h"
 #include "models/model_registry.h"
 #include "realtime/denormals.h"
@@ -22,7 +22,6 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMostCalibrations = 32;
 constexpr double kHorizons = 3.0;      // looked ahead, without a profile
 constexpr double kLookBudget = 5.0e5;  // evaluations, for that
@@ -34,8 +33,6 @@ constexpr double kLengthsOfParts = 36.0;
 /// is still calibrated.
 constexpr Eigen::Index kMostInTables = 64;
 constexpr Eigen::Index kMostAtOneSpeed = 200;
-const char* const kReference = "gauss_legendre_6";
-const char* const kExact = "exponential";
 
 /// Rates enter the forces: in the matrices at the start, or in what friction does at rates large
 /// and small. (A motion far from there may differ, and is what the calibration is for.)
@@ -151,18 +148,18 @@ Searched searched(const Scene& one, const ModelSetup& setup, StepJudge& judge) {
   const bool on_drive = spec.drive.has_value();
   const IntegratorChoice structural = chooseIntegrator(setup, on_drive);
   StepSearch search(one, setup, judge);
-  if (structural.integrator == kExact || setup.integrators.size() == 1) {
+  if (structural.integrator == kExactMethod || setup.integrators.size() == 1) {
     search.tryMethod(stepMethod(structural.integrator));
     return {search.best(), search.best()};
   }
   const bool rate_forces = hasRateForces(setup, spec);
-  search.tryMethod(stepMethod(kReference));
+  search.tryMethod(stepMethod(kReferenceMethod));
   if (search.found() && !judge.knowsMuch()) {
     return {search.best(), search.best()};  // what is robust, where nobody knows what comes
   }
   const auto tryThose = [&](bool with_past) {
     for (const StepMethod& method : stepMethods()) {
-      if ((method.past > 0) == with_past && method.order != 0 && method.name != kReference &&
+      if ((method.past > 0) == with_past && method.order != 0 && method.name != kReferenceMethod &&
           !(method.predicts_rates && rate_forces) && !method.ahead && !method.by_name &&
           canStepWith(setup, on_drive, method.name)) {
         search.tryMethod(method);
@@ -219,7 +216,7 @@ StepChoice chooseStep(const Scene& given, double evaluations) {
     choice = withPromise(found.without_past);  // what comes is not what it was proven on
   }
   choice.reason = reasonFor(choice, spec);
-  if (choice.integrator == kExact && stepsAreExact(one, setup)) {
+  if (choice.integrator == kExactMethod && stepsAreExact(one, setup)) {
     choice.reason = structural.reason + "; " + choice.reason;
   }
   return choice;

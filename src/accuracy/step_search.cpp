@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "accuracy/past_margin.h"
+#include "algebra/constants.h"
 #include "models/model_registry.h"
 
 namespace whirl_twin {
@@ -14,11 +15,11 @@ namespace {
 /// Of a step: substeps are no shorter than this, but for so many as there always may be.
 constexpr std::int64_t kShortestSubstep = 500;  // ns
 constexpr int kFewSubsteps = 64;
-constexpr int kMostSubsteps = 4096;
+constexpr int kMaxChosenSubsteps = 4096;
 /// A method that is not symplectic has to be this much cheaper than gauss_legendre_6.
 constexpr double kWorthwhile = 0.7;
 constexpr double kBelieved = 1.0e12;  // an excess beyond says only that the motion was lost
-constexpr double kGain = 0.7;
+constexpr double kRefinementGain = 0.7;
 constexpr double kMostDoublings = 16.0;
 /// A step of twice the length may be wrong by so much more.
 constexpr double kRoundingExcess = 1.0e-3;
@@ -27,7 +28,6 @@ constexpr double kOwnSteps = 50.0;
 constexpr int kPastMargin = 4;
 /// Steps of the twin that one of a method may be read off for: beyond, little is gained.
 constexpr int kMostAhead = 32;
-const char* const kReference = "gauss_legendre_6";
 
 double cost(const StepChoice& choice) {
   const StepMethod& method = stepMethod(choice.integrator);
@@ -47,7 +47,7 @@ StepSetting settingOf(const Scene& one, const StepChoice& choice) {
 
 int mostSubsteps(const Scene& one) {
   return static_cast<int>(
-      std::clamp<std::int64_t>(one.step / kShortestSubstep, kFewSubsteps, kMostSubsteps));
+      std::clamp<std::int64_t>(one.step / kShortestSubstep, kFewSubsteps, kMaxChosenSubsteps));
 }
 
 void StepSearch::tryMethod(const StepMethod& method) {
@@ -70,13 +70,13 @@ void StepSearch::tryMethod(const StepMethod& method) {
           (soundAtLongerSteps(setting, 2, method, excess) &&
            (method.past == 0 || isProvenWithAPast(setting, method, excess)))) {
         found_ = choice;
-        if (method.name == kReference) {
+        if (method.name == kReferenceMethod) {
           implicit_cost_ = cost(choice);
         }
       }
       return;
     }
-    if (std::isfinite(before) && excess > kGain * before) {
+    if (std::isfinite(before) && excess > kRefinementGain * before) {
       return;  // shorter steps are no better
     }
     before = excess;

@@ -2,14 +2,17 @@
 // is (step_choice.h).
 #pragma once
 
-#include <limits>
 #include <optional>
 
 #include "accuracy/promise.h"
 #include "accuracy/step_choice.h"
+#include "algebra/constants.h"
 #include "integration/step_methods.h"
 
 namespace whirl_twin {
+
+/// The implicit, symplectic method that the others are compared with.
+inline constexpr const char* kReferenceMethod = "gauss_legendre_6";
 
 StepSetting settingOf(const Scene& one, const StepChoice& choice);
 int mostSubsteps(const Scene& one);
@@ -34,8 +37,6 @@ class StepSearch {
                           double excess);
   bool isProvenWithAPast(const StepSetting& setting, const StepMethod& method, double excess);
   bool hasOwnSteps(const StepSetting& setting, const StepMethod& method) const;
-
-  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
   const Scene& one_;
   const ModelSetup& setup_;

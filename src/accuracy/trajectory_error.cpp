@@ -4,11 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "algebra/constants.h"
+
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRadiusWithPhase = 1.0e-3;
 
 /// Largest coordinates of a reference, by unit.

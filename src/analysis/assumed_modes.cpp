@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "algebra/qr.h"
+#include "algebra/dense.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {
@@ -18,9 +18,7 @@ void requireIndependentShapes(const Eigen::MatrixXd& shapes, Eigen::Index coordi
   if (!shapes.allFinite()) {
     throw Refusal("assumed modes: expected finite entries");
   }
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factors;
-  factors.setThreshold(1e-10);
-  factors.compute(shapes.colwise().normalized());
+  const PivotedQr factors(shapes.colwise().normalized(), 1e-10);
   if (factors.rank() < shapes.cols() || shapes.colwise().squaredNorm().minCoeff() == 0.0) {
     throw Refusal(fmt::format(
         "assumed modes: expected linearly independent shapes, found {} that span only {} "

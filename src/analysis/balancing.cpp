@@ -5,8 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "algebra/qr.h"
-#include "algebra/svd.h"
+#include "algebra/dense.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {
@@ -52,11 +51,10 @@ BalanceCorrection balance(const Eigen::MatrixXcd& influence, const Eigen::Vector
   const Eigen::VectorXcd root = weights.cwiseSqrt().cast<std::complex<double>>();
   const Eigen::MatrixXcd weighted = root.asDiagonal() * influence;
   BalanceCorrection correction;
-  correction.mass_radius =
-      weighted.completeOrthogonalDecomposition().solve(-root.cwiseProduct(initial));
+  correction.mass_radius = leastSquares(weighted, -root.cwiseProduct(initial));
   correction.residual = initial + influence * correction.mass_radius;
   correction.rms = correction.residual.norm() / std::sqrt(static_cast<double>(initial.size()));
-  const Eigen::VectorXd singular = weighted.jacobiSvd().singularValues();
+  const Eigen::VectorXd singular = singularValues(weighted);
   correction.condition = singular.minCoeff() > 0.0 ? singular.maxCoeff() / singular.minCoeff()
                                                    : std::numeric_limits<double>::infinity();
   return correction;

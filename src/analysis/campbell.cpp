@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "algebra/constants.h"
 #include "analysis/bracketed_root.h"
 
 namespace whirl_twin {
@@ -43,7 +43,6 @@ void addCrossings(const ModeTracker& tracker, const CampbellRequest& request, st
 
 CampbellPoint campbellPoint(const std::optional<WhirlMode>& mode) {
   if (!mode) {
-    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
     return {kNaN, kNaN, kNaN, kNaN, kNaN, Whirl::kStraight};
   }
   return {mode->dampedFrequency(), mode->naturalFrequency(), 0.0 - mode->eigenvalue.real(),

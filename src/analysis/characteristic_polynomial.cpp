@@ -11,11 +11,11 @@ namespace whirl_twin {
 
 namespace {
 
-using Row = std::vector<Rational>;
-using Matrix = std::vector<Row>;
+using RationalRow = std::vector<Rational>;
+using RationalMatrix = std::vector<RationalRow>;
 
-Matrix product(const Matrix& a, const Matrix& b) {
-  Matrix c(a.size(), Row(b.front().size()));
+RationalMatrix matrixProduct(const RationalMatrix& a, const RationalMatrix& b) {
+  RationalMatrix c(a.size(), RationalRow(b.front().size()));
   for (std::size_t i = 0; i < a.size(); ++i) {
     for (std::size_t k = 0; k < b.size(); ++k) {
       if (a[i][k] == 0) {
@@ -30,7 +30,7 @@ Matrix product(const Matrix& a, const Matrix& b) {
 }
 
 /// X with M X = B, by Gauss-Jordan elimination.
-Matrix solve(Matrix m, Matrix b) {
+RationalMatrix solveExactly(RationalMatrix m, RationalMatrix b) {
   for (std::size_t i = 0; i < m.size(); ++i) {
     std::size_t pivot = i;
     while (pivot < m.size() && m[pivot][i] == 0) {
@@ -63,10 +63,10 @@ Matrix solve(Matrix m, Matrix b) {
 }
 
 /// The state matrix [0 I; -M^-1 (K + N), -M^-1 (C + G)].
-Matrix stateMatrix(const Linearization& l) {
+RationalMatrix rationalStateMatrix(const Linearization& l) {
   const auto n = static_cast<std::size_t>(l.mass.rows());
-  Matrix mass(n, Row(n));
-  Matrix right(n, Row(2 * n));
+  RationalMatrix mass(n, RationalRow(n));
+  RationalMatrix right(n, RationalRow(2 * n));
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) {
       const auto r = static_cast<Eigen::Index>(i);
@@ -76,8 +76,8 @@ Matrix stateMatrix(const Linearization& l) {
       right[i][n + j] = -(Rational(l.damping(r, c)) + Rational(l.gyroscopic(r, c)));
     }
   }
-  const Matrix accelerations = solve(mass, right);
-  Matrix a(2 * n, Row(2 * n));
+  const RationalMatrix accelerations = solveExactly(mass, right);
+  RationalMatrix a(2 * n, RationalRow(2 * n));
   for (std::size_t i = 0; i < n; ++i) {
     a[i][n + i] = 1;
     a[n + i] = accelerations[i];
@@ -86,23 +86,23 @@ Matrix stateMatrix(const Linearization& l) {
 }
 
 /// Of a square matrix, highest power first.
-std::vector<Rational> minimal(const Matrix& a) {
+std::vector<Rational> minimal(const RationalMatrix& a) {
   const std::size_t size = a.size();
   // The smallest power A^k b that depends on the lower ones; b has no symmetry that could hide a
   // direction.
-  Matrix vector(size, Row(1));
+  RationalMatrix vector(size, RationalRow(1));
   for (std::size_t i = 0; i < size; ++i) {
     vector[i][0] = Rational(static_cast<long>((7919 * (i + 1) * (i + 1) + 104729) % 65537));
   }
-  Matrix rows;          // reduced Krylov vectors ...
-  Matrix combinations;  // ... as combinations of b, A b, A^2 b, ...
+  RationalMatrix rows;          // reduced Krylov vectors ...
+  RationalMatrix combinations;  // ... as combinations of b, A b, A^2 b, ...
   std::vector<std::size_t> pivots;
   for (std::size_t k = 0; k <= size; ++k) {
-    Row row(size);
+    RationalRow row(size);
     for (std::size_t i = 0; i < size; ++i) {
       row[i] = vector[i][0];
     }
-    Row combination(size + 1);
+    RationalRow combination(size + 1);
     combination[k] = 1;
     for (std::size_t r = 0; r < rows.size(); ++r) {
       const Rational ratio = row[pivots[r]] / rows[r][pivots[r]];
@@ -130,7 +130,7 @@ std::vector<Rational> minimal(const Matrix& a) {
     pivots.push_back(pivot);
     rows.push_back(row);
     combinations.push_back(combination);
-    vector = product(a, vector);
+    vector = matrixProduct(a, vector);
   }
   throw std::logic_error("a matrix satisfies its characteristic polynomial");
 }
@@ -157,11 +157,11 @@ std::vector<Rational> characteristicPolynomial(const Eigen::MatrixXd& a, ExactBu
 }
 
 std::vector<Rational> minimalPolynomial(const Linearization& linearization) {
-  return minimal(stateMatrix(linearization));
+  return minimal(rationalStateMatrix(linearization));
 }
 
 std::vector<Rational> minimalPolynomial(const Eigen::MatrixXd& a) {
-  Matrix exact;
+  RationalMatrix exact;
   for (Eigen::Index i = 0; i < a.rows(); ++i) {
     exact.emplace_back(a.row(i).begin(), a.row(i).end());
   }

@@ -5,8 +5,7 @@
 #include <limits>
 #include <set>
 
-#include "algebra/cholesky.h"
-#include "algebra/eigenvalues.h"
+#include "algebra/dense.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {
@@ -52,15 +51,12 @@ ForwardWhirl forwardWhirl(FlexibleShaft shaft) {
 /// [rad/s], ascending, as many as `modes`.
 std::vector<double> speedsOf(const MatrixXd& stiffness, const MatrixXd& inertia,
                              std::size_t modes) {
-  const Eigen::LLT<MatrixXd> factor(stiffness);
-  if (factor.info() != Eigen::Success) {
+  const Cholesky factor(stiffness);
+  if (!factor.succeeded()) {
     throw RunFailure("critical speed map: the shaft buckles under its axial force");
   }
-  const auto lower = factor.matrixL();
-  const MatrixXd half = lower.solve(inertia);
-  const MatrixXd a = lower.solve(half.transpose());
-  const VectorXd mu =
-      Eigen::SelfAdjointEigenSolver<MatrixXd>(a, Eigen::EigenvaluesOnly).eigenvalues().reverse();
+  const MatrixXd half = factor.solveLower(inertia);
+  const VectorXd mu = symmetricEigenvalues(factor.solveLower(half.transpose())).reverse();
   std::vector<double> speeds;
   for (const double one : mu) {
     if (one > 0.0 && speeds.size() < modes) {

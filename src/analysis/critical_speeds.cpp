@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <optional>
 #include <utility>
 
+#include "algebra/constants.h"
 #include "analysis/banded_rotor.h"
 #include "analysis/bracketed_root.h"
 #include "analysis/cyclic_coordinates.h"
@@ -26,11 +26,10 @@ constexpr double kHalfPower = 0.707;       // of the peak, as API RP 684 has it
 constexpr double kInfinitePeak = 1.0e12;   // eccentricities: of this height a peak is rounding
 constexpr double kInfiniteFactor = 1.0e9;  // amplification factor, likewise
 constexpr double kUndamped = 1.0e-13;      // damping ratio, likewise
-constexpr int kCoarse = 300;
+constexpr int kCriticalSpeedGrid = 300;
 constexpr double kMargin = 0.01;  // a derivative needs speeds to both sides
-constexpr double kReach = 50.0;   // times the highest resonance: heavy damping drives a peak up
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Times the highest resonance: heavy damping drives a peak up.
+constexpr double kCriticalSpeedReach = 50.0;
 
 /// The response at the published station at one speed: in m, or per unit eccentricity of a rotor
 /// without unbalance.
@@ -204,7 +203,7 @@ std::optional<Search> searchOf(const Dynamics& dynamics) {
   }
   const bool whole = at_rest.omitted == 0;
   return Search{std::move(probe), 0.02 * at_rest.natural_frequencies.front(),
-                (whole ? kReach : 1.0) * at_rest.natural_frequencies.back(), whole};
+                (whole ? kCriticalSpeedReach : 1.0) * at_rest.natural_frequencies.back(), whole};
 }
 
 }  // namespace
@@ -224,7 +223,7 @@ CriticalSpeedSearch searchCriticalSpeeds(const Dynamics& dynamics) {
   const auto poles = synchronousPoles(probe.rotor(), low, high);
   double last = low;
   double before = probe.response(low).slope;
-  for (const double speed : speedsToLookAt(poles, low, high, kCoarse)) {
+  for (const double speed : speedsToLookAt(poles, low, high, kCriticalSpeedGrid)) {
     const double after = probe.response(speed).slope;
     if (!std::isfinite(after)) {
       continue;  // on the pole of an undamped mode

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kFirst = 1.0e-6;  // of the largest stiffness
 constexpr double kLast = 1.0e6;
-constexpr double kStride = 1.5;
+constexpr double kStiffnessStride = 1.5;
 
 ModeTracker trackerOf(const LinearRotor& rotor, const std::vector<Station>& stations,
                       std::size_t station, double speed) {
@@ -74,7 +74,7 @@ std::optional<double> crossCouplingMargin(const LinearRotor& rotor,
   }
   const double stiffness = rotor.matrices(speed).stiffness.cwiseAbs().maxCoeff();
   double low = 0.0;
-  for (double high = kFirst * stiffness; high < kLast * stiffness; high *= kStride) {
+  for (double high = kFirst * stiffness; high < kLast * stiffness; high *= kStiffnessStride) {
     const ModeTracker::Modes next = tracker.follow(mode, low, high);
     if (!next.front()) {
       return std::nullopt;

@@ -6,9 +6,7 @@
 #include <utility>
 
 #include "algebra/banded_matrix.h"
-#include "algebra/cholesky.h"
-#include "algebra/lu.h"
-#include "algebra/svd.h"
+#include "algebra/dense.h"
 #include "analysis/quadratic_form.h"
 #include "analysis/stability_margins.h"
 
@@ -80,8 +78,8 @@ std::pair<Eigen::MatrixXd, Eigen::Index> resistedFirst(const std::vector<Eigen::
     all.conservativeResize(all.rows() + image.rows(), Eigen::NoChange);
     all.bottomRows(image.rows()) = image;
   }
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(all, Eigen::ComputeFullV);
-  return {svd.matrixV(), (svd.singularValues().array() > kResisted).count()};
+  const SingularVectors svd = singularVectors(all);
+  return {svd.v, (svd.values.array() > kResisted).count()};
 }
 
 /// A matrix in units of its largest entry.
@@ -115,19 +113,18 @@ CyclicCoordinates rigidBodyMotions(const Linearization& l) {
     scale[i] = largest > 0.0 ? 1.0 / std::sqrt(largest) : 1.0;
   }
   const Eigen::MatrixXd by_q = scale.asDiagonal() * stiffness * scale.asDiagonal();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(by_q, Eigen::ComputeFullV);
-  const Eigen::Index rank =
-      (svd.singularValues().array() > kRank * svd.singularValues()[0]).count();
+  const SingularVectors svd = singularVectors(by_q);
+  const Eigen::Index rank = (svd.values.array() > kRank * svd.values[0]).count();
   if (rank == n) {
     return allShape(n);
   }
   const Eigen::MatrixXd by_v =
       inItsSize(scale.asDiagonal() * (l.damping + l.gyroscopic) * scale.asDiagonal());
-  const Eigen::MatrixXd modes = svd.matrixV().rightCols(n - rank);
+  const Eigen::MatrixXd modes = svd.v.rightCols(n - rank);
   const auto [turn, driven] =
       resistedFirst({by_v * modes, by_v.transpose() * modes, inItsSize(by_q).transpose() * modes});
   CyclicCoordinates all;
-  Eigen::MatrixXd directions = svd.matrixV();
+  Eigen::MatrixXd directions = svd.v;
   directions.rightCols(n - rank) = modes * turn;
   all.basis = scale.asDiagonal() * directions;
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -170,7 +167,7 @@ Linearization atFixedMomenta(const Linearization& full, const CyclicCoordinates&
   Eigen::MatrixXd k = by_q(s, s);
   if (!c.empty()) {
     // M_cc v_c + M_cs v_s + (D_cs) q_s = 0 to first order: the momenta stay what they are.
-    const Eigen::LDLT<Eigen::MatrixXd> inertia{Eigen::MatrixXd(mass(c, c))};
+    const Ldlt inertia{Eigen::MatrixXd(mass(c, c))};
     const Eigen::MatrixXd by_rate = inertia.solve(Eigen::MatrixXd(mass(c, s)));
     const Eigen::MatrixXd by_place = inertia.solve(Eigen::MatrixXd(by_v(c, s)));
     m -= mass(s, c) * by_rate;
@@ -202,11 +199,10 @@ std::size_t zeroEigenvalues(const Linearization& linearization, const CyclicCoor
   Eigen::MatrixXd resisted = by_rate.bottomRows(driven);
   if (shapes > 0) {
     resisted -= by_q.bottomLeftCorner(driven, shapes) *
-                by_q.topLeftCorner(shapes, shapes).partialPivLu().solve(by_rate.topRows(shapes));
+                Lu(by_q.topLeftCorner(shapes, shapes)).solve(by_rate.topRows(shapes));
   }
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(resisted);
   const double none = kResisted * by_rate.cwiseAbs().maxCoeff();
-  return zeros + static_cast<std::size_t>((svd.singularValues().array() <= none).count());
+  return zeros + static_cast<std::size_t>((singularValues(resisted).array() <= none).count());
 }
 
 Stability reducedStability(const Linearization& linearization, const CyclicCoordinates& cyclic,

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "algebra/eigenvalues.h"
-#include "algebra/lu.h"
+#include "algebra/constants.h"
+#include "algebra/dense.h"
 #include "analysis/equilibria.h"
 #include "analysis/orbit.h"
 
@@ -23,11 +23,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr int kPlaces = 32;            // of a cycle
-constexpr double kSmallest = 1.0e-7;   // of the widest
-constexpr double kStride = 1.25;       // from one amplitude to the next
-constexpr int kHalvings = 20;          // of the last stride
+constexpr int kPlaces = 32;                // of a cycle
+constexpr double kSmallest = 1.0e-7;       // of the widest
+constexpr double kAmplitudeStride = 1.25;  // from one amplitude to the next
+constexpr int kHalvings = 20;              // of the last stride
 constexpr double kVibrates = 1.0e-9;   // of the fastest motion: what turns more slowly is at rest
 constexpr double kParted = 1.0e-10;    // of the shapes, as a matrix: beyond it two modes are one
 constexpr double kNoDecrement = 1e-6;  // differences below it are none
@@ -41,7 +40,7 @@ struct Mode {
 std::optional<Mode> leastDamped(const Dynamics& mean, const SteadyMotion& motion, double speed) {
   const Linearization l = linearizationAbout(mean, motion.q, motion.v, speed);
   const Index n = l.mass.rows();
-  const Eigen::PartialPivLU<MatrixXd> mass(l.mass);
+  const Lu mass(l.mass);
   MatrixXd state = MatrixXd::Zero(2 * n, 2 * n);
   state.topRightCorner(n, n).setIdentity();
   state.bottomLeftCorner(n, n) = -mass.solve(l.stiffness + l.circulatory);
@@ -49,8 +48,8 @@ std::optional<Mode> leastDamped(const Dynamics& mean, const SteadyMotion& motion
   if (!state.allFinite()) {
     return std::nullopt;
   }
-  const Eigen::EigenSolver<MatrixXd> solver(state);
-  const VectorXcd& roots = solver.eigenvalues();
+  const EigenPairs solver = eigenPairs(state);
+  const VectorXcd& roots = solver.values;
   const double fastest = roots.cwiseAbs().maxCoeff();
   Index least = -1;
   const auto damping = [&](Index i) { return -roots[i].real() / std::abs(roots[i]); };
@@ -63,8 +62,8 @@ std::optional<Mode> leastDamped(const Dynamics& mean, const SteadyMotion& motion
     return std::nullopt;
   }
   // To the left, orthogonal to every other mode's shape.
-  const VectorXcd shape = solver.eigenvectors().col(least);
-  const Eigen::PartialPivLU<MatrixXcd> shapes(solver.eigenvectors().transpose());
+  const VectorXcd shape = solver.vectors.col(least);
+  const ComplexLu shapes(solver.vectors.transpose());
   if (!(shapes.rcond() > kParted)) {
     return std::nullopt;
   }
@@ -139,7 +138,7 @@ std::optional<DecrementAmplitude> decrementAmplitude(const Dynamics& dynamics,
   };
   double holds = 0.0;
   for (double amplitude = kSmallest * width.widest; amplitude <= width.widest;
-       amplitude *= kStride) {
+       amplitude *= kAmplitudeStride) {
     if (holdsAt(amplitude)) {
       holds = amplitude;
       continue;

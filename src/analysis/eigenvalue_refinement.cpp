@@ -1,12 +1,12 @@
 #include "analysis/eigenvalue_refinement.h"
 
-#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 
-#include "algebra/cholesky.h"
-#include "algebra/eigenvalues.h"
+#include "algebra/constants.h"
+#include "algebra/dense.h"
+#include "algebra/sparse_solver.h"
 
 namespace whirl_twin {
 
@@ -18,13 +18,13 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 
-constexpr int kMostSteps = 12;
-constexpr double kSettled = 1.0e-13;
+constexpr int kMaxRefinementSteps = 12;
+constexpr double kRefinementTolerance = 1.0e-13;
 
 /// State matrix of (q, q' / scale): its entries are of one size.
-MatrixXd stateMatrix(const Linearization& l, double scale) {
+MatrixXd scaledStateMatrix(const Linearization& l, double scale) {
   const Index n = l.mass.rows();
-  const Eigen::LLT<MatrixXd> mass(l.mass);
+  const Cholesky mass(l.mass);
   MatrixXd state = MatrixXd::Zero(2 * n, 2 * n);
   state.topRightCorner(n, n).diagonal().setConstant(scale);
   state.bottomLeftCorner(n, n) = -mass.solve(l.stiffness + l.circulatory) / scale;
@@ -33,11 +33,12 @@ MatrixXd stateMatrix(const Linearization& l, double scale) {
 }
 
 /// The full rotor's eigenvalue next to s, whose shape is about v; not finite if there is none.
-Complex refined(const Linearization& l, Complex s, VectorXcd v) {
+Complex refinedEigenvalue(const Linearization& l, Complex s, VectorXcd v) {
   const Index n = v.size();
   v.normalize();
   const VectorXcd border = v;
-  for (int step = 0; step < kMostSteps; ++step) {
+  SparseSolver solver;
+  for (int step = 0; step < kMaxRefinementSteps; ++step) {
     MatrixXcd newton = MatrixXcd::Zero(n + 1, n + 1);
     newton.topLeftCorner(n, n) =
         s * s * l.mass + s * (l.damping + l.gyroscopic) + l.stiffness + l.circulatory;
@@ -45,15 +46,13 @@ Complex refined(const Linearization& l, Complex s, VectorXcd v) {
     newton.bottomLeftCorner(1, n) = border.adjoint();
     VectorXcd residual(n + 1);
     residual << newton.topLeftCorner(n, n) * v, Complex(0.0);
-    const Eigen::SparseMatrix<Complex> sparse = newton.sparseView();
-    const Eigen::SparseLU<Eigen::SparseMatrix<Complex>> solver(sparse);
-    if (solver.info() != Eigen::Success) {
-      return Complex(std::nan(""), 0.0);
+    const VectorXcd change = solver.solve(newton.sparseView(), residual);
+    if (!change.allFinite()) {
+      return Complex(kNaN, 0.0);
     }
-    const VectorXcd change = solver.solve(residual);
     v -= change.head(n);
     s -= change[n];
-    if (std::abs(change[n]) <= kSettled * std::abs(s)) {
+    if (std::abs(change[n]) <= kRefinementTolerance * std::abs(s)) {
       break;
     }
   }
@@ -64,16 +63,16 @@ Complex refined(const Linearization& l, Complex s, VectorXcd v) {
 
 double largestEigenvalueError(const Linearization& full, const Linearization& reduced,
                               const MatrixXd& shapes, double largest) {
-  const Eigen::EigenSolver<MatrixXd> solver(stateMatrix(reduced, largest));
+  const EigenPairs solver = eigenPairs(scaledStateMatrix(reduced, largest));
   const Index n = shapes.cols();
   double worst = 0.0;
   for (Index i = 0; i < 2 * n; ++i) {
-    const Complex s = solver.eigenvalues()[i];
+    const Complex s = solver.values[i];
     // One of each pair; rigid-body motions are exact.
     if (std::abs(s) > largest || s.imag() < 0.0 || std::abs(s) < 1.0e-6 * largest) {
       continue;
     }
-    const Complex exact = refined(full, s, shapes * solver.eigenvectors().col(i).head(n));
+    const Complex exact = refinedEigenvalue(full, s, shapes * solver.vectors.col(i).head(n));
     const double error = std::abs(exact - s) / std::abs(exact);
     worst = std::isfinite(error) ? std::max(worst, error) : worst;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/constants.h"
 #include "analysis/mass_matrix.h"
 #include "analysis/steady_motion.h"
 
@@ -10,12 +11,11 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kStartsPerTurn = 8;
 constexpr double kMostStarts = 4096.5;  // in all: fewer a turn where there are many coordinates
 constexpr int kTurnsOfOneSlide = 8;     // searched where a sliding coordinate is the only one
 constexpr double kRatesFirst = 1.0e6;
-constexpr double kSame = 1.0e-6;  // closer than this is the same equilibrium, rad or lengths
+constexpr double kSameEquilibrium = 1.0e-6;  // rad or lengths: closer ones are one
 
 /// Deviation of q from p in units, angles by the shorter way round, cyclic coordinates aside.
 double distance(const Dynamics& dynamics, const CyclicCoordinates& cyclic, const Eigen::VectorXd& q,
@@ -91,7 +91,8 @@ bool sameMotion(const Dynamics& dynamics, const CyclicCoordinates& cyclic, const
                 const Motion& b) {
   const Eigen::VectorXd v = a.v(cyclic.driven);
   const Eigen::VectorXd w = b.v(cyclic.driven);
-  return distance(dynamics, cyclic, a.q, b.q) < kSame && (v - w).norm() <= kSame * v.norm();
+  return distance(dynamics, cyclic, a.q, b.q) < kSameEquilibrium &&
+         (v - w).norm() <= kSameEquilibrium * v.norm();
 }
 
 std::vector<Equilibrium> allOf(const Dynamics& dynamics, const CyclicCoordinates& cyclic,

@@ -49,6 +49,9 @@ class ExactBudget {
   double left_;
 };
 
+/// Of a verdict, by default: a second.
+inline constexpr double kMaxExactProducts = 2.0e8;
+
 class ExactBudgetSpent : public RunFailure {
  public:
   ExactBudgetSpent() : RunFailure("the exact numbers become too long") {}

@@ -11,10 +11,11 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr int kFine = 20;              // frequencies on each side of a resonance
-constexpr double kSpread = 4.0;        // up to sinh(4) = 27 half-widths away
-constexpr double kNarrowest = 1.0e-4;  // of the frequency, half a width
-constexpr double kSingular = 1.0e13;   // beside the response to the stiffness of the force's place
+constexpr int kFrequenciesBesideResonance = 20;  // frequencies on each side of a resonance
+constexpr double kFrequencySpread = 4.0;         // up to sinh(4) = 27 half-widths away
+constexpr double kMinResonanceWidth = 1.0e-4;    // of the frequency, half a width
+/// Beside the response to the stiffness of the force's place.
+constexpr double kSingularResponse = 1.0e13;
 
 }  // namespace
 
@@ -37,7 +38,8 @@ std::vector<ForcedResponse> forcedResponse(const LinearRotor& rotor,
       continue;
     }
     const Eigen::VectorXcd x = factors.solve(force);
-    if (x.allFinite() && x.cwiseAbs().maxCoeff() * stiffest < kSingular * direction.norm()) {
+    if (x.allFinite() &&
+        x.cwiseAbs().maxCoeff() * stiffest < kSingularResponse * direction.norm()) {
       all.push_back({frequency, orbitsOf(x, stations)});
     }
   }
@@ -52,9 +54,10 @@ std::vector<double> frequenciesAround(const std::vector<WhirlMode>& modes, doubl
   }
   for (const WhirlMode& mode : modes) {
     const double at = mode.dampedFrequency();
-    const double width = std::max(std::fabs(mode.eigenvalue.real()), kNarrowest * at);
-    for (int k = -kFine; k <= kFine; ++k) {
-      const double frequency = at + width * std::sinh(kSpread * k / kFine);
+    const double width = std::max(std::fabs(mode.eigenvalue.real()), kMinResonanceWidth * at);
+    for (int k = -kFrequenciesBesideResonance; k <= kFrequenciesBesideResonance; ++k) {
+      const double frequency =
+          at + width * std::sinh(kFrequencySpread * k / kFrequenciesBesideResonance);
       if (frequency > from && frequency < to) {
         all.push_back(frequency);
       }

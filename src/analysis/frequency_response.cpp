@@ -4,15 +4,14 @@
 
 #include <cmath>
 
-#include "algebra/lu.h"
-#include "algebra/svd.h"
+#include "algebra/dense.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kSingular = 1e-13;  // a few hundred roundings of terms of size 1
+constexpr double kSingularReturn = 1e-13;  // a few hundred roundings of terms of size 1
 
 }  // namespace
 
@@ -31,8 +30,8 @@ Eigen::MatrixXcd receptance(const Linearization& system, double frequency) {
   const Eigen::VectorXd scale =
       (terms > 0.0).select(terms.max(1e-300).rsqrt(), Eigen::ArrayXd::Ones(terms.size()));
   const Eigen::MatrixXcd scaled = scale.asDiagonal() * dynamic_stiffness * scale.asDiagonal();
-  const Eigen::JacobiSVD<Eigen::MatrixXcd> singular(scaled);
-  if (!(singular.singularValues().minCoeff() > kSingular)) {
+  const Eigen::VectorXd singular = singularValues(scaled);
+  if (!(singular.minCoeff() > kSingularReturn)) {
     if (w == 0.0) {
       throw RunFailure(
           "frequency response: a constant force has no steady response: the stiffness is singular, "
@@ -43,7 +42,7 @@ Eigen::MatrixXcd receptance(const Linearization& system, double frequency) {
                     "with time and has no steady amplitude",
                     w));
   }
-  return scale.asDiagonal() * scaled.partialPivLu().inverse() * scale.asDiagonal();
+  return scale.asDiagonal() * ComplexLu(scaled).inverse() * scale.asDiagonal();
 }
 
 Eigen::VectorXcd steadyResponse(const Linearization& system, const Eigen::VectorXcd& force,

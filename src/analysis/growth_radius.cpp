@@ -11,9 +11,9 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::Index;
 
-constexpr double kRounding = 1.0e-12;  // of a unit diagonal
+constexpr double kPivotRounding = 1.0e-12;  // of a unit diagonal
 constexpr double kNear = 1.01;
-constexpr int kMostDoublings = 40;
+constexpr int kMaxRadiusDoublings = 40;
 
 /// 1 / sqrt of the diagonal; 1 where that is zero.
 Eigen::VectorXd unitScale(const BandedMatrix<double>& m) {
@@ -51,7 +51,7 @@ bool semidefinite(const BandedMatrix<double>& m) {
   }
   fillZeros(scaled);
   for (Index i = 0; i < m.size(); ++i) {
-    scaled(i, i) += kRounding;
+    scaled(i, i) += kPivotRounding;
   }
   return hasCholesky(scaled);
 }
@@ -75,7 +75,7 @@ std::optional<double> growthRadius(const BandedLinearization& l) {
   const BandedMatrix<double> circulatory = l.circulatory.scaled(scale);
   fillZeros(damping);
   for (Index i = 0; i < l.size(); ++i) {
-    damping(i, i) += kRounding;
+    damping(i, i) += kPivotRounding;
   }
   const auto covers = [&](double rate) {
     BandedMatrix<Complex> form(l.size(), 0);
@@ -86,7 +86,7 @@ std::optional<double> growthRadius(const BandedLinearization& l) {
   double high = circulatory.largest();  // no less will do, by its minors of two rows
   double low = high;
   for (int doubling = 0; !covers(high); ++doubling) {
-    if (doubling == kMostDoublings) {
+    if (doubling == kMaxRadiusDoublings) {
       return std::nullopt;
     }
     low = high;

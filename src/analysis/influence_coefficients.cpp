@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "algebra/cholesky.h"
+#include "algebra/dense.h"
 #include "analysis/rigid_body_modes.h"
 #include "messages/refusal.h"
 
@@ -18,7 +18,7 @@ Eigen::MatrixXd influenceCoefficients(const Eigen::MatrixXd& stiffness) {
   }
   const ScaledForm scaled = unitDiagonal(stiffness);
   const Eigen::MatrixXd inverse =
-      scaled.form.llt().solve(Eigen::MatrixXd::Identity(stiffness.rows(), stiffness.cols()));
+      Cholesky(scaled.form).solve(Eigen::MatrixXd::Identity(stiffness.rows(), stiffness.cols()));
   const Eigen::MatrixXd a = scaled.scale.asDiagonal() * inverse * scaled.scale.asDiagonal();
   return 0.5 * (a + a.transpose());
 }

@@ -20,9 +20,9 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kReach = 1000.0;           // times the lowest natural frequency
-constexpr double kNearStandstill = 1.0e-2;  // of it
-constexpr int kStrides = 240;
+constexpr double kInstabilityReach = 1000.0;  // times the lowest natural frequency
+constexpr double kNearStandstill = 1.0e-2;    // of it
+constexpr int kSpeedStrides = 240;
 constexpr int kFewerStrides = 120;  // where each costs milliseconds
 constexpr double kGrows = 1.0e-9;   // of a frequency: no rounding
 
@@ -38,8 +38,8 @@ SmallMotion motionAt(const Dynamics& dynamics, const Eigen::VectorXd& q, double 
 }
 
 /// Where it rests at a speed, near where it did; a linear rotor is judged anywhere.
-std::optional<Eigen::VectorXd> restNear(const Dynamics& dynamics, const Eigen::VectorXd& q,
-                                        double speed) {
+std::optional<Eigen::VectorXd> judgedPlaceNear(const Dynamics& dynamics, const Eigen::VectorXd& q,
+                                               double speed) {
   return dynamics.linear() ? q : equilibriumNear(dynamics, q, speed);
 }
 
@@ -59,7 +59,7 @@ double lowestFrequency(const Dynamics& dynamics, const Eigen::VectorXd& q, doubl
 }
 
 int stridesFor(const Dynamics& dynamics) {
-  return dynamics.dof() <= kMostExactCoordinates ? kStrides : kFewerStrides;
+  return dynamics.dof() <= kMostExactCoordinates ? kSpeedStrides : kFewerStrides;
 }
 
 /// How fast motions of a long rotor grow, in parts of their frequency, by the lowest eigenvalues.
@@ -99,7 +99,7 @@ class LowestGrowth {
 std::optional<std::optional<double>> ofLongRotor(const LinearRotor& rotor, double lowest) {
   LowestGrowth growth(rotor);
   const double first = kNearStandstill * lowest;
-  const double last = kReach * lowest;
+  const double last = kInstabilityReach * lowest;
   double before = 0.0;
   std::optional<double> grew = growth.at(0.0);
   for (int i = 0; i <= kFewerStrides && grew; ++i) {
@@ -130,7 +130,7 @@ double thresholdBetween(const Dynamics& dynamics, GrowthTest& test, const RestAt
     if (middle <= low || middle >= high) {
       break;
     }
-    const auto there = restNear(dynamics, below.q, middle);
+    const auto there = judgedPlaceNear(dynamics, below.q, middle);
     const bool unstable = !there || test.unstable(motionAt(dynamics, *there, middle));
     (unstable == unstable_above ? high : low) = middle;
   }
@@ -152,13 +152,13 @@ std::optional<double> instabilitySpeed(const Dynamics& dynamics, const Eigen::Ve
     }
   }
   const double first = std::max(from, kNearStandstill * lowest);
-  const double last = kReach * lowest;
+  const double last = kInstabilityReach * lowest;
   std::vector<RestAt> passed{{from, q}};
   GrowthTest test;
   const int strides = stridesFor(dynamics);
   for (int i = 0; i <= strides; ++i) {
     const double high = first * std::pow(last / first, static_cast<double>(i) / strides);
-    const auto next = restNear(dynamics, passed.back().q, high);
+    const auto next = judgedPlaceNear(dynamics, passed.back().q, high);
     if (!next) {
       return std::nullopt;
     }
@@ -185,7 +185,7 @@ std::vector<StabilityThreshold> stabilityThresholds(const Dynamics& dynamics,
     return {};
   }
   const double first = kNearStandstill * lowest;
-  const double last = kReach * lowest;
+  const double last = kInstabilityReach * lowest;
   const double ratio = std::pow(last / first, 1.0 / stridesFor(dynamics));
   const double from = dynamics.linear() ? first : std::max(std::fabs(speed), first);
   std::vector<RestAt> points = equilibriumBranch(dynamics, q, from, first, ratio);

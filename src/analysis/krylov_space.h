@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "algebra/banded_matrix.h"
-#include "algebra/eigenvalues.h"
+#include "algebra/dense.h"
 #include "analysis/lowest_roots.h"
 
 namespace whirl_twin {
@@ -72,14 +72,12 @@ class KrylovSpace {
   /// By rising modulus of the root.
   std::vector<Ritz> ritz() const {
     const Eigen::Index m = dimension();
-    using Solver = std::conditional_t<std::is_same_v<Scalar, double>, Eigen::EigenSolver<Matrix>,
-                                      Eigen::ComplexEigenSolver<Matrix>>;
-    const Solver solver(Matrix(projected_.topRows(m)));
-    if (solver.info() != Eigen::Success) {
+    const EigenPairs solver = eigenPairs(projected_.topRows(m));
+    if (!solver.succeeded) {
       return {};
     }
-    const Eigen::VectorXcd values = solver.eigenvalues();
-    const Eigen::MatrixXcd vectors = solver.eigenvectors();
+    const Eigen::VectorXcd& values = solver.values;
+    const Eigen::MatrixXcd& vectors = solver.vectors;
     const Eigen::MatrixXcd rest = projected_.bottomRows(kKrylovBlock)
                                       .rightCols(kKrylovBlock)
                                       .template cast<std::complex<double>>() *

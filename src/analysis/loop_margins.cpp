@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "algebra/constants.h"
 #include "analysis/bracketed_root.h"
 #include "messages/refusal.h"
 
@@ -18,13 +19,11 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kPointsOfDecade = 60;
 /// Beyond the poles a loop that is not sampled is looked at for so many decades, and below them.
 constexpr double kDecadesBeyond = 4.0;
 /// A pole nearer to the axis than this part of its size is not resolved any more.
-constexpr double kNarrowest = 1e-9;
+constexpr double kMinPoleWidth = 1e-9;
 constexpr double kSameFrequency = 1e-12;
 /// Peaks of a loop without any effect are 1, to rounding.
 constexpr double kRoundingOfPeak = 1e-9;
@@ -55,7 +54,7 @@ std::vector<double> frequencies(const LoopResponse& response) {
   }
   for (const Complex& pole : response.poles) {
     const double place = std::fabs(pole.imag());
-    const double width = std::fmax(std::fabs(pole.real()), kNarrowest * std::abs(pole));
+    const double width = std::fmax(std::fabs(pole.real()), kMinPoleWidth * std::abs(pole));
     w.push_back(place);
     for (double away = 0.25 * width; away < end && away > 0.0; away *= 1.5) {
       w.push_back(place - away);

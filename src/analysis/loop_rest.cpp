@@ -1,6 +1,6 @@
 #include "analysis/loop_rest.h"
 
-#include "algebra/svd.h"
+#include "algebra/dense.h"
 #include "integration/matrix_exponential.h"
 
 namespace whirl_twin {
@@ -63,8 +63,7 @@ int standingDirections(const LoopPlant& plant, const std::vector<LoopController>
   if (size == 0) {
     return 0;
   }
-  const Eigen::JacobiSVD<MatrixXd> svd(equilibrated(rest));
-  return static_cast<int>((svd.singularValues().array() <= kCancelled).count());
+  return static_cast<int>((singularValues(equilibrated(rest)).array() <= kCancelled).count());
 }
 
 }  // namespace whirl_twin

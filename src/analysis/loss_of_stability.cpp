@@ -13,7 +13,7 @@ namespace whirl_twin {
 namespace {
 
 constexpr double kClosedIn = 1.0e-9;  // of the number
-constexpr int kMostHalvings = 60;
+constexpr int kMaxBisections = 60;
 /// Exact tests of more coordinates take longer than all the rest of a search.
 constexpr Eigen::Index kMostExactHere = 4;
 constexpr double kShortest = 1.0e-3;  // of a stride: where shorter ones lead nowhere, nothing does
@@ -93,7 +93,7 @@ Next reach(const Way& way, std::vector<Passed>& passed, double value) {
 LossOfStability closeIn(const Way& way, GrowthTest& test, Passed low, double lost) {
   std::optional<Passed> high = way.follow(low, lost).place;
   double high_value = lost;
-  for (int i = 0; i < kMostHalvings; ++i) {
+  for (int i = 0; i < kMaxBisections; ++i) {
     const double middle = 0.5 * (low.value + high_value);
     const double size = std::fmax(std::fabs(low.value), std::fabs(high_value));
     if (std::fabs(high_value - low.value) <= kClosedIn * size || middle == low.value ||

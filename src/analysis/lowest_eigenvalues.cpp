@@ -12,10 +12,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kDoubtful = 1.0e-8;   // of s: a real part that the energy tells
-constexpr double kRounding = 1.0e-13;  // of s: a real part that is none
-constexpr double kNoDamping = 1.0e-18;
-constexpr double kFarther = 8.0;  // radii, that are looked at for the sake of a proof
+constexpr double kRealPartRounding = 1.0e-13;  // of s: a real part that is none
+constexpr double kFarther = 8.0;               // radii, that are looked at for the sake of a proof
 
 /// Those found, and more where the proof that no other grows wants them.
 std::optional<LowestRoots> asFarAsProved(std::optional<LowestRoots> found,
@@ -38,12 +36,12 @@ LowestEigenvalues valuesOf(const LowestRoots& found, const BandedLinearization& 
   lowest.undamped = growth_radius == 0.0 && l.damping.isZero();
   // What is fed and what is dissipated differ by no less than their rounding; alone, the latter has
   // none but that of a shape, squared.
-  const double none = growth_radius == 0.0 ? kNoDamping : kRounding;
+  const double none = growth_radius == 0.0 ? kNoDamping : kRealPartRounding;
   for (const PencilRoot& root : found.roots) {
     Complex s = root.value;
     if (lowest.undamped) {
       s = {0.0, s.imag()};
-    } else if (std::fabs(s.real()) <= kDoubtful * std::abs(s)) {
+    } else if (std::fabs(s.real()) <= kDoubtfulRealPart * std::abs(s)) {
       const double decay = decayByEnergy(l, root);
       s = {std::fabs(decay) > none * std::abs(s) ? -decay : 0.0, s.imag()};
     }

@@ -10,6 +10,12 @@
 
 namespace whirl_twin {
 
+/// A real part below this part of |s| may be rounding: the energy of the shape decides [-].
+inline constexpr double kDoubtfulRealPart = 1.0e-8;
+
+/// A damping ratio by the energy below this is the rounding of the shape, squared [-].
+inline constexpr double kNoDamping = 1.0e-18;
+
 struct LowestEigenvalues {
   std::vector<std::complex<double>> roots;  ///< [1/s], by rising |s|, then Im
   std::size_t omitted = 0;                  ///< all of larger modulus

@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "algebra/constants.h"
 #include "analysis/determinant_winding.h"
 #include "analysis/krylov_space.h"
 #include "analysis/polished_root.h"
@@ -17,13 +18,12 @@ using Complex = std::complex<double>;
 using Eigen::Index;
 using Eigen::VectorXcd;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr Index kMostDimensions = 330;
-constexpr Index kNarrow = 6;           // widths, of a matrix that is worth it
-constexpr double kConverged = 1.0e-8;  // of 1/s: near enough for Newton's method
-constexpr double kApart = 1.0e-3;      // of the radius, at least, from root to circle
-constexpr std::size_t kMostMore = 12;  // roots, for a wide gap to lay the circle through
-constexpr double kReach = 4.0;         // radii, of the roots divided out
+constexpr Index kNarrow = 6;             // widths, of a matrix that is worth it
+constexpr double kConverged = 1.0e-8;    // of 1/s: near enough for Newton's method
+constexpr double kApart = 1.0e-3;        // of the radius, at least, from root to circle
+constexpr std::size_t kMostMore = 12;    // roots, for a wide gap to lay the circle through
+constexpr double kDeflationReach = 4.0;  // radii, of the roots divided out
 
 /// About the lowest root's modulus: by inverse iteration without A1. 0 of a singular A0.
 template <class Scalar>
@@ -84,7 +84,7 @@ std::optional<LowestRoots> confirmed(const ScaledPencil<Scalar>& scaled,
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Complex about = all[i].root;
     if (i >= cut.inside) {
-      if (std::abs(about) <= kReach * cut.radius) {
+      if (std::abs(about) <= kDeflationReach * cut.radius) {
         divided.push_back(about);
       }
       continue;

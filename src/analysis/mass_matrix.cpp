@@ -1,6 +1,6 @@
 #include "analysis/mass_matrix.h"
 
-#include "algebra/eigenvalues.h"
+#include "algebra/dense.h"
 
 namespace whirl_twin {
 
@@ -13,15 +13,6 @@ Eigen::VectorXd naturalUnits(const Dynamics& dynamics) {
   return unit;
 }
 
-namespace {
-
-Eigen::VectorXd eigenvalues(const Eigen::MatrixXd& symmetric) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly)
-      .eigenvalues();
-}
-
-}  // namespace
-
 bool massIsSingular(const Dynamics& dynamics, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                     const Moment<double>& at) {
   const Eigen::MatrixXd mass = dynamics.massMatrix(q, v, at);
@@ -31,7 +22,7 @@ bool massIsSingular(const Dynamics& dynamics, const Eigen::VectorXd& q, const Ei
   }
   const Eigen::VectorXd scale = diagonal.cwiseSqrt().cwiseInverse();
   constexpr double kRounding = 1.0e-15;
-  return !(eigenvalues(scale.asDiagonal() * mass * scale.asDiagonal())[0] > kRounding);
+  return !(symmetricEigenvalues(scale.asDiagonal() * mass * scale.asDiagonal())[0] > kRounding);
 }
 
 double massRegularity(const Dynamics& dynamics, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
@@ -39,7 +30,7 @@ double massRegularity(const Dynamics& dynamics, const Eigen::VectorXd& q, const 
   const Eigen::VectorXd all_units = naturalUnits(dynamics);
   const Eigen::VectorXd unit = all_units / all_units.maxCoeff();  // their ratio is what matters
   const Eigen::VectorXd values =
-      eigenvalues(unit.asDiagonal() * dynamics.massMatrix(q, v, at) * unit.asDiagonal());
+      symmetricEigenvalues(unit.asDiagonal() * dynamics.massMatrix(q, v, at) * unit.asDiagonal());
   const double largest = values.cwiseAbs().maxCoeff();
   return largest > 0.0 ? values[0] / largest : 0.0;
 }

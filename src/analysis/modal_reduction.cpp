@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -10,7 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "algebra/eigenvalues.h"
+#include "algebra/constants.h"
+#include "algebra/dense.h"
+#include "algebra/sparse_solver.h"
 #include "analysis/eigenvalue_refinement.h"
 
 namespace whirl_twin {
@@ -23,7 +24,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr Index kFewestModes = 4;               // two in each plane
 constexpr double kSameShape = 1.0e-9;           // what orthogonalization may leave of a shape
 constexpr double kTurnsOfFreeWhirl = 100.0;     // [rad] that a run-up's free whirl lives for
@@ -32,7 +32,7 @@ constexpr double kEveryError = std::numeric_limits<double>::infinity();
 constexpr double kAsFar = 1.0e-3;               // what is hardly farther is not
 constexpr double kSameSquare = 1.0e-8;          // of squares of frequencies that are one
 constexpr double kRoundingOfSquares = 1.0e-13;  // of the largest
-constexpr double kRigid = 1.0e-5;               // of the highest frequency: a rigid-body mode
+constexpr double kRigidFrequency = 1.0e-5;      // of the highest frequency: a rigid-body mode
 constexpr double kAtRest = 0.1;                 // of the lowest frequency: nearly at rest
 
 struct RestModes {
@@ -41,38 +41,9 @@ struct RestModes {
 };
 
 RestModes restModes(const Linearization& l) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(l.stiffness, l.mass);
-  return {solver.eigenvalues().cwiseMax(0.0).cwiseSqrt(), solver.eigenvectors()};
+  const SymmetricModes<double> solver = generalizedModes(l.stiffness, l.mass);
+  return {solver.values.cwiseMax(0.0).cwiseSqrt(), solver.vectors};
 }
-
-/// Solves for one speed after another: the order of elimination is found anew only where other
-/// entries are zero.
-class SparseSolver {
- public:
-  using Matrix = Eigen::SparseMatrix<Complex>;
-
-  /// Not a number for a singular matrix.
-  VectorXcd solve(const Matrix& a, const VectorXcd& b) {
-    const Index entries = a.nonZeros();
-    if (a.outerSize() + 1 != static_cast<Index>(columns_.size()) ||
-        entries != static_cast<Index>(rows_.size()) ||
-        !std::equal(columns_.begin(), columns_.end(), a.outerIndexPtr()) ||
-        !std::equal(rows_.begin(), rows_.end(), a.innerIndexPtr())) {
-      lu_.analyzePattern(a);
-      columns_.assign(a.outerIndexPtr(), a.outerIndexPtr() + a.outerSize() + 1);
-      rows_.assign(a.innerIndexPtr(), a.innerIndexPtr() + entries);
-    }
-    lu_.factorize(a);
-    if (lu_.info() != Eigen::Success) {
-      return VectorXcd::Constant(b.size(), Complex(std::nan(""), 0.0));
-    }
-    return lu_.solve(b);
-  }
-
- private:
-  Eigen::SparseLU<Matrix> lu_;
-  std::vector<int> columns_, rows_;  // of the entries
-};
 
 /// Everything about the full rotor that the search for shapes needs.
 class FullRotor {
@@ -116,12 +87,10 @@ class FullRotor {
       keep(modes_.shapes.col(i), count, kept);
     }
     if (!rotor_.load.isZero(0.0)) {
-      keep((middle_.stiffness + middle_.circulatory).partialPivLu().solve(rotor_.load), count,
-           kept);
+      keep(Lu(middle_.stiffness + middle_.circulatory).solve(rotor_.load), count, kept);
     }
     if (isPushed()) {
-      const Eigen::PartialPivLU<MatrixXd> held(middle_.stiffness + middle_.circulatory +
-                                               slowly() * slowly() * middle_.mass);
+      const Lu held(middle_.stiffness + middle_.circulatory + slowly() * slowly() * middle_.mass);
       for (Index i = 0; i < pushed_.cols(); ++i) {
         keep(held.solve(pushed_.col(i)), count, kept);
       }
@@ -148,7 +117,7 @@ class FullRotor {
       const Eigen::MatrixXcd moved = point.dynamic * complex_shapes;
       const Eigen::MatrixXcd dynamic = shapes.transpose() * moved;
       const VectorXcd force = shapes.transpose() * point.force;
-      const Eigen::Vector2cd found = atStation(shapes * dynamic.partialPivLu().solve(force));
+      const Eigen::Vector2cd found = atStation(shapes * ComplexLu(dynamic).solve(force));
       const double error = (found - point.response).norm() / point.response.norm();
       worst = std::isfinite(error) ? std::max(worst, error) : worst;
       if (worst > enough) {
@@ -177,13 +146,13 @@ class FullRotor {
 
   /// [rad/s], that is nearly rest to all but a motion as a rigid body.
   double slowly() const {
-    const double rigid = kRigid * modes_.frequencies[dof() - 1];
+    const double rigid = kRigidFrequency * modes_.frequencies[dof() - 1];
     const auto first = (modes_.frequencies.array() <= rigid).count();
     return kAtRest * modes_.frequencies[std::min(dof() - 1, Index{first})];
   }
 
   struct SpeedPoint {
-    Eigen::SparseMatrix<Complex> dynamic;  // K - w^2 M + i w C
+    ComplexSparseMatrix dynamic;  // K - w^2 M + i w C
     VectorXcd force;
     Eigen::Vector2cd response;
   };
@@ -256,9 +225,9 @@ class FullRotor {
   /// The rotor's modes in these shapes, of unit largest displacement at a station.
   MatrixXd modal(const MatrixXd& shapes) const {
     const MatrixXd stiffness = shapes.transpose() * middle_.stiffness * shapes;
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(0.5 * (stiffness + stiffness.transpose()));
-    MatrixXd modes = shapes * solver.eigenvectors();
-    const VectorXd& squares = solver.eigenvalues();
+    const SymmetricModes<double> solver = symmetricModes(0.5 * (stiffness + stiffness.transpose()));
+    MatrixXd modes = shapes * solver.vectors;
+    const VectorXd& squares = solver.values;
     const double rounding = kRoundingOfSquares * squares.cwiseAbs().maxCoeff();
     for (Index first = 0, end = 1; first < modes.cols(); first = end++) {
       while (end < modes.cols() &&
@@ -330,7 +299,7 @@ RotorReduction report(const FullRotor& full, const Choice& choice, const std::st
 double usualHighestSpeed(const LinearRotor& rotor) {
   const RestModes modes = restModes(rotor.matrices(0.0));
   const Index n = modes.frequencies.size();
-  const double rigid = kRigid * modes.frequencies[n - 1];
+  const double rigid = kRigidFrequency * modes.frequencies[n - 1];
   const auto first = (modes.frequencies.array() <= rigid).count();
   return 2.0 * modes.frequencies[std::min(n - 1, first + kFewestModes - 1)];
 }

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "analysis/lowest_eigenvalues.h"
+
 namespace whirl_twin {
 
 namespace {
@@ -9,10 +11,9 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::VectorXcd;
 
-constexpr int kMostSteps = 12;
-constexpr double kSettled = 1.0e-13;    // of the eigenvalue
-constexpr double kGoodEnough = 1.0e-9;  // of it, where rounding lets it come no nearer
-constexpr double kDoubtful = 1.0e-8;    // of it: a real part that the damping of the shape tells
+constexpr int kMaxContinuationSteps = 12;
+constexpr double kContinuationTolerance = 1.0e-13;  // of the eigenvalue
+constexpr double kGoodEnough = 1.0e-9;              // of it, where rounding lets it come no nearer
 
 }  // namespace
 
@@ -47,12 +48,12 @@ std::optional<WhirlMode> ModeContinuation::from(const WhirlMode& mode, double le
     const VectorXcd y = BandedLU<Complex>(dynamic).solve(slope);
     const Complex change = 1.0 / x.dot(y);
     const double size = std::abs(change);
-    if (!std::isfinite(size) || step == kMostSteps) {
+    if (!std::isfinite(size) || step == kMaxContinuationSteps) {
       return std::nullopt;
     }
     s -= change;
     x = y.normalized();
-    if (size <= kSettled * std::abs(s) ||
+    if (size <= kContinuationTolerance * std::abs(s) ||
         (size <= kGoodEnough * std::abs(s) && size > 0.5 * last)) {
       break;
     }
@@ -65,7 +66,7 @@ std::optional<WhirlMode> ModeContinuation::from(const WhirlMode& mode, double le
         least * product(mode, mode).real() * product(found, found).real())) {
     return std::nullopt;
   }
-  if (cannot_grow_ && std::fabs(s.real()) <= kDoubtful * std::abs(s)) {
+  if (cannot_grow_ && std::fabs(s.real()) <= kDoubtfulRealPart * std::abs(s)) {
     // s^2 m + s (c + i g) + k = 0 times conj(s): what damping takes out, without the rounding of s.
     const double m = x.dot(mass_.times(x).col(0)).real();
     const double c = x.dot(damping_.times(x).col(0)).real();

@@ -6,8 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "algebra/cholesky.h"
-#include "algebra/qr.h"
+#include "algebra/dense.h"
 #include "analysis/mode_continuation.h"
 #include "analysis/stability.h"
 
@@ -20,10 +19,10 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 
-constexpr double kSame = 0.9;         // correlation of one mode at two speeds
-constexpr double kAtAll = 0.5;        // the least that is accepted where a step is no longer halved
-constexpr double kRepeated = 1.0e-6;  // of an eigenvalue
-constexpr int kMostHalvings = 8;
+constexpr double kSameModeCorrelation = 0.9;  // correlation of one mode at two speeds
+constexpr double kAtAll = 0.5;  // the least that is accepted where a step is no longer halved
+constexpr double kRepeatedMode = 1.0e-6;  // of an eigenvalue
+constexpr int kMaxStrideHalvings = 8;
 /// Of more coordinates all modes at a speed cost more than Newton's method for those followed.
 constexpr Index kFewCoordinates = 40;
 constexpr std::size_t kMoreModes = 12;  // than are followed, where others may come in between
@@ -31,12 +30,12 @@ constexpr std::size_t kMoreModes = 12;  // than are followed, where others may c
 /// Square root of the energy: the scalar product of states scaled by it is that of the energy.
 class EnergyScale {
  public:
-  explicit EnergyScale(const Linearization& l) : mass_(Eigen::LLT<MatrixXd>(l.mass).matrixU()) {
-    const Eigen::LLT<MatrixXd> stiffness(l.stiffness);
+  explicit EnergyScale(const Linearization& l) : mass_(Cholesky(l.mass).lower().transpose()) {
+    const Cholesky stiffness(l.stiffness);
     // With a motion that has no stiffness: another length.
     stiffness_ =
-        stiffness.info() == Eigen::Success
-            ? MatrixXd(stiffness.matrixU())
+        stiffness.succeeded()
+            ? MatrixXd(stiffness.lower().transpose())
             : MatrixXd(std::sqrt(l.stiffness.cwiseAbs().maxCoeff() / l.mass.cwiseAbs().maxCoeff()) *
                        mass_);
   }
@@ -63,7 +62,7 @@ std::vector<Space> spacesOf(const std::vector<WhirlMode>& modes, const EnergySca
   std::vector<Space> spaces;
   for (std::size_t i = 0; i < modes.size(); ++i) {
     const bool repeated = i > 0 && std::abs(modes[i].eigenvalue - modes[i - 1].eigenvalue) <=
-                                       kRepeated * std::abs(modes[i].eigenvalue);
+                                       kRepeatedMode * std::abs(modes[i].eigenvalue);
     if (!repeated) {
       spaces.emplace_back();
     }
@@ -75,8 +74,7 @@ std::vector<Space> spacesOf(const std::vector<WhirlMode>& modes, const EnergySca
     for (Index k = 0; k < count; ++k) {
       space.states.col(k) = scale.scaled(modes[space.members[static_cast<std::size_t>(k)]]);
     }
-    space.basis = Eigen::HouseholderQR<MatrixXcd>(space.states).householderQ() *
-                  MatrixXcd::Identity(space.states.rows(), count);
+    space.basis = orthonormalBasis(space.states);
   }
   return spaces;
 }
@@ -88,7 +86,7 @@ WhirlMode nearestIn(const Space& space, std::size_t member, const VectorXcd& sta
   if (space.members.size() == 1) {
     return mode;
   }
-  const VectorXcd parts = space.states.colPivHouseholderQr().solve(state);
+  const VectorXcd parts = leastSquares(space.states, state);
   mode.shape.setZero();
   for (std::size_t k = 0; k < space.members.size(); ++k) {
     mode.shape += parts[static_cast<Index>(k)] * modes[space.members[k]].shape;
@@ -122,13 +120,13 @@ std::optional<ModeTracker::Modes> continued(const ModeTracker::Modes& modes,
     if (!modes[i]) {
       continue;
     }
-    found[i] = continuation.from(*modes[i], kSame);
+    found[i] = continuation.from(*modes[i], kSameModeCorrelation);
     if (!found[i]) {
       return std::nullopt;
     }
     for (std::size_t k = 0; k < i; ++k) {
       if (found[k] && std::abs(found[k]->eigenvalue - found[i]->eigenvalue) <=
-                          kRepeated * std::abs(found[i]->eigenvalue)) {
+                          kRepeatedMode * std::abs(found[i]->eigenvalue)) {
         return std::nullopt;
       }
     }
@@ -149,7 +147,7 @@ ModeTracker::Modes ModeTracker::lowest(double parameter, std::size_t count) cons
 }
 
 ModeTracker::Modes ModeTracker::follow(const Modes& modes, double from, double to) const {
-  return follow(modes, from, to, kMostHalvings);
+  return follow(modes, from, to, kMaxStrideHalvings);
 }
 
 ModeTracker::Modes ModeTracker::follow(const Modes& modes, double from, double to,
@@ -179,7 +177,7 @@ ModeTracker::Modes ModeTracker::follow(const Modes& modes, double from, double t
   Modes found(modes.size());
   for (const auto& [correlation, i, k] : pairs) {
     if (found[i] || spaces[k].taken == spaces[k].members.size() ||
-        correlation < (halvings > 0 ? kSame : kAtAll)) {
+        correlation < (halvings > 0 ? kSameModeCorrelation : kAtAll)) {
       continue;
     }
     found[i] = nearestIn(spaces[k], spaces[k].taken++, states[i], there, stations_);

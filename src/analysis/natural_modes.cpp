@@ -4,9 +4,7 @@
 
 #include <stdexcept>
 
-#include "algebra/cholesky.h"
-#include "algebra/qr.h"
-#include "algebra/svd.h"
+#include "algebra/dense.h"
 #include "analysis/rigid_body_modes.h"
 
 namespace whirl_twin {
@@ -35,21 +33,19 @@ NaturalModes naturalModes(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& st
   if (free > 0) {
     const Eigen::MatrixXd rigid_mass = rigid.transpose() * mass * rigid;
     // rigid (L^-1)^T is mass-normalised if L L^T = rigid_mass.
-    modes.shapes.leftCols(free) = rigid_mass.llt().matrixL().solve(rigid.transpose()).transpose();
-    elastic = Eigen::HouseholderQR<Eigen::MatrixXd>(mass * rigid).householderQ();
+    modes.shapes.leftCols(free) = Cholesky(rigid_mass).solveLower(rigid.transpose()).transpose();
+    elastic = orthogonalFactor(mass * rigid);
   }
   if (free == n) {
     return modes;
   }
   const Eigen::MatrixXd basis = elastic.rightCols(n - free);
-  const Eigen::LLT<Eigen::MatrixXd> mass_factor(basis.transpose() * mass * basis);
-  const Eigen::LLT<Eigen::MatrixXd> stiffness_factor(basis.transpose() * stiffness * basis);
-  const Eigen::MatrixXd stiffness_root = stiffness_factor.matrixL();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> solver(mass_factor.matrixL().solve(stiffness_root),
-                                                 Eigen::ComputeFullU);
-  modes.frequencies.tail(n - free) = solver.singularValues().reverse();
-  modes.shapes.rightCols(n - free) =
-      basis * mass_factor.matrixU().solve(solver.matrixU()).rowwise().reverse();
+  const Cholesky mass_factor(basis.transpose() * mass * basis);
+  const Cholesky stiffness_factor(basis.transpose() * stiffness * basis);
+  const Eigen::MatrixXd stiffness_root = stiffness_factor.lower();
+  const SingularVectors solver = singularVectors(mass_factor.solveLower(stiffness_root));
+  modes.frequencies.tail(n - free) = solver.values.reverse();
+  modes.shapes.rightCols(n - free) = basis * mass_factor.solveUpper(solver.u).rowwise().reverse();
   return modes;
 }
 

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <complex>
 
+#include "algebra/constants.h"
+
 namespace whirl_twin {
 
 enum class Whirl {
@@ -52,7 +54,6 @@ struct Orbit {
     if (forward == 0.0 || backward == 0.0) {
       return 0.0;
     }
-    constexpr double kPi = 3.14159265358979323846;
     const double angle = std::remainder(0.5 * (std::arg(forward) + std::arg(backward)), kPi);
     return angle <= -0.5 * kPi ? 0.5 * kPi : angle;
   }

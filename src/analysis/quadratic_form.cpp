@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "algebra/banded_matrix.h"
-#include "algebra/eigenvalues.h"
+#include "algebra/dense.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {
@@ -11,9 +11,7 @@ namespace whirl_twin {
 namespace {
 
 Eigen::VectorXd scaledEigenvalues(const Eigen::MatrixXd& form) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(unitDiagonal(form).form,
-                                                        Eigen::EigenvaluesOnly)
-      .eigenvalues();
+  return symmetricEigenvalues(unitDiagonal(form).form);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ struct Monic {
 };
 
 /// (s^2 + p s + q) (s^2 + r s + t).
-struct Factors {
+struct QuadraticFactors {
   double p, q, r, t;
 };
 
@@ -63,7 +63,7 @@ double largestOfCubic(double b, double e, double f) {
   return std::fabs(step) <= kPolish * (std::fabs(b) + std::fabs(y)) ? y - step : y;
 }
 
-Factors factorsOf(const Monic& m) {
+QuadraticFactors factorsOf(const Monic& m) {
   const double y =
       largestOfCubic(m.b, m.a * m.c - 4.0 * m.d, 4.0 * m.b * m.d - m.a * m.a * m.d - m.c * m.c);
   // (p - r)^2 and (q - t)^2; their product is what the coefficient of s asks for.
@@ -80,7 +80,7 @@ Factors factorsOf(const Monic& m) {
   } else if (v > 0.0) {
     u = across / v;
   }
-  Factors f{0.5 * (m.a + u), 0.5 * (y + v), 0.5 * (m.a - u), 0.5 * (y - v)};
+  QuadraticFactors f{0.5 * (m.a + u), 0.5 * (y + v), 0.5 * (m.a - u), 0.5 * (y - v)};
   if (std::fabs(f.q) < std::fabs(f.t)) {
     std::swap(f.p, f.r);
     std::swap(f.q, f.t);
@@ -90,13 +90,13 @@ Factors factorsOf(const Monic& m) {
 }
 
 /// How far the product is from the quartic, in parts of its terms.
-std::array<double, 4> residual(const Monic& m, const Factors& f) {
+std::array<double, 4> residual(const Monic& m, const QuadraticFactors& f) {
   return {m.a - (f.p + f.r), m.b - (f.q + f.t + f.p * f.r), m.c - (f.p * f.t + f.q * f.r),
           m.d - f.q * f.t};
 }
 
 /// Newton's method on the factors; where they are one it stands still.
-void correct(const Monic& m, Factors& f) {
+void correct(const Monic& m, QuadraticFactors& f) {
   const auto [e1, e2, e3, e4] = residual(m, f);
   const double apart = f.p - f.r;
   const double g = e2 - f.p * e1;
@@ -114,7 +114,7 @@ void correct(const Monic& m, Factors& f) {
   f.t += g + apart * dp - dq;
 }
 
-bool fits(const Monic& m, const Factors& f) {
+bool fits(const Monic& m, const QuadraticFactors& f) {
   const std::array<double, 4> off = residual(m, f);
   const std::array<double, 4> terms{
       std::fabs(f.p) + std::fabs(f.r), std::fabs(f.q) + std::fabs(f.t) + std::fabs(f.p * f.r),
@@ -170,7 +170,7 @@ QuarticJudgement judgeQuartic(const std::array<double, 5>& coefficients) noexcep
     judgement.sure = false;
     return judgement;
   }
-  Factors factors = factorsOf(m);
+  QuadraticFactors factors = factorsOf(m);
   for (int i = 0; i < kCorrections; ++i) {
     correct(m, factors);
     factors.t = m.d / factors.q;

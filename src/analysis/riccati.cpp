@@ -6,8 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "algebra/cholesky.h"
-#include "algebra/lu.h"
+#include "algebra/dense.h"
 #include "integration/matrix_exponential.h"
 #include "messages/refusal.h"
 
@@ -17,11 +16,10 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-using Lu = Eigen::PartialPivLU<MatrixXd>;
 
-constexpr int kMostDoublings = 60;
+constexpr int kMaxRiccatiDoublings = 60;
 /// A Cayley transform whose parameter is as near as this to an eigenvalue loses too many digits.
-constexpr double kSingular = 1e-8;
+constexpr double kSingularShift = 1e-8;
 /// What is left of a closed loop's motion after so many doublings does not change the solution.
 constexpr double kGone = 1e-18;
 /// Newton's steps that take the rounding of the doublings out of the solution.
@@ -46,7 +44,7 @@ bool finite(const MatrixXd& m) {
       "itself costs nothing");
 }
 
-void check(const MatrixXd& a, const MatrixXd& b, const QuadraticCost& cost) {
+void checkCost(const MatrixXd& a, const MatrixXd& b, const QuadraticCost& cost) {
   const Index n = a.rows();
   const Index m = b.cols();
   const bool fits = a.cols() == n && b.rows() == n && cost.state.rows() == n &&
@@ -66,11 +64,9 @@ MatrixXd crossOf(const QuadraticCost& cost) {
                                : MatrixXd(MatrixXd::Zero(cost.state.rows(), cost.input.rows()));
 }
 
-using Cholesky = Eigen::LLT<MatrixXd>;
-
 Cholesky inverseOf(const MatrixXd& input_cost) {
   Cholesky factors(input_cost);
-  if (input_cost.size() > 0 && factors.info() != Eigen::Success) {
+  if (input_cost.size() > 0 && !factors.succeeded()) {
     throw Refusal("Riccati's equation: expected a positive definite cost of the inputs");
   }
   return factors;
@@ -79,7 +75,7 @@ Cholesky inverseOf(const MatrixXd& input_cost) {
 /// The stabilising solution of the sampled equation without a cross term.
 MatrixXd doubled(Doubling d) {
   const MatrixXd identity = MatrixXd::Identity(d.a.rows(), d.a.cols());
-  for (int i = 0; i < kMostDoublings; ++i) {
+  for (int i = 0; i < kMaxRiccatiDoublings; ++i) {
     const Lu w(identity + d.g * d.h);
     const MatrixXd wa = w.solve(d.a);
     const MatrixXd wg = w.solve(d.g);
@@ -100,7 +96,7 @@ MatrixXd doubled(Doubling d) {
 /// |det|^(1/rows), without overflow.
 double meanSize(const MatrixXd& m) {
   const Lu lu(m);
-  return std::exp(lu.matrixLU().diagonal().cwiseAbs().array().log().mean());
+  return std::exp(lu.pivots().cwiseAbs().array().log().mean());
 }
 
 /// The continuous equation A' X + X A - X G X + Q = 0 as a sampled one of the same solution. The
@@ -117,7 +113,7 @@ Doubling transformed(const MatrixXd& a, const MatrixXd& g, const MatrixXd& q) {
   constexpr int kTries = 12;
   for (int i = 0; i < kTries; ++i, p *= 1.3) {
     const Lu shifted(a - p * identity);
-    if (!(shifted.rcond() > kSingular)) {
+    if (!(shifted.rcond() > kSingularShift)) {
       continue;
     }
     const MatrixXd inverse = shifted.inverse();
@@ -132,7 +128,7 @@ Doubling transformed(const MatrixXd& a, const MatrixXd& g, const MatrixXd& q) {
 /// E = A' E A + rest, every eigenvalue of A inside the unit circle (R. Smith, SIAM J. Applied
 /// Mathematics 16 (1968) 198).
 MatrixXd summed(MatrixXd a, MatrixXd rest) {
-  for (int i = 0; i < kMostDoublings; ++i) {
+  for (int i = 0; i < kMaxRiccatiDoublings; ++i) {
     rest += symmetric(a.transpose() * rest * a);
     a = (a * a).eval();
     if (!finite(a) || !finite(rest)) {
@@ -163,7 +159,7 @@ MatrixXd costOf(const QuadraticCost& cost, const MatrixXd& cross, const MatrixXd
 /// Newton's method on X (D. Kleinman, IEEE Trans. Automatic Control 13 (1968) 114; G. Hewer, 16
 /// (1971) 382). gain(X), and correction(X, gain) of what it costs.
 template <class Gain, class Correction>
-Regulator refined(MatrixXd x, const Gain& gain, const Correction& correction) {
+Regulator refinedRegulator(MatrixXd x, const Gain& gain, const Correction& correction) {
   for (int i = 0; i < kMostRefinements; ++i) {
     const MatrixXd change = correction(x, gain(x));
     x += change;
@@ -177,7 +173,7 @@ Regulator refined(MatrixXd x, const Gain& gain, const Correction& correction) {
 }  // namespace
 
 Regulator continuousRegulator(const MatrixXd& a, const MatrixXd& b, const QuadraticCost& cost) {
-  check(a, b, cost);
+  checkCost(a, b, cost);
   const Cholesky input = inverseOf(cost.input);
   const MatrixXd cross = crossOf(cost);
   if (a.rows() == 0) {
@@ -186,7 +182,7 @@ Regulator continuousRegulator(const MatrixXd& a, const MatrixXd& b, const Quadra
   const MatrixXd by_cross = input.solve(cross.transpose());
   const MatrixXd g = symmetric(b * input.solve(b.transpose()));
   const MatrixXd q = symmetric(cost.state - cross * by_cross);
-  return refined(
+  return refinedRegulator(
       doubled(transformed(a - b * by_cross, g, q)),
       [&](const MatrixXd& x) -> MatrixXd {
         return input.solve(b.transpose() * x + cross.transpose());
@@ -199,11 +195,11 @@ Regulator continuousRegulator(const MatrixXd& a, const MatrixXd& b, const Quadra
 }
 
 Regulator discreteRegulator(const MatrixXd& a, const MatrixXd& b, const QuadraticCost& cost) {
-  check(a, b, cost);
+  checkCost(a, b, cost);
   const Cholesky input = inverseOf(cost.input);
   const MatrixXd cross = crossOf(cost);
   const MatrixXd by_cross = input.solve(cross.transpose());
-  return refined(
+  return refinedRegulator(
       doubled({a - b * by_cross, symmetric(b * input.solve(b.transpose())),
                symmetric(cost.state - cross * by_cross)}),
       [&](const MatrixXd& x) -> MatrixXd {
@@ -219,7 +215,7 @@ Regulator discreteRegulator(const MatrixXd& a, const MatrixXd& b, const Quadrati
 
 SampledPlant sampledPlant(const MatrixXd& a, const MatrixXd& b, const QuadraticCost& cost,
                           double period) {
-  check(a, b, cost);
+  checkCost(a, b, cost);
   if (!(period > 0.0) || !std::isfinite(period)) {
     throw Refusal(fmt::format("sampled plant: expected a period [s] > 0, found {}", period));
   }

@@ -1,7 +1,6 @@
 #include "analysis/rigid_body_modes.h"
 
-#include "algebra/eigenvalues.h"
-#include "algebra/qr.h"
+#include "algebra/dense.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {
@@ -14,14 +13,13 @@ Eigen::MatrixXd rigidBodyModes(const Eigen::MatrixXd& stiffness) {
         "deviation grows instead of vibrating");
   }
   const ScaledForm scaled = unitDiagonal(stiffness);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled.form);
-  const Eigen::Index free = (solver.eigenvalues().array() <= kZeroEigenvalue).count();
+  const SymmetricModes<double> solver = symmetricModes(scaled.form);
+  const Eigen::Index free = (solver.values.array() <= kZeroEigenvalue).count();
   if (free == 0) {
     return Eigen::MatrixXd(stiffness.rows(), 0);
   }
-  const Eigen::MatrixXd motions = scaled.scale.asDiagonal() * solver.eigenvectors().leftCols(free);
-  const Eigen::HouseholderQR<Eigen::MatrixXd> basis(motions);
-  return basis.householderQ() * Eigen::MatrixXd::Identity(motions.rows(), free);
+  const Eigen::MatrixXd motions = scaled.scale.asDiagonal() * solver.vectors.leftCols(free);
+  return orthonormalBasis(motions.leftCols(free));
 }
 
 }  // namespace whirl_twin

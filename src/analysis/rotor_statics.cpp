@@ -6,7 +6,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kFree = 1.0e-9;  // a pivot of the stiffness scaled to unit diagonal
+constexpr double kFreePivot = 1.0e-9;  // a pivot of the stiffness scaled to unit diagonal
 
 Across add(const Across& a, const Across& b) {
   return {a.x + b.x, a.y + b.y};
@@ -59,7 +59,7 @@ std::optional<RotorStatics> rotorStatics(const FlexibleShaft& shaft, double grav
   const RotorAssembly assembly(heavy);
   const BandedLinearization l = assembly.bandedMatrices(speed);
   const Eigen::ArrayXd stiffness = l.stiffness.diagonal().array();
-  if (!(stiffness > 0.0).all() || !hasCholesky(l.stiffness.scaled(stiffness.rsqrt()), kFree)) {
+  if (!(stiffness > 0.0).all() || !hasCholesky(l.stiffness.scaled(stiffness.rsqrt()), kFreePivot)) {
     return std::nullopt;
   }
   const Eigen::VectorXd q = BandedLU<double>(l.byPlace()).solve(assembly.linearRotor().load);

@@ -16,13 +16,14 @@ namespace whirl_twin {
 namespace {
 
 /// A row of the table: the coefficients of every second power, highest first.
-using Row = ScaledIntegers;
+using IntegerRow = ScaledIntegers;
 
 /// Every entry is a multiple of `divisor`.
-Row rowBelow(const Row& upper, const Row& lower, const Integer& divisor, ExactBudget& budget) {
+IntegerRow integerRowBelow(const IntegerRow& upper, const IntegerRow& lower, const Integer& divisor,
+                           ExactBudget& budget) {
   const Integer pivot = abs(lower.entry.front());
   const Integer across = lower.entry.front() > 0 ? upper.entry.front() : -upper.entry.front();
-  Row row;
+  IntegerRow row;
   for (std::size_t j = 1; j < upper.entry.size(); ++j) {
     row.entry.push_back(pivot * upper.entry[j]);
     if (j < lower.entry.size()) {
@@ -48,9 +49,9 @@ Row rowBelow(const Row& upper, const Row& lower, const Integer& divisor, ExactBu
 class KnownDivisors {
  public:
   /// The first two rows of a table, or those where a special case began it anew.
-  void restart(const Row& upper) { firsts_ = {abs(upper.entry.front())}; }
+  void restart(const IntegerRow& upper) { firsts_ = {abs(upper.entry.front())}; }
   /// Of the row below `lower`, which is the next one.
-  Integer next(const Row& lower) {
+  Integer next(const IntegerRow& lower) {
     firsts_.push_back(abs(lower.entry.front()));
     const std::size_t last = firsts_.size() - 1;
     return last >= 3 ? firsts_[last - 2] : Integer(1);
@@ -62,7 +63,7 @@ class KnownDivisors {
 
 /// Special case A: the row begins with m zeros. Multiplies it by 1 + (-s^2)^m, which is positive on
 /// the imaginary axis and gives the row its full degree.
-void fillLeadingZeros(Row& row, std::size_t m) {
+void fillIntegerZeros(IntegerRow& row, std::size_t m) {
   for (std::size_t j = 0; j + m < row.entry.size(); ++j) {
     if (m % 2 == 0) {
       row.entry[j] += row.entry[j + m];
@@ -73,8 +74,8 @@ void fillLeadingZeros(Row& row, std::size_t m) {
 }
 
 /// Special case B: the derivative of the auxiliary polynomial, a row of the given degree.
-Row derivativeRow(const Row& auxiliary, int degree, ExactBudget& budget) {
-  Row row;
+IntegerRow derivativeRow(const IntegerRow& auxiliary, int degree, ExactBudget& budget) {
+  IntegerRow row;
   row.scale = auxiliary.scale;
   for (int j = 0; 2 * j < degree; ++j) {
     row.entry.push_back(auxiliary.entry[j] * (degree - 2 * j));
@@ -85,7 +86,7 @@ Row derivativeRow(const Row& auxiliary, int degree, ExactBudget& budget) {
 
 /// The roots that a row of the given degree has on the imaginary axis: real roots of
 /// A(jx)/j^degree.
-RealRootCount rootsOnAxis(const Row& auxiliary, int degree, ExactBudget& budget) {
+RealRootCount rootsOnAxis(const IntegerRow& auxiliary, int degree, ExactBudget& budget) {
   ExactPolynomial on_axis;
   on_axis.entry.resize(degree + 1);
   for (int j = 0; 2 * j <= degree; ++j) {
@@ -95,12 +96,13 @@ RealRootCount rootsOnAxis(const Row& auxiliary, int degree, ExactBudget& budget)
 }
 
 /// The first two rows, with a positive leading coefficient.
-std::pair<Row, Row> firstRows(const std::vector<Rational>& coefficients, ExactBudget& budget) {
+std::pair<IntegerRow, IntegerRow> firstRows(const std::vector<Rational>& coefficients,
+                                            ExactBudget& budget) {
   const ScaledIntegers all = scaledIntegers(coefficients);
-  std::pair<Row, Row> rows;
+  std::pair<IntegerRow, IntegerRow> rows;
   rows.first.scale = rows.second.scale = all.scale;
   for (std::size_t i = 0; i < all.entry.size(); ++i) {
-    Row& row = i % 2 == 0 ? rows.first : rows.second;
+    IntegerRow& row = i % 2 == 0 ? rows.first : rows.second;
     row.entry.push_back(all.entry.front() > 0 ? all.entry[i] : -all.entry[i]);
   }
   removeCommonFactor(rows.first, budget);
@@ -161,7 +163,7 @@ RouthResult routh(const std::vector<Rational>& coefficients, ExactBudget& budget
       lower = derivativeRow(upper, power + 1, budget);
       divisors.restart(upper);
     } else if (leading_zeros > 0) {
-      fillLeadingZeros(lower, leading_zeros);
+      fillIntegerZeros(lower, leading_zeros);
       divisors.restart(upper);
     }
     const Integer& first = lower.entry.front();
@@ -170,7 +172,7 @@ RouthResult routh(const std::vector<Rational>& coefficients, ExactBudget& budget
       ++result.right;
       sign = -sign;
     }
-    Row next = rowBelow(upper, lower, divisors.next(lower), budget);
+    IntegerRow next = integerRowBelow(upper, lower, divisors.next(lower), budget);
     upper = std::move(lower);
     lower = std::move(next);
   }

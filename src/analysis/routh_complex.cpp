@@ -13,7 +13,7 @@ bool isZero(const ComplexRational& a) {
   return a.re == 0 && a.im == 0;
 }
 
-ComplexRational product(const ComplexRational& a, const ComplexRational& b) {
+ComplexRational complexProduct(const ComplexRational& a, const ComplexRational& b) {
   return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
 }
 
@@ -42,7 +42,8 @@ RouthResult routh(const std::vector<ComplexRational>& coefficients, ExactBudget&
   std::vector<Rational> real_part;
   std::vector<Rational> imaginary_part;
   for (int k = 0; k <= degree; ++k) {
-    const ComplexRational a = product(product(reduced[k], factor), inverse_powers[k % 4]);
+    const ComplexRational a =
+        complexProduct(complexProduct(reduced[k], factor), inverse_powers[k % 4]);
     real_part.push_back(a.re);
     imaginary_part.push_back(a.im);
   }

@@ -11,10 +11,10 @@ namespace whirl_twin {
 
 namespace {
 
-using Row = std::vector<SymbolicQuotient>;
+using SymbolicRow = std::vector<SymbolicQuotient>;
 
 /// "2 s^4 + 12 s^2 + 16": a row of the table as the polynomial it stands for.
-std::string polynomialOf(const Row& row, int degree, const std::string& symbol) {
+std::string polynomialOf(const SymbolicRow& row, int degree, const std::string& symbol) {
   std::string out;
   for (std::size_t j = 0; j < row.size(); ++j) {
     const int power = degree - 2 * static_cast<int>(j);
@@ -33,9 +33,9 @@ std::string polynomialOf(const Row& row, int degree, const std::string& symbol) 
   return out;
 }
 
-Row rowBelow(const Row& upper, const Row& lower) {
+SymbolicRow symbolicRowBelow(const SymbolicRow& upper, const SymbolicRow& lower) {
   const SymbolicQuotient ratio = upper.front() / lower.front();
-  Row row;
+  SymbolicRow row;
   for (std::size_t j = 1; j < upper.size(); ++j) {
     row.push_back(j < lower.size() ? upper[j] - ratio * lower[j] : upper[j]);
   }
@@ -43,7 +43,8 @@ Row rowBelow(const Row& upper, const Row& lower) {
 }
 
 /// The derivative of the polynomial above, of the given degree.
-std::string replaceZeroRow(Row& row, const Row& above, int degree, const std::string& symbol) {
+std::string replaceZeroRow(SymbolicRow& row, const SymbolicRow& above, int degree,
+                           const std::string& symbol) {
   row.clear();
   for (int j = 0; 2 * j < degree; ++j) {
     row.push_back(above[static_cast<std::size_t>(j)] *
@@ -57,7 +58,7 @@ std::string replaceZeroRow(Row& row, const Row& above, int degree, const std::st
 
 /// The row plus (-1)^m times itself, m places to the left: that is, times 1 + (-s^2)^m, which is
 /// positive on the axis (Benidir and Picinbono 1990).
-std::string fillLeadingZeros(Row& row, std::size_t m) {
+std::string fillSymbolicZeros(SymbolicRow& row, std::size_t m) {
   for (std::size_t j = 0; j + m < row.size(); ++j) {
     row[j] = m % 2 == 0 ? row[j] + row[j + m] : row[j] - row[j + m];
   }
@@ -75,8 +76,8 @@ RouthTable routhTable(const std::vector<SymbolicPolynomial>& coefficients,
   const auto [reduced, zeros] =
       withoutZeroRoots(coefficients, [](const SymbolicPolynomial& a) { return a.zero(); });
   const bool turned = reduced.front().constant() && reduced.front().at(0) < 0;
-  Row upper;
-  Row lower;
+  SymbolicRow upper;
+  SymbolicRow lower;
   for (std::size_t i = 0; i < reduced.size(); ++i) {
     (i % 2 == 0 ? upper : lower)
         .push_back(turned ? Rational(-1) * reduced[i] : SymbolicPolynomial(reduced[i]));
@@ -93,10 +94,10 @@ RouthTable routhTable(const std::vector<SymbolicPolynomial>& coefficients,
     if (leading == lower.size()) {
       note = replaceZeroRow(lower, upper, power + 1, symbol);
     } else if (leading > 0) {
-      note = fillLeadingZeros(lower, leading);
+      note = fillSymbolicZeros(lower, leading);
     }
     table.rows.push_back({power, lower, note});
-    Row next = rowBelow(upper, lower);
+    SymbolicRow next = symbolicRowBelow(upper, lower);
     upper = std::exchange(lower, std::move(next));
   }
   return table;

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "algebra/constants.h"
 #include "analysis/loop_instants.h"
 #include "analysis/loop_rest.h"
 #include "integration/matrix_exponential.h"
@@ -21,8 +22,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-
-constexpr double kTwoPi = 6.283185307179586;
 
 Index sizeOf(const std::vector<Index>& indices) {
   return static_cast<Index>(indices.size());
@@ -64,7 +63,7 @@ void checkShapes(const LoopPlant& plant, const LoopController& c) {
   }
 }
 
-void check(const LoopPlant& plant, const std::vector<LoopController>& controllers) {
+void checkLoop(const LoopPlant& plant, const std::vector<LoopController>& controllers) {
   if (plant.a.cols() != plant.a.rows() || plant.b.rows() != plant.a.rows() ||
       plant.c.cols() != plant.a.rows()) {
     throw std::logic_error("sampled loop: the matrices of the plant do not fit together");
@@ -265,7 +264,7 @@ class LoopWalk {
 }  // namespace
 
 SampledLoop sampledLoop(const LoopPlant& plant, const std::vector<LoopController>& controllers) {
-  check(plant, controllers);
+  checkLoop(plant, controllers);
   const Continuous part = continuousPart(plant, controllers);
   const LoopInstants instants = loopInstants(controllers);
   const LoopWalk walk(part, controllers, instants, std::nullopt);
@@ -280,7 +279,7 @@ SampledLoop sampledLoop(const LoopPlant& plant, const std::vector<LoopController
 
 LoopTap loopTap(const LoopPlant& plant, const std::vector<LoopController>& controllers,
                 std::size_t controller, Index measure) {
-  check(plant, controllers);
+  checkLoop(plant, controllers);
   if (controller >= controllers.size() || measure < 0 ||
       measure >= sizeOf(controllers[controller].measures)) {
     throw std::logic_error("sampled loop: there is no such measure");

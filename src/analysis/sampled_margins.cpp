@@ -5,7 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "algebra/eigenvalues.h"
+#include "algebra/constants.h"
+#include "algebra/dense.h"
 #include "analysis/balanced_matrix.h"
 
 namespace whirl_twin {
@@ -16,9 +17,6 @@ using Complex = std::complex<double>;
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 /// Eigenvalues below it are those of delays, which have no frequency.
 constexpr double kGoneInASample = 1e-6;
 
@@ -31,8 +29,8 @@ std::vector<LoopController> opened(std::vector<LoopController> controllers, std:
   return controllers;
 }
 
-Eigen::VectorXcd eigenvaluesOf(const MatrixXd& transition) {
-  return Eigen::EigenSolver<MatrixXd>(balanced(transition), false).eigenvalues();
+Eigen::VectorXcd balancedEigenvalues(const MatrixXd& transition) {
+  return eigenvalues(balanced(transition)).values;
 }
 
 /// ln(z) / period, and what samples of it show as the same.
@@ -54,10 +52,10 @@ struct SchurForm {
     if (transition.size() == 0) {
       return;
     }
-    const Eigen::ComplexSchur<MatrixXd> schur(balanced(transition));
-    triangle = schur.matrixT();
-    to = schur.matrixU().adjoint() * balancingUnits(transition).cwiseInverse().asDiagonal();
-    from = balancingUnits(transition).asDiagonal() * schur.matrixU();
+    const ComplexSchur schur = complexSchur(balanced(transition));
+    triangle = schur.t;
+    to = schur.u.adjoint() * balancingUnits(transition).cwiseInverse().asDiagonal();
+    from = balancingUnits(transition).asDiagonal() * schur.u;
   }
   Eigen::MatrixXcd triangle, to, from;
 };
@@ -118,7 +116,7 @@ std::vector<Response> responses(const LoopPlant& plant,
     response.highest = kPi / step;
     response.poles = closed;
     const SampledLoop open = sampledLoop(plant, opened(controllers, controller, measure));
-    const Eigen::VectorXcd poles = eigenvaluesOf(open.transition);
+    const Eigen::VectorXcd poles = balancedEigenvalues(open.transition);
     addPoles(poles, loop.period, samples, response.poles);
     for (const Complex& z : poles) {
       response.unstable += std::fmax(0.0, std::log(std::abs(z)));
@@ -160,7 +158,7 @@ std::vector<SampledMargins> sampledMargins(const LoopPlant& plant,
     for (SampledMargins& margins : all) {
       margins.sensitivity_peak = kInfinity;
       margins.gain_reduction = margins.gain_margin = 1.0;
-      margins.bode_error = kNotANumber;
+      margins.bode_error = kNaN;
     }
     return all;
   }
@@ -169,8 +167,8 @@ std::vector<SampledMargins> sampledMargins(const LoopPlant& plant,
     SampledMargins& margins = all[i];
     static_cast<LoopMargins&>(margins) = loopMargins(open[i]);
     if (open[i].samples > 1) {
-      margins.gain_margin = margins.gain_reduction = margins.phase_margin = kNotANumber;
-      margins.phase_crossover = margins.delay_margin = margins.bode_error = kNotANumber;
+      margins.gain_margin = margins.gain_reduction = margins.phase_margin = kNaN;
+      margins.phase_crossover = margins.delay_margin = margins.bode_error = kNaN;
       continue;
     }
     margins.bode_error =

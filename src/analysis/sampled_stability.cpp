@@ -6,8 +6,7 @@
 #include <numeric>
 #include <optional>
 
-#include "algebra/eigenvalues.h"
-#include "algebra/svd.h"
+#include "algebra/dense.h"
 #include "analysis/balanced_matrix.h"
 #include "analysis/characteristic_polynomial.h"
 #include "analysis/unit_circle.h"
@@ -20,18 +19,17 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::MatrixXd;
 
-constexpr double kExactBudget = 2.0e8;  // products: a second
 /// Minimal polynomials cost more than characteristic ones.
 constexpr Eigen::Index kMostStatesOfMinimal = 12;
 /// Of a transition, in parts of its norm for each sample that it is a product of.
-constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
+constexpr double kTransitionRounding = 16.0 * std::numeric_limits<double>::epsilon();
 /// Eigenvalues so far inside the circle are not brought to it by rounding.
 constexpr double kFarInside = 0.5;
-constexpr Eigen::Index kMostIterations = 400;  // an eigenvalue
+constexpr Eigen::Index kMaxIterationsPerEigenvalue = 400;  // an eigenvalue
 
 /// Of the polynomial without the roots z = 1 of standing directions; throws ExactBudgetSpent.
 RouthResult exactRouth(const MatrixXd& transition, int standing) {
-  ExactBudget budget(kExactBudget);
+  ExactBudget budget(kMaxExactProducts);
   std::vector<Rational> polynomial =
       bilinearTransform(characteristicPolynomial(transition, budget));
   polynomial.resize(polynomial.size() - static_cast<std::size_t>(standing));
@@ -51,13 +49,12 @@ RouthResult exactRouth(const MatrixXd& transition, int standing) {
   return result;
 }
 
-std::vector<Complex> eigenvaluesOf(const MatrixXd& a) {
-  Eigen::EigenSolver<MatrixXd> solver(a.rows());
-  solver.setMaxIterations(kMostIterations * a.rows()).compute(a, false);
-  if (solver.info() != Eigen::Success) {
+std::vector<Complex> sortedEigenvalues(const MatrixXd& a) {
+  const EigenPairs solver = eigenvalues(a, kMaxIterationsPerEigenvalue * a.rows());
+  if (!solver.succeeded) {
     throw RunFailure("sampled loop: its eigenvalues cannot be computed");
   }
-  const Eigen::VectorXcd& values = solver.eigenvalues();
+  const Eigen::VectorXcd& values = solver.values;
   std::vector<Complex> roots(values.data(), values.data() + values.size());
   std::sort(roots.begin(), roots.end(), [](const Complex& x, const Complex& y) {
     const double ax = std::abs(x);
@@ -72,9 +69,9 @@ std::vector<Complex> eigenvaluesOf(const MatrixXd& a) {
 double distanceTo(const Complex& z, const MatrixXd& a, int standing) {
   Eigen::MatrixXcd shifted = a;
   shifted.diagonal().array() -= z;
-  const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(shifted);
+  const Eigen::VectorXd values = singularValues(shifted);
   const Eigen::Index smallest = a.rows() - 1 - (z == 1.0 ? standing : 0);
-  return smallest < 0 ? std::numeric_limits<double>::infinity() : svd.singularValues()[smallest];
+  return smallest < 0 ? std::numeric_limits<double>::infinity() : values[smallest];
 }
 
 /// Eigenvalues that rounding can not take across the circle, and those it can.
@@ -110,11 +107,11 @@ SampledStability sampledStability(const SampledLoop& loop) {
     return result;
   }
   const MatrixXd a = balanced(loop.transition);
-  result.eigenvalues = eigenvaluesOf(a);
+  result.eigenvalues = sortedEigenvalues(a);
   result.spectral_radius = std::abs(result.eigenvalues.front());
   const int samples = std::accumulate(loop.samples.begin(), loop.samples.end(), 0);
   const Sides by_eigenvalues =
-      sides(a, result.eigenvalues, loop.standing, kRounding * samples * a.norm());
+      sides(a, result.eigenvalues, loop.standing, kTransitionRounding * samples * a.norm());
   if (a.rows() <= kMostExactStates) {
     try {
       result.routh = exactRouth(a, loop.standing);

@@ -14,9 +14,9 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kGrowth = 1.0e-9;     // or decay, of the largest eigenvalue: no rounding
-constexpr double kClear = 1.0e-5;      // likewise, whatever a quartic's coefficients have lost
-constexpr double kRounding = 1.0e-15;  // of the largest eigenvalue: no growth
+constexpr double kGrowth = 1.0e-9;  // or decay, of the largest eigenvalue: no rounding
+constexpr double kClear = 1.0e-5;   // likewise, whatever a quartic's coefficients have lost
+constexpr double kGrowthRounding = 1.0e-15;  // of the largest eigenvalue: no growth
 
 /// The characteristic quartic of two coordinates.
 std::array<double, 5> quarticOf(const Linearization& l) {
@@ -92,7 +92,7 @@ bool GrowthTest::unstable(const SmallMotion& motion) {
       budget_spent_ = true;
     }
   }
-  return !cannotGrow(l) && fastest > kRounding;
+  return !cannotGrow(l) && fastest > kGrowthRounding;
 }
 
 }  // namespace whirl_twin

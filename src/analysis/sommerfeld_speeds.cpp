@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kSlowest = 1.0e-4;  // of the highest speed
 constexpr double kSlow = 1.0e-2;     // of the lowest natural frequency
-constexpr int kCoarse = 400;
+constexpr int kSommerfeldGrid = 400;
 
 constexpr double kFastest = 1.0e6;  // [rad/s], that a motor without a limit is looked at
 
@@ -49,7 +49,7 @@ std::vector<SteadySpeed> sommerfeldSpeeds(const LinearRotor& rotor, const Motor&
   const double scale = frequencies.empty() ? highest : std::min(highest, frequencies.front());
   const double lowest = (highest > scale ? kSlow : kSlowest) * scale;
   std::vector<double> speeds =
-      speedsToLookAt(synchronousPoles(rotor, lowest, highest), lowest, highest, kCoarse);
+      speedsToLookAt(synchronousPoles(rotor, lowest, highest), lowest, highest, kSommerfeldGrid);
   for (std::size_t i = 0; i < motor.count; ++i) {  // corners of the motor's law
     if (motor.points[i].speed > lowest && motor.points[i].speed < highest) {
       speeds.push_back(motor.points[i].speed);

@@ -6,10 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "algebra/cholesky.h"
-#include "algebra/eigenvalues.h"
-#include "algebra/lu.h"
-#include "algebra/svd.h"
+#include "algebra/dense.h"
 #include "analysis/balanced_matrix.h"
 #include "analysis/characteristic_polynomial.h"
 #include "analysis/lowest_eigenvalues.h"
@@ -25,8 +22,8 @@ namespace whirl_twin {
 namespace {
 
 /// Real parts below this part of the largest eigenvalue cannot be told from zero.
-constexpr double kRounding = 1.0e-14;
-constexpr Eigen::Index kMostIterations = 400;  // a root
+constexpr double kRootRounding = 1.0e-14;
+constexpr Eigen::Index kMaxIterationsPerRoot = 400;  // a root
 /// Rounding of a state matrix and of its eigenvalues, in parts of its norm for each row.
 constexpr double kRoundingOfMatrix = 1.0e-13;
 
@@ -37,7 +34,7 @@ void modes(const std::vector<std::complex<double>>& roots, Stability& s) {
   std::vector<Mode> modes;
   std::vector<double> real;
   for (const auto& root : roots) {
-    if (std::abs(root) <= kRounding * std::abs(roots.back())) {
+    if (std::abs(root) <= kRootRounding * std::abs(roots.back())) {
       continue;  // a rigid-body motion
     }
     if (root.imag() > 0.0) {
@@ -65,8 +62,6 @@ void modes(const std::vector<std::complex<double>>& roots, Stability& s) {
   }
 }
 
-constexpr double kExactBudget = 2.0e8;  // products: a second
-
 /// What the exact polynomial says.
 struct ExactVerdict {
   std::vector<double> polynomial;
@@ -76,7 +71,7 @@ struct ExactVerdict {
 /// Throws ExactBudgetSpent.
 ExactVerdict exactVerdict(const Linearization& l, std::size_t zeros) {
   ExactVerdict exact;
-  ExactBudget budget(kExactBudget);
+  ExactBudget budget(kMaxExactProducts);
   std::vector<Rational> polynomial = characteristicPolynomial(l);
   polynomial.resize(polynomial.size() - zeros);  // these last coefficients are exactly zero
   for (const Rational& c : polynomial) {
@@ -118,10 +113,10 @@ struct StateMatrix {
 };
 
 /// Without the zero of each of the last `zeros` coordinates.
-StateMatrix stateMatrix(const Linearization& l, std::size_t zeros) {
+StateMatrix stateMatrixWithoutZeros(const Linearization& l, std::size_t zeros) {
   const Eigen::Index n = l.mass.rows();
   const Eigen::Index places = n - static_cast<Eigen::Index>(zeros);  // that matter
-  const Eigen::PartialPivLU<Eigen::MatrixXd> mass(l.mass);
+  const Lu mass(l.mass);
   const Eigen::MatrixXd by_q = mass.solve(l.stiffness + l.circulatory);
   const Eigen::MatrixXd by_v = mass.solve(l.damping + l.gyroscopic);
   // Rates in units of the highest frequency, a power of two: balanced and free of rounding.
@@ -142,29 +137,26 @@ double distanceToAxis(const Eigen::MatrixXd& a,
   for (const std::complex<double>& root : eigenvalues) {
     Eigen::MatrixXcd shifted = a;
     shifted.diagonal().array() -= std::complex<double>(0.0, root.imag());
-    const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(shifted);
-    nearest = std::fmin(nearest, svd.singularValues().minCoeff());
+    nearest = std::fmin(nearest, singularValues(shifted).minCoeff());
   }
   return nearest;
 }
 
 bool positiveDefinite(const Eigen::MatrixXd& m) {
-  const Eigen::LLT<Eigen::MatrixXd> llt(m);
-  return llt.info() == Eigen::Success &&
-         llt.matrixL().toDenseMatrix().diagonal().cwiseAbs2().minCoeff() >
-             kRounding * m.diagonal().cwiseAbs().maxCoeff();
+  const Cholesky llt(m);
+  return llt.succeeded() && llt.lower().diagonal().cwiseAbs2().minCoeff() >
+                                kRootRounding * m.diagonal().cwiseAbs().maxCoeff();
 }
 
 /// Without damping, a motion at a constant rate that nothing resists: the zero eigenvalue of a
 /// rigid-body mode is defective unless gyroscopic forces hold it.
-bool drifts(const Linearization& l) {
+bool driftsFreely(const Linearization& l) {
   const Eigen::MatrixXd free = rigidBodyModes(l.stiffness);
   if (free.cols() == 0) {
     return false;
   }
   const Eigen::MatrixXd held = free.transpose() * l.gyroscopic * free;
-  const Eigen::FullPivLU<Eigen::MatrixXd> lu(held);
-  return lu.rank() < held.rows();
+  return PivotedQr(held).rank() < held.rows();
 }
 
 /// Nothing grows, by the definiteness of the matrices: what rounding put right of the axis is on
@@ -175,7 +167,8 @@ void judgeByEnergy(const Linearization& l, std::size_t zeros, Stability& s) {
   if (l.damping.isZero(0.0)) {
     s.routh.imaginary += s.routh.left;
     s.routh.left = 0;
-    s.routh.verdict = zeros == 0 && drifts(l) ? Verdict::kRepeatedImaginary : Verdict::kMarginal;
+    s.routh.verdict =
+        zeros == 0 && driftsFreely(l) ? Verdict::kRepeatedImaginary : Verdict::kMarginal;
   } else if (s.routh.verdict == Verdict::kUnstable) {
     s.routh.verdict = Verdict::kUncertain;
   }
@@ -183,7 +176,7 @@ void judgeByEnergy(const Linearization& l, std::size_t zeros, Stability& s) {
 
 void judgeByDefiniteness(const Linearization& l, Stability& s) {
   const double small =
-      kRounding * static_cast<double>(l.mass.rows()) * std::abs(s.eigenvalues.back());
+      kRootRounding * static_cast<double>(l.mass.rows()) * std::abs(s.eigenvalues.back());
   for (const auto& root : s.eigenvalues) {
     ++(root.real() > small    ? s.routh.right
        : root.real() < -small ? s.routh.left
@@ -210,13 +203,13 @@ void setMargins(Stability& s) {
   const double largest = std::abs(s.eigenvalues.back());
   for (const auto& root : s.eigenvalues) {
     rightmost = std::max(rightmost, root.real());
-    if (std::abs(root) > kRounding * largest) {
+    if (std::abs(root) > kRootRounding * largest) {
       ratio = std::fmin(ratio, -root.real() / std::abs(root));
     }
   }
   const bool on_axis =
       s.routh.verdict == Verdict::kMarginal || s.routh.verdict == Verdict::kRepeatedImaginary;
-  if (!on_axis && std::fabs(rightmost) < kRounding * largest) {
+  if (!on_axis && std::fabs(rightmost) < kRootRounding * largest) {
     s.routh.verdict = Verdict::kUncertain;
   }
   s.decay_rate = on_axis ? 0.0 : -rightmost;
@@ -242,19 +235,18 @@ struct Solved {
 /// The last ones are kept: equilibria, operating point, verdict and searches begin with the same.
 const Solved& solved(const Linearization& l, std::size_t zeros) {
   thread_local Solved last;
-  Eigen::MatrixXd a = stateMatrix(l, zeros).matrix;
+  Eigen::MatrixXd a = stateMatrixWithoutZeros(l, zeros).matrix;
   if (last.matrix.rows() == a.rows() && last.matrix == a) {
     return last;
   }
   // In its own units the low ones keep up to three digits more beside the high ones.
   const Eigen::MatrixXd even = balanced(a);
   // Overdamped motions beside slow ones keep the iteration busy for longer than Eigen waits.
-  Eigen::EigenSolver<Eigen::MatrixXd> solver(a.rows());
-  solver.setMaxIterations(kMostIterations * a.rows()).compute(even, false);
-  if (solver.info() != Eigen::Success) {
+  const EigenPairs solver = eigenvalues(even, kMaxIterationsPerRoot * a.rows());
+  if (!solver.succeeded) {
     throw RunFailure("the eigenvalues of the linearized system cannot be computed");
   }
-  const Eigen::VectorXcd& values = solver.eigenvalues();
+  const Eigen::VectorXcd& values = solver.values;
   std::vector<std::complex<double>> roots(values.data(), values.data() + values.size());
   sortByModulus(roots);
   last = {std::move(a), even.norm(), std::move(roots)};
@@ -300,7 +292,7 @@ int rightByEigenvalues(const Linearization& l, std::size_t zeros,
   if (right == by_routh) {
     return right;
   }
-  const auto [a, conditioning] = stateMatrix(l, zeros);
+  const auto [a, conditioning] = stateMatrixWithoutZeros(l, zeros);
   const double rounding =
       kRoundingOfMatrix * static_cast<double>(a.rows()) * a.norm() * conditioning;
   return distanceToAxis(a, eigenvalues) > rounding ? right : by_routh;

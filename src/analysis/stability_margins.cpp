@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "algebra/constants.h"
+
 namespace whirl_twin {
 
 namespace {
-
-constexpr double kTwoPi = 6.283185307179586476925;
 
 double decayRateOf(const std::vector<std::complex<double>>& roots) {
   // Rightmost first.

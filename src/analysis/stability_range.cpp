@@ -229,13 +229,14 @@ std::optional<double> frequencyOnAxis(const Coefficients& coefficients, const Ra
              : std::nullopt;
 }
 
-struct Factors {
+struct BoundaryFactors {
   SymbolicPolynomial leading, last, pair;
 };
 
 /// What happens at the bound, and what it is a root of.
-void explain(StabilityBound& bound, const Factors& factors, const Coefficients& coefficients,
-             const std::vector<Rational>& fractions, ExactBudget& budget) {
+void explain(StabilityBound& bound, const BoundaryFactors& factors,
+             const Coefficients& coefficients, const std::vector<Rational>& fractions,
+             ExactBudget& budget) {
   const auto vanishes = [&](const SymbolicPolynomial& factor) {
     if (factor.zero()) {
       return false;  // for every K: that tells nothing of this one
@@ -306,7 +307,7 @@ StabilityRange stabilityRange(const std::vector<SymbolicPolynomial>& coefficient
         kMostParameterDegree,
         degree < 0 ? std::string("none that is not zero") : fmt::format("degree {}", degree)));
   }
-  const Factors factors{a.front(), a.back(), hurwitzDeterminant(a, budget)};
+  const BoundaryFactors factors{a.front(), a.back(), hurwitzDeterminant(a, budget)};
   StabilityRange range;
   range.never = factors.last.zero() || factors.pair.zero();
   SymbolicPolynomial product = factors.leading;

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algebra/cholesky.h"
-#include "algebra/lu.h"
-#include "algebra/qr.h"
+#include "algebra/dense.h"
 #include "analysis/mass_matrix.h"
 
 namespace whirl_twin {
@@ -49,7 +47,7 @@ class ReducedSystem {
     const Eigen::MatrixXd mass = dynamics_.massMatrix(x.q, x.v, at_);
     const Eigen::MatrixXd inertia = mass(c, c);
     const Eigen::VectorXd momentum = missing(c);
-    const Eigen::VectorXd rates = inertia.ldlt().solve(momentum);
+    const Eigen::VectorXd rates = Ldlt(inertia).solve(momentum);
     x.v(c) = rates;
   }
 
@@ -130,14 +128,14 @@ std::optional<SteadyMotion> deflection(const Dynamics& dynamics, double speed) {
   const Eigen::MatrixXd slope = rows.asDiagonal() * along;
   const Eigen::VectorXd pull = rows.cwiseProduct(load);
   if (rigid.any()) {
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(slope);
+    const PivotedQr qr(slope);
     const Eigen::VectorXd by_shape = qr.solve(pull);
     if (!((slope * by_shape - pull).norm() <= kHeld * pull.norm())) {
       return std::nullopt;
     }
     return SteadyMotion{rigid.basis(Eigen::all, rigid.shape) * by_shape, zero};
   }
-  return SteadyMotion{slope.partialPivLu().solve(pull), zero};
+  return SteadyMotion{Lu(slope).solve(pull), zero};
 }
 
 }  // namespace
@@ -162,7 +160,7 @@ std::optional<SteadyMotion> steadyMotionNear(const Dynamics& dynamics,
   for (int i = 0; i < kMaxIterations; ++i) {
     const Eigen::MatrixXd slope = system.slope(x);
     const Eigen::VectorXd pull = system.pull(x);
-    const Eigen::VectorXd correction = Eigen::FullPivLU<Eigen::MatrixXd>(slope).solve(pull);
+    const Eigen::VectorXd correction = PivotedQr(slope).solve(pull);
     const double size = correction.norm();
     if (!std::isfinite(size)) {
       return std::nullopt;
@@ -202,9 +200,8 @@ std::optional<SteadyMotion> creepsTo(const Dynamics& dynamics, const CyclicCoord
     }
     // M x' = pull, implicit: a step that is not downhill on its whole way is halved.
     const Eigen::MatrixXd step = inertia / time + slope;
-    const bool downhill =
-        Eigen::LLT<Eigen::MatrixXd>(0.5 * (step + step.transpose())).info() == Eigen::Success;
-    const Eigen::VectorXd by = downhill ? Eigen::VectorXd(step.partialPivLu().solve(pull)) : pull;
+    const bool downhill = Cholesky(0.5 * (step + step.transpose())).succeeded();
+    const Eigen::VectorXd by = downhill ? Eigen::VectorXd(Lu(step).solve(pull)) : pull;
     if (!downhill || !(by.norm() <= kCreep)) {
       time *= 0.5;
       continue;

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "algebra/eigenvalues.h"
-#include "algebra/lu.h"
+#include "algebra/dense.h"
 #include "analysis/banded_rotor.h"
 #include "analysis/lowest_roots.h"
 #include "analysis/stability.h"
@@ -22,9 +21,9 @@ using Eigen::MatrixXd;
 
 constexpr double kPolynomial = 1.0e-9;  // third difference of a polynomial of degree two: rounding
 constexpr double kPiece = 3.0;          // ratio of the ends of a piece
-constexpr double kNarrowest = 1.0e-5;   // of a speed: nearer to a pole the response is rounding
-constexpr double kWidest = 0.9;         // of a speed: no resonance
-constexpr double kRoundPiece = 0.6;     // of a piece: radius of the circle about it
+constexpr double kMinSpeedWidth = 1.0e-5;  // of a speed: nearer to a pole the response is rounding
+constexpr double kWidest = 0.9;            // of a speed: no resonance
+constexpr double kRoundPiece = 0.6;        // of a piece: radius of the circle about it
 
 /// Do the matrices follow polynomials of degree two from `speed` to four times it?
 bool polynomial(const BandedRotor& rotor, double speed) {
@@ -103,7 +102,7 @@ std::vector<Complex> polesOfPiece(const LinearRotor& rotor, double from, double 
   const MatrixXcd first = (scale / h) * (4.0 * middle - 3.0 * low - high);
   const MatrixXcd second = (2.0 * scale * scale / (h * h)) * (high - 2.0 * middle + low);
   const Index n = low.rows();
-  const Eigen::PartialPivLU<MatrixXcd> lu(low);
+  const ComplexLu lu(low);
   MatrixXcd companion = MatrixXcd::Zero(2 * n, 2 * n);
   companion.topLeftCorner(n, n) = -lu.solve(first);
   companion.topRightCorner(n, n) = -lu.solve(second);
@@ -112,8 +111,8 @@ std::vector<Complex> polesOfPiece(const LinearRotor& rotor, double from, double 
   if (!companion.allFinite()) {
     return poles;
   }
-  const Eigen::ComplexEigenSolver<MatrixXcd> solver(companion, false);
-  for (const Complex& u : solver.eigenvalues()) {
+  const EigenPairs solver = eigenvalues(companion);
+  for (const Complex& u : solver.values) {
     if (std::abs(u) > 0.0) {
       poles.push_back(from + scale / u);
     }
@@ -173,7 +172,7 @@ std::vector<double> speedsToLookAt(const std::vector<Complex>& poles, double low
     speeds.push_back(low * std::pow(high / low, static_cast<double>(i) / coarse));
   }
   for (const Complex& pole : poles) {
-    const double width = std::max(std::fabs(pole.imag()), kNarrowest * pole.real());
+    const double width = std::max(std::fabs(pole.imag()), kMinSpeedWidth * pole.real());
     if (width > kWidest * pole.real()) {
       continue;
     }

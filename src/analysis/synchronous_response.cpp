@@ -12,8 +12,8 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr int kFine = 20;        // speeds on each side of a resonance
-constexpr double kSpread = 3.0;  // up to sinh(3) = 10 half-widths away
+constexpr int kSpeedsBesideResonance = 20;  // speeds on each side of a resonance
+constexpr double kSpeedSpread = 3.0;        // up to sinh(3) = 10 half-widths away
 
 }  // namespace
 
@@ -47,8 +47,9 @@ std::vector<SynchronousResponse> synchronousSweep(const LinearRotor& rotor,
   speeds.insert(speeds.end(), around.begin(), around.end());
   for (const std::complex<double>& pole : poles) {  // so that the polar plot is round, too
     const double width = std::fabs(pole.imag());
-    for (int k = -kFine; k <= kFine; ++k) {
-      const double speed = pole.real() + width * std::sinh(kSpread * k / kFine);
+    for (int k = -kSpeedsBesideResonance; k <= kSpeedsBesideResonance; ++k) {
+      const double speed =
+          pole.real() + width * std::sinh(kSpeedSpread * k / kSpeedsBesideResonance);
       if (speed > from && speed < to && width < pole.real()) {
         speeds.push_back(speed);
       }

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algebra/cholesky.h"
-#include "algebra/eigenvalues.h"
+#include "algebra/dense.h"
 #include "analysis/bracketed_root.h"
 #include "analysis/whirl_modes.h"
 #include "messages/refusal.h"
@@ -19,10 +18,10 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kRepeated = 1.0e-9;  // of a critical speed
+constexpr double kRepeatedSpeed = 1.0e-9;  // of a critical speed
 constexpr double kStiffened =
     1.0e-11;  // of the largest stiffness: on springs as soft a free rotor drifts
-constexpr int kStrides = 200;
+constexpr int kFlexibilityStrides = 200;
 
 /// (M - i G/w) phi = mu K phi at one speed: mu descending.
 struct Pencil {
@@ -34,35 +33,34 @@ struct Pencil {
 Pencil pencil(const LinearRotor& rotor, double speed, bool vectors) {
   const Linearization l = rotor.matrices(speed);
   MatrixXd stiffness = 0.5 * (l.stiffness + l.stiffness.transpose());
-  Eigen::LLT<MatrixXd> factor(stiffness);
+  Cholesky factor(stiffness);
   double spring = 0.0;
-  if (factor.info() != Eigen::Success) {
+  if (!factor.succeeded()) {
     spring = kStiffened * stiffness.cwiseAbs().maxCoeff();
     stiffness.diagonal().array() += spring;
-    factor.compute(stiffness);
+    factor = Cholesky(stiffness);
   }
-  if (factor.info() != Eigen::Success) {
+  if (!factor.succeeded()) {
     throw RunFailure(
         "undamped critical speeds: the stiffness of the rotor is negative for some motion");
   }
   const MatrixXcd inertia =
       l.mass.cast<Complex>() - Complex(0.0, 1.0 / speed) * l.gyroscopic.cast<Complex>();
-  const MatrixXcd root = factor.matrixL().toDenseMatrix().cast<Complex>();
+  const MatrixXcd root = factor.lower().cast<Complex>();
   const auto lower = root.triangularView<Eigen::Lower>();
   const MatrixXcd half = lower.solve(inertia);
   MatrixXcd a = lower.solve(half.adjoint());
-  const Eigen::SelfAdjointEigenSolver<MatrixXcd> solver(
-      a, vectors ? Eigen::ComputeEigenvectors : Eigen::EigenvaluesOnly);
-  Pencil found{solver.eigenvalues().reverse(), {}, spring};
+  const auto solver = hermitianModes(a, vectors);
+  Pencil found{solver.values.reverse(), {}, spring};
   if (vectors) {
-    found.shapes = lower.adjoint().solve(solver.eigenvectors().rowwise().reverse());
+    found.shapes = lower.adjoint().solve(solver.vectors.rowwise().reverse());
   }
   return found;
 }
 
 /// Does a shape rest on the added springs alone?
-bool drifts(const LinearRotor& rotor, double speed, const Pencil& there,
-            const Eigen::VectorXcd& shape) {
+bool restsOnAddedSprings(const LinearRotor& rotor, double speed, const Pencil& there,
+                         const Eigen::VectorXcd& shape) {
   const MatrixXd stiffness = rotor.matrices(speed).stiffness;
   const double energy = shape.dot(stiffness.cast<Complex>() * shape).real();
   return there.spring > 0.0 && energy < 10.0 * there.spring * shape.squaredNorm();
@@ -86,8 +84,8 @@ std::vector<double> roots(const LinearRotor& rotor, double highest) {
     }
   }
   std::vector<double> grid = rotor.knots;
-  for (int k = 0; k <= kStrides; ++k) {
-    const double part = static_cast<double>(k) / kStrides;
+  for (int k = 0; k <= kFlexibilityStrides; ++k) {
+    const double part = static_cast<double>(k) / kFlexibilityStrides;
     grid.push_back(highest * std::pow(1.0e-3, 1.0 - part));
   }
   std::sort(grid.begin(), grid.end());
@@ -118,7 +116,7 @@ std::vector<UndampedCriticalSpeed> undampedCriticalSpeeds(const LinearRotor& rot
   std::vector<UndampedCriticalSpeed> found;
   for (std::size_t first = 0; first < speeds.size();) {
     std::size_t end = first + 1;
-    while (end < speeds.size() && speeds[end] - speeds[end - 1] <= kRepeated * speeds[end]) {
+    while (end < speeds.size() && speeds[end] - speeds[end - 1] <= kRepeatedSpeed * speeds[end]) {
       ++end;
     }
     const double speed = speeds[first];
@@ -141,7 +139,7 @@ std::vector<UndampedCriticalSpeed> undampedCriticalSpeeds(const LinearRotor& rot
     for (Index k = 0; k < shapes.cols(); ++k) {
       WhirlMode mode;
       mode.shape = shapes.col(k);
-      if (drifts(rotor, speed, there, mode.shape)) {
+      if (restsOnAddedSprings(rotor, speed, there, mode.shape)) {
         continue;
       }
       normalise(mode, stations);

@@ -22,10 +22,10 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::VectorXd;
 
-constexpr int kMostSteps = 30;    // of Newton's method
-constexpr double kRests = 1e-12;  // of the place: a step that is none
-constexpr double kNearly = 1e-8;  // where rounding lets no step be so short
-constexpr double kRigid = 1e-14;  // of the largest eigenvalue: a motion as a rigid body
+constexpr int kMaxNewtonSteps = 30;         // of Newton's method
+constexpr double kRests = 1e-12;            // of the place: a step that is none
+constexpr double kNearly = 1e-8;            // where rounding lets no step be so short
+constexpr double kRigidEigenvalue = 1e-14;  // of the largest eigenvalue: a motion as a rigid body
 
 LocalState stateAt(const LocalForce& force, const VectorXd& q, double speed) {
   LocalState at;
@@ -49,14 +49,14 @@ BandedLinearization linearizationAt(const UnreducedRotor& rotor, const VectorXd&
 }
 
 /// Where it rests next to q; q itself where Newton's method finds no such place.
-VectorXd restNear(const UnreducedRotor& rotor, const VectorXd& q, double speed) {
+VectorXd unreducedEquilibriumNear(const UnreducedRotor& rotor, const VectorXd& q, double speed) {
   if (rotor.forces.empty()) {
     return q;
   }
   const BandedMatrix<double> linear = rotor.assembly->bandedMatrices(speed).byPlace();
   VectorXd rest = q;
   double step_length = 1.0;
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxNewtonSteps; ++step) {
     VectorXd left = rotor.assembly->load() - linear.times(rest).col(0);
     for (const LocalForce& force : rotor.forces) {
       LocalPush push;
@@ -95,7 +95,7 @@ RotorMargins marginsOf(const std::vector<Complex>& roots, double reach, bool gro
   for (const Complex& s : roots) {
     if (std::abs(s) <= reach || (grows && s.real() > 0.0)) {
       rightmost = std::max(rightmost, s.real());
-      if (std::abs(s) > kRigid * largest) {
+      if (std::abs(s) > kRigidEigenvalue * largest) {
         ratio = std::fmin(ratio, -s.real() / std::abs(s));
       }
     }
@@ -157,7 +157,7 @@ ReducedMargins UnreducedMargins::at(const VectorXd& q, double speed) const {
   ReducedMargins margins;
   margins.reduced = marginsOf(linearizationAtRest(*held_, amplitudes, speed),
                               std::numeric_limits<double>::infinity());
-  const VectorXd rest = restNear(*rotor_, rotor_->shapes * amplitudes, speed);
+  const VectorXd rest = unreducedEquilibriumNear(*rotor_, rotor_->shapes * amplitudes, speed);
   margins.unreduced =
       marginsOf(linearizationAt(*rotor_, rest, speed), std::max(highest_speed_, std::fabs(speed)));
   return margins;

@@ -4,9 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "algebra/eigenvalues.h"
-#include "algebra/lu.h"
-#include "algebra/qr.h"
+#include "algebra/dense.h"
 #include "analysis/cyclic_coordinates.h"
 #include "analysis/growth_radius.h"
 #include "analysis/lowest_eigenvalues.h"
@@ -23,22 +21,20 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 
-constexpr double kRepeated = 1.0e-7;     // of an eigenvalue: nearer ones are one
-constexpr double kStandsStill = 1.0e-6;  // of the widest orbit
-constexpr double kZero = 1.0e-13;        // of the largest eigenvalue: rounding
-constexpr double kRounding = 1.0e-12;    // of the largest: a real part that may be rounding
-constexpr double kDoubtful = 1.0e-8;     // of an eigenvalue: a real part that the energy tells
-constexpr double kNoDamping = 1.0e-18;   // damping ratio: a shape's rounding, squared, is damped
+constexpr double kRepeatedWhirl = 1.0e-7;   // of an eigenvalue: nearer ones are one
+constexpr double kStandsStill = 1.0e-6;     // of the widest orbit
+constexpr double kZero = 1.0e-13;           // of the largest eigenvalue: rounding
+constexpr double kWhirlRounding = 1.0e-12;  // of the largest: a real part that may be rounding
 
 /// Eigenvalues and the upper half, the displacement, of the eigenvectors of the state matrix.
-struct EigenPairs {
+struct RotorEigenPairs {
   VectorXcd values;
   MatrixXcd shapes;
 };
 
-EigenPairs eigenPairs(const Linearization& l) {
+RotorEigenPairs rotorEigenPairs(const Linearization& l) {
   const Index n = l.mass.rows();
-  const Eigen::PartialPivLU<MatrixXd> mass(l.mass);
+  const Lu mass(l.mass);
   const MatrixXd by_q = mass.solve(l.stiffness + l.circulatory);
   // Rates in units of the highest frequency, a power of two: balanced and free of rounding.
   const double stiffest = std::sqrt(by_q.cwiseAbs().maxCoeff());
@@ -47,11 +43,11 @@ EigenPairs eigenPairs(const Linearization& l) {
   a.topRightCorner(n, n).diagonal().setConstant(scale);
   a.bottomLeftCorner(n, n) = -by_q / scale;
   a.bottomRightCorner(n, n) = -mass.solve(l.damping + l.gyroscopic);
-  const Eigen::EigenSolver<MatrixXd> solver(a);
-  if (solver.info() != Eigen::Success) {
+  const EigenPairs solver = eigenPairs(a);
+  if (!solver.succeeded) {
     throw RunFailure("the eigenvalues of the rotor cannot be computed");
   }
-  return {solver.eigenvalues(), solver.eigenvectors().topRows(n)};
+  return {solver.values, solver.vectors.topRows(n)};
 }
 
 /// The `count` smallest are zero but for rounding, which of a drift is the root of it.
@@ -81,7 +77,7 @@ void separateRepeated(std::vector<WhirlMode>& modes, const std::vector<Station>&
   for (std::size_t first = 0; first < modes.size();) {
     std::size_t end = first + 1;
     while (end < modes.size() && std::abs(modes[end].eigenvalue - modes[end - 1].eigenvalue) <=
-                                     kRepeated * std::abs(modes[end].eigenvalue)) {
+                                     kRepeatedWhirl * std::abs(modes[end].eigenvalue)) {
       ++end;
     }
     if (end - first > 1) {
@@ -129,7 +125,7 @@ std::optional<WhirlModes> lowestWhirlModes(const BandedLinearization& at_speed,
       WhirlMode mode;
       mode.eigenvalue = s;
       mode.shape = root.shape;
-      if (cannot_grow && std::fabs(s.real()) <= kDoubtful * std::abs(s)) {
+      if (cannot_grow && std::fabs(s.real()) <= kDoubtfulRealPart * std::abs(s)) {
         const double decay = decayByEnergy(at_speed, root);
         mode.eigenvalue = {decay > kNoDamping * std::abs(s) ? -decay : 0.0, s.imag()};
       }
@@ -195,8 +191,7 @@ Whirl whirlOf(const std::vector<Orbit>& orbits) {
 MatrixXcd separatedByDirection(const MatrixXcd& shapes, const std::vector<Station>& stations) {
   const Index count = shapes.cols();
   // sum |f|^2 - |b|^2 over the stations, on vectors of one size over the whole rotor.
-  const MatrixXcd basis = Eigen::HouseholderQR<MatrixXcd>(shapes).householderQ() *
-                          MatrixXcd::Identity(shapes.rows(), count);
+  const MatrixXcd basis = orthonormalBasis(shapes);
   MatrixXcd excess = MatrixXcd::Zero(count, count);
   for (const Station& station : stations) {
     const Eigen::RowVectorXcd x = station.along_x.transpose().cast<Complex>() * basis;
@@ -205,12 +200,12 @@ MatrixXcd separatedByDirection(const MatrixXcd& shapes, const std::vector<Statio
     const Eigen::RowVectorXcd backward = 0.5 * (x - Complex(0.0, 1.0) * y);
     excess += forward.adjoint() * forward - backward.adjoint() * backward;
   }
-  const Eigen::SelfAdjointEigenSolver<MatrixXcd> solver(excess);
-  return (basis * solver.eigenvectors()).rowwise().reverse();
+  const auto solver = hermitianModes(excess);
+  return (basis * solver.vectors).rowwise().reverse();
 }
 
 WhirlModes whirlModes(const Linearization& at_speed, const std::vector<Station>& stations) {
-  EigenPairs pairs = eigenPairs(at_speed);
+  RotorEigenPairs pairs = rotorEigenPairs(at_speed);
   const CyclicCoordinates rigid = rigidBodyMotions(at_speed);
   if (rigid.any()) {
     setToZero(zeroEigenvalues(at_speed, rigid), pairs.values);
@@ -218,7 +213,7 @@ WhirlModes whirlModes(const Linearization& at_speed, const std::vector<Station>&
   const double largest = pairs.values.cwiseAbs().maxCoeff();
   const double doubtful = !cannotGrow(at_speed)          ? 0.0
                           : at_speed.damping.isZero(0.0) ? largest
-                                                         : kRounding * largest;
+                                                         : kWhirlRounding * largest;
   WhirlModes all;
   for (Index i = 0; i < pairs.values.size(); ++i) {
     const Complex s = pairs.values[i];

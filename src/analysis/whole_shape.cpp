@@ -4,39 +4,39 @@
 #include <cmath>
 #include <complex>
 
-#include "algebra/cholesky.h"
+#include "algebra/dense.h"
 #include "analysis/synchronous_response.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kSameSpeed = 5.0e-3;   // of the speed: the shapes change no more than is seen
-constexpr double kFree = 1.0e-9;        // of the stiffness: what is less holds nothing
-constexpr double kSamePlace = 1.0e-12;  // of what the places give, where they are but one
+constexpr double kSameSpeed = 5.0e-3;      // of the speed: the shapes change no more than is seen
+constexpr double kFreeStiffness = 1.0e-9;  // of the stiffness: what is less holds nothing
+constexpr double kSamePlace = 1.0e-12;     // of what the places give, where they are but one
 
 /// Of K, or, where that holds nothing or pushes away, of a little more by the rotor's mass.
 struct Holding {
-  Eigen::LLT<Eigen::MatrixXd> factor;
+  Cholesky factor;
   bool by_itself = true;
 };
 
 Holding holding(const Linearization& l) {
   const Eigen::VectorXd unit = l.stiffness.diagonal().cwiseAbs().cwiseSqrt();
   const Eigen::MatrixXd k = l.stiffness;
-  Holding held{Eigen::LLT<Eigen::MatrixXd>(
-                   k - Eigen::MatrixXd((kFree * unit.cwiseProduct(unit)).asDiagonal())),
-               true};
-  if (held.factor.info() == Eigen::Success) {
-    held.factor.compute(k);
+  Holding held{
+      Cholesky(k - Eigen::MatrixXd((kFreeStiffness * unit.cwiseProduct(unit)).asDiagonal())), true};
+  if (held.factor.succeeded()) {
+    held.factor = Cholesky(k);
     return held;
   }
   held.by_itself = false;
-  double added = kFree * k.diagonal().cwiseAbs().cwiseQuotient(l.mass.diagonal()).maxCoeff();
+  double added =
+      kFreeStiffness * k.diagonal().cwiseAbs().cwiseQuotient(l.mass.diagonal()).maxCoeff();
   do {
-    held.factor.compute(k + added * l.mass);
+    held.factor = Cholesky(k + added * l.mass);
     added *= 10.0;
-  } while (held.factor.info() != Eigen::Success && std::isfinite(added));
+  } while (!held.factor.succeeded() && std::isfinite(added));
   return held;
 }
 
@@ -65,7 +65,8 @@ void WholeShape::prepare(double speed) {
   const Eigen::MatrixXd bent = held.factor.solve(l.mass * held.factor.solve(places_));
   Eigen::MatrixXd given = places_.transpose() * bent;
   given.diagonal().array() += kSamePlace * given.trace();
-  corrections_ = bent * given.llt().solve(Eigen::MatrixXd::Identity(given.rows(), given.cols()));
+  corrections_ =
+      bent * Cholesky(given).solve(Eigen::MatrixXd::Identity(given.rows(), given.cols()));
   speed_ = speed;
   prepared_ = true;
 }

@@ -2,15 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "algebra/constants.h"
 
 namespace whirl_twin {
-
-namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
 
 Actuator::Actuator(const ActuatorSettings& settings, double period)
     : limit_(settings.limit > 0.0 ? settings.limit : kInfinity),

@@ -4,11 +4,12 @@
 
 #include <cmath>
 
+#include "algebra/constants.h"
+
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
 constexpr double kPerWord = 1.0 / 4294967296.0;  // 2^-32
 
 /// The middle of the interval that a word stands for: never 0, never 1.

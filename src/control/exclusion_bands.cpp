@@ -53,7 +53,7 @@ SpeedBand mirrored(const SpeedBand& band) noexcept {
   return {-band.to, -band.from};
 }
 
-void append(BandedChange& plan, const SpeedChange& change, double speed) noexcept {
+void appendChange(BandedChange& plan, const SpeedChange& change, double speed) noexcept {
   if (change.count > 0 && plan.count < plan.changes.size()) {
     plan.changes[plan.count] = change;
     plan.speeds[plan.count++] = speed;
@@ -140,7 +140,7 @@ BandedChange ExclusionBands::plan(double speed, double acceleration,
   double v = speed;
   double a = acceleration;
   const auto go = [&](double to) {
-    append(plan, planSpeedChange(v, a, {to, by.acceleration, by.jerk, 0.0}), to);
+    appendChange(plan, planSpeedChange(v, a, {to, by.acceleration, by.jerk, 0.0}), to);
     v = to;
     a = 0.0;
   };

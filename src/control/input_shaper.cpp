@@ -4,13 +4,12 @@
 #include <cmath>
 #include <complex>
 
+#include "algebra/constants.h"
 #include "control/inputs.h"
 
 namespace whirl_twin {
 
 namespace {
-
-constexpr double kPi = 3.141592653589793;
 
 double dampedFrequency(double frequency, double damping_ratio) {
   return frequency * std::sqrt((1.0 - damping_ratio) * (1.0 + damping_ratio));

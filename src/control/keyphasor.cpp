@@ -2,13 +2,13 @@
 
 #include <cmath>
 
+#include "algebra/constants.h"
 #include "control/sensor.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
 /// Halvings that leave less than a nanosecond of the longest step of a scene, 10 s.
 constexpr int kHalvings = 64;
 

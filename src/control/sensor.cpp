@@ -4,11 +4,12 @@
 #include <array>
 #include <cmath>
 
+#include "algebra/constants.h"
+
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
 /// Below this, the closed form of the filtered cubic loses digits, and quadrature has them all.
 constexpr double kSlowFilter = 0.5;
 

@@ -2,11 +2,12 @@
 
 #include <cmath>
 
+#include "algebra/constants.h"
+
 namespace whirl_twin {
 namespace {
 
 // 2 pi as the sum of two doubles.
-constexpr double kTwoPi = ShaftAngle::kTurn;
 constexpr double kTwoPiLow = 2.4492935982947064e-16;
 
 // Turns per nanosecond at 1 rad/s, 1e-9 / (2 pi), as the sum of two doubles.

@@ -13,7 +13,7 @@ constexpr std::size_t kLooks = 2000;  // for the highest speed
 constexpr int kBisections = 60;
 constexpr std::size_t kPiecesOfStep = 3;  // up, along, down
 
-void append(SpeedPlan& plan, const SpeedSegment& piece) noexcept {
+void appendPiece(SpeedPlan& plan, const SpeedSegment& piece) noexcept {
   if (piece.duration > 0.0 && plan.count < plan.pieces.size()) {
     plan.pieces[plan.count++] = piece;
     plan.duration += piece.duration;
@@ -121,7 +121,7 @@ void SpeedPlanner::change(double speed, double acceleration, double target,
   double a = up * acceleration;
   const double goal = up * target;
   const auto give = [&](double duration, double from, double at, double j) {
-    append(plan, {duration, up * from, up * at, up * j});
+    appendPiece(plan, {duration, up * from, up * at, up * j});
   };
   if (a < 0.0) {  // what goes the other way comes to nothing first
     give(-a / jerk, v, a, jerk);

@@ -6,7 +6,7 @@
 namespace whirl_twin {
 namespace {
 
-void append(SpeedChange& change, const SpeedSegment& segment) {
+void appendSegment(SpeedChange& change, const SpeedSegment& segment) {
   if (segment.duration > 0.0) {
     change.segments[change.count++] = segment;
     change.duration += segment.duration;
@@ -64,7 +64,7 @@ SpeedChange planSpeedChange(double speed, double acceleration, const SpeedMove& 
   const double missing = missingSpeed(speed, acceleration, jerk, move.speed);
   SpeedChange change;
   if (jerk == 0.0) {
-    append(change, {std::abs(missing) / limit, speed, std::copysign(limit, missing), 0.0});
+    appendSegment(change, {std::abs(missing) / limit, speed, std::copysign(limit, missing), 0.0});
     return change;
   }
 
@@ -80,14 +80,14 @@ SpeedChange planSpeedChange(double speed, double acceleration, const SpeedMove& 
 
   const double first_jerk = direction * (peak >= start ? jerk : -jerk);
   const double first = std::abs(peak - start) / jerk;
-  append(change, {first, speed, acceleration, first_jerk});
+  appendSegment(change, {first, speed, acceleration, first_jerk});
   if (peak == limit) {
-    append(change,
-           {(deficit - ramps) / limit, speed + first * (acceleration + 0.5 * first * first_jerk),
-            direction * peak, 0.0});
+    appendSegment(
+        change, {(deficit - ramps) / limit,
+                 speed + first * (acceleration + 0.5 * first * first_jerk), direction * peak, 0.0});
   }
-  append(change, {peak / jerk, move.speed - direction * peak * peak / (2.0 * jerk),
-                  direction * peak, -direction * jerk});
+  appendSegment(change, {peak / jerk, move.speed - direction * peak * peak / (2.0 * jerk),
+                         direction * peak, -direction * jerk});
   return change;
 }
 

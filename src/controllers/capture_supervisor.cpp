@@ -1,5 +1,7 @@
 #include "controllers/capture_supervisor.h"
 
+#include "algebra/constants.h"
+
 namespace whirl_twin {
 
 namespace {
@@ -8,7 +10,6 @@ constexpr double kProgress = 0.02;  // of the rise that was planned
 constexpr double kAtLimit = 0.9;    // of a window's samples
 constexpr double kTurns = 20.0;     // of the shaft in a window, at least
 constexpr double kFewest = 10.0;    // samples of a window
-constexpr double kTwoPi = 6.28318530717958647692;
 
 }  // namespace
 

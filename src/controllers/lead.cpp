@@ -6,6 +6,7 @@
 // the zero is below the pole, most at sqrt(zero pole).
 #include <fmt/format.h>
 
+#include "algebra/constants.h"
 #include "control/transfer_function.h"
 #include "controllers/controller_settings.h"
 #include "controllers/controllers.h"
@@ -14,8 +15,6 @@
 namespace whirl_twin {
 
 namespace {
-
-constexpr double kPi = 3.141592653589793;
 
 std::unique_ptr<Controller> makeLead(const ParameterValues& values, const Settings&,
                                      const ControllerPlan& plan) {

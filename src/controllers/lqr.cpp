@@ -8,7 +8,7 @@
 // that of outputs that act at their sample's instant.
 #include <fmt/format.h>
 
-#include "algebra/lu.h"
+#include "algebra/dense.h"
 #include "controllers/controller_settings.h"
 #include "controllers/controllers.h"
 #include "controllers/quadratic_settings.h"
@@ -23,15 +23,15 @@ using Eigen::MatrixXd;
 std::unique_ptr<Controller> makeLqr(const ParameterValues&, const Settings& settings,
                                     const ControllerPlan& plan) {
   const LinearPlant& plant = plantOf(plan);
-  const Eigen::FullPivLU<MatrixXd> measured(plant.c);
-  if (plant.c.rows() != plant.a.rows() || !measured.isInvertible()) {
+  const PivotedQr measured(plant.c);
+  if (plant.c.rows() != plant.a.rows() || measured.rank() < plant.c.cols()) {
     throw SetupError("q",
                      fmt::format("weighs all {} states: an lqr must measure each of them, found "
                                  "{} measured that tell {}; lqg estimates the rest",
                                  plant.a.rows(), plant.c.rows(), measured.rank()));
   }
   const MatrixXd gain = regulatorGain(settings, plant, plan.rate);
-  return std::make_unique<StateSpaceController>(staticLaw(-gain * measured.inverse()),
+  return std::make_unique<StateSpaceController>(staticLaw(-gain * Lu(plant.c).inverse()),
                                                 setpointOf(settings, plan));
 }
 

@@ -17,9 +17,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "algebra/constants.h"
 #include "control/speed_planner.h"
 #include "controllers/anti_windup.h"
 #include "controllers/capture_supervisor.h"
@@ -27,14 +27,13 @@
 #include "controllers/controllers.h"
 #include "controllers/speed_way.h"
 #include "messages/refusal.h"
+#include "models/settings.h"
 
 namespace whirl_twin {
 
 namespace {
 
 using Eigen::MatrixXd;
-
-constexpr double kRequired = std::numeric_limits<double>::quiet_NaN();
 
 /// Plans of set-points.
 struct SpeedPlanners {
@@ -291,7 +290,7 @@ void check(const ParameterValues& values, const ControllerPlan& plan) {
 
 /// The speed that is wanted is one that a planner leads to, from rest.
 void checkSpeed(const SpeedPlanner& planner, double speed, const std::string& for_what) {
-  const double allowed = planner.allowed(speed, kRequired);
+  const double allowed = planner.allowed(speed, kNaN);
   if (allowed != speed) {
     throw SetupError("speed", fmt::format("must lie outside of the bands to avoid{}, found {}; "
                                           "nearest edge {:g}",

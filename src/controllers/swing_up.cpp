@@ -16,14 +16,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/constants.h"
 #include "controllers/controller_settings.h"
 #include "controllers/controllers.h"
 
 namespace whirl_twin {
 
 namespace {
-
-constexpr double kPi = 3.141592653589793;
 
 class SwingUp final : public Controller {
  public:

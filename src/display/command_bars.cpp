@@ -12,12 +12,10 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::size_t kMost = 6;  // bars of a system
-constexpr Color kTrack{0.34F, 0.38F, 0.43F};
+constexpr std::size_t kMostBars = 6;  // bars of a system
 constexpr Color kBar{0.30F, 0.58F, 0.86F};
 constexpr Color kAtLimit{0.80F, 0.20F, 0.17F};
 constexpr Color kMiddle{0.80F, 0.83F, 0.87F};
-constexpr Color kWords{0.90F, 0.92F, 0.94F};
 
 }  // namespace
 
@@ -80,23 +78,24 @@ double drawCommands(const std::vector<Command>& commands, const std::vector<std:
   const double height = compact ? 0.07 : 0.04;  // m
   const double words = compact ? 0.0 : 0.058;   // m, of a line of them
   const double room = compact ? 0.04 : 0.03;    // m, between
-  for (std::size_t i = 0; i < kMost; ++i) {
+  for (std::size_t i = 0; i < kMostBars; ++i) {
     const bool shown = i < commands.size();
     const Command command = shown ? commands[i] : Command{};
     const double place =
         0.5 + 0.5 * (std::isfinite(command.value) ? command.value : 0.0) / command.end;
     ScaleBar bar("command", y + 0.5 * height, height, board);
-    bar.range("track", 0.0, shown ? 1.0 : 0.0, kTrack, 0);
+    bar.range("track", 0.0, shown ? 1.0 : 0.0, kTrackColor, 0);
     bar.range("bar", std::min(0.5, place), shown ? std::max(0.5, place) : 0.0,
               command.at_limit ? kAtLimit : kBar, 1);
     bar.range("middle", 0.498, shown ? 0.502 : 0.0, kMiddle, 2);
     board.text("command_caption", {0.0, y + height + 0.7 * words, 0.03}, words,
-               shown && !compact ? commandText(command) : "", kWords);
+               shown && !compact ? commandText(command) : "", kWordsColor);
     y += shown ? height + 1.4 * words + room : 0.0;
   }
-  for (std::size_t i = 0; i < kMost; ++i) {
+  for (std::size_t i = 0; i < kMostBars; ++i) {
     const bool shown = i < loops.size() && !compact;
-    board.text("loop_caption", {0.0, y + 0.7 * words, 0.03}, words, shown ? loops[i] : "", kWords);
+    board.text("loop_caption", {0.0, y + 0.7 * words, 0.03}, words, shown ? loops[i] : "",
+               kWordsColor);
     y += shown ? 1.2 * words : 0.0;
   }
   return y + (commands.empty() ? 0.0 : room);

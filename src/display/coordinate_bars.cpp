@@ -9,7 +9,6 @@
 namespace whirl_twin {
 namespace {
 
-constexpr Color kThin{0.80F, 0.83F, 0.87F, 0.55F};
 constexpr Color kName{0.90F, 0.92F, 0.94F};
 constexpr double kThinnest = 0.004;  // m, a bar of nothing is still seen
 
@@ -31,7 +30,7 @@ void CoordinateBars::update(const std::vector<CoordinateInfo>& coordinates,
 
 void CoordinateBars::draw(const Color& color, MarkerCanvas& canvas) const {
   const double half = 0.5 * kWidth;
-  canvas.line("line", {{-half, 0.0, 0.0}, {half, 0.0, 0.0}}, 0.006, kThin);
+  canvas.line("line", {{-half, 0.0, 0.0}, {half, 0.0, 0.0}}, 0.006, kFaintColor);
   const auto count = static_cast<double>(coordinates_.size());
   const double pitch = 0.92 * kWidth / count;
   const double text = std::min(0.072, 0.45 * pitch);
@@ -57,7 +56,7 @@ void CoordinateBars::draw(const Color& color, MarkerCanvas& canvas) const {
     }
   }
   canvas.text("scale", {0.0, -0.05, -0.5 * kHeight + 0.05}, 0.06,
-              fmt::format("{}", fmt::join(scales, ", ")), kThin);
+              fmt::format("{}", fmt::join(scales, ", ")), kFaintColor);
 }
 
 }  // namespace whirl_twin

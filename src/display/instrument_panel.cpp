@@ -10,16 +10,15 @@
 namespace whirl_twin {
 namespace {
 
-constexpr double kLive = 3.0;                 // s, that a verdict may be old
-constexpr double kLeast = -0.2, kMost = 0.6;  // log decrements at the ends of the scale
-constexpr std::size_t kRanges = 4;            // of either kind that are drawn at most
+constexpr double kLive = 3.0;  // s, that a verdict may be old
+constexpr double kLeastDecrement = -0.2,
+                 kMostDecrement = 0.6;  // log decrements at the ends of the scale
+constexpr std::size_t kRanges = 4;      // of either kind that are drawn at most
 
-constexpr Color kTrack{0.34F, 0.38F, 0.43F};
 constexpr Color kGrey{0.55F, 0.58F, 0.62F};
 constexpr Color kRed{0.80F, 0.20F, 0.17F};
 constexpr Color kOrange{0.90F, 0.60F, 0.10F};
 constexpr Color kGreen{0.22F, 0.55F, 0.42F};
-constexpr Color kWords{0.90F, 0.92F, 0.94F};
 
 /// The next of 1, 1.2, 1.5, 2, 3, 4, 5, 6, 8, 10 times a power of ten.
 double roundUp(double number) {
@@ -61,7 +60,7 @@ void drawSpeed(double speed, const LiveMargin& live, double middle, double heigh
   ScaleBar bar("speed", middle, height, board);
   const SpeedScale scale = speedScale(speed, live.margin.get());
   const bool shaft = std::isfinite(speed);
-  bar.range("track", 0.0, shaft ? 1.0 : 0.0, live.margin ? kGreen : kTrack, 0);
+  bar.range("track", 0.0, shaft ? 1.0 : 0.0, live.margin ? kGreen : kTrackColor, 0);
   for (std::size_t i = 0; i < kRanges; ++i) {
     const auto range = [&](const std::vector<SpeedRange>& ranges) {
       return shaft && i < ranges.size() ? ranges[i] : SpeedRange{0.0, 0.0};
@@ -82,7 +81,7 @@ void drawMargin(const LiveMargin& live, double middle, double height, MarkerCanv
   ScaleBar bar("margin", middle, height, board);
   const auto place = live.margin ? marginPlace(*live.margin) : std::nullopt;
   const double asked = decrementPlace(live.least_decrement);
-  bar.range("track", 0.0, 1.0, kTrack, 0);
+  bar.range("track", 0.0, 1.0, kTrackColor, 0);
   bar.range("unstable", 0.0, place ? kEdge : 0.0, kRed, 1);
   bar.range("low", kEdge, place ? asked : 0.0, kOrange, 1);
   bar.range("enough", asked, place ? 1.0 : 0.0, kGreen, 1);
@@ -175,7 +174,8 @@ std::string scaleText(const SpeedScale& scale) {
 }
 
 double decrementPlace(double log_decrement) {
-  return std::clamp((log_decrement - kLeast) / (kMost - kLeast), 0.0, 1.0);
+  return std::clamp((log_decrement - kLeastDecrement) / (kMostDecrement - kLeastDecrement), 0.0,
+                    1.0);
 }
 
 std::optional<double> marginPlace(const StabilityMargin& margin) {
@@ -219,14 +219,14 @@ double drawInstruments(const LiveMargin& live, double speed, bool compact, Marke
     y += 0.4 * words + room;
   };
   drawMargin(live, y, bar, board);
-  caption("margin_caption", "margin: " + marginText(live), live.margin ? kWords : kGrey);
+  caption("margin_caption", "margin: " + marginText(live), live.margin ? kWordsColor : kGrey);
   y += 0.5 * bar;
   drawSpeed(speed, live, y, bar, board);
   if (!shaft) {
     board.gone("speed_caption");
     return y - 0.5 * bar;
   }
-  caption("speed_caption", scaleText(speedScale(speed, live.margin.get())), kWords);
+  caption("speed_caption", scaleText(speedScale(speed, live.margin.get())), kWordsColor);
   return y;
 }
 

@@ -11,7 +11,7 @@ constexpr std::size_t kMostInFull = 3;
 constexpr double kFullWidth = 1.95, kFullHeight = 3.1;        // m, of a place
 constexpr double kCompactWidth = 1.7, kCompactHeight = 2.15;  // m
 constexpr double kColumnPart = 0.22;                          // of the width of the view
-constexpr double kNarrowest = 1.7;                            // m, of the column
+constexpr double kNarrowestColumn = 1.7;                      // m, of the column
 constexpr double kBelow = 0.25;                               // m, of a base below its shelf
 
 double tangent() {
@@ -69,7 +69,7 @@ Layout layoutOf(std::size_t systems) {
   const Shelves shelves = shelvesFor(count, layout.cell_width, layout.cell_height);
   const double wide = static_cast<double>(shelves.columns) * layout.cell_width;
   const double tall = static_cast<double>(shelves.rows) * layout.cell_height;
-  layout.column_width = std::max(kNarrowest, wide * kColumnPart / (1.0 - kColumnPart));
+  layout.column_width = std::max(kNarrowestColumn, wide * kColumnPart / (1.0 - kColumnPart));
   // About the middle of all that stands on the ground, column left out.
   const Eigen::Vector3d right = boardAxes().col(0);
   const auto at = [&](double across, double up) {

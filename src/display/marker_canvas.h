@@ -20,6 +20,16 @@ struct Color {
   float a = 1.0F;
 };
 
+// Of what several pictures show.
+inline constexpr Color kSteelColor{0.66F, 0.69F, 0.73F};
+inline constexpr Color kIronColor{0.48F, 0.52F, 0.58F};
+inline constexpr Color kBaseColor{0.75F, 0.80F, 0.88F};
+inline constexpr Color kCalmDiscColor{0.30F, 0.62F, 0.52F};
+inline constexpr Color kMarkColor{1.0F, 0.93F, 0.45F};
+inline constexpr Color kFaintColor{0.80F, 0.83F, 0.87F, 0.55F};  ///< thin lines
+inline constexpr Color kTrackColor{0.34F, 0.38F, 0.43F};         ///< what a bar moves along
+inline constexpr Color kWordsColor{0.90F, 0.92F, 0.94F};
+
 class MarkerCanvas {
  public:
   static constexpr const char* kWorldFrame = "world";

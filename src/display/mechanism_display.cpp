@@ -15,16 +15,15 @@ namespace whirl_twin {
 namespace {
 
 // Sizes of the picture [m]. Machines are drawn true to length as long as they fit their place.
-constexpr double kWidest = 1.5;
-constexpr double kTallest = 1.3;
-constexpr double kNarrowest = 1.0;
-constexpr double kBaseHeight = 0.04;
+constexpr double kWidestMechanism = 1.5;
+constexpr double kTallestMechanism = 1.3;
+constexpr double kNarrowestMechanism = 1.0;
+constexpr double kMechanismBaseHeight = 0.04;
 constexpr double kBoardThickness = 0.02;
-constexpr double kTextGap = 0.14;  // between the picture and its words
+constexpr double kMechanismTextGap = 0.14;  // between the picture and its words
 constexpr double kNoShaft = std::numeric_limits<double>::quiet_NaN();
 constexpr double kFacing = -0.55;  // rad about the vertical, towards who looks at the row
 
-constexpr Color kBase{0.75F, 0.80F, 0.88F};
 constexpr Color kBoard{0.17F, 0.21F, 0.26F};
 constexpr Color kCalmMass{0.30F, 0.62F, 0.52F};
 constexpr Color kTrail{0.95F, 0.60F, 0.95F};
@@ -98,7 +97,8 @@ double MechanismDisplay::pictureScale() const {
     return 1.0;
   }
   const double tall = sketch_.height > 0.0 ? sketch_.height : sketch_.size;
-  return std::min(std::clamp(sketch_.size, kNarrowest, kWidest) / sketch_.size, kTallest / tall);
+  return std::min(std::clamp(sketch_.size, kNarrowestMechanism, kWidestMechanism) / sketch_.size,
+                  kTallestMechanism / tall);
 }
 
 double MechanismDisplay::width() const {
@@ -124,8 +124,8 @@ Eigen::Isometry3d MechanismDisplay::placedAt(const Eigen::Vector3d& place) const
   const Eigen::Isometry3d turned = Eigen::Translation3d(place) *
                                    Eigen::AngleAxisd(facing, Eigen::Vector3d::UnitZ()) *
                                    Eigen::Isometry3d(axes);
-  return turned *
-         Eigen::Translation3d(Eigen::Vector3d(0, 0, kBaseHeight + 0.5 * height()) - centre());
+  return turned * Eigen::Translation3d(
+                      Eigen::Vector3d(0, 0, kMechanismBaseHeight + 0.5 * height()) - centre());
 }
 
 Eigen::Isometry3d MechanismDisplay::bodyPose() const {
@@ -149,13 +149,13 @@ void MechanismDisplay::drawBoard(MarkerCanvas& canvas) const {
   };
   if (sketch_.spatial) {
     // A bracket stands at its back edge.
-    canvas.box("stand", at(0.14 * width(), foot - 0.5 * kBaseHeight),
-               {0.5 * width(), 0.88 * width(), kBaseHeight}, kBase);
+    canvas.box("stand", at(0.14 * width(), foot - 0.5 * kMechanismBaseHeight),
+               {0.5 * width(), 0.88 * width(), kMechanismBaseHeight}, kBaseColor);
     return;
   }
   const double board = kBoardDistance * width() + 0.5 * kBoardThickness;
-  canvas.box("stand", at(board - 0.09, foot - 0.5 * kBaseHeight),
-             {width() + 0.1, 0.34, kBaseHeight}, kBase);
+  canvas.box("stand", at(board - 0.09, foot - 0.5 * kMechanismBaseHeight),
+             {width() + 0.1, 0.34, kMechanismBaseHeight}, kBaseColor);
   canvas.box("stand", at(board, middle.z()), {width(), kBoardThickness, height()}, kBoard);
 }
 
@@ -213,7 +213,7 @@ void MechanismDisplay::draw(const SystemStatus& status, MarkerCanvas& canvas) co
                   fmt::format("lengths x {:.2g}", pictureScale()), kTrail);
     }
   }
-  const Eigen::Vector3d foot(middle.x(), 0.0, middle.z() + 0.5 * height() + kTextGap);
+  const Eigen::Vector3d foot(middle.x(), 0.0, middle.z() + 0.5 * height() + kMechanismTextGap);
   const bool shaft = dynamics_ && dynamics_->hasShaft();
   drawStatus(name_, lines(status), shaft ? shaft_.speed : kNoShaft, status, foot, canvas);
 }

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/constants.h"
+
 namespace whirl_twin {
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
 // rad between points of the line: a 40-gon looks round at the size it is drawn.
 constexpr double kSmoothAdvance = 0.15;
 // rad between states beyond which the polynomial between them would be an invention.

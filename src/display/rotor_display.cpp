@@ -17,13 +17,6 @@ constexpr double kDiscRadius = 0.26;
 constexpr double kDiscThickness = 0.05;
 constexpr double kTextFoot = 0.56;  // above the shaft
 
-constexpr Color kSteel{0.66F, 0.69F, 0.73F};
-constexpr Color kIron{0.48F, 0.52F, 0.58F};
-constexpr Color kBase{0.75F, 0.80F, 0.88F};
-constexpr Color kCalmDisc{0.30F, 0.62F, 0.52F};
-constexpr Color kMark{1.0F, 0.93F, 0.45F};
-constexpr Color kThin{0.80F, 0.83F, 0.87F, 0.55F};
-
 Eigen::Isometry3d at(double x, double y, double z) {
   return Eigen::Isometry3d(Eigen::Translation3d(x, y, z));
 }
@@ -68,27 +61,28 @@ Eigen::Isometry3d RotorDisplay::bodyPose() const {
 
 void RotorDisplay::drawStand(MarkerCanvas& canvas) const {
   for (const double end : {-0.5 * kShaftLength, 0.5 * kShaftLength}) {
-    canvas.box("stand", at(0.0, 0.0, end), {0.13, 0.13, 0.09}, kIron);
-    canvas.box("stand", at(0.0, -0.5 * kShaftHeight, end), {0.09, kShaftHeight, 0.06}, kIron);
+    canvas.box("stand", at(0.0, 0.0, end), {0.13, 0.13, 0.09}, kIronColor);
+    canvas.box("stand", at(0.0, -0.5 * kShaftHeight, end), {0.09, kShaftHeight, 0.06}, kIronColor);
   }
-  canvas.box("stand", at(0.0, 0.02 - kShaftHeight, 0.0), {0.34, 0.04, kShaftLength + 0.2}, kBase);
+  canvas.box("stand", at(0.0, 0.02 - kShaftHeight, 0.0), {0.34, 0.04, kShaftLength + 0.2},
+             kBaseColor);
   const double beyond = 0.5 * kShaftLength + 0.2;
-  canvas.line("bearing_line", {{0.0, 0.0, -beyond}, {0.0, 0.0, beyond}}, 0.004, kThin);
+  canvas.line("bearing_line", {{0.0, 0.0, -beyond}, {0.0, 0.0, beyond}}, 0.004, kFaintColor);
 }
 
 void RotorDisplay::drawShaft(MarkerCanvas& canvas) const {
   const Eigen::Vector2d whirl = bodyPose().translation().head<2>();
-  canvas.tube("shaft", bentShaft(kShaftLength, whirl, 25), kShaftRadius, kSteel);
+  canvas.tube("shaft", bentShaft(kShaftLength, whirl, 25), kShaftRadius, kSteelColor);
   // Stubs beyond the bearings; the front one carries the keyphasor's reference mark, which stands
   // at shaft angle zero like the unbalance, under a probe on the rotor's x axis.
   const double bearing = 0.5 * kShaftLength;
-  canvas.cylinder("shaft", {0, 0, -bearing - 0.12}, {0, 0, -bearing}, kShaftRadius, kSteel);
-  canvas.cylinder("shaft", {0, 0, bearing}, {0, 0, bearing + 0.12}, kShaftRadius, kSteel);
+  canvas.cylinder("shaft", {0, 0, -bearing - 0.12}, {0, 0, -bearing}, kShaftRadius, kSteelColor);
+  canvas.cylinder("shaft", {0, 0, bearing}, {0, 0, bearing + 0.12}, kShaftRadius, kSteelColor);
   const Eigen::Isometry3d turned(Eigen::AngleAxisd(state_.shaft_angle, Eigen::Vector3d::UnitZ()));
   canvas.box("keyphasor", turned * at(kShaftRadius, 0.0, bearing + 0.085), {0.016, 0.016, 0.05},
-             kMark);
+             kMarkColor);
   canvas.cylinder("keyphasor", {0.05, 0.0, bearing + 0.085}, {0.13, 0.0, bearing + 0.085}, 0.012,
-                  kIron);
+                  kIronColor);
 }
 
 void RotorDisplay::drawDisc(const Color& color, MarkerCanvas& canvas) const {
@@ -99,9 +93,9 @@ void RotorDisplay::drawDisc(const Color& color, MarkerCanvas& canvas) const {
   for (const double side : {-face - 0.004, face + 0.004}) {
     canvas.line("unbalance",
                 {disc * Eigen::Vector3d(0, 0, side), disc * Eigen::Vector3d(kDiscRadius, 0, side)},
-                0.012, kMark);
+                0.012, kMarkColor);
   }
-  canvas.sphere("unbalance", disc * Eigen::Vector3d(kDiscRadius, 0, 0), 0.036, kMark);
+  canvas.sphere("unbalance", disc * Eigen::Vector3d(kDiscRadius, 0, 0), 0.036, kMarkColor);
 }
 
 void RotorDisplay::drawOrbit(MarkerCanvas& canvas) const {
@@ -119,7 +113,7 @@ void RotorDisplay::drawOrbit(MarkerCanvas& canvas) const {
 void RotorDisplay::draw(const SystemStatus& status, MarkerCanvas& canvas) const {
   drawStand(canvas);
   drawShaft(canvas);
-  drawDisc(severityColor(status.alerts, kCalmDisc), canvas);
+  drawDisc(severityColor(status.alerts, kCalmDiscColor), canvas);
   drawOrbit(canvas);
   MarkerCanvas plane = canvas.moved(at(0.0, 0.0, 0.5 * kDiscThickness + 0.010));
   drawLimits(status.limits, status.orders.get(), scale_.value(), plane);

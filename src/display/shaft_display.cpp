@@ -16,20 +16,16 @@ namespace whirl_twin {
 namespace {
 
 // Sizes of the picture [m]. Machines are drawn true to length as long as they fit their place.
-constexpr double kWidest = 2.2;
-constexpr double kNarrowest = 1.8;
-constexpr double kTallest = 1.2;
-constexpr double kBaseHeight = 0.04;
-constexpr double kTextGap = 0.16;       // between the picture and its words
+constexpr double kWidestShaft = 2.2;
+constexpr double kNarrowestShaft = 1.8;
+constexpr double kTallestShaft = 1.2;
+constexpr double kShaftBaseHeight = 0.04;
+constexpr double kShaftTextGap = 0.16;  // between the picture and its words
 constexpr double kLowestText = 0.40;    // above the shaft
 constexpr double kTowardsViewer = 0.6;  // rad, that the shaft is turned from across the view
 constexpr double kBeforeDisc = 0.012;   // of an orbit, which a disc would hide
 constexpr double kSamePlace = 1.0e-9;   // of the picture's size
 constexpr double kRoom = 0.4;           // of the picture's height: what the whirl may take
-
-constexpr Color kCalmDisc{0.30F, 0.62F, 0.52F};
-constexpr Color kBase{0.75F, 0.80F, 0.88F};
-constexpr Color kThin{0.80F, 0.83F, 0.87F, 0.55F};
 
 std::vector<Station> publishedOf(const std::vector<Station>& stations) {
   std::vector<Station> published{stations.front()};
@@ -39,8 +35,8 @@ std::vector<Station> publishedOf(const std::vector<Station>& stations) {
 }
 
 double scaleOf(const Sketch& sketch) {
-  return std::min(std::clamp(sketch.size, kNarrowest, kWidest) / sketch.size,
-                  kTallest / sketch.height);
+  return std::min(std::clamp(sketch.size, kNarrowestShaft, kWidestShaft) / sketch.size,
+                  kTallestShaft / sketch.height);
 }
 
 }  // namespace
@@ -114,7 +110,8 @@ Eigen::Isometry3d ShaftDisplay::placedAt(const Eigen::Vector3d& place) const {
   const Eigen::Vector3d along = std::cos(kTowardsViewer) * across + std::sin(kTowardsViewer) * near;
   Eigen::Matrix3d axes;
   axes << Eigen::Vector3d::UnitZ().cross(along), Eigen::Vector3d::UnitZ(), along;
-  return Eigen::Translation3d(place + (kBaseHeight + 0.5 * height()) * Eigen::Vector3d::UnitZ()) *
+  return Eigen::Translation3d(place +
+                              (kShaftBaseHeight + 0.5 * height()) * Eigen::Vector3d::UnitZ()) *
          Eigen::Isometry3d(axes);
 }
 
@@ -139,9 +136,9 @@ double ShaftDisplay::longestRadius(const Eigen::VectorXd& q) const {
 void ShaftDisplay::drawBase(MarkerCanvas& canvas) const {
   const double half = 0.5 * picture_scale_ * at_rest_.size;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.translation().y() = -0.5 * (height() + kBaseHeight);
-  canvas.box("stand", pose, {0.3 * half, kBaseHeight, 2.0 * half}, kBase);
-  canvas.line("bearing_line", {{0.0, 0.0, -half}, {0.0, 0.0, half}}, 0.004, kThin);
+  pose.translation().y() = -0.5 * (height() + kShaftBaseHeight);
+  canvas.box("stand", pose, {0.3 * half, kShaftBaseHeight, 2.0 * half}, kBaseColor);
+  canvas.line("bearing_line", {{0.0, 0.0, -half}, {0.0, 0.0, half}}, 0.004, kFaintColor);
 }
 
 double ShaftDisplay::inFront(double position) const {
@@ -196,7 +193,7 @@ void ShaftDisplay::draw(const SystemStatus& status, MarkerCanvas& canvas) const 
   along.translation().z() = -picture_scale_ * at_rest_.centre.x;
   MarkerCanvas picture = canvas.moved(along);
   drawSketch(dynamics_->sketch(exaggerated * q, at), picture_scale_,
-             severityColor(status.alerts, kCalmDisc), picture);
+             severityColor(status.alerts, kCalmDiscColor), picture);
   for (const Place& place : places_) {
     drawOrbit(place, status, canvas);
   }
@@ -206,7 +203,7 @@ void ShaftDisplay::draw(const SystemStatus& status, MarkerCanvas& canvas) const 
   }
   canvas.text("scale", {-0.75, -0.5 * height() - 0.06, -0.3}, status.compact ? 0.11 : 0.066, scales,
               kOrbitColor);
-  const Eigen::Vector3d foot(0.0, std::max(0.5 * height() + kTextGap, kLowestText), 0.0);
+  const Eigen::Vector3d foot(0.0, std::max(0.5 * height() + kShaftTextGap, kLowestText), 0.0);
   drawStatus(name_, whirlLines(state, status), state.speed, status, foot, canvas);
 }
 

@@ -6,12 +6,8 @@
 namespace whirl_twin {
 namespace {
 
-constexpr Color kSteel{0.66F, 0.69F, 0.73F};
-constexpr Color kIron{0.48F, 0.52F, 0.58F};
 constexpr Color kBrass{0.86F, 0.73F, 0.40F};
-constexpr Color kMark{1.0F, 0.93F, 0.45F};
 constexpr Color kForce{0.35F, 0.85F, 1.0F};
-constexpr Color kThin{0.80F, 0.83F, 0.87F, 0.55F};
 
 constexpr Color kHull{0.55F, 0.85F, 1.0F, 0.35F};
 constexpr double kHullWidth = 1.7;  // times as thick as what is in it
@@ -50,7 +46,7 @@ class SketchDrawing {
         Eigen::AngleAxisd(disc.angle, axis) * (zero - zero.dot(axis) * axis).normalized();
     for (const double side : {-1.0, 1.0}) {
       const Eigen::Vector3d hub = centre + side * (face + 0.004 * axis);
-      canvas_.line("spoke", {hub, hub + scale_ * disc.radius * spoke}, 0.01, kMark);
+      canvas_.line("spoke", {hub, hub + scale_ * disc.radius * spoke}, 0.01, kMarkColor);
     }
   }
   void draw(const Sketch::Spring& spring) {
@@ -63,9 +59,9 @@ class SketchDrawing {
     const Eigen::Vector3d from = at(damper.from);
     const Eigen::Vector3d to = apart(from, at(damper.to));
     const double radius = scale_ * damper.radius;
-    canvas_.cylinder("damper", from, to, 0.3 * radius, kSteel);
+    canvas_.cylinder("damper", from, to, 0.3 * radius, kSteelColor);
     canvas_.cylinder("damper", from, from + 10.0 * radius * (to - from).normalized(), radius,
-                     kIron);
+                     kIronColor);
   }
   void draw(const Sketch::Arrow& arrow) {
     canvas_.arrow("arrow", at(arrow.from), at(arrow.to), 0.02, kForce);
@@ -75,7 +71,8 @@ class SketchDrawing {
     for (const SketchPoint& point : line.points) {
       points.push_back(at(point));
     }
-    canvas_.line("line", points, 0.004, line.role == SketchRole::kMark ? kThin : color(line.role));
+    canvas_.line("line", points, 0.004,
+                 line.role == SketchRole::kMark ? kFaintColor : color(line.role));
   }
 
  private:
@@ -91,17 +88,17 @@ class SketchDrawing {
     }
     switch (role) {
       case SketchRole::kBody:
-        return kSteel;
+        return kSteelColor;
       case SketchRole::kMass:
         return mass_;
       case SketchRole::kSupport:
-        return kIron;
+        return kIronColor;
       case SketchRole::kSpring:
         return kBrass;
       case SketchRole::kMark:
         break;
     }
-    return kMark;
+    return kMarkColor;
   }
 
   double scale_;

@@ -7,11 +7,10 @@
 #include <cstddef>
 #include <sstream>
 
+#include "algebra/constants.h"
+
 namespace whirl_twin {
 namespace {
-
-constexpr double kDegrees = 180.0 / M_PI;
-constexpr double kRpm = 30.0 / M_PI;
 
 bool isAngle(const std::string& coordinate) {
   for (const char* name : {"theta", "phi", "alpha", "beta", "spin"}) {
@@ -25,12 +24,12 @@ bool isAngle(const std::string& coordinate) {
 }  // namespace
 
 double wrappedDegrees(double angle) {
-  const double wrapped = std::remainder(angle, 2.0 * M_PI) * kDegrees;
+  const double wrapped = std::remainder(angle, 2.0 * M_PI) / kDegree;
   return wrapped <= -180.0 ? wrapped + 360.0 : wrapped;
 }
 
 std::string speedText(double speed) {
-  return fmt::format("speed {:.2f} rad/s ({:.1f} rpm)", speed, speed * kRpm);
+  return fmt::format("speed {:.2f} rad/s ({:.1f} rpm)", speed, speed / kRpm);
 }
 
 std::string whirlText(const WhirlState& state) {

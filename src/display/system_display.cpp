@@ -17,9 +17,9 @@ constexpr Color kText{0.90F, 0.92F, 0.94F};
 constexpr Color kLearned{0.55F, 0.85F, 1.0F};
 constexpr double kHeadlineHeight = 0.095;  // m
 constexpr double kLineHeight = 0.072;      // m
-constexpr double kCompactHeight = 0.17;    // m
+constexpr double kCompactHeadline = 0.17;  // m
 constexpr double kCompactAlert = 0.13;     // m
-constexpr std::size_t kLineLength = 40;    // characters, about as wide as a place
+constexpr std::size_t kLineOfPlace = 40;   // characters, about as wide as a place
 constexpr std::size_t kAlertsShown = 3;
 
 }  // namespace
@@ -58,7 +58,7 @@ void drawStatus(const std::string& headline, const std::vector<std::string>& lin
   if (status.compact) {
     const std::string name =
         std::isfinite(speed) ? fmt::format("{}  {:.1f} rad/s", headline, speed) : headline;
-    stack.add("text", {name}, kCompactHeight, color);
+    stack.add("text", {name}, kCompactHeadline, color);
     std::vector<std::string> alert;
     if (!status.alerts.empty()) {
       const std::size_t more = status.alerts.size() - 1;
@@ -71,7 +71,7 @@ void drawStatus(const std::string& headline, const std::vector<std::string>& lin
   }
   std::vector<std::string> wrapped;
   for (const auto& line : lines) {
-    const auto pieces = wrapText(line, kLineLength);
+    const auto pieces = wrapText(line, kLineOfPlace);
     wrapped.insert(wrapped.end(), pieces.begin(), pieces.end());
   }
   stack.add("text", wrapped, kLineHeight, kText);
@@ -87,7 +87,7 @@ void drawStatus(const std::string& headline, const std::vector<std::string>& lin
     if (i < alerts.size()) {
       severity = alerts[i].severity;
       const std::string& words = i == 0 ? alerts[i].text : alerts[i].type;
-      sentence = wrapText(severityName(severity) + ": " + words, kLineLength);
+      sentence = wrapText(severityName(severity) + ": " + words, kLineOfPlace);
       if (i + 1 == kAlertsShown && alerts.size() > kAlertsShown) {
         sentence.push_back(fmt::format("and {} more", alerts.size() - kAlertsShown));
       }

@@ -11,16 +11,15 @@
 namespace whirl_twin {
 namespace {
 
-constexpr Color kWords{0.90F, 0.92F, 0.94F};
-constexpr std::size_t kLineLength = 34;  // characters
-constexpr double kCharacter = 0.46;      // of its height, wide
-constexpr double kCharacters = 40.0;     // as wide as the column, room beside the lines included
+constexpr std::size_t kLineOfPanel = 34;  // characters
+constexpr double kCharacter = 0.46;       // of its height, wide
+constexpr double kCharacters = 40.0;      // as wide as the column, room beside the lines included
 constexpr std::size_t kMostAlarms = 20;
 
 std::vector<std::string> wrapped(const std::vector<std::string>& lines) {
   std::vector<std::string> all;
   for (const std::string& line : lines) {
-    const auto pieces = wrapText(line, kLineLength);
+    const auto pieces = wrapText(line, kLineOfPanel);
     all.insert(all.end(), pieces.begin(), pieces.end());
   }
   return all;
@@ -153,15 +152,15 @@ void drawTwin(const std::vector<Alert>& alerts, const LoopHealth& loop,
   TextStack stack(Eigen::Vector3d::Zero(), canvas);
   const int health = loop.severity(wall_time);
   stack.add("loop", wrapped(loop.lines(wall_time)), height,
-            health == Alert::INFO ? kWords : severityColor(health));
+            health == Alert::INFO ? kWordsColor : severityColor(health));
   stack.add("monitor", wrapped(monitorLines(monitor, silence)), height,
-            silence.empty() ? kWords : severityColor(Alert::WARNING));
+            silence.empty() ? kWordsColor : severityColor(Alert::WARNING));
   stack.add("alarms", wrapped(list.info), height, severityColor(Alert::INFO));
   stack.add("alarms", wrapped(list.warning), height, severityColor(Alert::WARNING));
   stack.add("alarms", wrapped(list.danger), height, severityColor(Alert::DANGER));
   // What a silent monitor said is not what holds now.
   stack.add("title", {silence.empty() ? list.title : "alarms not known: " + list.title + " before"},
-            1.2 * height, severityColor(alerts, kWords));
+            1.2 * height, severityColor(alerts, kWordsColor));
 }
 
 }  // namespace whirl_twin

@@ -3,19 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/constants.h"
+
 namespace whirl_twin {
 
 namespace {
 
-constexpr std::int64_t kWindow = 5'000'000'000;  // ns
-constexpr std::size_t kWindows = 24;             // two minutes
-constexpr std::size_t kFewest = 6;
+constexpr std::int64_t kClockWindow = 5'000'000'000;  // ns
+constexpr std::size_t kWindows = 24;                  // two minutes
+constexpr std::size_t kMinClockWindows = 6;
 constexpr double kSure = 1.0e-4;  // of a drift
 constexpr double kDay = 86400.0;  // s
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 double seconds(std::int64_t nanoseconds) {
-  return static_cast<double>(nanoseconds) * 1.0e-9;
+  return static_cast<double>(nanoseconds) * kNanosecond;
 }
 
 }  // namespace
@@ -27,8 +28,8 @@ void ClockWatch::take(std::int64_t machine, std::int64_t twin) {
     first_twin_ = twin;
     window_start_ = twin;
   }
-  if (twin - window_start_ >= kWindow) {
-    windows_.push_back({seconds(window_start_ - first_twin_ + kWindow / 2), most_});
+  if (twin - window_start_ >= kClockWindow) {
+    windows_.push_back({seconds(window_start_ - first_twin_ + kClockWindow / 2), most_});
     if (windows_.size() > kWindows) {
       windows_.erase(windows_.begin());
     }
@@ -72,7 +73,7 @@ ClockWatch::Line ClockWatch::line() const {
 }
 
 double ClockWatch::drift() const {
-  if (windows_.size() < kFewest) {
+  if (windows_.size() < kMinClockWindows) {
     return kNaN;
   }
   const Line through = line();
@@ -81,7 +82,7 @@ double ClockWatch::drift() const {
 
 /// What windows differ by beyond the drift.
 double ClockWatch::deviation() const {
-  return windows_.size() < kFewest ? kNaN : line().deviation;
+  return windows_.size() < kMinClockWindows ? kNaN : line().deviation;
 }
 
 }  // namespace whirl_twin

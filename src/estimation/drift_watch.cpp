@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/constants.h"
 #include "estimation/alarm_limits.h"
 
 namespace whirl_twin {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kUpperEnd = 1.645;          // standard deviations, of a 95 % interval
 constexpr double kMostCorrelated = 0.995;    // of samples
 constexpr double kLeastAllowance = 0.5;      // in standard deviations
@@ -25,7 +25,7 @@ DriftWatch::DriftWatch(std::size_t parameters, const DriftWatchSettings& setting
       samples_(
           std::max(kFewestSamples, static_cast<std::int64_t>(settings.warm_up / settings.period))),
       watches_(parameters),
-      looked_at_(kNone) {
+      looked_at_(kNaN) {
   // Each parameter has two statistics, each with two senses.
   const double statistics = 4.0 * static_cast<double>(std::max<std::size_t>(parameters, 1));
   const double each = falseAlarmsEach(settings.false_alarms / statistics, settings.period);
@@ -35,7 +35,7 @@ DriftWatch::DriftWatch(std::size_t parameters, const DriftWatchSettings& setting
 
 void DriftWatch::learnAnew() {
   std::fill(watches_.begin(), watches_.end(), Watch());
-  looked_at_ = kNone;
+  looked_at_ = kNaN;
   drift_ = Drift();
 }
 
@@ -50,10 +50,10 @@ bool DriftWatch::take(double time, const double* value, const double* deviation)
   for (std::size_t i = 0; i < watches_.size(); ++i) {
     Watch& watch = watches_[i];
     if (!whole) {
-      watch.previous = kNone;
+      watch.previous = kNaN;
     }
     if (!std::isfinite(value[i]) || !(deviation[i] > 0.0) || !std::isfinite(deviation[i])) {
-      watch.previous = kNone;
+      watch.previous = kNaN;
       continue;
     }
     if (watch.learned && deviation[i] < kBetterKnown * watch.deviation) {

@@ -3,21 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algebra/eigenvalues.h"
-#include "algebra/lu.h"
+#include "algebra/dense.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr std::complex<double> kI(0.0, 1.0);
 constexpr double kHalfBand = 3.0e-3;  // of the lowest natural frequency
 
 /// q' = v, v' = -M^-1 ((K + N) q + (C + G) v).
 Eigen::MatrixXd stateMatrix(const Linearization& at) {
   const Eigen::Index n = at.mass.rows();
-  const Eigen::PartialPivLU<Eigen::MatrixXd> mass(at.mass);
+  const Lu mass(at.mass);
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(2 * n, 2 * n);
   a.topRightCorner(n, n).setIdentity();
   a.bottomLeftCorner(n, n) = -mass.solve(at.stiffness + at.circulatory);
@@ -45,11 +43,11 @@ DrivenWhirl::DrivenWhirl(const LinearRotor& rotor, const std::vector<ShaftForce>
 void DrivenWhirl::setModes(double centre) {
   const Eigen::Index n = rotor_.dof();
   const Linearization at = rotor_.matrices(centre);
-  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(stateMatrix(at));
+  const EigenPairs eigen = eigenPairs(stateMatrix(at));
   centre_ = centre;
-  middle_ = eigen.eigenvalues();
-  shapes_ = eigen.eigenvectors();
-  inverse_ = Eigen::PartialPivLU<Eigen::MatrixXcd>(shapes_).inverse();
+  middle_ = eigen.values;
+  shapes_ = eigen.vectors;
+  inverse_ = ComplexLu(shapes_).inverse();
   if (!inverse_.allFinite()) {
     throw RunFailure("the rotor has modes without shapes of their own, critically damped ones");
   }
@@ -60,7 +58,7 @@ void DrivenWhirl::setModes(double centre) {
                                    (2.0 * half_band_);
     slope_ = (inverse_ * change.cast<std::complex<double>>() * shapes_).diagonal();
   }
-  const Eigen::PartialPivLU<Eigen::MatrixXcd> mass(at.mass.cast<std::complex<double>>());
+  const ComplexLu mass(at.mass.cast<std::complex<double>>());
   excitation_ = inverse_.rightCols(n) * mass.solve(forces_);
 }
 
@@ -80,7 +78,8 @@ void DrivenWhirl::start(double speed) {
   modal_ = Eigen::MatrixXcd::Zero(middle_.size(), forces_.cols());
   setSpeed(speed);
   for (Eigen::Index k = 0; k < modal_.rows(); ++k) {
-    const std::complex<double> away = kI * speed - middle_[k] - slope_[k] * (speed - centre_);
+    const std::complex<double> away =
+        kImaginaryUnit * speed - middle_[k] - slope_[k] * (speed - centre_);
     for (Eigen::Index j = 0; j < modal_.cols(); ++j) {
       const double factor = inertial_[static_cast<std::size_t>(j)] ? speed * speed : 1.0;
       modal_(k, j) = away == 0.0 ? 0.0 : excitation_(k, j) * factor / away;
@@ -94,18 +93,19 @@ void DrivenWhirl::advance(double time, double turn, double speed) {
   setSpeed(speed);
   // Of theta = mean t + ((speed - before) / (2 time)) t (t - time) the second part is small: its
   // mean.
-  const std::complex<double> bent = 1.0 - kI * (speed - before) * time / 12.0;
+  const std::complex<double> bent = 1.0 - kImaginaryUnit * (speed - before) * time / 12.0;
   const std::complex<double> turned = std::polar(1.0, turn);
   for (Eigen::Index k = 0; k < modal_.rows(); ++k) {
     const std::complex<double> s = middle_[k] + slope_[k] * (0.5 * (before + speed) - centre_);
     const std::complex<double> decayed = std::exp(s * time);
-    const std::complex<double> away = kI * mean - s;
+    const std::complex<double> away = kImaginaryUnit * mean - s;
     const bool resonant = std::abs(away) * time < 1.0e-7;
     const std::complex<double> steady =
         resonant ? time * decayed : (turned - decayed) / away * bent;
     // -(e^(i theta))'' by parts.
     const std::complex<double> inertial =
-        -(kI * speed * turned - kI * before * decayed) - s * (turned - decayed) - s * s * steady;
+        -(kImaginaryUnit * speed * turned - kImaginaryUnit * before * decayed) -
+        s * (turned - decayed) - s * s * steady;
     for (Eigen::Index j = 0; j < modal_.cols(); ++j) {
       const std::complex<double> pushed =
           inertial_[static_cast<std::size_t>(j)] ? inertial : steady;

@@ -17,6 +17,8 @@
 
 namespace whirl_twin {
 
+inline constexpr std::complex<double> kImaginaryUnit{0.0, 1.0};
+
 class DrivenWhirl {
  public:
   /// Forces of harmonic 1, each for itself.

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algebra/cholesky.h"
-#include "algebra/qr.h"
+#include "algebra/dense.h"
 
 namespace whirl_twin {
 
@@ -17,7 +16,7 @@ constexpr std::size_t kMostPoints = 3000;  // of a study
 /// Value, slope and second derivative at the middle row of a quadratic (least squares).
 Eigen::Vector3d quadratic(const Eigen::MatrixX3d& powers, double width, const double* values) {
   const Eigen::Map<const Eigen::VectorXd> y(values, powers.rows());
-  const Eigen::Vector3d c = powers.colPivHouseholderQr().solve(y);
+  const Eigen::Vector3d c = PivotedQr(powers).solve(y);
   return {c[0], c[1] / width, 2.0 * c[2] / (width * width)};
 }
 
@@ -127,7 +126,7 @@ Eigen::VectorXd EquationError::residuals(const Candidate& candidate) const {
           infos[input.place].direction;
     }
     if (!force.isZero(0.0)) {
-      predicted += dynamics.massMatrix(q, v, moment).ldlt().solve(force);
+      predicted += Ldlt(dynamics.massMatrix(q, v, moment)).solve(force);
     }
     all.segment(at, dof) = (a - predicted).cwiseQuotient(usual_);
     at += dof;

@@ -12,6 +12,9 @@
 
 namespace whirl_twin {
 
+/// A delay of a measured input that a fit looks for lies within this [s].
+inline constexpr double kMaxInputDelay = 1.0;
+
 /// A number that is given, or found.
 struct GivenOrFitted {
   double value = 0.0;

@@ -23,7 +23,6 @@ namespace {
 constexpr std::size_t kMostRuns = 1000;
 constexpr double kShortestWindow = 0.01;  // s
 constexpr double kLongestWindow = 1.0e5;  // s
-constexpr double kLongestDelay = 1.0;     // s
 
 class StudyReader {
  public:
@@ -256,8 +255,9 @@ class StudyReader {
         input.scale = givenOrFitted(*entry, "scale", "-", 1.0);
         requireScale(*entry, input.scale);
         input.delay = givenOrFitted(*entry, "delay", "s", 0.0);
-        if (std::fabs(input.delay.value) > kLongestDelay) {
-          complaints_.add(entry->key("delay"), fmt::format("must be within {:g} s", kLongestDelay));
+        if (std::fabs(input.delay.value) > kMaxInputDelay) {
+          complaints_.add(entry->key("delay"),
+                          fmt::format("must be within {:g} s", kMaxInputDelay));
         }
         input.hold =
             entry->choice("hold", {"true", "false"}, "whether values are held", "false") == "true";

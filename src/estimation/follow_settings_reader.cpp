@@ -116,14 +116,15 @@ InputFollowing readInput(const MapReader& inputs, const InputInfo& info, const S
   of.source = path.substr(0, slash);
   of.channel = path.substr(std::min(slash + 1, path.size()));
   if (!isLegalName(of.source) || !isLegalName(of.channel)) {
-    complaints.add(key,
-                   fmt::format("must be what measures it, SOURCE/CHANNEL, found {}", quoted(path)));
+    complaints.add(key, fmt::format("must be what measures it, SOURCE/CHANNEL, found {}",
+                                    whirl_twin::quoted(path)));
   }
   for (const SensorSpec& sensor : scene.sensors) {
     const bool taken = std::any_of(sensor.channels.begin(), sensor.channels.end(),
                                    [&](const auto& c) { return c.name == of.channel; });
     if (sensor.name == of.source && (taken || sensor.keyphasor)) {
-      complaints.add(key, fmt::format("{} measures something else in the scene", quoted(path)));
+      complaints.add(
+          key, fmt::format("{} measures something else in the scene", whirl_twin::quoted(path)));
     }
   }
   return of;
@@ -158,7 +159,7 @@ void refuseDoubleInputs(const FollowSettings& settings, Complaints& complaints) 
       const std::string path = input.source + "/" + input.channel;
       if (!used.emplace(path, system).second) {
         complaints.add("systems." + system + ".inputs",
-                       fmt::format("{} measures another input already", quoted(path)));
+                       fmt::format("{} measures another input already", whirl_twin::quoted(path)));
       }
     }
   }

@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "algebra/cholesky.h"
+#include "algebra/dense.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {
@@ -107,14 +107,14 @@ Eigen::VectorXd FollowedModel::acceleration(const Variant& variant, const Eigen:
   const Dynamics& dynamics = *variant.system->dynamics;
   Eigen::VectorXd a = dynamics.acceleration(q, v, at);
   if (u.size() > 0 && !u.isZero(0.0)) {
-    a += Eigen::LDLT<Eigen::MatrixXd>(dynamics.massMatrix(q, v, at)).solve(variant.inputs * u);
+    a += Ldlt(dynamics.massMatrix(q, v, at)).solve(variant.inputs * u);
   }
   return a;
 }
 
 Eigen::MatrixXd FollowedModel::byInput(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                        const Moment<double>& at) const {
-  return Eigen::LDLT<Eigen::MatrixXd>(system()->dynamics->massMatrix(q, v, at)).solve(now_.inputs);
+  return Ldlt(system()->dynamics->massMatrix(q, v, at)).solve(now_.inputs);
 }
 
 Eigen::VectorXd FollowedModel::acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
@@ -142,7 +142,7 @@ LocalMotion FollowedModel::about(const Eigen::VectorXd& q, const Eigen::VectorXd
   }
   local.acceleration = acceleration(q, v, at, numbers, u, local.by_parameter);
   const Linearization l = system()->dynamics->linearization(q, v, local.acceleration, at);
-  const Eigen::LDLT<Eigen::MatrixXd> mass(l.mass);
+  const Ldlt mass(l.mass);
   local.by_state.resize(dof_, 2 * dof_);
   local.by_state.leftCols(dof_) = -mass.solve(l.stiffness + l.circulatory);
   local.by_state.rightCols(dof_) = -mass.solve(l.damping + l.gyroscopic);

@@ -2,22 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
+
+#include "algebra/constants.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr std::int64_t kSettling = 200'000'000;  // ns
-constexpr double kWindow = 1.0;                  // s, of residuals, and from parameter to parameter
-constexpr double kWarmUp = 120.0;                // s, of a parameter's reference
-constexpr double kMatters = 0.02;                // of a parameter
+constexpr std::int64_t kResidualSettling = 200'000'000;  // ns
+constexpr double kResidualWindow = 1.0;  // s, of residuals, and from parameter to parameter
+constexpr double kWarmUp = 120.0;        // s, of a parameter's reference
+constexpr double kMatters = 0.02;        // of a parameter
 
 /// Of `stiffness`, or of a column, `bearings[0].kxx`; "" of the entries of a matrix.
-std::string unitOf(const ModelInfo& model, const std::string& path) {
+std::string parameterUnit(const ModelInfo& model, const std::string& path) {
   for (const ParameterInfo& parameter : model.parameters) {
     if (parameter.name == path) {
       return parameter.unit;
@@ -41,14 +41,14 @@ FollowedTrack::FollowedTrack(const Twin& twin, std::size_t system, const SystemF
     : index(system),
       filter(twin.built(), system, settings, std::move(channels)),
       drive(twin.systems()[system]->drive),
-      residuals(filter.channels().size(), {kWindow, false_alarms}),
-      drift(settings.parameters.size(), {kWindow, kWarmUp, kMatters, false_alarms}),
+      residuals(filter.channels().size(), {kResidualWindow, false_alarms}),
+      drift(settings.parameters.size(), {kResidualWindow, kWarmUp, kMatters, false_alarms}),
       innovations(filter.channels().size(), kNaN),
       surest(innovations) {
   told.system = twin.systems()[system]->spec.name;
   for (const FollowedParameter& p : filter.model().parameters()) {
     told.parameter.push_back(p.path);
-    told.parameter_unit.push_back(unitOf(*twin.systems()[system]->model, p.path));
+    told.parameter_unit.push_back(parameterUnit(*twin.systems()[system]->model, p.path));
   }
   for (const FollowedChannel& c : filter.channels()) {
     told.channel.push_back(c.name);
@@ -71,7 +71,7 @@ FollowedTrack::FollowedTrack(const Twin& twin, std::size_t system, const SystemF
 }
 
 bool FollowedTrack::settled(std::int64_t instant) const {
-  return instant - began > kSettling;
+  return instant - began > kResidualSettling;
 }
 
 void FollowedTrack::endInstant() {

@@ -8,7 +8,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::int64_t kLongestGap = 1'000'000'000;     // ns, that a motion is believed through
+constexpr std::int64_t kMaxMotionGap = 1'000'000'000;   // ns, that a motion is believed through
 constexpr std::int64_t kTelling = 100'000'000;          // ns, from one FollowState to the next
 constexpr std::int64_t kLost = 250'000'000;             // ns, of nothing but refused samples
 constexpr std::int64_t kNewParameters = 1'000'000'000;  // ns, from one generation to the next
@@ -142,7 +142,7 @@ void Follower::takeSample(const MeasuredSample& sample) {
     return;
   }
   const ShaftInstant there = instantOf(instant, shaft);
-  if (!system.runs || instant - system.at > kLongestGap) {
+  if (!system.runs || instant - system.at > kMaxMotionGap) {
     restarts_ += system.runs ? 1 : 0;
     system.filter.begin(there, twin_.scene().time - origin_, shaft.deviation);
     system.runs = true;
@@ -277,7 +277,7 @@ void Follower::writeRecord(std::int64_t step) {
     const auto n = static_cast<Eigen::Index>(place.dof());
     Eigen::Map<Eigen::VectorXd> q(place.q(), n), v(place.v(), n);
     if (followed.runs) {
-      const bool goes_on = instant > filter.shaft().time && instant - followed.at <= kLongestGap;
+      const bool goes_on = instant > filter.shaft().time && instant - followed.at <= kMaxMotionGap;
       if (goes_on) {
         takeNextInputs(followed);
         const Eigen::VectorXd motion =

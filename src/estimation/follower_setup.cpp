@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "algebra/constants.h"
 #include "estimation/follower.h"
 #include "messages/refusal.h"
 
@@ -13,10 +14,9 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kNanosecond = 1.0e-9;  // s
-constexpr double kPatience = 0.25;      // s, beside the longest block
+constexpr double kPatience = 0.25;  // s, beside the longest block
 
-std::int64_t nanoseconds(double seconds) {
+std::int64_t durationInNanoseconds(double seconds) {
   return std::llround(seconds / kNanosecond);
 }
 
@@ -90,7 +90,8 @@ void Follower::addSensors(const FollowSettings& settings) {
       if (c.input) {
         inputs_.push_back({c.system, number, channels_.back().size()});
       }
-      channels_.back().push_back({c.system, channels.size(), nanoseconds(c.delay), c.input});
+      channels_.back().push_back(
+          {c.system, channels.size(), durationInNanoseconds(c.delay), c.input});
       longest_delay_ = std::max(longest_delay_, channels_.back().back().delay);
       channels.push_back(channel);
     }

@@ -4,19 +4,17 @@
 #include <cmath>
 #include <limits>
 
-#include "algebra/cholesky.h"
-#include "algebra/eigenvalues.h"
-#include "algebra/qr.h"
+#include "algebra/constants.h"
+#include "algebra/dense.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// Of the largest eigenvalue: differences that are good to six digits leave some 1e-12 of what
 /// should vanish.
 constexpr double kNothing = 1.0e-11;
-constexpr double kTakesPart = 0.1;
+constexpr double kParticipation = 0.1;
 constexpr double kLeastPart = 1.0e-3;  // of a size: less is rounding
 
 }  // namespace
@@ -28,12 +26,11 @@ void NormalEquations::add(const WindowDerivatives& window) {
   Eigen::MatrixXd left = window.by_unknowns;
   Eigen::VectorXd rest = window.residuals;
   if (window.by_start.cols() > 0) {
-    // What a start cannot make good.
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(window.by_start);
-    const Eigen::Index rank = qr.rank();
-    left = (qr.householderQ().transpose() * left).bottomRows(left.rows() - rank).eval();
-    rest = (qr.householderQ().transpose() * rest).tail(rest.size() - rank).eval();
-    starts += rank;
+    // What a start cannot make good: the part at right angles to what it does.
+    const PivotedQr qr(window.by_start);
+    left -= window.by_start * qr.solve(left);
+    rest -= window.by_start * qr.solve(rest);
+    starts += qr.rank();
   }
   matrix += left.transpose() * left;
   squares += rest.squaredNorm();
@@ -62,17 +59,17 @@ Information information(const NormalEquations& normal, const Eigen::VectorXd& th
   }
   const double variance = normal.variance();
   const Eigen::MatrixXd scaled = sizes.asDiagonal() * normal.matrix * sizes.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(scaled);
+  const SymmetricModes<double> modes = symmetricModes(scaled);
 
   Eigen::MatrixXd known(n, 0);  // directions that are told, in parts
   const auto addKnown = [&](const Eigen::VectorXd& direction) {
     known.conservativeResize(Eigen::NoChange, known.cols() + 1);
     known.col(known.cols() - 1) = direction;
   };
-  const double nothing = kNothing * modes.eigenvalues().maxCoeff();
+  const double nothing = kNothing * modes.values.maxCoeff();
   for (Eigen::Index k = 0; k < n; ++k) {
-    const Eigen::VectorXd direction = modes.eigenvectors().col(k);
-    const double strength = modes.eigenvalues()[k];
+    const Eigen::VectorXd direction = modes.vectors.col(k);
+    const double strength = modes.values[k];
     const double deviation = strength > 0.0 ? std::sqrt(rows_alike * variance / strength)
                                             : std::numeric_limits<double>::infinity();
     Eigen::Index largest = 0;
@@ -87,13 +84,13 @@ Information information(const NormalEquations& normal, const Eigen::VectorXd& th
   const Eigen::MatrixXd covariance =
       known.cols() == 0 ? Eigen::MatrixXd::Zero(n, n)
                         : Eigen::MatrixXd(variance * known *
-                                          inner.ldlt().solve(Eigen::MatrixXd(known.transpose())));
+                                          Ldlt(inner).solve(Eigen::MatrixXd(known.transpose())));
   for (UntoldDirection& direction : result.untold) {
     for (Eigen::Index i = 0; i < n; ++i) {
       const double part = std::fabs(direction.parts[i]);
       const bool of_value =
-          part >= kLeastPart && part * sizes[i] >= kTakesPart * std::fabs(theta[i]);
-      direction.takes_part.push_back(part >= kTakesPart ||
+          part >= kLeastPart && part * sizes[i] >= kParticipation * std::fabs(theta[i]);
+      direction.takes_part.push_back(part >= kParticipation ||
                                      (of_value && part > std::sqrt(covariance(i, i))));
     }
   }

@@ -74,10 +74,10 @@ SeenMode seenMode(const WhirlMode& mode, const std::vector<MeasuredStation>& sta
 
 std::vector<ModePair> pairModes(const std::vector<AmbientMode>& measured,
                                 const std::vector<SeenMode>& modelled) {
-  struct Candidate : ModePair {
+  struct PairCandidate : ModePair {
     double likeness;
   };
-  std::vector<Candidate> candidates;
+  std::vector<PairCandidate> candidates;
   for (std::size_t i = 0; i < measured.size(); ++i) {
     for (std::size_t k = 0; k < modelled.size(); ++k) {
       const bool forward = measured[i].frequency > 0.0;
@@ -98,9 +98,9 @@ std::vector<ModePair> pairModes(const std::vector<AmbientMode>& measured,
     }
   }
   std::sort(candidates.begin(), candidates.end(),
-            [](const Candidate& a, const Candidate& b) { return a.likeness > b.likeness; });
+            [](const PairCandidate& a, const PairCandidate& b) { return a.likeness > b.likeness; });
   std::vector<ModePair> pairs;
-  for (const Candidate& candidate : candidates) {
+  for (const PairCandidate& candidate : candidates) {
     const bool taken = std::any_of(pairs.begin(), pairs.end(), [&](const ModePair& pair) {
       const bool same_sense =
           measured[pair.measured].frequency * measured[candidate.measured].frequency > 0.0;

@@ -5,20 +5,19 @@
 #include <stdexcept>
 #include <utility>
 
-#include "algebra/cholesky.h"
-#include "algebra/eigenvalues.h"
+#include "algebra/dense.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr std::size_t kMostParts = 240;  // then two become one
+constexpr std::size_t kMaxDataParts = 240;  // then two become one
 /// Of the normal equations in units of each unknown alone, below which there is only rounding.
 constexpr double kSmallestEigenvalue = 1.0e-11;
 /// Of all that is explained, above which its deviation leaves an unknown or a direction untold.
 constexpr double kMostUncertain = 0.3;
-constexpr std::size_t kGroups = 20;  // of parts, left out one by one
-constexpr double kTakesPart = 0.01;  // in a direction that is rounding, at least
+constexpr std::size_t kGroups = 20;              // of parts, left out one by one
+constexpr double kRoundingParticipation = 0.01;  // in a direction that is rounding, at least
 
 }  // namespace
 
@@ -45,12 +44,12 @@ PartedLeastSquares::Directions PartedLeastSquares::directionsOf(const Eigen::Mat
   for (double& u : unit) {
     u = u > 0.0 ? 1.0 / std::sqrt(u) : 0.0;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-      Eigen::MatrixXd(unit.asDiagonal() * normal * unit.asDiagonal()));
+  const SymmetricModes<double> eigen =
+      symmetricModes(unit.asDiagonal() * normal * unit.asDiagonal());
   Directions all;
-  all.plain = eigen.eigenvectors();
+  all.plain = eigen.vectors;
   all.columns = unit.asDiagonal() * all.plain;
-  all.size = eigen.eigenvalues();
+  all.size = eigen.values;
   for (const double size : all.size) {
     all.told.push_back(size > kSmallestEigenvalue);
   }
@@ -72,13 +71,13 @@ PartedLeastSquares::Part& PartedLeastSquares::current() {
   if (!parts_.empty() && parts_.back().values < part_values_) {
     return parts_.back();
   }
-  if (parts_.size() == kMostParts) {
-    for (std::size_t i = 0; i < kMostParts / 2; ++i) {
+  if (parts_.size() == kMaxDataParts) {
+    for (std::size_t i = 0; i < kMaxDataParts / 2; ++i) {
       Part both = std::move(parts_[2 * i]);
       both.add(parts_[2 * i + 1]);
       parts_[i] = std::move(both);
     }
-    parts_.resize(kMostParts / 2);
+    parts_.resize(kMaxDataParts / 2);
     part_values_ *= 2;
   }
   parts_.push_back(nothing());
@@ -120,7 +119,7 @@ Eigen::MatrixXd PartedLeastSquares::withoutParts(const Directions& directions,
         score[i] = 0.0;
       }
     }
-    changes.col(static_cast<Eigen::Index>(g)) = Eigen::LDLT<Eigen::MatrixXd>(left).solve(score);
+    changes.col(static_cast<Eigen::Index>(g)) = Ldlt(left).solve(score);
   }
   const auto count = static_cast<double>(groups);
   return changes * std::sqrt(groups > 1 ? (count - 1.0) / count : 1.0);
@@ -175,7 +174,7 @@ PartedSolution PartedLeastSquares::solve() const {
       untold.push_back(i);
     }
     for (Eigen::Index k = 0; k < unknowns_ && rounding; ++k) {
-      if (std::fabs(directions.plain(k, i)) > kTakesPart) {
+      if (std::fabs(directions.plain(k, i)) > kRoundingParticipation) {
         solution.told[static_cast<std::size_t>(k)] = false;
       }
     }

@@ -3,28 +3,28 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/constants.h"
 #include "estimation/alarm_limits.h"
 
 namespace whirl_twin {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 /// Numbers below which limits are not what they say.
-constexpr std::size_t kFewest = 50;
+constexpr std::size_t kMinResiduals = 50;
 
 }  // namespace
 
 ResidualWatch::ResidualWatch(std::size_t channels, const ResidualWatchSettings& settings)
-    : window_(settings.window), last_(channels, kNone), begin_(kNone), newest_(kNone) {
+    : window_(settings.window), last_(channels, kNaN), begin_(kNaN), newest_(kNaN) {
   const double each = falseAlarmsEach(settings.false_alarms / 4.0, settings.window);
   z_ = normalLimit(std::min(each, 0.5));
 }
 
 void ResidualWatch::restart() {
-  begin_ = newest_ = kNone;
+  begin_ = newest_ = kNaN;
   numbers_ = pairs_ = 0;
   squares_ = surest_ = products_ = 0.0;
-  std::fill(last_.begin(), last_.end(), kNone);
+  std::fill(last_.begin(), last_.end(), kNaN);
 }
 
 bool ResidualWatch::take(double time, const double* innovation, std::size_t channels,
@@ -36,7 +36,7 @@ bool ResidualWatch::take(double time, const double* innovation, std::size_t chan
   bool ended = false;
   if (std::isnan(begin_)) {
     begin_ = time;
-  } else if (time - begin_ >= window_ && numbers_ >= kFewest && pairs_ >= kFewest / 2) {
+  } else if (time - begin_ >= window_ && numbers_ >= kMinResiduals && pairs_ >= kMinResiduals / 2) {
     judge(time);
     ended = true;
     begin_ = time;

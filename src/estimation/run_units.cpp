@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "algebra/constants.h"
 #include "messages/names.h"
 #include "messages/refusal.h"
 #include "messages/units.h"
@@ -15,14 +16,13 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kTurn = 6.283185307179586;  // rad
-constexpr double kMost = 1.0e6;              // of a channel's unit: rad, m, rad/s, m/s
+constexpr double kMost = 1.0e6;  // of a channel's unit: rad, m, rad/s, m/s
 constexpr double kManyTurns = 10.0;
 constexpr double kManySteps = 1000.0;  // of the scene, from row to row
 constexpr int kFewestInWindow = 5;     // rows
 
 /// Of `q1[deg]`; "" where there is none.
-std::string unitOf(const std::string& column) {
+std::string columnUnit(const std::string& column) {
   const std::size_t open = column.rfind('[');
   if (open == std::string::npos || column.back() != ']') {
     return "";
@@ -40,7 +40,7 @@ class Columns {
   explicit Columns(MeasuredRun& run) : run_(run) {}
 
   void bring(const std::string& name, const std::string& what, const std::string& wanted) {
-    const std::string unit = unitOf(name);
+    const std::string unit = columnUnit(name);
     if (unit.empty() || !done_.insert(name).second) {
       return;
     }
@@ -82,11 +82,11 @@ void judgeChannel(MeasuredRun& run, const MeasuredChannel& channel) {
     return;
   }
   const auto [least, most] = std::minmax_element(x.begin(), x.end());
-  if (*most - *least > kManyTurns * kTurn) {
+  if (*most - *least > kManyTurns * kTwoPi) {
     run.remarks.push_back(fmt::format(
         "{} ranges over {:.3g} rad, {:.3g} turns: is it in degrees? `q[deg]` would say so",
-        quoted(channel.column), *most - *least, (*most - *least) / kTurn));
-  } else if (leap > 0.5 * kTurn) {
+        quoted(channel.column), *most - *least, (*most - *least) / kTwoPi));
+  } else if (leap > 0.5 * kTwoPi) {
     run.remarks.push_back(fmt::format(
         "{} leaps by {:.3g} rad from one row to the next, at {:.9g} s: wrapped at a turn, or in "
         "degrees?",
@@ -106,7 +106,7 @@ bool standsStill(const StudyRun& run) {
 
 void settleUnits(StudyRun& run, const std::string& time, const std::vector<InputInfo>& inputs,
                  double step_seconds) {
-  const std::string unit = unitOf(time);
+  const std::string unit = columnUnit(time);
   if (!unit.empty() && unitScale(unit, "s") != 1.0) {
     throw Refusal(fmt::format("column {}: the time must be in s, and is in {}", quoted(time),
                               printable(unit)));

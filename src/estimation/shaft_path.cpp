@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/constants.h"
+
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kNanosecond = 1.0e-9;  // s
-constexpr double kSmall = 1.0e-3;       // of a duration, for differences
+constexpr double kSmall = 1.0e-3;  // of a duration, for differences
 
 }  // namespace
 

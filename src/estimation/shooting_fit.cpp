@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algebra/qr.h"
+#include "algebra/dense.h"
 #include "estimation/shooting_solver.h"
 #include "messages/refusal.h"
 
@@ -61,8 +61,7 @@ Eigen::MatrixXd heldDirections(const Information& information, const Eigen::Vect
     }
   }
   // At right angles: what has become small is in all of them, and would leave the rest loose.
-  const Eigen::MatrixXd across = Eigen::HouseholderQR<Eigen::MatrixXd>(directions).householderQ() *
-                                 Eigen::MatrixXd::Identity(sizes.size(), count);
+  const Eigen::MatrixXd across = orthonormalBasis(directions);
   return deviation / kHeldTo * across.transpose();
 }
 

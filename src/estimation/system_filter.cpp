@@ -5,15 +5,16 @@
 #include <cmath>
 #include <utility>
 
+#include "algebra/constants.h"
+
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kNanosecond = 1.0e-9;  // s
 /// Values further from what is expected, in its deviations, are not of this motion.
 constexpr double kGate = 6.0;
 /// Before, a motion is not known well enough to tell of parameters.
-constexpr double kSettling = 0.05;  // s
+constexpr double kFilterSettling = 0.05;  // s
 /// Of the shaft's angle: with a larger deviation probes tell more of what turns with it.
 constexpr double kAngleOfUse = 0.2;  // rad
 
@@ -23,10 +24,6 @@ constexpr double kStartPlace = 1.0;      // natural lengths
 constexpr double kStartWhirl = 1.0e-3;   // m
 constexpr double kStartRate = 10.0;      // of the coordinate's, /s
 constexpr double kStartWhirlRate = 1.0;  // m/s
-
-double seconds(std::int64_t nanoseconds) {
-  return static_cast<double>(nanoseconds) * kNanosecond;
-}
 
 std::vector<FollowedParameter> parametersOf(const BuiltSystem& system,
                                             const SystemFollowing& settings) {
@@ -140,7 +137,8 @@ void SystemFilter::forgetMotion() {
 }
 
 Moment<double> SystemFilter::moment() const {
-  return {seconds(now_.time + to_twin_), now_.angle.remainder, now_.speed, 0.0};
+  return {static_cast<double>(now_.time + to_twin_) * kNanosecond, now_.angle.remainder, now_.speed,
+          0.0};
 }
 
 /// Of a shaft that goes on at its speed.
@@ -233,7 +231,7 @@ Innovation SystemFilter::take(std::size_t channel, double value, double deviatio
     return innovation;
   }
   innovation.used = true;
-  const bool settled = now_.time - began_ > std::llround(kSettling / kNanosecond);
+  const bool settled = now_.time - began_ > std::llround(kFilterSettling / kNanosecond);
   const double known = expected.deviation * expected.deviation - noise * noise;
   const double doubt = settled ? std::min(1.0, derivativeDoubt()) : 0.0;
   filter_.take(h, value, std::sqrt(noise * noise + doubt * std::max(0.0, known)),

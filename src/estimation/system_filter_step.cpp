@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algebra/cholesky.h"
+#include "algebra/dense.h"
 #include "estimation/system_filter.h"
 
 namespace whirl_twin {
@@ -15,7 +15,7 @@ constexpr double kLongestTurn = 1.0;  // rad
 /// Speeds that differ by less share a step: of matrices that change with speed.
 constexpr double kSameSpeed = 1.0e-3;
 /// From sample to sample: a shaft that turns by more has run away, and a vibration been missed.
-constexpr std::int64_t kMostParts = 10'000;
+constexpr std::int64_t kMaxSubsteps = 10'000;
 /// What turns with a shaft that stands is no noise that lasts for ever.
 constexpr double kLongestPeriod = 1.0;  // s
 
@@ -32,10 +32,10 @@ void turn(Eigen::VectorXd& state, Eigen::Index at, double cosine, double sine) {
 std::vector<ShaftInstant> SystemFilter::partsOf(const ShaftInstant& there) const {
   const ShaftPath path(now_, there, to_twin_);
   const std::int64_t all = there.time - now_.time;
-  const double turns = std::fmin(std::fabs(path.turned()) / kLongestTurn, kMostParts);
-  const std::int64_t parts = std::min(kMostParts, model_.system()->dynamics->linear()
-                                                      ? static_cast<std::int64_t>(turns) + 1
-                                                      : (all + longest_ - 1) / longest_);
+  const double turns = std::fmin(std::fabs(path.turned()) / kLongestTurn, kMaxSubsteps);
+  const std::int64_t parts = std::min(kMaxSubsteps, model_.system()->dynamics->linear()
+                                                        ? static_cast<std::int64_t>(turns) + 1
+                                                        : (all + longest_ - 1) / longest_);
   std::vector<std::int64_t> times;
   for (std::int64_t k = 1; k < parts; ++k) {
     times.push_back(now_.time + all / parts * k);
@@ -85,8 +85,7 @@ void SystemFilter::goOn(const ShaftInstant& there) {
     model_.follow(numbers());
   }
   if (!stations_.empty()) {
-    const Eigen::LDLT<Eigen::MatrixXd> mass(
-        model_.system()->dynamics->massMatrix(q(), v(), path.at(0.0)));
+    const Ldlt mass(model_.system()->dynamics->massMatrix(q(), v(), path.at(0.0)));
     station_directions_.resize(n_, 2 * static_cast<Eigen::Index>(stations_.size()));
     for (std::size_t i = 0; i < stations_.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(2 * i);

@@ -5,19 +5,19 @@
 #include <stdexcept>
 #include <utility>
 
+#include "algebra/constants.h"
+
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
-constexpr std::complex<double> kI(0.0, 1.0);
-constexpr double kLongestGap = 2.0;   // s: across it the shaft's motion is filled in
-constexpr double kFinestSteps = 1.5;  // of the usual distance, that is one step
+constexpr double kMaxReadingGap = 2.0;  // s: across it the shaft's motion is filled in
+constexpr double kFinestSteps = 1.5;    // of the usual distance, that is one step
 constexpr double kMostSteps = 20000.0;
 
 /// Of a unit of unbalance at a station.
 ShaftForce unitUnbalance(const Station& station) {
-  return {station.along_x.cast<std::complex<double>>() - kI * station.along_y, 1, true};
+  return {station.along_x.cast<std::complex<double>>() - kImaginaryUnit * station.along_y, 1, true};
 }
 
 std::vector<ShaftForce> forcesOf(const LinearRotor& rotor,
@@ -40,7 +40,9 @@ std::vector<ShaftForce> forcesOf(const LinearRotor& rotor,
 /// What a probe shows of e^(i w t).
 std::complex<double> seen(const RotorProbe& probe, double speed) {
   const std::complex<double> delayed = std::polar(1.0, -speed * probe.delay);
-  return probe.bandwidth > 0.0 ? delayed / (1.0 + kI * speed / (kTurn * probe.bandwidth)) : delayed;
+  return probe.bandwidth > 0.0
+             ? delayed / (1.0 + kImaginaryUnit * speed / (kTwoPi * probe.bandwidth))
+             : delayed;
 }
 
 }  // namespace
@@ -72,11 +74,11 @@ UnbalanceFit::UnbalanceFit(const LinearRotor& rotor, const std::vector<Balancing
 /// between its ends.
 bool UnbalanceFit::turnTo(const ProbeReading& reading) {
   const double time = reading.time - last_.time;
-  const double turn = kTurn * static_cast<double>(reading.turns - last_.turns) +
+  const double turn = kTwoPi * static_cast<double>(reading.turns - last_.turns) +
                       (reading.remainder - last_.remainder);
   const double skew = turn - 0.5 * (last_.speed + reading.speed) * time;
   // A shaft that was lost meanwhile may have been found with another number of turns.
-  if (!started_ || !(time > 0.0) || time > kLongestGap || std::fabs(skew) > 0.5 * kTurn) {
+  if (!started_ || !(time > 0.0) || time > kMaxReadingGap || std::fabs(skew) > 0.5 * kTwoPi) {
     whirl_.start(reading.speed);
     started_ = true;
     return false;

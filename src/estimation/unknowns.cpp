@@ -13,7 +13,6 @@ namespace {
 constexpr double kNoBound = std::numeric_limits<double>::infinity();
 constexpr double kLeastOfPositive = 1.0e-6;  // of the start: a positive number is not 0
 constexpr double kLeastScale = 1.0e-3;
-constexpr double kLongestDelay = 1.0;  // s
 
 void addOnce(std::vector<Unknown>& all, Unknown unknown) {
   const bool known = std::any_of(all.begin(), all.end(), [&](const Unknown& u) {
@@ -70,7 +69,7 @@ std::vector<SensorNumber> numbersOf(const StudyRun& run) {
                     kLeastScale, kNoBound}});
     all.push_back({i.delay,
                    {Unknown::Kind::kInputDelay, i.name, i.name + ".delay", "s", i.delay.value,
-                    -kLongestDelay, kLongestDelay}});
+                    -kMaxInputDelay, kMaxInputDelay}});
   }
   return all;
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algebra/qr.h"
+#include "algebra/dense.h"
 #include "realtime/denormals.h"
 
 namespace whirl_twin {
@@ -14,7 +14,7 @@ constexpr double kStartSeconds = 0.04;  // of rows that a measured start is made
 constexpr std::size_t kStartRows = 7;   // at least
 constexpr double kShortLeftOver = 0.5;  // of a window
 
-std::int64_t nanoseconds(double seconds) {
+std::int64_t instantInNanoseconds(double seconds) {
   return std::llround(seconds * 1.0e9);
 }
 
@@ -33,7 +33,7 @@ class Steps {
         dof_(static_cast<Eigen::Index>(stepper_->dof())),
         before_(2 * dof_ + 1),
         after_(2 * dof_ + 1),
-        at_(nanoseconds(study.runs[window.run].data.time[window.first])) {}
+        at_(instantInNanoseconds(study.runs[window.run].data.time[window.first])) {}
   Steps(const Steps&) = delete;  // the stepper refers to drive and inputs
   Steps& operator=(const Steps&) = delete;
 
@@ -104,7 +104,7 @@ std::pair<double, double> quadraticAtZero(const std::vector<double>& x,
     a.row(static_cast<Eigen::Index>(i)) << 1.0, u, u * u;
   }
   const Eigen::Map<const Eigen::VectorXd> b(y.data(), a.rows());
-  const Eigen::Vector3d c = a.colPivHouseholderQr().solve(b);
+  const Eigen::Vector3d c = PivotedQr(a).solve(b);
   return {c[0], c[1] / width};
 }
 
@@ -150,7 +150,7 @@ bool predict(const FitStudy& study, const BuiltScene& scene, const Candidate& ca
   steps.writeEnd(states.col(0));
   for (std::size_t k = 1; k < window.count; ++k) {
     const double at = time[window.first + k];
-    while (steps.end() < nanoseconds(at)) {
+    while (steps.end() < instantInNanoseconds(at)) {
       if (!steps.step()) {
         return false;
       }

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/LU>
+#include <array>
 #include <cstddef>
 
+#include "integration/small_lu.h"
 #include "mechanics/lagrangian.h"
 
 namespace whirl_twin {
@@ -18,15 +19,29 @@ struct AccelerationJacobian {
 /// Of M q'' + (C + G) q' + (K + N) q = 0. Real-time safe.
 template <std::size_t n>
 AccelerationJacobian<n> accelerationJacobian(const FixedLinearization<n>& l) noexcept {
-  // Not mass.inverse(): Eigen's of size four needs signed zeros, which steps are compiled without.
-  const auto mass = l.mass.partialPivLu();
-  return {-mass.solve(l.stiffness + l.circulatory), -mass.solve(l.damping + l.gyroscopic)};
+  typename SmallLu<n>::Matrix mass;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) {
+      mass[i][j] = l.mass(i, j);
+    }
+  }
+  const SmallLu<n> factors(mass);
+  AccelerationJacobian<n> jacobian;
+  for (std::size_t j = 0; j < n; ++j) {
+    std::array<double, n> by_q;
+    std::array<double, n> by_v;
+    for (std::size_t i = 0; i < n; ++i) {
+      by_q[i] = -(l.stiffness(i, j) + l.circulatory(i, j));
+      by_v[i] = -(l.damping(i, j) + l.gyroscopic(i, j));
+    }
+    factors.solve(by_q.data());
+    factors.solve(by_v.data());
+    for (std::size_t i = 0; i < n; ++i) {
+      jacobian.by_q(i, j) = by_q[i];
+      jacobian.by_v(i, j) = by_v[i];
+    }
+  }
+  return jacobian;
 }
-
-// Compiled once for the numbers of coordinates that the package's own models have.
-extern template AccelerationJacobian<1> accelerationJacobian(const FixedLinearization<1>&) noexcept;
-extern template AccelerationJacobian<2> accelerationJacobian(const FixedLinearization<2>&) noexcept;
-extern template AccelerationJacobian<3> accelerationJacobian(const FixedLinearization<3>&) noexcept;
-extern template AccelerationJacobian<4> accelerationJacobian(const FixedLinearization<4>&) noexcept;
 
 }  // namespace whirl_twin

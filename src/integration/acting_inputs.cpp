@@ -84,13 +84,13 @@ void ActingInputs::follow(double offset, double h) noexcept {
 void ActingInputs::project(Channel& c, double offset) const noexcept {
   constexpr std::array<double, 3> kNodes{0.11270166537925831148, 0.5, 0.88729833462074168852};
   constexpr std::array<double, 3> kWeights{5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0};
-  constexpr double kSliver = 1e-3;  // ns
+  constexpr double kSliverOfInput = 1e-3;  // ns
   const double start = offset * 1e9;
   const double end = start + h_ * 1e9;
-  auto piece = static_cast<std::int64_t>(std::floor(start + kSliver));
+  auto piece = static_cast<std::int64_t>(std::floor(start + kSliverOfInput));
   const std::int64_t first = inputs_->nextCorner(piece);
   SignalPiece line = inputs_->piece(c.input, piece);
-  if (static_cast<double>(first) >= end - kSliver) {
+  if (static_cast<double>(first) >= end - kSliverOfInput) {
     c.course = {line.at(offset), line.slope * h_, 0.0, 0.0};
     return;
   }
@@ -98,7 +98,7 @@ void ActingInputs::project(Channel& c, double offset) const noexcept {
   double from = 0.0;
   while (from < 1.0) {
     const std::int64_t corner = inputs_->nextCorner(piece);
-    const bool inside = static_cast<double>(corner) < end - kSliver;
+    const bool inside = static_cast<double>(corner) < end - kSliverOfInput;
     const double to = inside ? (static_cast<double>(corner) - start) / (end - start) : 1.0;
     for (std::size_t i = 0; i < kNodes.size(); ++i) {
       const double tau = from + kNodes[i] * (to - from);

@@ -1,25 +1,61 @@
 // The equations of a model reached by calls, so that what steps them need not be compiled for each
-// model: called_step.h says when.
+// model: called_system.h says when.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <memory>
+#include <type_traits>
+#include <utility>
 
+#include "control/drive.h"
+#include "integration/acceleration_jacobian.h"
 #include "integration/driven_equation.h"
 #include "integration/input_force.h"
 #include "integration/motion_state.h"
+#include "mechanics/dynamics.h"
 
 namespace whirl_twin {
 
-/// The equations of some model of n coordinates, on its drive, during one step.
+/// A shaft whose angle is the coordinate kSpin, the last.
+template <class Model, class = void>
+struct HasSpin : std::false_type {};
+template <class Model>
+struct HasSpin<Model, std::void_t<decltype(Model::kSpin)>> : std::true_type {
+  static_assert(Model::kSpin + 1 == Model::kDof);
+};
+
+/// What a step has to know of a model besides its equations.
 template <std::size_t n>
-class AnyEquation {
+struct ModelForm {
+  bool has_shaft = false;
+  bool has_shaft_angle = false;  ///< it enters the equations
+  bool has_spin = false;
+  std::array<bool, n> angular{};  ///< the coordinate is one of an angle
+};
+
+template <class Model>
+constexpr ModelForm<Model::kDof> formOf() {
+  ModelForm<Model::kDof> form;
+  form.has_shaft = Model::kHasShaft;
+  form.has_shaft_angle = HasShaftAngle<Model>::value;
+  form.has_spin = HasSpin<Model>::value;
+  for (std::size_t i = 0; i < Model::kDof; ++i) {
+    form.angular[i] = Model::kCoordinates[i].unit[0] == 'r';
+  }
+  return form;
+}
+
+/// The equations of some model of n coordinates.
+template <std::size_t n>
+class AnyModel {
  public:
   using Array = std::array<double, n>;
 
-  AnyEquation(const AnyEquation&) = delete;
-  AnyEquation& operator=(const AnyEquation&) = delete;
-  virtual Moment<double> moment(double offset) const noexcept = 0;
+  virtual ~AnyModel() = default;
+  AnyModel(const AnyModel&) = delete;
+  AnyModel& operator=(const AnyModel&) = delete;
+  const ModelForm<n>& form() const noexcept { return form_; }
   virtual EquationsOfMotion<double, n> at(const Array& q, const Array& v,
                                           const Moment<double>& at) const noexcept = 0;
   virtual AccelerationJacobian<n> jacobian(const Array& q, const Array& v,
@@ -27,30 +63,62 @@ class AnyEquation {
                                            const Moment<double>& at) const noexcept = 0;
 
  protected:
-  AnyEquation() = default;
-  ~AnyEquation() = default;
+  explicit AnyModel(const ModelForm<n>& form) : form_(form) {}
+
+ private:
+  const ModelForm<n>& form_;
 };
 
+/// Those of a model that outlives this.
 template <class Model>
-class EquationOf final : public AnyEquation<Model::kDof> {
+class ModelByCalls : public AnyModel<Model::kDof> {
  public:
   static constexpr std::size_t n = Model::kDof;
   using Array = std::array<double, n>;
 
-  explicit EquationOf(const DrivenEquation<Model>& equation) : equation_(equation) {}
-  Moment<double> moment(double offset) const noexcept override { return equation_.moment(offset); }
+  explicit ModelByCalls(const Model& model) : AnyModel<n>(kForm), model_(model) {}
   EquationsOfMotion<double, n> at(const Array& q, const Array& v,
-                                  const Moment<double>& at) const noexcept override {
-    return equationsOfMotion(equation_.model, q, v, at);
+                                  const Moment<double>& at) const noexcept final {
+    return equationsAt(model_, q, v, at);
   }
   AccelerationJacobian<n> jacobian(const Array& q, const Array& v, const Array& acceleration,
-                                   const Moment<double>& at) const noexcept override {
-    return equation_.jacobian(q, v, acceleration, at);
+                                   const Moment<double>& at) const noexcept final {
+    return accelerationJacobian(linearization(model_, q, v, acceleration, at));
   }
 
  private:
-  const DrivenEquation<Model>& equation_;
+  static constexpr ModelForm<n> kForm = formOf<Model>();
+
+  const Model& model_;
 };
+
+/// A model that is known by its calls only: what SteppedSystem steps in place of one.
+template <std::size_t n>
+class CalledModel {
+ public:
+  static constexpr std::size_t kDof = n;
+
+  template <class Model>
+  static CalledModel of(const Model& model) {
+    struct Owned : private Owner<Model>, public ModelByCalls<Model> {
+      explicit Owned(const Model& of) : Owner<Model>{of}, ModelByCalls<Model>(this->model) {}
+    };
+    return CalledModel(std::make_shared<const Owned>(model));
+  }
+  const AnyModel<n>& calls() const noexcept { return *calls_; }
+
+ private:
+  template <class Model>
+  struct Owner {
+    Model model;
+  };
+  explicit CalledModel(std::shared_ptr<const AnyModel<n>> calls) : calls_(std::move(calls)) {}
+
+  std::shared_ptr<const AnyModel<n>> calls_;
+};
+
+/// At an offset [s] of a step that starts at a simulated time [s]; `angle`: with the shaft's.
+Moment<double> momentOf(const Drive& drive, bool angle, double time, double offset) noexcept;
 
 /// q'' = a(q, v, t), under inputs in the piece of them that was entered. The power is without that
 /// of held inputs, whose work is Q . dq.
@@ -58,17 +126,24 @@ template <std::size_t n>
 struct CalledEquation {
   using Array = std::array<double, n>;
 
-  const AnyEquation<n>& own;
+  const AnyModel<n>& model;
+  const Drive& drive;
+  double time;                         ///< [s], simulated, at the start of the step
   const InputForce* inputs = nullptr;  ///< nullptr: nothing acts
 
-  Moment<double> moment(double offset) const noexcept { return own.moment(offset); }
+  Moment<double> moment(double offset) const noexcept {
+    if (!model.form().has_shaft) {
+      return {time + offset, 0.0, 0.0, 0.0};
+    }
+    return momentOf(drive, model.form().has_shaft_angle, time, offset);
+  }
   /// Without the inputs.
   Derivative<n> evaluate(const Array& q, const Array& v, const Moment<double>& at) const noexcept {
-    const EquationsOfMotion<double, n> eom = own.at(q, v, at);
+    const EquationsOfMotion<double, n> eom = model.at(q, v, at);
     return {solveMass<double, n>(eom.mass, eom.force), eom.power};
   }
   Derivative<n> operator()(const Array& q, const Array& v, double offset) const noexcept {
-    EquationsOfMotion<double, n> eom = own.at(q, v, moment(offset));
+    EquationsOfMotion<double, n> eom = model.at(q, v, moment(offset));
     if (hasInputs()) {
       Array all;
       Array varying;
@@ -81,7 +156,7 @@ struct CalledEquation {
     return {solveMass<double, n>(eom.mass, eom.force), eom.power};
   }
   AccelerationJacobian<n> jacobian(const Array& q, const Array& v, double offset) const noexcept {
-    return own.jacobian(q, v, (*this)(q, v, offset).acceleration, moment(offset));
+    return model.jacobian(q, v, (*this)(q, v, offset).acceleration, moment(offset));
   }
   bool hasInputs() const { return inputs != nullptr; }
   /// Of no use but to the exact step, which is reached by calls only with inputs.
@@ -98,8 +173,8 @@ template <class Method, std::size_t n>
 /// f(equation), the equation by calls.
 template <class Model, class F>
 auto withCalls(const DrivenEquation<Model>& equation, const F& f) {
-  const EquationOf<Model> own(equation);
-  return f(CalledEquation<Model::kDof>{own});
+  const ModelByCalls<Model> calls(equation.model);
+  return f(CalledEquation<Model::kDof>{calls, equation.drive, equation.time});
 }
 template <std::size_t n, class F>
 auto withCalls(const CalledEquation<n>& equation, const F& f) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "algebra/constants.h"
 #include "integration/forced_rotor_step.h"
 
 namespace whirl_twin {
@@ -124,7 +125,7 @@ double ForcedRotorStep::relativeResidual() const noexcept {
   for (Index i = 0; i < unknowns(); ++i) {
     const double off = std::fabs(residual_[i]);
     if (!(off <= std::numeric_limits<double>::max())) {
-      return std::numeric_limits<double>::infinity();
+      return kInfinity;
     }
     largest = off > 0.0 ? std::max(largest, off / (sizes_[i] + rounding_[i])) : largest;
   }
@@ -161,7 +162,7 @@ StepStatus ForcedRotorStep::newton(const MatrixXd& response) noexcept {
     return StepStatus::kNoGap;
   }
   bool fresh = false;
-  double before = std::numeric_limits<double>::infinity();
+  double before = kInfinity;
   for (int step = 0; step < kMostNewtonSteps; ++step) {
     const double off = relativeResidual();
     if (off <= kSame || (fresh && off <= kNearly && off >= 0.5 * before)) {
@@ -179,7 +180,7 @@ StepStatus ForcedRotorStep::newton(const MatrixXd& response) noexcept {
     // The first share of it that leads nearer, else that which leads nearest: at a kink the way
     // down may lead up first.
     double best = 0.0;
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     double share = 1.0;
     for (; least >= size && share >= (fresh ? kLeastShare : 1.0); share *= 0.5) {
       forced_ = start_ + share * change_;

@@ -15,6 +15,7 @@
 
 #include <cmath>
 
+#include "integration/called_equation.h"
 #include "integration/lanes.h"
 #include "integration/motion_state.h"
 #include "integration/stage_solver.h"
@@ -104,8 +105,7 @@ class GaussLegendre {
   /// Forgets the previous step: needed after the state was changed from outside.
   void restart() { warm_ = false; }
 
-  /// Advances by h [s] from offset [s] after the start of the twin's step. Equation also gives
-  /// jacobian(q, v, offset): {da/dq, da/dv}, used only where the fixed point contracts slowly.
+  /// Advances by h [s] from offset [s] after the start of the twin's step.
   template <class Equation>
   WHIRL_TWIN_INLINE StepStatus step(const Equation& equation, double offset, double h,
                                     MotionState<n>& state) {
@@ -113,11 +113,16 @@ class GaussLegendre {
     if (warm_) {
       a = extrapolated();
     } else {
-      a.fill(Lanes<n>(equation(state.q, state.v, offset).acceleration));
+      // No second copy of the equations for a guess.
+      withCalls(equation, [&](const CalledEquation<n>& called) {
+        a.fill(Lanes<n>(called(state.q, state.v, offset).acceleration));
+      });
     }
     Powers power;
     if (!fixedPoint(equation, offset, h, state, a, power)) {
-      return stiffStep(equation, offset, h, kMaxHalvings, state);
+      return withCalls(equation, [&](const CalledEquation<n>& called) {
+        return stiffStep(called, offset, h, kMaxHalvings, state);
+      });
     }
     last_ = a;
     warm_ = true;
@@ -130,10 +135,11 @@ class GaussLegendre {
   using Stages = std::array<Lanes<n>, stages>;
   using Powers = std::array<double, stages>;
 
-  /// A step by Newton's method; where that does not converge, two of half the length.
-  template <class Equation>
-  [[gnu::noinline, gnu::cold]] StepStatus stiffStep(const Equation& equation, double offset,
-                                                    double h, int halvings, MotionState<n>& state) {
+  /// A step by Newton's method; where that does not converge, two of half the length. Beside its
+  /// matrices a call is nothing.
+  [[gnu::noinline, gnu::cold]] StepStatus stiffStep(const CalledEquation<n>& equation,
+                                                    double offset, double h, int halvings,
+                                                    MotionState<n>& state) {
     const std::array<double, n> start = equation(state.q, state.v, offset).acceleration;
     Stages a;
     a.fill(Lanes<n>(start));
@@ -306,9 +312,8 @@ class GaussLegendre {
     return false;
   }
 
-  template <class Equation>
-  bool newton(const Equation& equation, double offset, double h, const MotionState<n>& state,
-              Stages& a, Powers& power) const {
+  bool newton(const CalledEquation<n>& equation, double offset, double h,
+              const MotionState<n>& state, Stages& a, Powers& power) const {
     // A Jacobian of the step's start serves most steps. Where the motion turns so fast that it does
     // not, one of the middle of the step as found so far does.
     std::array<double, n> q = state.q;
@@ -325,9 +330,9 @@ class GaussLegendre {
   }
 
   /// Simplified Newton with one Jacobian, until it converges or no longer contracts.
-  template <class Equation>
-  bool iterate(const Equation& equation, double offset, double h, const MotionState<n>& state,
-               const AccelerationJacobian<n>& jacobian, Stages& a, Powers& power) const {
+  bool iterate(const CalledEquation<n>& equation, double offset, double h,
+               const MotionState<n>& state, const AccelerationJacobian<n>& jacobian, Stages& a,
+               Powers& power) const {
     const StageSolver<stages, n> solver(h, Tableau::kA, gauss_legendre::kAA<stages>, jacobian);
     double previous = 0.0;
     for (int iteration = 0; iteration < kMaxNewton; ++iteration) {

@@ -7,12 +7,12 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr long double kPi = 3.14159265358979323846264338327950288L;
+constexpr long double kLongPi = 3.14159265358979323846264338327950288L;
 /// The kernel is smooth and the polynomial of degree count - 1: so many more points than nodes.
 constexpr std::size_t kFurtherPoints = 4;
 
 /// P_n and its derivative at x.
-std::pair<long double, long double> legendre(std::size_t n, long double x) {
+std::pair<long double, long double> legendreWithSlope(std::size_t n, long double x) {
   long double before = 1.0L;
   long double p = x;
   for (std::size_t k = 2; k <= n; ++k) {
@@ -29,13 +29,13 @@ std::pair<long double, long double> legendre(std::size_t n, long double x) {
 GaussNodes::GaussNodes(std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     // Newton's method from Tricomi's estimate of the zeros of P_n.
-    long double x = -std::cos(kPi * (static_cast<long double>(i) + 0.75L) /
+    long double x = -std::cos(kLongPi * (static_cast<long double>(i) + 0.75L) /
                               (static_cast<long double>(count) + 0.5L));
     for (int round = 0; round < 8; ++round) {
-      const auto [p, slope] = legendre(count, x);
+      const auto [p, slope] = legendreWithSlope(count, x);
       x -= p / slope;
     }
-    const long double slope = legendre(count, x).second;
+    const long double slope = legendreWithSlope(count, x).second;
     nodes.push_back(static_cast<double>(0.5L * (1.0L + x)));
     weights.push_back(static_cast<double>(1.0L / ((1.0L - x * x) * slope * slope)));
   }

@@ -6,16 +6,9 @@
 #include <limits>
 #include <stdexcept>
 
+#include "integration/sliver.h"
+
 namespace whirl_twin {
-
-namespace {
-
-/// Whole nanoseconds of an offset [s]; a thousandth is rounding.
-std::int64_t wholeNanoseconds(double offset) noexcept {
-  return static_cast<std::int64_t>(std::floor(offset * 1e9 + 1e-3));
-}
-
-}  // namespace
 
 // Here once, and not with the steps of every model and method.
 InputForce::InputForce() = default;

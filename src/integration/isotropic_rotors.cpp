@@ -13,7 +13,7 @@ namespace whirl_twin {
 namespace {
 
 constexpr double kLongestPart = 2.0;  // rad, of shaft and whirl together
-constexpr int kMostParts = 1000000;
+constexpr int kMostPartsOfStep = 1000000;
 constexpr std::size_t kAtATime = 64;  // parts: as many as are kept beside eight rotors
 
 /// Gauss-Legendre on 0..1, order 12.
@@ -32,7 +32,7 @@ std::complex<double> unbalanceForce(const ShaftMotion& shaft, std::complex<doubl
 }
 
 /// Legendre polynomials P_0 ... P_5 at x in -1..1.
-std::array<double, 6> legendre(double x) noexcept {
+std::array<double, 6> legendrePolynomials(double x) noexcept {
   std::array<double, 6> p{1.0, x};
   for (std::size_t k = 2; k < p.size(); ++k) {
     const auto n = static_cast<double>(k);
@@ -52,7 +52,7 @@ double fastest(const std::vector<IsotropicRotor>& rotors) {
 
 int partsFor(const std::vector<IsotropicRotor>& rotors, double h, double highest_speed) {
   const double parts = std::ceil(h * (fastest(rotors) + std::fabs(highest_speed)) / kLongestPart);
-  return static_cast<int>(std::clamp(parts, 1.0, static_cast<double>(kMostParts)));
+  return static_cast<int>(std::clamp(parts, 1.0, static_cast<double>(kMostPartsOfStep)));
 }
 
 std::complex<double> markOf(const IsotropicRotor& rotor) {
@@ -172,7 +172,7 @@ IsotropicRotors::Forces IsotropicRotors::projected(const Drive& drive,
   nodes.sample(drive, offset, part_);
   std::array<std::array<std::complex<double>, kNodes>, 2> coefficients{};
   for (const ShaftNode& node : nodes) {
-    const std::array<double, kNodes> p = legendre(2.0 * node.tau - 1.0);
+    const std::array<double, kNodes> p = legendrePolynomials(2.0 * node.tau - 1.0);
     for (std::size_t j = 0; j < kNodes; ++j) {
       const double share = (2.0 * static_cast<double>(j) + 1.0) * node.weight * p[j];
       coefficients[0][j] += share * unbalanceForce(node.shaft, node.turn);
@@ -181,7 +181,7 @@ IsotropicRotors::Forces IsotropicRotors::projected(const Drive& drive,
   }
   Forces forces;
   for (std::size_t k = 0; k < kNodes; ++k) {
-    const std::array<double, kNodes> p = legendre(2.0 * kGaussNodes[k] - 1.0);
+    const std::array<double, kNodes> p = legendrePolynomials(2.0 * kGaussNodes[k] - 1.0);
     for (std::size_t j = 0; j < kNodes; ++j) {
       forces.unbalance.re[k] += p[j] * coefficients[0][j].real();
       forces.unbalance.im[k] += p[j] * coefficients[0][j].imag();

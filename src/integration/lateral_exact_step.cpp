@@ -18,7 +18,7 @@ using All = Eigen::Matrix<double, kAll, 1>;
 using Square = Eigen::Matrix<double, kAll, kAll>;
 using Increment = Eigen::Matrix<double, 4, kAll>;
 
-constexpr double kRounding = 1.0e-14;
+constexpr double kRoundingAtRest = 1.0e-14;
 
 }  // namespace
 
@@ -96,7 +96,7 @@ void LateralExactStep::prepare(double speed) noexcept {
   steady_at_rest_ = 0.5 * (w(4, 4) + w(5, 5)) + w(6, 6);
   at_rest_ = {2.0 * w(4, 6), 2.0 * w(5, 6), 0.5 * (w(4, 4) - w(5, 5)), w(4, 5)};
   turns_at_rest_ = std::any_of(at_rest_.begin(), at_rest_.end(), [&](double part) {
-    return std::fabs(part) > kRounding * std::fabs(steady_at_rest_);
+    return std::fabs(part) > kRoundingAtRest * std::fabs(steady_at_rest_);
   });
 }
 

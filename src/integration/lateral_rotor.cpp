@@ -7,7 +7,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kRounding = 1.0e-13;
+constexpr double kRoundingOfCoupling = 1.0e-13;
 
 bool isDiagonal(const Eigen::MatrixXd& m) {
   return m(0, 1) == 0.0 && m(1, 0) == 0.0;
@@ -21,7 +21,7 @@ bool fits(const LateralRotor& found, const Linearization& rest, const Linearizat
   return l.mass == rest.mass && l.damping == rest.damping && l.stiffness == rest.stiffness &&
          l.gyroscopic.isZero(0.0) && l.circulatory(0, 1) == -l.circulatory(1, 0) &&
          l.circulatory(0, 0) == 0.0 && l.circulatory(1, 1) == 0.0 &&
-         std::fabs(l.circulatory(0, 1) - coupling) <= kRounding * largest;
+         std::fabs(l.circulatory(0, 1) - coupling) <= kRoundingOfCoupling * largest;
 }
 
 }  // namespace

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "integration/sliver.h"
 #include "mechanics/sine_cosine.h"
 
 namespace whirl_twin {
 
 namespace {
 
-/// Parts shorter than this share of a step are rounding.
-constexpr double kSliver = 1.0e-12;
 /// One step in so many is taken twice, the second time in halves.
 constexpr int kEstimateEvery = 64;
 /// [rad]: stiffer rotors go by the table over speed.
@@ -33,10 +32,11 @@ class ByFours final : public LateralRotorStepper {
 
 /// Is energy of the unbalance and the bow another at another angle?
 bool energyTurns(const LateralRotor& rotor) {
-  constexpr double kRounding = 1.0e-9;  // of forces known by their values at right angles
+  constexpr double kRoundingOfForces = 1.0e-9;  // of forces known by their values at right angles
   const auto& e = rotor.eccentricity;
   return rotor.bow_force[0] != 0.0 || rotor.bow_force[1] != 0.0 ||
-         std::abs(e[1] + LateralRotor::Complex(0.0, 1.0) * e[0]) > kRounding * std::abs(e[0]);
+         std::abs(e[1] + LateralRotor::Complex(0.0, 1.0) * e[0]) >
+             kRoundingOfForces * std::abs(e[0]);
 }
 
 }  // namespace

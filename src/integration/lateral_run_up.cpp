@@ -14,7 +14,7 @@ namespace {
 constexpr double kSwept = 1.0e-15;
 constexpr double kMostCoupling = 0.5;
 constexpr int kMostSweeps = 12;
-constexpr int kMostParts = 1 << 16;
+constexpr int kMostPartsOfRunUp = 1 << 16;
 
 }  // namespace
 
@@ -172,7 +172,7 @@ StepStatus LateralRunUp::advance(const Drive& drive, double offset, double lengt
   double coupled = couplingWithin(fastest_turn, length);
   while (!(reach <= parts * sets_->back().reach && coupled <= kMostCoupling)) {
     parts *= 2;
-    if (parts > kMostParts) {
+    if (parts > kMostPartsOfRunUp) {
       return StepStatus::kOutOfRange;
     }
     coupled = couplingWithin(fastest_turn, length / parts);

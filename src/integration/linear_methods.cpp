@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
-#include "algebra/cholesky.h"
-#include "algebra/lu.h"
+#include "algebra/constants.h"
+#include "algebra/dense.h"
 #include "integration/dormand_prince_8.h"
 #include "integration/exponential.h"
 #include "integration/gauss_legendre.h"
@@ -34,7 +33,7 @@ LinearStepMap stepMap(const MatrixXd& dq, const MatrixXd& dv, MatrixXd work) {
 
 /// Matrices beyond the range of doubles: the first step is not finite, and refused.
 LinearStepMap outOfRange(const LinearEquation& equation) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double nan = kNaN;
   return {MatrixXd::Constant(2 * equation.dof(), equation.size(), nan),
           MatrixXd::Constant(equation.size(), equation.size(), nan)};
 }
@@ -135,7 +134,7 @@ LinearStepMap gaussLegendre(const LinearEquation& equation, double h) {
     explicit_part.middleRows(rows(k), n) =
         acceleration * equation.stage(h * kNodes[k] * velocity, none, h * kNodes[k]);
   }
-  const MatrixXd a = matrix.partialPivLu().solve(explicit_part);
+  const MatrixXd a = Lu(matrix).solve(explicit_part);
   MatrixXd dq = h * velocity;
   MatrixXd dv = none;
   MatrixXd work = MatrixXd::Zero(equation.size(), equation.size());
@@ -171,8 +170,8 @@ ScaledEquation::ScaledEquation(const LinearEquation& equation) {
   const LinearModel& model = equation.model();
   const Index n = equation.dof();
   const Index size = equation.size();
-  const Eigen::LLT<MatrixXd> mass(model.mass);
-  const MatrixXd to_q = mass.matrixU().solve(MatrixXd::Identity(n, n));  // q = to_q x
+  const Cholesky mass(model.mass);
+  const MatrixXd to_q = mass.solveUpper(MatrixXd::Identity(n, n));  // q = to_q x
   const MatrixXd stiffness = to_q.transpose() * (model.stiffness + model.circulatory) * to_q;
   const MatrixXd damping = to_q.transpose() * (model.damping + model.gyroscopic) * to_q;
   const MatrixXd forcing = to_q.transpose() * equation.forcing();
@@ -180,7 +179,7 @@ ScaledEquation::ScaledEquation(const LinearEquation& equation) {
 
   scale = MatrixXd::Zero(size, size);
   unscale = MatrixXd::Zero(size, size);
-  scale.topLeftCorner(n, n) = mass.matrixU();
+  scale.topLeftCorner(n, n) = mass.lower().transpose();
   unscale.topLeftCorner(n, n) = to_q;
   scale.block(n, n, n, n) = scale.topLeftCorner(n, n) / rate;
   unscale.block(n, n, n, n) = rate * to_q;
@@ -279,7 +278,7 @@ MatrixXd LinearEquation::acceleration() const {
   MatrixXd force(dof(), size());
   force << -(model_.stiffness + model_.circulatory), -(model_.damping + model_.gyroscopic),
       forcing_;
-  return model_.mass.llt().solve(force);
+  return Cholesky(model_.mass).solve(force);
 }
 
 MatrixXd LinearEquation::power() const {

@@ -4,15 +4,11 @@
 #include <cmath>
 
 #include "integration/linear_methods.h"
+#include "integration/sliver.h"
 
 namespace whirl_twin {
 
 namespace {
-
-/// Of an offset [s]; a thousandth is rounding.
-std::int64_t wholeNanoseconds(double offset) noexcept {
-  return static_cast<std::int64_t>(std::floor(offset * 1e9 + 1e-3));
-}
 
 /// Compensated sums, in a loop that the compiler takes several at a time.
 void addTo(double* __restrict high, double* __restrict low, const double* __restrict increment,

@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "algebra/constants.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr std::array<std::size_t, 2> kNodes{8, 16};
 constexpr std::array<double, 2> kBetween{0.0, 0.92};  // of -1 ... 1: no nodes of either
 constexpr double kNarrowest = 1.0e-6;                 // of the speed
@@ -47,7 +46,7 @@ Eigen::MatrixXd MapOverSpeed::Part::at(double speed) const {
 
 MapOverSpeed::MapOverSpeed(const Sample& sample, double low, double high, const Size& size,
                            double tolerance, double rounding) {
-  add(sample, low, high, size, tolerance, rounding, std::numeric_limits<double>::infinity());
+  add(sample, low, high, size, tolerance, rounding, kInfinity);
 }
 
 void MapOverSpeed::add(const Sample& sample, double low, double high, const Size& size,

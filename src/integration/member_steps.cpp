@@ -6,14 +6,12 @@
 
 #include "integration/dormand_prince_8.h"
 #include "integration/runge_kutta_4.h"
+#include "integration/sliver.h"
 #include "integration/vector_widths.h"
 
 namespace whirl_twin {
 
 namespace {
-
-/// Parts of a step shorter than this share of it are rounding.
-constexpr double kSliver = 1.0e-12;
 
 constexpr RungeKuttaTable kRungeKutta4{4,
                                        {0.0, 0.5, 0.5, 1.0},

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algebra/cholesky.h"
+#include "algebra/dense.h"
 #include "integration/matrix_exponential.h"
 
 namespace whirl_twin {
@@ -56,15 +56,15 @@ RotorMap::RotorMap(const LinearRotor& rotor, const std::vector<ForceChannel>& ch
       acting_(acting),
       degree_(degree) {
   const Index size = inputs(n_, channels.size(), acting, degree);
-  const Eigen::LLT<MatrixXd> mass(l_.mass);
-  const MatrixXd to_q = mass.matrixU().solve(MatrixXd::Identity(n_, n_));  // q = to_q x
+  const Cholesky mass(l_.mass);
+  const MatrixXd to_q = mass.solveUpper(MatrixXd::Identity(n_, n_));  // q = to_q x
   const MatrixXd stiffness = to_q.transpose() * (l_.stiffness + l_.circulatory) * to_q;
   const MatrixXd damping = to_q.transpose() * (l_.damping + l_.gyroscopic) * to_q;
   const double rate = powerOfTwo(std::sqrt(stiffness.cwiseAbs().maxCoeff()));
 
   scale_.setZero(size, size);  // scaled y = scale y
   unscale_.setZero(size, size);
-  scale_.topLeftCorner(n_, n_) = mass.matrixU();
+  scale_.topLeftCorner(n_, n_) = mass.lower().transpose();
   unscale_.topLeftCorner(n_, n_) = to_q;
   scale_.block(n_, n_, n_, n_) = scale_.topLeftCorner(n_, n_) / rate;
   unscale_.block(n_, n_, n_, n_) = rate * to_q;

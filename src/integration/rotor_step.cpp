@@ -6,6 +6,7 @@
 #include <complex>
 
 #include "integration/shaft_course.h"
+#include "integration/sliver.h"
 
 namespace whirl_twin {
 
@@ -13,11 +14,6 @@ namespace {
 
 using Complex = std::complex<double>;
 using Eigen::Index;
-
-/// Whole nanoseconds of an offset [s]; a thousandth is rounding.
-std::int64_t wholeNanoseconds(double offset) noexcept {
-  return static_cast<std::int64_t>(std::floor(offset * 1e9 + 1e-3));
-}
 
 }  // namespace
 

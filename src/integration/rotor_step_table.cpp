@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
-#include "algebra/cholesky.h"
-#include "algebra/lu.h"
+#include "algebra/constants.h"
+#include "algebra/dense.h"
 #include "integration/rotor_step.h"
 #include "messages/refusal.h"
 
@@ -17,7 +16,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kTableError = 1.0e-12;  // of a cell's map, relative to its largest entry
 constexpr double kSmoothError = 0.1 * kTableError;  // of what the cells are taken from
 constexpr double kMostRounding = 1.0e-9;
@@ -97,7 +95,7 @@ void RotorStep::prepare(const LinearRotor& rotor, const std::pair<double, double
     // Narrow enough at both ends of a stretch of smooth matrices: narrow enough throughout.
     const double range = ends[i + 1] - ends[i];
     double count = 1.0;
-    double before = std::numeric_limits<double>::infinity();
+    double before = kInfinity;
     while (true) {
       const double width = range / count;
       const double error = std::max(cubicError(map, ends[i], ends[i] + width),
@@ -157,7 +155,7 @@ MatrixXd RotorStep::cubic(const MapOverSpeed& map, double low, double high) cons
     powers.row(i) << 1.0, s, s * s, s * s * s;
     at[static_cast<std::size_t>(i)] = map.at(0.5 * (low + high) + 0.5 * s * (high - low));
   }
-  const Eigen::Matrix4d coefficients = powers.inverse();
+  const MatrixXd coefficients = Lu(powers).inverse();
   const Index inputs = tableInputs();
   MatrixXd all = MatrixXd::Zero(at[0].rows(), 4 * inputs);
   for (int k = 0; k < 4; ++k) {
@@ -208,7 +206,7 @@ RotorStep::Cell RotorStep::cell(const LinearRotor& rotor, const MapOverSpeed& ma
   c.half_width = 0.5 * (high - low);
   c.increment = PackedMatrix(cubic(map, low, high));
   if (rotor.speed_dependent) {
-    const Eigen::LLT<MatrixXd> mass(rotor.matrices(low).mass);
+    const Cholesky mass(rotor.matrices(low).mass);
     const MatrixXd below = -mass.solve(forceSlope(rotor, low));
     const MatrixXd above = -mass.solve(forceSlope(rotor, high));
     MatrixXd slope(n_, 4 * n_);

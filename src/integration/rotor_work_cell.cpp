@@ -3,9 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "algebra/cholesky.h"
-#include "algebra/lu.h"
-#include "algebra/qr.h"
+#include "algebra/dense.h"
 #include "integration/rotor_work.h"
 
 namespace whirl_twin {
@@ -44,9 +42,8 @@ MatrixXd jointRange(const std::vector<MatrixXd>& matrices, Index n) {
   if (all.cols() == 0) {
     return MatrixXd(n, 0);
   }
-  Eigen::ColPivHouseholderQR<MatrixXd> qr(all);
-  qr.setThreshold(kIndependent);
-  return MatrixXd(qr.householderQ()).leftCols(qr.rank());
+  const PivotedQr qr(all, kIndependent);
+  return qr.orthogonal().leftCols(qr.rank());
 }
 
 MatrixXd phasorColumns(const std::vector<ForceChannel>& channels, Index n) {
@@ -89,7 +86,7 @@ RotorWork::RotorWork(const LinearRotor& rotor, const std::vector<ForceChannel>& 
   basis_ = jointRange(ranges, n);
   force_.resize(basis_.cols(), phasors.cols() + directions_.cols());
   force_ << basis_.transpose() * phasors, basis_.transpose() * directions_;
-  const Eigen::LLT<MatrixXd> mass(rotor.matrices(speeds.first).mass);
+  const Cholesky mass(rotor.matrices(speeds.first).mass);
   const MatrixXd forces = allForces(phasors, rotor.load, directions_);
   acceleration_by_force_ = basis_.transpose() * mass.solve(forces);
 
@@ -103,7 +100,7 @@ RotorWork::RotorWork(const LinearRotor& rotor, const std::vector<ForceChannel>& 
       factor *= k - d;
     }
   }
-  hermite_ = ends.inverse().transpose();
+  hermite_ = Lu(ends).inverse().transpose();
   for (std::size_t i = 0; i < weights_.size(); ++i) {
     weights_[i] = weightsAt(ShaftNodes::kNodes[i]);
   }
@@ -134,7 +131,7 @@ RotorWorkCell RotorWork::cell(const LinearRotor& rotor, double low, double high)
   const MatrixXd forces = allForces(phasorColumns(channels_, n), rotor.load, directions_);
   const auto sample = [&](double speed) {
     const Linearization l = rotor.matrices(speed);
-    const Eigen::LLT<MatrixXd> mass(l.mass);
+    const Cholesky mass(l.mass);
     MatrixXd j(n, 2 * n);
     j << -mass.solve(l.stiffness + l.circulatory), -mass.solve(l.damping + l.gyroscopic);
     const MatrixXd by_rate = basis_.transpose() * j.rightCols(n);

@@ -11,6 +11,7 @@
 // is wrong for months of undamped swing. Stable for h |lambda| < 2.83 on the imaginary axis.
 #pragma once
 
+#include "integration/lanes.h"
 #include "integration/motion_state.h"
 
 namespace whirl_twin {
@@ -24,35 +25,49 @@ struct RungeKutta4 {
   template <std::size_t n, class Equation>
   WHIRL_TWIN_INLINE StepStatus step(const Equation& equation, double offset, double h,
                                     MotionState<n>& state) {
-    std::array<double, n> q = state.q;
-    std::array<double, n> v2;
-    std::array<double, n> v3;
-    std::array<double, n> v4;
-    const auto k1 = equation(q, state.v, offset);
-    for (std::size_t i = 0; i < n; ++i) {
-      q[i] = state.q[i] + 0.5 * h * state.v[i];
-      v2[i] = state.v[i] + 0.5 * h * k1.acceleration[i];
+    constexpr std::size_t kStages = 4;
+    constexpr std::array<double, kStages> kNodes{0.0, 0.5, 0.5, 1.0};
+    using Lanes = whirl_twin::Lanes<n>;
+    const Lanes q0(state.q);
+    const Lanes v0(state.v);
+    std::array<Lanes, kStages> rates;
+    std::array<Lanes, kStages> accelerations;
+    std::array<double, kStages> powers;
+    Lanes q = q0;
+    Lanes v = v0;
+    const auto stage = [&](std::size_t k) WHIRL_TWIN_FLAT {
+      const auto found = equation(q.array(), v.array(), offset + kNodes[k] * h);
+      rates[k] = v;
+      accelerations[k] = Lanes(found.acceleration);
+      powers[k] = found.power;
+      const double ahead = h * kNodes[k + 1 < kStages ? k + 1 : k];
+      q = q0;
+      q.add(ahead, v);
+      v = v0;
+      v.add(ahead, accelerations[k]);
+    };
+    // One copy of the equations: what they make of the parameters alone is then computed once. But
+    // short ones wait for what a loop stores.
+    if constexpr (n == 1) {
+      unrolled<kStages>(stage);
+    } else {
+#pragma GCC unroll 1
+      for (std::size_t k = 0; k < kStages; ++k) {
+        stage(k);
+      }
     }
-    const auto k2 = equation(q, v2, offset + 0.5 * h);
-    for (std::size_t i = 0; i < n; ++i) {
-      q[i] = state.q[i] + 0.5 * h * v2[i];
-      v3[i] = state.v[i] + 0.5 * h * k2.acceleration[i];
-    }
-    const auto k3 = equation(q, v3, offset + 0.5 * h);
-    for (std::size_t i = 0; i < n; ++i) {
-      q[i] = state.q[i] + h * v3[i];
-      v4[i] = state.v[i] + h * k3.acceleration[i];
-    }
-    const auto k4 = equation(q, v4, offset + h);
-    std::array<double, n> dq;
-    std::array<double, n> dv;
-    for (std::size_t i = 0; i < n; ++i) {
-      dq[i] = h / 6.0 * (state.v[i] + 2.0 * (v2[i] + v3[i]) + v4[i]);
-      dv[i] = h / 6.0 *
-              (k1.acceleration[i] + 2.0 * (k2.acceleration[i] + k3.acceleration[i]) +
-               k4.acceleration[i]);
-    }
-    state.advance(dq, dv, h / 6.0 * (k1.power + 2.0 * (k2.power + k3.power) + k4.power));
+    // At the end and not on the way: the stages would wait for sums.
+    const auto mean = [](const auto& of) {
+      Lanes sum = of[1] + of[2];
+      sum = sum + sum + of[0] + of[3];
+      return sum;
+    };
+    Lanes dq{};
+    dq.add(h / 6.0, mean(rates));
+    Lanes dv{};
+    dv.add(h / 6.0, mean(accelerations));
+    const double energy = h / 6.0 * (powers[0] + 2.0 * (powers[1] + powers[2]) + powers[3]);
+    state.advance(dq.array(), dv.array(), energy);
     return StepStatus::kOk;
   }
 };

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kRounding = 1.0e-13;  // of the speed
+constexpr double kRoundingOfSpeed = 1.0e-13;  // of the speed
 
 /// Radau IIA: what rates at the nodes add up to until a node. (Hairer & Wanner, Solving Ordinary
 /// Differential Equations II, IV.5)
@@ -173,7 +173,7 @@ bool ShaftSpin::mend() noexcept {
     size_ = std::fmax(size_, std::fabs(speeds_[i]));
     largest = std::fmax(largest, std::fabs(change[i]));
   }
-  agrees_ = largest <= kRounding * size_;
+  agrees_ = largest <= kRoundingOfSpeed * size_;
   bend();
   return true;
 }

@@ -2,12 +2,11 @@
 // (Hairer & Wanner, Solving Ordinary Differential Equations II, IV.8), for q'' = a(q, v, t).
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/LU>
 #include <array>
 #include <cstddef>
 
 #include "integration/acceleration_jacobian.h"
+#include "integration/small_lu.h"
 
 namespace whirl_twin {
 
@@ -21,49 +20,36 @@ class StageSolver {
 
   /// Factorizes I - h (A x da/dv + h A^2 x da/dq), `a` and `aa` being A and A^2.
   StageSolver(double h, const Table& a, const Table& aa,
-              const AccelerationJacobian<n>& jacobian) noexcept;
+              const AccelerationJacobian<n>& jacobian) noexcept
+      : factors_(matrix(h, a, aa, jacobian)) {}
   /// The correction of the stages' accelerations that a residual [as them] asks for.
-  Stages solve(const Stages& residual) const noexcept;
+  Stages solve(const Stages& residual) const noexcept {
+    Stages correction = residual;
+    factors_.solve(correction[0].data());
+    return correction;
+  }
 
  private:
-  static constexpr int kSize = static_cast<int>(stages * n);
+  using Factors = SmallLu<stages * n>;
 
-  Eigen::PartialPivLU<Eigen::Matrix<double, kSize, kSize>> factors_;
-};
-
-template <std::size_t stages, std::size_t n>
-StageSolver<stages, n>::StageSolver(double h, const Table& a, const Table& aa,
-                                    const AccelerationJacobian<n>& jacobian) noexcept {
-  constexpr int kDof = static_cast<int>(n);
-  Eigen::Matrix<double, kSize, kSize> matrix;
-  for (std::size_t k = 0; k < stages; ++k) {
-    for (std::size_t l = 0; l < stages; ++l) {
-      matrix.template block<kDof, kDof>(static_cast<int>(k * n), static_cast<int>(l * n)) =
-          -h * (a[k][l] * jacobian.by_v + h * aa[k][l] * jacobian.by_q);
+  static typename Factors::Matrix matrix(double h, const Table& a, const Table& aa,
+                                         const AccelerationJacobian<n>& jacobian) noexcept {
+    typename Factors::Matrix matrix;
+    for (std::size_t k = 0; k < stages; ++k) {
+      for (std::size_t l = 0; l < stages; ++l) {
+        for (std::size_t i = 0; i < n; ++i) {
+          for (std::size_t j = 0; j < n; ++j) {
+            const double one = k == l && i == j ? 1.0 : 0.0;
+            matrix[k * n + i][l * n + j] =
+                one - h * (a[k][l] * jacobian.by_v(i, j) + h * aa[k][l] * jacobian.by_q(i, j));
+          }
+        }
+      }
     }
+    return matrix;
   }
-  matrix.diagonal().array() += 1.0;
-  factors_.compute(matrix);
-}
 
-template <std::size_t stages, std::size_t n>
-typename StageSolver<stages, n>::Stages StageSolver<stages, n>::solve(
-    const Stages& residual) const noexcept {
-  using Vector = Eigen::Matrix<double, kSize, 1>;
-  Stages correction;
-  Eigen::Map<Vector>(correction[0].data()) =
-      factors_.solve(Eigen::Map<const Vector>(residual[0].data()));
-  return correction;
-}
-
-// Compiled once for the numbers of coordinates that the package's own models have.
-#define WHIRL_TWIN_STAGE_SOLVERS(storage, n) \
-  storage template class StageSolver<1, n>;  \
-  storage template class StageSolver<2, n>;  \
-  storage template class StageSolver<3, n>;
-WHIRL_TWIN_STAGE_SOLVERS(extern, 1)
-WHIRL_TWIN_STAGE_SOLVERS(extern, 2)
-WHIRL_TWIN_STAGE_SOLVERS(extern, 3)
-WHIRL_TWIN_STAGE_SOLVERS(extern, 4)
+  Factors factors_;
+};
 
 }  // namespace whirl_twin

@@ -1,5 +1,6 @@
-// Model x method, composed at compile time. Compiled only in the translation units of models/, with
-// the flags that let the compiler delete a dual's dead terms; the finiteness check reads bits.
+// Model x method, composed at compile time: compiled only in the translation units of models/, with
+// the flags that let the compiler delete a dual's dead terms; or with a CalledModel in place of the
+// model (called_system.h). The finiteness check reads bits.
 #pragma once
 
 #include <array>
@@ -11,32 +12,17 @@
 
 #include "control/drive.h"
 #include "control/shaft_angle.h"
-#include "integration/called_step.h"
-#include "integration/driven_equation.h"
 #include "integration/finite.h"
 #include "integration/input_force.h"
+#include "integration/method_step.h"
+#include "integration/sliver.h"
 #include "integration/step_error_sum.h"
 #include "integration/stepped_ahead.h"
+#include "integration/stepped_model.h"
 #include "integration/stepper.h"
 #include "mechanics/dynamics.h"
 
-#if defined(__x86_64__) && !defined(__clang__)
-#define WHIRL_TWIN_FUSED_STEPS
-#endif
-
 namespace whirl_twin {
-
-#ifdef WHIRL_TWIN_LONG_EQUATIONS
-constexpr bool kLongEquations = true;
-#else
-constexpr bool kLongEquations = false;
-#endif
-
-/// A shaft whose angle is the coordinate kSpin.
-template <class Model, class = void>
-struct HasSpin : std::false_type {};
-template <class Model>
-struct HasSpin<Model, std::void_t<decltype(Model::kSpin)>> : std::true_type {};
 
 /// A method whose steps rest on those before: its past is dropped where the motion is not smooth.
 template <class Method, class = void>
@@ -75,8 +61,8 @@ class SteppedSystem final : public ReadOffStepper {
       out[i] = state_.q[i];
       out[n + i] = state_.v[i];
     }
-    if constexpr (HasSpin<Model>::value) {
-      out[Model::kSpin] = spin().total();
+    if (hasSpin()) {
+      out[kSpin] = spin().total();
     }
   }
   void write(double* out) const noexcept override {
@@ -96,10 +82,10 @@ class SteppedSystem final : public ReadOffStepper {
     }
     return true;
   }
-  bool shaft([[maybe_unused]] ShaftState& out) const noexcept override {
-    if constexpr (HasSpin<Model>::value) {
+  bool shaft(ShaftState& out) const noexcept override {
+    if (hasSpin()) {
       // No load on a rotor depends on the time by itself.
-      auto eom = equationsOfMotion(model_, state_.q, state_.v, Moment<double>{});
+      auto eom = Form::at(model_, state_.q, state_.v, Moment<double>{});
       if (inputs_.acts()) {
         std::array<double, n> applied;
         inputs_.now(applied.data());
@@ -107,10 +93,9 @@ class SteppedSystem final : public ReadOffStepper {
           eom.force[i] += applied[i];
         }
       }
-      out = {spin(), state_.v[Model::kSpin],
-             solveMass<double, n>(eom.mass, eom.force)[Model::kSpin]};
+      out = {spin(), state_.v[kSpin], solveMass<double, n>(eom.mass, eom.force)[kSpin]};
     }
-    return HasSpin<Model>::value;
+    return hasSpin();
   }
   void set(const double* q, const double* v) noexcept override {
     state_ = MotionState<n>{};
@@ -119,12 +104,10 @@ class SteppedSystem final : public ReadOffStepper {
       state_.v[i] = v[i];
     }
     turns_ = 0;
-    if constexpr (HasSpin<Model>::value) {
-      if (isFinite(q[Model::kSpin]) && std::fabs(q[Model::kSpin]) < kLargestStart) {
-        const ShaftAngle angle = shaftAngle(q[Model::kSpin]);
-        turns_ = angle.turns;
-        state_.q[Model::kSpin] = angle.remainder;
-      }
+    if (hasSpin() && isFinite(q[kSpin]) && std::fabs(q[kSpin]) < kLargestStart) {
+      const ShaftAngle angle = shaftAngle(q[kSpin]);
+      turns_ = angle.turns;
+      state_.q[kSpin] = angle.remainder;
     }
     method_.restart();
     errors_.restart();
@@ -134,14 +117,24 @@ class SteppedSystem final : public ReadOffStepper {
   }
 
  private:
+  using Form = SteppedModel<Model>;
+  using Equation = typename Form::Equation;
+  using Step = MethodStep<Model, Method>;
+
   static constexpr bool kHasHistory = HasHistory<Method>::value;
+  static constexpr std::size_t kSpin = n - 1;
+
+  WHIRL_TWIN_INLINE bool hasShaft() const noexcept { return Form::hasShaft(model_); }
+  WHIRL_TWIN_INLINE bool hasSpin() const noexcept { return Form::hasSpin(model_); }
 
   /// `count` steps of the method of h [s] each, from an offset [s] after `time` [s] on.
   WHIRL_TWIN_INLINE StepStatus take(double time, double offset, int count, double h) noexcept {
-    const DrivenEquation<Model> equation{model_, drive_, time};
-    if constexpr (kHasHistory && Model::kHasShaft) {
-      const ShaftMotion shaft = drive_.withoutAngle(0.0);  // a command may have changed its course
-      method_.follow(shaft.jerk, shaft.acceleration);
+    const Equation equation = Form::equation(model_, drive_, time);
+    if constexpr (kHasHistory) {
+      if (hasShaft()) {
+        const ShaftMotion shaft = drive_.withoutAngle(0.0);  // a command may have changed it
+        method_.follow(shaft.jerk, shaft.acceleration);
+      }
     }
     const MotionState<n> start = state_;
     for (int i = 0; i < count; ++i) {
@@ -181,87 +174,42 @@ class SteppedSystem final : public ReadOffStepper {
   }
 
   /// A spin that went further in one step has no phase left in a double.
-  static WHIRL_TWIN_INLINE bool hasPhase([[maybe_unused]] const MotionState<n>& state) noexcept {
-    if constexpr (HasSpin<Model>::value) {
-      return std::fabs(state.q[Model::kSpin]) < kMostTurned;
-    }
-    return true;
+  WHIRL_TWIN_INLINE bool hasPhase(const MotionState<n>& state) const noexcept {
+    return !hasSpin() || std::fabs(state.q[kSpin]) < kMostTurned;
   }
 
   /// The spin is stepped as whole turns and a remainder, so that its phase is as exact after a
   /// month as after a second; 2 pi is taken off with 106 bits.
   WHIRL_TWIN_INLINE void wholeTurns() noexcept {
-    if constexpr (HasSpin<Model>::value) {
-      double& angle = state_.q[Model::kSpin];
-      if (angle >= 0.0 && angle < kTwoPi) {
-        return;
-      }
-      const double turns = std::floor(angle / kTwoPi);
-      const double whole = turns * kTwoPi;
-      const double error = std::fma(turns, kTwoPi, -whole) + turns * kTwoPiLow;
-      CompensatedSum rest{angle - whole, state_.q_low[Model::kSpin]};
-      rest.add(-error);
-      angle = rest.high;
-      state_.q_low[Model::kSpin] = rest.low;
-      turns_ += static_cast<std::int64_t>(turns);
+    if (!hasSpin()) {
+      return;
     }
+    double& angle = state_.q[kSpin];
+    if (angle >= 0.0 && angle < kTwoPi) {
+      return;
+    }
+    const double turns = std::floor(angle / kTwoPi);
+    const double whole = turns * kTwoPi;
+    const double error = std::fma(turns, kTwoPi, -whole) + turns * kTwoPiLow;
+    CompensatedSum rest{angle - whole, state_.q_low[kSpin]};
+    rest.add(-error);
+    angle = rest.high;
+    state_.q_low[kSpin] = rest.low;
+    turns_ += static_cast<std::int64_t>(turns);
   }
   ShaftAngle spin() const noexcept {
-    const double angle = state_.q[n - 1];        // the spin is the last
+    const double angle = state_.q[kSpin];
     return {turns_, angle < 0.0 ? 0.0 : angle};  // below 0 only by rounding
-  }
-
-  // Three ways to take a step of the method; one or two of them are compiled.
-
-  /// The equations within the method, in one copy for a system and a method.
-  [[gnu::noinline]] static StepStatus methodStep(Method& method,
-                                                 const DrivenEquation<Model>& equation,
-                                                 double offset, double h,
-                                                 MotionState<n>& state) noexcept {
-    return method.step(equation, offset, h, state);
-  }
-#ifdef WHIRL_TWIN_FUSED_STEPS
-  /// The same with fused multiply-add, which takes half as long for sums of products.
-  [[gnu::noinline, gnu::target("avx2,fma")]] static StepStatus fusedMethodStep(
-      Method& method, const DrivenEquation<Model>& equation, double offset, double h,
-      MotionState<n>& state) noexcept {
-    return method.step(equation, offset, h, state);
-  }
-#endif
-  /// The equations reached by calls.
-  static StepStatus calledMethodStep(Method& method, const DrivenEquation<Model>& equation,
-                                     double offset, double h, MotionState<n>& state) noexcept {
-    const EquationOf<Model> own(equation);
-    return calledStep(method, CalledEquation<n>{own}, offset, h, state);
-  }
-
-  using MethodStep = StepStatus (*)(Method&, const DrivenEquation<Model>&, double, double,
-                                    MotionState<n>&) noexcept;
-  /// The one for the processor this runs on; linear models have the exact steps if they must be
-  /// fast.
-  static MethodStep methodStepHere() {
-    if constexpr (kLongEquations && !Model::kLinear) {
-      return calledMethodStep;
-    } else {
-#ifdef WHIRL_TWIN_FUSED_STEPS
-      if constexpr (!Model::kLinear) {
-        return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0
-                   ? fusedMethodStep
-                   : calledMethodStep;
-      }
-#endif
-      return methodStep;
-    }
   }
 
   /// One step of the method, in parts where the drive or an input has a corner inside it: across a
   /// corner a method would lose its order.
-  WHIRL_TWIN_INLINE StepStatus advance(Method& method, const DrivenEquation<Model>& equation,
-                                       double offset, double h, MotionState<n>& state) noexcept {
-    if (__builtin_expect(inputs_.acts(), 0)) {
+  WHIRL_TWIN_INLINE StepStatus advance(Method& method, const Equation& equation, double offset,
+                                       double h, MotionState<n>& state) noexcept {
+    if (Step::kWithInputs && __builtin_expect(inputs_.acts(), 0)) {
       return advanceWithInputs(method, equation, offset, h, state);
     }
-    if constexpr (Model::kHasShaft) {
+    if (hasShaft()) {
       const double end = offset + h;
       const double corner = drive_.nextCorner(offset);
       if (corner < end - kSliver * h) {
@@ -276,8 +224,8 @@ class SteppedSystem final : public ReadOffStepper {
     return method_step_(method, equation, offset, h, state);
   }
   [[gnu::noinline, gnu::cold]] StepStatus advanceWithInputs(Method& method,
-                                                            const DrivenEquation<Model>& equation,
-                                                            double offset, double h,
+                                                            const Equation& equation, double offset,
+                                                            double h,
                                                             MotionState<n>& state) noexcept {
     const double corner = nextCorner(offset);
     if (corner < offset + h - kSliver * h) {
@@ -297,26 +245,28 @@ class SteppedSystem final : public ReadOffStepper {
       }
     }
   }
-  StepStatus partWithInputs(Method& method, const DrivenEquation<Model>& equation, double offset,
-                            double h, MotionState<n>& state) noexcept {
-    const MotionState<n> from = state;
-    inputs_.enter(offset + 0.5 * h);
-    if constexpr (kHasHistory) {
-      method.hold(inputs_.held());
+  StepStatus partWithInputs(Method& method, const Equation& equation, double offset, double h,
+                            MotionState<n>& state) noexcept {
+    if constexpr (Step::kWithInputs) {
+      const MotionState<n> from = state;
+      inputs_.enter(offset + 0.5 * h);
+      if constexpr (kHasHistory) {
+        method.hold(inputs_.held());
+      }
+      const StepStatus status = Step::calledWith(inputs_, method, equation, offset, h, state);
+      double work = 0.0;
+      for (std::size_t i = 0; i < n; ++i) {
+        work += inputs_.held()[i] * ((state.q[i] - from.q[i]) + (state.q_low[i] - from.q_low[i]));
+      }
+      state.work.add(work);
+      return status;
+    } else {
+      return Step::within(method, equation, offset, h, state);  // none acts
     }
-    const EquationOf<Model> own(equation);
-    const StepStatus status =
-        calledStep(method, CalledEquation<n>{own, &inputs_}, offset, h, state);
-    double work = 0.0;
-    for (std::size_t i = 0; i < n; ++i) {
-      work += inputs_.held()[i] * ((state.q[i] - from.q[i]) + (state.q_low[i] - from.q_low[i]));
-    }
-    state.work.add(work);
-    return status;
   }
   double nextCorner(double offset) const noexcept {
     double corner = std::numeric_limits<double>::max();
-    if constexpr (Model::kHasShaft) {
+    if (hasShaft()) {
       corner = drive_.nextCorner(offset);
     }
     if (inputs_.acts()) {
@@ -325,8 +275,7 @@ class SteppedSystem final : public ReadOffStepper {
     }
     return corner;
   }
-  [[gnu::noinline, gnu::cold]] StepStatus advanceInParts(Method& method,
-                                                         const DrivenEquation<Model>& equation,
+  [[gnu::noinline, gnu::cold]] StepStatus advanceInParts(Method& method, const Equation& equation,
                                                          double offset, double end,
                                                          MotionState<n>& state) noexcept {
     const double sliver = kSliver * (end - offset);
@@ -348,13 +297,13 @@ class SteppedSystem final : public ReadOffStepper {
 
   /// Takes `count` steps of h [s] from `start` to state_ once more, in halves. A method with a past
   /// knows its error without, once it has one.
-  [[gnu::noinline]] void estimateError(const DrivenEquation<Model>& equation, double offset,
-                                       int count, double h, const MotionState<n>& start) noexcept {
+  [[gnu::noinline]] void estimateError(const Equation& equation, double offset, int count, double h,
+                                       const MotionState<n>& start) noexcept {
     const MotionState<n>& end = state_;
     MotionState<n> finer = start;
     const auto add = [&] {
       errors_.add(n, end.q, end.v, finer.q, finer.v,
-                  [](std::size_t i) { return Model::kCoordinates[i].unit[0] == 'r'; });
+                  [&](std::size_t i) { return Form::angular(model_, i); });
     };
     if constexpr (kHasHistory) {
       if (method_.hasPast()) {
@@ -378,8 +327,6 @@ class SteppedSystem final : public ReadOffStepper {
     add();
   }
 
-  /// Parts shorter than this share of a substep are not worth a step: they are rounding.
-  static constexpr double kSliver = 1.0e-12;
   static constexpr double kTwoPi = 6.283185307179586;
   static constexpr double kTwoPiLow = 2.4492935982947064e-16;
   static constexpr double kMostTurned = 1.0e9 * kTwoPi;     ///< in a step, to 1e-6 rad
@@ -389,7 +336,7 @@ class SteppedSystem final : public ReadOffStepper {
   const Drive& drive_;
   double substep_;  ///< [s]
   int substeps_;
-  MethodStep method_step_ = methodStepHere();
+  typename Step::Function method_step_ = Step::here();
   Method method_;
   Method finer_method_;
   MotionState<n> state_{};

@@ -261,25 +261,29 @@ class Stoermer {
   [[gnu::noinline, gnu::cold]] StepStatus start(const Equation& equation, double offset, double h,
                                                 MotionState<n>& state) {
     return withCalls(equation, [&](const CalledEquation<n>& called) {
-      if (scheme_->ahead) {
-        return startBackwards(called, offset, h, state);
-      }
-      ready_for_ = 0.0;
-      if (gathered_ == 0 || h != gathered_at_) {
-        past_ = {};
-        powers_ = {};
-        gathered_ = 0;
-        gathered_at_ = h;
-      }
-      const Derivative<n> now = called(state.q, state.v, offset);
-      keep(Lanes<n>(now.acceleration), now.power);
-      if (++gathered_ == scheme_->terms) {
-        begin(h, state);
-        return StepStatus::kOk;
-      }
-      DormandPrince8 alone;
-      return calledStep(alone, called, offset, h, state);
+      return startCalled(called, offset, h, state);
     });
+  }
+  [[gnu::noinline]] StepStatus startCalled(const CalledEquation<n>& called, double offset, double h,
+                                           MotionState<n>& state) {
+    if (scheme_->ahead) {
+      return startBackwards(called, offset, h, state);
+    }
+    ready_for_ = 0.0;
+    if (gathered_ == 0 || h != gathered_at_) {
+      past_ = {};
+      powers_ = {};
+      gathered_ = 0;
+      gathered_at_ = h;
+    }
+    const Derivative<n> now = called(state.q, state.v, offset);
+    keep(Lanes<n>(now.acceleration), now.power);
+    if (++gathered_ == scheme_->terms) {
+      begin(h, state);
+      return StepStatus::kOk;
+    }
+    DormandPrince8 alone;
+    return calledStep(alone, called, offset, h, state);
   }
   /// Makes the whole past.
   StepStatus startBackwards(const CalledEquation<n>& called, double offset, double h,

@@ -1,6 +1,6 @@
 #include "integration/stoermer_growth.h"
 
-#include "algebra/eigenvalues.h"
+#include "algebra/dense.h"
 
 namespace whirl_twin {
 
@@ -63,7 +63,7 @@ double growthInAStep(const StoermerScheme& scheme, const MatrixXd& by_q, const M
   for (Index k = 1; k < terms; ++k) {
     map.middleRows((2 + k) * n, n) = from.past(k - 1);
   }
-  return map.eigenvalues().cwiseAbs().maxCoeff();
+  return eigenvalues(map).values.cwiseAbs().maxCoeff();
 }
 
 }  // namespace whirl_twin

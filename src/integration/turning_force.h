@@ -32,15 +32,17 @@ class TurningForce {
   /// system's. False: the force is not of this form, as it is seen at another moment.
   template <class AccelerationAtRest>
   bool find(const AccelerationAtRest& accelerationAtRest, double frequency) {
-    constexpr double kPi = 3.14159265358979323846;
+    constexpr double kHalfTurn = 3.14159265358979323846;
     const double square = frequency * frequency;
     const auto standing = [&](double angle) { return accelerationAtRest({0.0, angle, 0.0, 0.0}); };
     const auto turning = [&](double angle) {
       return accelerationAtRest({0.0, angle, frequency, 0.0});
     };
     // Differences of opposite angles: a load, however large, leaves little of itself in them.
-    const Array still[]{standing(0.0), standing(0.5 * kPi), standing(kPi), standing(1.5 * kPi)};
-    const Array fast[]{turning(0.0), turning(0.5 * kPi), turning(kPi), turning(1.5 * kPi)};
+    const Array still[]{standing(0.0), standing(0.5 * kHalfTurn), standing(kHalfTurn),
+                        standing(1.5 * kHalfTurn)};
+    const Array fast[]{turning(0.0), turning(0.5 * kHalfTurn), turning(kHalfTurn),
+                       turning(1.5 * kHalfTurn)};
     for (std::size_t i = 0; i < n; ++i) {
       steady_[i] = steadyPart(still[0][i], still[1][i], still[2][i]);
       cosine_[i] = 0.5 * (still[0][i] - still[2][i]);

@@ -224,11 +224,12 @@ class LagrangianDynamics final : public Dynamics {
 
   Eigen::VectorXd acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                const Moment<double>& at) const override {
-    return vector(derivative(model_, array(q), array(v), at).acceleration);
+    const auto eom = equationsAt(model_, array(q), array(v), at);
+    return vector(solveMass<double, n>(eom.mass, eom.force));
   }
   Eigen::VectorXd unbalancedForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                   const Moment<double>& at) const override {
-    return vector(equationsOfMotion(model_, array(q), array(v), at).force);
+    return vector(equationsAt(model_, array(q), array(v), at).force);
   }
   Eigen::VectorXd appliedForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                const Moment<double>& at) const override {
@@ -236,7 +237,7 @@ class LagrangianDynamics final : public Dynamics {
   }
   Eigen::MatrixXd massMatrix(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                              const Moment<double>& at) const override {
-    const auto packed = equationsOfMotion(model_, array(q), array(v), at).mass;
+    const auto packed = equationsAt(model_, array(q), array(v), at).mass;
     Eigen::MatrixXd mass(dof(), dof());
     for (int i = 0; i < dof(); ++i) {
       for (int j = 0; j <= i; ++j) {

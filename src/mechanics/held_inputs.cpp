@@ -1,7 +1,6 @@
 #include "mechanics/held_inputs.h"
 
-#include <limits>
-
+#include "algebra/constants.h"
 #include "mechanics/locally_forced_rotor.h"
 
 namespace whirl_twin {
@@ -23,7 +22,7 @@ void add(const LocalForce& force, const Eigen::VectorXd& q, const Eigen::VectorX
   }
   LocalPush with;
   if (!room || !force.law->push(at, with)) {
-    held.force.fill(std::numeric_limits<double>::quiet_NaN());
+    held.force.fill(kNaN);
     return;
   }
   const LocalSlopes slopes = force.law->slopes(at);

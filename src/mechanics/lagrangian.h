@@ -98,6 +98,15 @@ WHIRL_TWIN_INLINE EquationsOfMotion<B, n> equationsOfMotion(const Model& model,
   return r;
 }
 
+/// The same in one copy for a model: for whatever is not the innermost of a step.
+template <class Model, std::size_t n>
+[[gnu::noinline]] EquationsOfMotion<double, n> equationsAt(const Model& model,
+                                                           const std::array<double, n>& q,
+                                                           const std::array<double, n>& v,
+                                                           const Moment<double>& at) noexcept {
+  return equationsOfMotion(model, q, v, at);
+}
+
 /// x with M x = b for a symmetric positive definite M in packed storage (L D L^T, no pivoting).
 template <class B, std::size_t n>
 WHIRL_TWIN_INLINE std::array<B, n> solveMass(const std::array<B, n*(n + 1) / 2>& mass,
@@ -201,7 +210,7 @@ Energies energies(const Model& model, const std::array<double, n>& q,
     e.jacobi += v[j] * t.slope[j];
     e.dissipated_power += v[j] * d.slope[j];
   }
-  e.input_power = equationsOfMotion(model, q, v, at).power + e.dissipated_power;
+  e.input_power = equationsAt(model, q, v, at).power + e.dissipated_power;
   return e;
 }
 
@@ -210,35 +219,46 @@ template <class Model, std::size_t n>
 FixedLinearization<n> linearization(const Model& model, const std::array<double, n>& q,
                                     const std::array<double, n>& v, const std::array<double, n>& a,
                                     const Moment<double>& at) {
-  using B = Gradient<double, 2 * n>;  // by the coordinates, then by the rates
-  std::array<B, n> q_dual;
-  std::array<B, n> v_dual;
-  for (std::size_t j = 0; j < n; ++j) {
-    q_dual[j] = B(q[j], j);
-    v_dual[j] = B(v[j], n + j);
-  }
-  const EquationsOfMotion<B, n> eom = equationsOfMotion(model, q_dual, v_dual, at);
+  // By the coordinates, then by the rates. Of many coordinates that is one copy of the equations
+  // that is passed twice: with all directions it would be what its model takes longest to compile.
+  constexpr std::size_t kDirections = n < 3 ? 2 * n : n;
+  using B = Gradient<double, kDirections>;
   FixedLinearization<n> r;
-  std::array<std::array<double, n>, n> by_q;
-  std::array<std::array<double, n>, n> by_v;
-  for (std::size_t i = 0; i < n; ++i) {
-    B residual = -eom.force[i];
+  std::array<std::array<double, n>, 2 * n> slopes;
+#pragma GCC unroll 1
+  for (std::size_t first = 0; first < 2 * n; first += kDirections) {
+    std::array<B, n> q_dual;
+    std::array<B, n> v_dual;
     for (std::size_t j = 0; j < n; ++j) {
-      const B& entry = i >= j ? eom.mass[i * (i + 1) / 2 + j] : eom.mass[j * (j + 1) / 2 + i];
-      r.mass(i, j) = entry.value;
-      residual = residual + entry * a[j];
+      q_dual[j].value = q[j];
+      v_dual[j].value = v[j];
+      if constexpr (kDirections == n) {
+        q_dual[j].slope[j] = first == 0 ? 1.0 : 0.0;
+        v_dual[j].slope[j] = first == 0 ? 0.0 : 1.0;
+      } else {
+        q_dual[j].slope[j] = 1.0;
+        v_dual[j].slope[n + j] = 1.0;
+      }
     }
-    for (std::size_t j = 0; j < n; ++j) {
-      by_q[i][j] = residual.slope[j];
-      by_v[i][j] = residual.slope[n + j];
+    const EquationsOfMotion<B, n> eom = equationsOfMotion(model, q_dual, v_dual, at);
+    for (std::size_t i = 0; i < n; ++i) {
+      B residual = -eom.force[i];
+      for (std::size_t j = 0; j < n; ++j) {
+        const B& entry = i >= j ? eom.mass[i * (i + 1) / 2 + j] : eom.mass[j * (j + 1) / 2 + i];
+        r.mass(i, j) = entry.value;
+        residual = residual + entry * a[j];
+      }
+      for (std::size_t k = 0; k < kDirections; ++k) {
+        slopes[first + k][i] = residual.slope[k];
+      }
     }
   }
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) {
-      r.damping(i, j) = 0.5 * (by_v[i][j] + by_v[j][i]);
-      r.gyroscopic(i, j) = 0.5 * (by_v[i][j] - by_v[j][i]);
-      r.stiffness(i, j) = 0.5 * (by_q[i][j] + by_q[j][i]);
-      r.circulatory(i, j) = 0.5 * (by_q[i][j] - by_q[j][i]);
+      r.damping(i, j) = 0.5 * (slopes[n + j][i] + slopes[n + i][j]);
+      r.gyroscopic(i, j) = 0.5 * (slopes[n + j][i] - slopes[n + i][j]);
+      r.stiffness(i, j) = 0.5 * (slopes[j][i] + slopes[i][j]);
+      r.circulatory(i, j) = 0.5 * (slopes[j][i] - slopes[i][j]);
     }
   }
   return r;

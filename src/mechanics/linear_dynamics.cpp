@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "algebra/qr.h"
+#include "algebra/dense.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {
@@ -33,11 +33,10 @@ void requireSizes(const LinearModel& model) {
 
 /// Rigid-body modes are left out: they have no static deflection.
 double largestDeflection(const LinearModel& model) {
-  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> stiffness(model.stiffness +
-                                                                          model.circulatory);
+  const Eigen::MatrixXd stiffness = model.stiffness + model.circulatory;
   double largest = 0.0;
   for (const HarmonicForce& force : model.forces) {
-    largest = std::max(largest, stiffness.solve(force.amplitude).lpNorm<Eigen::Infinity>());
+    largest = std::max(largest, leastSquares(stiffness, force.amplitude).lpNorm<Eigen::Infinity>());
   }
   return largest > 0.0 && std::isfinite(largest) ? largest : 1.0;
 }
@@ -46,8 +45,8 @@ double largestDeflection(const LinearModel& model) {
 
 LinearDynamics::LinearDynamics(LinearModel model) : model_(std::move(model)) {
   requireSizes(model_);
-  mass_.compute(model_.mass);
-  if (mass_.info() != Eigen::Success) {
+  mass_ = Cholesky(model_.mass);
+  if (!mass_.succeeded()) {
     throw Refusal("linear system: the mass matrix is not positive definite");
   }
   natural_length_ = largestDeflection(model_);

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "algebra/cholesky.h"
+#include "algebra/dense.h"
 #include "mechanics/dynamics.h"
 
 namespace whirl_twin {
@@ -92,7 +92,7 @@ class LinearDynamics final : public Dynamics {
 
  private:
   LinearModel model_;
-  Eigen::LLT<Eigen::MatrixXd> mass_;
+  Cholesky mass_;
   double natural_length_ = 1.0;
   std::unique_ptr<const LinearDynamics> at_mean_load_;  // none: no force alternates
 };

@@ -4,6 +4,7 @@
 #include <complex>
 #include <stdexcept>
 
+#include "algebra/constants.h"
 #include "mechanics/dynamics.h"
 
 namespace whirl_twin {
@@ -11,7 +12,6 @@ namespace whirl_twin {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double kPi = 3.14159265358979323846;
 
 /// Amplitude of what turns with the shaft, and what does not, at rest in q = 0.
 struct ForceAtRest {

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "algebra/dense.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {
@@ -44,8 +45,8 @@ LinearRotorDynamics::LinearRotorDynamics(RotorDescription description, LinearRot
     : description_(std::move(description)), rotor_(std::move(rotor)) {
   requireSizes(description_, rotor_);
   mass_ = rotor_.matrices(0.0).mass;
-  mass_factor_.compute(mass_);
-  if (mass_factor_.info() != Eigen::Success) {
+  mass_factor_ = Cholesky(mass_);
+  if (!mass_factor_.succeeded()) {
     throw Refusal("rotor: the mass matrix is not positive definite");
   }
   if (!rotor_.forces.empty()) {

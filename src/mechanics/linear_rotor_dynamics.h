@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "algebra/cholesky.h"
+#include "algebra/dense.h"
 #include "mechanics/dynamics.h"
 #include "mechanics/linear_rotor.h"
 
@@ -80,7 +80,7 @@ class LinearRotorDynamics final : public Dynamics {
   RotorDescription description_;
   LinearRotor rotor_;
   Eigen::MatrixXd mass_;
-  Eigen::LLT<Eigen::MatrixXd> mass_factor_;
+  Cholesky mass_factor_;
   std::unique_ptr<const LinearRotorDynamics> balanced_;  // none: nothing turns with the shaft
 };
 

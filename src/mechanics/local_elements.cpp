@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "algebra/constants.h"
 #include "mechanics/gradient.h"
 
 namespace whirl_twin {
@@ -12,10 +13,10 @@ constexpr double kWithinRoom = 0.1;  // a whirl that is large
 
 /// Where a rotor can be, and how far it moves, by what stands there.
 double roomOf(const CubicSpring&, const Eigen::Vector2d&) {
-  return std::numeric_limits<double>::infinity();
+  return kInfinity;
 }
 double roomOf(const Rub&, const Eigen::Vector2d&) {
-  return std::numeric_limits<double>::infinity();
+  return kInfinity;
 }
 double roomOf(const OilFilm& film, const Eigen::Vector2d& place) {
   return film.bearing.clearance - place.norm();

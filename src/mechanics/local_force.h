@@ -61,4 +61,14 @@ struct LocalForce {
   std::shared_ptr<const LocalLaw> law;
 };
 
+/// Of the place of a force, in a motion q, v at a speed [rad/s]; without inputs.
+inline LocalState stateOf(const LocalForce& force, const Eigen::VectorXd& q,
+                          const Eigen::VectorXd& v, double speed) {
+  LocalState at;
+  at.place = {force.along_x.dot(q), force.along_y.dot(q)};
+  at.rate = {force.along_x.dot(v), force.along_y.dot(v)};
+  at.speed = speed;
+  return at;
+}
+
 }  // namespace whirl_twin

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
-#include "algebra/lu.h"
+#include "algebra/constants.h"
+#include "algebra/dense.h"
 
 namespace whirl_twin {
 
@@ -13,15 +13,6 @@ namespace {
 
 Eigen::Vector2d placeOf(const LocalForce& force, const Eigen::VectorXd& q) {
   return {force.along_x.dot(q), force.along_y.dot(q)};
-}
-
-LocalState stateOf(const LocalForce& force, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                   double speed) {
-  LocalState at;
-  at.place = {force.along_x.dot(q), force.along_y.dot(q)};
-  at.rate = {force.along_x.dot(v), force.along_y.dot(v)};
-  at.speed = speed;
-  return at;
 }
 
 /// [m], how far the loads bend a rotor that these forces hold where it is.
@@ -33,7 +24,7 @@ double sagBetween(const Dynamics& linear, const std::vector<LocalForce>& forces)
     stiffness += rigid * (force.along_x * force.along_x.transpose() +
                           force.along_y * force.along_y.transpose());
   }
-  const Eigen::VectorXd sag = stiffness.partialPivLu().solve(rotor.load);
+  const Eigen::VectorXd sag = Lu(stiffness).solve(rotor.load);
   double farthest = 0.0;
   for (const Station& station : linear.stations()) {
     farthest = std::max(farthest, std::hypot(station.along_x.dot(sag), station.along_y.dot(sag)));
@@ -52,7 +43,7 @@ LocallyForcedRotor::LocallyForcedRotor(std::shared_ptr<const Dynamics> linear,
     natural_length_ = std::max(natural_length_, force.law->length());
   }
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(dof());
-  mass_.compute(linear_->massMatrix(zero, zero, {}));
+  mass_ = Cholesky(linear_->massMatrix(zero, zero, {}));
   const Dynamics& balanced = linear_->atMeanLoad();
   if (&balanced != linear_.get()) {
     balanced_ = std::make_unique<LocallyForcedRotor>(
@@ -66,7 +57,7 @@ Eigen::VectorXd LocallyForcedRotor::localForce(const Eigen::VectorXd& q, const E
   for (const LocalForce& force : forces_) {
     LocalPush push;
     if (!force.law->push(stateOf(force, q, v, speed), push)) {
-      push.force.fill(std::numeric_limits<double>::quiet_NaN());
+      push.force.fill(kNaN);
     }
     sum += push.force[0] * force.along_x + push.force[1] * force.along_y;
   }
@@ -121,7 +112,7 @@ std::vector<Condition> LocallyForcedRotor::conditions(const Eigen::VectorXd& q,
   std::vector<Condition> all = linear_->conditions(q, v, a, at);
   for (const LocalForce& force : forces_) {
     const double room = force.law->room(placeOf(force, q));
-    if (room < std::numeric_limits<double>::infinity()) {
+    if (room < kInfinity) {
       all.push_back({"gap_" + force.name, "m", room, "the rotor touches " + force.name});
     }
   }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "algebra/cholesky.h"
+#include "algebra/dense.h"
 #include "mechanics/dynamics.h"
 #include "mechanics/local_force.h"
 
@@ -75,7 +75,7 @@ class LocallyForcedRotor final : public Dynamics {
   std::shared_ptr<const Dynamics> linear_;
   std::vector<LocalForce> forces_;
   double natural_length_;
-  Eigen::LLT<Eigen::MatrixXd> mass_;
+  Cholesky mass_;
   std::unique_ptr<const LocallyForcedRotor> balanced_;  // none: nothing turns with the shaft
 };
 

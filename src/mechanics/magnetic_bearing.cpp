@@ -6,7 +6,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kWithinRoom = 0.1;  // a whirl that is large
+constexpr double kWithinGap = 0.1;  // a whirl that is large
 
 }  // namespace
 
@@ -53,7 +53,7 @@ LocalSlopes MagneticBearing::slopes(const LocalState& at) const noexcept {
 }
 
 double MagneticBearing::length() const {
-  return kWithinRoom * gap_;
+  return kWithinGap * gap_;
 }
 
 double MagneticBearing::room(const Eigen::Vector2d& place) const noexcept {

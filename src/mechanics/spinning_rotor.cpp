@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "algebra/cholesky.h"
+#include "algebra/dense.h"
 #include "mechanics/gradient.h"
 #include "messages/refusal.h"
 
@@ -23,7 +23,7 @@ using Eigen::VectorXd;
 double carriedInertia(const Eigen::VectorXcd& unbalance, const MatrixXd& mass) {
   MatrixXd both(unbalance.size(), 2);
   both << unbalance.real(), unbalance.imag();
-  const Eigen::Matrix2d carried = both.transpose() * Eigen::LLT<MatrixXd>(mass).solve(both);
+  const Eigen::Matrix2d carried = both.transpose() * Cholesky(mass).solve(both);
   const double half = 0.5 * (carried(0, 0) - carried(1, 1));
   return 0.5 * (carried(0, 0) + carried(1, 1)) + std::hypot(half, carried(0, 1));
 }
@@ -41,14 +41,6 @@ VectorXd whirl(const VectorXd& x) {
 Moment<double> shaftOf(const VectorXd& q, const VectorXd& v, double acceleration,
                        const Moment<double>& at) {
   return {at.time, q[q.size() - 1], v[v.size() - 1], acceleration};
-}
-
-LocalState stateOf(const LocalForce& force, const VectorXd& q, const VectorXd& v, double speed) {
-  LocalState at;
-  at.place = {force.along_x.dot(q), force.along_y.dot(q)};
-  at.rate = {force.along_x.dot(v), force.along_y.dot(v)};
-  at.speed = speed;
-  return at;
 }
 
 constexpr double kSpeedStep = 1.0e-4;  // of the speed, of differences
@@ -154,7 +146,7 @@ MatrixXd SpinningRotor::massMatrix(const VectorXd& q, const VectorXd&,
 
 VectorXd SpinningRotor::acceleration(const VectorXd& q, const VectorXd& v,
                                      const Moment<double>& at) const {
-  return Eigen::LLT<MatrixXd>(massMatrix(q, v, at)).solve(unbalancedForce(q, v, at));
+  return Cholesky(massMatrix(q, v, at)).solve(unbalancedForce(q, v, at));
 }
 
 VectorXd SpinningRotor::appliedForce(const VectorXd& q, const VectorXd& v,

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <utility>
 
+#include "algebra/constants.h"
 #include "analysis/cantilever_modes.h"
 #include "analysis/natural_modes.h"
 #include "integration/linear_methods.h"
@@ -22,7 +23,6 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kMostModes = 30;
 constexpr int kSketchParts = 32;
 

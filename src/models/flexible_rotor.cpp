@@ -8,11 +8,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
 
+#include "algebra/constants.h"
 #include "analysis/modal_reduction.h"
 #include "analysis/rotor_statics.h"
 #include "integration/exponential.h"
@@ -211,7 +211,7 @@ ModelSetup setUpFlexibleRotor(const ParameterValues& values, const Settings& set
   description.natural_length = whirlLength(shaft, rotorBody(shaft).mass);
   description.phase_mark = values.at("phase_mark");
   std::vector<std::string> notes = shaftNotes(values, settings, shaft);
-  double highest_speed = std::numeric_limits<double>::infinity();
+  double highest_speed = kInfinity;
   std::shared_ptr<const UnreducedRotor> unreduced;
   const std::string& modes = settings.choices.at("modes");
   if (modes == "0") {

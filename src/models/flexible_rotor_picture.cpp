@@ -4,11 +4,12 @@
 #include <cmath>
 #include <utility>
 
+#include "algebra/constants.h"
+
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kConeRods = 4;
 constexpr double kSeal = 0.1;        // of the stiffest bearing: what is less carries nothing
 constexpr double kSealRing = 1.35;   // of the shaft's radius

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "models/shaft_materials.h"
 #include "models/shaft_supports.h"
@@ -14,7 +13,6 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kRequired = std::numeric_limits<double>::quiet_NaN();
 constexpr int kMostElements = 100;
 constexpr double kLongestShaft = 100.0;  // [m], of a machine
 // Ip / Id of a disc without thickness is 2, of any other less; and data sheets round.

@@ -89,13 +89,13 @@ ModelSetup setUpLinear(const ParameterValues& values, const Surroundings& around
     return setUpSpinningJeffcott(values, around);
   }
   const JeffcottRotor rotor = makeModel<JeffcottRotor>(values, around.gravity);
-  return withExactRunUps(setUp(rotor), jacobiIntegral(rotor));
+  return withExactRunUps(setUpBesidesExact(rotor), jacobiIntegral(rotor));
 }
 
 }  // namespace
 
 ModelInfo jeffcottRotorInfo() {
-  ModelInfo info = modelInfo<JeffcottRotor>();
+  ModelInfo info = modelDescription<JeffcottRotor>();
   info.takes_motor = true;
   info.settings.push_back({"gravity_on_shaft",
                            SettingKind::kChoice,

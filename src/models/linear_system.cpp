@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <utility>
 
-#include "algebra/cholesky.h"
+#include "algebra/dense.h"
 #include "analysis/assumed_modes.h"
 #include "integration/linear_methods.h"
 #include "messages/names.h"
@@ -132,7 +131,7 @@ LinearModel inAssumedModes(const LinearModel& full, const MatrixXd& shapes) {
 }
 
 void requireFiniteAccelerations(const LinearModel& model) {
-  const Eigen::LLT<MatrixXd> mass(model.mass);
+  const Cholesky mass(model.mass);
   bool finite = mass.solve(model.stiffness + model.circulatory).allFinite() &&
                 mass.solve(model.damping + model.gyroscopic).allFinite();
   for (const HarmonicForce& force : model.forces) {
@@ -186,7 +185,6 @@ ModelInfo linearSystemInfo() {
   const auto matrix = [](const char* name, const char* unit, const char* meaning) {
     return SettingInfo{name, SettingKind::kMatrix, unit, meaning};
   };
-  constexpr double kRequired = std::numeric_limits<double>::quiet_NaN();
   ModelInfo info;
   info.name = "linear_system";
   info.summary = "any linear system, by its matrices";

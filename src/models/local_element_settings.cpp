@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "mechanics/local_elements.h"
@@ -15,8 +14,6 @@ namespace whirl_twin {
 namespace {
 
 using Between = NodeElement::Between;
-
-constexpr double kRequired = std::numeric_limits<double>::quiet_NaN();
 
 ShortJournalBearing filmOf(const TableRow& row) {
   const auto& n = row.numbers;

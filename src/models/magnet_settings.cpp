@@ -2,24 +2,23 @@
 
 #include <fmt/format.h>
 
-#include <limits>
 #include <memory>
 #include <utility>
 
+#include "algebra/constants.h"
 #include "mechanics/magnetic_bearing.h"
 #include "models/model_info.h"
 
 namespace whirl_twin {
 
 SettingInfo magnetsSetting(std::vector<ColumnInfo> first, const std::string& inputs) {
-  const double required = std::numeric_limits<double>::quiet_NaN();
   SettingInfo info{
       "magnets", SettingKind::kTable, "",
       "magnetic bearings, for small motions a force ki current + ks displacement: by ks, "
       "or by bias and gap, of which it follows; inputs " +
           inputs + " [A]"};
   info.columns = std::move(first);
-  info.columns.insert(info.columns.end(), {{"ki", "N/A", Range::kPositive, required},
+  info.columns.insert(info.columns.end(), {{"ki", "N/A", Range::kPositive, kRequired},
                                            {"ks", "N/m", Range::kNotNegative, 0.0},
                                            {"bias", "A", Range::kNotNegative, 0.0},
                                            {"gap", "m", Range::kNotNegative, 0.0},
@@ -79,8 +78,7 @@ std::vector<LocalForce> localForcesOf(const std::vector<PlacedMagnet>& magnets,
   for (const PlacedMagnet& placed : magnets) {
     const RotorMagnet& m = placed.magnet;
     if (m.gap > 0.0) {
-      const double saturation =
-          m.saturation > 0.0 ? m.saturation : std::numeric_limits<double>::infinity();
+      const double saturation = m.saturation > 0.0 ? m.saturation : kInfinity;
       forces.push_back({placed.suffix.empty() ? "magnet" : "magnet_" + placed.suffix,
                         placed.along_x,
                         placed.along_y,

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "algebra/eigenvalues.h"
+#include "algebra/dense.h"
 #include "models/model_info.h"
 
 namespace whirl_twin {
@@ -56,9 +56,9 @@ struct LeastMass {
 
 LeastMass leastMass(const MatrixXd& mass) {
   const Eigen::VectorXd scale = mass.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(
-      MatrixXd(scale.asDiagonal() * mass * scale.asDiagonal()));
-  return {solver.eigenvalues()[0], scale.cwiseProduct(solver.eigenvectors().col(0))};
+  const SymmetricModes<double> solver =
+      symmetricModes(scale.asDiagonal() * mass * scale.asDiagonal());
+  return {solver.values[0], scale.cwiseProduct(solver.vectors.col(0))};
 }
 
 }  // namespace

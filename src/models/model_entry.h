@@ -1,74 +1,54 @@
-// Makes a ModelInfo of a model struct: every method that suits it, composed at compile time.
+// Makes a ModelInfo of a model struct: with every method that suits it, those that must be fast
+// composed with it at compile time.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <optional>
+#include <memory>
 #include <stdexcept>
+#include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
+#include "integration/called_system.h"
 #include "integration/dormand_prince_8.h"
 #include "integration/exponential.h"
 #include "integration/gauss_legendre.h"
 #include "integration/jacobi_integral.h"
+#include "integration/method_list.h"
 #include "integration/runge_kutta_4.h"
-#include "integration/semi_implicit_euler.h"
-#include "integration/stepped_system.h"
 #include "integration/stoermer.h"
-#include "integration/velocity_verlet.h"
 #include "models/exact_stepper.h"
 #include "models/model_info.h"
 
 namespace whirl_twin {
 
-template <class... Methods>
-struct MethodList {};
+#ifdef WHIRL_TWIN_LONG_EQUATIONS
+constexpr bool kLongEquations = true;
+#else
+constexpr bool kLongEquations = false;
+#endif
 
-template <class List, class Method>
-struct Extended;
-template <class... Methods, class Method>
-struct Extended<MethodList<Methods...>, Method> {
-  using Type = MethodList<Methods..., Method>;
-};
-
-template <std::size_t n>
-using AnyModelsMethods =
-    MethodList<SemiImplicitEuler, VelocityVerlet, RungeKutta4, DormandPrince8, Stoermer<n>,
-               ImplicitMidpoint<n>, GaussLegendre4<n>, GaussLegendre6<n>>;
-
-/// The integrators that a class of steps is, by their names in scene files: one, or one for each of
-/// its schemes, compiled once.
-template <class Method, class = void>
-struct Integrators {
-  static void addNames(std::vector<std::string>& names) { names.push_back(Method::kName); }
-  static std::optional<Method> find(const std::string& name) {
-    return name == Method::kName ? std::optional<Method>(Method()) : std::nullopt;
-  }
-};
-template <class Method>
-struct Integrators<Method, std::void_t<decltype(Method::kSchemes)>> {
-  static void addNames(std::vector<std::string>& names) {
-    for (const auto& scheme : Method::kSchemes) {
-      names.push_back(scheme.name);
-    }
-  }
-  static std::optional<Method> find(const std::string& name) {
-    for (const auto& scheme : Method::kSchemes) {
-      if (name == scheme.name) {
-        return Method(scheme);
-      }
-    }
-    return std::nullopt;
-  }
-};
-
+/// Methods that a model is composed with, for their speed; any other reaches it by calls. Of a
+/// linear model that is the exact step: no other is fast besides.
 template <class Model>
-using MethodsFor = std::conditional_t<
-    Model::kLinear,
-    typename Extended<AnyModelsMethods<Model::kDof>, Exponential<Model::kDof>>::Type,
-    AnyModelsMethods<Model::kDof>>;
+using ComposedMethods = std::conditional_t<
+    Model::kLinear, MethodList<Exponential<Model::kDof>>,
+    std::conditional_t<kLongEquations, MethodList<>,
+                       MethodList<RungeKutta4, DormandPrince8, Stoermer<Model::kDof>,
+                                  GaussLegendre6<Model::kDof>>>>;
+
+/// All that suit it, by their names.
+template <class Model>
+std::vector<std::string> integratorsOf() {
+  std::vector<std::string> names = methodNames(AnyModelsMethods<Model::kDof>{});
+  if (Model::kLinear) {
+    names.push_back(Exponential<Model::kDof>::kName);
+  }
+  return names;
+}
 
 template <class Model, class = void>
 struct HasGravity : std::false_type {};
@@ -87,79 +67,41 @@ Model makeModel(const ParameterValues& values, double gravity) {
   return model;
 }
 
-/// One that steps ahead of the twin (stepped_ahead.h), `count` of its steps at once; under inputs,
-/// and where a spin is a coordinate, as the twin does.
-template <class Model, class Method>
-std::unique_ptr<Stepper> makeAhead(const Model& model, const Method& method, const Drive& drive,
-                                   const InputForce& inputs, double step, int count) {
-  using System = SteppedSystem<Model, Method>;
-  auto near = std::make_unique<System>(model, drive, inputs, step, 1, method.byItself());
-  if (inputs.acts() || HasSpin<Model>::value || count == 1) {
-    return near;
-  }
-  count = std::min(count, SteppedAhead::kMostSteps);
-  const double length = count * step;
-  return std::make_unique<SteppedAhead>(
-      std::make_unique<System>(model, drive, inputs, length, 1, method), std::move(near),
-      method.scheme(), Model::kHasShaft ? &drive : nullptr, length, count);
-}
-
-/// With that method if it is of the name asked for.
-template <class Model, class Method>
-void makeStepperOf(const Model& model, const std::string& integrator, const Drive& drive,
-                   const InputForce& inputs, double step, int substeps,
-                   std::unique_ptr<Stepper>& system) {
-  const std::optional<Method> method = Integrators<Method>::find(integrator);
-  if (!method) {
-    return;
-  }
-  if constexpr (HasHistory<Method>::value) {
-    if (method->scheme().ahead) {
-      system = makeAhead(model, *method, drive, inputs, step, substeps);
-      return;
-    }
-  }
-  system =
-      std::make_unique<SteppedSystem<Model, Method>>(model, drive, inputs, step, substeps, *method);
-}
-
-template <class Model, class... Methods>
-std::unique_ptr<Stepper> makeStepper(MethodList<Methods...>, const Model& model,
-                                     const std::string& integrator, const Drive& drive,
-                                     const InputForce& inputs, double step, int substeps) {
-  std::unique_ptr<Stepper> system;
-  (makeStepperOf<Model, Methods>(model, integrator, drive, inputs, step, substeps, system), ...);
-  if (!system) {
-    throw std::logic_error(std::string(Model::kName) + " has no integrator " + integrator);
-  }
-  return system;
-}
-
-template <class... Methods>
-std::vector<std::string> methodNames(MethodList<Methods...>) {
-  std::vector<std::string> names;
-  (Integrators<Methods>::addNames(names), ...);
-  return names;
-}
-
 /// Do the matrices of a model tell all of it, so that with inputs its exact step can go by them?
 template <class Model>
 constexpr bool kGivenByMatrices = Model::kLinear && !HasAlternatingLoads<Model>::value;
 
-template <class Model>
+/// Composed with `Methods`.
+template <class Model, class Methods = ComposedMethods<Model>>
 ModelSetup setUp(const Model& model) {
   const auto dynamics = std::make_shared<const LagrangianDynamics<Model>>(model);
-  return {dynamics, methodNames(MethodsFor<Model>{}),
-          [model, dynamics](const std::string& integrator, const Excitation& excitation,
-                            double step, int substeps) {
-            if constexpr (kGivenByMatrices<Model>) {
-              if (excitation.inputs != nullptr && integrator == Exponential<Model::kDof>::kName) {
-                return exactStepper(dynamics, jacobiIntegral(model), excitation, step, substeps);
-              }
-            }
-            return makeStepper(MethodsFor<Model>{}, model, integrator, excitation.drive,
-                               InputForce(excitation.inputs, dynamics->inputs()), step, substeps);
-          }};
+  return {
+      dynamics, integratorsOf<Model>(),
+      [model, dynamics](const std::string& integrator, const Excitation& excitation, double step,
+                        int substeps) {
+        if constexpr (kGivenByMatrices<Model>) {
+          if (excitation.inputs != nullptr && integrator == Exponential<Model::kDof>::kName) {
+            return exactStepper(dynamics, jacobiIntegral(model), excitation, step, substeps);
+          }
+        }
+        const InputForce inputs(excitation.inputs, dynamics->inputs());
+        auto system =
+            makeStepper(Methods{}, model, integrator, excitation.drive, inputs, step, substeps);
+        if (!system) {
+          system = calledSystem(CalledModel<Model::kDof>::of(model), integrator, excitation.drive,
+                                inputs, step, substeps);
+        }
+        if (!system) {
+          throw std::logic_error(std::string(Model::kName) + " has no integrator " + integrator);
+        }
+        return system;
+      }};
+}
+
+/// Without its exact step, which others take: withExactRunUps().
+template <class Model>
+ModelSetup setUpBesidesExact(const Model& model) {
+  return setUp<Model, MethodList<>>(model);
 }
 
 template <class Model>
@@ -176,14 +118,14 @@ ModelVariant variant(const std::string& when) {
   }
   v.linear = Model::kLinear;
   v.rotor = RotorTraits<Model>::kRotor;
-  v.integrators = methodNames(MethodsFor<Model>{});
+  v.integrators = integratorsOf<Model>();
   v.inputs = ModelInputs<Model>::of(Model{});
   return v;
 }
 
-/// A model of one form.
+/// What there is to say of a model of one form, but for its set-up.
 template <class Model>
-ModelInfo modelInfo() {
+ModelInfo modelDescription() {
   ModelInfo info;
   info.name = Model::kName;
   info.summary = Model::kSummary;
@@ -198,6 +140,13 @@ ModelInfo modelInfo() {
     info.parameters.push_back(parameter);
   }
   info.has_shaft = Model::kHasShaft;
+  return info;
+}
+
+/// A model of one form.
+template <class Model>
+ModelInfo modelInfo() {
+  ModelInfo info = modelDescription<Model>();
   info.setUp = [](const ParameterValues& values, const Settings&, const Surroundings& around) {
     return setUp<Model>(values, around.gravity);
   };

@@ -82,7 +82,7 @@ SettingInfo choiceOf(const char* name, const char* meaning, std::vector<std::str
 }  // namespace
 
 ModelInfo rigidDiscRotorInfo() {
-  ModelInfo info = modelInfo<RigidDiscRotor>();
+  ModelInfo info = modelDescription<RigidDiscRotor>();
   info.takes_motor = true;
   info.variants.push_back(variant<TurningRigidDiscRotor>("frame: rotating"));
   info.variants.push_back(spinningVariant<RigidDiscRotor>("a motor"));
@@ -142,7 +142,7 @@ ModelInfo rigidDiscRotorInfo() {
       return setUpSpinning<RigidDiscRotor>(complete, felt);
     }
     const RigidDiscRotor rotor = makeModel<RigidDiscRotor>(complete, gravity);
-    return withExactRunUps(setUp(rotor), jacobiIntegral(rotor));
+    return withExactRunUps(setUpBesidesExact(rotor), jacobiIntegral(rotor));
   };
   return info;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -40,12 +41,15 @@ struct Settings {
 
 enum class SettingKind { kChoice, kMatrix, kNames, kTable, kWordOrCount };
 
+/// The fallback of a column that must be given.
+inline constexpr double kRequired = std::numeric_limits<double>::quiet_NaN();
+
 /// A column of a table that holds numbers.
 struct ColumnInfo {
   std::string name;
   std::string unit;
   Range range;
-  double fallback;  ///< NaN: must be given
+  double fallback;
   /// A column before it: unless it is given it is as that. Its fallback is then none.
   std::string fallback_column = "";
 };

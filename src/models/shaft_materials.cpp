@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <limits>
-
 #include "messages/names.h"
 #include "models/table_rows.h"
 
@@ -11,7 +9,6 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kRequired = std::numeric_limits<double>::quiet_NaN();
 constexpr double kUsualPoissonsRatio = 0.3;
 // Of Young's modulus: between them lie all materials, wound fibres too, and no mistake of a unit.
 constexpr double kLeastShear = 0.01;

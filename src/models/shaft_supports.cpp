@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "mechanics/rotors/bearing_laws.h"
@@ -14,8 +13,6 @@
 namespace whirl_twin {
 
 namespace {
-
-constexpr double kRequired = std::numeric_limits<double>::quiet_NaN();
 
 BearingCoefficients coefficientsOf(const TableRow& row) {
   const auto& n = row.numbers;

@@ -24,12 +24,12 @@ bool isIn(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-std::string nameOf(const std::string& system) {
+std::string systemText(const std::string& system) {
   return system.empty() ? "every system" : system;
 }
 
 /// "", or that a system or type is none.
-std::string unknown(const AlarmCommand& command, const TwinMonitor& monitor) {
+std::string objectionToTarget(const AlarmCommand& command, const TwinMonitor& monitor) {
   std::vector<std::string> systems = monitor.systemNames();
   if (command.command == AlarmCommand::kAcknowledge) {
     systems.emplace_back(alert_type::kEverybody);  // alerts can be about all of the twin
@@ -54,7 +54,7 @@ CommandAnswer acknowledge(const AlarmCommand& command, AlertList& alerts) {
   });
   const bool all = command.system.empty() && command.type.empty();
   if (!any && !all) {
-    return refused(fmt::format("no alert {} of {}", command.type, nameOf(command.system)));
+    return refused(fmt::format("no alert {} of {}", command.type, systemText(command.system)));
   }
   return {true, fmt::format("{} acknowledged", alerts.acknowledge(command.system, command.type))};
 }
@@ -73,15 +73,15 @@ CommandAnswer inhibit(const AlarmCommand& command, TwinMonitor& monitor, double 
   }
   monitor.inhibit(command.system, command.duration, wall_time);
   return {true, command.duration > 0.0
-                    ? fmt::format("alerts of {} are held back for {:g} s", nameOf(command.system),
-                                  command.duration)
-                    : fmt::format("alerts of {} are raised", nameOf(command.system))};
+                    ? fmt::format("alerts of {} are held back for {:g} s",
+                                  systemText(command.system), command.duration)
+                    : fmt::format("alerts of {} are raised", systemText(command.system))};
 }
 
 }  // namespace
 
 CommandAnswer carryOut(const AlarmCommand& command, TwinMonitor& monitor, double wall_time) {
-  const std::string wrong = unknown(command, monitor);
+  const std::string wrong = objectionToTarget(command, monitor);
   if (!wrong.empty()) {
     return refused(wrong);
   }

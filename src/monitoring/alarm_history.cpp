@@ -30,7 +30,7 @@ std::string quotedJson(const std::string& text) {
 }
 
 /// The name of a field: what messages have as a state is a flag here.
-std::string nameOf(const char* field) {
+std::string fieldName(const char* field) {
   return std::strcmp(field, "state") == 0 ? "raised" : field;
 }
 
@@ -49,7 +49,7 @@ std::string lineOf(const state::Alert& alert) {
       text = fmt::format("{}", value);
     }
     if (!text.empty()) {
-      line += fmt::format(", \"{}\": {}", nameOf(field), text);
+      line += fmt::format(", \"{}\": {}", fieldName(field), text);
     }
   });
   return line + "}";
@@ -59,7 +59,7 @@ state::Alert alertOf(const YAML::Node& line) {
   state::Alert alert;
   eachMember(alert, [&line](const char* field, auto& value, Stays) {
     using Value = std::decay_t<decltype(value)>;
-    const YAML::Node given = line[nameOf(field)];
+    const YAML::Node given = line[fieldName(field)];
     if constexpr (std::is_same_v<Value, double>) {
       value = given ? given.as<double>() : state::Alert::kNone;
     } else if constexpr (std::is_enum_v<Value>) {

@@ -17,7 +17,7 @@
 namespace whirl_twin {
 namespace {
 
-constexpr double kLongest = 3600.0;  // s, of a delay
+constexpr double kMaxDelay = 3600.0;  // s, of a delay
 
 /// A number, or a list of as many as there are points; each > 0 unless zero is fine.
 std::vector<double> readList(const MapReader& map, const std::string& name, const char* unit,
@@ -205,8 +205,8 @@ AlarmSettings readAlarmSettings(const YAML::Node& tree, const std::string& sourc
       const MapReader of(delays.at(type), delays.key(type), {"set", "clear"}, "key of delays",
                          complaints);
       AlarmDelays& delay = s.delays[type];
-      delay.set = of.numberBetween("set", 0.0, kLongest, "s", 0.0);
-      delay.clear = of.numberBetween("clear", 0.0, kLongest, "s", s.clear_delay);
+      delay.set = of.numberBetween("set", 0.0, kMaxDelay, "s", 0.0);
+      delay.clear = of.numberBetween("clear", 0.0, kMaxDelay, "s", s.clear_delay);
     }
   }
   const auto each_rotor = [&](const char* name, const auto& read) {

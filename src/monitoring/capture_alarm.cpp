@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "algebra/constants.h"
 #include "messages/alert_types.h"
 
 namespace whirl_twin {
@@ -14,7 +15,6 @@ namespace {
 constexpr double kStill = 0.005;   // of the critical speed, that it may change by meanwhile
 constexpr double kStillFor = 1.5;  // s
 constexpr double kNear = 0.1;      // of the critical speed, from where it is to hang
-constexpr double kPi = 3.14159265358979323846;
 
 }  // namespace
 

@@ -7,12 +7,12 @@
 #include <limits>
 #include <utility>
 
+#include "algebra/constants.h"
 #include "messages/alert_types.h"
 
 namespace whirl_twin {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kRepeatWindow = 2.0;       // s, after an alarm has cleared
 constexpr double kTurningHorizon = 5.0;     // approach times, that a speed may take to turn back
 constexpr double kSlowHalf = 0.5;           // dwell limits, that a ripple may hold a passage back

@@ -3,15 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
+#include "algebra/constants.h"
 #include "messages/alert_types.h"
 
 namespace whirl_twin {
 namespace {
 
-constexpr double kNever = -std::numeric_limits<double>::infinity();
+constexpr double kNever = -kInfinity;
 
 }  // namespace
 

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
+#include "algebra/constants.h"
 #include "analysis/routh.h"
 #include "control/shaft_angle.h"
 #include "messages/alert_types.h"
@@ -15,11 +15,10 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// Standard deviations of the measured rate: once in some ten thousand records by chance, with the
 /// few parts that its deviation is told from.
 constexpr double kApart = 6.0;
-constexpr double kTogether = 4.0;
+constexpr double kSameDecayDeviations = 4.0;
 /// Of the larger of the two rates, less than which is no matter.
 constexpr double kMatters = 0.25;
 constexpr double kLargestAngle = 1.0e15;  // rad, beyond which a double holds no phase
@@ -82,7 +81,7 @@ void DecayAlarm::judge(const AuditedDecay& measured, double speed, AlertList& al
   AlarmCondition condition = AlarmCondition::kHold;
   if (apart > kApart * measured.deviation && apart > kMatters * larger) {
     condition = AlarmCondition::kWarning;
-  } else if (apart < kTogether * measured.deviation || apart < kMatters * larger) {
+  } else if (apart < kSameDecayDeviations * measured.deviation || apart < kMatters * larger) {
     condition = AlarmCondition::kClear;
   }
   const std::string rates = fmt::format(

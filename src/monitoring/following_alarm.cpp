@@ -12,10 +12,10 @@ namespace whirl_twin {
 namespace {
 
 /// Of the way from what a right model gives to its limit: some two and a half standard deviations.
-constexpr double kTogether = 0.5;
+constexpr double kClearPart = 0.5;
 
 /// Of a statistic that is `at` where the model is right.
-AlarmCondition conditionOf(double value, double at, double least, double most) {
+AlarmCondition statisticCondition(double value, double at, double least, double most) {
   if (std::isnan(value) || std::isnan(least) || std::isnan(most)) {
     return AlarmCondition::kHold;
   }
@@ -23,11 +23,11 @@ AlarmCondition conditionOf(double value, double at, double least, double most) {
     return AlarmCondition::kWarning;
   }
   const bool together =
-      value < at + kTogether * (most - at) && value > at - kTogether * (at - least);
+      value < at + kClearPart * (most - at) && value > at - kClearPart * (at - least);
   return together ? AlarmCondition::kClear : AlarmCondition::kHold;
 }
 
-const char* nameOf(state::ChannelStatus status) {
+const char* channelStatusText(state::ChannelStatus status) {
   switch (status) {
     case state::ChannelStatus::kSilent:
       return "is silent";
@@ -81,9 +81,9 @@ void FollowingAlarm::updateMismatch(const state::FollowState& follow, bool told,
                                     AlertList& alerts) {
   const double time = follow.at.time;
   const AlarmCondition size =
-      conditionOf(follow.mismatch, 1.0, follow.mismatch_least, follow.mismatch_limit);
+      statisticCondition(follow.mismatch, 1.0, follow.mismatch_least, follow.mismatch_limit);
   const AlarmCondition lasting =
-      conditionOf(follow.whiteness, 0.0, -follow.whiteness_limit, follow.whiteness_limit);
+      statisticCondition(follow.whiteness, 0.0, -follow.whiteness_limit, follow.whiteness_limit);
   const AlarmCondition condition = isRaising(size) || isRaising(lasting) ? AlarmCondition::kWarning
                                    : size == lasting                     ? size
                                                                          : AlarmCondition::kHold;
@@ -150,7 +150,7 @@ std::map<std::string, std::string> FollowingAlarm::wrong(const state::FollowStat
   for (std::size_t i = 0; i < follow.channel.size(); ++i) {
     const auto status = static_cast<state::ChannelStatus>(follow.channel_status[i]);
     if (status != state::ChannelStatus::kUsed) {
-      wrong[follow.channel[i]] = nameOf(status);
+      wrong[follow.channel[i]] = channelStatusText(status);
     }
   }
   if (has_shaft_ && !follow.shaft_known) {

@@ -16,9 +16,9 @@ namespace whirl_twin {
 namespace {
 
 constexpr char kSource[] = "settings";
-constexpr std::size_t kLongest = 65536;  // bytes of a change
-constexpr int kDeepest = 8;              // maps and lists in each other: settings have three
-constexpr int kMost = 10000;             // values
+constexpr std::size_t kMaxChangeSize = 65536;  // bytes of a change
+constexpr int kDeepest = 8;                    // maps and lists in each other: settings have three
+constexpr int kMaxChangedValues = 10000;       // values
 
 /// Whether a tree can be gone through at all: in YAML a list may contain itself.
 bool isTree(const YAML::Node& node, int depth, int& left) {
@@ -56,7 +56,8 @@ bool same(const YAML::Node& a, const YAML::Node& b) {
 }
 
 /// Puts what a change says into what is set.
-void put(const MapReader& change, YAML::Node present, bool outermost, Complaints& complaints) {
+void applyChange(const MapReader& change, YAML::Node present, bool outermost,
+                 Complaints& complaints) {
   for (const std::string& name : change.names()) {
     const YAML::Node value = change.at(name);
     const YAML::Node before = std::as_const(present)[name];
@@ -69,7 +70,7 @@ void put(const MapReader& change, YAML::Node present, bool outermost, Complaints
       }
       present.remove(name);
     } else if (outermost && has_entries && value.IsMap() && before.IsDefined() && before.IsMap()) {
-      put(MapReader(value, name, {}, "", complaints), present[name], false, complaints);
+      applyChange(MapReader(value, name, {}, "", complaints), present[name], false, complaints);
       if (std::as_const(present)[name].size() == 0) {
         present.remove(name);
       }
@@ -95,19 +96,19 @@ LiveAlarmSettings::LiveAlarmSettings(const YAML::Node& tree, const std::string& 
 }
 
 void LiveAlarmSettings::change(const std::string& text) {
-  if (text.size() > kLongest) {
-    throw Refusal(
-        fmt::format("{}: must have at most {} bytes, found {}", kSource, kLongest, text.size()));
+  if (text.size() > kMaxChangeSize) {
+    throw Refusal(fmt::format("{}: must have at most {} bytes, found {}", kSource, kMaxChangeSize,
+                              text.size()));
   }
   const YAML::Node told = readYamlText(text, kSource, "settings of the monitor", "alarms");
-  int left = kMost;
+  int left = kMaxChangedValues;
   if (!isTree(told, 0, left)) {
     throw Refusal(fmt::format("{}: no settings: more than {} values, or {} in each other", kSource,
-                              kMost, kDeepest));
+                              kMaxChangedValues, kDeepest));
   }
   Complaints complaints(kSource);
   YAML::Node changed = YAML::Clone(tree_);
-  put(MapReader(told, "", {}, "", complaints), changed, true, complaints);
+  applyChange(MapReader(told, "", {}, "", complaints), changed, true, complaints);
   std::vector<std::string> errors = complaints.all();
   AlarmSettings settings;
   try {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <utility>
 
+#include "algebra/constants.h"
 #include "analysis/sampled_margins.h"
 #include "messages/refusal.h"
 
@@ -13,11 +13,8 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kTwoPi = 6.283185307179586;
-constexpr double kSearchPeriod = 1.0;  // s, simulated
-constexpr double kSpeedNews = 0.01;    // of a speed
-constexpr double kMovedNews = 1.0e-6;  // of coordinates, or m or rad
+constexpr double kLoopSearchPeriod = 1.0;  // s, simulated
+constexpr double kMovedNews = 1.0e-6;      // of coordinates, or m or rad
 
 /// With these roots: highest power first.
 std::vector<double> polynomialOf(const std::vector<std::complex<double>>& roots) {
@@ -35,7 +32,7 @@ std::vector<double> polynomialOf(const std::vector<std::complex<double>>& roots)
   return real;
 }
 
-void put(const std::vector<SampledMargins>& found, state::ControllerMargins& margins) {
+void setMargins(const std::vector<SampledMargins>& found, state::ControllerMargins& margins) {
   const LoopMargins least = leastMargins(found);
   margins.sensitivity_peak = least.sensitivity_peak;
   margins.peak_frequency = least.peak_frequency;
@@ -52,7 +49,7 @@ void put(const std::vector<SampledMargins>& found, state::ControllerMargins& mar
 }
 
 /// As before anything is known.
-state::ControllerMargins unknown(const ControllerSpec& controller) {
+state::ControllerMargins unknownMargins(const ControllerSpec& controller) {
   state::ControllerMargins margins;
   margins.controller = controller.name;
   margins.verdict_name = name(Verdict::kUncertain);
@@ -81,7 +78,7 @@ Stability LoopJudge::judge(double time, const SystemMotion& present, const Syste
     found_.reset();
     margins_.clear();
     for (std::size_t i = 0; i < loop_->controllers().size(); ++i) {
-      margins_.push_back(unknown(loop_->controller(i)));
+      margins_.push_back(unknownMargins(loop_->controller(i)));
       margins_.back().objection = failure.what();
     }
     throw;
@@ -121,7 +118,7 @@ Stability LoopJudge::judgeOrSayWhy(double time, const SystemMotion& present,
     found_.reset();
     margins_.clear();
     for (std::size_t i = 0; i < loop_->controllers().size(); ++i) {
-      margins_.push_back(unknown(loop_->controller(i)));
+      margins_.push_back(unknownMargins(loop_->controller(i)));
     }
   }
   for (state::ControllerMargins& margins : margins_) {
@@ -157,17 +154,17 @@ bool LoopJudge::lacksMargins() const {
   const bool news =
       std::fabs(last_.speed - found_->speed) > kSpeedNews * std::fabs(found_->speed) ||
       !((last_.about - found_->about).norm() <= kMovedNews * (1.0 + found_->about.norm()));
-  return news && (since < 0.0 || since >= kSearchPeriod);
+  return news && (since < 0.0 || since >= kLoopSearchPeriod);
 }
 
 void LoopJudge::findMargins() {
   found_ = last_;
   for (std::size_t i = 0; i < margins_.size(); ++i) {
     try {
-      put(sampledMargins(parts_->plant, parts_->controllers, i, last_.verdict), margins_[i]);
+      setMargins(sampledMargins(parts_->plant, parts_->controllers, i, last_.verdict), margins_[i]);
     } catch (const RunFailure& failure) {
       const state::ControllerMargins verdict = margins_[i];
-      margins_[i] = unknown(loop_->controller(i));
+      margins_[i] = unknownMargins(loop_->controller(i));
       margins_[i].verdict = verdict.verdict;
       margins_[i].verdict_name = verdict.verdict_name;
       margins_[i].objection = failure.what();

@@ -19,6 +19,9 @@
 
 namespace whirl_twin {
 
+/// Of a speed: after a larger change a system is judged before its turn [-].
+inline constexpr double kSpeedNews = 0.01;
+
 class LoopJudge {
  public:
   LoopJudge(SharedSystem system, std::shared_ptr<const ClosedLoop> loop);

@@ -13,7 +13,6 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kSpeedNews = 0.01;     // of the speed
 constexpr double kShortestBreak = 1.0;  // s, simulated, of a linear system
 constexpr double kLongestBreak = 10.0;  // s, simulated, of any other
 constexpr int kLowestPriority = 19;     // a nice value

@@ -5,17 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <utility>
 
+#include "algebra/constants.h"
 #include "signal/told_orders.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
-constexpr double kNever = -std::numeric_limits<double>::infinity();
 constexpr double kTelling = 0.05;        // [s], of orders
 constexpr double kLeastJitter = 1.0e-7;  // [s], of a keyphasor that is said to have none
 constexpr double kFewTurns = 5.0;        // without a pulse: it is missing
@@ -40,7 +38,7 @@ std::optional<MeasuredOrbitSettings> measuredOrbitOf(const BuiltScene& scene, st
   }
   MeasuredOrbitSettings orbit;
   orbit.keyphasor = keyphasor->name;
-  orbit.shaft.mark = std::fmod(keyphasor->keyphasor->mark + dynamics.phaseMark(), kTurn);
+  orbit.shaft.mark = std::fmod(keyphasor->keyphasor->mark + dynamics.phaseMark(), kTwoPi);
   orbit.shaft.jitter = std::max(
       kLeastJitter,
       std::hypot(keyphasor->keyphasor->jitter, keyphasor->keyphasor->resolution / std::sqrt(12.0)));
@@ -96,7 +94,7 @@ void MeasuredSignal::restart() {
   orbit_.clear();
   filter_.clear();
   slow_filter_.clear();
-  told_at_ = kNever;
+  told_at_ = -kInfinity;  // never
   turning_ = acceleration_ = 0.0;
   beyond_.clear();
   for (Probe& probe : probes_) {
@@ -167,7 +165,7 @@ void MeasuredSignal::follow(const OrbitSample& measured) {
   whirl.radius = std::hypot(sample.x, sample.y);
   whirl.whirl_angle = std::atan2(sample.y, sample.x);
   whirl.speed = sample.speed;
-  whirl.shaft_angle = kTurn * static_cast<double>(sample.turns) + sample.remainder;
+  whirl.shaft_angle = kTwoPi * static_cast<double>(sample.turns) + sample.remainder;
   if (whirl.radius > range_) {
     beyond_ = fmt::format("out of range: measured whirl {:.3g} mm, beyond {:.3g} mm",
                           1.0e3 * whirl.radius, 1.0e3 * range_);
@@ -231,7 +229,7 @@ std::string MeasuredSignal::notOk(double wall_time, bool paused) const {
   }
   const double silence = wall_time - pulse_at_;
   if (!paused && turning_ > kStandsSoon &&
-      silence > std::max(timeout_, kFewTurns * kTurn / turning_)) {
+      silence > std::max(timeout_, kFewTurns * kTwoPi / turning_)) {
     return fmt::format("no pulses: {} for {:.1f} s", settings_.keyphasor, silence);
   }
   return beyond_;

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "algebra/constants.h"
 #include "messages/alert_types.h"
 
 namespace whirl_twin {
@@ -15,7 +15,7 @@ namespace {
 constexpr double kSubsynchronous = 0.95;  // of the speed, below which a line is
 constexpr double kBeside = 0.01;          // of the speed, that a subharmonic may be off
 constexpr double kMicrometre = 1.0e6;     // per metre
-constexpr double kNone = std::numeric_limits<double>::infinity();  // no level
+constexpr double kNoLevel = kInfinity;
 
 /// The highest forward line slower than the shaft; -1: none.
 int subsynchronousLine(const state::OrderState& orders) {
@@ -28,7 +28,7 @@ int subsynchronousLine(const state::OrderState& orders) {
   return -1;
 }
 
-AlarmCondition conditionOf(double value, double warning, double danger, double hysteresis) {
+AlarmCondition levelCondition(double value, double warning, double danger, double hysteresis) {
   if (std::isnan(value)) {
     return AlarmCondition::kHold;
   }
@@ -58,7 +58,7 @@ int subharmonicLine(const state::OrderState& orders) {
   return -1;
 }
 
-const char* nameOf(LineCharacter::Kind kind) {
+const char* lineAdvice(LineCharacter::Kind kind) {
   switch (kind) {
     case LineCharacter::Kind::kKeepsRatio:
       return "keeps its ratio to the speed: oil whirl; look at the bearings, their load and oil";
@@ -87,9 +87,9 @@ void OrderAlarm::set(const AlarmSettings& settings) {
   line_alarm_.setDelays(settings.delaysOf(alert_type::kSubsynchronousWhirl));
   const auto zones = settings.zones.find(system_);
   has_zones_ = zones != settings.zones.end();
-  zones_ = has_zones_ ? zones->second : VibrationZones{kNone, kNone, kNone};
+  zones_ = has_zones_ ? zones->second : VibrationZones{kNoLevel, kNoLevel, kNoLevel};
   const auto level = settings.subsynchronous.find(system_);
-  line_level_ = level != settings.subsynchronous.end() ? level->second : kNone;
+  line_level_ = level != settings.subsynchronous.end() ? level->second : kNoLevel;
   rub_alarm_.setDelays(settings.delaysOf(alert_type::kRub));
   const auto rub = settings.rub.find(system_);
   rub_levels_ = rub != settings.rub.end() ? rub->second : RubLevels();
@@ -121,7 +121,7 @@ void OrderAlarm::updateZone(const state::OrderState& orders, double acceleration
   const double by = start_up_.multiplier(time, orders.speed, acceleration);
   const double vibration = orders.peak_to_peak;
   const AlarmCondition condition =
-      conditionOf(vibration, by * zones_.b, by * zones_.c, hysteresis_);
+      levelCondition(vibration, by * zones_.b, by * zones_.c, hysteresis_);
   if (zone_alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
     alerts.clear(system_, alert_type::kVibrationZone, time,
                  fmt::format("{}: vibration back to {:.3g} um peak to peak, {}", system_,
@@ -161,8 +161,9 @@ void OrderAlarm::updateLine(const state::OrderState& orders, AlertList& alerts) 
     line_.take(orders.line_frequency[line], orders.speed);
   }
   // Without orders nothing can be said of what is slower than the shaft.
-  const AlarmCondition condition =
-      !orders.valid ? AlarmCondition::kHold : conditionOf(height, line_level_, kNone, hysteresis_);
+  const AlarmCondition condition = !orders.valid
+                                       ? AlarmCondition::kHold
+                                       : levelCondition(height, line_level_, kNoLevel, hysteresis_);
   if (line_alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
     alerts.clear(system_, alert_type::kSubsynchronousWhirl, time,
                  fmt::format("{}: whirl slower than the shaft back to {:.3g} um", system_,
@@ -181,8 +182,8 @@ void OrderAlarm::updateLine(const state::OrderState& orders, AlertList& alerts) 
         "{}: whirls forward with {:.1f} rad/s, {:.2f} of the speed {:.1f} rad/s, {:.3g} um, above "
         "{:.3g} um; {}",
         system_, orders.line_frequency[line], orders.line_ratio[line], orders.speed,
-        kMicrometre * height, kMicrometre * line_level_, nameOf(line_.kind()));
-    alerts.raise(std::move(alert), nameOf(line_.kind()));
+        kMicrometre * height, kMicrometre * line_level_, lineAdvice(line_.kind()));
+    alerts.raise(std::move(alert), lineAdvice(line_.kind()));
   }
 }
 
@@ -197,10 +198,10 @@ void OrderAlarm::updateRub(const state::OrderState& orders, AlertList& alerts) {
   const double subharmonic_part = subharmonic / rub_levels_.subharmonic;
   const bool reversed = orders.precession < 0.0 && backward_part > 1.0;
   // A motion that cannot be told (not a number) holds.
-  const AlarmCondition condition = std::isnan(backward)
-                                       ? AlarmCondition::kHold
-                                       : conditionOf(std::fmax(backward_part, subharmonic_part),
-                                                     1.0, reversed ? 1.0 : kNone, hysteresis_);
+  const AlarmCondition condition =
+      std::isnan(backward) ? AlarmCondition::kHold
+                           : levelCondition(std::fmax(backward_part, subharmonic_part), 1.0,
+                                            reversed ? 1.0 : kNoLevel, hysteresis_);
   if (rub_alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
     alerts.clear(system_, alert_type::kRub, time,
                  fmt::format("{}: whirls backward by {:.3g} um, no sign of a rub", system_,

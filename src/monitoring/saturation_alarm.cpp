@@ -11,8 +11,8 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kWindow = 1.0;  // s, simulated
-constexpr double kMost = 0.5;    // of the outputs
+constexpr double kWindow = 1.0;            // s, simulated
+constexpr double kMaxSaturatedPart = 0.5;  // of the outputs
 
 AlarmDelays delaysOf(const AlarmSettings& settings) {
   AlarmDelays delays = settings.delaysOf(alert_type::kActuatorSaturated);
@@ -48,7 +48,7 @@ void SaturationAlarm::update(const state::ControllerState& controller, AlertList
   missed_ = static_cast<double>(now.missed - mark_->missed) / samples;
   mark_ = now;
 
-  const bool warn = allowed_ > 0.0 && saturated_ > kMost;
+  const bool warn = allowed_ > 0.0 && saturated_ > kMaxSaturatedPart;
   const AlarmCondition condition = warn ? AlarmCondition::kWarning : AlarmCondition::kClear;
   if (alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
     alerts.clear(controller_, alert_type::kActuatorSaturated, time,

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <limits>
 
+#include "algebra/constants.h"
 #include "analysis/characteristic_polynomial.h"
 #include "analysis/routh.h"
 #include "analysis/small_motion.h"
@@ -23,8 +23,6 @@ constexpr std::size_t kMostCorners = 8;     // numbers: 256 corners
 constexpr double kDeviationsOfBox = 3.0;    // of a normal spread
 constexpr double kFirstStride = 0.5;        // of half a side
 constexpr double kLastStride = 1.0 / 64.0;  // likewise
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kExactBudget = 2.0e8;  // products, of Kharitonov's polynomials: a second
 
 /// A system as some values of its numbers make it.
 struct Place {
@@ -149,7 +147,7 @@ class CoefficientIntervals {
     if (!usable_ || low_.empty()) {
       return false;
     }
-    ExactBudget budget(kExactBudget);
+    ExactBudget budget(kMaxExactProducts);
     for (std::size_t beginning = 0; beginning < 4; ++beginning) {
       std::vector<Rational> polynomial(low_.size());
       for (std::size_t power = 0; power < low_.size(); ++power) {

@@ -2,18 +2,17 @@
 
 #include <cmath>
 #include <exception>
-#include <limits>
 #include <utility>
 
+#include "algebra/constants.h"
 #include "analysis/equilibria.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// The threshold of an equilibrium that moves with speed is searched anew this often [s].
-constexpr double kSearchPeriod = 1.0;
+constexpr double kThresholdSearchPeriod = 1.0;
 /// Of a speed, and of the place that is judged: what is hardly another. What the reduction of a
 /// long rotor changes takes ten times as long to judge as the reduced one.
 constexpr double kSame = 1.0e-4;
@@ -43,7 +42,7 @@ void SystemJudge::checkThresholds(double time, double speed, Verdict verdict) {
       system_->dynamics->linear() ||
       (verdict == Verdict::kUnstable) == (speeds_ && speeds_->thresholds.unstableAt(speed));
   lacks_thresholds_ =
-      !searched_at_ || (!expected && std::fabs(time - *searched_at_) >= kSearchPeriod);
+      !searched_at_ || (!expected && std::fabs(time - *searched_at_) >= kThresholdSearchPeriod);
 }
 
 void SystemJudge::complete(double speed, state::StabilityMargin& margin) {

@@ -1,26 +1,21 @@
 #include "monitoring/threshold_speeds.h"
 
 #include <cmath>
-#include <limits>
+
+#include "algebra/constants.h"
 
 namespace whirl_twin {
-namespace {
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
-
 double ThresholdSpeeds::lowest() const {
   for (const StabilityThreshold& threshold : thresholds_) {
     if (threshold.unstable_above) {
       return threshold.speed;
     }
   }
-  return kNone;
+  return kNaN;
 }
 
 double ThresholdSpeeds::below(double speed) const {
-  double nearest = kNone;
+  double nearest = kNaN;
   for (const StabilityThreshold& threshold : thresholds_) {
     if (threshold.speed > 0.0 && threshold.speed <= std::fabs(speed)) {
       nearest = threshold.speed;
@@ -35,7 +30,7 @@ double ThresholdSpeeds::above(double speed) const {
       return threshold.speed;
     }
   }
-  return kNone;
+  return kNaN;
 }
 
 bool ThresholdSpeeds::between(double one, double other) const {

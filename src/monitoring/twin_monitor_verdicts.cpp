@@ -11,7 +11,6 @@ namespace whirl_twin {
 namespace {
 
 constexpr double kJudgingPeriod = 0.1;  // s, simulated
-constexpr double kSpeedNews = 0.01;     // of a speed: a change that is judged before its turn
 
 }  // namespace
 

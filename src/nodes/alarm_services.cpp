@@ -12,7 +12,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::uint32_t kQueue = 100;  // commands of a sender that is ahead
+constexpr std::uint32_t kAlarmQueue = 100;  // commands of a sender that is ahead
 
 template <class Response>
 bool tell(const CommandAnswer& given, Response& response) {
@@ -39,7 +39,7 @@ AlarmServices::AlarmServices(TwinMonitor& monitor, const ros::NodeHandle& own, r
         }
       };
   subscriber_ =
-      twin.subscribe<AlarmCommand>(topicName(state::AlarmCommand::kKind), kQueue, callback);
+      twin.subscribe<AlarmCommand>(topicName(state::AlarmCommand::kKind), kAlarmQueue, callback);
 }
 
 void AlarmServices::listen(const std::string& lcm_url, const std::string& lcm_prefix) {

@@ -45,7 +45,7 @@ const ros::WallDuration kReportPeriod(1.0);
 constexpr double kLongest = 3600.0;  // s
 constexpr double kShortestTimeout = 0.1;
 
-struct Settings {
+struct BridgeSettings {
   bool takes;
   std::string lcm_url, lcm_prefix, simulation;
   double lease;  ///< [s]
@@ -62,10 +62,10 @@ double secondsFrom(const char* name, double shortest, double fallback) {
   return value;
 }
 
-Settings readSettings() {
+BridgeSettings readSettings() {
   requireKnownParameters(
       {"role", "lcm_url", "lcm_prefix", "simulation", "lease", "played", "timeout"});
-  Settings s;
+  BridgeSettings s;
   const auto role = privateParameter<std::string>("role", "take or send", "take");
   if (role != "take" && role != "send") {
     throw Refusal(fmt::format("role: expected take or send, found {}", quoted(role)));
@@ -97,7 +97,7 @@ void addMalformed(const CommandChannels& channels, Status& status) {
 }
 
 void run() {
-  const Settings settings = readSettings();
+  const BridgeSettings settings = readSettings();
   CommandChannels channels(settings.lcm_url, settings.lcm_prefix);
   std::unique_ptr<CommandTaker> taker;
   std::unique_ptr<CommandSender> sender;

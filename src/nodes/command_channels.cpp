@@ -14,7 +14,7 @@ namespace {
 // As requireLayout() has them.
 constexpr const char* kCommandLayout = "lslssnSDd";
 constexpr const char* kAnswerLayout = "lslbslnSD";
-constexpr int kMostAtOnce = 100;
+constexpr int kMostMessagesAtOnce = 100;
 
 }  // namespace
 
@@ -63,7 +63,7 @@ void CommandChannels::listen(const std::string& channel, lcm_msg_handler_t handl
 }
 
 void CommandChannels::receive(std::chrono::milliseconds timeout) {
-  handleArrived(*lcm_, timeout, kMostAtOnce);
+  handleArrived(*lcm_, timeout, kMostMessagesAtOnce);
 }
 
 template <class Type>

@@ -16,10 +16,10 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::uint32_t kQueue = 1000;
+constexpr std::uint32_t kControllerQueue = 1000;
 constexpr const char* kCommandEnding = "_COMMAND";
-constexpr int kMostAtOnce = 1000;
-constexpr std::chrono::microseconds kPoll{100};
+constexpr int kMostCommandsAtOnce = 1000;
+constexpr std::chrono::microseconds kControllerPoll{100};
 
 std::string upper(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -66,14 +66,15 @@ ExternalControllers::~ExternalControllers() {
 
 void ExternalControllers::advertise(Connection& connection, ros::NodeHandle& node) {
   const std::string topic = "controllers/" + connection.name;
-  connection.measurement = node.advertise<ControllerMeasurement>(topic + "/measurement", kQueue);
+  connection.measurement =
+      node.advertise<ControllerMeasurement>(topic + "/measurement", kControllerQueue);
   const boost::function<void(const ControllerCommand::ConstPtr&)> callback =
       [this, &connection](const ControllerCommand::ConstPtr& message) {
         take(connection, {message->run, message->sample, message->time, message->values});
       };
   connection.command =
-      node.subscribe<ControllerCommand>(topic + "/command", kQueue, callback, ros::VoidConstPtr(),
-                                        ros::TransportHints().tcpNoDelay());
+      node.subscribe<ControllerCommand>(topic + "/command", kControllerQueue, callback,
+                                        ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
 }
 
 /// A number that says no more: it is taken to answer the newest sample.
@@ -85,8 +86,8 @@ void ExternalControllers::advertiseValue(Connection& connection, ros::NodeHandle
         take(connection, command);
       };
   connection.value = node.subscribe<std_msgs::Float64>(
-      "controllers/" + connection.name + "/command_value", kQueue, callback, ros::VoidConstPtr(),
-      ros::TransportHints().tcpNoDelay());
+      "controllers/" + connection.name + "/command_value", kControllerQueue, callback,
+      ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
 }
 
 void ExternalControllers::listenOnLcm(const std::string& lcm_url) {
@@ -99,7 +100,7 @@ void ExternalControllers::listenOnLcm(const std::string& lcm_url) {
   for (const auto& connection : controllers_) {
     lcm_->subscribe(connection->lcm_channel + kCommandEnding, &ExternalControllers::takeFromLcm,
                     this)
-        ->setQueueCapacity(kQueue);
+        ->setQueueCapacity(kControllerQueue);
   }
 }
 
@@ -122,9 +123,9 @@ void ExternalControllers::run() {
     }
     queue_.callAvailable(ros::WallDuration(0.0));
     if (lcm_) {
-      handleArrived(*lcm_, std::chrono::microseconds(0), kMostAtOnce);
+      handleArrived(*lcm_, std::chrono::microseconds(0), kMostCommandsAtOnce);
     }
-    std::this_thread::sleep_for(kPoll);
+    std::this_thread::sleep_for(kControllerPoll);
   }
 }
 

@@ -12,7 +12,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::uint32_t kQueue = 100;  // commands of a sender that is ahead
+constexpr std::uint32_t kInputQueue = 100;  // commands of a sender that is ahead
 
 bool hasCommandedInput(const BuiltSystem& system) {
   const auto& inputs = system.spec.inputs;
@@ -36,7 +36,7 @@ InputCommands::InputCommands(const LiveTwin& twin, TwinServices& services, ros::
           takeMessage(*message, name);
         };
     subscribers_.push_back(node.subscribe<InputCommand>(topicName(state::InputCommand::kKind, name),
-                                                        kQueue, callback, ros::VoidConstPtr(),
+                                                        kInputQueue, callback, ros::VoidConstPtr(),
                                                         ros::TransportHints().tcpNoDelay()));
   }
   if (subscribers_.empty() || lcm_url.empty()) {

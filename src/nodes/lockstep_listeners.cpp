@@ -15,15 +15,15 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::uint32_t kQueue = 1000;
+constexpr std::uint32_t kLockstepQueue = 1000;
 constexpr const char* kTopic = "lockstep";
 constexpr int kMostAhead = 1000;
 constexpr double kShortestTimeout = 0.1;  // s
 constexpr double kLongestTimeout = 86400.0;
 constexpr double kPatience = 0.3;  // s that one may take without being looked after, and named
-const ros::WallDuration kLook(0.1);
+const ros::WallDuration kLookPeriod(0.1);
 
-double now() {
+double steadySeconds() {
   return ros::SteadyTime::now().toSec();
 }
 
@@ -77,7 +77,7 @@ LockstepListeners::LockstepListeners(LiveTwin& live, ros::NodeHandle node,
     take(event);
   };
   ros::SubscribeOptions options;
-  options.initByFullCallbackType<const Number&>(kTopic, kQueue, callback);
+  options.initByFullCallbackType<const Number&>(kTopic, kLockstepQueue, callback);
   options.transport_hints = ros::TransportHints().tcpNoDelay();
   acknowledgements_ = node.subscribe(options);
   thread_.start();
@@ -88,19 +88,21 @@ LockstepListeners::~LockstepListeners() {
 }
 
 void LockstepListeners::take(const Number& event) {
-  if (!lockstep_.acknowledge(event.getPublisherName(), event.getConstMessage()->data, now())) {
+  if (!lockstep_.acknowledge(event.getPublisherName(), event.getConstMessage()->data,
+                             steadySeconds())) {
     strays_.fetch_add(1, std::memory_order_relaxed);
   }
 }
 
 void LockstepListeners::published(std::int64_t step, bool anew) {
   if (on()) {
-    lockstep_.published(step, anew, now());
+    lockstep_.published(step, anew, steadySeconds());
   }
 }
 
 std::string LockstepListeners::waitsFor() const {
-  return joined(lockstep_.gathers() ? lockstep_.missing() : lockstep_.waitsFor(now(), kPatience));
+  return joined(lockstep_.gathers() ? lockstep_.missing()
+                                    : lockstep_.waitsFor(steadySeconds(), kPatience));
 }
 
 /// Nodes that the master knows to publish acknowledgements; none while not all of them are
@@ -151,7 +153,7 @@ void LockstepListeners::see() {
     std::set<int>& before = seen_[who];
     const bool kept =
         std::any_of(before.begin(), before.end(), [&](int id) { return now_there.count(id) > 0; });
-    lockstep_.see(who, kept, now());
+    lockstep_.see(who, kept, steadySeconds());
     before = now_there;
   }
 }
@@ -160,12 +162,12 @@ void LockstepListeners::watch() {
   if (!on() || ros::SteadyTime::now() < next_look_) {
     return;
   }
-  next_look_ = ros::SteadyTime::now() + kLook;
-  if (lockstep_.gathers() || !lockstep_.waitsFor(now(), kPatience).empty() ||
+  next_look_ = ros::SteadyTime::now() + kLookPeriod;
+  if (lockstep_.gathers() || !lockstep_.waitsFor(steadySeconds(), kPatience).empty() ||
       !lockstep_.leftOut().empty()) {
     see();
   }
-  const std::vector<std::string> overdue = lockstep_.overdue(now());
+  const std::vector<std::string> overdue = lockstep_.overdue(steadySeconds());
   if (!overdue.empty()) {
     live_.pause();
     for (int i = 0; live_.pausing() && i < 1000; ++i) {

@@ -15,8 +15,8 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::uint32_t kQueue = 1000;  // blocks
-constexpr std::chrono::milliseconds kPoll{2};
+constexpr std::uint32_t kBlockQueue = 1000;  // blocks
+constexpr std::chrono::milliseconds kBlockPoll{2};
 
 }  // namespace
 
@@ -35,7 +35,7 @@ MachineInput::MachineInput(const std::string& machine, const std::vector<std::st
           }
         };
     subscribers_.push_back(node.subscribe<Measurement>(topicName(state::Measurement::kKind, source),
-                                                       kQueue, callback, ros::VoidConstPtr(),
+                                                       kBlockQueue, callback, ros::VoidConstPtr(),
                                                        ros::TransportHints().tcpNoDelay()));
   }
 }
@@ -54,10 +54,10 @@ void MachineInput::take(const state::Measurement& message) {
 
 void MachineInput::receive() {
   if (receiver_) {
-    receiver_->receive(kPoll);
+    receiver_->receive(kBlockPoll);
   }
   ros::getGlobalCallbackQueue()->callAvailable(
-      ros::WallDuration(receiver_ ? 0.0 : std::chrono::duration<double>(kPoll).count()));
+      ros::WallDuration(receiver_ ? 0.0 : std::chrono::duration<double>(kBlockPoll).count()));
 }
 
 std::uint64_t MachineInput::rejected() const {

@@ -19,12 +19,12 @@ namespace whirl_twin {
 namespace {
 
 constexpr auto kClockPausePeriod = std::chrono::milliseconds(100);
-constexpr auto kReportPeriod = std::chrono::seconds(1);
+constexpr auto kLoopReportPeriod = std::chrono::seconds(1);
 constexpr auto kAgainPeriod = std::chrono::seconds(10);
 constexpr auto kLongestSaving = std::chrono::seconds(1);
 constexpr std::chrono::microseconds kIdle{500};         // between looks at the ring
 constexpr std::chrono::microseconds kShortestIdle{25};  // where somebody waits for every step
-constexpr int kMostAtOnce = 64;                   // records, between looks at what else is due
+constexpr int kMostRecordsAtOnce = 64;            // records, between looks at what else is due
 constexpr std::int64_t kClockStep = 100'000'000;  // [ns]: more is no slewing
 
 /// [ns]
@@ -105,7 +105,7 @@ void RecordPublisher::run() {
     const bool last_round = ending_.load();
     bool stopped_now = false;
     int taken = 0;
-    while ((taken < kMostAtOnce || last_round) && live_.pop(record.data())) {
+    while ((taken < kMostRecordsAtOnce || last_round) && live_.pop(record.data())) {
       stopped_now = take(record.data()) || stopped_now;
       thinning_.consumed(live_.waiting());
       ++taken;
@@ -122,7 +122,7 @@ void RecordPublisher::run() {
     if (stopped_now || now >= next_report) {
       followWallClock();
       publishReport();
-      next_report = now + kReportPeriod;
+      next_report = now + kLoopReportPeriod;
     }
     if (now >= next_scene) {
       states_.tellAgain(scene_);
@@ -141,7 +141,7 @@ void RecordPublisher::run() {
     if (last_round) {
       return;
     }
-    if (taken < kMostAtOnce) {
+    if (taken < kMostRecordsAtOnce) {
       idle = lockstep_.on() ? std::min(taken > 0 ? kShortestIdle : 2 * idle, kIdle)
                             : std::max(kIdle, batch_);
       std::this_thread::sleep_for(idle);

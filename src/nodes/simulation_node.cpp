@@ -101,7 +101,7 @@ constexpr double kServicePoll = 0.05;   // s
 constexpr double kCommandPoll = 0.002;  // s, where there are ramps or commands by LCM
 
 /// The node's private parameters.
-struct Settings {
+struct SimulationSettings {
   std::int64_t every;  ///< steps from one publication to the next
   std::chrono::microseconds batch;
   std::string lcm_url;
@@ -118,14 +118,14 @@ struct Settings {
   FixedRateLoop::Options loop;
 };
 
-Settings readSettings(const Scene& scene) {
+SimulationSettings readSettings(const Scene& scene) {
   requireKnownParameters({"publish_rate",    "lcm_url",   "lcm_prefix",       "clock",
                           "realtime",        "priority",  "overrun",          "cpu",
                           "give_up",         "busy_wait", "real_time_factor", "measure",
                           "clock_rate",      "paused",    "checkpoint",       "checkpoint_period",
                           "resume",          "batch",     "lockstep",         "lockstep_ahead",
                           "lockstep_timeout"});
-  Settings s;
+  SimulationSettings s;
   s.every = stepsToPublish(scene);
   const double batch = privateParameter("batch", "a number of seconds", 0.0);
   if (!(batch >= 0.0 && batch <= kLongestBatch)) {
@@ -195,7 +195,7 @@ void run() {
   usePlugins();
   const ParameterTree given = parameterTree(node, "scene");
   const Scene scene = withStepsChosen(readScene(given.tree, given.source));
-  const Settings settings = readSettings(scene);
+  const SimulationSettings settings = readSettings(scene);
 
   // Half a second of records, or some: what the publisher may be late by.
   const auto capacity =

@@ -8,7 +8,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::uint32_t kQueue = 2000;  // two seconds at 1 kHz
+constexpr std::uint32_t kStateQueue = 2000;  // two seconds at 1 kHz
 
 /// To ROS and to LCM, which latches nothing.
 struct StepSink {
@@ -42,7 +42,7 @@ StatePublisher::StatePublisher(const Twin& twin, EnsembleObserver ensembles, ros
     : twin_(twin),
       messages_(twin.built()),
       ensembles_(std::move(ensembles)),
-      topics_(node, kQueue),
+      topics_(node, kStateQueue),
       lcm_(std::move(lcm)),
       clock_period_(clock_period),
       last_clock_(-clock_period) {

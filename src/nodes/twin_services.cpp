@@ -17,7 +17,7 @@ namespace {
 /// [s], that a command to an input may hold.
 constexpr double kLongestCommand = state::InputCommand::kLongest;
 
-constexpr std::chrono::microseconds kPoll{500};
+constexpr std::chrono::microseconds kAnswerPoll{500};
 
 constexpr const char* kEnded = "the simulation is ending";
 
@@ -58,7 +58,7 @@ bool TwinServices::wait() {
     if (!keep_waiting_()) {
       return false;
     }
-    std::this_thread::sleep_for(kPoll);
+    std::this_thread::sleep_for(kAnswerPoll);
   }
   return true;
 }
@@ -84,7 +84,7 @@ bool TwinServices::pause(Trigger::Request&, Trigger::Response& response) {
   pauses_.fetch_add(1);
   twin_.pause();
   while (twin_.pausing() && keep_waiting_()) {
-    std::this_thread::sleep_for(kPoll);
+    std::this_thread::sleep_for(kAnswerPoll);
   }
   response.success = !twin_.pausing();
   response.message =

@@ -10,21 +10,17 @@
 namespace whirl_twin {
 namespace {
 
-constexpr int kWidth = 800;         // px
-constexpr double kBarWidth = 15.0;  // px
-constexpr double kGap = 12.0;       // px, between groups
-constexpr double kHead = 62.0;      // px: title and subtitle
-constexpr double kLegendRow = 24.0;
-constexpr double kFoot = 56.0;
+constexpr int kBarChartWidth = 800;  // px
+constexpr double kBarWidth = 15.0;   // px
+constexpr double kGap = 12.0;        // px, between groups
+constexpr double kHead = 62.0;       // px: title and subtitle
+constexpr double kBarLegendRow = 24.0;
+constexpr double kBarChartFoot = 56.0;
 constexpr double kWhisker = 4.0;  // px, half of its end
-constexpr std::array kInks{ink::kBlue, ink::kSkyBlue, ink::kOrange};
+constexpr std::array kBarInks{ink::kBlue, ink::kSkyBlue, ink::kOrange};
 
-const Lettering kTitle{17.0, ink::kBlack, Align::kMiddle, Align::kMiddle, true};
 const Lettering kSubtitle{13.0, ink::kGrey, Align::kMiddle, Align::kMiddle};
 const Lettering kName{13.0, ink::kBlack, Align::kEnd, Align::kMiddle};
-const Lettering kLegend{13.0, ink::kBlack, Align::kStart, Align::kMiddle};
-const Lettering kTick{13.0, ink::kBlack, Align::kMiddle, Align::kMiddle};
-const Lettering kLabel{14.0, ink::kBlack, Align::kMiddle, Align::kMiddle};
 
 bool hasInterval(const Bar& bar) {
   return std::isfinite(bar.value) && std::isfinite(bar.low) && std::isfinite(bar.high);
@@ -39,9 +35,9 @@ class BarDrawing {
       widest = std::max(widest, canvas.textWidth(group.name, kName));
     }
     plot_.left = 22.0 + widest;
-    plot_.width = kWidth - 26.0 - plot_.left;
-    plot_.top = kHead + (chart.names.size() > 1 ? kLegendRow : 0.0);
-    plot_.height = height - kFoot - plot_.top;
+    plot_.width = kBarChartWidth - 26.0 - plot_.left;
+    plot_.top = kHead + (chart.names.size() > 1 ? kBarLegendRow : 0.0);
+    plot_.height = height - kBarChartFoot - plot_.top;
     std::vector<double> reached{chart.base};
     for (const BarGroup& group : chart.groups) {
       for (const Bar& bar : group.bars) {
@@ -56,8 +52,8 @@ class BarDrawing {
   }
 
   void draw() {
-    canvas_.text({0.5 * kWidth, 19.0}, chart_.title, kTitle);
-    canvas_.text({0.5 * kWidth, 41.0}, chart_.subtitle, kSubtitle);
+    canvas_.text({0.5 * kBarChartWidth, 19.0}, chart_.title, kTitleLettering);
+    canvas_.text({0.5 * kBarChartWidth, 41.0}, chart_.subtitle, kSubtitle);
     drawLegend();
     drawGrid();
     double top = plot_.top + 0.5 * kGap;
@@ -65,7 +61,8 @@ class BarDrawing {
       const double height = kBarWidth * static_cast<double>(chart_.names.size());
       canvas_.text({plot_.left - 8.0, top + 0.5 * height}, group.name, kName);
       for (std::size_t k = 0; k < group.bars.size(); ++k) {
-        drawBar(group.bars[k], top + kBarWidth * static_cast<double>(k), kInks[k % kInks.size()]);
+        drawBar(group.bars[k], top + kBarWidth * static_cast<double>(k),
+                kBarInks[k % kBarInks.size()]);
       }
       top += height + kGap;
     }
@@ -79,9 +76,9 @@ class BarDrawing {
   void drawLegend() {
     double x = plot_.left;
     for (std::size_t k = 0; k < chart_.names.size() && chart_.names.size() > 1; ++k) {
-      drawBox(x, x + 24.0, kHead + 2.0, kInks[k % kInks.size()]);
-      canvas_.text({x + 32.0, kHead + 8.0}, chart_.names[k], kLegend);
-      x += 54.0 + canvas_.textWidth(chart_.names[k], kLegend);
+      drawBox(x, x + 24.0, kHead + 2.0, kBarInks[k % kBarInks.size()]);
+      canvas_.text({x + 32.0, kHead + 8.0}, chart_.names[k], kLegendLettering);
+      x += 54.0 + canvas_.textWidth(chart_.names[k], kLegendLettering);
     }
   }
 
@@ -89,14 +86,14 @@ class BarDrawing {
     for (std::size_t i = 0; i < x_.ticks.size(); ++i) {
       const double x = across(x_.ticks[i]);
       canvas_.line({{x, plot_.top}, {x, plot_.bottom()}}, {ink::kGrid, 1.0});
-      canvas_.text({x, plot_.bottom() + 13.0}, x_.labels.text[i], kTick);
+      canvas_.text({x, plot_.bottom() + 13.0}, x_.labels.text[i], kTickLettering);
     }
     canvas_.line({{plot_.left, plot_.bottom()}, {plot_.right(), plot_.bottom()}},
                  {ink::kGrey, 1.2});
     const std::string power =
         x_.labels.exponent == 0 ? "" : "  \u00d7" + powerOfTen(x_.labels.exponent);
     canvas_.text({plot_.left + 0.5 * plot_.width, plot_.bottom() + 36.0}, chart_.x.label + power,
-                 kLabel);
+                 kAxisLettering);
   }
 
   void drawBox(double from, double to, double top, const Ink& ink) {
@@ -131,15 +128,15 @@ class BarDrawing {
 
 std::string barImage(const BarChart& chart, ImageFormat format) {
   const double group = kBarWidth * static_cast<double>(chart.names.size()) + kGap;
-  const double height = kHead + (chart.names.size() > 1 ? kLegendRow : 0.0) +
-                        group * static_cast<double>(chart.groups.size()) + kFoot;
+  const double height = kHead + (chart.names.size() > 1 ? kBarLegendRow : 0.0) +
+                        group * static_cast<double>(chart.groups.size()) + kBarChartFoot;
   std::string description = chart.x.label + " of";
   const char* separator = " ";
   for (const BarGroup& one : chart.groups) {
     description += separator + one.name;
     separator = ", ";
   }
-  Canvas canvas(format, kWidth, static_cast<int>(height), chart.title, description);
+  Canvas canvas(format, kBarChartWidth, static_cast<int>(height), chart.title, description);
   BarDrawing(chart, canvas, height).draw();
   return canvas.finish();
 }

@@ -7,12 +7,11 @@
 #include <cmath>
 #include <filesystem>
 
+#include "algebra/constants.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 cairo_status_t append(void* file, const unsigned char* bytes, unsigned int count) {
   static_cast<std::string*>(file)->append(reinterpret_cast<const char*>(bytes), count);
@@ -126,7 +125,7 @@ void Canvas::polygon(const std::vector<Spot>& corners, const Ink& fill, const Pe
 
 void Canvas::circle(const Spot& centre, double radius, const Ink& fill, const Pen& outline) {
   cairo_new_sub_path(sheet_->cairo);
-  cairo_arc(sheet_->cairo, rounded(centre.x), rounded(centre.y), rounded(radius), 0.0, 2.0 * kPi);
+  cairo_arc(sheet_->cairo, rounded(centre.x), rounded(centre.y), rounded(radius), 0.0, kTwoPi);
   cairo_close_path(sheet_->cairo);
   sheet_->use(fill);
   cairo_fill_preserve(sheet_->cairo);

@@ -57,6 +57,12 @@ struct Lettering {
   bool upwards = false;  ///< turned a quarter to the left
 };
 
+// Of charts.
+inline constexpr Lettering kTitleLettering{17.0, ink::kBlack, Align::kMiddle, Align::kMiddle, true};
+inline constexpr Lettering kAxisLettering{14.0, ink::kBlack, Align::kMiddle, Align::kMiddle};
+inline constexpr Lettering kTickLettering{13.0, ink::kBlack, Align::kMiddle, Align::kMiddle};
+inline constexpr Lettering kLegendLettering{13.0, ink::kBlack, Align::kStart, Align::kMiddle};
+
 class Canvas {
  public:
   /// A white sheet, [px]; title and description go into an SVG for those who read it as text.

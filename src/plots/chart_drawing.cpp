@@ -14,9 +14,6 @@ constexpr int kTicksAcross = 9;
 constexpr double kPixelsPerTick = 30.0;  // of a vertical axis, at least
 
 const Lettering kChartTitle{14.0, ink::kBlack, Align::kMiddle, Align::kMiddle, true};
-const Lettering kAxisLabel{14.0, ink::kBlack, Align::kMiddle, Align::kMiddle};
-const Lettering kTickLabel{13.0, ink::kBlack, Align::kMiddle, Align::kMiddle};
-const Lettering kLegend{13.0, ink::kBlack, Align::kStart, Align::kMiddle};
 constexpr double kSecondScale = 34.0;  // px, of the horizontal axis above the chart
 constexpr double kRightMargin = 22.0;  // px
 constexpr double kPixelsOfRpm = 90.0;  // a mark of the scale above, at least
@@ -91,7 +88,7 @@ ChartDrawing::ChartDrawing(const Chart& chart, const Rectangle& place, std::size
 double ChartDrawing::widestLabel(const MarkedAxis& axis) const {
   double widest = 0.0;
   for (const std::string& label : axis.labels.text) {
-    widest = std::max(widest, canvas_.textWidth(label, kTickLabel));
+    widest = std::max(widest, canvas_.textWidth(label, kTickLettering));
   }
   return widest;
 }
@@ -156,7 +153,7 @@ void ChartDrawing::placeLegend() {
   double x = start;
   legend_rows_ = 1;
   for (LegendEntry& entry : legend_) {
-    const double width = kSample + 8.0 + canvas_.textWidth(entry.name, kLegend);
+    const double width = kSample + 8.0 + canvas_.textWidth(entry.name, kLegendLettering);
     if (x > start && x + width > place_.right()) {
       x = start;
       ++legend_rows_;
@@ -176,10 +173,10 @@ void ChartDrawing::drawGrid() {
     const double x = plot_.left + x_.place(x_.ticks[i]) * plot_.width;
     if (seen(x_.place(x_.ticks[i]))) {
       canvas_.line({{x, plot_.top}, {x, plot_.bottom()}}, grid);
-      canvas_.text({x, plot_.bottom() + 13.0}, x_.labels.text[i], kTickLabel);
+      canvas_.text({x, plot_.bottom() + 13.0}, x_.labels.text[i], kTickLettering);
     }
   }
-  Lettering tick_label = kTickLabel;
+  Lettering tick_label = kTickLettering;
   tick_label.across = Align::kEnd;
   for (std::size_t i = 0; i < y_.ticks.size(); ++i) {
     const double y = plot_.bottom() - y_.place(y_.ticks[i]) * plot_.height;
@@ -216,10 +213,10 @@ void ChartDrawing::drawScaleAbove() {
     const double x = plot_.left + axis.place(axis.ticks[i]) * plot_.width;
     if (seen(axis.place(axis.ticks[i])) && x < plot_.right() - 60.0) {
       canvas_.line({{x, plot_.top}, {x, plot_.top - 4.0}}, {ink::kGrey, 1.2});
-      canvas_.text({x, plot_.top - 12.0}, axis.labels.text[i], kTickLabel);
+      canvas_.text({x, plot_.top - 12.0}, axis.labels.text[i], kTickLettering);
     }
   }
-  Lettering lettering = kTickLabel;
+  Lettering lettering = kTickLettering;
   lettering.across = Align::kEnd;
   canvas_.text({plot_.right(), plot_.top - 12.0}, nameOf(*chart_.x.second, axis), lettering);
 }
@@ -228,7 +225,7 @@ void ChartDrawing::drawScaleOnTheRight() {
   if (!right_) {
     return;
   }
-  Lettering beside = kTickLabel;
+  Lettering beside = kTickLettering;
   beside.across = Align::kStart;
   for (std::size_t i = 0; i < right_->ticks.size(); ++i) {
     const double y = plot_.bottom() - right_->place(right_->ticks[i]) * plot_.height;
@@ -237,7 +234,7 @@ void ChartDrawing::drawScaleOnTheRight() {
       canvas_.text({plot_.right() + 7.0, y}, right_->labels.text[i], beside);
     }
   }
-  Lettering upwards = kAxisLabel;
+  Lettering upwards = kAxisLettering;
   upwards.upwards = true;
   canvas_.text({place_.right() - 14.0, plot_.top + 0.5 * plot_.height},
                nameOf(*chart_.y.second, *right_), upwards);
@@ -289,8 +286,8 @@ void ChartDrawing::drawFrame() {
                frame);
   const double middle = plot_.left + 0.5 * plot_.width;
   canvas_.text({middle, place_.top + 14.0}, chart_.title, kChartTitle);
-  canvas_.text({middle, plot_.bottom() + 34.0}, chart_.x.label, kAxisLabel);
-  Lettering upwards = kAxisLabel;
+  canvas_.text({middle, plot_.bottom() + 34.0}, chart_.x.label, kAxisLettering);
+  Lettering upwards = kAxisLettering;
   upwards.upwards = true;
   canvas_.text({place_.left + 14.0, plot_.top + 0.5 * plot_.height}, chart_.y.label, upwards);
   drawExponent(y_, {plot_.left - (chart_.x.second ? 18.0 : 4.0), plot_.top - 11.0},
@@ -299,7 +296,7 @@ void ChartDrawing::drawFrame() {
 }
 void ChartDrawing::drawExponent(const MarkedAxis& axis, const Spot& spot, Align across) {
   if (axis.labels.exponent != 0) {
-    Lettering lettering = kTickLabel;
+    Lettering lettering = kTickLettering;
     lettering.across = across;
     canvas_.text(spot, "\u00d7" + powerOfTen(axis.labels.exponent), lettering);
   }
@@ -323,7 +320,7 @@ void ChartDrawing::drawLegend() {
       }
       drawMark({start.x + 0.5 * kSample, start.y}, entry.series->marks, entry.pen.ink);
     }
-    canvas_.text({end.x + 8.0, start.y}, entry.name, kLegend);
+    canvas_.text({end.x + 8.0, start.y}, entry.name, kLegendLettering);
   }
 }
 

@@ -8,14 +8,14 @@ namespace whirl_twin {
 
 namespace {
 
-bool shown(double value, bool logarithmic) {
+bool canBeShown(double value, bool logarithmic) {
   return std::fabs(value) <= kLargestOnAxis && (!logarithmic || value >= 1.0 / kLargestOnAxis);
 }
 
 }  // namespace
 
 double MarkedAxis::place(double value) const {
-  if (!shown(value, logarithmic)) {
+  if (!canBeShown(value, logarithmic)) {
     return std::numeric_limits<double>::quiet_NaN();
   }
   if (logarithmic) {
@@ -61,7 +61,7 @@ AxisRange dataRange(const std::vector<const std::vector<double>*>& values, bool 
                   -std::numeric_limits<double>::infinity()};
   for (const std::vector<double>* series : values) {
     for (const double value : *series) {
-      if (shown(value, logarithmic)) {
+      if (canBeShown(value, logarithmic)) {
         range = {std::min(range.low, value), std::max(range.high, value)};
       }
     }

@@ -11,15 +11,11 @@
 namespace whirl_twin {
 namespace {
 
-constexpr int kWidth = 800, kHeight = 560;  // px
-constexpr std::size_t kMostLevels = 100;    // of an axis, in an SVG
+constexpr int kMapWidth = 800, kMapHeight = 560;  // px
+constexpr std::size_t kMostLevels = 100;          // of an axis, in an SVG
 constexpr int kShades = 128;
 const Ink kHole{0.8, 0.8, 0.8};
 
-const Lettering kTitle{17.0, ink::kBlack, Align::kMiddle, Align::kMiddle, true};
-const Lettering kLabel{14.0, ink::kBlack, Align::kMiddle, Align::kMiddle};
-const Lettering kTick{13.0, ink::kBlack, Align::kMiddle, Align::kMiddle};
-const Lettering kLegend{13.0, ink::kBlack, Align::kStart, Align::kMiddle};
 const Pen kUnderContour{ink::kBlack, 4.0};
 const Pen kContour{{1.0, 1.0, 1.0}, 2.2};
 
@@ -45,7 +41,7 @@ Ink shade(double part) {
 }
 
 /// Every so many of them, so that no more than `most` are left.
-std::vector<std::size_t> shown(std::size_t count, std::size_t most) {
+std::vector<std::size_t> thinnedPlaces(std::size_t count, std::size_t most) {
   const std::size_t stride = (count + most - 1) / most;
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < count; i += stride) {
@@ -59,8 +55,8 @@ class MapDrawing {
   MapDrawing(const ResponseMap& map, std::size_t most, Canvas& canvas)
       : map_(map),
         canvas_(canvas),
-        columns_(shown(map.x_levels.size(), most)),
-        rows_(shown(map.y_levels.size(), most)),
+        columns_(thinnedPlaces(map.x_levels.size(), most)),
+        rows_(thinnedPlaces(map.y_levels.size(), most)),
         x_{dataRange({&map.x_levels}, map.x.logarithmic), map.x.logarithmic, {}, {}},
         y_{dataRange({&map.y_levels}, map.y.logarithmic), map.y.logarithmic, {}, {}} {
     std::vector<const std::vector<double>*> all;
@@ -74,19 +70,19 @@ class MapDrawing {
     y_.mark(true, 10);
     double widest = 0.0;
     for (const std::string& label : y_.labels.text) {
-      widest = std::max(widest, canvas.textWidth(label, kTick));
+      widest = std::max(widest, canvas.textWidth(label, kTickLettering));
     }
     plot_.left = 42.0 + widest;
-    plot_.width = kWidth - 130.0 - plot_.left;
+    plot_.width = kMapWidth - 130.0 - plot_.left;
     plot_.top = map.contours.empty() && !holes_ ? 44.0 : 82.0;
-    plot_.height = kHeight - 58.0 - plot_.top;
+    plot_.height = kMapHeight - 58.0 - plot_.top;
     x_.mark(true, static_cast<int>(plot_.width / 70.0));
     across_ = edges(map.x_levels, columns_, x_);
     down_ = edges(map.y_levels, rows_, y_);
   }
 
   void draw() {
-    canvas_.text({0.5 * kWidth, 19.0}, map_.title, kTitle);
+    canvas_.text({0.5 * kMapWidth, 19.0}, map_.title, kTitleLettering);
     drawCells();
     drawContours();
     drawAxes();
@@ -134,13 +130,13 @@ class MapDrawing {
         canvas_.lines(pieces, pen);
         canvas_.line({{x, 64.0}, {x + 24.0, 64.0}}, pen);
       }
-      canvas_.text({x + 34.0, 64.0}, contour.label, kLegend);
-      x += 56.0 + canvas_.textWidth(contour.label, kLegend);
+      canvas_.text({x + 34.0, 64.0}, contour.label, kLegendLettering);
+      x += 56.0 + canvas_.textWidth(contour.label, kLegendLettering);
     }
     if (holes_) {
       canvas_.polygon({{x, 58.0}, {x + 24.0, 58.0}, {x + 24.0, 70.0}, {x, 70.0}}, kHole,
                       {ink::kGrey, 0.6});
-      canvas_.text({x + 34.0, 64.0}, "failed or undefined", kLegend);
+      canvas_.text({x + 34.0, 64.0}, "failed or undefined", kLegendLettering);
     }
   }
 
@@ -163,7 +159,7 @@ class MapDrawing {
   }
 
   void drawAxes() {
-    Lettering tick = kTick;
+    Lettering tick = kTickLettering;
     for (std::size_t i = 0; i < x_.ticks.size(); ++i) {
       const double part = x_.place(x_.ticks[i]);
       if (isOn(part)) {
@@ -182,8 +178,8 @@ class MapDrawing {
     }
     frame(plot_);
     canvas_.text({plot_.left + 0.5 * plot_.width, plot_.bottom() + 38.0},
-                 map_.x.label + powerOf(x_), kLabel);
-    Lettering upwards = kLabel;
+                 map_.x.label + powerOf(x_), kAxisLettering);
+    Lettering upwards = kAxisLettering;
     upwards.upwards = true;
     canvas_.text({14.0, plot_.top + 0.5 * plot_.height}, map_.y.label + powerOf(y_), upwards);
   }
@@ -201,16 +197,16 @@ class MapDrawing {
     for (std::size_t i = 0; i < z_.ticks.size(); ++i) {
       const double part = z_.place(z_.ticks[i]);
       if (isOn(part)) {
-        Lettering tick = kTick;
+        Lettering tick = kTickLettering;
         tick.across = Align::kStart;
         const double y = bar.bottom() - part * bar.height;
         canvas_.line({{bar.right(), y}, {bar.right() + 5.0, y}}, {ink::kGrey, 1.2});
         canvas_.text({bar.right() + 8.0, y}, z_.labels.text[i], tick);
       }
     }
-    Lettering upwards = kLabel;
+    Lettering upwards = kAxisLettering;
     upwards.upwards = true;
-    canvas_.text({kWidth - 16.0, plot_.top + 0.5 * plot_.height}, map_.label + powerOf(z_),
+    canvas_.text({kMapWidth - 16.0, plot_.top + 0.5 * plot_.height}, map_.label + powerOf(z_),
                  upwards);
   }
 
@@ -268,7 +264,7 @@ std::vector<std::vector<Spot>> contourIn(double c00, double c01, double c10, dou
 std::string mapImage(const ResponseMap& map, ImageFormat format) {
   const std::size_t most =
       format == ImageFormat::kSvg ? kMostLevels : std::numeric_limits<std::size_t>::max() / 2;
-  Canvas canvas(format, kWidth, kHeight, map.title,
+  Canvas canvas(format, kMapWidth, kMapHeight, map.title,
                 map.label + " over " + map.x.label + " and " + map.y.label);
   MapDrawing(map, most, canvas).draw();
   return canvas.finish();

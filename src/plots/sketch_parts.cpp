@@ -4,10 +4,11 @@
 #include <cmath>
 #include <functional>
 
+#include "algebra/constants.h"
+
 namespace whirl_twin {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kWindings = 9;   // of a spring
 constexpr double kThin = 1.1;  // px, of outlines
 
@@ -65,7 +66,7 @@ class PartDrawing {
         view_.depth(sum(disc.at, 1.0, axes.axis)) < view_.depth(disc.at) ? 0.5 : -0.5;
     std::vector<Spot> near, both;
     for (int i = 0; i < kCorners; ++i) {
-      const double angle = 2.0 * kPi * i / kCorners;
+      const double angle = kTwoPi * i / kCorners;
       near.push_back(view_.at(onRim(disc, axes, angle, towards_eye * disc.thickness)));
       both.push_back(near.back());
       both.push_back(view_.at(onRim(disc, axes, angle, -towards_eye * disc.thickness)));
@@ -109,7 +110,7 @@ class PartDrawing {
     for (int i = 0; i <= kPoints; ++i) {
       const double s = static_cast<double>(i) / kPoints;
       const double way = (kStraight + (1.0 - 2.0 * kStraight) * s) * length;
-      const double out = radius * std::sin(2.0 * kPi * kWindings * s);
+      const double out = radius * std::sin(kTwoPi * kWindings * s);
       wire.push_back(
           {from.x + way * along.x - out * along.y, from.y + way * along.y + out * along.x});
     }

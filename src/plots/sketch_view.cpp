@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "algebra/constants.h"
+
 namespace whirl_twin {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 double dot(const SketchPoint& a, const SketchPoint& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -78,8 +78,8 @@ SketchBounds boundsOf(const Sketch& sketch, const SketchView& view) {
   for (const Sketch::Disc& disc : sketch.discs) {
     const DiscAxes axes = axesOf(disc);
     for (int i = 0; i < kCorners; ++i) {
-      include(onRim(disc, axes, 2.0 * kPi * i / kCorners, 0.5 * disc.thickness), 0.0);
-      include(onRim(disc, axes, 2.0 * kPi * i / kCorners, -0.5 * disc.thickness), 0.0);
+      include(onRim(disc, axes, kTwoPi * i / kCorners, 0.5 * disc.thickness), 0.0);
+      include(onRim(disc, axes, kTwoPi * i / kCorners, -0.5 * disc.thickness), 0.0);
     }
   }
   for (const Sketch::Box& box : sketch.boxes) {

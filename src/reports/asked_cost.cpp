@@ -1,7 +1,6 @@
 #include "reports/asked_cost.h"
 
 #include <fmt/format.h>
-#include <malloc.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include "analysis/stability.h"
 #include "messages/refusal.h"
 #include "reports/output.h"
+#include "reports/step_cost.h"
 #include "scene/control_parts.h"
 #include "twin/twin.h"
 
@@ -57,11 +57,6 @@ double cube(double n) {
 AskedCost bySize(const std::string& system, int coordinates, double coefficient) {
   return {coefficient * cube(coordinates), kMatrices * square(coordinates),
           fmt::format("{}: {} coordinates", system, coordinates)};
-}
-
-std::size_t heap() {
-  const auto info = ::mallinfo2();
-  return info.uordblks + info.hblkhd;
 }
 
 /// [bytes] that may be had without another program going short.
@@ -129,11 +124,11 @@ AskedCost costOfMembers(const BuiltScene& scene, std::size_t system) {
     const std::size_t made = std::min(count, kFewMembers);
     few.systems.front().ensemble.count = made;
     Twin twin(few);
-    const std::size_t before = heap();
+    const std::size_t before = heapInUse();
     const double start = processorTime();
     twin.buildEnsembles();
     const double taken = processorTime() - start;
-    const std::size_t after = heap();
+    const std::size_t after = heapInUse();
     of_one.seconds = taken / static_cast<double>(made);
     of_one.memory =
         static_cast<double>(after - std::min(before, after)) / static_cast<double>(made);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "algebra/constants.h"
 #include "analysis/separation_margin.h"
 #include "reports/campbell_report.h"
 
@@ -13,8 +14,6 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kRpm = 30.0 / 3.14159265358979323846;  // of a rad/s
 constexpr double kHighestDecrement = 1.5;  // a mode that is damped more does not matter
 
 constexpr std::array kDirections{Whirl::kForward, Whirl::kBackward, Whirl::kMixed,
@@ -78,7 +77,7 @@ double highestFrequency(const CampbellReport& r) {
 }
 
 /// Is a part of the branch below the highest frequency that is drawn?
-bool shown(const std::vector<CampbellPoint>& branch, double most) {
+bool isDrawn(const std::vector<CampbellPoint>& branch, double most) {
   return std::any_of(branch.begin(), branch.end(),
                      [&](const CampbellPoint& p) { return p.frequency <= most; });
 }
@@ -89,7 +88,7 @@ void addBranches(const CampbellReport& r, const Value& value, bool named, Chart&
   for (const Whirl whirl : kDirections) {
     bool name_it = named;
     for (const auto& branch : r.diagram.branches) {
-      if (!shown(branch, most)) {
+      if (!isDrawn(branch, most)) {
         continue;
       }
       for (const bool stable : {true, false}) {
@@ -136,7 +135,7 @@ void numberBranches(const CampbellReport& r, const Value& value, Chart& chart) {
   for (std::size_t b = 0; b < r.diagram.branches.size(); ++b) {
     const std::vector<CampbellPoint>& branch = r.diagram.branches[b];
     for (std::size_t k = branch.size(); k-- > 0;) {
-      if (shown(branch, most) && branch[k].*value.of <= value.most) {
+      if (isDrawn(branch, most) && branch[k].*value.of <= value.most) {
         numbers.push_back({r.diagram.speeds[k], branch[k].*value.of, fmt::format("{}", b + 1)});
         break;
       }
@@ -149,7 +148,7 @@ void numberBranches(const CampbellReport& r, const Value& value, Chart& chart) {
 
 Chart frequencyChart(const CampbellReport& r) {
   Chart chart;
-  chart.x = {"", false, true, SecondScale{"rpm", kRpm}};
+  chart.x = {"", false, true, SecondScale{"rpm", 1.0 / kRpm}};
   chart.y.label = "damped whirl frequency (rad/s)";
   chart.y.tight = true;  // where a branch leaves the chart it goes to its edge
   const double most = highestFrequency(r);
@@ -184,7 +183,7 @@ Chart frequencyChart(const CampbellReport& r) {
     chart.series.push_back(mark);
     if (c.harmonic == 1.0 && c.mode.whirl != Whirl::kBackward) {
       chart.vertical.push_back(
-          {c.speed, fmt::format("{:.4g} rad/s, {:.0f} rpm", c.speed, kRpm * c.speed)});
+          {c.speed, fmt::format("{:.4g} rad/s, {:.0f} rpm", c.speed, c.speed / kRpm)});
     }
   }
   return chart;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/constants.h"
 #include "analysis/separation_margin.h"
 #include "messages/refusal.h"
 #include "reports/matrix_json.h"
@@ -13,8 +14,6 @@
 namespace whirl_twin {
 
 namespace {
-
-constexpr double kRpm = 30.0 / 3.14159265358979323846;
 
 Json pointJson(const CampbellPoint& point) {
   return {{"frequency", point.frequency},         {"natural_frequency", point.natural_frequency},
@@ -51,7 +50,7 @@ std::string crossingsText(const CampbellReport& r) {
       "           rad/s         rpm  order  branch  direction   log decrement\n";
   for (const CampbellCrossing& c : r.diagram.crossings) {
     out += fmt::format("    {:>12.6g} {:>11.6g} {:>5g}X {:>7}  {:<9} {:>15}\n", c.speed,
-                       c.speed * kRpm, c.harmonic, c.branch + 1, name(c.mode.whirl),
+                       c.speed / kRpm, c.harmonic, c.branch + 1, name(c.mode.whirl),
                        defined(c.mode.log_decrement, "-"));
   }
   return out;
@@ -152,7 +151,7 @@ Json json(const CampbellReport& r) {
 std::string text(const CampbellReport& r) {
   std::string out =
       fmt::format("{}: from {:g} to {:g} rad/s ({:.4g} to {:.4g} rpm)\n", r.system->title(),
-                  r.range.from, r.range.to, r.range.from * kRpm, r.range.to * kRpm);
+                  r.range.from, r.range.to, r.range.from / kRpm, r.range.to / kRpm);
   out +=
       "  branch       at the lowest speed              at the highest speed\n"
       "           rad/s   direction  log dec.      rad/s   direction  log dec.\n";

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/constants.h"
 #include "messages/refusal.h"
 #include "reports/matrix_json.h"
 #include "reports/rotor_outline.h"
@@ -14,10 +15,9 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kRpm = 30.0 / 3.14159265358979323846;  // of a rad/s
-constexpr double kCarries = 0.1;                        // of the stiffest: less is a seal
+constexpr double kLeastShare = 0.1;  // of the stiffest: less is a seal
 constexpr int kSpeeds = 41;
-constexpr double kFastest = 1.0e18;  // N/m
+constexpr double kStiffest = 1.0e18;  // N/m
 
 /// At a speed [rad/s], of all bearings of a node: kxx, kyy.
 std::pair<double, double> stiffnessOf(const FlexibleShaft& shaft, int node, double speed) {
@@ -57,7 +57,7 @@ void chooseBearings(const FlexibleShaft& shaft, const std::vector<int>& asked, d
     }
   }
   for (const int node : all) {
-    const bool varied = asked.empty() ? direct(node) > kCarries * stiffest
+    const bool varied = asked.empty() ? direct(node) > kLeastShare * stiffest
                                       : std::find(asked.begin(), asked.end(), node) != asked.end();
     if (varied) {
       r.bearings.push_back({node, {}, {}});
@@ -69,7 +69,7 @@ void chooseBearings(const FlexibleShaft& shaft, const std::vector<int>& asked, d
 
 /// [N/m], that the map goes over.
 std::pair<double, double> rangeOf(const CriticalMapRequest& request, const CriticalMapReport& r) {
-  double least = kFastest, most = 0.0;
+  double least = kStiffest, most = 0.0;
   for (const BearingOnMap& bearing : r.bearings) {
     for (const std::vector<double>* list : {&bearing.kxx, &bearing.kyy}) {
       for (const double k : *list) {
@@ -84,7 +84,7 @@ std::pair<double, double> rangeOf(const CriticalMapRequest& request, const Criti
   const double from = request.from.value_or(
       std::pow(10.0, std::floor(std::log10(std::max(least, 1e-3 * most))) - 1));
   const double to = request.to.value_or(std::pow(10.0, std::ceil(std::log10(most)) + 2));
-  if (!(from > 0.0 && from < to && to <= kFastest)) {
+  if (!(from > 0.0 && from < to && to <= kStiffest)) {
     throw Refusal(fmt::format(
         "--from, --to: expected stiffnesses above 0, --from below --to, found {:g} and {:g} N/m",
         from, to));
@@ -234,7 +234,7 @@ Figure figure(const CriticalMapReport& r) {
     chart.horizontal.push_back(
         {r.system->highest_speed,
          fmt::format("highest speed {:.4g} rad/s, {:.0f} rpm", r.system->highest_speed,
-                     kRpm * r.system->highest_speed)});
+                     r.system->highest_speed / kRpm)});
   }
   Figure figure;
   figure.title = r.system->title() + ": undamped critical speed map";

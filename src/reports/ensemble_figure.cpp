@@ -13,9 +13,9 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr int kPanelHeight = 330;  // px
-constexpr double kWide = 0.8;      // share of white in the outer percentiles
-constexpr double kNarrow = 0.55;   // and in the inner ones
+constexpr int kPercentilesHeight = 330;  // px
+constexpr double kWide = 0.8;            // share of white in the outer percentiles
+constexpr double kNarrow = 0.55;         // and in the inner ones
 
 using Percentile = std::vector<double> state::EnsembleState::*;
 
@@ -113,7 +113,7 @@ Chart peakChart(const Ensemble& ensemble, std::size_t quantity) {
 
 Figure ensembleFigure(const Ensemble& ensemble, const PlotHistory& history) {
   Figure figure;
-  figure.chart_height = kPanelHeight;
+  figure.chart_height = kPercentilesHeight;
   for (std::size_t k = 0; k < ensemble.quantities().size(); ++k) {
     figure.charts.push_back(courseChart(ensemble, history, k));
     figure.charts.push_back(peakChart(ensemble, k));

@@ -5,14 +5,13 @@
 #include <cmath>
 #include <complex>
 
+#include "algebra/constants.h"
 #include "reports/fit_report.h"
 #include "signal/full_spectrum.h"
 
 namespace whirl_twin {
 
 namespace {
-
-constexpr double kTurn = 6.283185307179586;
 
 /// Amplitudes over frequency of what is left, its rows taken for even.
 Series spectrum(const MeasuredRun& data, const Series& rest) {
@@ -27,7 +26,7 @@ Series spectrum(const MeasuredRun& data, const Series& rest) {
   series.pen = rest.pen;
   for (std::size_t k = 0; k < all.size(); ++k) {
     if (all.frequency(k) > 0.0) {  // the other half is the same
-      series.x.push_back(all.frequency(k) / kTurn);
+      series.x.push_back(all.frequency(k) / kTwoPi);
       series.y.push_back(2.0 * all.amplitude(k));
     }
   }

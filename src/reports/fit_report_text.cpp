@@ -15,7 +15,7 @@ constexpr double kStrong = 0.9;      // a correlation worth a word
 constexpr double kPersistent = 0.8;  // of residuals that are far from white
 constexpr std::size_t kMostPairs = 6;
 
-std::string parameterText(const ShootingFit& fit) {
+std::string fittedParameterText(const ShootingFit& fit) {
   std::string out;
   if (fit.unknowns.empty()) {
     return "nothing was fitted but the starts of windows\n";
@@ -130,7 +130,7 @@ std::string directionText(const ShootingFit& fit, const UntoldDirection& directi
 }
 
 std::string text(const FitStudy& study, const ShootingFit& fit) {
-  std::string out = parameterText(fit);
+  std::string out = fittedParameterText(fit);
   if (!fit.information.untold.empty()) {
     out += "The runs do not tell (what takes part stays where it starts)\n";
     for (const UntoldDirection& direction : fit.information.untold) {

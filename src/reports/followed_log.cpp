@@ -59,7 +59,7 @@ std::string plusMinus(double value, double deviation) {
                                   : fmt::format("{:.6g}, not known", value);
 }
 
-std::string systemText(const FollowedSystem& system) {
+std::string followedSystemText(const FollowedSystem& system) {
   std::string out = fmt::format("{}\n", system.name);
   if (!system.found) {
     return out + "  its motion was not found: no sample of it, or no shaft angle\n";
@@ -176,7 +176,7 @@ std::string text(const FollowedLog& run) {
     out += fmt::format("The motion was found anew {} times.\n", run.restarts);
   }
   for (const FollowedSystem& system : run.systems) {
-    out += systemText(system);
+    out += followedSystemText(system);
   }
   return out;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "algebra/constants.h"
 #include "messages/names.h"
 #include "messages/refusal.h"
 #include "reports/modes_report.h"
@@ -16,15 +17,10 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kDegrees = 180.0 / kPi;
-constexpr double kFastest = 1.0e6;  // rad/s
-constexpr int kMostPoints = 10'000;
-constexpr std::size_t kModesLookedAt = 6;
-constexpr double kBeyond = 1.25;          // of the last of them
-constexpr std::size_t kMostStations = 7;  // of one chart: as many as it has colours
+constexpr double kHighestFrequency = 1.0e6;  // rad/s
+constexpr int kMostSweepPoints = 10'000;
 
-std::size_t stationOf(const RotorSystem& system, const char* option, const std::string& name) {
+std::size_t namedStation(const RotorSystem& system, const char* option, const std::string& name) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < system.stations.size(); ++i) {
     names.push_back(system.stations[i].name);
@@ -37,9 +33,9 @@ std::size_t stationOf(const RotorSystem& system, const char* option, const std::
 }
 
 double within(const char* option, double value) {
-  if (!(value >= 0.0 && value <= kFastest)) {
-    throw Refusal(
-        fmt::format("{}: expected from 0 to {:g} rad/s, found {:g}", option, kFastest, value));
+  if (!(value >= 0.0 && value <= kHighestFrequency)) {
+    throw Refusal(fmt::format("{}: expected from 0 to {:g} rad/s, found {:g}", option,
+                              kHighestFrequency, value));
   }
   return value;
 }
@@ -72,16 +68,16 @@ ForcedReport forcedReport(const RotorSystem& system, const ForcedRequest& reques
   ForcedReport r;
   r.system = &system;
   r.request = request;
-  const std::size_t force = stationOf(system, "--force", request.force);
+  const std::size_t force = namedStation(system, "--force", request.force);
   if (request.along != "x" && request.along != "y") {
     throw Refusal(fmt::format("--along: expected x or y, found '{}'", request.along));
   }
-  if (request.points < 2 || request.points > kMostPoints) {
+  if (request.points < 2 || request.points > kMostSweepPoints) {
     throw Refusal(
-        fmt::format("--points: expected from 2 to {}, found {}", kMostPoints, request.points));
+        fmt::format("--points: expected from 2 to {}, found {}", kMostSweepPoints, request.points));
   }
   for (const std::string& name : request.at) {
-    r.stations.push_back(stationOf(system, "--at", name));
+    r.stations.push_back(namedStation(system, "--at", name));
   }
   if (r.stations.empty()) {
     r.stations = {force};
@@ -92,9 +88,10 @@ ForcedReport forcedReport(const RotorSystem& system, const ForcedRequest& reques
                         [](const WhirlMode& mode) { return mode.eigenvalue.real() > 0.0; });
   const double from = within("--from", request.from.value_or(0.0));
   const double usual =
-      modes.empty() ? std::max(2.0 * r.speed, 100.0)
-                    : kBeyond * modes[std::min(modes.size(), kModesLookedAt) - 1].dampedFrequency();
-  const double to = within("--to", request.to.value_or(std::min(usual, kFastest)));
+      modes.empty()
+          ? std::max(2.0 * r.speed, 100.0)
+          : kBeyondLastMode * modes[std::min(modes.size(), kModesOfInterest) - 1].dampedFrequency();
+  const double to = within("--to", request.to.value_or(std::min(usual, kHighestFrequency)));
   if (!(from < to)) {
     throw Refusal(fmt::format("--from, --to: expected --from below --to, found {:g} and {:g} rad/s",
                               from, to));
@@ -171,8 +168,8 @@ std::string text(const ForcedReport& r) {
     for (const std::size_t k : peaks) {
       const Complex x = along(r, r.sweep[k], i);
       out += fmt::format("    {:>10.5g} {:>11.5g} {:>16.5g} {:>18.5g} {:>11.4g}\n",
-                         r.sweep[k].frequency, r.sweep[k].frequency / (2.0 * kPi), std::abs(x),
-                         r.sweep[k].frequency * std::abs(x), -std::arg(x) * kDegrees);
+                         r.sweep[k].frequency, r.sweep[k].frequency / kTwoPi, std::abs(x),
+                         r.sweep[k].frequency * std::abs(x), -std::arg(x) / kDegree);
     }
     if (peaks.empty()) {
       out += "    none in the range\n";
@@ -192,7 +189,7 @@ Figure figure(const ForcedReport& r) {
   phase.y.label = "lag of the displacement (deg)";
   receptance.y.logarithmic = mobility.y.logarithmic = true;
   phase.y.degrees = true;
-  const std::size_t shown = std::min(r.stations.size(), kMostStations);
+  const std::size_t shown = std::min(r.stations.size(), kMostStationsDrawn);
   for (std::size_t s = 0; s < shown; ++s) {
     const std::size_t i = r.stations[s];
     Series amplitude{r.system->stations[i].name, {}, {}};
@@ -204,7 +201,7 @@ Figure figure(const ForcedReport& r) {
       amplitude.y.push_back(std::abs(x));
       rate.x.push_back(response.frequency);
       rate.y.push_back(response.frequency * std::abs(x));
-      double now = -std::arg(x) * kDegrees;
+      double now = -std::arg(x) / kDegree;
       now = now < -90.0 ? now + 360.0 : now;
       if (std::fabs(now - before) > 180.0) {  // from one end of the axis to the other
         lag.x.push_back(response.frequency);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "algebra/constants.h"
+
 namespace whirl_twin {
 
 Chart historyChart(const PlotHistory& history, const std::string& name, const std::string& unit,
@@ -19,9 +21,8 @@ Chart historyChart(const PlotHistory& history, const std::string& name, const st
 
 Chart speedChart(const PlotHistory& history, const std::string& name,
                  const std::vector<double>& values) {
-  constexpr double kRpm = 30.0 / 3.14159265358979323846;  // of a rad/s
   Chart chart = historyChart(history, name, "rad/s", values);
-  chart.y.second = SecondScale{"rpm", kRpm};
+  chart.y.second = SecondScale{"rpm", 1.0 / kRpm};
   return chart;
 }
 

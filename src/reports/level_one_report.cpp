@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/constants.h"
 #include "messages/names.h"
 #include "messages/refusal.h"
 #include "reports/critical_map_report.h"
@@ -15,15 +16,14 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kRpm = 30.0 / 3.14159265358979323846;  // of a rad/s
 constexpr int kRows = 25;
-constexpr double kBeyond = 1.25;         // of Q_0 or Q_A, the larger
+constexpr double kBeyondMargins = 1.25;  // of Q_0 or Q_A, the larger
 constexpr double kLeastRatio = 2.0;      // Q_0 / Q_A
 constexpr double kSureRatio = 10.0;      // likewise: beyond it the gas does not matter
 constexpr double kLeastDecrement = 0.1;  // at Q_A
 
 /// [m], the middle between the outermost bearings, or of all stations.
-double middleOf(const RotorSystem& system) {
+double middleBetweenBearings(const RotorSystem& system) {
   std::vector<double> places;
   if (system.shaft) {
     const std::vector<double> z = system.shaft->positions();
@@ -40,9 +40,9 @@ double middleOf(const RotorSystem& system) {
   return 0.5 * (*first + *last);
 }
 
-std::size_t stationOf(const RotorSystem& system, const std::optional<std::string>& asked) {
+std::size_t stationOrMiddle(const RotorSystem& system, const std::optional<std::string>& asked) {
   std::vector<std::string> names;
-  const double middle = middleOf(system);
+  const double middle = middleBetweenBearings(system);
   std::size_t nearest = 0;
   for (std::size_t i = 0; i < system.stations.size(); ++i) {
     names.push_back(system.stations[i].name);
@@ -100,7 +100,7 @@ LevelOneReport levelOneReport(const RotorSystem& system, const LevelOneRequest& 
   r.request = request;
   r.speed = request.speed.value_or(system.highest_speed);
   requireNumbers(r);
-  const std::size_t station = stationOf(system, request.at);
+  const std::size_t station = stationOrMiddle(system, request.at);
   r.station = system.stations[station].name;
   const WholeRotor whole = wholeRotor(system);
   if (firstForwardMode(whole.rotor, whole.stations, station, r.speed, {0.0}).empty()) {
@@ -114,7 +114,7 @@ LevelOneReport levelOneReport(const RotorSystem& system, const LevelOneRequest& 
   }
   const double widest = std::max(r.margin.value_or(0.0), r.applied.value_or(0.0));
   const double last = widest > 0.0
-                          ? kBeyond * widest
+                          ? kBeyondMargins * widest
                           : 0.1 * whole.rotor.matrices(r.speed).stiffness.cwiseAbs().maxCoeff();
   std::vector<double> couplings;
   for (int i = 0; i < kRows; ++i) {
@@ -186,7 +186,7 @@ std::string text(const LevelOneReport& r) {
   std::string out = fmt::format(
       "{}: first forward whirl at {:g} rad/s ({:.0f} rpm), cross-coupling at {}\n"
       "    Q, N/m          log. decrement       rad/s\n",
-      r.system->title(), r.speed, kRpm * r.speed, r.station);
+      r.system->title(), r.speed, r.speed / kRpm, r.station);
   for (std::size_t i = 0; i < r.rows.size(); i += 2) {
     const CrossCouplingRow& row = r.rows[i];
     out += fmt::format("    {:<15.5g} {:>14.4g} {:>11.5g}\n", row.cross_coupling,

@@ -28,7 +28,7 @@ Room room() {
 }
 
 /// A character that is no ASCII takes more than a byte and at least a column: never too wide.
-std::string fitted(const std::string& line, std::size_t columns) {
+std::string cutToColumns(const std::string& line, std::size_t columns) {
   std::string out;
   for (std::size_t at = 0, column = 0; at < line.size() && column < columns; ++column) {
     const std::size_t length = std::max<std::size_t>(1, printableLength(line, at));
@@ -39,6 +39,10 @@ std::string fitted(const std::string& line, std::size_t columns) {
 }
 
 }  // namespace
+
+double secondsSince(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
 
 LiveLines::LiveLines() : on_terminal_(::isatty(STDOUT_FILENO) == 1) {}
 
@@ -55,10 +59,11 @@ void LiveLines::show(const std::vector<std::string>& lines) {
   const std::size_t most = std::max<std::size_t>(2, there.rows) - 1;  // the cursor has the last row
   const bool all = lines.size() <= most;
   for (std::size_t i = 0; i < (all ? lines.size() : most - 1); ++i) {
-    text += fitted(lines[i], there.columns) + "\n";
+    text += cutToColumns(lines[i], there.columns) + "\n";
   }
   if (!all) {
-    text += fitted(fmt::format("... and {} more", lines.size() - (most - 1)), there.columns) + "\n";
+    text += cutToColumns(fmt::format("... and {} more", lines.size() - (most - 1)), there.columns) +
+            "\n";
   }
   print(text);
   shown_ = std::min(lines.size(), most);

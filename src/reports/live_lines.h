@@ -2,11 +2,15 @@
 // go one below another.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <string>
 #include <vector>
 
 namespace whirl_twin {
+
+/// [s], wall time: since the lines were shown, or a message came.
+double secondsSince(std::chrono::steady_clock::time_point begin);
 
 class LiveLines {
  public:

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
+#include "algebra/constants.h"
 #include "reports/loop_report.h"
 #include "reports/verdict_text.h"
 
@@ -15,11 +15,9 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kPoints = 1600;
-constexpr double kDecades = 5.0;  // below the highest frequency
-constexpr double kWidest = 3.0;   // of the Nyquist diagram: what is farther is not near -1
+constexpr double kDecadesOfFrequency = 5.0;  // below the highest frequency
+constexpr double kNyquistReach = 3.0;  // of the Nyquist diagram: what is farther is not near -1
 constexpr double kHighestSensitivity = 12.0;
 constexpr double kLowestGain = 1.0e-6;  // of the highest; half the rate of the samples has none
 
@@ -38,7 +36,8 @@ const std::array<Zone, 4> kZones{{{"zone A", 0.0, 3.0, paler(ink::kGreen, 0.8)},
 std::vector<double> frequenciesOf(const LoopResponse& response) {
   std::vector<double> w;
   for (int i = 0; i < kPoints; ++i) {
-    w.push_back(response.highest * std::pow(10.0, kDecades * (i / (kPoints - 1.0) - 1.0)));
+    w.push_back(response.highest *
+                std::pow(10.0, kDecadesOfFrequency * (i / (kPoints - 1.0) - 1.0)));
   }
   for (const Complex& pole : response.poles) {
     const double place = std::fabs(pole.imag());
@@ -73,7 +72,7 @@ Curves curvesOf(const LoopResponse& response, const std::string& name) {
     before = phase;
     add(curves.gain, w, std::abs(loop));
     add(curves.phase, w, phase);
-    const bool near = std::abs(loop + 1.0) < kWidest;
+    const bool near = std::abs(loop + 1.0) < kNyquistReach;
     add(curves.nyquist, near ? loop.real() : kNaN, near ? loop.imag() : kNaN);
     const double sensitivity = 1.0 / std::abs(1.0 + loop);
     add(curves.sensitivity, w, sensitivity <= kHighestSensitivity ? sensitivity : kNaN);
@@ -89,7 +88,7 @@ Curves curvesOf(const LoopResponse& response, const std::string& name) {
 Series circleOfZoneA() {
   Series circle{"zone A stays outside", {}, {}, Pen{ink::kGreen, 1.5, {5.0, 3.0}}};
   for (int i = 0; i <= 120; ++i) {
-    const Complex at = -1.0 + std::polar(1.0 / 3.0, 2.0 * kPi * i / 120.0);
+    const Complex at = -1.0 + std::polar(1.0 / 3.0, kTwoPi * i / 120.0);
     circle.x.push_back(at.real());
     circle.y.push_back(at.imag());
   }
@@ -146,7 +145,7 @@ Figure figure(const LoopedController& controller) {
       sensitivity.series.push_back(peak);
     }
   }
-  addZones(highest * std::pow(10.0, -kDecades), highest, sensitivity);
+  addZones(highest * std::pow(10.0, -kDecadesOfFrequency), highest, sensitivity);
   nyquist.series.push_back(circleOfZoneA());
   Series point{"-1", {-1.0}, {0.0}, Pen{ink::kBlack, 1.0}};
   point.line = false;

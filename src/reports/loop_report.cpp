@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "algebra/constants.h"
 #include "messages/refusal.h"
 #include "reports/verdict_text.h"
 #include "scene/closed_loop.h"
@@ -14,8 +15,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kNothing = 1e-12;                  // of a place or an output, in its unit
-constexpr double kDegrees = 57.295779513082320877;  // in a radian
+constexpr double kNothing = 1e-12;  // of a place or an output, in its unit
 
 /// What a controller measures in steady motions.
 std::vector<double> measuredIn(const ControllerSpec& controller, const HeldMotions& motions) {
@@ -102,7 +102,7 @@ bool holdsSomething(const LoopedController& controller) {
          std::any_of(controller.held_outputs.begin(), controller.held_outputs.end(), something);
 }
 
-Json controllerJson(const LoopedController& controller) {
+Json loopedControllerJson(const LoopedController& controller) {
   Json json{{"type", controller.spec->type},
             {"rate", controller.spec->rate},
             {"delay", static_cast<double>(controller.spec->delay) / 1e9},
@@ -146,7 +146,7 @@ std::string orAny(double margin, const char* format) {
   return std::isfinite(margin) ? fmt::format(fmt::runtime(format), margin) : "any";
 }
 
-std::string controllerText(const LoopedController& controller) {
+std::string loopedControllerText(const LoopedController& controller) {
   const ControllerSpec& spec = *controller.spec;
   std::string out = fmt::format(
       "{}: {} at {:g} Hz, {}\n  measures {}, acts on {}\n", spec.name, spec.type, spec.rate,
@@ -180,7 +180,7 @@ std::string controllerText(const LoopedController& controller) {
                   "delay {}\n",
                   axis.sensitivity_peak, axis.peak_frequency, name(axis.zone), axis.gain_reduction,
                   orAny(axis.gain_margin, "{:.4g}"),
-                  orAny(axis.phase_margin * kDegrees, "{:.3g} degrees"),
+                  orAny(axis.phase_margin / kDegree, "{:.3g} degrees"),
                   orAny(axis.delay_margin, "{:.3g} s more"));
   }
   return out;
@@ -208,7 +208,7 @@ Json json(const LoopReport& report) {
   json["scene"] = report.scene->name;
   json["controllers"] = Json::object();
   for (const LoopedController& controller : report.controllers) {
-    json["controllers"][controller.spec->name] = controllerJson(controller);
+    json["controllers"][controller.spec->name] = loopedControllerJson(controller);
   }
   return json;
 }
@@ -216,7 +216,7 @@ Json json(const LoopReport& report) {
 std::string text(const LoopReport& report) {
   std::string out;
   for (const LoopedController& controller : report.controllers) {
-    out += (out.empty() ? "" : "\n") + controllerText(controller);
+    out += (out.empty() ? "" : "\n") + loopedControllerText(controller);
   }
   return out;
 }

@@ -17,10 +17,11 @@ namespace {
 
 constexpr std::size_t kRowsOfBlock = 100;  // of a table
 
-MeasuredFile readLog(const std::string& path, const std::string& scene,
-                     const std::vector<FollowedSource>& sources, const std::string& prefix,
-                     const std::function<void(const state::Measurement&)>& take,
-                     const LogProgress& advanced) {
+MeasuredFile readMeasuredMessages(const std::string& path, const std::string& scene,
+                                  const std::vector<FollowedSource>& sources,
+                                  const std::string& prefix,
+                                  const std::function<void(const state::Measurement&)>& take,
+                                  const LogProgress& advanced) {
   std::set<std::string> names;
   for (const FollowedSource& source : sources) {
     names.insert(source.name);
@@ -110,7 +111,7 @@ MeasuredFile readMeasurements(const std::string& path, const std::string& scene,
                               const LogProgress& advanced) {
   return std::filesystem::path(path).extension() == ".csv"
              ? readTable(path, tableSource(scene, sources), take)
-             : readLog(path, scene, sources, prefix, take, advanced);
+             : readMeasuredMessages(path, scene, sources, prefix, take, advanced);
 }
 
 }  // namespace whirl_twin

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <exception>
 
-#include "algebra/qr.h"
+#include "algebra/dense.h"
 #include "analysis/assumed_modes.h"
 #include "analysis/dunkerley.h"
 #include "analysis/frequency_response.h"
@@ -21,7 +21,7 @@ namespace whirl_twin {
 
 namespace {
 
-std::string name(Definiteness form) {
+std::string stiffnessForm(Definiteness form) {
   switch (form) {
     case Definiteness::kPositiveDefinite:
       return "positive definite";
@@ -125,7 +125,7 @@ Eigen::MatrixXcd loadPhasors(const Dynamics& dynamics, const SystemAnalysis& a,
     }
     force.row(i) = dynamics.unbalancedForce(a.about, rest, {t, 0.0, 0.0, 0.0});
   }
-  const Eigen::MatrixXd fitted = basis.colPivHouseholderQr().solve(force);
+  const Eigen::MatrixXd fitted = PivotedQr(basis).solve(force);
   Eigen::MatrixXcd phasors(a.about.size(), count);
   for (Eigen::Index k = 0; k < count; ++k) {
     phasors.col(k).real() = fitted.row(2 * k + 1);
@@ -180,7 +180,7 @@ MethodAnalysis analyzeMethods(const BuiltSystem& system, const SystemAnalysis& a
     return m;
   }
   const Definiteness form = definiteness(l.stiffness, "stiffness");
-  m.stiffness_form = name(form);
+  m.stiffness_form = stiffnessForm(form);
   if (form == Definiteness::kIndefinite) {
     return m;
   }

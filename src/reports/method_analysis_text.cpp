@@ -7,10 +7,8 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr Eigen::Index kFewCoordinates = 6;  // as many are shown one by one, with their matrices
-
 /// A matrix of few coordinates; of many there is --json.
-std::string shown(const char* title, const Eigen::MatrixXd& m) {
+std::string smallMatrixText(const char* title, const Eigen::MatrixXd& m) {
   return m.rows() <= kFewCoordinates ? matrixText(title, m)
                                      : fmt::format("    {:<15} --json\n", title);
 }
@@ -18,13 +16,13 @@ std::string shown(const char* title, const Eigen::MatrixXd& m) {
 std::string stiffnessText(const MethodAnalysis& m) {
   if (m.flexibility) {
     return fmt::format("  stiffness is {}; influence coefficients\n", m.stiffness_form) +
-           shown("flexibility", *m.flexibility);
+           smallMatrixText("flexibility", *m.flexibility);
   }
   if (m.rigid_body_modes.cols() == 0) {
     return fmt::format("  stiffness is {}\n", m.stiffness_form);
   }
   return fmt::format("  stiffness is {}: rigid-body modes, in columns\n", m.stiffness_form) +
-         shown("modes", m.rigid_body_modes);
+         smallMatrixText("modes", m.rigid_body_modes);
 }
 
 std::string boundsText(const FrequencyBounds& b) {
@@ -40,7 +38,7 @@ std::string boundsText(const FrequencyBounds& b) {
   } else {
     out += fmt::format("    exact {:.8g}; no lower bound: {}\n", b.exact[0], b.refusal);
   }
-  return out + "  undamped mode shapes, in columns\n" + shown("shapes", b.shapes);
+  return out + "  undamped mode shapes, in columns\n" + smallMatrixText("shapes", b.shapes);
 }
 
 std::string responseText(const SteadyResponse& r, const SystemAnalysis& a) {

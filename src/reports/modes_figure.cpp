@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "algebra/constants.h"
 #include "reports/modes_report.h"
 #include "reports/orbit_chart.h"
 #include "reports/rotor_outline.h"
@@ -11,8 +12,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kRpm = 30.0 / 3.14159265358979323846;  // of a rad/s
-constexpr double kHeight = 0.9;                         // of the widest orbit, the rotor behind it
+constexpr double kHeight = 0.9;  // of the widest orbit, the rotor behind it
 constexpr double kPale = 0.6;
 
 Chart shapeChart(const ModesReport& r, std::size_t place) {
@@ -29,7 +29,7 @@ Chart shapeChart(const ModesReport& r, std::size_t place) {
     }
   }
   chart.title = fmt::format("{}: {}, {:.4g} rad/s ({:.0f} rpm), log. decrement {:.3g}", place + 1,
-                            name(mode.whirl), mode.dampedFrequency(), kRpm * mode.dampedFrequency(),
+                            name(mode.whirl), mode.dampedFrequency(), mode.dampedFrequency() / kRpm,
                             mode.logDecrement());
   return chart;
 }
@@ -40,7 +40,7 @@ Figure figure(const ModesReport& r, std::size_t count) {
   Figure figure;
   figure.title =
       fmt::format("{}: whirl modes at {:.4g} rad/s, {:.0f} rpm (blue forward, red backward)",
-                  r.system->title(), r.speed, kRpm * r.speed);
+                  r.system->title(), r.speed, r.speed / kRpm);
   for (std::size_t k = 0; k < std::min(count, r.model.size()); ++k) {
     figure.charts.push_back(shapeChart(r, k));
   }

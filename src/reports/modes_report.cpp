@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/constants.h"
 #include "analysis/banded_rotor.h"
 #include "analysis/stability.h"
 #include "messages/refusal.h"
@@ -13,9 +14,6 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
-constexpr std::size_t kModesLookedAt = 6;
-constexpr double kBeyond = 1.25;       // of the last of them
 constexpr double kBeyondFirst = 3.0;   // of the first
 constexpr double kOfNyquist = 0.8;     // what probes can tell
 constexpr double kLeastTurn = 1.0e-4;  // rad from sample to sample, of the frequencies looked at
@@ -25,11 +23,11 @@ constexpr double kWellKnown = 0.25;    // deviation of a decay rate, of it
 double limitOf(const std::vector<WhirlMode>& model, double speed, double period) {
   double limit = 3.0 * speed;
   if (!model.empty()) {
-    const std::size_t last = std::min(model.size(), kModesLookedAt) - 1;
-    limit = std::max(kBeyond * model[last].dampedFrequency(),
+    const std::size_t last = std::min(model.size(), kModesOfInterest) - 1;
+    limit = std::max(kBeyondLastMode * model[last].dampedFrequency(),
                      kBeyondFirst * model.front().dampedFrequency());
   }
-  return std::clamp(limit, kLeastTurn / period, kOfNyquist * 0.5 * kTurn / period);
+  return std::clamp(limit, kLeastTurn / period, kOfNyquist * 0.5 * kTwoPi / period);
 }
 
 /// One mode of the measured ones for each sense of the model's: the stronger stays.
@@ -67,7 +65,7 @@ std::vector<ComparedMode> compared(const std::vector<AmbientMode>& measured,
   return kept;
 }
 
-void addNotes(ModesReport& report) {
+void addModesNotes(ModesReport& report) {
   std::vector<std::string>& notes = report.notes;
   if (!report.record) {
     notes.push_back(fmt::format(
@@ -144,7 +142,7 @@ ModesReport modesReport(const RotorSystem& system, const RotorRecord& record,
     report.stations.push_back(system.stations[station.station].name);
     report.one_probe.push_back(!station.whole());
   }
-  const double highest = kOfNyquist * 0.5 * kTurn / record.period();
+  const double highest = kOfNyquist * 0.5 * kTwoPi / record.period();
   const double lowest = kLeastTurn / record.period();
   if (limit && !(*limit >= lowest && *limit <= highest)) {
     throw Refusal(
@@ -189,7 +187,7 @@ ModesReport modesReport(const RotorSystem& system, const RotorRecord& record,
       }
     }
   }
-  addNotes(report);
+  addModesNotes(report);
   return report;
 }
 

@@ -17,6 +17,10 @@
 
 namespace whirl_twin {
 
+/// Frequencies are of interest up to the last of so many modes, and by this factor beyond it.
+inline constexpr std::size_t kModesOfInterest = 6;
+inline constexpr double kBeyondLastMode = 1.25;
+
 /// A measured mode, and what it is of the model.
 struct ComparedMode {
   AmbientMode mode;

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <complex>
 
+#include "algebra/constants.h"
 #include "reports/modes_report.h"
 
 namespace whirl_twin {
 
 namespace {
-
-constexpr double kRadian = 3.14159265358979323846 / 180.0;
 
 /// "86.7 +- 0.12": a value with half of an interval that holds 95 %.
 std::string interval(double value, double half) {
@@ -71,7 +70,7 @@ Json modelJson(const ModesReport& report, std::size_t place) {
   return json;
 }
 
-Json estimateJson(double value, double deviation, double factor) {
+Json modeEstimateJson(double value, double deviation, double factor) {
   return {{"value", value},
           {"standard_deviation", deviation},
           {"interval", {value - factor * deviation, value + factor * deviation}}};
@@ -83,13 +82,13 @@ Json measuredJson(const ModesReport& report, const ComparedMode& one) {
   const double frequency = std::fabs(mode.frequency);
   Json json;
   json["whirl"] = sense(mode);
-  json["frequency"] = estimateJson(frequency, mode.frequency_deviation, factor);
-  json["decay_rate"] = estimateJson(mode.decay_rate, mode.decay_deviation, factor);
+  json["frequency"] = modeEstimateJson(frequency, mode.frequency_deviation, factor);
+  json["decay_rate"] = modeEstimateJson(mode.decay_rate, mode.decay_deviation, factor);
   json["damping_ratio"] =
-      estimateJson(mode.dampingRatio(), mode.decay_deviation / mode.size(), factor);
-  json["log_decrement"] =
-      estimateJson(mode.logDecrement(),
-                   mode.logDecrement() * mode.decay_deviation / std::fabs(mode.decay_rate), factor);
+      modeEstimateJson(mode.dampingRatio(), mode.decay_deviation / mode.size(), factor);
+  json["log_decrement"] = modeEstimateJson(
+      mode.logDecrement(), mode.logDecrement() * mode.decay_deviation / std::fabs(mode.decay_rate),
+      factor);
   json["other_sense"] = one.other_sense;
   json["power"] = mode.power;
   json["order"] = mode.order > 0 ? Json(mode.order) : Json();
@@ -153,7 +152,7 @@ std::string measuredText(const ModesReport& report, const ComparedMode& one) {
     for (std::size_t s = 0; s < report.stations.size(); ++s) {
       const auto k = static_cast<Eigen::Index>(s);
       out += fmt::format(" {} {:.3g} at {:.0f} deg +- {:.2g},", report.stations[s],
-                         std::abs(mode.shape[k]), std::arg(mode.shape[k]) / kRadian + 0.0,
+                         std::abs(mode.shape[k]), std::arg(mode.shape[k]) / kDegree + 0.0,
                          factor * mode.shape_deviation[k]);
     }
     out.back() = '\n';

@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "algebra/constants.h"
 #include "messages/refusal.h"
 #include "monitoring/twin_monitor.h"
 #include "monitoring/watched_kinds.h"
@@ -20,9 +21,8 @@ namespace whirl_twin {
 namespace {
 
 constexpr double kLongestWindow = 20.0;  // s, of what turns with the shaft
-constexpr double kTurn = 6.283185307179586;
-constexpr double kTick = 0.1;        // s, as the node ticks at least
-constexpr double kSample = 0.1;      // s, simulated, of what is drawn
+constexpr double kTick = 0.1;            // s, as the node ticks at least
+constexpr double kSample = 0.1;          // s, simulated, of what is drawn
 constexpr double kSilence = 600.0;   // s: a longer one is a clock that was set, or two recordings
 constexpr int kBelievedAstray = 10;  // events
 
@@ -172,7 +172,7 @@ class Replay {
     orders.speed.push_back(told.speed);
     orders.amplitude.push_back(told.forward_amplitude[place]);
     orders.deviation.push_back(told.deviation[place]);
-    orders.lag.push_back(before + std::remainder(told.forward_lag[place] - before, kTurn));
+    orders.lag.push_back(before + std::remainder(told.forward_lag[place] - before, kTwoPi));
   }
   void draw(const state::FollowState&) {}      // its alerts tell it
   void draw(const state::ControllerState&) {}  // likewise

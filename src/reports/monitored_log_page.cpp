@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "algebra/constants.h"
 #include "reports/monitored_log.h"
 #include "reports/report_page.h"
 #include "reports/spectrum_figures.h"
@@ -12,7 +12,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr const char* kStyle =
+constexpr const char* kLogPageStyle =
     "body{font:15px/1.5 sans-serif;color:#21212a;max-width:60em;margin:2em auto;padding:0 1em}"
     "table{border-collapse:collapse;margin:1em 0}"
     "th,td{text-align:left;padding:.25em .8em;border-bottom:1px solid #ddd;vertical-align:top}"
@@ -21,27 +21,7 @@ constexpr const char* kStyle =
     "svg{max-width:100%;height:auto}h2{margin-top:2em}"
     "@media print{h2{break-before:page}table,svg{break-inside:avoid}}";
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      default:
-        out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  }
-  return out;
-}
-
-std::string number(double x) {
+std::string numberOnPage(double x) {
   return std::isfinite(x) ? fmt::format("{:.6g}", x) : "–";
 }
 
@@ -75,8 +55,6 @@ std::vector<Band> bandsOf(const MonitoredLog& run, const SystemCourse& system) {
   return bands;
 }
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
-
 std::vector<double> inDegrees(std::vector<double> angles) {
   for (double& angle : angles) {
     angle /= kDegree;
@@ -100,13 +78,13 @@ std::string resonancesPart(const SystemCourse& system) {
     const ResponsePeak& peak = resonance.peak;
     const std::string factor =
         !peak.amplification_factor ? "– (half power is not reached on both sides)"
-        : peak.slow                ? number(*peak.amplification_factor)
-                    : number(*peak.amplification_factor) + " (passed too fast: too small)";
+        : peak.slow                ? numberOnPage(*peak.amplification_factor)
+                    : numberOnPage(*peak.amplification_factor) + " (passed too fast: too small)";
     out += fmt::format(
         "<tr><td class=\"n\">{:.3f}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
         "<td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
-        peak.time, number(peak.speed), number(peak.amplitude), factor,
-        number(resonance.model_speed), number(resonance.model_factor));
+        peak.time, numberOnPage(peak.speed), numberOnPage(peak.amplitude), factor,
+        numberOnPage(resonance.model_speed), numberOnPage(resonance.model_factor));
   }
   return out + "</table>\n";
 }
@@ -138,7 +116,7 @@ std::string spectraPart(const SystemCourse& system, int& pictures) {
   } else if (!said.empty()) {
     said = "Note: " + said + ".";
   }
-  return out + (said.empty() ? "" : fmt::format("<p>{}</p>\n", escaped(said)));
+  return out + (said.empty() ? "" : fmt::format("<p>{}</p>\n", escapedForHtml(said)));
 }
 
 Figure bode(const OrderCourse& orders) {
@@ -182,9 +160,8 @@ Figure figure(const MonitoredLog& run, const SystemCourse& system) {
     Chart chart;
     chart.x = {"time (s)", false, true};
     chart.y = {label, false, false};
-    constexpr double kUnseen = std::numeric_limits<double>::quiet_NaN();
     chart.series = {{"", time, values},
-                    {"", {run.begin, run.end}, {kUnseen, kUnseen}}};  // one time axis for all
+                    {"", {run.begin, run.end}, {kNaN, kNaN}}};  // one time axis for all
     chart.bands = bandsOf(run, system);
     figure.charts.push_back(chart);
   };
@@ -212,7 +189,8 @@ std::string notOkPart(const MonitoredLog& run) {
     for (const NotOkCourse& course : system.not_ok) {
       rows += fmt::format(
           "<tr><td class=\"n\">{}</td><td class=\"n\">{}</td><td>{}</td><td>{}</td></tr>\n",
-          number(course.begin), number(course.end), escaped(system.name), escaped(course.why));
+          numberOnPage(course.begin), numberOnPage(course.end), escapedForHtml(system.name),
+          escapedForHtml(course.why));
     }
   }
   return rows.empty()
@@ -228,8 +206,8 @@ std::string page(const MonitoredLog& run) {
       "<title>{0}: {1}</title>\n<style>{2}</style></head><body>\n<h1>{0}</h1>\n"
       "<p>{1}: t = {3:g} to {4:g} s of simulated time, {5} messages watched, {6} rejected, {7} "
       "damaged places, {8} resets.</p>\n",
-      escaped(run.scene), escaped(run.log), kStyle, run.begin, run.end, run.watched, run.rejected,
-      run.damaged, run.resets);
+      escapedForHtml(run.scene), escapedForHtml(run.log), kLogPageStyle, run.begin, run.end,
+      run.watched, run.rejected, run.damaged, run.resets);
   out += "<h2>Alerts</h2>\n";
   if (run.alerts.empty()) {
     out += "<p>None.</p>\n";
@@ -243,7 +221,8 @@ std::string page(const MonitoredLog& run) {
           "<td>{}</td><td>{}</td><td>{}</td></tr>\n",
           alert.raised, std::isnan(alert.cleared) ? "–" : fmt::format("{:.3f}", alert.cleared),
           className(alert.worst.severity), className(alert.worst.severity),
-          escaped(alert.worst.type), escaped(alert.worst.system), escaped(alert.worst.text));
+          escapedForHtml(alert.worst.type), escapedForHtml(alert.worst.system),
+          escapedForHtml(alert.worst.text));
     }
     out += "</table>\n";
   }
@@ -255,17 +234,17 @@ std::string page(const MonitoredLog& run) {
     out += fmt::format(
         "<tr><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
         "<td>{}</td></tr>\n",
-        escaped(system.name), number(system.least_decay_rate), number(system.least_at),
-        number(system.least_at_speed),
-        system.least_verdict.empty() ? "not judged" : escaped(system.least_verdict));
+        escapedForHtml(system.name), numberOnPage(system.least_decay_rate),
+        numberOnPage(system.least_at), numberOnPage(system.least_at_speed),
+        system.least_verdict.empty() ? "not judged" : escapedForHtml(system.least_verdict));
   }
   out += "</table>\n";
   int pictures = 0;
   for (const SystemCourse& system : run.systems) {
     const Figure drawn = figure(run, system);
     if (!drawn.charts.empty()) {
-      out +=
-          fmt::format("<h2>{}</h2>\n{}\n", escaped(system.name), inlinedPicture(drawn, ++pictures));
+      out += fmt::format("<h2>{}</h2>\n{}\n", escapedForHtml(system.name),
+                         inlinedPicture(drawn, ++pictures));
       if (!system.orders.speed.empty()) {
         out += inlinedPicture(bode(system.orders), ++pictures) + "\n";
       }

@@ -9,7 +9,7 @@ namespace whirl_twin {
 
 namespace {
 
-std::string number(double x, const char* unit) {
+std::string numberWithUnit(double x, const char* unit) {
   return std::isfinite(x) ? fmt::format("{:.6g} {}", x, unit) : "-";
 }
 
@@ -62,7 +62,7 @@ std::string notOkText(const SystemCourse& system) {
   std::string out;
   for (const NotOkCourse& course : system.not_ok) {
     out += fmt::format("  {}: not OK, t = {:.4g} to {}: {}\n", system.name, course.begin,
-                       number(course.end, "s"), course.why);
+                       numberWithUnit(course.end, "s"), course.why);
   }
   return out;
 }
@@ -139,8 +139,9 @@ std::string text(const MonitoredLog& run) {
                      "at speed", "verdict there");
   for (const SystemCourse& system : run.systems) {
     out += fmt::format("  {:<20} {:>14} {:>12} {:>14}  {}\n", system.name,
-                       number(system.least_decay_rate, "1/s"), number(system.least_at, "s"),
-                       number(system.least_at_speed, "rad/s"),
+                       numberWithUnit(system.least_decay_rate, "1/s"),
+                       numberWithUnit(system.least_at, "s"),
+                       numberWithUnit(system.least_at_speed, "rad/s"),
                        system.least_verdict.empty() ? "not judged" : system.least_verdict);
   }
   std::string motion;

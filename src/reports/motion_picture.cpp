@@ -14,7 +14,7 @@ constexpr std::size_t kGhosts = 4;        // later positions
 constexpr double kGhostDistance = 0.3;    // of the tracer's range, from one to the next
 constexpr double kLongestTrace = 6.0;     // of the tracer's range
 constexpr std::size_t kPositions = 5000;  // of a run, looked at
-constexpr double kStill = 1.0e-3;         // of the picture's size, of a motion that is not seen
+constexpr double kUnseenMotion = 1.0e-3;  // of the picture's size, of a motion that is not seen
 
 double distance(const SketchPoint& a, const SketchPoint& b) {
   return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
@@ -64,7 +64,7 @@ std::optional<SketchPicture> motionPicture(const std::string& title, const Dynam
     sketches.push_back(sketchAt(dynamics, history, i));
   }
   const double all = range(sketches);
-  if (all < kStill * picture.sketch.size) {
+  if (all < kUnseenMotion * picture.sketch.size) {
     return picture;
   }
   // The first stretch of the motion: all of it would be a blot.

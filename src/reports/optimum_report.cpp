@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/study_report.h"
+
 namespace whirl_twin {
 
 namespace {
@@ -18,12 +20,8 @@ std::string endOf(const Variation& variation, double value) {
   return value <= low + near ? "smallest" : value >= high - near ? "largest" : "";
 }
 
-std::string withUnit(const std::string& name, const std::string& unit) {
-  return unit.empty() || unit == "-" ? name : fmt::format("{} ({})", name, unit);
-}
-
 /// In a column of a table.
-std::string cell(double value) {
+std::string optimumCell(double value) {
   return std::isnan(value)   ? fmt::format(" {:>12}", "undefined")
          : std::isinf(value) ? fmt::format(" {:>12}", value > 0.0 ? "infinite" : "-infinite")
                              : fmt::format(" {:12.6g}", value);
@@ -53,16 +51,16 @@ std::string text(const Study& study, const Optimum& optimum) {
   }
   std::size_t width = 7;
   for (const std::size_t j : asked.over) {
-    width = std::max(width, withUnit(study.vary[j].path, study.vary[j].unit).size());
+    width = std::max(width, nameWithUnit(study.vary[j].path, study.vary[j].unit).size());
   }
   for (const Measure& measure : study.measures) {
-    width = std::max(width, withUnit(measure.name, measure.unit).size());
+    width = std::max(width, nameWithUnit(measure.name, measure.unit).size());
   }
   text += fmt::format("\n{:{}} {:>12} {:>12} {:>12} {:>12}\n", "", width, "from", "to", "start",
                       found ? "best" : "");
   for (const std::size_t j : asked.over) {
     const Variation& v = study.vary[j];
-    text += fmt::format("{:{}} {:12.6g} {:12.6g} {:12.6g}", withUnit(v.path, v.unit), width,
+    text += fmt::format("{:{}} {:12.6g} {:12.6g} {:12.6g}", nameWithUnit(v.path, v.unit), width,
                         v.distribution.smallest(), v.distribution.largest(), optimum.start[j]);
     if (found) {
       const std::string end = endOf(v, optimum.values[j]);
@@ -75,8 +73,9 @@ std::string text(const Study& study, const Optimum& optimum) {
   const std::vector<double> start = measuresAtStart(study, optimum);
   for (std::size_t k = 0; k < study.measures.size(); ++k) {
     const Measure& measure = study.measures[k];
-    text += fmt::format("{:{}} {:>12} {:>12}", withUnit(measure.name, measure.unit), width, "", "");
-    text += cell(start[k]) + (found ? cell(optimum.measures[k]) : "") + "\n";
+    text +=
+        fmt::format("{:{}} {:>12} {:>12}", nameWithUnit(measure.name, measure.unit), width, "", "");
+    text += optimumCell(start[k]) + (found ? optimumCell(optimum.measures[k]) : "") + "\n";
   }
   if (found && !study.requirements.empty()) {
     text += "\nrequired and held:";

@@ -6,11 +6,12 @@
 #include <cmath>
 #include <complex>
 
+#include "algebra/constants.h"
+
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kOrbitPoints = 181;
 constexpr std::size_t kMostOrbits = 24;  // along a shaft
 
@@ -18,20 +19,20 @@ constexpr std::size_t kMostOrbits = 24;  // along a shaft
 Series orbitPath(const Orbit& orbit, double start) {
   Series path;
   for (int k = 0; k < kOrbitPoints; ++k) {
-    const std::complex<double> turn = std::polar(1.0, start + 2.0 * kPi * k / (kOrbitPoints - 1));
+    const std::complex<double> turn = std::polar(1.0, start + kTwoPi * k / (kOrbitPoints - 1));
     path.x.push_back((orbit.x * turn).real());
     path.y.push_back((orbit.y * turn).real());
   }
   return path;
 }
 
-Pen penOf(const Orbit& orbit) {
+Pen orbitPen(const Orbit& orbit) {
   const bool forward = std::abs(orbit.forward) >= std::abs(orbit.backward);
   return {forward ? ink::kBlue : ink::kVermilion, 1.8};
 }
 
 /// Stations in order along the shaft; empty where they are not apart.
-std::vector<std::size_t> alongShaft(const std::vector<Station>& stations) {
+std::vector<std::size_t> orderAlongShaft(const std::vector<Station>& stations) {
   std::vector<std::size_t> order(stations.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     order[i] = i;
@@ -78,7 +79,7 @@ Chart orbitsAlongShaft(const std::vector<Orbit>& orbits, const std::vector<Stati
     if (k % stride != 0) {
       continue;
     }
-    path.pen = penOf(orbit);
+    path.pen = orbitPen(orbit);
     const bool forward = std::abs(orbit.forward) >= std::abs(orbit.backward);
     bool& done = named[forward ? 0 : 1];
     path.name = done ? "" : forward ? "forward" : "backward";
@@ -118,7 +119,7 @@ Chart orbitsInOnePlane(const std::vector<Orbit>& orbits, const std::vector<Stati
 
 OrbitChart orbitChart(const std::vector<Orbit>& orbits, const std::vector<Station>& stations,
                       const std::string& unit) {
-  const std::vector<std::size_t> order = alongShaft(stations);
+  const std::vector<std::size_t> order = orderAlongShaft(stations);
   OrbitChart drawn;
   drawn.along_shaft = !order.empty();
   drawn.chart = drawn.along_shaft ? orbitsAlongShaft(orbits, stations, order)

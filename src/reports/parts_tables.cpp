@@ -8,13 +8,13 @@ namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
 
-std::string number(double value) {
+std::string partNumber(double value) {
   return fmt::format("{:.5g}", value + 0.0);
 }
 
 /// Both ends of what tapers.
 std::string diameter(double at_first, double growth) {
-  return growth == 0.0 ? number(at_first)
+  return growth == 0.0 ? partNumber(at_first)
                        : fmt::format("{:.5g} to {:.5g}", at_first, at_first + growth);
 }
 
@@ -46,10 +46,10 @@ Rows elementRows(const FlexibleShaft& shaft) {
     }
     const ShaftSection& e = shaft.elements[first];
     const ShaftMaterial& material = e.material ? *e.material : shaft.material;
-    rows.push_back({fmt::format("{} to {}", first, end), number(e.length),
+    rows.push_back({fmt::format("{} to {}", first, end), partNumber(e.length),
                     diameter(e.outer_diameter, e.outer_growth),
-                    diameter(e.inner_diameter, e.inner_growth), number(material.youngs_modulus),
-                    number(material.density), number(e.axial_force), number(e.torque)});
+                    diameter(e.inner_diameter, e.inner_growth), partNumber(material.youngs_modulus),
+                    partNumber(material.density), partNumber(e.axial_force), partNumber(e.torque)});
     first = end;
   }
   return rows;
@@ -58,9 +58,9 @@ Rows elementRows(const FlexibleShaft& shaft) {
 Rows bearingRows(const FlexibleShaft& shaft, double speed) {
   Rows rows;
   const auto add = [&](int node, const BearingCoefficients& c, const char* kind) {
-    rows.push_back({std::to_string(node), number(c.kxx), number(c.kxy), number(c.kyx),
-                    number(c.kyy), number(c.cxx), number(c.cxy), number(c.cyx), number(c.cyy),
-                    kind});
+    rows.push_back({std::to_string(node), partNumber(c.kxx), partNumber(c.kxy), partNumber(c.kyx),
+                    partNumber(c.kyy), partNumber(c.cxx), partNumber(c.cxy), partNumber(c.cyx),
+                    partNumber(c.cyy), kind});
   };
   for (const RotorBearing& bearing : shaft.bearings) {
     add(bearing.node, bearing.coefficients, "constant");
@@ -85,9 +85,9 @@ std::vector<PartsTable> partsTables(const FlexibleShaft& shaft, double speed) {
       {}};
   for (std::size_t i = 0; i < shaft.elements.size(); ++i) {
     if (const std::optional<ShaftCoupling>& c = shaft.elements[i].coupling) {
-      couplings.rows.push_back({fmt::format("{} to {}", i, i + 1), number(c->lateral_stiffness),
-                                number(c->bending_stiffness), number(c->lateral_damping),
-                                number(c->bending_damping)});
+      couplings.rows.push_back({fmt::format("{} to {}", i, i + 1), partNumber(c->lateral_stiffness),
+                                partNumber(c->bending_stiffness), partNumber(c->lateral_damping),
+                                partNumber(c->bending_damping)});
     }
   }
   PartsTable sleeves{
@@ -105,7 +105,7 @@ std::vector<PartsTable> partsTables(const FlexibleShaft& shaft, double speed) {
         {fmt::format("{} to {}", sleeve.element, shaft.sleeves[end - 1].element + 1),
          diameter(section.outer_diameter, section.outer_growth),
          diameter(section.inner_diameter, section.inner_growth),
-         number(sleeve.layer.material.density), number(sleeve.layer.stiffness)});
+         partNumber(sleeve.layer.material.density), partNumber(sleeve.layer.stiffness)});
     first = end;
   }
   PartsTable discs{
@@ -114,9 +114,9 @@ std::vector<PartsTable> partsTables(const FlexibleShaft& shaft, double speed) {
       {}};
   for (std::size_t i = 0; i < shaft.discs.size(); ++i) {
     const RotorDisc& disc = shaft.discs[i];
-    discs.rows.push_back({fmt::format("D{}", i + 1), std::to_string(disc.node), number(disc.mass),
-                          number(disc.polar_inertia), number(disc.transverse_inertia),
-                          number(disc.skew)});
+    discs.rows.push_back({fmt::format("D{}", i + 1), std::to_string(disc.node),
+                          partNumber(disc.mass), partNumber(disc.polar_inertia),
+                          partNumber(disc.transverse_inertia), partNumber(disc.skew)});
   }
   PartsTable bearings{fmt::format("Bearings and seals at {:.5g} rad/s, N/m and N s/m", speed),
                       {"node", "kxx", "kxy", "kyx", "kyy", "cxx", "cxy", "cyx", "cyy", ""},
@@ -130,18 +130,18 @@ std::vector<PartsTable> partsTables(const FlexibleShaft& shaft, double speed) {
     if (pedestal.over_speed) {
       c = pedestal.over_speed(speed);
     }
-    pedestals.rows.push_back({std::to_string(pedestal.node), number(pedestal.mass_x),
-                              number(pedestal.mass_y), number(c.kxx), number(c.kyy), number(c.cxx),
-                              number(c.cyy)});
+    pedestals.rows.push_back({std::to_string(pedestal.node), partNumber(pedestal.mass_x),
+                              partNumber(pedestal.mass_y), partNumber(c.kxx), partNumber(c.kyy),
+                              partNumber(c.cxx), partNumber(c.cyy)});
   }
   PartsTable unbalances{"Unbalances", {"node", "kg m", "angle, rad"}, {}};
   for (const NodeUnbalance& unbalance : shaft.unbalances) {
-    unbalances.rows.push_back(
-        {std::to_string(unbalance.node), number(unbalance.magnitude), number(unbalance.angle)});
+    unbalances.rows.push_back({std::to_string(unbalance.node), partNumber(unbalance.magnitude),
+                               partNumber(unbalance.angle)});
   }
   PartsTable ratios{"Damping by mode, not turning", {"frequency, rad/s", "damping ratio"}, {}};
   for (const DampingRatio& at : shaft.modal_damping) {
-    ratios.rows.push_back({number(at.frequency), number(at.ratio)});
+    ratios.rows.push_back({partNumber(at.frequency), partNumber(at.ratio)});
   }
   for (PartsTable* table :
        {&couplings, &sleeves, &discs, &bearings, &pedestals, &ratios, &unbalances}) {

@@ -1,8 +1,8 @@
 #include "reports/plot_history.h"
 
-#include <limits>
 #include <utility>
 
+#include "algebra/constants.h"
 #include "twin/ensemble_statistics.h"
 
 namespace whirl_twin {
@@ -42,7 +42,6 @@ PlotHistoryWriter::PlotHistoryWriter(const Twin& twin, std::vector<std::size_t> 
 }
 
 void PlotHistoryWriter::write(const Observer& observer) {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t i = 0; i < systems_.size(); ++i) {
     const std::size_t system = systems_[i];
     const bool running = observer.status(system) == StepStatus::kOk;

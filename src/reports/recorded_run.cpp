@@ -63,8 +63,8 @@ void take(const state::Measurement& block, const std::vector<std::size_t>& place
   }
 }
 
-MeasuredRun readLog(const std::string& path, const std::string& prefix,
-                    const std::vector<std::string>& columns) {
+MeasuredRun readMeasuredLog(const std::string& path, const std::string& prefix,
+                            const std::vector<std::string>& columns) {
   std::map<std::string, SourceRows> sources;
   std::set<std::string> seen;
   const LoggedMessages log = readLoggedMessages(
@@ -119,7 +119,7 @@ MeasuredRun readRecordedRun(const std::string& path, const std::string& prefix,
                             const std::string& time, const std::vector<std::string>& columns) {
   const bool is_log =
       endsWith(path, ".lcmlog") || endsWith(path, ".bag") || endsWith(path, ".bag.active");
-  return is_log ? readLog(path, prefix, columns) : readMeasuredRun(path, time, columns);
+  return is_log ? readMeasuredLog(path, prefix, columns) : readMeasuredRun(path, time, columns);
 }
 
 }  // namespace whirl_twin

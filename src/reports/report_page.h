@@ -29,6 +29,9 @@ class ReportPage {
   int pictures_ = 0;
 };
 
+/// Text between tags: their characters as entities, control characters as spaces.
+std::string escapedForHtml(const std::string& text);
+
 /// A picture for a page that has several: SVG whose names are its own, `number` among them. Cairo
 /// calls the letters of each picture glyph-0-0, glyph-0-1 ..., and a page knows one of a name.
 std::string inlinedPicture(const Figure& figure, int number);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "algebra/constants.h"
 #include "reports/orbit_chart.h"
 #include "reports/response_report.h"
 
@@ -15,20 +16,17 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kRpm = 30.0 / kPi;       // of a rad/s
-constexpr std::size_t kMostStations = 7;  // of one chart: as many as it has colours
-constexpr double kNeedles = 0.125;        // of the range
+constexpr double kNeedles = 0.125;  // of the range
 
 /// Some of the stations, evenly along the list: its first, its last and what lies between.
 std::vector<std::size_t> shownStations(const ResponseReport& r) {
   const std::size_t count = r.stations.size();
-  if (count <= kMostStations) {
+  if (count <= kMostStationsDrawn) {
     return r.stations;
   }
   std::vector<std::size_t> shown;
-  for (std::size_t i = 0; i < kMostStations; ++i) {
-    shown.push_back(r.stations[i * (count - 1) / (kMostStations - 1)]);
+  for (std::size_t i = 0; i < kMostStationsDrawn; ++i) {
+    shown.push_back(r.stations[i * (count - 1) / (kMostStationsDrawn - 1)]);
   }
   return shown;
 }
@@ -148,11 +146,11 @@ void cutFaint(std::vector<Series>& all) {
 }
 
 ChartAxis speedAxis() {
-  return {"shaft speed (rad/s)", false, true, SecondScale{"rpm", kRpm}};
+  return {"shaft speed (rad/s)", false, true, SecondScale{"rpm", 1.0 / kRpm}};
 }
 
 std::string speedName(double speed) {
-  return fmt::format("{:.4g} rad/s, {:.0f} rpm", speed, kRpm * speed);
+  return fmt::format("{:.4g} rad/s, {:.0f} rpm", speed, speed / kRpm);
 }
 
 /// Degrees from -90 to 270, broken where it passes from one end to the other.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/constants.h"
 #include "messages/names.h"
 #include "messages/refusal.h"
 #include "reports/verdict_text.h"
@@ -12,9 +13,6 @@
 namespace whirl_twin {
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kDegrees = 180.0 / kPi;
 
 void requireForce(const RotorSystem& system) {
   if (!hasSynchronousForce(system.rotor)) {
@@ -42,8 +40,8 @@ std::string orbitText(const std::string& start, const Orbit& orbit, double phase
   const bool circle = orbit.major() - orbit.minor() <= kRound * orbit.major();
   return fmt::format(
       "    {:<14} {:>11.5g} {:>11.5g} {:>13}  {:<9} {:>12.5g} {:>10.5g}\n", start, orbit.major(),
-      orbit.minor(), circle ? "circle" : fmt::format("{:.5g}", orbit.inclination() * kDegrees),
-      name(orbit.direction()), std::abs(orbit.forward), phaseLag(orbit, phase_mark) * kDegrees);
+      orbit.minor(), circle ? "circle" : fmt::format("{:.5g}", orbit.inclination() / kDegree),
+      name(orbit.direction()), std::abs(orbit.forward), phaseLag(orbit, phase_mark) / kDegree);
 }
 
 std::vector<std::string> withOrbit(std::vector<std::string> columns) {

@@ -14,9 +14,7 @@ namespace whirl_twin {
 
 namespace {
 
-using nlohmann::json;
-
-json jsonOf(const toml::value& value) {
+nlohmann::json jsonOf(const toml::value& value) {
   switch (value.type()) {
     case toml::value_t::boolean:
       return value.as_boolean();
@@ -27,14 +25,14 @@ json jsonOf(const toml::value& value) {
     case toml::value_t::string:
       return value.as_string().str;
     case toml::value_t::array: {
-      json all = json::array();
+      nlohmann::json all = nlohmann::json::array();
       for (const toml::value& one : value.as_array()) {
         all.push_back(jsonOf(one));
       }
       return all;
     }
     case toml::value_t::table: {
-      json all = json::object();
+      nlohmann::json all = nlohmann::json::object();
       for (const auto& [key, one] : value.as_table()) {
         all[key] = jsonOf(one);
       }
@@ -45,19 +43,20 @@ json jsonOf(const toml::value& value) {
   }
 }
 
-json treeOf(const std::string& path) {
+nlohmann::json treeOf(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in || !std::filesystem::is_regular_file(path)) {
     throw Refusal(path + ": cannot be read; must be a rotor that ROSS has saved");
   }
   try {
-    json tree = std::filesystem::path(path).extension() == ".json" ? json::parse(in)
-                                                                   : jsonOf(toml::parse(in, path));
+    nlohmann::json tree = std::filesystem::path(path).extension() == ".json"
+                              ? nlohmann::json::parse(in)
+                              : jsonOf(toml::parse(in, path));
     if (!tree.is_object()) {
       throw Refusal(path + ": must be a rotor that ROSS has saved, found a list or a value");
     }
     return tree;
-  } catch (const json::exception& error) {
+  } catch (const nlohmann::json::exception& error) {
     throw Refusal(fmt::format("{}: is no JSON: {}", path, error.what()));
   } catch (const toml::exception& error) {
     throw Refusal(fmt::format("{}: is no TOML, in line {}", path, error.location().line()));
@@ -82,7 +81,7 @@ double RossFile::parameter(const char* name, const char* unit) {
                                                     : 0.0;
 }
 
-double RossFile::number(const json& fields, const std::string& where, const char* name,
+double RossFile::number(const nlohmann::json& fields, const std::string& where, const char* name,
                         const char* unit, std::optional<double> fallback) {
   const auto found = fields.find(name);
   if (found != fields.end() && found->is_number() && std::isfinite(found->get<double>())) {
@@ -146,7 +145,7 @@ std::vector<double> RossFile::coefficient(const RossEntry& entry, const std::str
     return std::vector<double>(count, 0.0);
   }
   std::vector<double> values;
-  for (const json& value : found->is_array() ? *found : json::array({*found})) {
+  for (const nlohmann::json& value : found->is_array() ? *found : nlohmann::json::array({*found})) {
     if (!value.is_number()) {
       complaints_.add(fmt::format("{}.{}", entry.key, name),
                       fmt::format("must be numbers, found {}", printable(value.dump())));

@@ -20,7 +20,7 @@ constexpr double kCouplingLength = 0.2;  // m, and its diameter, unless they are
 constexpr double kNoStiffness = 1.0e-3;  // of the shaft's modulus: a layer that is mass only
 
 /// Whatever they are called.
-bool same(const RossMaterial& a, const RossMaterial& b) {
+bool sameMaterial(const RossMaterial& a, const RossMaterial& b) {
   return a.youngs_modulus == b.youngs_modulus && a.shear_modulus == b.shear_modulus &&
          a.density == b.density;
 }
@@ -227,11 +227,11 @@ class RossReader {
       material.shear_modulus = drawing_.shear_modulus;
     }
     const RossMaterial shaft{drawing_.youngs_modulus, drawing_.shear_modulus, drawing_.density, ""};
-    if (same(material, shaft)) {
+    if (sameMaterial(material, shaft)) {
       return "";
     }
     const auto known = std::find_if(materials_.begin(), materials_.end(), [&](const auto& other) {
-      return same(other.second, material);
+      return sameMaterial(other.second, material);
     });
     if (known != materials_.end()) {
       return known->first;

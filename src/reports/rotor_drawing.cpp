@@ -10,7 +10,7 @@ namespace whirl_twin {
 
 namespace {
 
-std::string rowText(const DrawnRow& row) {
+std::string drawnRowText(const DrawnRow& row) {
   std::string all;
   for (const auto& [key, value] : row) {
     all += fmt::format("{}{}: {}", all.empty() ? "" : ", ", key, value);
@@ -22,7 +22,7 @@ std::string rowText(const DrawnRow& row) {
 std::string tableText(const std::string& name, const std::vector<DrawnRow>& rows) {
   std::string out = rows.empty() ? "" : fmt::format("      {}:\n", name);
   for (const DrawnRow& row : rows) {
-    out += fmt::format("        - {{{}}}\n", rowText(row));
+    out += fmt::format("        - {{{}}}\n", drawnRowText(row));
   }
   return out;
 }

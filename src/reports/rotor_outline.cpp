@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "algebra/constants.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kThinnest = 0.005;  // of the shaft's length, a disc
-constexpr double kWidest = 0.1;
+constexpr double kThinnestDisc = 0.005;  // of the shaft's length, a disc
+constexpr double kWidestDisc = 0.1;
 
 constexpr Ink kShaft{0.62, 0.68, 0.75};
 constexpr Ink kSleeve{0.78, 0.72, 0.60};
@@ -31,7 +32,6 @@ Series mirrored(double from, double to, double first, double last, const Ink& in
 
 /// The edge of such areas, all in one line.
 void addEdge(const Series& area, Series& edges) {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t i = 0; i <= area.x.size(); ++i) {
     edges.x.push_back(area.x[i % area.x.size()]);
     edges.y.push_back(area.y[i % area.y.size()]);
@@ -58,13 +58,14 @@ DrawnDisc drawnDisc(const FlexibleShaft& shaft, const RotorDisc& disc) {
     return {0.5 * disc.diameter, disc.width};
   }
   if (!(disc.mass > 0.0 && disc.polar_inertia > 0.0)) {
-    return {1.3 * shaftRadiusAt(shaft, disc.node), kThinnest * length};
+    return {1.3 * shaftRadiusAt(shaft, disc.node), kThinnestDisc * length};
   }
   // I_p = m r^2 / 2, I_d = m (3 r^2 + h^2) / 12.
   const double radius = std::sqrt(2.0 * disc.polar_inertia / disc.mass);
   const double width =
       std::sqrt(std::max(0.0, 12.0 * disc.transverse_inertia / disc.mass - 3.0 * radius * radius));
-  return {std::min(radius, 0.5 * length), std::clamp(width, kThinnest * length, kWidest * length)};
+  return {std::min(radius, 0.5 * length),
+          std::clamp(width, kThinnestDisc * length, kWidestDisc * length)};
 }
 
 double largestRadius(const FlexibleShaft& shaft) {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 
+#include "algebra/constants.h"
 #include "analysis/critical_speeds.h"
 #include "reports/history_chart.h"
 #include "scene/held_rotor.h"
@@ -15,7 +16,6 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr std::size_t kOrbits = 6;  // of a rotor that changes its speed
 constexpr double kSlow = 0.02;      // of its highest speed: it hardly turns
 
@@ -40,12 +40,11 @@ double fastestOf(const PlotHistory& history) {
 /// The lag goes on from one sample to the next; NaN where it slips by more than a quarter in a turn
 /// of the shaft, so that the whirl does not go along with it, and where that hardly turns.
 std::vector<double> heldLag(const PlotHistory& history) {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> lag = history.whirl_phase;
   double before = 0.0;
   for (double& value : lag) {
     if (std::isfinite(value)) {
-      value = before + std::remainder(value - before, 2.0 * kPi);
+      value = before + std::remainder(value - before, kTwoPi);
       before = value;
     }
   }
@@ -53,12 +52,12 @@ std::vector<double> heldLag(const PlotHistory& history) {
   const double slow = kSlow * fastestOf(history);
   std::vector<double> held(lag.size(), kNaN);
   for (std::size_t i = 0; i < lag.size(); ++i) {
-    const double start = std::clamp(angle[i] - kPi, 0.0, std::max(0.0, angle.back() - 2.0 * kPi));
+    const double start = std::clamp(angle[i] - kPi, 0.0, std::max(0.0, angle.back() - kTwoPi));
     const auto at = [&](double turn) {
       const auto next = std::lower_bound(angle.begin(), angle.end() - 1, turn);
       return lag[static_cast<std::size_t>(next - angle.begin())];
     };
-    if (std::fabs(at(start + 2.0 * kPi) - at(start)) <= 0.5 * kPi &&
+    if (std::fabs(at(start + kTwoPi) - at(start)) <= 0.5 * kPi &&
         std::fabs(history.speed[i]) >= slow) {
       held[i] = lag[i];
     }
@@ -84,13 +83,12 @@ void leaveOutShort(std::vector<double>& values) {
 }
 
 /// In degrees within half a turn of 90, broken where it passes from one end to the other.
-std::vector<double> phaseLag(const PlotHistory& history) {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+std::vector<double> phaseLagHistory(const PlotHistory& history) {
   std::vector<double> lag = heldLag(history);
   leaveOutShort(lag);
   double before = kNaN;
   for (double& value : lag) {
-    const double now = 0.5 * kPi + std::remainder(value - 0.5 * kPi, 2.0 * kPi);
+    const double now = 0.5 * kPi + std::remainder(value - 0.5 * kPi, kTwoPi);
     value = std::fabs(now - before) > kPi ? kNaN : now * 180.0 / kPi;
     before = now;
   }
@@ -154,7 +152,7 @@ Series turn(const PlotHistory& history, const std::vector<double>& angle, std::s
   for (std::size_t i = start; i < angle.size(); ++i) {
     series.x.push_back(history.whirl_x[i]);
     series.y.push_back(history.whirl_y[i]);
-    if (angle[i] >= angle[start] + 2.0 * kPi) {
+    if (angle[i] >= angle[start] + kTwoPi) {
       break;
     }
   }
@@ -167,7 +165,7 @@ std::vector<std::size_t> startsOfTurns(const PlotHistory& history,
                                        const std::vector<double>& angle) {
   const double slow = kSlow * fastestOf(history);
   std::vector<std::size_t> starts;
-  for (std::size_t i = 0; i < angle.size() && angle[i] + 2.0 * kPi <= angle.back(); ++i) {
+  for (std::size_t i = 0; i < angle.size() && angle[i] + kTwoPi <= angle.back(); ++i) {
     if (std::fabs(history.speed[i]) >= slow && std::isfinite(history.whirl_radius[i])) {
       starts.push_back(i);
     }
@@ -179,7 +177,7 @@ std::vector<std::size_t> startsOfTurns(const PlotHistory& history,
 
 std::vector<Chart> rotorCharts(const PlotHistory& history) {
   std::vector<Chart> charts{historyChart(history, "whirl radius", "m", history.whirl_radius)};
-  const std::vector<double> lag = phaseLag(history);
+  const std::vector<double> lag = phaseLagHistory(history);
   if (anyFinite(lag)) {
     charts.push_back(historyChart(history, "whirl phase lag", "deg", lag));
     charts.back().y.degrees = true;

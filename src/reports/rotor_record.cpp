@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 
+#include "algebra/constants.h"
 #include "messages/refusal.h"
 #include "messages/units.h"
 #include "scene/station_names.h"
@@ -18,13 +19,10 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
-constexpr double kNanosecond = 1.0e-9;  // s
-constexpr double kHalfPi = 0.25 * kTurn;
+constexpr double kHalfPi = 0.5 * kPi;
 constexpr double kSteady = 0.01;          // of a speed
 constexpr double kSurelyKnown = 0.1;      // rad, deviation of the shaft's angle
 constexpr double kLargestAngle = 1.0e15;  // rad; beyond, a double has no phase
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// The speed about which the most time was spent, of speeds above 0 and the times [s] spent at
 /// them.
@@ -75,7 +73,7 @@ class TrackedShaft {
  private:
   static ShaftTrackerSettings settingsOf(const KeyphasorSettings& keyphasor) {
     ShaftTrackerSettings settings;
-    settings.mark = keyphasor.mark - kTurn * std::floor(keyphasor.mark / kTurn);
+    settings.mark = keyphasor.mark - kTwoPi * std::floor(keyphasor.mark / kTwoPi);
     settings.jitter = std::max(1.0e-9, keyphasor.jitter);
     return settings;
   }
@@ -205,7 +203,7 @@ void RotorRecord::findProbes(const BuiltScene& scene, const RotorSystem& system)
   for (std::size_t i = 1; i < pulses_.size(); ++i) {
     const double time = static_cast<double>(pulses_[i] - pulses_[i - 1]) * kNanosecond;
     if (time > 0.0) {
-      dwells.emplace_back(kTurn / time, time);
+      dwells.emplace_back(kTwoPi / time, time);
     }
   }
   steady_speed_ = longestKept(std::move(dwells));
@@ -339,8 +337,8 @@ RecordCounts RotorRecord::readWhirl(const std::function<void(const ProbeReading&
       origin = origin.value_or(*time);
       reading.time = *time - *origin;
       reading.index = std::llround(reading.time / period_);
-      reading.turns = static_cast<std::int64_t>(std::floor(whirl->shaft_angle / kTurn));
-      reading.remainder = whirl->shaft_angle - kTurn * static_cast<double>(reading.turns);
+      reading.turns = static_cast<std::int64_t>(std::floor(whirl->shaft_angle / kTwoPi));
+      reading.remainder = whirl->shaft_angle - kTwoPi * static_cast<double>(reading.turns);
       reading.speed = whirl->speed;
     }
     const auto place = 2 * static_cast<Eigen::Index>(found - whirls_.begin());

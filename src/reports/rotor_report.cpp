@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "algebra/constants.h"
 #include "analysis/separation_margin.h"
 #include "messages/refusal.h"
 #include "reports/campbell_report.h"
@@ -22,18 +23,16 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kRpm = 30.0 / kPi;  // of a rad/s
 constexpr std::size_t kModesDrawn = 6;
 constexpr std::size_t kModesTold = 12;
 constexpr std::size_t kBranches = 12;
 
-std::string number(double value) {
+std::string numberOrDash(double value) {
   return std::isfinite(value) ? fmt::format("{:.5g}", value) : "–";
 }
 
 std::string rpm(double speed) {
-  return fmt::format("{:.0f}", kRpm * speed);
+  return fmt::format("{:.0f}", speed / kRpm);
 }
 
 /// Puts a rotor's parts on the page, one after the other, and remembers what is missing.
@@ -114,22 +113,23 @@ class RotorReport {
   void body() {
     const std::optional<RotorSheet> sheet = rotorSheet(built(), speed_);
     page_.section("Mass");
-    page_.table({"mass, kg", "centre of gravity from node 0, m", "polar inertia, kg m²",
-                 "transverse inertia about the centre of gravity, kg m²"},
-                {{number(sheet->body.mass), number(sheet->body.centre),
-                  number(sheet->body.polar_inertia), number(sheet->body.transverse_inertia)}});
+    page_.table(
+        {"mass, kg", "centre of gravity from node 0, m", "polar inertia, kg m²",
+         "transverse inertia about the centre of gravity, kg m²"},
+        {{numberOrDash(sheet->body.mass), numberOrDash(sheet->body.centre),
+          numberOrDash(sheet->body.polar_inertia), numberOrDash(sheet->body.transverse_inertia)}});
     if (!sheet->statics) {
       missing_.push_back("Sag and bearing loads: some motion of the rotor is free");
       return;
     }
     page_.section("At rest under its weight");
     page_.text(fmt::format("Weight {} N, g = {} m/s², the bearings as they are at {:.5g} rad/s.",
-                           number(sheet->body.mass * sheet->gravity), number(sheet->gravity),
-                           speed_));
+                           numberOrDash(sheet->body.mass * sheet->gravity),
+                           numberOrDash(sheet->gravity), speed_));
     std::vector<std::vector<std::string>> loads;
     for (const BearingLoad& bearing : sheet->statics->bearings) {
-      loads.push_back({std::to_string(bearing.node), number(bearing.force.y + 0.0),
-                       number(bearing.force.x + 0.0)});
+      loads.push_back({std::to_string(bearing.node), numberOrDash(bearing.force.y + 0.0),
+                       numberOrDash(bearing.force.x + 0.0)});
     }
     page_.table({"bearing at node", "carries along y, N", "along x, N"}, loads);
     page_.picture(staticsFigure(*sheet));
@@ -149,14 +149,14 @@ class RotorReport {
     std::vector<std::vector<std::string>> rows;
     const std::size_t stride = std::max<std::size_t>(1, report.map.stiffness.size() / 10);
     for (std::size_t i = 0; i < report.map.stiffness.size(); i += stride) {
-      rows.push_back({number(report.map.stiffness[i])});
+      rows.push_back({numberOrDash(report.map.stiffness[i])});
       for (const std::vector<double>& mode : report.map.speeds) {
-        rows.back().push_back(number(mode[i]));
+        rows.back().push_back(numberOrDash(mode[i]));
       }
     }
     rows.push_back({"rigid"});
     for (const double speed : report.map.rigid) {
-      rows.back().push_back(number(speed));
+      rows.back().push_back(numberOrDash(speed));
     }
     page_.table(head, rows);
     if (!report.left_out.empty()) {
@@ -179,9 +179,9 @@ class RotorReport {
     std::vector<std::vector<std::string>> rows;
     for (std::size_t k = 0; k < std::min(kModesTold, report.model.size()); ++k) {
       const WhirlMode& mode = report.model[k];
-      rows.push_back({std::to_string(k + 1), name(mode.whirl), number(mode.dampedFrequency()),
-                      rpm(mode.dampedFrequency()), number(mode.dampingRatio()),
-                      number(mode.logDecrement()),
+      rows.push_back({std::to_string(k + 1), name(mode.whirl), numberOrDash(mode.dampedFrequency()),
+                      rpm(mode.dampedFrequency()), numberOrDash(mode.dampingRatio()),
+                      numberOrDash(mode.logDecrement()),
                       mode.eigenvalue.real() > 0.0 ? "grows" : "decays"});
     }
     page_.table({"mode", "whirl", "rad/s", "rpm", "damping ratio", "log. decrement", ""}, rows);
@@ -198,8 +198,8 @@ class RotorReport {
     page_.picture(figure(report));
     std::vector<std::vector<std::string>> rows;
     for (const CampbellCrossing& crossing : report.diagram.crossings) {
-      rows.push_back({number(crossing.speed), rpm(crossing.speed), name(crossing.mode.whirl),
-                      number(crossing.mode.log_decrement)});
+      rows.push_back({numberOrDash(crossing.speed), rpm(crossing.speed), name(crossing.mode.whirl),
+                      numberOrDash(crossing.mode.log_decrement)});
     }
     if (rows.empty()) {
       page_.text("No whirl meets the speed in the range.");
@@ -226,9 +226,10 @@ class RotorReport {
       const bool damped = !(peak.amplification_factor >= kCriticallyDampedAmplification);
       const bool near = margin.separation_margin < margin.required_separation_margin;
       rows.push_back(
-          {number(peak.speed), rpm(peak.speed), margin.direction, number(peak.peak),
-           std::isinf(peak.amplification_factor) ? "undamped" : number(peak.amplification_factor),
-           number(margin.separation_margin), number(margin.required_separation_margin),
+          {numberOrDash(peak.speed), rpm(peak.speed), margin.direction, numberOrDash(peak.peak),
+           std::isinf(peak.amplification_factor) ? "undamped"
+                                                 : numberOrDash(peak.amplification_factor),
+           numberOrDash(margin.separation_margin), numberOrDash(margin.required_separation_margin),
            damped ? "critically damped"
            : near ? "too near"
                   : "kept"});
@@ -251,19 +252,22 @@ class RotorReport {
     const LevelOneReport report = levelOneReport(system_, request);
     page_.picture(figure(report));
     std::vector<std::vector<std::string>> rows;
-    rows.push_back({"log. decrement without cross-coupling",
-                    report.rows.empty() ? "–" : number(report.rows.front().mode.logDecrement())});
+    rows.push_back(
+        {"log. decrement without cross-coupling",
+         report.rows.empty() ? "–" : numberOrDash(report.rows.front().mode.logDecrement())});
     rows.push_back({"Q_0, where it stops to decay, N/m",
-                    report.margin ? number(*report.margin) : "none found"});
+                    report.margin ? numberOrDash(*report.margin) : "none found"});
     if (report.applied) {
-      rows.push_back({"Q_A, of all stages, N/m", number(*report.applied)});
-      rows.push_back({"log. decrement at Q_A",
-                      report.at_applied ? number(report.at_applied->mode.logDecrement()) : "–"});
-      rows.push_back({"Q_0 / Q_A", report.margin ? number(*report.margin / *report.applied) : "–"});
+      rows.push_back({"Q_A, of all stages, N/m", numberOrDash(*report.applied)});
+      rows.push_back(
+          {"log. decrement at Q_A",
+           report.at_applied ? numberOrDash(report.at_applied->mode.logDecrement()) : "–"});
+      rows.push_back(
+          {"Q_0 / Q_A", report.margin ? numberOrDash(*report.margin / *report.applied) : "–"});
     }
     if (report.critical_speed_ratio) {
       rows.push_back({"speed to first critical speed on rigid bearings",
-                      number(*report.critical_speed_ratio)});
+                      numberOrDash(*report.critical_speed_ratio)});
     }
     page_.table({"cross-coupled stiffness at " + report.station, ""}, rows);
     if (!report.applied) {

@@ -14,9 +14,9 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kBeyond = 1.2;  // of the drive's highest speed
-constexpr double kFastest = 1.0e6;
-constexpr int kMostPoints = 10'000;
+constexpr double kBeyondHighestSpeed = 1.2;  // of the drive's highest speed
+constexpr double kFastestShaft = 1.0e6;
+constexpr int kMostRangePoints = 10'000;
 
 std::optional<FlexibleShaft> shaftOf(const BuiltSystem& system) {
   if (system.model->name != "flexible_rotor") {
@@ -31,9 +31,9 @@ bool isLinearRotor(const Dynamics& dynamics) {
 }
 
 double speedOption(const char* option, double speed) {
-  if (!(speed >= 0.0 && speed <= kFastest)) {
+  if (!(speed >= 0.0 && speed <= kFastestShaft)) {
     throw Refusal(fmt::format("{}: expected a shaft speed from 0 to {:g} rad/s, found {:g}", option,
-                              kFastest, speed));
+                              kFastestShaft, speed));
   }
   return speed;
 }
@@ -89,13 +89,14 @@ std::vector<double> SpeedRange::speeds() const {
 
 SpeedRange SpeedRangeOptions::of(const RotorSystem& system) const {
   SpeedRange range{speedOption("--from", from.value_or(0.0)), 0.0, points};
-  if (points < 2 || points > kMostPoints) {
-    throw Refusal(fmt::format("--points: expected from 2 to {}, found {}", kMostPoints, points));
+  if (points < 2 || points > kMostRangePoints) {
+    throw Refusal(
+        fmt::format("--points: expected from 2 to {}, found {}", kMostRangePoints, points));
   }
   if (to) {
     range.to = speedOption("--to", *to);
   } else if (system.highest_speed > 0.0) {
-    range.to = kBeyond * system.highest_speed;
+    range.to = kBeyondHighestSpeed * system.highest_speed;
   } else {
     const auto modes = whirlModes(system.rotor, system.stations, 0.0).modes;
     range.to = modes.empty()

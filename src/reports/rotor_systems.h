@@ -1,6 +1,7 @@
 // The rotors of a scene, as `twin campbell`, `twin response` and `twin orbit` look at them.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,9 @@
 #include "scene/built_scene.h"
 
 namespace whirl_twin {
+
+/// Of one chart: as many as it has colours.
+inline constexpr std::size_t kMostStationsDrawn = 7;
 
 struct RotorSystem {
   std::string name, model;

@@ -69,7 +69,7 @@ std::string intervalText(const StabilityRange& range, const StabilityInterval& i
   return pieceText(range, {interval.from, interval.to, false, false}, symbol);
 }
 
-Json routhJson(const RouthResult& routh) {
+Json routhCountsJson(const RouthResult& routh) {
   return {{"verdict", name(routh.verdict)},
           {"right", routh.right},
           {"imaginary", routh.imaginary},
@@ -163,12 +163,12 @@ Json json(const StabilityRange& range, const std::string& symbol) {
                               {"root_at_zero", bound.root_at_zero},
                               {"pair", bound.pair_on_axis},
                               {"frequency", bound.frequency ? Json(*bound.frequency) : Json()},
-                              {"there", bound.there ? routhJson(*bound.there) : Json()}});
+                              {"there", bound.there ? routhCountsJson(*bound.there) : Json()}});
   }
   json["intervals"] = Json::array();
   for (const StabilityInterval& interval : range.intervals) {
     Json one{{"from", value(interval.from)}, {"to", value(interval.to)}};
-    one.update(routhJson(interval.routh));
+    one.update(routhCountsJson(interval.routh));
     json["intervals"].push_back(one);
   }
   return json;

@@ -65,8 +65,8 @@ Json inputJson(const InputCheck& check) {
   return json;
 }
 
-Json controllerJson(const Scene& scene, const ControllerSpec& controller,
-                    const Published& published) {
+Json checkedControllerJson(const Scene& scene, const ControllerSpec& controller,
+                           const Published& published) {
   Json json{{"type", controller.type},
             {"rate", controller.rate},
             {"delay", static_cast<double>(controller.delay) / 1e9},
@@ -141,7 +141,7 @@ Json json(const SceneCheck& check) {
   }
   for (const ControllerSpec& controller : check.scene.controllers) {
     json["controllers"][controller.name] =
-        controllerJson(check.scene, controller, check.controllers.at(controller.name));
+        checkedControllerJson(check.scene, controller, check.controllers.at(controller.name));
   }
   json["ns_per_step"] = check.step_cost;
   json["real_time_factor"] = static_cast<double>(check.scene.step) / check.step_cost;

@@ -80,8 +80,8 @@ std::string inputText(const InputCheck& check) {
   return fmt::format("{:g} {}", signal.value, unit);
 }
 
-std::string controllerText(const Scene& scene, const ControllerSpec& controller,
-                           const Published& published) {
+std::string checkedControllerText(const Scene& scene, const ControllerSpec& controller,
+                                  const Published& published) {
   const std::string jitter = controller.jitter == 0
                                  ? ""
                                  : fmt::format(", more or less by up to {:g} s",
@@ -102,7 +102,7 @@ std::string controllerText(const Scene& scene, const ControllerSpec& controller,
   return out + publishedText(published);
 }
 
-std::string systemText(const SystemCheck& system) {
+std::string checkedSystemText(const SystemCheck& system) {
   std::string coordinates;
   for (const CoordinateInfo& c : system.coordinates) {
     coordinates += fmt::format("{}{} ({})", coordinates.empty() ? "" : ", ", c.name, c.unit);
@@ -152,13 +152,13 @@ std::string text(const SceneCheck& check) {
   }
   out += "systems\n";
   for (const SystemCheck& system : check.systems) {
-    out += systemText(system);
+    out += checkedSystemText(system);
   }
   if (!scene.controllers.empty()) {
     out += "controllers\n";
   }
   for (const ControllerSpec& controller : scene.controllers) {
-    out += controllerText(scene, controller, check.controllers.at(controller.name));
+    out += checkedControllerText(scene, controller, check.controllers.at(controller.name));
   }
   double preparation = 0.0;
   for (const SystemCheck& system : check.systems) {

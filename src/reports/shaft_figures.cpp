@@ -14,13 +14,13 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr int kWidth = 1000;       // px
-constexpr double kMargins = 80.0;  // px, beside the chart
-constexpr double kAround = 90.0;   // px, above and below it
-constexpr double kCarries = 0.05;  // of the weight: a bearing that is marked
-constexpr double kNamed = 14.0;    // node numbers along the shaft, at most
+constexpr int kWidth = 1000;          // px
+constexpr double kMargins = 80.0;     // px, beside the chart
+constexpr double kAround = 90.0;      // px, above and below it
+constexpr double kMarkedLoad = 0.05;  // of the weight: a bearing that is marked
+constexpr double kNamed = 14.0;       // node numbers along the shaft, at most
 
-Chart alongShaft(const char* label) {
+Chart chartAlongShaft(const char* label) {
   Chart chart;
   chart.x = {"along the shaft (m)", false, true};
   chart.y.label = label;
@@ -40,7 +40,7 @@ Series lineAtZero(const RotorSheet& sheet) {
 Figure drawingFigure(const FlexibleShaft& shaft) {
   const std::vector<double> z = shaft.positions();
   const double radius = largestRadius(shaft);
-  Chart chart = alongShaft("radius (m)");
+  Chart chart = chartAlongShaft("radius (m)");
   chart.equal_aspect = true;
   chart.series = rotorOutline(shaft, 1.0, 0.0);
   chart.series.push_back(
@@ -76,9 +76,9 @@ Figure drawingFigure(const FlexibleShaft& shaft) {
 }
 
 Figure staticsFigure(const RotorSheet& sheet) {
-  Chart sag = alongShaft("y (m)");
-  Chart shear = alongShaft("shear force (N)");
-  Chart moment = alongShaft("bending moment (N m)");
+  Chart sag = chartAlongShaft("y (m)");
+  Chart shear = chartAlongShaft("shear force (N)");
+  Chart moment = chartAlongShaft("bending moment (N m)");
   Series down{"", {}, {}, Pen{ink::kBlue, 2.0}};
   Series jumps = down, bends = down;
   for (const SagAtNode& node : sheet.statics->nodes) {
@@ -96,7 +96,7 @@ Figure staticsFigure(const RotorSheet& sheet) {
   moment.series = {lineAtZero(sheet), bends};
   std::vector<int> named;
   for (const BearingLoad& bearing : sheet.statics->bearings) {
-    const bool carries = std::fabs(bearing.force.y) > kCarries * sheet.body.mass * sheet.gravity;
+    const bool carries = std::fabs(bearing.force.y) > kMarkedLoad * sheet.body.mass * sheet.gravity;
     if (carries && std::find(named.begin(), named.end(), bearing.node) == named.end()) {
       named.push_back(bearing.node);
       const double at = sheet.statics->nodes[static_cast<std::size_t>(bearing.node)].position;

@@ -5,17 +5,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/constants.h"
 #include "mechanics/round_number.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kBent = 0.12;           // of the shaft's length, drawn at most
 constexpr std::size_t kLookedAt = 2000;  // samples of a run
-constexpr int kCorners = 72;             // of an orbit
-constexpr double kStill = 1.0e-15;       // of the shaft's length: no motion
+constexpr int kOrbitCorners = 72;        // of an orbit
+constexpr double kNoMotion = 1.0e-15;    // of the shaft's length: no motion
 
 Eigen::VectorXd sample(const std::vector<std::vector<double>>& values, std::size_t i) {
   Eigen::VectorXd all(static_cast<Eigen::Index>(values.size()));
@@ -71,7 +71,7 @@ std::optional<SketchPicture> shaftPicture(const Dynamics& dynamics, const PlotHi
     }
   }
   const Sketch still = dynamics.sketch(Eigen::VectorXd::Zero(dynamics.dof()), {});
-  if (still.empty() || !(longest > kStill * still.size)) {
+  if (still.empty() || !(longest > kNoMotion * still.size)) {
     return std::nullopt;
   }
   const double factor = roundDown125(kBent * still.size / longest);
@@ -89,8 +89,8 @@ std::optional<SketchPicture> shaftPicture(const Dynamics& dynamics, const PlotHi
       continue;
     }
     std::vector<SketchPoint> orbit;
-    for (int k = 0; k <= kCorners; ++k) {
-      const double turn = 2.0 * kPi * k / kCorners;
+    for (int k = 0; k <= kOrbitCorners; ++k) {
+      const double turn = kTwoPi * k / kOrbitCorners;
       const Eigen::VectorXd there = mean + std::cos(turn) * (q - mean) + std::sin(turn) / speed * v;
       orbit.push_back({stations[i].position, factor * stations[i].along_x.dot(there),
                        factor * stations[i].along_y.dot(there)});

@@ -6,15 +6,15 @@
 #include <cmath>
 #include <limits>
 
+#include "algebra/constants.h"
 #include "signal/line_character.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kUnseen = std::numeric_limits<double>::quiet_NaN();
-constexpr double kOrdersShown = 2.5;  // times the highest speed, to either side
-constexpr double kDecades = 1.0e-4;   // of the highest line, that a spectrum shows
+constexpr double kOrdersShown = 2.5;      // times the highest speed, to either side
+constexpr double kFaintestLine = 1.0e-4;  // of the highest line, that a spectrum shows
 constexpr std::size_t kColumns = 480;
 constexpr std::size_t kMostRidges = 40;
 constexpr double kHighestRidge = 0.15;  // of the axis
@@ -62,7 +62,7 @@ double columnAt(std::size_t column, double reach) {
   return reach * ((2.0 * static_cast<double>(column) + 1.0) / static_cast<double>(kColumns) - 1.0);
 }
 
-double middleOf(const WindowSpectrum& spectrum) {
+double middleTime(const WindowSpectrum& spectrum) {
   return 0.5 * (spectrum.begin + spectrum.end);
 }
 
@@ -71,7 +71,7 @@ struct Cascade {
   std::vector<const WindowSpectrum*> spectra;  // of rising base
 
   double base(const WindowSpectrum& spectrum) const {
-    return over_speed ? std::fabs(spectrum.speed) : middleOf(spectrum);
+    return over_speed ? std::fabs(spectrum.speed) : middleTime(spectrum);
   }
 };
 
@@ -139,8 +139,8 @@ Series orderLine(const Cascade& cascade, int order, const Ink& ink) {
       series.x.push_back(side * order * std::fabs(spectrum->speed));
       series.y.push_back(cascade.base(*spectrum));
     }
-    series.x.push_back(kUnseen);
-    series.y.push_back(kUnseen);
+    series.x.push_back(kNaN);
+    series.y.push_back(kNaN);
   }
   return series;
 }
@@ -194,7 +194,7 @@ Chart spectrumChart(const WindowSpectrum& spectrum) {
   Series series;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     series.x.push_back(columnAt(i, reach));
-    series.y.push_back(std::max(columns[i], kDecades * highest));
+    series.y.push_back(std::max(columns[i], kFaintestLine * highest));
   }
   series.pen = Pen{ink::kBlue, 1.4};
   chart.series = {series};
@@ -241,7 +241,7 @@ Chart cascadeChart(const std::vector<WindowSpectrum>& spectra) {
     for (std::size_t k = 0; k < kColumns; ++k) {
       const double y = base + kHighestRidge * (high - low) * std::sqrt(columns[i][k] / highest);
       ridge.x.push_back(columnAt(k, reach));
-      ridge.y.push_back(y >= horizon[k] ? y : kUnseen);
+      ridge.y.push_back(y >= horizon[k] ? y : kNaN);
       horizon[k] = std::max(horizon[k], y);
     }
     chart.series.push_back(ridge);
@@ -256,8 +256,8 @@ Chart cascadeChart(const std::vector<WindowSpectrum>& spectra) {
       if (line.subsynchronous() && line.amplitude > 0.02 * highest) {
         const double base = cascade.base(*spectrum);
         const double half = 0.008 * reach;
-        slower.x.insert(slower.x.end(), {line.frequency - half, line.frequency + half, kUnseen});
-        slower.y.insert(slower.y.end(), {base, base, kUnseen});
+        slower.x.insert(slower.x.end(), {line.frequency - half, line.frequency + half, kNaN});
+        slower.y.insert(slower.y.end(), {base, base, kNaN});
       }
     }
   }

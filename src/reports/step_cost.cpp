@@ -16,11 +16,11 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr int kRounds = 7;
-constexpr std::int64_t kMostSteps = 1 << 20;
+constexpr int kCostRounds = 7;
+constexpr std::int64_t kMostTimedSteps = 1 << 20;
 
 /// [s] for so many steps from the start, or NaN.
-double timed(Twin& twin, std::int64_t steps) {
+double secondsOfSteps(Twin& twin, std::int64_t steps) {
   twin.reset();
   const auto start = std::chrono::steady_clock::now();
   for (std::int64_t i = 0; i < steps; ++i) {
@@ -35,21 +35,20 @@ double timed(Twin& twin, std::int64_t steps) {
   return taken.count();
 }
 
-/// [bytes] in use; large blocks are mapped each by itself.
-std::size_t heap() {
+}  // namespace
+
+std::size_t heapInUse() {
   const auto info = ::mallinfo2();
   return info.uordblks + info.hblkhd;
 }
 
-}  // namespace
-
 RunningCost runningCost(const Scene& scene, double budget) {
   const DenormalsToZero denormals_to_zero;
   RunningCost cost;
-  const std::size_t before = heap();
+  const std::size_t before = heapInUse();
   Twin twin(scene);
   twin.buildEnsembles();
-  cost.memory = heap() - before;
+  cost.memory = heapInUse() - before;
   for (std::size_t i = 0; i < twin.systems().size(); ++i) {
     const Ensemble* const ensemble = twin.ensemble(i);
     cost.ensembles.push_back(ensemble == nullptr ? ""
@@ -57,16 +56,16 @@ RunningCost runningCost(const Scene& scene, double budget) {
                                                                ensemble->steps().description()));
   }
   // Double the steps until a round is long enough to be timed, which warms up as well.
-  const double round = budget / (2 * kRounds);
+  const double round = budget / (2 * kCostRounds);
   std::int64_t steps = 1;
-  double taken = timed(twin, steps);
-  while (taken < round && steps < kMostSteps) {
+  double taken = secondsOfSteps(twin, steps);
+  while (taken < round && steps < kMostTimedSteps) {
     steps *= 2;
-    taken = timed(twin, steps);
+    taken = secondsOfSteps(twin, steps);
   }
   std::vector<double> rounds{taken};
-  for (int i = 1; i < kRounds && taken < budget; ++i) {
-    rounds.push_back(timed(twin, steps));
+  for (int i = 1; i < kCostRounds && taken < budget; ++i) {
+    rounds.push_back(secondsOfSteps(twin, steps));
   }
   const auto middle = rounds.begin() + static_cast<std::ptrdiff_t>(rounds.size() / 2);
   std::nth_element(rounds.begin(), middle, rounds.end());

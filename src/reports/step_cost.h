@@ -21,4 +21,7 @@ struct RunningCost {
 /// Of a scene, measured for about `budget` [s] once it is built.
 RunningCost runningCost(const Scene& scene, double budget);
 
+/// [bytes] of the heap in use; large blocks are mapped each by itself.
+std::size_t heapInUse();
+
 }  // namespace whirl_twin

@@ -13,11 +13,11 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::size_t kRounds = 7;
-constexpr double kLeast = 1.0e-3;  // s, of a round
-constexpr double kMost = 2.0e-2;
+constexpr std::size_t kTimingRounds = 7;
+constexpr double kShortestRound = 1.0e-3;  // s, of a round
+constexpr double kLongestRound = 2.0e-2;
 
-struct Candidate {
+struct TimedScene {
   std::unique_ptr<Twin> twin;
   std::int64_t steps = 0;           // of one run
   int runs = 1;                     // in one round
@@ -25,7 +25,7 @@ struct Candidate {
 };
 
 /// [s] for a round.
-double timed(Candidate& c) {
+double secondsOfRound(TimedScene& c) {
   const auto start = std::chrono::steady_clock::now();
   for (int run = 0; run < c.runs; ++run) {
     c.twin->reset();
@@ -41,29 +41,31 @@ double timed(Candidate& c) {
 std::vector<StepTiming> interleavedTimings(const std::vector<Scene>& scenes, std::int64_t duration,
                                            const std::function<void(double)>& progress) {
   const DenormalsToZero denormals_to_zero;
-  std::vector<Candidate> candidates;
+  std::vector<TimedScene> candidates;
   for (const Scene& scene : scenes) {
-    Candidate c{std::make_unique<Twin>(scene), std::max<std::int64_t>(1, duration / scene.step)};
-    for (double taken = timed(c); taken < kLeast; taken = timed(c)) {
+    TimedScene c{std::make_unique<Twin>(scene), std::max<std::int64_t>(1, duration / scene.step)};
+    for (double taken = secondsOfRound(c); taken < kShortestRound; taken = secondsOfRound(c)) {
       c.runs *= 2;
     }
-    for (double taken = timed(c); taken > kMost && c.steps > 16; taken = timed(c)) {
+    for (double taken = secondsOfRound(c); taken > kLongestRound && c.steps > 16;
+         taken = secondsOfRound(c)) {
       c.steps /= 2;
     }
     candidates.push_back(std::move(c));
   }
-  for (std::size_t round = 0; round < kRounds; ++round) {
+  for (std::size_t round = 0; round < kTimingRounds; ++round) {
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-      Candidate& c = candidates[(k + round * candidates.size() / kRounds) % candidates.size()];
+      TimedScene& c =
+          candidates[(k + round * candidates.size() / kTimingRounds) % candidates.size()];
       const double steps = static_cast<double>(c.steps) * c.runs;
-      c.rounds.push_back(1.0e9 * timed(c) / steps);
+      c.rounds.push_back(1.0e9 * secondsOfRound(c) / steps);
     }
-    progress(static_cast<double>(round + 1) / kRounds);
+    progress(static_cast<double>(round + 1) / kTimingRounds);
   }
   std::vector<StepTiming> timings;
-  for (Candidate& c : candidates) {
+  for (TimedScene& c : candidates) {
     std::sort(c.rounds.begin(), c.rounds.end());
-    timings.push_back({c.rounds[kRounds / 2], c.rounds.back() - c.rounds.front()});
+    timings.push_back({c.rounds[kTimingRounds / 2], c.rounds.back() - c.rounds.front()});
   }
   return timings;
 }

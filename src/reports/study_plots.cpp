@@ -11,16 +11,17 @@
 #include <optional>
 #include <utility>
 
+#include "algebra/constants.h"
 #include "plots/bar_chart.h"
 #include "plots/chart.h"
 #include "plots/response_map.h"
 #include "plots/ticks.h"
+#include "reports/study_report.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kUnseen = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint64_t kMostDots = 2000;  // of a scatter
 constexpr std::uint64_t kFewDots = 60;     // that are drawn large
 constexpr std::size_t kMostClasses = 60;   // of a histogram
@@ -29,12 +30,8 @@ constexpr double kFence = 1.0;  // times the range from 1 % to 99 %, that a hist
 const Pen kMeets{ink::kBlue, 3.0};
 const Pen kMisses{ink::kVermilion, 3.0};
 
-std::string withUnit(const std::string& name, const std::string& unit) {
-  return unit.empty() || unit == "-" ? name : fmt::format("{} ({})", name, unit);
-}
-
 std::string axisOf(const Variation& variation) {
-  return withUnit(variation.path, variation.unit);
+  return nameWithUnit(variation.path, variation.unit);
 }
 
 bool isLogarithmic(const Variation& variation) {
@@ -51,7 +48,7 @@ class MeasurePlots {
         place_(measure),
         measure_(study.measures[measure]),
         values_(table.measures[measure]),
-        label_(withUnit(measure_.name, measure_.unit)),
+        label_(nameWithUnit(measure_.name, measure_.unit)),
         title_(fmt::format("{}: {} = {}", std::filesystem::path(study.source).stem().string(),
                            measure_.name, measure_.text)) {
     for (const Requirement& requirement : study.requirements) {
@@ -202,8 +199,8 @@ std::vector<Series> MeasurePlots::dots(std::size_t number) const {
       series.x.push_back(study_.valuesAt(point)[number]);
       series.y.push_back(value);
       if (!large) {  // a line of one point is a dot
-        series.x.push_back(kUnseen);
-        series.y.push_back(kUnseen);
+        series.x.push_back(kNaN);
+        series.y.push_back(kNaN);
       }
     }
   }
@@ -269,7 +266,7 @@ BarChart MeasurePlots::effects() const {
   for (std::size_t j = 0; j < study_.vary.size(); ++j) {
     double smallest = std::numeric_limits<double>::infinity();
     double largest = -smallest;
-    Bar at_smallest{kUnseen, kUnseen, kUnseen};
+    Bar at_smallest{kNaN, kNaN, kNaN};
     Bar at_largest = at_smallest;
     for (std::uint64_t point = 1; point < study_.points(); ++point) {
       if (levelsAt(study_.design, point)[j]) {
@@ -308,7 +305,7 @@ std::optional<BarChart> MeasurePlots::tornado() const {
     add({&indices.total, &indices.first});
   } else if (!answers_.morris.empty()) {
     const MorrisEffects& effects = answers_.morris[place_];
-    chart.x.label = withUnit("change over the whole range of a number", measure_.unit);
+    chart.x.label = nameWithUnit("change over the whole range of a number", measure_.unit);
     chart.names = {"mean magnitude", "standard deviation: curved, or with others"};
     chart.subtitle = fmt::format("Morris's elementary effects, {} trajectories, 95 % intervals",
                                  effects.trajectories);

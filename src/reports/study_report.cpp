@@ -4,15 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "algebra/constants.h"
 #include "reports/asked_cost.h"
 
 namespace whirl_twin {
 
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Wide enough for all of them.
 template <class All, class NameOf>
@@ -24,14 +22,14 @@ std::size_t widthOf(const All& all, const NameOf& name_of) {
   return width;
 }
 
-const std::string& pathOf(const Variation& variation) {
+const std::string& variationPath(const Variation& variation) {
   return variation.path;
 }
-const std::string& nameOf(const Measure& measure) {
+const std::string& measureName(const Measure& measure) {
   return measure.name;
 }
 
-std::string shown(const Estimate& estimate) {
+std::string estimateText(const Estimate& estimate) {
   return std::isfinite(estimate.value) ? fmt::format("{:10.4g} [{:9.4g}, {:9.4g}]", estimate.value,
                                                      estimate.low, estimate.high)
                                        : fmt::format("{:>10} {:22}", "-", "");
@@ -45,11 +43,11 @@ std::string inFull(double value) {
 }
 
 /// In a column of a table.
-std::string cell(double value) {
+std::string studyCell(double value) {
   return std::isfinite(value) ? fmt::format(" {:11.5g}", value) : fmt::format(" {:>11}", "-");
 }
 
-std::string shown(const Yield& yield) {
+std::string yieldText(const Yield& yield) {
   return fmt::format("{} of {} pass, {:.4g} % [{:.4g}, {:.4g}]", yield.passed, yield.of,
                      100.0 * yield.part(), 100.0 * yield.low, 100.0 * yield.high);
 }
@@ -58,7 +56,7 @@ std::string tableOf(
     const Study& study, const std::string& measure,
     const std::vector<std::pair<const char*, const std::vector<Estimate>*>>& columns,
     const std::string& note) {
-  const std::size_t width = widthOf(study.vary, pathOf);
+  const std::size_t width = widthOf(study.vary, variationPath);
   std::string text = fmt::format("\n{}{}\n  {:{}}", measure, note, "", width);
   for (const auto& [name, estimates] : columns) {
     text += fmt::format("  {:<33}", name);
@@ -67,7 +65,7 @@ std::string tableOf(
   for (std::size_t j = 0; j < study.vary.size(); ++j) {
     text += fmt::format("  {:{}}", study.vary[j].path, width);
     for (const auto& [name, estimates] : columns) {
-      text += "  " + shown((*estimates)[j]);
+      text += "  " + estimateText((*estimates)[j]);
     }
     text += "\n";
   }
@@ -87,7 +85,7 @@ std::string noteOf(const std::vector<Estimate>& estimates, std::uint64_t left_ou
   return note;
 }
 
-Json estimateJson(const Estimate& estimate) {
+Json studyEstimateJson(const Estimate& estimate) {
   return {{"value", estimate.value}, {"low", estimate.low}, {"high", estimate.high}};
 }
 
@@ -119,13 +117,17 @@ Json valuesJson(const Study& study, const std::vector<double>& values) {
 
 }  // namespace
 
+std::string nameWithUnit(const std::string& name, const std::string& unit) {
+  return unit.empty() || unit == "-" ? name : fmt::format("{} ({})", name, unit);
+}
+
 std::string text(const Study& study, const Answers& answers) {
   std::string text = fmt::format(
       "{}: {} points, {} by {}", study.source, answers.points,
       study.vary.size() == 1 ? "one number" : fmt::format("{} numbers", study.vary.size()),
       name(study.design.kind));
   text += answers.failures > 0 ? fmt::format(", {} failed\n\n", answers.failures) : "\n\n";
-  const std::size_t width = std::max<std::size_t>(7, widthOf(study.measures, nameOf));
+  const std::size_t width = std::max<std::size_t>(7, widthOf(study.measures, measureName));
   text += fmt::format("{:{}} {:>11} {:>11} {:>11} {:>11} {:>11} {:>11} {:>11}\n", "measure", width,
                       "mean", "deviation", "smallest", "5 %", "median", "95 %", "largest");
   for (std::size_t k = 0; k < study.measures.size(); ++k) {
@@ -133,7 +135,7 @@ std::string text(const Study& study, const Answers& answers) {
     text += fmt::format("{:{}}", study.measures[k].name, width);
     for (const double value : {d.mean, d.deviation, d.smallest, d.percentiles[1], d.percentiles[3],
                                d.percentiles[5], d.largest}) {
-      text += cell(value);
+      text += studyCell(value);
     }
     text += d.undefined > 0 ? fmt::format("  undefined at {}\n", d.undefined) : "\n";
   }
@@ -141,10 +143,10 @@ std::string text(const Study& study, const Answers& answers) {
     text += "\n";
     for (std::size_t k = 0; k < study.requirements.size(); ++k) {
       text += fmt::format("{}: {}\n", whirl_twin::text(study.requirements[k], study),
-                          shown(answers.requirements[k]));
+                          yieldText(answers.requirements[k]));
     }
     if (study.requirements.size() > 1) {
-      text += fmt::format("all: {}\n", shown(*answers.yield));
+      text += fmt::format("all: {}\n", yieldText(*answers.yield));
     }
   }
   for (std::size_t k = 0; k < answers.sobol.size(); ++k) {
@@ -176,8 +178,8 @@ Json json(const Study& study, const Answers& answers) {
       const SobolIndices& s = answers.sobol[k];
       measure["rows_left_out"] = s.left_out;
       for (std::size_t j = 0; j < study.vary.size(); ++j) {
-        measure["sobol"][study.vary[j].path] = {{"first", estimateJson(s.first[j])},
-                                                {"total", estimateJson(s.total[j])}};
+        measure["sobol"][study.vary[j].path] = {{"first", studyEstimateJson(s.first[j])},
+                                                {"total", studyEstimateJson(s.total[j])}};
       }
     }
     if (!answers.morris.empty()) {
@@ -185,9 +187,9 @@ Json json(const Study& study, const Answers& answers) {
       measure["trajectories_left_out"] = m.left_out;
       for (std::size_t j = 0; j < study.vary.size(); ++j) {
         measure["morris"][study.vary[j].path] = {
-            {"mean", estimateJson(m.mean[j])},
-            {"mean_magnitude", estimateJson(m.mean_magnitude[j])},
-            {"standard_deviation", estimateJson(m.deviation[j])}};
+            {"mean", studyEstimateJson(m.mean[j])},
+            {"mean_magnitude", studyEstimateJson(m.mean_magnitude[j])},
+            {"standard_deviation", studyEstimateJson(m.deviation[j])}};
       }
     }
   }

@@ -12,6 +12,9 @@ namespace whirl_twin {
 std::string text(const Study& study, const Answers& answers);
 Json json(const Study& study, const Answers& answers);
 
+/// "damping (N s/m)"; the name alone of what has no unit.
+std::string nameWithUnit(const std::string& name, const std::string& unit);
+
 /// One point, run alone.
 struct StudyPoint {
   std::uint64_t point = 0;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "algebra/cholesky.h"
+#include "algebra/dense.h"
 #include "analysis/critical_speeds.h"
 #include "analysis/instability_speed.h"
 #include "analysis/separation_margin.h"
@@ -62,7 +62,7 @@ SystemAnalysis analyzeSystem(const BuiltScene& scene, const BuiltSystem& system,
   a.acceleration = dynamics.acceleration(a.q, a.v, a.moment);
   if (!system.spec.inputs.empty()) {
     a.acceleration +=
-        dynamics.massMatrix(a.q, a.v, a.moment).ldlt().solve(inputForce(scene, system));
+        Ldlt(dynamics.massMatrix(a.q, a.v, a.moment)).solve(inputForce(scene, system));
   }
   a.energies = dynamics.energies(a.q, a.v, a.moment);
   a.momenta = dynamics.momenta(a.q, a.v, a.moment);

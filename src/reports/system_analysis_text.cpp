@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/constants.h"
 #include "analysis/stability_margins.h"
 #include "reports/matrix_text.h"
 #include "reports/system_analysis.h"
@@ -12,10 +13,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr std::size_t kMostShown = 10;      // numbers that stability is lost by
-constexpr std::size_t kFewCoordinates = 6;  // as many are shown one by one, with their matrices
-
+constexpr std::size_t kMostShown = 10;  // numbers that stability is lost by
 constexpr const char* kPrime[] = {"", "'", "''"};
 constexpr const char* kPer[] = {"", "/s", "/s^2"};
 
@@ -137,7 +135,7 @@ std::string modesText(const SystemAnalysis& a) {
   std::string out = "  modes           rad/s          Hz   damping ratio   log decrement\n";
   for (std::size_t i = 0; i < shown; ++i) {
     out += fmt::format("    {:<6} {:>12.6g} {:>11.6g} {:>15.6g} {:>15}\n", i + 1,
-                       s.natural_frequencies[i], s.natural_frequencies[i] / (2.0 * kPi),
+                       s.natural_frequencies[i], s.natural_frequencies[i] / kTwoPi,
                        s.damping_ratios[i], defined(logDecrement(s.damping_ratios[i]), "-"));
   }
   if (shown < count) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/constants.h"
 #include "plots/chart.h"
 #include "reports/ensemble_figure.h"
 #include "reports/history_chart.h"
@@ -15,7 +16,6 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kPanelHeight = 270;        // px, of one chart above others
 constexpr int kPortraitHeight = 400;     // px
 constexpr double kTurning = 10.0 * kPi;  // rad

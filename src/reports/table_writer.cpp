@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <limits>
 #include <optional>
 #include <string>
 
+#include "algebra/constants.h"
 #include "messages/refusal.h"
 #include "reports/output.h"
 #include "reports/sample_writer.h"
@@ -18,8 +18,6 @@
 namespace whirl_twin {
 
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 class TableWriter final : public SampleWriter {
  public:

@@ -12,10 +12,10 @@ namespace whirl_twin {
 namespace {
 
 /// Rounding is drawn here where an error is zero.
-constexpr double kLeast = 1.0e-16;
+constexpr double kErrorDrawnForZero = 1.0e-16;
 
 /// Each method has one, whichever others there are: the twelfth is the first again.
-Pen penOf(const std::string& integrator) {
+Pen methodPen(const std::string& integrator) {
   static constexpr std::array kInks{ink::kBlue,   ink::kVermilion, ink::kGreen, ink::kPurple,
                                     ink::kOrange, ink::kSkyBlue,   ink::kBrown, ink::kGrey,
                                     ink::kOlive,  ink::kNavy,      ink::kBlack};
@@ -40,13 +40,13 @@ Figure figure(const TradeoffReport& report) {
       for (Chart* chart : {&work, &order}) {
         Series series;
         series.name = chart == &work ? row.setting.integrator : "";  // of both, once
-        series.pen = penOf(row.setting.integrator);
+        series.pen = methodPen(row.setting.integrator);
         series.marks = Marks::kDots;
         chart->series.push_back(series);
       }
     }
     if (row.stable) {
-      const double error = std::max(row.error.position, kLeast);
+      const double error = std::max(row.error.position, kErrorDrawnForZero);
       work.series.back().x.push_back(row.cpuPerSecond());
       work.series.back().y.push_back(error);
       order.series.back().x.push_back(row.methodStep());
@@ -55,7 +55,8 @@ Figure figure(const TradeoffReport& report) {
   }
   if (report.recommended) {
     const TradeoffRow& row = report.rows[*report.recommended];
-    Series ring{"recommended", {row.cpuPerSecond()}, {std::max(row.error.position, kLeast)}};
+    Series ring{
+        "recommended", {row.cpuPerSecond()}, {std::max(row.error.position, kErrorDrawnForZero)}};
     ring.pen = Pen{ink::kBlack, 2.0};
     ring.line = false;
     ring.marks = Marks::kRings;

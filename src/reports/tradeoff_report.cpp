@@ -27,8 +27,8 @@ constexpr double kGoodThroughout = 1.0e-5;
 constexpr double kReferenceBudget = 4.0e8;  // evaluations
 /// A disturbance of the start, in parts of the motion.
 constexpr double kDisturbance = 1.0e-8;
-constexpr double kMostSteps = 4.0e6;  // of a method in one run
-constexpr double kPatience = 1.5;     // s, for one run
+constexpr double kMostStepsOfRun = 4.0e6;  // of a method in one run
+constexpr double kPatience = 1.5;          // s, for one run
 
 /// The methods that suit the system, from the lowest order to the exact one.
 std::vector<StepMethod> methodsOf(const Scene& one) {
@@ -52,7 +52,7 @@ std::vector<StepSetting> ladder(const Scene& one, const std::string& integrator,
       settings.push_back({integrator, multiple * one.step, 1});
     }
   }
-  for (int substeps = 1; substeps <= kMostSubsteps && substeps * steps <= kMostSteps;
+  for (int substeps = 1; substeps <= kMostSubsteps && substeps * steps <= kMostStepsOfRun;
        substeps *= 2) {
     settings.push_back({integrator, one.step, substeps});
   }

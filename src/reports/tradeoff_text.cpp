@@ -8,22 +8,22 @@ namespace whirl_twin {
 
 namespace {
 
-std::string number(double x) {
+std::string errorText(double x) {
   return std::isfinite(x) ? fmt::format("{:.1e}", x) : "-";
 }
 
-std::string rowText(const TradeoffReport& report, std::size_t index) {
+std::string tradeoffRowText(const TradeoffReport& report, std::size_t index) {
   const TradeoffRow& row = report.rows[index];
   const double real_time = 1.0 / row.cpuPerSecond();
   return fmt::format(
       "  {:<19} {:>10} {:>8}  {:>9} {:>9} {:>9} {:>9}  {:>9} {:>8.0f} {:>6.0f} {:>9.3g}  {}{}\n",
       row.setting.integrator, fmt::format("{:g}", 1.0e-9 * static_cast<double>(row.setting.step)),
       row.setting.substeps,
-      row.stable ? (row.below ? "<" : "") + number(row.error.position) : "unstable",
-      row.stable ? number(row.error.radius) : "-", row.stable ? number(row.error.phase) : "-",
-      row.stable ? number(row.error.energy) : "-", row.stable ? number(row.energy_drift) : "-",
-      row.step_cost, row.cost_spread, real_time, row.pareto ? "*" : "",
-      report.recommended == index ? " <- recommended" : "");
+      row.stable ? (row.below ? "<" : "") + errorText(row.error.position) : "unstable",
+      row.stable ? errorText(row.error.radius) : "-", row.stable ? errorText(row.error.phase) : "-",
+      row.stable ? errorText(row.error.energy) : "-",
+      row.stable ? errorText(row.energy_drift) : "-", row.step_cost, row.cost_spread, real_time,
+      row.pareto ? "*" : "", report.recommended == index ? " <- recommended" : "");
 }
 
 }  // namespace
@@ -46,7 +46,7 @@ std::string text(const TradeoffReport& r) {
     if (i > 0 && r.rows[i].setting.integrator != r.rows[i - 1].setting.integrator) {
       out += "\n";
     }
-    out += rowText(r, i);
+    out += tradeoffRowText(r, i);
   }
   out += "\n  * nothing is both cheaper and more accurate\n";
   if (r.recommended) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 
+#include "algebra/constants.h"
 #include "messages/names.h"
 #include "messages/refusal.h"
 
@@ -13,7 +14,6 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kRadian = 3.14159265358979323846 / 180.0;
 constexpr double kTakesPart = 0.1;   // in a combination, of its largest, to be named
 constexpr double kMuchBeyond = 2.0;  // what is left over what the probes' noise makes
 constexpr double kSameSpeed = 0.01;  // of a speed
@@ -79,7 +79,7 @@ std::string partners(const UnbalanceReport& report, const UntoldCombination& unt
   return listed(names);
 }
 
-void addNotes(UnbalanceReport& report) {
+void addUnbalanceNotes(UnbalanceReport& report) {
   const UnbalanceEstimate& found = report.estimate;
   if (!found.untold.empty()) {
     const bool one_speed =
@@ -116,12 +116,12 @@ void addNotes(UnbalanceReport& report) {
 
 /// [deg], from the phase mark.
 double angleOf(const UnbalanceReport& report, std::complex<double> unbalance) {
-  return std::arg(unbalance * std::polar(1.0, -report.phase_mark)) / kRadian + 0.0;
+  return std::arg(unbalance * std::polar(1.0, -report.phase_mark)) / kDegree + 0.0;
 }
 
 /// [deg], of the angle of a phasor.
 double angleDeviation(const PhasorEstimate& estimate) {
-  return std::atan2(estimate.deviation, std::abs(estimate.value)) / kRadian;
+  return std::atan2(estimate.deviation, std::abs(estimate.value)) / kDegree;
 }
 
 Json massJson(const UnbalanceReport& report, const PhasorEstimate& estimate, double sign) {
@@ -188,7 +188,7 @@ UnbalanceReport unbalanceReport(const RotorSystem& system, const RotorRecord& re
         record.log(), request.from, request.to, report.counts.samples + report.counts.no_angle));
   }
   report.estimate = fit.told();
-  addNotes(report);
+  addUnbalanceNotes(report);
   return report;
 }
 
@@ -205,7 +205,7 @@ Json json(const UnbalanceReport& report) {
     const PhasorEstimate& one = found.run_outs[i];
     json["run_out"][report.probes[i]] =
         one.told ? Json({{"amplitude", std::abs(one.value)},
-                         {"phase_lag", -std::arg(one.value) / kRadian + 0.0},
+                         {"phase_lag", -std::arg(one.value) / kDegree + 0.0},
                          {"deviation", one.deviation}})
                  : Json();
   }
@@ -268,7 +268,7 @@ std::string text(const UnbalanceReport& report) {
     const std::string name = printable(report.probes[i]);
     out += one.told ? fmt::format("  {:<18} {:>14.4g} +- {:<9.2g} {:>11.2f}\n", name,
                                   std::abs(one.value), one.deviation,
-                                  -std::arg(one.value) / kRadian + 0.0)
+                                  -std::arg(one.value) / kDegree + 0.0)
                     : fmt::format("  {:<18} {:>14}\n", name, "not told");
   }
   for (const std::string& note : report.notes) {

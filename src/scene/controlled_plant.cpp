@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "algebra/lu.h"
+#include "algebra/dense.h"
 #include "analysis/equilibria.h"
 #include "mechanics/held_inputs.h"
 #include "scene/system_setup.h"
@@ -67,7 +67,7 @@ LinearPlant linearPlant(const std::vector<SignalSpec>& measures,
     const Index v = q + n;
     const Linearization matrices = linearizationAbout(dynamics, motion.q, motion.v, motion.speed);
     const HeldInputs inputs = heldInputs(dynamics, motion.q, motion.inputs);
-    const Eigen::PartialPivLU<MatrixXd> mass(matrices.mass);
+    const Lu mass(matrices.mass);
     plant.a.block(q, v, n, n).setIdentity();
     plant.a.block(v, q, n, n) =
         -mass.solve(matrices.stiffness + matrices.circulatory + inputs.stiffness);

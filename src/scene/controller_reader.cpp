@@ -7,12 +7,14 @@
 #include <limits>
 #include <optional>
 
+#include "algebra/constants.h"
 #include "controllers/controller_registry.h"
 #include "messages/names.h"
 #include "scene/avoidance_reader.h"
 #include "scene/control_parts.h"
 #include "scene/controlled_plant.h"
 #include "scene/parameter_reader.h"
+#include "scene/sensor_spec.h"
 #include "scene/signal_names.h"
 #include "scene/system_setup.h"
 #include "scene/weak_passage.h"
@@ -21,9 +23,6 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kHighestRate = 1.0e7;   // Hz
-constexpr double kLongestDelay = 1.0e3;  // s
-constexpr double kTwoPi = 6.283185307179586;
 constexpr double kMostUnderWay = 1.0e4;  // outputs
 constexpr std::size_t kMostSignals = 64;
 
@@ -175,8 +174,8 @@ void readDelay(const MapReader& map, ControllerSpec& controller, Complaints& com
   if (parts) {
     const MapReader given(map.at("delay"), map.key("delay"), {"mean", "jitter", "seed"},
                           "key of delay", complaints);
-    delay = given.numberBetween("mean", 0.0, kLongestDelay, "s", std::nullopt);
-    jitter = given.numberBetween("jitter", 0.0, kLongestDelay, "s", 0.0);
+    delay = given.numberBetween("mean", 0.0, kMaxSignalDelay, "s", std::nullopt);
+    jitter = given.numberBetween("jitter", 0.0, kMaxSignalDelay, "s", 0.0);
     controller.jitter_seed = static_cast<std::uint32_t>(given.integer("seed", 0, 2147483647, 1));
     if (jitter > delay) {
       complaints.add(given.key("jitter"),
@@ -185,7 +184,7 @@ void readDelay(const MapReader& map, ControllerSpec& controller, Complaints& com
                                  delay, jitter));
     }
   } else {
-    delay = map.numberBetween("delay", 0.0, kLongestDelay, "s", 0.0);
+    delay = map.numberBetween("delay", 0.0, kMaxSignalDelay, "s", 0.0);
   }
   controller.delay = std::llround(delay * 1.0e9);
   controller.jitter = std::llround(jitter * 1.0e9);
@@ -283,7 +282,7 @@ ControllerSpec readController(const YAML::Node& node, const std::string& key,
     complaints.add(map.key("type"),
                    fmt::format("missing; must be one of {}", fmt::join(controllerNames(), ", ")));
   }
-  controller.rate = map.numberBetween("rate", 1.0e-3, kHighestRate, "Hz", std::nullopt);
+  controller.rate = map.numberBetween("rate", 1.0e-3, kMaxSampleRate, "Hz", std::nullopt);
   readDelay(map, controller, complaints);
   readMeasured(map, signals, controller, complaints);
   readActedOn(map, scene, controller, complaints);

@@ -18,7 +18,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::uintmax_t kLargestFile = 64u << 20;  // bytes; two million rows of two numbers
+constexpr std::uintmax_t kMaxCsvSize = 64u << 20;  // bytes; two million rows of two numbers
 
 constexpr std::size_t kMostTold = 10;  // names that stand twice, and columns of each
 
@@ -91,7 +91,7 @@ void requireFile(const std::string& path) {
   if (!std::filesystem::is_regular_file(path, error)) {
     throw Refusal("not a file");
   }
-  if (std::filesystem::file_size(path, error) > kLargestFile) {
+  if (std::filesystem::file_size(path, error) > kMaxCsvSize) {
     throw Refusal("larger than 64 MiB: not a table of an input");
   }
 }

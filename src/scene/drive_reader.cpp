@@ -37,8 +37,8 @@ std::vector<SpeedMove> readProfile(const YAML::Node& list, const std::string& ke
   return profile;
 }
 
-std::vector<MotorPoint> readTable(const YAML::Node& list, const std::string& key,
-                                  Complaints& complaints) {
+std::vector<MotorPoint> readMotorTable(const YAML::Node& list, const std::string& key,
+                                       Complaints& complaints) {
   std::vector<MotorPoint> table;
   if (!list.IsSequence() || list.size() < 2 || list.size() > Motor::kMostPoints) {
     complaints.add(
@@ -85,7 +85,7 @@ Motor readMotor(const YAML::Node& node, const std::string& key, Complaints& comp
         Motor::falling(stall, map.number("no_load_speed", Range::kPositive, "rad/s", std::nullopt));
   }
   if (map.has("table")) {
-    const auto table = readTable(map.at("table"), map.key("table"), complaints);
+    const auto table = readMotorTable(map.at("table"), map.key("table"), complaints);
     std::copy(table.begin(), table.end(), motor.points.begin());
     motor.count = table.size();
   }

@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "algebra/qr.h"
+#include "algebra/dense.h"
 #include "analysis/cyclic_coordinates.h"
 #include "analysis/mass_matrix.h"
 #include "mechanics/held_inputs.h"
@@ -128,7 +128,7 @@ class Balance {
     }
     scaled = slope_ * columns.asDiagonal();
     rows = largest(scaled.transpose());
-    const Eigen::ColPivHouseholderQR<MatrixXd> qr(rows.asDiagonal() * scaled);
+    const PivotedQr qr(rows.asDiagonal() * scaled);
     const VectorXd by = qr.solve(-rows.cwiseProduct(left_));
     if (!by.allFinite()) {
       return false;

@@ -16,7 +16,6 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kLargestTime = 1.0e9;           // s, of an instant
 constexpr double kSlowestShaped = 1.0e-6;        // rad/s, of what a shaper leaves at rest
 constexpr double kLargestShapedDamping = 0.999;  // of that
 
@@ -37,7 +36,7 @@ InputSignal tableOf(const std::vector<double>& times, const std::vector<double>&
                     const std::string& name) {
   std::vector<std::int64_t> instants;
   for (std::size_t row = 0; row < times.size(); ++row) {
-    if (!(std::fabs(times[row]) <= kLargestTime)) {
+    if (!(std::fabs(times[row]) <= kMaxInstant)) {
       throw Refusal(
           fmt::format("row {}: {} must lie within +-1e9 s, found {} s", row + 1, name, times[row]));
     }
@@ -139,8 +138,8 @@ InputSignal readShaped(const MapReader& table, const InputSignal& signal, Compla
                                       : zeroVibration(frequency, damping));
 }
 
-InputSignal readTable(const YAML::Node& node, const std::string& key, const std::string& unit,
-                      const std::string& folder, Complaints& complaints) {
+InputSignal readSignalTable(const YAML::Node& node, const std::string& key, const std::string& unit,
+                            const std::string& folder, Complaints& complaints) {
   const bool file = node["table"].IsDefined();
   const MapReader map(node, key,
                       file ? std::vector<std::string>{"table", "time", "value", "hold", "shaper"}
@@ -164,7 +163,7 @@ InputSignal readSignal(const MapReader& inputs, const InputInfo& info, const std
     return {};
   }
   if (node["table"].IsDefined() || node["times"].IsDefined() || node["values"].IsDefined()) {
-    return readTable(node, key, info.unit, folder, complaints);
+    return readSignalTable(node, key, info.unit, folder, complaints);
   }
   const MapReader map(node, key, {"amplitude", "frequency", "phase"}, "key of a harmonic",
                       complaints);

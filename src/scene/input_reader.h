@@ -12,6 +12,9 @@
 
 namespace whirl_twin {
 
+/// Largest instant accepted, of a table or of the scene's start [s].
+inline constexpr double kMaxInstant = 1.0e9;
+
 /// Those under `inputs` of a system, by name. `folder`: where tables with a relative path lie; "":
 /// the scene has none.
 std::map<std::string, InputSignal> readInputs(const MapReader& system,

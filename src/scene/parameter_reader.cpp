@@ -111,8 +111,8 @@ std::optional<std::vector<YAML::Node>> maps(const MapReader& map, const std::str
   return std::vector<YAML::Node>(entries->begin(), entries->end());
 }
 
-std::vector<TableRow> readTable(const MapReader& map, const SettingInfo& info,
-                                Complaints& complaints) {
+std::vector<TableRow> readSettingTable(const MapReader& map, const SettingInfo& info,
+                                       Complaints& complaints) {
   std::vector<std::string> known = info.word_columns;
   known.insert(known.end(), info.optional_words.begin(), info.optional_words.end());
   for (const ColumnInfo& column : info.columns) {
@@ -195,7 +195,7 @@ void readSetting(const MapReader& map, const SettingInfo& info, Settings& settin
   } else if (info.kind == SettingKind::kNames) {
     settings.names[info.name] = readNames(map, info, complaints);
   } else {
-    settings.tables[info.name] = readTable(map, info, complaints);
+    settings.tables[info.name] = readSettingTable(map, info, complaints);
   }
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <new>
@@ -22,6 +21,7 @@
 #include "scene/parameter_reader.h"
 #include "scene/sensor_reader.h"
 #include "scene/shaft_reader.h"
+#include "scene/signal_names.h"
 #include "scene/station_names.h"
 #include "scene/surroundings.h"
 #include "scene/system_setup.h"
@@ -30,14 +30,6 @@
 namespace whirl_twin {
 
 namespace {
-
-constexpr double kLargestTime = 1.0e9;  // s
-
-std::string upper(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return text;
-}
 
 void checkNames(const MapReader& map, const std::string& what, Complaints& complaints) {
   std::set<std::string> channels;
@@ -50,7 +42,7 @@ void checkNames(const MapReader& map, const std::string& what, Complaints& compl
       complaints.add(
           map.key(name),
           fmt::format("a {} cannot be named so: the drives have their topics there", what));
-    } else if (!channels.insert(upper(name)).second) {
+    } else if (!channels.insert(capitals(name)).second) {
       complaints.add(map.key(name),
                      fmt::format("another {} has this name but for upper and lower case", what));
     }
@@ -136,7 +128,7 @@ void checkStart(const MapReader& system, const Dynamics& dynamics, const SystemS
 void checkStations(const Scene& scene, const MapReader& systems, Complaints& complaints) {
   std::set<std::string> taken;
   for (const SystemSpec& system : scene.systems) {
-    taken.insert(upper(system.name));
+    taken.insert(capitals(system.name));
   }
   for (const SystemSpec& system : scene.systems) {
     if (!system.setup) {
@@ -145,7 +137,7 @@ void checkStations(const Scene& scene, const MapReader& systems, Complaints& com
     std::vector<std::string> names = publishedStations(system.name, *system.setup->made.dynamics);
     names.erase(names.begin());
     for (const std::string& name : names) {
-      if (!isLegalName(name) || !taken.insert(upper(name)).second) {
+      if (!isLegalName(name) || !taken.insert(capitals(name)).second) {
         complaints.add(systems.key(system.name) + ".parameters.stations",
                        fmt::format("is published as {}, which must be up to {} characters that no "
                                    "other system or station has",
@@ -161,15 +153,15 @@ void checkControllerNames(const Scene& scene, const MapReader& controllers,
   checkNames(controllers, "controller", complaints);
   std::set<std::string> taken;
   for (const SystemSpec& system : scene.systems) {
-    taken.insert(upper(system.name));
+    taken.insert(capitals(system.name));
     if (system.setup) {
       for (const std::string& name : publishedStations(system.name, *system.setup->made.dynamics)) {
-        taken.insert(upper(name));
+        taken.insert(capitals(name));
       }
     }
   }
   for (const std::string& name : controllers.names()) {
-    if (taken.count(upper(name)) > 0) {
+    if (taken.count(capitals(name)) > 0) {
       complaints.add(controllers.key(name),
                      "a system or a station of one has this name: the parameters of both would be "
                      "told under it");
@@ -249,7 +241,7 @@ Scene readTree(const YAML::Node& tree, const std::string& source, Complaints& co
   }
   scene.name = map.text("name", "scene");
   const double step = map.numberBetween("step", 1.0e-9, 10.0, "s", std::nullopt);
-  const double time = map.numberBetween("time", -kLargestTime, kLargestTime, "s", 0.0);
+  const double time = map.numberBetween("time", -kMaxInstant, kMaxInstant, "s", 0.0);
   scene.step = nanoseconds(map, "step", step, complaints);
   scene.time = nanoseconds(map, "time", time, complaints);
   scene.gravity = map.number("gravity", Range::kNotNegative, "m/s^2", scene.gravity);

@@ -7,25 +7,17 @@
 #include <set>
 
 #include "messages/names.h"
+#include "scene/sensor_spec.h"
 #include "scene/signal_names.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kHighestRate = 1.0e7;   // Hz
-constexpr double kLongestBlock = 10.0;   // s
-constexpr double kMostSamples = 1.0e5;   // values in a message
-constexpr double kLongestDelay = 1.0e3;  // s
-constexpr double kLargestMark = 1.0e6;   // rad
-constexpr double kLargestJitter = 1.0;   // s
-
-std::string upper(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](char c) {
-    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  });
-  return text;
-}
+constexpr double kLongestBlock = 10.0;  // s
+constexpr double kMostSamples = 1.0e5;  // values in a message
+constexpr double kLargestMark = 1.0e6;  // rad
+constexpr double kLargestJitter = 1.0;  // s
 
 std::uint32_t readSeed(const MapReader& map) {
   return static_cast<std::uint32_t>(map.integer("seed", 0, 2147483647, 1));
@@ -65,7 +57,7 @@ SensorChannelSpec readChannel(const YAML::Node& node, const std::string& key,
   channel.sensor.resolution = map.number("resolution", Range::kNotNegative, unit, 0.0);
   channel.sensor.range = map.number("range", Range::kNotNegative, unit, 0.0);
   channel.sensor.bandwidth = map.number("bandwidth", Range::kNotNegative, "Hz", 0.0);
-  channel.sensor.delay = map.numberBetween("delay", 0.0, kLongestDelay, "s", 0.0);
+  channel.sensor.delay = map.numberBetween("delay", 0.0, kMaxSignalDelay, "s", 0.0);
   channel.run_out.amplitude = map.number("run_out", Range::kNotNegative, "m", 0.0);
   channel.run_out.angle = map.number("run_out_angle", Range::kAny, "rad", 0.0);
   if (channel.run_out.amplitude > 0.0 && channel.signal.kind != SignalSpec::Kind::kDisplacement &&
@@ -117,7 +109,7 @@ SensorSpec readSource(const YAML::Node& node, const std::string& key, const std:
       complaints.add(map.key(alone), "is for a keyphasor");
     }
   }
-  sensor.rate = map.numberBetween("rate", 1.0e-3, kHighestRate, "Hz", std::nullopt);
+  sensor.rate = map.numberBetween("rate", 1.0e-3, kMaxSampleRate, "Hz", std::nullopt);
   if (!map.has("channels")) {
     complaints.add(map.key("channels"), "missing; sensors have at least one channel");
     return sensor;
@@ -159,7 +151,7 @@ std::vector<SensorSpec> readSensors(const YAML::Node& node, const std::string& k
                      fmt::format("sensors are named by up to {} letters, digits and _, a letter "
                                  "first",
                                  kMaxNameLength));
-    } else if (!channels.insert(upper(name)).second) {
+    } else if (!channels.insert(capitals(name)).second) {
       complaints.add(map.key(name), "other sensors have this name but for upper and lower case");
     }
     sensors.push_back(readSource(map.at(name), map.key(name), name, scene, signals, complaints));

@@ -12,6 +12,12 @@
 
 namespace whirl_twin {
 
+/// Largest rate of a sensor or a controller accepted [Hz].
+inline constexpr double kMaxSampleRate = 1.0e7;
+
+/// Longest delay of a sensor or a controller accepted [s].
+inline constexpr double kMaxSignalDelay = 1.0e3;
+
 /// What a sensor is at: a coordinate or its rate, or a rotor's displacement at a station along a
 /// direction across the shaft.
 struct SignalSpec {

@@ -15,6 +15,13 @@ constexpr double kHalfPi = 1.57079632679489661923;
 
 }  // namespace
 
+std::string capitals(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](char c) {
+    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  });
+  return text;
+}
+
 SignalNames::SignalNames(const Scene& scene) {
   for (std::size_t i = 0; i < scene.systems.size(); ++i) {
     if (!scene.systems[i].setup) {

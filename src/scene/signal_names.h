@@ -13,6 +13,9 @@
 
 namespace whirl_twin {
 
+/// With a to z in capitals, as in the names of LCM channels.
+std::string capitals(std::string text);
+
 struct NamedSignal {
   std::string name;
   SignalSpec signal;

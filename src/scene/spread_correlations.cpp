@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "algebra/dense.h"
 #include "messages/names.h"
 
 namespace whirl_twin {
@@ -100,10 +101,7 @@ void readCorrelations(const YAML::Node& node, const std::string& key, EnsembleSp
     return;
   }
   matrix = matrix.array().isNaN().select(Eigen::MatrixXd::Identity(n, n), matrix);
-  const double lowest =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly)
-          .eigenvalues()
-          .minCoeff();
+  const double lowest = symmetricEigenvalues(matrix).minCoeff();
   if (lowest < -kRounding) {
     complaints.add(key, fmt::format("no numbers go together like this: the matrix of correlations "
                                     "must be positive semidefinite, found an eigenvalue of {:.3g}",

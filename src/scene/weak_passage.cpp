@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 
+#include "algebra/constants.h"
 #include "analysis/sommerfeld_speeds.h"
 #include "analysis/synchronous_poles.h"
 #include "analysis/synchronous_response.h"
@@ -26,7 +27,6 @@ namespace {
 constexpr int kCoarse = 200;          // speeds in a band, besides those about its resonances
 constexpr double kStepsPerTurn = 40;  // of the shaft, at the upper edge
 constexpr int kMostSteps = 2000000;   // of a rehearsal
-constexpr double kTwoPi = 6.28318530717958647692;
 
 struct Rotor {
   SharedSystem system;

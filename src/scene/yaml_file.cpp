@@ -13,7 +13,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::uintmax_t kLargestFile = 4u << 20;  // bytes; a scene of ten thousand systems is less
+constexpr std::uintmax_t kMaxYamlSize = 4u << 20;  // bytes; a scene of ten thousand systems is less
 
 }  // namespace
 
@@ -30,7 +30,7 @@ YAML::Node readYamlFile(const std::string& path, const std::string& what,
   if (!std::filesystem::is_regular_file(path, error)) {
     throw refusal("not a file");
   }
-  if (std::filesystem::file_size(path, error) > kLargestFile) {
+  if (std::filesystem::file_size(path, error) > kMaxYamlSize) {
     throw refusal(fmt::format("larger than 4 MiB: not {}", what));
   }
   std::ifstream file(path, std::ios::binary);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/constants.h"
 #include "signal/harmonic_fit.h"
 #include "signal/subspace_identification.h"
 
@@ -10,12 +11,11 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
-constexpr double kTurnsInBlock = 100.0;
-constexpr double kFewestTurns = 20.0;  // of a block that is cut short
-constexpr double kSteadySpeed = 0.01;  // of the speed
+constexpr double kAmbientBlockTurns = 100.0;
+constexpr double kFewestTurns = 20.0;            // of a block that is cut short
+constexpr double kAmbientSpeedTolerance = 0.01;  // of the speed
 constexpr int kMostOrders = 10;
-constexpr std::int64_t kFewestSamples = 200;
+constexpr std::int64_t kMinCovarianceSamples = 200;
 
 constexpr int kLargestHankel = 60;  // rows: blocks times stations
 constexpr int kMostBlockRows = 30;
@@ -147,19 +147,19 @@ AmbientModes::AmbientModes(Eigen::Index stations, double period, double speed, d
       decimator_(period, limit),
       covariance_(stations, decimator_.filters() ? kFirstFilteredLag : 1,
                   2 * blockRows(stations) - 1),
-      shortest_block_(kTurnsInBlock) {}
+      shortest_block_(kAmbientBlockTurns) {}
 
 double AmbientModes::turnsInBlock() const {
   if (block_.empty()) {
     return 0.0;
   }
   return std::fabs(static_cast<double>(block_.back().turns - block_.front().turns) +
-                   (block_.back().remainder - block_.front().remainder) / kTurn);
+                   (block_.back().remainder - block_.front().remainder) / kTwoPi);
 }
 
 void AmbientModes::take(const StationSample& sample) {
   const bool fits = sample.z.allFinite() && std::isfinite(sample.remainder) &&
-                    std::fabs(sample.speed - speed_) <= kSteadySpeed * std::fabs(speed_);
+                    std::fabs(sample.speed - speed_) <= kAmbientSpeedTolerance * std::fabs(speed_);
   if (!block_.empty() && (!fits || sample.index != block_.back().index + 1)) {
     endBlock(false);
   }
@@ -172,7 +172,7 @@ void AmbientModes::take(const StationSample& sample) {
     return;
   }
   block_.push_back(sample);
-  if (turnsInBlock() >= kTurnsInBlock) {
+  if (turnsInBlock() >= kAmbientBlockTurns) {
     endBlock(true);
   }
 }
@@ -198,7 +198,7 @@ bool AmbientModes::takeBlock() {
   for (Eigen::Index i = 0; i < n; ++i) {
     const StationSample& s = block_[static_cast<std::size_t>(i)];
     tau[i] = 2.0 * (static_cast<double>(i) + 0.5) / static_cast<double>(n) - 1.0;
-    angle[i] = kTurn * static_cast<double>(s.turns - block_.front().turns) + s.remainder;
+    angle[i] = kTwoPi * static_cast<double>(s.turns - block_.front().turns) + s.remainder;
   }
   HarmonicFit fit(tau, 2 + 4 * orders_);
   fit.addMean(1);
@@ -238,7 +238,7 @@ std::optional<AmbientRecord> AmbientModes::told() {
   if (!block_.empty()) {
     endBlock(false);
   }
-  if (covariance_.samples() < kFewestSamples) {
+  if (covariance_.samples() < kMinCovarianceSamples) {
     return std::nullopt;
   }
   AmbientRecord record;

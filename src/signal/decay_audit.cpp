@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/constants.h"
 #include "signal/full_spectrum.h"
 #include "signal/harmonic_fit.h"
 #include "signal/subspace_identification.h"
@@ -11,13 +12,12 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
 constexpr int kOrders = 4;  // taken away
-constexpr double kTurnsInBlock = 40.0;
-constexpr double kShortestStep = 1.0e-9;  // s; stamps may say anything
-constexpr std::size_t kMostBlocks = 256;  // of which the size is known
-constexpr double kSteadySpeed = 0.01;     // of the speed
-constexpr int kParts = 8;                 // of a record, left out one by one
+constexpr double kAuditBlockTurns = 40.0;
+constexpr double kShortestStep = 1.0e-9;       // s; stamps may say anything
+constexpr std::size_t kMostBlocks = 256;       // of which the size is known
+constexpr double kAuditSpeedTolerance = 0.01;  // of the speed
+constexpr int kParts = 8;                      // of a record, left out one by one
 constexpr int kLags = 23;
 constexpr int kModes = 4;              // two of the rotor, two of what is not white
 constexpr double kLagsPerCycle = 6.0;  // of the strongest line
@@ -72,8 +72,8 @@ std::optional<AuditedDecay> DecayAudit::take(const OrbitSample& sample) {
   const bool fits = std::isfinite(sample.x) && std::isfinite(sample.y) &&
                     std::isfinite(sample.speed) && sample.speed != 0.0;
   const bool begun = !block_.empty() || !rest_.empty();
-  if (!fits || (begun && (!follows ||
-                          std::fabs(sample.speed - speed_) > kSteadySpeed * std::fabs(speed_)))) {
+  if (!fits || (begun && (!follows || std::fabs(sample.speed - speed_) >
+                                          kAuditSpeedTolerance * std::fabs(speed_)))) {
     clear();
   }
   if (!fits) {
@@ -87,8 +87,8 @@ std::optional<AuditedDecay> DecayAudit::take(const OrbitSample& sample) {
   }
   block_.push_back(sample);
   const double turns = static_cast<double>(sample.turns - block_.front().turns) +
-                       (sample.remainder - block_.front().remainder) / kTurn;
-  if (std::fabs(turns) < kTurnsInBlock || !(step_ >= kShortestStep)) {
+                       (sample.remainder - block_.front().remainder) / kTwoPi;
+  if (std::fabs(turns) < kAuditBlockTurns || !(step_ >= kShortestStep)) {
     return std::nullopt;
   }
   removeOrders();
@@ -114,7 +114,7 @@ void DecayAudit::removeOrders() {
   for (Eigen::Index i = 0; i < n; ++i) {
     const OrbitSample& s = block_[static_cast<std::size_t>(i)];
     tau[i] = 2.0 * (static_cast<double>(i) + 0.5) / static_cast<double>(n) - 1.0;
-    angle[i] = kTurn * static_cast<double>(s.turns - block_.front().turns) + s.remainder;
+    angle[i] = kTwoPi * static_cast<double>(s.turns - block_.front().turns) + s.remainder;
     x[i] = s.x;
     y[i] = s.y;
   }
@@ -158,7 +158,7 @@ std::optional<AuditedDecay> DecayAudit::told() const {
   if (!strongest) {
     return std::nullopt;
   }
-  const double cycle = kTurn / std::fabs(strongest->frequency);
+  const double cycle = kTwoPi / std::fabs(strongest->frequency);
   const auto lag =
       std::max<std::size_t>(1, static_cast<std::size_t>(cycle / (kLagsPerCycle * step_)));
   const double spacing = static_cast<double>(lag) * step_;

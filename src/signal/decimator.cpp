@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/constants.h"
+
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kSamplesPerCycle = 4.0;  // of the limit, that come out
 // Kaiser's window for 60 dB (J. F. Kaiser, R. W. Schafer, IEEE Trans. ASSP 28 (1980)).
 constexpr double kAttenuation = 60.0;

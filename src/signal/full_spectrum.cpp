@@ -3,11 +3,11 @@
 #include <cmath>
 #include <unsupported/Eigen/FFT>
 
+#include "algebra/constants.h"
+
 namespace whirl_twin {
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// Bins, twice as many as samples at least: peaks are read between them.
 Eigen::Index binsFor(Eigen::Index samples) {

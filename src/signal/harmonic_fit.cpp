@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "algebra/dense.h"
+
 namespace whirl_twin {
 
 namespace {
@@ -73,10 +75,9 @@ bool HarmonicFit::solve(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y) {
   const auto a = columns_.leftCols(used_);
   Eigen::MatrixXd squared = Eigen::MatrixXd::Zero(used_, used_);
   squared.selfadjointView<Eigen::Lower>().rankUpdate(a.transpose());
-  normal_.compute(squared);
-  const Eigen::VectorXd pivots = normal_.vectorD();
-  if (normal_.info() != Eigen::Success ||
-      !(pivots.minCoeff() > kSmallestPivot * pivots.maxCoeff())) {
+  normal_ = Ldlt(squared);
+  const Eigen::VectorXd pivots = normal_.pivots();
+  if (!normal_.succeeded() || !(pivots.minCoeff() > kSmallestPivot * pivots.maxCoeff())) {
     return false;
   }
   Eigen::MatrixX2d measured(x.size(), 2);

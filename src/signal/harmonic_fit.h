@@ -13,7 +13,7 @@
 #include <complex>
 #include <vector>
 
-#include "algebra/cholesky.h"
+#include "algebra/dense.h"
 
 namespace whirl_twin {
 
@@ -68,7 +68,7 @@ class HarmonicFit {
   Eigen::MatrixXd columns_;
   Eigen::Index used_ = 0;
   std::vector<Harmonic> harmonics_;
-  Eigen::LDLT<Eigen::MatrixXd> normal_;
+  Ldlt normal_;
   Eigen::MatrixX2d coefficients_;
   Eigen::ArrayXcd rest_;
   double noise_ = 0.0;

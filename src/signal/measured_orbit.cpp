@@ -5,13 +5,13 @@
 #include <limits>
 #include <stdexcept>
 
+#include "algebra/constants.h"
 #include "messages/units.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kNanosecond = 1.0e-9;      // s
 constexpr double kLeastAngle = 1.0e-3;      // [-], sine of that between the two probes
 constexpr std::size_t kMostPulses = 4096;   // that wait for samples
 constexpr std::int64_t kExact = 1LL << 53;  // [ns], up to which a double counts them

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/constants.h"
+
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
-constexpr std::size_t kMost = 4096;        // samples kept, before the oldest quarter goes
-constexpr double kSamplesPerTurn = 64.0;   // kept at least, where there are so many
-constexpr double kLongestPeriod = 5.0e-3;  // [s], for a whirl that is faster than the shaft
+constexpr std::size_t kMaxWindowSamples = 4096;  // samples kept, before the oldest quarter goes
+constexpr double kSamplesPerTurn = 64.0;         // kept at least, where there are so many
+constexpr double kLongestPeriod = 5.0e-3;        // [s], for a whirl that is faster than the shaft
 /// Of indices: with damaged counts or stamps a sample seems to take no time.
 constexpr std::int64_t kWidest = std::int64_t{1} << 40;
 
@@ -24,7 +25,7 @@ bool isFinite(const OrbitSample& s) {
 }
 
 double turned(const OrbitSample& from, const OrbitSample& to) {
-  return static_cast<double>(to.turns - from.turns) + (to.remainder - from.remainder) / kTurn;
+  return static_cast<double>(to.turns - from.turns) + (to.remainder - from.remainder) / kTwoPi;
 }
 
 }  // namespace
@@ -48,7 +49,7 @@ void OrbitWindow::take(const OrbitSample& sample) {
   if (!kept_.empty()) {
     sampling_ = (sample.time - last_time_) / static_cast<double>(sample.index - last_);
     const double wanted =
-        std::min(kTurn / (kSamplesPerTurn * std::fabs(sample.speed)), kLongestPeriod);
+        std::min(kTwoPi / (kSamplesPerTurn * std::fabs(sample.speed)), kLongestPeriod);
     while (stride_ > 1 && static_cast<double>(stride_) * sampling_ > wanted) {
       stride_ /= 2;
     }
@@ -59,8 +60,8 @@ void OrbitWindow::take(const OrbitSample& sample) {
   last_ = sample.index;
   last_time_ = sample.time;
   if (kept_.empty() || sample.index % stride_ == 0) {
-    if (kept_.size() == kMost) {
-      kept_.erase(kept_.begin(), kept_.begin() + kMost / 4);
+    if (kept_.size() == kMaxWindowSamples) {
+      kept_.erase(kept_.begin(), kept_.begin() + kMaxWindowSamples / 4);
     }
     kept_.push_back({sample, stride_});
   }
@@ -132,7 +133,7 @@ OrbitPart OrbitWindow::last(double seconds, std::size_t most) const {
   for (Eigen::Index i = 0; i < n; ++i) {
     const OrbitSample& s = *taken[static_cast<std::size_t>(i)];
     part.tau[i] = (s.time - part.centre) / part.half;
-    part.angle[i] = static_cast<double>(s.turns - from.turns) * kTurn + s.remainder;
+    part.angle[i] = static_cast<double>(s.turns - from.turns) * kTwoPi + s.remainder;
     part.x[i] = s.x;
     part.y[i] = s.y;
     part.place.push_back((s.index - from.index) / stride);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "algebra/constants.h"
 #include "signal/full_spectrum.h"
 #include "signal/harmonic_fit.h"
 
@@ -21,13 +22,12 @@ struct OrderFilter::Reach {
 
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
-constexpr double kLongest = 2.0;     // [s], of a window that a shorter one could do for
-constexpr double kLast = 20.0;       // [s], of any
-constexpr double kStandstill = 1.0;  // [s], of one without turns
-constexpr std::size_t kMostSamples = 640;
+constexpr double kMaxOrderWindow = 2.0;  // [s], of a window that a shorter one could do for
+constexpr double kLast = 20.0;           // [s], of any
+constexpr double kStandstill = 1.0;      // [s], of one without turns
+constexpr std::size_t kMaxOrderSamples = 640;
 constexpr int kLineDegree = 3;
-constexpr int kMostLines = 4;
+constexpr int kMaxFittedLines = 4;
 /// Of a peak of noise among some hundred bins hardly ever.
 constexpr double kProminent = 12.0;
 /// A line takes this part of the noise away, or it is none.
@@ -35,7 +35,7 @@ constexpr double kWorthwhile = 0.8;
 /// Parts of the motion: noise below the first is not looked into for lines, and lines below the
 /// second, which may stand for how another one changes, are not told.
 constexpr double kQuiet = 1.0e-7;
-constexpr double kSmallestLine = 1.0e-4;
+constexpr double kMinFittedLine = 1.0e-4;
 
 /// Cycles in a window by which two frequencies have to differ where their amplitudes may change as
 /// polynomials of these degrees: each takes (degree + 1)/2 of them.
@@ -60,13 +60,13 @@ struct Fit {
     harmonics.addMean(degrees.front());
     for (std::size_t i = 1; i < orders.size(); ++i) {
       const double before = std::fmod(orders[i] * static_cast<double>(part.turns), 1.0);
-      harmonics.addHarmonic(kTurn * before + orders[i] * part.angle, degrees[i]);
+      harmonics.addHarmonic(kTwoPi * before + orders[i] * part.angle, degrees[i]);
     }
   }
 
   bool solve() { return harmonics.solve(part.x, part.y); }
   std::size_t lineAt(std::size_t i) const { return degrees.size() + i; }
-  double perCycle() const { return kTurn / (2.0 * part.half); }  // [rad/s], over the window
+  double perCycle() const { return kTwoPi / (2.0 * part.half); }  // [rad/s], over the window
   void addLine(double frequency) {
     harmonics.addHarmonic(frequency * part.half * part.tau, kLineDegree);
     lines.push_back(frequency);
@@ -163,7 +163,7 @@ double precessionOf(const OrbitPart& part, std::complex<double> mean) {
 }  // namespace
 
 OrbitEstimate OrderFilter::fitted(const Reach& reach, double seconds) const {
-  const OrbitPart part = window_.last(seconds, kMostSamples);
+  const OrbitPart part = window_.last(seconds, kMaxOrderSamples);
   std::vector<double> orders = {0.0};
   std::vector<int> degrees = {reach.mean_degree};
   Eigen::Index columns = reach.mean_degree + 1;
@@ -176,13 +176,13 @@ OrbitEstimate OrderFilter::fitted(const Reach& reach, double seconds) const {
   if (part.tau.size() < 2 * columns) {
     return estimate;
   }
-  Fit fit(part, orders, degrees, columns + 2 * kMostLines * (kLineDegree + 1));
+  Fit fit(part, orders, degrees, columns + 2 * kMaxFittedLines * (kLineDegree + 1));
   if (!fit.solve()) {
     return estimate;
   }
   const double size = std::sqrt((part.x - part.x.mean()).square().mean() +
                                 (part.y - part.y.mean()).square().mean());
-  for (int i = 0; i < kMostLines && fit.harmonics.noise() > kQuiet * size; ++i) {
+  for (int i = 0; i < kMaxFittedLines && fit.harmonics.noise() > kQuiet * size; ++i) {
     if (!fit.findLine()) {
       break;
     }
@@ -202,7 +202,7 @@ OrbitEstimate OrderFilter::fitted(const Reach& reach, double seconds) const {
     const std::complex<double> change = fit.changeOf(i);
     const double forward = std::abs(fit.harmonics.forward(fit.lineAt(i)));
     const double backward = std::abs(fit.harmonics.backward(fit.lineAt(i)));
-    if (std::max(forward, backward) > kSmallestLine * size) {
+    if (std::max(forward, backward) > kMinFittedLine * size) {
       estimate.lines.push_back({fit.lines[i] + change.imag(), forward, backward, change.real()});
     }
   }
@@ -227,7 +227,7 @@ OrbitEstimate OrderFilter::estimate() const {
   for (const Reach& reach : kReaches) {
     const double seconds = window_.since(reach.turns);
     const bool last = reach.turns == 2;
-    if (seconds == 0.0 || seconds > (last ? kLast : kLongest)) {
+    if (seconds == 0.0 || seconds > (last ? kLast : kMaxOrderWindow)) {
       continue;
     }
     OrbitEstimate now = fitted(reach, seconds);

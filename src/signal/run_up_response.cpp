@@ -11,7 +11,7 @@ constexpr double kHalfPower = 0.70710678118654752;
 constexpr double kBack = 0.02;  // of the span of speeds
 constexpr double kSlow = 0.15;  // of (N2 - N1)^2
 /// Amplitudes kept; beyond, every second one goes.
-constexpr std::size_t kMost = 20000;
+constexpr std::size_t kMaxRunSamples = 20000;
 
 }  // namespace
 
@@ -37,11 +37,11 @@ void RunUpResponse::take(double time, double speed, double amplitude) {
       return;  // it dwells or ripples, or the window of the filter has become longer
     }
   }
-  if (run_.size() == kMost) {
-    for (std::size_t i = 0; i < kMost / 2; ++i) {
+  if (run_.size() == kMaxRunSamples) {
+    for (std::size_t i = 0; i < kMaxRunSamples / 2; ++i) {
       run_[i] = run_[2 * i];
     }
-    run_.resize(kMost / 2);
+    run_.resize(kMaxRunSamples / 2);
   }
   run_.push_back({time, speed, amplitude});
 }

@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/constants.h"
+
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kTurn = ShaftAngle::kTurn;
-constexpr double kGate = 5.0;           // standard deviations, beyond which a pulse is refused
-constexpr double kKnown = 0.5 * kTurn;  // [rad], that two standard deviations stay below
+constexpr double kGate = 5.0;            // standard deviations, beyond which a pulse is refused
+constexpr double kKnown = 0.5 * kTwoPi;  // [rad], that two standard deviations stay below
 
 // Doubt that a shaft is followed at all: half or double its speed fits some of its pulses too.
 constexpr int kByRefused = 2;
@@ -19,9 +20,9 @@ constexpr int kByTaken = -1;
 constexpr int kMostDoubt = 20;
 
 // Four pulses in a row that a constant acceleration explains: they are marks, none missing.
-constexpr double kMostChange = 1.4;       // of intervals, from one to the next
-constexpr double kMisfit = 0.01 * kTurn;  // [rad], besides jitter
-constexpr double kMostMisfit = 0.05 * kTurn;
+constexpr double kMostChange = 1.4;        // of intervals, from one to the next
+constexpr double kMisfit = 0.01 * kTwoPi;  // [rad], besides jitter
+constexpr double kMostMisfit = 0.05 * kTwoPi;
 
 double seconds(std::int64_t from, std::int64_t to) {
   return 1.0e-9 * static_cast<double>(to - from);
@@ -108,8 +109,8 @@ bool ShaftTracker::take(std::int64_t instant) {
   if (2.0 * deviationOf(now) >= kKnown) {
     return lock();
   }
-  const double marks = std::round(now.mean[0] / kTurn);
-  const double innovation = marks * kTurn - now.mean[0];
+  const double marks = std::round(now.mean[0] / kTwoPi);
+  const double innovation = marks * kTwoPi - now.mean[0];
   const double variance = pulseVariance(now.mean[1]);
   if (marks < 1.0) {
     return refuse();
@@ -130,8 +131,8 @@ void ShaftTracker::take(const State& predicted, double innovation, double varian
   before_ = after_;
   expected_ = predicted;
   after_ = corrected(predicted, innovation, variance);
-  const double marks = std::round((predicted.mean[0] + innovation) / kTurn);
-  after_->mean[0] -= marks * kTurn;
+  const double marks = std::round((predicted.mean[0] + innovation) / kTwoPi);
+  after_->mean[0] -= marks * kTwoPi;
   after_->turns += std::llround(marks);
 }
 
@@ -166,11 +167,11 @@ bool ShaftTracker::lock() {
     for (std::size_t k = 0; k < 4; ++k) {
       product *= k == i ? 1.0 : t[i] - t[k];
     }
-    difference += static_cast<double>(i) * kTurn / product;
+    difference += static_cast<double>(i) * kTwoPi / product;
     squares += 1.0 / (product * product);
   }
   const double misfit = std::fabs(difference) / std::sqrt(squares);
-  const double speed = 3.0 * kTurn / t[3];
+  const double speed = 3.0 * kTwoPi / t[3];
   const double wander = std::sqrt(settings_.white_jerk * wandered(t[1])(0, 0));
   const double noise = std::sqrt(pulseVariance(speed)) + wander;
   if (misfit > std::min(kMisfit + kGate * noise, kMostMisfit)) {
@@ -182,13 +183,13 @@ bool ShaftTracker::lock() {
   // Turns without a pulse are not known to have been; those counted before are not counted again.
   const auto counted = std::find(pulses_.begin(), pulses_.end(), lost_.time);
   first.turns = lost_.turns + (counted == pulses_.end() ? 1 : pulses_.begin() - counted);
-  first.mean = {0.0, kTurn / t[1], 0.0};
+  first.mean = {0.0, kTwoPi / t[1], 0.0};
   // Of speed and acceleration nothing is known but their size.
-  first.covariance.diagonal() << variance, speed * speed, std::pow(speed * speed / kTurn, 2);
+  first.covariance.diagonal() << variance, speed * speed, std::pow(speed * speed / kTwoPi, 2);
   after_ = first;
   for (std::size_t i = 1; i < 4; ++i) {
     const State now = predicted(*after_, pulses_[i]);
-    take(now, kTurn - now.mean[0], variance);
+    take(now, kTwoPi - now.mean[0], variance);
   }
   ++counts_.taken;  // the first
   ++counts_.locked;
@@ -202,7 +203,7 @@ ShaftTracker::State ShaftTracker::smoothed(std::int64_t time) const {
                                transition(seconds(time, after_->time)).transpose() *
                                expected_->covariance.inverse();
   Eigen::Vector3d found = after_->mean - expected_->mean;
-  found[0] += kTurn * static_cast<double>(after_->turns - expected_->turns);
+  found[0] += kTwoPi * static_cast<double>(after_->turns - expected_->turns);
   then.mean += gain * found;
   then.covariance += gain * (after_->covariance - expected_->covariance) * gain.transpose();
   return then;
@@ -213,7 +214,7 @@ ShaftEstimate ShaftTracker::at(std::int64_t instant) const {
   if (!after_ || instant < before_->time) {
     shaft.angle.turns = after_ ? after_->turns : lost_.turns;
     shaft.angle.remainder = settings_.mark;
-    shaft.deviation = kTurn;
+    shaft.deviation = kTwoPi;
     return shaft;
   }
   const State state = instant < after_->time ? smoothed(instant) : predicted(*after_, instant);

@@ -5,24 +5,24 @@
 #include <cmath>
 #include <complex>
 
+#include "algebra/constants.h"
 #include "signal/full_spectrum.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kShortest = 0.25;          // [s], of a window, however fast the speed changes
-constexpr double kLongest = 4.0;            // [s]
-constexpr std::size_t kMostSamples = 8192;  // of a window
-constexpr std::size_t kFewestSamples = 64;  // likewise
-constexpr double kFirst = 1.0;              // [s], until the first spectrum
-constexpr double kOften = 0.25;             // [s], from one to the next at first
-constexpr std::size_t kMostSpectra = 96;    // then every second one goes
-constexpr double kSamplesATurn = 2.5;       // at least: below two the shaft is not seen to turn
-constexpr std::size_t kMostLines = 8;       // of a spectrum
-constexpr double kSmallestLine = 0.01;      // of the largest: side lobes are below
-constexpr double kAboveNoise = 4.0;         // times the median: noise hardly reaches it
+constexpr double kMaxSpectrumWindow = 4.0;  // [s]
+constexpr std::size_t kMaxSpectrumSamples = 8192;  // of a window
+constexpr std::size_t kMinSpectrumSamples = 64;    // likewise
+constexpr double kFirst = 1.0;                     // [s], until the first spectrum
+constexpr double kOften = 0.25;                    // [s], from one to the next at first
+constexpr std::size_t kMostSpectra = 96;           // then every second one goes
+constexpr double kSamplesATurn = 2.5;         // at least: below two the shaft is not seen to turn
+constexpr std::size_t kMaxSpectrumLines = 8;  // of a spectrum
+constexpr double kMinSpectrumLine = 0.01;     // of the largest: side lobes are below
+constexpr double kAboveNoise = 4.0;           // times the median: noise hardly reaches it
 
 double medianOf(const FullSpectrum& spectrum) {
   std::vector<double> all(spectrum.size());
@@ -58,10 +58,10 @@ std::vector<SpectrumLine> linesOf(const FullSpectrum& spectrum, const WindowSpec
              return std::fabs(frequency - line.frequency) > near;
            });
   };
-  while (lines.size() < kMostLines) {
+  while (lines.size() < kMaxSpectrumLines) {
     const auto peak = spectrum.highest(apart);
     if (!peak || peak->amplitude < noise ||
-        (!lines.empty() && peak->amplitude < kSmallestLine * lines.front().amplitude)) {
+        (!lines.empty() && peak->amplitude < kMinSpectrumLine * lines.front().amplitude)) {
       break;
     }
     lines.push_back(named(*peak, window));
@@ -107,7 +107,8 @@ void SpectrumCascade::take(const OrbitSample& sample) {
     every_ = kOften;
   }
   kept_.push_back(sample);
-  while (kept_.size() > kMostSamples || sample.time - kept_.front().time > kLongest) {
+  while (kept_.size() > kMaxSpectrumSamples ||
+         sample.time - kept_.front().time > kMaxSpectrumWindow) {
     kept_.pop_front();
   }
   if (sample.time < due_) {
@@ -127,7 +128,7 @@ void SpectrumCascade::take(const OrbitSample& sample) {
 }
 
 std::optional<WindowSpectrum> SpectrumCascade::latest() const {
-  if (kept_.size() < kFewestSamples) {
+  if (kept_.size() < kMinSpectrumSamples) {
     return std::nullopt;
   }
   const double whole = kept_.back().time - kept_.front().time;
@@ -139,7 +140,7 @@ std::optional<WindowSpectrum> SpectrumCascade::latest() const {
   const double sharp = std::max(kShortest, std::sqrt(4.0 * kPi / rate));
   const double reach = std::min(sharp, whole + period);
   const auto count =
-      std::max(kFewestSamples, static_cast<std::size_t>(std::lround(reach / period)));
+      std::max(kMinSpectrumSamples, static_cast<std::size_t>(std::lround(reach / period)));
   const std::size_t begin = kept_.size() - std::min(count, kept_.size());
   const auto samples = static_cast<Eigen::Index>(kept_.size() - begin);
 

@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algebra/eigenvalues.h"
-#include "algebra/qr.h"
-#include "algebra/svd.h"
+#include "algebra/dense.h"
 
 namespace whirl_twin {
 
@@ -43,9 +41,9 @@ SubspaceIdentification::SubspaceIdentification(const std::vector<Eigen::MatrixXc
   if (!hankel.allFinite() || hankel.isZero(0.0)) {
     return;
   }
-  const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(hankel, Eigen::ComputeThinU);
-  singular_ = svd.singularValues();
-  left_ = svd.matrixU();
+  const ComplexLeftSingularVectors svd = complexLeftSingularVectors(hankel);
+  singular_ = svd.values;
+  left_ = svd.u;
 }
 
 std::vector<IdentifiedMode> SubspaceIdentification::modes(int order) const {
@@ -60,10 +58,10 @@ std::vector<IdentifiedMode> SubspaceIdentification::modes(int order) const {
   const Eigen::MatrixXcd observability =
       left_.leftCols(modes) * singular_.head(modes).cwiseSqrt().asDiagonal();
   const Eigen::MatrixXcd shift =
-      observability.topRows(shifted).householderQr().solve(observability.bottomRows(shifted));
-  const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> eigen(shift, true);
-  const Eigen::VectorXcd poles = eigen.eigenvalues();
-  const Eigen::MatrixXcd shapes = observability.topRows(stations_) * eigen.eigenvectors();
+      leastSquares(observability.topRows(shifted), observability.bottomRows(shifted));
+  const EigenPairs eigen = eigenPairs(shift);
+  const Eigen::VectorXcd poles = eigen.values;
+  const Eigen::MatrixXcd shapes = observability.topRows(stations_) * eigen.vectors;
 
   // tr R_k = sum p_m pole_m^k, for how much of the motion each is.
   Eigen::MatrixXcd powers(traces_.size(), modes);
@@ -73,7 +71,7 @@ std::vector<IdentifiedMode> SubspaceIdentification::modes(int order) const {
       powers(k, m) = (k == 0 ? powers(0, m) : powers(k - 1, m)) * poles[m];
     }
   }
-  const Eigen::VectorXcd part = powers.colPivHouseholderQr().solve(traces_);
+  const Eigen::VectorXcd part = leastSquares(powers, traces_);
 
   std::vector<IdentifiedMode> found;
   for (Eigen::Index m = 0; m < modes; ++m) {

@@ -4,8 +4,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <limits>
 
+#include "algebra/constants.h"
 #include "analysis/critical_speeds.h"
 #include "analysis/equilibria.h"
 #include "analysis/instability_speed.h"
@@ -16,32 +16,29 @@ namespace whirl_twin {
 
 namespace {
 
-using Kind = AnalysedNumber::Kind;
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+using NumberKind = AnalysedNumber::Kind;
 
 /// Parts of a name before and after the place.
 struct Name {
   const char* before;
   bool listed;
   const char* after;
-  Kind kind;
+  NumberKind kind;
   const char* unit;
 };
 constexpr std::array<Name, 12> kNames{{
-    {"critical_speeds", true, "", Kind::kCriticalSpeed, "rad/s"},
-    {"critical_speeds", true, ".speed", Kind::kCriticalSpeed, "rad/s"},
-    {"critical_speeds", true, ".amplification_factor", Kind::kAmplificationFactor, "-"},
-    {"critical_speeds", true, ".separation_margin", Kind::kSeparationMargin, "percent"},
-    {"natural_frequencies", true, "", Kind::kNaturalFrequency, "rad/s"},
-    {"damping_ratios", true, "", Kind::kDampingRatioOfMode, "-"},
-    {"stability.sigma", false, "", Kind::kDecayRate, "1/s"},
-    {"margins.decay_rate", false, "", Kind::kDecayRate, "1/s"},
-    {"margins.damping_ratio", false, "", Kind::kDampingRatio, "-"},
-    {"margins.log_decrement", false, "", Kind::kLogDecrement, "-"},
-    {"margins.instability_speed", false, "", Kind::kInstabilitySpeed, "rad/s"},
-    {"separation.reserve", false, "", Kind::kSeparationReserve, "percent"},
+    {"critical_speeds", true, "", NumberKind::kCriticalSpeed, "rad/s"},
+    {"critical_speeds", true, ".speed", NumberKind::kCriticalSpeed, "rad/s"},
+    {"critical_speeds", true, ".amplification_factor", NumberKind::kAmplificationFactor, "-"},
+    {"critical_speeds", true, ".separation_margin", NumberKind::kSeparationMargin, "percent"},
+    {"natural_frequencies", true, "", NumberKind::kNaturalFrequency, "rad/s"},
+    {"damping_ratios", true, "", NumberKind::kDampingRatioOfMode, "-"},
+    {"stability.sigma", false, "", NumberKind::kDecayRate, "1/s"},
+    {"margins.decay_rate", false, "", NumberKind::kDecayRate, "1/s"},
+    {"margins.damping_ratio", false, "", NumberKind::kDampingRatio, "-"},
+    {"margins.log_decrement", false, "", NumberKind::kLogDecrement, "-"},
+    {"margins.instability_speed", false, "", NumberKind::kInstabilitySpeed, "rad/s"},
+    {"separation.reserve", false, "", NumberKind::kSeparationReserve, "percent"},
 }};
 
 /// The place in "before[12]after"; nothing if it is not written so.
@@ -63,7 +60,7 @@ std::optional<std::size_t> placeIn(const std::string& text, const Name& name) {
   return place;
 }
 
-Eigen::VectorXd vectorOf(const std::vector<double>& x) {
+Eigen::VectorXd coordinateVector(const std::vector<double>& x) {
   return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
 }
 
@@ -115,8 +112,8 @@ struct AnalysedScene::Results {
                                        const Moment<double>& start) {
     if (!linearization) {
       const Dynamics& dynamics = *system.dynamics;
-      const Eigen::VectorXd q = vectorOf(system.spec.q);
-      const Eigen::VectorXd v = vectorOf(system.spec.v);
+      const Eigen::VectorXd q = coordinateVector(system.spec.q);
+      const Eigen::VectorXd v = coordinateVector(system.spec.v);
       if (const auto point = operatingPoint(dynamics, q, v, speed)) {
         about = point->q;
         linearization = linearizationAbout(dynamics, point->q, point->v, speed);
@@ -165,17 +162,17 @@ double AnalysedScene::value(const AnalysedNumber& number) {
     return number.place < list.size() ? list[number.place] : kNaN;
   };
   switch (number.kind) {
-    case Kind::kNaturalFrequency:
+    case NumberKind::kNaturalFrequency:
       return at(known.stabilityOf(system, speed, start).natural_frequencies);
-    case Kind::kDampingRatioOfMode:
+    case NumberKind::kDampingRatioOfMode:
       return at(known.stabilityOf(system, speed, start).damping_ratios);
-    case Kind::kDecayRate:
+    case NumberKind::kDecayRate:
       return known.stabilityOf(system, speed, start).decay_rate;
-    case Kind::kDampingRatio:
+    case NumberKind::kDampingRatio:
       return known.stabilityOf(system, speed, start).damping_ratio;
-    case Kind::kLogDecrement:
+    case NumberKind::kLogDecrement:
       return known.stabilityOf(system, speed, start).log_decrement;
-    case Kind::kInstabilitySpeed:
+    case NumberKind::kInstabilitySpeed:
       if (!known.instability_speed) {
         static_cast<void>(known.linearizationOf(system, speed, start));
         known.instability_speed =
@@ -186,7 +183,7 @@ double AnalysedScene::value(const AnalysedNumber& number) {
       break;
   }
   const std::vector<CriticalSpeed>& critical_speeds = known.criticalSpeedsOf(system);
-  if (number.kind == Kind::kSeparationReserve) {
+  if (number.kind == NumberKind::kSeparationReserve) {
     double least = kInfinity;  // no critical speed: any distance is enough
     for (const CriticalSpeed& critical : critical_speeds) {
       const double factor = critical.amplification_factor;
@@ -203,9 +200,10 @@ double AnalysedScene::value(const AnalysedNumber& number) {
     return kNaN;
   }
   const CriticalSpeed& critical = critical_speeds[number.place];
-  return number.kind == Kind::kCriticalSpeed         ? critical.speed
-         : number.kind == Kind::kAmplificationFactor ? critical.amplification_factor
-                                                     : separationMargin(speed, critical.speed);
+  return number.kind == NumberKind::kCriticalSpeed ? critical.speed
+         : number.kind == NumberKind::kAmplificationFactor
+             ? critical.amplification_factor
+             : separationMargin(speed, critical.speed);
 }
 
 }  // namespace whirl_twin

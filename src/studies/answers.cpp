@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "algebra/constants.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kWithin95 = 1.959963984540054;  // standard deviations of a normal distribution
 
 }  // namespace

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <boost/math/special_functions/erf.hpp>
 #include <cmath>
-#include <limits>
+
+#include "algebra/constants.h"
 
 namespace whirl_twin {
 
 namespace {
 
 constexpr double kSqrt2 = 1.4142135623730951;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// From low to high, either met exactly.
 double between(double low, double high, double u) {

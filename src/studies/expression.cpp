@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <limits>
 
+#include "algebra/constants.h"
 #include "messages/names.h"
 #include "messages/refusal.h"
 #include "scene/node_reader.h"
@@ -17,7 +17,6 @@ namespace {
 
 constexpr int kDeepest = 100;  // of brackets
 constexpr std::size_t kLongest = 2000;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSettled = 0.02;  // of the largest deviation, unless it is said
 
 const std::vector<std::string>& functionNames() {

@@ -60,7 +60,7 @@ Handle scalar() {
   return {H5Screate(H5S_SCALAR), H5Sclose};
 }
 
-Handle vectorOf(hsize_t size) {
+Handle vectorSpace(hsize_t size) {
   return {H5Screate_simple(1, &size, nullptr), H5Sclose};
 }
 
@@ -94,7 +94,7 @@ void attach(hid_t of, const char* name, std::uint64_t value) {
 
 template <class Numbers>
 void attachNumbers(hid_t of, const char* name, const Numbers& values) {
-  writeAttribute(of, name, H5T_NATIVE_DOUBLE, vectorOf(values.size()), values.data());
+  writeAttribute(of, name, H5T_NATIVE_DOUBLE, vectorSpace(values.size()), values.data());
 }
 
 void attach(hid_t of, const char* name, const Estimate& estimate) {
@@ -138,7 +138,7 @@ class Column {
     check(H5Dset_extent(data_, &end));
     const Handle place(H5Dget_space(data_), H5Sclose);
     check(H5Sselect_hyperslab(place, H5S_SELECT_SET, &written_, nullptr, &count, nullptr));
-    check(H5Dwrite(data_, type_, vectorOf(count), place, H5P_DEFAULT, rows_.data()));
+    check(H5Dwrite(data_, type_, vectorSpace(count), place, H5P_DEFAULT, rows_.data()));
     written_ = end;
     rows_.clear();
   }

@@ -9,13 +9,13 @@
 #include <nlopt.hpp>
 #include <utility>
 
+#include "algebra/constants.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFirstStep = 0.2;  // of each range
 
 nlopt::algorithm algorithmOf(const std::string& method) {

@@ -21,7 +21,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::int64_t kLook = 1024;  // steps from one look at `stop` to the next
+constexpr std::int64_t kStopCheckSteps = 1024;  // steps from one look at `stop` to the next
 
 /// A reduction that follows a run, and where its result goes.
 struct Followed {
@@ -115,7 +115,7 @@ void PointEvaluator::simulate(const Scene& scene, std::vector<std::vector<double
   QuantityReader reader(twin);
   const DenormalsToZero denormals_to_zero;  // as `twin simulate` does: the same numbers
   for (std::int64_t step = 0; step <= steps; ++step) {
-    if (step % kLook == 0 && stop_.load(std::memory_order_relaxed)) {
+    if (step % kStopCheckSteps == 0 && stop_.load(std::memory_order_relaxed)) {
       throw Interrupted();
     }
     if (step > 0) {

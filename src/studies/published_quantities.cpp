@@ -8,7 +8,7 @@ namespace whirl_twin {
 
 namespace {
 
-using Kind = PublishedQuantity::Kind;
+using QuantityKind = PublishedQuantity::Kind;
 
 double along(const Eigen::VectorXd& direction, const double* q) {
   return direction.dot(Eigen::Map<const Eigen::VectorXd>(q, direction.size()));
@@ -24,27 +24,31 @@ std::map<std::string, PublishedQuantity> publishedQuantities(const BuiltScene& s
     const std::vector<CoordinateInfo> coordinates = system.dynamics->coordinates();
     for (std::size_t k = 0; k < coordinates.size(); ++k) {
       const auto& [coordinate, unit] = coordinates[k];
-      all.emplace(name + "." + coordinate, PublishedQuantity{Kind::kCoordinate, i, k, unit});
+      all.emplace(name + "." + coordinate,
+                  PublishedQuantity{QuantityKind::kCoordinate, i, k, unit});
       all.emplace(name + "." + coordinate + "_rate",
-                  PublishedQuantity{Kind::kRate, i, k, unit + "/s"});
+                  PublishedQuantity{QuantityKind::kRate, i, k, unit + "/s"});
     }
     if (system.dynamics->isRotor()) {
       const std::vector<std::string> stations = publishedStations(name, *system.dynamics);
       for (std::size_t k = 0; k < stations.size(); ++k) {
-        all.emplace(stations[k] + ".whirl.radius", PublishedQuantity{Kind::kRadius, i, k, "m"});
-        all.emplace(stations[k] + ".whirl_radius", PublishedQuantity{Kind::kRadius, i, k, "m"});
-        all.emplace(stations[k] + ".whirl.x", PublishedQuantity{Kind::kX, i, k, "m"});
-        all.emplace(stations[k] + ".whirl.y", PublishedQuantity{Kind::kY, i, k, "m"});
+        all.emplace(stations[k] + ".whirl.radius",
+                    PublishedQuantity{QuantityKind::kRadius, i, k, "m"});
+        all.emplace(stations[k] + ".whirl_radius",
+                    PublishedQuantity{QuantityKind::kRadius, i, k, "m"});
+        all.emplace(stations[k] + ".whirl.x", PublishedQuantity{QuantityKind::kX, i, k, "m"});
+        all.emplace(stations[k] + ".whirl.y", PublishedQuantity{QuantityKind::kY, i, k, "m"});
       }
     }
-    all.emplace(name + ".kinetic", PublishedQuantity{Kind::kKinetic, i, 0, "J"});
-    all.emplace(name + ".potential", PublishedQuantity{Kind::kPotential, i, 0, "J"});
-    all.emplace(name + ".energy", PublishedQuantity{Kind::kEnergy, i, 0, "J"});
+    all.emplace(name + ".kinetic", PublishedQuantity{QuantityKind::kKinetic, i, 0, "J"});
+    all.emplace(name + ".potential", PublishedQuantity{QuantityKind::kPotential, i, 0, "J"});
+    all.emplace(name + ".energy", PublishedQuantity{QuantityKind::kEnergy, i, 0, "J"});
   }
   for (std::size_t i = 0; i < scene.scene.drives.size(); ++i) {
     const std::string& name = scene.scene.drives[i].name;
-    all.emplace(name + ".speed", PublishedQuantity{Kind::kSpeed, i, 0, "rad/s"});
-    all.emplace(name + ".acceleration", PublishedQuantity{Kind::kAcceleration, i, 0, "rad/s^2"});
+    all.emplace(name + ".speed", PublishedQuantity{QuantityKind::kSpeed, i, 0, "rad/s"});
+    all.emplace(name + ".acceleration",
+                PublishedQuantity{QuantityKind::kAcceleration, i, 0, "rad/s^2"});
   }
   return all;
 }
@@ -63,21 +67,23 @@ double QuantityReader::value(const PublishedQuantity& quantity) const {
   const double* const record = record_.data();
   if (quantity.ofDrive()) {
     const ShaftView shaft = RecordLayout::shaft(record, quantity.owner);
-    return quantity.kind == Kind::kSpeed ? shaft.speed() : shaft.acceleration();
+    return quantity.kind == QuantityKind::kSpeed ? shaft.speed() : shaft.acceleration();
   }
   const SystemView view = twin_.layout().system(record, quantity.owner);
   switch (quantity.kind) {
-    case Kind::kCoordinate:
+    case QuantityKind::kCoordinate:
       return view.q()[quantity.place];
-    case Kind::kRate:
+    case QuantityKind::kRate:
       return view.v()[quantity.place];
-    case Kind::kRadius:
-    case Kind::kX:
-    case Kind::kY: {
+    case QuantityKind::kRadius:
+    case QuantityKind::kX:
+    case QuantityKind::kY: {
       const Station& station = stations_[quantity.owner][quantity.place];
       const double x = along(station.along_x, view.q());
       const double y = along(station.along_y, view.q());
-      return quantity.kind == Kind::kX ? x : quantity.kind == Kind::kY ? y : std::hypot(x, y);
+      return quantity.kind == QuantityKind::kX   ? x
+             : quantity.kind == QuantityKind::kY ? y
+                                                 : std::hypot(x, y);
     }
     default:
       return energy(quantity);
@@ -93,9 +99,9 @@ double QuantityReader::energy(const PublishedQuantity& quantity) const {
       Eigen::Map<const Eigen::VectorXd>(view.q(), n),
       Eigen::Map<const Eigen::VectorXd>(view.v(), n),
       {twin_.time(), shaft.remainder(), shaft.speed(), shaft.acceleration()});
-  return quantity.kind == Kind::kKinetic     ? energies.kinetic
-         : quantity.kind == Kind::kPotential ? energies.potential
-                                             : energies.kinetic + energies.potential;
+  return quantity.kind == QuantityKind::kKinetic     ? energies.kinetic
+         : quantity.kind == QuantityKind::kPotential ? energies.potential
+                                                     : energies.kinetic + energies.potential;
 }
 
 }  // namespace whirl_twin

@@ -11,6 +11,7 @@
 #include <limits>
 #include <optional>
 
+#include "algebra/constants.h"
 #include "messages/refusal.h"
 #include "scene/yaml_file.h"
 #include "twin/durable_file.h"
@@ -19,12 +20,11 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 const std::string kEnd = "# end\n";
 const std::string kFailed = "!";  // before the line of a point that failed
 
 /// Nothing where it cannot be read.
-std::optional<std::string> contentsOf(const std::string& path) {
+std::optional<std::string> fileContents(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) {
     return std::nullopt;
@@ -248,7 +248,7 @@ void ResultFolder::write(std::uint64_t block, const std::vector<Outcome>& outcom
 void ResultFolder::forEachRow(
     const std::function<void(std::uint64_t, bool, std::string_view)>& take) const {
   for (std::uint64_t block = 0; block < study_.blocks(); ++block) {
-    const std::optional<std::string> text = contentsOf(fileOf(block));
+    const std::optional<std::string> text = fileContents(fileOf(block));
     const std::string head = headOf(block);
     const auto wrong = [&] {
       return RunFailure(fmt::format("{}: is missing or damaged: remove it and run the study again",

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
+
+#include "algebra/constants.h"
 
 namespace whirl_twin {
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kResamples = 1000;
 constexpr std::uint64_t kFewest = 2;   // rows of which anything can be said
 constexpr double kConstant = 1.0e-12;  // of the largest magnitude: a spread that is rounding

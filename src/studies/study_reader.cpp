@@ -32,7 +32,7 @@ constexpr std::uint64_t kUsualBlocks = 64;  // that a small study is divided int
 constexpr int kLargestSeed = 1000000000;
 constexpr double kLongestDuration = 1.0e9;  // s
 
-std::string contentsOf(const std::string& path) {
+std::string readText(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
@@ -70,7 +70,7 @@ class StudyReader {
     if (study_.block == 0) {
       study_.block = std::clamp(study_.points() / kUsualBlocks, std::uint64_t{1}, kUsualBlock);
     }
-    study_.text = contentsOf(study_.source);
+    study_.text = readText(study_.source);
     study_.hash = kNoChecksum;
     for (const std::string& text : {study_.text, study_.scene_text, settings_text_}) {
       study_.hash = checksum(text.data(), text.size(), study_.hash);
@@ -105,7 +105,7 @@ class StudyReader {
     study_.scene_path = (folder_ / scene).lexically_normal().string();
     try {
       const Scene read = readSceneFile(study_.scene_path);
-      study_.scene_text = contentsOf(study_.scene_path);
+      study_.scene_text = readText(study_.scene_path);
       built_ = build(read);
       const YAML::Node tree =
           separated(readYamlText(study_.scene_text, study_.scene_path, "a scene", "a step"));
@@ -163,7 +163,7 @@ class StudyReader {
     try {
       study_.alarms = readAlarmSettings(readYamlFile(path, "settings of the monitor", "alarms"),
                                         path, rotors, {}, stations);
-      settings_text_ = contentsOf(path);
+      settings_text_ = readText(path);
     } catch (const Refusal& error) {
       complaints_.add("run.alarms", error.what());
     }

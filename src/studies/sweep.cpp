@@ -17,7 +17,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::chrono::milliseconds kLook{100};
+constexpr std::chrono::milliseconds kStopPollPeriod{100};
 
 class Workers {
  public:
@@ -38,7 +38,7 @@ class Workers {
     };
     try {
       std::unique_lock<std::mutex> lock(mutex_);
-      while (!ended_.wait_for(lock, kLook, [this] { return running_ == 0; })) {
+      while (!ended_.wait_for(lock, kStopPollPeriod, [this] { return running_ == 0; })) {
         lock.unlock();
         progress(done_.load());
         lock.lock();

@@ -22,12 +22,12 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kAnalyzeDescription =
     "Judges each system of a scene at its start, or where --speed and --at say: energies, "
     "equilibria, natural frequencies and\n"
     "damping, stability by Routh's test and its margins, critical speeds and separation margins.";
 
-constexpr const char* kFooter =
+constexpr const char* kAnalyzeFooter =
     "Linearized about the operating point at the initial shaft speed: the stable equilibrium that\n"
     "the initial position creeps to, strongly damped (the nearest where it does not move), or the\n"
     "initial state if there is none. Critical speeds are the peaks of the unbalance response;\n"
@@ -57,7 +57,7 @@ constexpr const char* kFooter =
     "  twin analyze oil_whip --speed 200\n"
     "  twin analyze demo.yaml --system rotor --json";
 
-struct Request {
+struct AnalyzeRequest {
   std::string scene;
   std::optional<std::string> system, csv;
   std::optional<double> speed;    // rad/s
@@ -102,7 +102,7 @@ Scene withSpeed(Scene scene, const std::vector<std::size_t>& shown, double speed
 }
 
 /// The scene as it has come to be after so many seconds, its shafts held at their speeds of then.
-Scene sceneAt(const Request& request) {
+Scene sceneAt(const AnalyzeRequest& request) {
   SimulationRequest run;
   run.scene = request.scene;
   run.duration = request.at;
@@ -138,7 +138,7 @@ Scene sceneAt(const Request& request) {
 }
 
 /// "all", or a number.
-std::size_t modesOf(const Request& request) {
+std::size_t modesAskedFor(const AnalyzeRequest& request) {
   if (request.modes == "all") {
     return kAllModes;
   }
@@ -154,9 +154,9 @@ std::size_t modesOf(const Request& request) {
   return modes;
 }
 
-int analyzeScene(const Request& request) {
+int analyzeScene(const AnalyzeRequest& request) {
   requireCsvName(request.csv);
-  const std::size_t modes = modesOf(request);
+  const std::size_t modes = modesAskedFor(request);
   Scene scene = readSceneFile(scenePath(request.scene));
   const auto systems = selectedSystems(scene, request.system);
   if (request.at) {
@@ -204,8 +204,8 @@ int analyzeScene(const Request& request) {
 }  // namespace
 
 void addAnalyzeCommand(const ProgramCommand& twin, int& status) {
-  const ProgramCommand command = twin.subcommand("analyze", kDescription);
-  const auto request = std::make_shared<Request>();
+  const ProgramCommand command = twin.subcommand("analyze", kAnalyzeDescription);
+  const auto request = std::make_shared<AnalyzeRequest>();
   addSceneOption(command, request->scene);
   command.option("--system", request->system, "show this system only").type("NAME");
   command.option("--speed", request->speed, "rad/s, of the shafts; default: at the start")
@@ -223,7 +223,7 @@ void addAnalyzeCommand(const ProgramCommand& twin, int& status) {
   addCsvOption(command, request->csv);
   command.flag("--json", request->json, "print one JSON object");
   addInsistOption(command, request->insist);
-  command.footer(kFooter);
+  command.footer(kAnalyzeFooter);
   command.callback([request, &status] { status = analyzeScene(*request); });
 }
 

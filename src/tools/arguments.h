@@ -19,6 +19,8 @@ void addInsistOption(const ProgramCommand& command, bool& insist);
 /// --csv: the command's tables, into files (reports/csv_table.h).
 void addCsvOption(const ProgramCommand& command, std::optional<std::string>& csv);
 
+inline constexpr std::int64_t kSecond = 1'000'000'000;  ///< [ns]
+
 /// Seconds, as typed, as the nearest whole number of `unit`s [ns], in nanoseconds; from `low` to
 /// `high` [ns]. Exact: no binary fraction comes in between. What is not a whole number is said on
 /// standard error with what is taken instead. `option` names it there. Throws Refusal.

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "algebra/constants.h"
 #include "messages/names.h"
 #include "reports/csv_table.h"
 #include "reports/rotor_record.h"
@@ -18,12 +19,12 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kBalanceDescription =
     "Balances a rotor in several planes: by influence coefficients, from measured trial runs; or, "
     "of\n"
     "a rotor with a model, from one log of the running machine.";
 
-constexpr const char* kFooter =
+constexpr const char* kBalanceFooter =
     "FILE is YAML or JSON:\n"
     "  probes:  [left, right]                      what is read, each at each speed\n"
     "  planes:  [disc_1, disc_2]                   where masses can be set\n"
@@ -48,9 +49,7 @@ constexpr const char* kFooter =
     "Example:\n"
     "  twin balance balancing --measured run.lcmlog --planes left_disc right_disc";
 
-constexpr double kRadian = 3.14159265358979323846 / 180.0;
-
-struct Request {
+struct BalanceRequest {
   std::string file;
   std::optional<std::string> measured, system, csv;
   UnbalanceRequest unbalance;
@@ -59,10 +58,10 @@ struct Request {
 };
 
 double degrees(const std::complex<double>& z) {
-  return std::arg(z) / kRadian + 0.0;
+  return std::arg(z) / kDegree + 0.0;
 }
 
-Json json(const BalancingRuns& runs, const BalanceCorrection& c) {
+Json balanceJson(const BalancingRuns& runs, const BalanceCorrection& c) {
   Json json;
   for (std::size_t i = 0; i < runs.planes.size(); ++i) {
     const auto mass = c.mass_radius[static_cast<Eigen::Index>(i)];
@@ -80,7 +79,7 @@ Json json(const BalancingRuns& runs, const BalanceCorrection& c) {
 }
 
 /// The masses to add; what is left at the probes.
-CsvTables tables(const BalancingRuns& runs, const BalanceCorrection& c) {
+CsvTables balanceTables(const BalancingRuns& runs, const BalanceCorrection& c) {
   CsvTable planes{"", {"plane", "mass_radius", "angle"}};
   for (std::size_t i = 0; i < runs.planes.size(); ++i) {
     const auto mass = c.mass_radius[static_cast<Eigen::Index>(i)];
@@ -97,7 +96,7 @@ CsvTables tables(const BalancingRuns& runs, const BalanceCorrection& c) {
   return {planes, probes};
 }
 
-std::string text(const BalancingRuns& runs, const BalanceCorrection& c) {
+std::string balanceText(const BalancingRuns& runs, const BalanceCorrection& c) {
   std::string out = "add                mass x radius, kg m   angle, deg\n";
   for (std::size_t i = 0; i < runs.planes.size(); ++i) {
     const auto mass = c.mass_radius[static_cast<Eigen::Index>(i)];
@@ -115,23 +114,23 @@ std::string text(const BalancingRuns& runs, const BalanceCorrection& c) {
                     : "planes: some do the same, or nothing: the least masses that do it\n");
 }
 
-int balanceRuns(const Request& request) {
+int balanceRuns(const BalanceRequest& request) {
   const BalancingRuns runs = readBalancingRuns(request.file);
   const BalanceCorrection correction = balance(
       influenceOfPlanes(runs.initial, runs.trials, static_cast<Eigen::Index>(runs.planes.size())),
       runs.initial, runs.weights);
   if (request.csv) {
-    writeCsv(*request.csv, tables(runs, correction));
+    writeCsv(*request.csv, balanceTables(runs, correction));
   }
   if (request.json) {
-    printJson(json(runs, correction));
+    printJson(balanceJson(runs, correction));
   } else {
-    printText(text(runs, correction));
+    printText(balanceText(runs, correction));
   }
   return kDone;
 }
 
-int balanceMeasured(const Request& request) {
+int balanceMeasured(const BalanceRequest& request) {
   if (!(request.unbalance.from >= 0.0 && request.unbalance.from < request.unbalance.to)) {
     throw Refusal(fmt::format("--from, --to: expected --from below --to, found {:g} and {:g} rad/s",
                               request.unbalance.from, request.unbalance.to));
@@ -158,8 +157,8 @@ int balanceMeasured(const Request& request) {
 }  // namespace
 
 void addBalanceCommand(const ProgramCommand& twin, int& status) {
-  const ProgramCommand command = twin.subcommand("balance", kDescription);
-  const auto request = std::make_shared<Request>();
+  const ProgramCommand command = twin.subcommand("balance", kBalanceDescription);
+  const auto request = std::make_shared<BalanceRequest>();
   command.option("FILE", request->file, "the runs; with --measured the scene").required().type("");
   const Option measured =
       command.option("--measured", request->measured, "a log of the running machine").type("LOG");
@@ -182,7 +181,7 @@ void addBalanceCommand(const ProgramCommand& twin, int& status) {
                .type("PREFIX"));
   addCsvOption(command, request->csv);
   command.flag("--json", request->json, "print one JSON object");
-  command.footer(kFooter);
+  command.footer(kBalanceFooter);
   command.callback([request, &status] {
     requireCsvName(request->csv);
     status = request->measured ? balanceMeasured(*request) : balanceRuns(*request);

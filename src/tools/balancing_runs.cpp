@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 
+#include "algebra/constants.h"
 #include "messages/names.h"
 #include "messages/refusal.h"
 #include "scene/node_reader.h"
@@ -15,7 +16,6 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kRadian = 3.14159265358979323846 / 180.0;
 constexpr std::size_t kMostNames = 200;
 constexpr double kLargest = 1.0e12;        // amplitude, weight, mass times radius [kg m]
 constexpr double kLeastMass = 1.0e-12;     // kg m: a speck of dust at a centimetre
@@ -105,7 +105,7 @@ class RunsReader {
           number(nodes[i][0], key + "[0]", -kLargest, kLargest, "an amplitude");
       const double lag =
           number(nodes[i][1], key + "[1]", -kLargestAngle, kLargestAngle, "a phase lag in deg");
-      all[static_cast<Eigen::Index>(i)] = amplitude * std::polar(1.0, -kRadian * lag);
+      all[static_cast<Eigen::Index>(i)] = amplitude * std::polar(1.0, -kDegree * lag);
     }
     return all;
   }
@@ -165,7 +165,7 @@ class RunsReader {
                                "mass times radius in kg m,");
     const double angle =
         number(run.at("angle"), run.key("angle"), -kLargestAngle, kLargestAngle, "an angle in deg");
-    trial.mass_radius = size * std::polar(1.0, kRadian * angle);
+    trial.mass_radius = size * std::polar(1.0, kDegree * angle);
     trial.readings = readings(run, "readings");
     if (place == planes.end()) {
       return;

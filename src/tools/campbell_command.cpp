@@ -17,11 +17,11 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kCampbellDescription =
     "Whirl frequencies of the rotors of a scene over the shaft's speed, their directions and\n"
     "damping, and the critical speeds where they meet it.";
 
-constexpr const char* kFooter =
+constexpr const char* kCampbellFooter =
     "Modes are followed by their shapes through every crossing. Directions: forward, backward,\n"
     "mixed where places along the shaft disagree, straight where the whirl is in a plane.\n"
     "In the picture: dashed where a mode grows, rings at critical speeds, bands where API 617\n"
@@ -31,7 +31,7 @@ constexpr const char* kFooter =
     "  twin campbell demo.yaml --to 120 --plot campbell.svg\n"
     "  twin campbell demo.yaml --system rotor --harmonic 1 2 --csv campbell.csv";
 
-struct Request {
+struct CampbellCommandRequest {
   std::string scene;
   std::optional<std::string> system, plot, csv;
   SpeedRangeOptions range;
@@ -41,7 +41,7 @@ struct Request {
   bool insist = false;
 };
 
-void requireNumbers(const Request& request) {
+void requireNumbers(const CampbellCommandRequest& request) {
   for (const double harmonic : request.harmonics) {
     if (!(harmonic > 0.0 && harmonic <= 100.0)) {
       throw Refusal("--harmonic: expected multiples of the speed above 0 and up to 100, found " +
@@ -53,7 +53,7 @@ void requireNumbers(const Request& request) {
   }
 }
 
-int campbellOf(const Request& request) {
+int campbellOf(const CampbellCommandRequest& request) {
   requirePictureName(request.plot);
   requireCsvName(request.csv);
   requireNumbers(request);
@@ -99,8 +99,8 @@ int campbellOf(const Request& request) {
 }  // namespace
 
 void addCampbellCommand(const ProgramCommand& twin, int& status) {
-  const ProgramCommand command = twin.subcommand("campbell", kDescription);
-  const auto request = std::make_shared<Request>();
+  const ProgramCommand command = twin.subcommand("campbell", kCampbellDescription);
+  const auto request = std::make_shared<CampbellCommandRequest>();
   addSceneOption(command, request->scene);
   command.option("--system", request->system, "this rotor only").type("NAME");
   command.option("--from", request->range.from, "rad/s; default: 0").type("W");
@@ -113,7 +113,7 @@ void addCampbellCommand(const ProgramCommand& twin, int& status) {
   addCsvOption(command, request->csv);
   command.flag("--json", request->json, "print one JSON object");
   addInsistOption(command, request->insist);
-  command.footer(kFooter);
+  command.footer(kCampbellFooter);
   command.callback([request, &status] { status = campbellOf(*request); });
 }
 

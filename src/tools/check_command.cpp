@@ -12,11 +12,11 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kCheckDescription =
     "Checks a scene file and tells what will be modelled: systems, states, integrators, messages,\n"
     "and what a step costs on this machine.";
 
-constexpr const char* kFooter =
+constexpr const char* kCheckFooter =
     "A scene with errors is refused with all of them at once, one a line on standard error:\n"
     "the file, the key, what was expected with its unit, and what was found. Exit status 2.\n"
     "\n"
@@ -24,14 +24,14 @@ constexpr const char* kFooter =
     "  twin check demo.yaml\n"
     "  twin check demo.yaml --system rotor --json";
 
-struct Request {
+struct CheckRequest {
   std::string scene;
   std::optional<std::string> system;
   bool json = false;
   bool insist = false;
 };
 
-int check(const Request& request) {
+int check(const CheckRequest& request) {
   const Scene scene = readSceneFile(scenePath(request.scene));
   const std::vector<std::size_t> systems = selectedSystems(scene, request.system);
   tell(costOfCheck(scene, systems), request.insist);
@@ -47,15 +47,15 @@ int check(const Request& request) {
 }  // namespace
 
 void addCheckCommand(const ProgramCommand& twin, int& status) {
-  const ProgramCommand command = twin.subcommand("check", kDescription);
-  const auto request = std::make_shared<Request>();
+  const ProgramCommand command = twin.subcommand("check", kCheckDescription);
+  const auto request = std::make_shared<CheckRequest>();
   addSceneOption(command, request->scene);
   command.option("--system", request->system, "show this system only").type("NAME");
   command.flag(
       "--json", request->json,
       "print one JSON object; `accuracy` of each system: what is kept, until when it is known");
   addInsistOption(command, request->insist);
-  command.footer(kFooter);
+  command.footer(kCheckFooter);
   command.callback([request, &status] { status = check(*request); });
 }
 

@@ -9,17 +9,17 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kControllersDescription =
     "Lists the controllers a scene can name as type: their parameters with units, ranges and\n"
     "defaults.";
 
-constexpr const char* kFooter =
+constexpr const char* kControllersFooter =
     "Examples:\n"
     "  twin controllers\n"
     "  twin controllers pid\n"
     "  twin controllers --json";
 
-std::string text(const ControllerInfo& controller) {
+std::string listedControllerText(const ControllerInfo& controller) {
   std::string out = fmt::format("{}: {}\n", controller.name, controller.summary);
   for (const ParameterInfo& p : controller.parameters) {
     out += parameterText(p);
@@ -30,7 +30,7 @@ std::string text(const ControllerInfo& controller) {
   return out;
 }
 
-Json json(const ControllerInfo& controller) {
+Json listedControllerJson(const ControllerInfo& controller) {
   Json json;
   json["summary"] = controller.summary;
   json["parameters"] = Json::object();
@@ -43,10 +43,11 @@ Json json(const ControllerInfo& controller) {
   return json;
 }
 
-std::vector<ListedThing> all() {
+std::vector<ListedThing> listedControllers() {
   std::vector<ListedThing> things;
   for (const ControllerInfo& controller : controllers()) {
-    things.push_back({controller.name, text(controller), json(controller)});
+    things.push_back(
+        {controller.name, listedControllerText(controller), listedControllerJson(controller)});
   }
   return things;
 }
@@ -54,7 +55,8 @@ std::vector<ListedThing> all() {
 }  // namespace
 
 void addControllersCommand(const ProgramCommand& twin, int& status) {
-  addListing(twin, status, {"controller", kDescription, kFooter, all});
+  addListing(twin, status,
+             {"controller", kControllersDescription, kControllersFooter, listedControllers});
 }
 
 }  // namespace whirl_twin

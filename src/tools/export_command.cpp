@@ -22,12 +22,12 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kExportDescription =
     "Writes an LCM log or a rosbag as an MCAP file, for PlotJuggler, Foxglove and Lichtblick; as "
     "a\n"
     "rosbag; or as tables of comma-separated values, a file a topic. No ROS is needed.";
 
-constexpr const char* kFooter =
+constexpr const char* kExportFooter =
     "Messages of an LCM log become the ROS messages that a bridge publishes, on /twin/rotor/whirl\n"
     "for TWIN_ROTOR_WHIRL, with the time of the event: received or, in a log of twin simulate,\n"
     "simulated. Those of a bag stay as they are, to the byte. What is damaged is left out, "
@@ -39,7 +39,7 @@ constexpr const char* kFooter =
     "  twin export night.lcmlog --mcap night.mcap\n"
     "  twin export night.bag --csv night --channel '/twin/rotor/*'";
 
-struct Request {
+struct ExportRequest {
   std::string file;
   std::optional<std::string> csv, bag, mcap;
   std::optional<std::string> compress;
@@ -50,7 +50,7 @@ struct Request {
 };
 
 /// Throws Refusal where there is nothing.
-void requireMessages(const Request& request, const LogExport& log) {
+void requireMessages(const ExportRequest& request, const LogExport& log) {
   if (log.messages > 0) {
     return;
   }
@@ -79,7 +79,8 @@ std::uint64_t foreignIn(const LogExport& log) {
   return events;
 }
 
-std::string text(const Request& request, const LogExport& log, const std::string& output) {
+std::string exportText(const ExportRequest& request, const LogExport& log,
+                       const std::string& output) {
   std::string out = fmt::format("{}: {} messages of {} topics written to {}\n", request.file,
                                 log.messages, log.topics.size(), output);
   for (const auto& [topic, count] : log.topics) {
@@ -106,7 +107,7 @@ std::string text(const Request& request, const LogExport& log, const std::string
   return out;
 }
 
-Json json(const Request& request, const LogExport& log, const std::string& output) {
+Json exportJson(const ExportRequest& request, const LogExport& log, const std::string& output) {
   Json json = {{"file", request.file},
                {"output", output},
                {"messages", log.messages},
@@ -130,7 +131,7 @@ Json json(const Request& request, const LogExport& log, const std::string& outpu
 
 class Export {
  public:
-  explicit Export(const Request& request) : request_(request) {}
+  explicit Export(const ExportRequest& request) : request_(request) {}
 
   LogExport run() {
     if (!request_.csv) {
@@ -180,11 +181,11 @@ class Export {
     return log;
   }
 
-  const Request& request_;
+  const ExportRequest& request_;
   ProgressBar bar_{request_.file, kParts, false, true};
 };
 
-int write(const Request& request) {
+int exportLogFile(const ExportRequest& request) {
   requireLcmPrefix(request.lcm_prefix);
   const std::vector<std::pair<const char*, const std::optional<std::string>*>> outputs = {
       {"--csv", &request.csv}, {"--bag", &request.bag}, {"--mcap", &request.mcap}};
@@ -215,9 +216,9 @@ int write(const Request& request) {
   }
   const LogExport log = Export(request).run();
   if (request.json) {
-    printJson(json(request, log, output));
+    printJson(exportJson(request, log, output));
   } else {
-    printText(text(request, log, output));
+    printText(exportText(request, log, output));
   }
   return kDone;
 }
@@ -225,8 +226,8 @@ int write(const Request& request) {
 }  // namespace
 
 void addExportCommand(const ProgramCommand& twin, int& status) {
-  const ProgramCommand command = twin.subcommand("export", kDescription);
-  const auto request = std::make_shared<Request>();
+  const ProgramCommand command = twin.subcommand("export", kExportDescription);
+  const auto request = std::make_shared<ExportRequest>();
   command.option("LOG", request->file, "LCM log or rosbag, such as demo.lcmlog, night.bag")
       .required()
       .type("");
@@ -241,8 +242,8 @@ void addExportCommand(const ProgramCommand& twin, int& status) {
       .type("PREFIX");
   command.flag("--force", request->force, "write over what exists");
   command.flag("--json", request->json, "print one JSON object");
-  command.footer(kFooter);
-  command.callback([request, &status] { status = write(*request); });
+  command.footer(kExportFooter);
+  command.callback([request, &status] { status = exportLogFile(*request); });
 }
 
 }  // namespace whirl_twin

@@ -27,11 +27,11 @@ ShootingFit fitByShooting(const FitStudy&, const FitProgress&) {
 
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kFitDescription =
     "Finds parameters of a system from measured runs: values, how certain they are, what the runs "
     "do\nnot tell, and how well runs that were left out are predicted.";
 
-constexpr const char* kFooter =
+constexpr const char* kFitFooter =
     "STUDY is YAML; its paths count from its folder:\n"
     "  scene: double.yaml\n"
     "  system: pendulum\n"
@@ -52,7 +52,7 @@ constexpr const char* kFooter =
     "that is\nsaid. Exit status: 0 fitted; 1 no fit was found; 2 a study, scene or run that cannot "
     "be used.";
 
-struct Request {
+struct FitRequest {
   std::string study;
   std::optional<std::string> output;
   std::optional<std::string> plot, csv;
@@ -80,7 +80,7 @@ void writeScene(const FitStudy& study, const ShootingFit& fit, const std::string
   file.complete();
 }
 
-int fit(const Request& request) {
+int fit(const FitRequest& request) {
   requirePictureName(request.plot);
   requireLcmPrefix(request.lcm_prefix);
   requireCsvName(request.csv);
@@ -126,8 +126,8 @@ int fit(const Request& request) {
 }  // namespace
 
 void addFitCommand(const ProgramCommand& twin, int& status) {
-  const ProgramCommand command = twin.subcommand("fit", kDescription);
-  const auto request = std::make_shared<Request>();
+  const ProgramCommand command = twin.subcommand("fit", kFitDescription);
+  const auto request = std::make_shared<FitRequest>();
   command.option("STUDY", request->study, "what to fit to which runs").required().type("");
   command.option("--output", request->output, "write the scene with the values found")
       .type("FILE.yaml");
@@ -147,7 +147,7 @@ void addFitCommand(const ProgramCommand& twin, int& status) {
   addCsvOption(command, request->csv);
   command.flag("--json", request->json, "print one JSON object");
   addInsistOption(command, request->insist);
-  command.footer(kFooter);
+  command.footer(kFitFooter);
   command.callback([request, &status] { status = fit(*request); });
 }
 

@@ -18,13 +18,13 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kFollowDescription =
     "Follows a machine through the measurements in an LCM log or a rosbag, faster than real time:\n"
     "estimates what is not measured, and the parameters that --settings name, and says where "
     "machine\n"
     "and model part.";
 
-constexpr const char* kFooter =
+constexpr const char* kFollowFooter =
     "The scene's sensors say what is measured, where, and with how much noise. What the follower "
     "does\nlive (follow_node) it does here, to the bit. What there is none of, such as a drift, or "
     "a "
@@ -37,7 +37,7 @@ constexpr const char* kFooter =
     "  twin follow rig.yaml monday.bag --lcm-prefix MACHINE_      topics of /machine, by rosbag "
     "record";
 
-struct Request {
+struct FollowRequest {
   std::string scene;
   std::string log;
   std::optional<std::string> settings;
@@ -48,7 +48,7 @@ struct Request {
   bool insist = false;
 };
 
-std::int64_t strideOf(const Request& request, const Scene& scene) {
+std::int64_t strideOf(const FollowRequest& request, const Scene& scene) {
   if (!request.sample) {
     return 1;
   }
@@ -57,7 +57,7 @@ std::int64_t strideOf(const Request& request, const Scene& scene) {
          scene.step;
 }
 
-std::unique_ptr<SampleWriter> writerOf(const Request& request, const Twin& twin) {
+std::unique_ptr<SampleWriter> writerOf(const FollowRequest& request, const Twin& twin) {
   if (!request.output) {
     return nullptr;
   }
@@ -75,7 +75,7 @@ std::unique_ptr<SampleWriter> writerOf(const Request& request, const Twin& twin)
   throw Refusal(fmt::format("--output: must end in .csv or .lcmlog, found '{}'", *request.output));
 }
 
-int follow(const Request& request) {
+int follow(const FollowRequest& request) {
   requireLcmPrefix(request.lcm_prefix);
   const Twin twin(readFollowedSceneFile(scenePath(request.scene)));
   const FollowSettings settings =
@@ -108,8 +108,8 @@ int follow(const Request& request) {
 }  // namespace
 
 void addFollowCommand(const ProgramCommand& twin, int& status) {
-  const ProgramCommand command = twin.subcommand("follow", kDescription);
-  const auto request = std::make_shared<Request>();
+  const ProgramCommand command = twin.subcommand("follow", kFollowDescription);
+  const auto request = std::make_shared<FollowRequest>();
   addSceneOption(command, request->scene);
   command
       .option("LOG", request->log,
@@ -132,7 +132,7 @@ void addFollowCommand(const ProgramCommand& twin, int& status) {
       .type("PREFIX");
   command.flag("--json", request->json, "print one JSON object");
   addInsistOption(command, request->insist);
-  command.footer(kFooter);
+  command.footer(kFollowFooter);
   command.callback([request, &status] { status = follow(*request); });
 }
 

@@ -16,10 +16,10 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kImportDescription =
     "Writes the scene of a rotor that another program has saved, and tells what it leaves out.";
 
-constexpr const char* kFooter =
+constexpr const char* kImportFooter =
     "FORMAT is ross (a .toml or .json of ROSS's Rotor.save()) or csv (a table of shaft elements:\n"
     "length, outer_diameter, inner_diameter ..., each with its unit behind it if not in SI).\n"
     "\n"
@@ -29,13 +29,13 @@ constexpr const char* kFooter =
     "(mm),outer_diameter (mm)`\n"
     "                                                           and one for each element";
 
-struct Request {
+struct ImportRequest {
   std::string format;
   std::string file;
   std::optional<std::string> output;
 };
 
-int importRotor(const Request& request) {
+int importRotor(const ImportRequest& request) {
   const RotorDrawing drawing =
       request.format == "ross" ? drawingOfRoss(request.file) : drawingOfElements(request.file);
   const std::string text = sceneText(drawing);
@@ -61,15 +61,15 @@ int importRotor(const Request& request) {
 }  // namespace
 
 void addImportCommand(const ProgramCommand& twin, int& status) {
-  const ProgramCommand command = twin.subcommand("import", kDescription);
-  const auto request = std::make_shared<Request>();
+  const ProgramCommand command = twin.subcommand("import", kImportDescription);
+  const auto request = std::make_shared<ImportRequest>();
   command.option("FORMAT", request->format, "ross or csv")
       .required()
       .among({"ross", "csv"})
       .type("");
   command.option("FILE", request->file, "what the other program wrote").required().type("");
   command.option("--output", request->output, "the scene's file").type("FILE.yaml");
-  command.footer(kFooter);
+  command.footer(kImportFooter);
   command.callback([request, &status] { status = importRotor(*request); });
 }
 

@@ -6,20 +6,20 @@ namespace whirl_twin {
 
 namespace {
 
-std::atomic<bool> asked{false};
+std::atomic<bool> end_asked{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
 
 }  // namespace
 
 std::atomic<bool>& catchInterrupts() {
-  const auto ask = [](int) { asked.store(true); };
+  const auto ask = [](int) { end_asked.store(true); };
   std::signal(SIGINT, ask);
   std::signal(SIGTERM, ask);
-  return asked;
+  return end_asked;
 }
 
 bool interrupted() {
-  return asked.load(std::memory_order_relaxed);
+  return end_asked.load(std::memory_order_relaxed);
 }
 
 }  // namespace whirl_twin

@@ -17,7 +17,7 @@ namespace whirl_twin {
 
 namespace {
 
-struct Request {
+struct ListingRequest {
   std::vector<std::string> names;  // none: all of them
   std::optional<std::string> csv;
   bool json = false;
@@ -44,7 +44,7 @@ void requireNames(const std::string& kind, const std::vector<std::string>& asked
   }
 }
 
-int list(const Listing& listing, const Request& request) {
+int list(const Listing& listing, const ListingRequest& request) {
   const std::vector<ListedThing> things = listing.all();
   requireNames(listing.kind, request.names, things);
   requireCsvName(request.csv);
@@ -86,7 +86,7 @@ std::string upper(std::string word) {
 
 void addListing(const ProgramCommand& twin, int& status, const Listing& listing) {
   const ProgramCommand command = twin.subcommand(listing.kind + "s", listing.description);
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<ListingRequest>();
   command.option(upper(listing.kind), request->names, "these " + listing.kind + "s only").type("");
   addCsvOption(command, request->csv);
   command.flag("--json", request->json, "print one JSON object");

@@ -15,11 +15,11 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kLogDescription =
     "Looks into an LCM log: channels, how many events, the time they span, gaps in the steps, and\n"
     "events that are damaged or cannot be meant.";
 
-constexpr const char* kFooter =
+constexpr const char* kLogFooter =
     "A gap is a place where states of a channel are missing. Exit status: 0 nothing is damaged,\n"
     "1 there are damaged events, 2 the file cannot be read or holds no event at all.\n"
     "\n"
@@ -49,7 +49,7 @@ Json channelJson(const ChannelSummary& channel) {
   return json;
 }
 
-Json json(const LogSummary& log) {
+Json logJson(const LogSummary& log) {
   Json json;
   json["file"] = log.path;
   json["size"] = log.size;
@@ -109,7 +109,7 @@ std::string channelText(const ChannelSummary& channel) {
   return out + "\n";
 }
 
-std::string text(const LogSummary& log) {
+std::string logText(const LogSummary& log) {
   std::string out = fmt::format("{}: {} events in {:.6g} s, {} bytes\n", log.path, log.events,
                                 span(log), log.size);
   for (const ChannelSummary& channel : log.channels) {
@@ -131,14 +131,14 @@ std::string text(const LogSummary& log) {
   return out;
 }
 
-struct Request {
+struct LogRequest {
   std::string file;
   std::string lcm_prefix = kDefaultLcmPrefix;
   std::optional<std::string> csv;
   bool json = false;
 };
 
-int summarize(const Request& request) {
+int summarize(const LogRequest& request) {
   requireCsvName(request.csv);
   requireLcmPrefix(request.lcm_prefix);
   if (BagScan::isBag(request.file)) {
@@ -158,9 +158,9 @@ int summarize(const Request& request) {
     writeCsv(*request.csv, {channelTable(log)});
   }
   if (request.json) {
-    printJson(json(log));
+    printJson(logJson(log));
   } else {
-    printText(text(log));
+    printText(logText(log));
   }
   return log.defect_count == 0 ? kDone : kFailed;
 }
@@ -168,8 +168,8 @@ int summarize(const Request& request) {
 }  // namespace
 
 void addLogCommand(const ProgramCommand& twin, int& status) {
-  const ProgramCommand command = twin.subcommand("log", kDescription);
-  const auto request = std::make_shared<Request>();
+  const ProgramCommand command = twin.subcommand("log", kLogDescription);
+  const auto request = std::make_shared<LogRequest>();
   command.option("FILE", request->file, "LCM log, such as demo.lcmlog").required().type("");
   command
       .option("--lcm-prefix", request->lcm_prefix,
@@ -177,7 +177,7 @@ void addLogCommand(const ProgramCommand& twin, int& status) {
       .type("PREFIX");
   addCsvOption(command, request->csv);
   command.flag("--json", request->json, "print one JSON object");
-  command.footer(kFooter);
+  command.footer(kLogFooter);
   command.callback([request, &status] { status = summarize(*request); });
 }
 

@@ -13,11 +13,11 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kLoopDescription =
     "The loops that a scene's controllers close, judged as they are sampled: rates and delays\n"
     "as they are, several at once.";
 
-constexpr const char* kFooter =
+constexpr const char* kLoopFooter =
     "Small motions about the equilibrium nearest to where each system starts, through the\n"
     "transition matrix of one sample (of several rates: of the time after which all samples come\n"
     "again). Its characteristic polynomial goes through Routh's test, exactly, on w with\n"
@@ -30,14 +30,14 @@ constexpr const char* kFooter =
     "  twin loop my_rotor.yaml --plot loop.svg\n"
     "  twin loop my_rotor.yaml --speed 300 --json";
 
-struct Request {
+struct LoopRequest {
   std::string scene;
   std::optional<double> speed;
   std::optional<std::string> plot;
   bool json = false;
 };
 
-int loopsOf(const Request& request) {
+int loopsOf(const LoopRequest& request) {
   constexpr double kFastest = 1.0e6;
   if (request.speed && !(*request.speed >= -kFastest && *request.speed <= kFastest)) {
     throw Refusal("--speed: expected a shaft speed from -1e+06 to 1e+06 rad/s");
@@ -65,14 +65,14 @@ int loopsOf(const Request& request) {
 }  // namespace
 
 void addLoopCommand(const ProgramCommand& twin, int& status) {
-  const ProgramCommand command = twin.subcommand("loop", kDescription);
-  const auto request = std::make_shared<Request>();
+  const ProgramCommand command = twin.subcommand("loop", kLoopDescription);
+  const auto request = std::make_shared<LoopRequest>();
   addSceneOption(command, request->scene);
   command.option("--speed", request->speed, "of all shafts [rad/s], in place of that at the start")
       .type("W");
   command.option("--plot", request->plot, "the diagrams, FILE.svg or FILE.png").type("FILE");
   command.flag("--json", request->json, "print one JSON object");
-  command.footer(kFooter);
+  command.footer(kLoopFooter);
   command.callback([request, &status] { status = loopsOf(*request); });
 }
 

@@ -12,11 +12,11 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kMapDescription =
     "Critical speed map: the undamped forward critical speeds of a flexible_rotor over the\n"
     "stiffness of its bearings, and its own bearings on it.";
 
-constexpr const char* kFooter =
+constexpr const char* kMapFooter =
     "Every bearing has the stiffness of the map in all directions, on rigid ground, without\n"
     "damping. Nodes that are held by less than a tenth of the stiffest, seals, are left out "
     "unless\n"
@@ -26,14 +26,14 @@ constexpr const char* kFooter =
     "  twin map friswell_rotor --plot map.svg\n"
     "  twin map friswell_rotor --from 1e4 --to 1e10 --bearing 0 6 --json";
 
-struct Request {
+struct MapRequest {
   std::string scene;
   std::optional<std::string> system, plot, csv;
   CriticalMapRequest map;
   bool json = false;
 };
 
-int mapOf(const Request& request) {
+int mapOf(const MapRequest& request) {
   requirePictureName(request.plot);
   requireCsvName(request.csv);
   const BuiltScene scene = build(readSceneFile(scenePath(request.scene)));
@@ -65,8 +65,8 @@ int mapOf(const Request& request) {
 }  // namespace
 
 void addMapCommand(const ProgramCommand& twin, int& status) {
-  const ProgramCommand command = twin.subcommand("map", kDescription);
-  const auto request = std::make_shared<Request>();
+  const ProgramCommand command = twin.subcommand("map", kMapDescription);
+  const auto request = std::make_shared<MapRequest>();
   addSceneOption(command, request->scene);
   command.option("--system", request->system, "this rotor only").type("NAME");
   command.option("--from", request->map.from, "N/m; default: a decade below the bearings' own")
@@ -79,7 +79,7 @@ void addMapCommand(const ProgramCommand& twin, int& status) {
   command.option("--plot", request->plot, "the map, FILE.svg or FILE.png").type("FILE");
   addCsvOption(command, request->csv);
   command.flag("--json", request->json, "print one JSON object");
-  command.footer(kFooter);
+  command.footer(kMapFooter);
   command.callback([request, &status] { status = mapOf(*request); });
 }
 

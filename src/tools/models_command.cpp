@@ -9,11 +9,11 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kModelsDescription =
     "Lists the models a scene can name: their coordinates, inputs, parameters with units, ranges\n"
     "and defaults, and the integrators they can step with.";
 
-constexpr const char* kFooter =
+constexpr const char* kModelsFooter =
     "Examples:\n"
     "  twin models\n"
     "  twin models jeffcott_rotor\n"
@@ -26,7 +26,7 @@ ParameterInfo shaftSpeed() {
           std::nullopt, ""};
 }
 
-std::string text(const ModelInfo& model) {
+std::string listedModelText(const ModelInfo& model) {
   std::string out = fmt::format("{}: {}\n", model.name, model.summary);
   for (const ModelVariant& v : model.variants) {
     out += fmt::format("  {}{}{}\n", v.when.empty() ? "" : "with " + v.when + ": ",
@@ -72,7 +72,7 @@ Json variantJson(const ModelVariant& v) {
   return json;
 }
 
-Json json(const ModelInfo& model) {
+Json listedModelJson(const ModelInfo& model) {
   Json json = variantJson(model.variants.front());
   json["summary"] = model.summary;
   json["shaft"] = model.has_shaft;
@@ -93,10 +93,10 @@ Json json(const ModelInfo& model) {
   return json;
 }
 
-std::vector<ListedThing> all() {
+std::vector<ListedThing> listedModels() {
   std::vector<ListedThing> things;
   for (const ModelInfo& model : models()) {
-    things.push_back({model.name, text(model), json(model)});
+    things.push_back({model.name, listedModelText(model), listedModelJson(model)});
   }
   return things;
 }
@@ -104,7 +104,7 @@ std::vector<ListedThing> all() {
 }  // namespace
 
 void addModelsCommand(const ProgramCommand& twin, int& status) {
-  addListing(twin, status, {"model", kDescription, kFooter, all});
+  addListing(twin, status, {"model", kModelsDescription, kModelsFooter, listedModels});
 }
 
 }  // namespace whirl_twin

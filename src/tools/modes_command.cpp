@@ -14,11 +14,11 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kModesDescription =
     "Modes of the rotors of a scene at a speed: frequency, damping, sense, shape; and, from a log\n"
     "of the running machine, those that its ambient vibration shows, with intervals.";
 
-constexpr const char* kFooter =
+constexpr const char* kModesFooter =
     "LOG is an LCM log with the measurements of the scene's `sensors`, displacement probes and a\n"
     "keyphasor, as `twin simulate --measure` writes them, or with the whirl that a twin told. "
     "What\n"
@@ -31,7 +31,7 @@ constexpr const char* kFooter =
     "  twin modes balancing --speed 70 --plot modes.svg\n"
     "  twin modes balancing --measured run.lcmlog --json";
 
-struct Request {
+struct ModesRequest {
   std::string scene;
   std::optional<std::string> system, measured, plot, csv;
   std::optional<double> speed, limit;
@@ -40,7 +40,7 @@ struct Request {
   bool json = false;
 };
 
-void requireUse(const Request& request) {
+void requireModesUse(const ModesRequest& request) {
   constexpr double kFastest = 1.0e6;
   if (request.speed && !(*request.speed >= 0.0 && *request.speed <= kFastest)) {
     throw Refusal("--speed: expected a shaft speed from 0 to 1e+06 rad/s");
@@ -59,8 +59,8 @@ void requireUse(const Request& request) {
   requireLcmPrefix(request.lcm_prefix);
 }
 
-int modesOf(const Request& request) {
-  requireUse(request);
+int showModes(const ModesRequest& request) {
+  requireModesUse(request);
   const BuiltScene scene = build(readSceneFile(scenePath(request.scene)));
   const auto systems = rotorSystems(scene, request.system);
   if (request.measured && systems.size() > 1) {
@@ -98,8 +98,8 @@ int modesOf(const Request& request) {
 }  // namespace
 
 void addModesCommand(const ProgramCommand& twin, int& status) {
-  const ProgramCommand command = twin.subcommand("modes", kDescription);
-  const auto request = std::make_shared<Request>();
+  const ProgramCommand command = twin.subcommand("modes", kModesDescription);
+  const auto request = std::make_shared<ModesRequest>();
   addSceneOption(command, request->scene);
   command.option("--system", request->system, "this rotor only").type("NAME");
   command.option("--measured", request->measured, "a log of the running machine").type("LOG");
@@ -122,8 +122,8 @@ void addModesCommand(const ProgramCommand& twin, int& status) {
   command.option("--modes", request->modes, "how many are drawn; default: 6").type("N");
   addCsvOption(command, request->csv);
   command.flag("--json", request->json, "print one JSON object");
-  command.footer(kFooter);
-  command.callback([request, &status] { status = modesOf(*request); });
+  command.footer(kModesFooter);
+  command.callback([request, &status] { status = showModes(*request); });
 }
 
 }  // namespace whirl_twin

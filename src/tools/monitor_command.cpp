@@ -19,13 +19,13 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kMonitorDescription =
     "Replays an LCM log or a rosbag through the monitor, faster than real time: which alerts it\n"
     "raises and when, and where the margins are least; which resonances the run-ups passed, and "
     "the\n"
     "lines of the full spectrum.";
 
-constexpr const char* kFooter =
+constexpr const char* kMonitorFooter =
     "The monitor's clock is that of the log's stamps; it judges with the settings of --settings, "
     "as\nmonitor_node does with its parameters. Exit status: 0 replayed, whatever it raised; 2 a "
     "scene, a\nlog or settings that cannot be used.\n"
@@ -34,7 +34,7 @@ constexpr const char* kFooter =
     "  twin simulate demo.yaml --output demo.lcmlog && twin monitor demo.yaml demo.lcmlog\n"
     "  twin monitor pump.yaml night.lcmlog --settings monitor.yaml --output night.html";
 
-struct Request {
+struct MonitorRequest {
   std::string scene;
   std::string log;
   std::optional<std::string> settings;
@@ -73,7 +73,7 @@ void writePage(const MonitoredLog& run, const std::string& path) {
   file.complete();
 }
 
-int monitor(const Request& request) {
+int monitor(const MonitorRequest& request) {
   requireCsvName(request.csv);
   requireLcmPrefix(request.lcm_prefix);
   const BuiltScene scene = build(readSceneFile(scenePath(request.scene)));
@@ -110,8 +110,8 @@ int monitor(const Request& request) {
 }  // namespace
 
 void addMonitorCommand(const ProgramCommand& twin, int& status) {
-  const ProgramCommand command = twin.subcommand("monitor", kDescription);
-  const auto request = std::make_shared<Request>();
+  const ProgramCommand command = twin.subcommand("monitor", kMonitorDescription);
+  const auto request = std::make_shared<MonitorRequest>();
   addSceneOption(command, request->scene);
   command.option("LOG", request->log, "LCM log or rosbag, such as demo.lcmlog, night.bag")
       .required()
@@ -130,7 +130,7 @@ void addMonitorCommand(const ProgramCommand& twin, int& status) {
   addCsvOption(command, request->csv);
   command.flag("--json", request->json, "print one JSON object");
   addInsistOption(command, request->insist);
-  command.footer(kFooter);
+  command.footer(kMonitorFooter);
   command.callback([request, &status] { status = monitor(*request); });
 }
 

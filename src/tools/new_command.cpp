@@ -18,11 +18,11 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kNewDescription =
     "Writes a scene to begin with, of one system of a model: every key with its unit and meaning,\n"
     "numbers of a scene of the package, and defaults behind a #.";
 
-constexpr const char* kFooter =
+constexpr const char* kNewFooter =
     "Examples:\n"
     "  twin new double_pendulum > mine.yaml && twin check mine.yaml && twin plot mine.yaml\n"
     "  twin new flexible_rotor > rotor.yaml";
@@ -52,7 +52,7 @@ Example plainest(const std::string& model) {
   return found;
 }
 
-int write(const std::string& name) {
+int writeNewScene(const std::string& name) {
   const ModelInfo* const model = findModel(name);
   if (model == nullptr) {
     throw Refusal(fmt::format("no model '{}'{}", name, hint(name, modelNames())));
@@ -65,11 +65,11 @@ int write(const std::string& name) {
 }  // namespace
 
 void addNewCommand(const ProgramCommand& twin, int& status) {
-  const ProgramCommand command = twin.subcommand("new", kDescription);
+  const ProgramCommand command = twin.subcommand("new", kNewDescription);
   const auto model = std::make_shared<std::string>();
   command.option("MODEL", *model, "one of `twin models`").required().type("");
-  command.footer(kFooter);
-  command.callback([model, &status] { status = write(*model); });
+  command.footer(kNewFooter);
+  command.callback([model, &status] { status = writeNewScene(*model); });
 }
 
 }  // namespace whirl_twin

@@ -12,7 +12,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::chrono::milliseconds kLook{500};
+constexpr std::chrono::milliseconds kWaitBetween{500};
 constexpr double kLong = 10.0;  // s, of the processor: on a busy machine nobody is to blame
 
 }  // namespace
@@ -31,7 +31,7 @@ Patience::~Patience() {
 
 void Patience::watch() {
   std::unique_lock<std::mutex> lock(mutex_);
-  while (!ended_.wait_for(lock, kLook, [this] { return end_; })) {
+  while (!ended_.wait_for(lock, kWaitBetween, [this] { return end_; })) {
     if (isTold()) {
       return;
     }

@@ -23,10 +23,10 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kPlayDescription =
     "Plays an LCM log on LCM, at its own pace or another, from any instant; ends by itself.";
 
-constexpr const char* kFooter =
+constexpr const char* kPlayFooter =
     "Keys, in a terminal: space holds and goes on, s plays one event and holds, + and - double "
     "and\n"
     "halve the rate, the arrows go 10 s forward and back, q ends.\n"
@@ -45,13 +45,14 @@ constexpr const char* kFooter =
 using Clock = std::chrono::steady_clock;
 using std::chrono::nanoseconds;
 
-constexpr double kSlowest = 0.1, kFastest = 1000.0;
-constexpr std::int64_t kSecond = 1'000'000;           // us
-constexpr std::int64_t kLongestWait = 60 * kSecond;   // of the log, in which nothing happens
-constexpr std::int64_t kBackAndForth = 10 * kSecond;  // of the arrows
-constexpr std::uint64_t kLook = 256;  // events from one look at the keys to the next, at most
+constexpr double kSlowestRate = 0.1, kFastestRate = 1000.0;
+constexpr std::int64_t kSecondOfLog = 1'000'000;           // us
+constexpr std::int64_t kLongestWait = 60 * kSecondOfLog;   // of the log, in which nothing happens
+constexpr std::int64_t kBackAndForth = 10 * kSecondOfLog;  // of the arrows
+constexpr std::uint64_t kUnlookedEvents =
+    256;  // events from one look at the keys to the next, at most
 
-struct Request {
+struct PlayRequest {
   std::string file;
   std::string rate = "1";
   std::string url = kDefaultLcmUrl;
@@ -71,9 +72,9 @@ double rateOf(const std::string& text) {
   }
   char* end = nullptr;
   const double rate = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !(rate >= kSlowest && rate <= kFastest)) {
-    throw Refusal(
-        fmt::format("--rate: expected {} to {}, or max, found '{}'", kSlowest, kFastest, text));
+  if (text.empty() || *end != '\0' || !(rate >= kSlowestRate && rate <= kFastestRate)) {
+    throw Refusal(fmt::format("--rate: expected {} to {}, or max, found '{}'", kSlowestRate,
+                              kFastestRate, text));
   }
   return rate;
 }
@@ -83,12 +84,12 @@ std::int64_t microseconds(const char* option, double seconds) {
   if (!(seconds >= 0.0 && seconds <= kLongest)) {
     throw Refusal(fmt::format("{}: expected 0 to {:g} s, found {:g} s", option, kLongest, seconds));
   }
-  return std::llround(seconds * static_cast<double>(kSecond));
+  return std::llround(seconds * static_cast<double>(kSecondOfLog));
 }
 
 class Player {
  public:
-  explicit Player(const Request& request)
+  explicit Player(const PlayRequest& request)
       : rate_(rateOf(request.rate)),
         loop_(request.loop),
         log_(
@@ -143,7 +144,7 @@ class Player {
  private:
   /// [s], from the beginning of the log on.
   double inSeconds(std::int64_t timestamp) const {
-    return static_cast<double>(timestamp - *log_.begin()) / static_cast<double>(kSecond);
+    return static_cast<double>(timestamp - *log_.begin()) / static_cast<double>(kSecondOfLog);
   }
 
   void begin() {
@@ -169,7 +170,7 @@ class Player {
 
   /// Waits until it is due; false where a key has led elsewhere.
   bool awaits(std::int64_t timestamp) {
-    if (timestamp - at_ > kLongestWait || at_ - timestamp > kSecond) {
+    if (timestamp - at_ > kLongestWait || at_ - timestamp > kSecondOfLog) {
       ++cuts_;
       at_ = timestamp;
       anchor(std::chrono::seconds(1));
@@ -178,7 +179,7 @@ class Player {
     moved_ = false;
     do {
       const nanoseconds left = held_ ? nanoseconds(std::chrono::seconds(1)) : due(timestamp);
-      const bool look = left.count() > 0 || ++unlooked_ >= kLook;
+      const bool look = left.count() > 0 || ++unlooked_ >= kUnlookedEvents;
       if (look) {
         unlooked_ = 0;
         show(false);
@@ -211,7 +212,8 @@ class Player {
       case Key::kFaster:
       case Key::kSlower:
         if (rate_ > 0.0) {
-          rate_ = std::clamp(*key == Key::kFaster ? 2.0 * rate_ : 0.5 * rate_, kSlowest, kFastest);
+          rate_ = std::clamp(*key == Key::kFaster ? 2.0 * rate_ : 0.5 * rate_, kSlowestRate,
+                             kFastestRate);
           anchor();
         }
         break;
@@ -273,7 +275,7 @@ class Player {
   bool held_ = false, ended_ = false, moved_ = false;
 };
 
-std::string text(const Player& player) {
+std::string playText(const Player& player) {
   const PlayedLog& log = player.log().played();
   std::string out = fmt::format("{} events sent\n", player.sent());
   const auto say = [&out](std::uint64_t count, const char* what) {
@@ -293,7 +295,7 @@ std::string text(const Player& player) {
   return out;
 }
 
-Json json(const Request& request, const Player& player) {
+Json playJson(const PlayRequest& request, const Player& player) {
   const PlayedLog& log = player.log().played();
   Json json = {{"file", request.file},      {"sent", player.sent()},
                {"failed", player.failed()}, {"commands", log.commands},
@@ -307,15 +309,15 @@ Json json(const Request& request, const Player& player) {
   return json;
 }
 
-int play(const Request& request) {
+int play(const PlayRequest& request) {
   requireLcmPrefix(request.lcm_prefix);
   Player player(request);
   catchInterrupts();
   player.play();
   if (request.json) {
-    printJson(json(request, player));
+    printJson(playJson(request, player));
   } else {
-    printText(text(player));
+    printText(playText(player));
   }
   return player.failed() == 0 ? kDone : kFailed;
 }
@@ -323,8 +325,8 @@ int play(const Request& request) {
 }  // namespace
 
 void addPlayCommand(const ProgramCommand& twin, int& status) {
-  const ProgramCommand command = twin.subcommand("play", kDescription);
-  const auto request = std::make_shared<Request>();
+  const ProgramCommand command = twin.subcommand("play", kPlayDescription);
+  const auto request = std::make_shared<PlayRequest>();
   command.option("LOG", request->file, "LCM log, such as demo.lcmlog").required().type("");
   command.option("--start", request->start, "s, from the log's beginning; default: 0").type("S");
   command.option("--duration", request->duration, "s, of the log; default: to its end").type("S");
@@ -340,7 +342,7 @@ void addPlayCommand(const ProgramCommand& twin, int& status) {
               "what the channels of the recorded twin begin with; default: TWIN_")
       .type("PREFIX");
   command.flag("--json", request->json, "print one JSON object");
-  command.footer(kFooter);
+  command.footer(kPlayFooter);
   command.callback([request, &status] { status = play(*request); });
 }
 

@@ -24,11 +24,11 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kPlotDescription =
     "Runs a scene from its start and draws what happens: for each system a picture, its time\n"
     "history, its phase portrait and its energies. Or draws what a study has found.";
 
-constexpr const char* kFooter =
+constexpr const char* kPlotFooter =
     "Into the folder, for each system, as svg (sharp at any size) or png:\n"
     "  NAME_picture   to scale, at the start, with later positions and the path of a point;\n"
     "                 a model given by its matrices and a whirling disc have none\n"
@@ -208,7 +208,7 @@ int plot(const PlotRequest& request) {
 }  // namespace
 
 void addPlotCommand(const ProgramCommand& twin, int& status) {
-  const ProgramCommand command = twin.subcommand("plot", kDescription);
+  const ProgramCommand command = twin.subcommand("plot", kPlotDescription);
   const auto request = std::make_shared<PlotRequest>();
   addSceneOption(command, request->run.scene);
   command.option("--system", request->run.system, "plot this system only").type("NAME");
@@ -225,7 +225,7 @@ void addPlotCommand(const ProgramCommand& twin, int& status) {
       .type("FOLDER");
   command.option("--format", request->format, "svg or png; default: svg").type("FORMAT");
   addInsistOption(command, request->run.insist);
-  command.footer(kFooter);
+  command.footer(kPlotFooter);
   command.callback([request, &status] { status = plot(*request); });
 }
 

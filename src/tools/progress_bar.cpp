@@ -15,12 +15,12 @@ namespace {
 
 constexpr std::size_t kWidth = 40;
 constexpr std::chrono::milliseconds kInterval{100};
-constexpr double kLook = 0.02;             // s, from one look to the next
+constexpr double kPaceCheck = 0.02;        // s, from one look to the next
 constexpr std::int64_t kMostSteps = 1024;  // likewise: a look costs as much as a cheap step
 constexpr double kJudged = 1.0;            // s, after which the pace is known
 
 /// Onto the terminal, with its control characters.
-void put(const std::string& text) {
+void putOnTerminal(const std::string& text) {
   std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);
 }
@@ -54,19 +54,19 @@ std::int64_t ProgressBar::show(std::int64_t step) {
          of_one * static_cast<double>(steps_ - step));
   }
   return static_cast<std::int64_t>(
-      std::clamp(kLook / std::max(of_one, 1.0e-9), 1.0, static_cast<double>(kMostSteps)));
+      std::clamp(kPaceCheck / std::max(of_one, 1.0e-9), 1.0, static_cast<double>(kMostSteps)));
 }
 
 void ProgressBar::draw(double part, double left) {
   const auto filled = static_cast<std::size_t>(std::min(part, 1.0) * kWidth);
-  put(fmt::format("\r[{}{}] {:3.0f} %, {} left\033[K", std::string(filled, '#'),
-                  std::string(kWidth - filled, ' '), 100.0 * part, inWords(left)));
+  putOnTerminal(fmt::format("\r[{}{}] {:3.0f} %, {} left\033[K", std::string(filled, '#'),
+                            std::string(kWidth - filled, ' '), 100.0 * part, inWords(left)));
   drawn_ = true;
 }
 
 void ProgressBar::clear() {
   if (drawn_) {
-    put("\r\033[K");
+    putOnTerminal("\r\033[K");
     drawn_ = false;
   }
 }

@@ -27,10 +27,10 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kRecordDescription =
     "Records what a twin sends on LCM, as an LCM log or an MCAP file, until Ctrl-C.";
 
-constexpr const char* kFooter =
+constexpr const char* kRecordFooter =
     "An LCM log (FILE.lcmlog) has every event as it came; an MCAP file (FILE.mcap) the ROS "
     "messages\n"
     "that a bridge would publish. The time of an event is that of its reception. With "
@@ -46,7 +46,7 @@ constexpr const char* kFooter =
     "  twin record night.lcmlog --split-size 1000\n"
     "  twin record test.mcap --duration 60 --channel '*_WHIRL'";
 
-struct Request {
+struct RecordRequest {
   std::string file;
   std::string url = kDefaultLcmUrl;
   std::string lcm_prefix = kDefaultLcmPrefix;
@@ -120,7 +120,7 @@ class Recorder {
  public:
   using Clock = std::chrono::steady_clock;
 
-  explicit Recorder(const Request& request)
+  explicit Recorder(const RecordRequest& request)
       : request_(request),
         counts_(request.lcm_prefix),
         tap_(openLcm(request.url), request.all ? ".*" : request.lcm_prefix + ".*",
@@ -208,7 +208,7 @@ class Recorder {
     }
   }
 
-  const Request& request_;
+  const RecordRequest& request_;
   ChannelCounts counts_;
   std::optional<Recording> file_;
   std::vector<std::string> files_;
@@ -217,7 +217,7 @@ class Recorder {
   ChannelTap tap_;  // last: it calls take()
 };
 
-Json json(const Recorder& recorder) {
+Json recordJson(const Recorder& recorder) {
   const ChannelCounts& counts = recorder.counts();
   Json json = {{"files", recorder.files()},
                {"events", counts.events()},
@@ -235,7 +235,7 @@ Json json(const Recorder& recorder) {
   return json;
 }
 
-std::string text(const Recorder& recorder) {
+std::string recordText(const Recorder& recorder) {
   const ChannelCounts& counts = recorder.counts();
   std::string out;
   for (const std::string& file : recorder.files()) {
@@ -258,7 +258,7 @@ void requireAbove(const char* option, const std::optional<double>& value, double
   }
 }
 
-int record(const Request& request) {
+int record(const RecordRequest& request) {
   requireLcmPrefix(request.lcm_prefix);
   const std::string extension = std::filesystem::path(request.file).extension();
   if (extension != ".lcmlog" && extension != ".mcap") {
@@ -276,9 +276,9 @@ int record(const Request& request) {
                        request.all ? "all channels" : request.lcm_prefix + "*"));
   recorder.record();
   if (request.json) {
-    printJson(json(recorder));
+    printJson(recordJson(recorder));
   } else {
-    printText(text(recorder));
+    printText(recordText(recorder));
   }
   return recorder.counts().events() > 0 ? kDone : kFailed;
 }
@@ -286,8 +286,8 @@ int record(const Request& request) {
 }  // namespace
 
 void addRecordCommand(const ProgramCommand& twin, int& status) {
-  const ProgramCommand command = twin.subcommand("record", kDescription);
-  const auto request = std::make_shared<Request>();
+  const ProgramCommand command = twin.subcommand("record", kRecordDescription);
+  const auto request = std::make_shared<RecordRequest>();
   command.option("FILE", request->file, "FILE.lcmlog or FILE.mcap").required().type("");
   command.option("--duration", request->duration, "s, wall time; default: until Ctrl-C").type("S");
   command.option("--split-size", request->split_size, "MB, after which another file begins")
@@ -303,7 +303,7 @@ void addRecordCommand(const ProgramCommand& twin, int& status) {
       .type("PREFIX");
   command.flag("--force", request->force, "write over what exists");
   command.flag("--json", request->json, "print one JSON object");
-  command.footer(kFooter);
+  command.footer(kRecordFooter);
   command.callback([request, &status] { status = record(*request); });
 }
 

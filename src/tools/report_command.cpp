@@ -19,12 +19,12 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kReportDescription =
     "All that is told of the rotors of a scene on paper: a page of HTML each, its pictures "
     "inside,\n"
     "that opens without a network and prints.";
 
-constexpr const char* kFooter =
+constexpr const char* kReportFooter =
     "Of a flexible_rotor: drawing and tables of its parts, mass, sag, bearing loads, shear force\n"
     "and bending moment, critical speed map. Of every linear rotor: whirl modes, Campbell "
     "diagram,\n"
@@ -36,7 +36,7 @@ constexpr const char* kFooter =
     "  twin report friswell_rotor --output pages\n"
     "  twin report friswell_rotor --output pages --stage 500 0.4 0.015 1.6";
 
-struct Request {
+struct ReportRequest {
   std::string scene, output;
   std::optional<std::string> system;
   RotorReportRequest report;
@@ -51,7 +51,7 @@ void makeFolder(const std::string& name) {
   }
 }
 
-void write(const std::string& path, const std::string& page) {
+void writeReportPage(const std::string& path, const std::string& page) {
   PendingFile pending(path);
   std::ofstream file(pending.path(), std::ios::binary);
   file << page;
@@ -62,7 +62,7 @@ void write(const std::string& path, const std::string& page) {
   pending.complete();
 }
 
-int reportOf(Request& request) {
+int reportOf(ReportRequest& request) {
   for (const std::vector<double>& s : request.centrifugal) {
     request.report.stages.push_back({s[0], s[1], s[2], s[3], false});
   }
@@ -79,7 +79,7 @@ int reportOf(Request& request) {
   for (std::size_t i = 0; i < systems.size(); ++i) {
     const std::filesystem::path path =
         std::filesystem::path(request.output) / (systems[i].name + ".html");
-    write(path.string(), pages[i]);
+    writeReportPage(path.string(), pages[i]);
     printText(path.string() + "\n");
   }
   return kDone;
@@ -88,8 +88,8 @@ int reportOf(Request& request) {
 }  // namespace
 
 void addReportCommand(const ProgramCommand& twin, int& status) {
-  const ProgramCommand command = twin.subcommand("report", kDescription);
-  const auto request = std::make_shared<Request>();
+  const ProgramCommand command = twin.subcommand("report", kReportDescription);
+  const auto request = std::make_shared<ReportRequest>();
   addSceneOption(command, request->scene);
   command.option("--output", request->output, "where the pages go; made if it is not there")
       .required()
@@ -109,7 +109,7 @@ void addReportCommand(const ProgramCommand& twin, int& status) {
               "W, m, m: power, pitch diameter, height of the blades of an axial stage")
       .values(3)
       .type("P D H");
-  command.footer(kFooter);
+  command.footer(kReportFooter);
   command.callback([request, &status] { status = reportOf(*request); });
 }
 

@@ -38,7 +38,7 @@ constexpr const char* kOrbitFooter =
     "Example:\n"
     "  twin orbit demo.yaml --speed 55 --plot orbit.svg";
 
-struct Request {
+struct ResponseRequest {
   std::string scene;
   std::optional<std::string> system, station, plot, csv;
   SpeedRangeOptions range;
@@ -50,7 +50,7 @@ struct Request {
 
 /// `report` of a rotor gives what json(), text(), tables() and figure() take.
 template <class Report>
-int show(const Request& request, const Report& report) {
+int show(const ResponseRequest& request, const Report& report) {
   requirePictureName(request.plot);
   requireCsvName(request.csv);
   const BuiltScene scene = build(readSceneFile(scenePath(request.scene)));
@@ -79,7 +79,8 @@ int show(const Request& request, const Report& report) {
   return kDone;
 }
 
-void addCommonOptions(const ProgramCommand& command, const std::shared_ptr<Request>& request) {
+void addCommonOptions(const ProgramCommand& command,
+                      const std::shared_ptr<ResponseRequest>& request) {
   addSceneOption(command, request->scene);
   command.option("--system", request->system, "this rotor only").type("NAME");
   command.option("--plot", request->plot, "a picture, FILE.svg or FILE.png").type("FILE");
@@ -92,7 +93,7 @@ void addCommonOptions(const ProgramCommand& command, const std::shared_ptr<Reque
 void addResponseCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand(
       "response", "Unbalance response of the rotors of a scene over the shaft's speed.");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<ResponseRequest>();
   addCommonOptions(command, request);
   command.option("--from", request->range.from, "rad/s; default: 0").type("W");
   command
@@ -139,7 +140,7 @@ void addResponseCommand(const ProgramCommand& twin, int& status) {
 void addOrbitCommand(const ProgramCommand& twin, int& status) {
   const ProgramCommand command = twin.subcommand(
       "orbit", "Orbits that the unbalance drives at one speed, at every station of the rotors.");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<ResponseRequest>();
   addCommonOptions(command, request);
   command.option("--speed", request->speed, "rad/s, of the shaft").required().type("W");
   command.footer(kOrbitFooter);

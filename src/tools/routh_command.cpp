@@ -22,13 +22,13 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kRouthDescription =
     "Tells how many roots of a polynomial lie right of, on and left of the imaginary axis, by the\n"
     "Routh-Hurwitz test, exact for the numbers as typed, and how far it is from instability; or, "
     "with\n"
     "a parameter, for which values of it the polynomial is stable.";
 
-constexpr const char* kFooter =
+constexpr const char* kRouthFooter =
     "Coefficients go highest power first, real (2, -0.1, 1e-3, 1/3) or complex (3+2i, -i). Put -- "
     "before\n"
     "them if one could be taken for an option. Leading zeros are dropped. Where exact numbers "
@@ -51,7 +51,7 @@ constexpr const char* kFooter =
 constexpr double kExactBudget = 1.0e9;    // products of words: seconds
 constexpr std::size_t kWidestTable = 31;  // coefficients, whose table is shown
 
-struct Judgement {
+struct RouthJudgement {
   RouthResult routh;
   bool exact = true;  // else the counts are those of the roots
   std::vector<std::complex<double>> roots;
@@ -79,13 +79,14 @@ auto parseCoefficients(const std::vector<std::string>& typed, const Parse& parse
   return coefficients;
 }
 
-ComplexRational parseNumber(const std::string& typed) {
+ComplexRational parseCoefficient(const std::string& typed) {
   const bool complex = !typed.empty() && (typed.back() == 'i' || typed.back() == 'j');
   return complex ? parseComplex(typed) : ComplexRational{parseSymbolic(typed, "").at(0), 0};
 }
 
 /// Numbers beyond double, which roots() takes, are brought into its range; roots do not change.
-std::vector<std::complex<double>> inRange(const std::vector<ComplexRational>& coefficients) {
+std::vector<std::complex<double>> coefficientsInRange(
+    const std::vector<ComplexRational>& coefficients) {
   Rational largest = 0;
   Rational smallest = 0;
   for (const ComplexRational& c : coefficients) {
@@ -119,15 +120,15 @@ RouthResult countsOf(const std::vector<std::complex<double>>& roots) {
   return counts;
 }
 
-Judgement judge(const std::vector<ComplexRational>& coefficients, bool real) {
-  const auto rounded = inRange(coefficients);
+RouthJudgement judge(const std::vector<ComplexRational>& coefficients, bool real) {
+  const auto rounded = coefficientsInRange(coefficients);
   std::vector<Rational> exact;
   std::vector<double> values;
   for (std::size_t i = 0; i < coefficients.size(); ++i) {
     exact.push_back(coefficients[i].re);
     values.push_back(rounded[i].real());
   }
-  Judgement judgement;
+  RouthJudgement judgement;
   judgement.roots = real ? roots(values) : roots(rounded);
   if (!std::all_of(judgement.roots.begin(), judgement.roots.end(), [](const auto& root) {
         return std::isfinite(root.real()) && std::isfinite(root.imag());
@@ -146,7 +147,7 @@ Judgement judge(const std::vector<ComplexRational>& coefficients, bool real) {
 }
 
 /// The margins, with roots on the axis where the exact test puts them.
-void addMargins(Judgement& j) {
+void addMargins(RouthJudgement& j) {
   double rightmost = -std::numeric_limits<double>::infinity();
   double ratio = std::numeric_limits<double>::quiet_NaN();
   int zeros = 0;
@@ -164,7 +165,7 @@ void addMargins(Judgement& j) {
   j.log_decrement = logDecrement(j.damping_ratio);
 }
 
-Json json(const Judgement& j) {
+Json judgementJson(const RouthJudgement& j) {
   Json json;
   json["verdict"] = name(j.routh.verdict);
   json["right"] = j.routh.right;
@@ -183,7 +184,7 @@ Json json(const Judgement& j) {
 }
 
 /// Routh's table, where there is one, and the roots.
-CsvTables tables(const Judgement& j, const std::optional<RouthTable>& table) {
+CsvTables judgementTables(const RouthJudgement& j, const std::optional<RouthTable>& table) {
   CsvTable roots{"roots", {"re", "im"}};
   for (const auto& root : j.roots) {
     roots.rows.push_back({{"re", root.real()}, {"im", root.imag()}});
@@ -191,7 +192,7 @@ CsvTables tables(const Judgement& j, const std::optional<RouthTable>& table) {
   return table ? CsvTables{csv(*table, ""), roots} : CsvTables{roots};
 }
 
-std::string text(const Judgement& j) {
+std::string judgementText(const RouthJudgement& j) {
   std::string out = fmt::format(
       "{} (degree {})\n",
       j.exact ? verdictText(j.routh.verdict)
@@ -204,7 +205,7 @@ std::string text(const Judgement& j) {
   return out;
 }
 
-struct Request {
+struct RouthRequest {
   std::vector<std::string> coefficients;
   std::optional<std::string> parameter, csv;
   bool json = false;
@@ -224,7 +225,7 @@ void requireSymbol(const std::string& symbol) {
   }
 }
 
-int testForParameter(const Request& request) {
+int testForParameter(const RouthRequest& request) {
   const std::string& symbol = *request.parameter;
   requireSymbol(symbol);
   const std::vector<SymbolicPolynomial> coefficients = parseCoefficients(
@@ -249,13 +250,13 @@ int testForParameter(const Request& request) {
   return kDone;
 }
 
-int test(const Request& request) {
+int test(const RouthRequest& request) {
   requireCsvName(request.csv);
   if (request.parameter) {
     return testForParameter(request);
   }
   const std::vector<ComplexRational> coefficients =
-      parseCoefficients(request.coefficients, parseNumber);
+      parseCoefficients(request.coefficients, parseCoefficient);
   if (std::all_of(coefficients.begin(), coefficients.end(),
                   [](const ComplexRational& c) { return c.re == 0 && c.im == 0; })) {
     throw Refusal("coefficients: expected at least one that is not zero, found none");
@@ -263,7 +264,7 @@ int test(const Request& request) {
   const bool real = std::all_of(coefficients.begin(), coefficients.end(),
                                 [](const ComplexRational& c) { return c.im == 0; });
   tell(costOfRoots(coefficients.size(), real), request.insist);
-  Judgement judgement = judge(coefficients, real);
+  RouthJudgement judgement = judge(coefficients, real);
   addMargins(judgement);
   std::optional<RouthTable> table;
   if (real && coefficients.size() <= kWidestTable) {
@@ -274,14 +275,14 @@ int test(const Request& request) {
     table = routhTable(numbers, "");
   }
   if (request.csv) {
-    writeCsv(*request.csv, tables(judgement, table));
+    writeCsv(*request.csv, judgementTables(judgement, table));
   }
   if (request.json) {
-    Json all = json(judgement);
+    Json all = judgementJson(judgement);
     all["table"] = table ? json(*table, "") : Json();
     printJson(all);
   } else {
-    printText(text(judgement) + (table ? text(*table, "") : ""));
+    printText(judgementText(judgement) + (table ? text(*table, "") : ""));
   }
   return kDone;
 }
@@ -289,8 +290,8 @@ int test(const Request& request) {
 }  // namespace
 
 void addRouthCommand(const ProgramCommand& twin, int& status) {
-  const ProgramCommand command = twin.subcommand("routh", kDescription);
-  const auto request = std::make_shared<Request>();
+  const ProgramCommand command = twin.subcommand("routh", kRouthDescription);
+  const auto request = std::make_shared<RouthRequest>();
   command.option("COEFFICIENTS", request->coefficients, "A_N ... A_0, highest power first")
       .required()
       .type("");
@@ -301,7 +302,7 @@ void addRouthCommand(const ProgramCommand& twin, int& status) {
   addCsvOption(command, request->csv);
   command.flag("--json", request->json, "print one JSON object");
   addInsistOption(command, request->insist);
-  command.footer(kFooter);
+  command.footer(kRouthFooter);
   command.callback([request, &status] { status = test(*request); });
 }
 

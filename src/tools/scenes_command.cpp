@@ -16,11 +16,11 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kScenesDescription =
     "Lists the scenes that come with the package, or those of a folder: what each shows, and its\n"
     "systems with their models.";
 
-constexpr const char* kFooter =
+constexpr const char* kScenesFooter =
     "Any of them runs by its name:\n"
     "  twin analyze rod_slider\n"
     "  roslaunch whirl_twin demo.launch scene:=rod_slider\n"
@@ -72,7 +72,7 @@ SceneEntry readEntry(const std::filesystem::path& file) {
   return entry;
 }
 
-std::string text(const SceneEntry& entry) {
+std::string sceneEntryText(const SceneEntry& entry) {
   if (!entry.refusal.empty()) {
     return fmt::format("{}\n  cannot be read: {}\n", entry.name, entry.refusal);
   }
@@ -83,7 +83,7 @@ std::string text(const SceneEntry& entry) {
   return fmt::format("{}\n  {}\n  systems: {}\n", entry.name, entry.about, systems);
 }
 
-Json json(const SceneEntry& entry) {
+Json sceneEntryJson(const SceneEntry& entry) {
   Json json;
   json["path"] = entry.path;
   json["about"] = entry.about;
@@ -110,8 +110,8 @@ int listScenes(const std::optional<std::string>& folder, bool as_json) {
   std::string texts;
   for (const std::filesystem::path& file : sceneFiles(where)) {
     const SceneEntry entry = readEntry(file);
-    all["scenes"][entry.name] = json(entry);
-    texts += (texts.empty() ? "" : "\n") + text(entry);
+    all["scenes"][entry.name] = sceneEntryJson(entry);
+    texts += (texts.empty() ? "" : "\n") + sceneEntryText(entry);
   }
   if (as_json) {
     printJson(all);
@@ -148,17 +148,17 @@ int showScene(const std::string& name, bool as_json) {
 }  // namespace
 
 void addScenesCommand(const ProgramCommand& twin, int& status) {
-  struct Request {
+  struct ScenesRequest {
     std::optional<std::string> folder, show;
     bool json = false;
   };
-  const ProgramCommand command = twin.subcommand("scenes", kDescription);
-  const auto request = std::make_shared<Request>();
+  const ProgramCommand command = twin.subcommand("scenes", kScenesDescription);
+  const auto request = std::make_shared<ScenesRequest>();
   command.option("FOLDER", request->folder, "of scene files; default: the package's").type("");
   command.option("--show", request->show, "print this scene as it is written, and list none")
       .type("NAME");
   command.flag("--json", request->json, "print one JSON object");
-  command.footer(kFooter);
+  command.footer(kScenesFooter);
   command.callback([request, &status] {
     status = request->show ? showScene(*request->show, request->json)
                            : listScenes(request->folder, request->json);

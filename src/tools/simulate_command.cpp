@@ -15,11 +15,11 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kSimulateDescription =
     "Runs a scene from its start, as fast as it goes, and writes what happens: a table of\n"
     "comma-separated values, an LCM log, an MCAP file, or with --json the final state.";
 
-constexpr const char* kFooter =
+constexpr const char* kSimulateFooter =
     "The table has a row at the start and one every sample up to and including the duration:\n"
     "  time, then for each system its coordinates, their rates (NAME_rate) and, for a rotor,\n"
     "  whirl_radius (m) and whirl_phase (rad, how far the whirl lags the unbalance, unwrapped).\n"
@@ -119,7 +119,7 @@ int simulate(const SimulationRequest& request) {
 }  // namespace
 
 void addSimulateCommand(const ProgramCommand& twin, int& status) {
-  const ProgramCommand command = twin.subcommand("simulate", kDescription);
+  const ProgramCommand command = twin.subcommand("simulate", kSimulateDescription);
   const auto request = std::make_shared<SimulationRequest>();
   addSceneOption(command, request->scene);
   command
@@ -160,7 +160,7 @@ void addSimulateCommand(const ProgramCommand& twin, int& status) {
   command.option("--system", request->system, "show this system only").type("NAME");
   command.flag("--json", request->json, "print the final state as one JSON object");
   addInsistOption(command, request->insist);
-  command.footer(kFooter);
+  command.footer(kSimulateFooter);
   command.callback([request, &status] { status = simulate(*request); });
 }
 

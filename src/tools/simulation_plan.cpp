@@ -25,7 +25,6 @@ namespace {
 
 constexpr const char* kAllSensors = "sensors";
 
-constexpr std::int64_t kSecond = 1'000'000'000;                // ns
 constexpr std::int64_t kLongestRun = 1'000'000'000 * kSecond;  // as long as a drive can be timed
 constexpr double kDefaultDuration = 10.0;                      // s
 

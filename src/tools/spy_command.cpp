@@ -23,10 +23,10 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kSpyDescription =
     "Shows live what is on LCM: channels, rates, sizes, losses, and what was said last.";
 
-constexpr const char* kFooter =
+constexpr const char* kSpyFooter =
     "In a terminal it is drawn anew five times a second, until Ctrl-C; into a file or a pipe a "
     "table\n"
     "goes every second. Of the twin's own types the newest message is shown field by field, of "
@@ -44,11 +44,7 @@ constexpr const char* kFooter =
 
 using Clock = std::chrono::steady_clock;
 
-double since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
-struct Request {
+struct SpyRequest {
   std::string url = kDefaultLcmUrl;
   std::string lcm_prefix = kDefaultLcmPrefix;
   std::optional<double> duration;  // s
@@ -67,7 +63,7 @@ using Flows = std::map<std::string, Flow>;
 
 class Spy {
  public:
-  explicit Spy(const Request& request)
+  explicit Spy(const SpyRequest& request)
       : request_(request),
         counts_(request.lcm_prefix),
         tap_(openLcm(request.url), ".*",
@@ -84,10 +80,10 @@ class Spy {
     auto drawn = begin_;
     while (!interrupted() && !isOver()) {
       tap_.receive(std::chrono::milliseconds(50));
-      if (since(measured_) >= 1.0) {
+      if (secondsSince(measured_) >= 1.0) {
         measure();
       }
-      if (live && since(drawn) >= between) {
+      if (live && secondsSince(drawn) >= between) {
         drawn = Clock::now();
         lines_.show(table(rates_));
       }
@@ -107,7 +103,7 @@ class Spy {
   bool isOver() const {
     const std::optional<double> duration =
         request_.once && !request_.duration ? 1.0 : request_.duration;
-    return duration && since(begin_) >= *duration;
+    return duration && secondsSince(begin_) >= *duration;
   }
 
   Flows totals() const {
@@ -119,7 +115,7 @@ class Spy {
   }
 
   void measure() {
-    const double time = since(measured_);
+    const double time = secondsSince(measured_);
     measured_ = Clock::now();
     const Flows now = totals();
     for (const auto& [channel, total] : now) {
@@ -133,8 +129,8 @@ class Spy {
   Flows meanRates() const {
     Flows all = totals();
     for (auto& [channel, flow] : all) {
-      flow.events /= since(begin_);
-      flow.bytes /= since(begin_);
+      flow.events /= secondsSince(begin_);
+      flow.bytes /= secondsSince(begin_);
     }
     return all;
   }
@@ -147,8 +143,8 @@ class Spy {
     }
     std::vector<std::string> lines{
         fmt::format("{:.1f} s: {} events, {} lost, {} corrupt; now {:.1f} /s, {:.1f} kB/s",
-                    since(begin_), counts_.events(), counts_.lost(), counts_.rejected(), sum.events,
-                    1.0e-3 * sum.bytes),
+                    secondsSince(begin_), counts_.events(), counts_.lost(), counts_.rejected(),
+                    sum.events, 1.0e-3 * sum.bytes),
         fmt::format("{:<28} {:<10} {:>8} {:>8} {:>7} {:>6}  {}", "channel", "kind", "1/s", "kB/s",
                     "bytes", "lost", "last")};
     for (const auto& [channel, count] : counts_.channels()) {
@@ -167,7 +163,7 @@ class Spy {
   }
 
   Json json() const {
-    Json json = {{"duration", since(begin_)},
+    Json json = {{"duration", secondsSince(begin_)},
                  {"events", counts_.events()},
                  {"lost", counts_.lost()},
                  {"rejected", counts_.rejected()},
@@ -187,7 +183,7 @@ class Spy {
     return json;
   }
 
-  const Request& request_;
+  const SpyRequest& request_;
   LiveLines lines_;
   ChannelCounts counts_;
   Clock::time_point begin_ = Clock::now();
@@ -196,7 +192,7 @@ class Spy {
   ChannelTap tap_;  // last: it calls counts_
 };
 
-int spy(const Request& request) {
+int spy(const SpyRequest& request) {
   requireLcmPrefix(request.lcm_prefix);
   if (request.duration && !(*request.duration > 0.0 && std::isfinite(*request.duration))) {
     throw Refusal(fmt::format("--duration: must be above 0 s, found {:g}", *request.duration));
@@ -211,8 +207,8 @@ int spy(const Request& request) {
 }  // namespace
 
 void addSpyCommand(const ProgramCommand& twin, int& status) {
-  const ProgramCommand command = twin.subcommand("spy", kDescription);
-  const auto request = std::make_shared<Request>();
+  const ProgramCommand command = twin.subcommand("spy", kSpyDescription);
+  const auto request = std::make_shared<SpyRequest>();
   command.option("--duration", request->duration, "s, wall time; default: until Ctrl-C").type("S");
   command.flag("--once", request->once, "one table, of one second or of --duration");
   addChannelOption(command, request->channels);
@@ -222,7 +218,7 @@ void addSpyCommand(const ProgramCommand& twin, int& status) {
               "what the channels of the twin begin with; default: TWIN_")
       .type("PREFIX");
   command.flag("--json", request->json, "print one JSON object at the end");
-  command.footer(kFooter);
+  command.footer(kSpyFooter);
   command.callback([request, &status] { status = spy(*request); });
 }
 

@@ -13,12 +13,12 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kStabilityDescription =
     "Stability level I of API 617: the logarithmic decrement of a rotor's first forward whirl "
     "over\n"
     "a cross-coupled stiffness at mid-span, and what its stages are taken to have.";
 
-constexpr const char* kFooter =
+constexpr const char* kStabilityFooter =
     "kxy = Q, kyx = -Q at the station nearest to the middle between the outermost bearings, or\n"
     "--at another. A centrifugal stage has Q = 3 (P/w) / (D H) times the ratio of densities, an\n"
     "axial one 1.5 (P/w) / (D H); P its power, w the speed, D the impeller's diameter (the "
@@ -29,7 +29,7 @@ constexpr const char* kFooter =
     "  twin stability friswell_rotor --plot level_one.svg\n"
     "  twin stability friswell_rotor --stage 500 0.4 0.015 1.6 --stage 400 0.4 0.012 1.5";
 
-struct Request {
+struct StabilityRequest {
   std::string scene;
   std::optional<std::string> system, plot, csv;
   LevelOneRequest level_one;
@@ -38,7 +38,7 @@ struct Request {
 };
 
 /// Each stage that was given, as many numbers as it takes.
-void takeStages(Request& request) {
+void takeStages(StabilityRequest& request) {
   for (const std::vector<double>& s : request.centrifugal) {
     request.level_one.stages.push_back({s[0], s[1], s[2], s[3], false});
   }
@@ -47,7 +47,7 @@ void takeStages(Request& request) {
   }
 }
 
-int levelOneOf(Request& request) {
+int levelOneOf(StabilityRequest& request) {
   requirePictureName(request.plot);
   requireCsvName(request.csv);
   takeStages(request);
@@ -80,8 +80,8 @@ int levelOneOf(Request& request) {
 }  // namespace
 
 void addStabilityCommand(const ProgramCommand& twin, int& status) {
-  const ProgramCommand command = twin.subcommand("stability", kDescription);
-  const auto request = std::make_shared<Request>();
+  const ProgramCommand command = twin.subcommand("stability", kStabilityDescription);
+  const auto request = std::make_shared<StabilityRequest>();
   addSceneOption(command, request->scene);
   command.option("--system", request->system, "this rotor only").type("NAME");
   command
@@ -102,7 +102,7 @@ void addStabilityCommand(const ProgramCommand& twin, int& status) {
   command.option("--plot", request->plot, "the diagram, FILE.svg or FILE.png").type("FILE");
   addCsvOption(command, request->csv);
   command.flag("--json", request->json, "print one JSON object");
-  command.footer(kFooter);
+  command.footer(kStabilityFooter);
   command.callback([request, &status] { status = levelOneOf(*request); });
 }
 

@@ -42,11 +42,11 @@ Optimum optimize(const Study&, const StepsChosen&, const std::atomic<bool>&,
 
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kSweepDescription =
     "Runs a scene at every point of a study: tolerances, grids, designs, sensitivities. What is\n"
     "measured goes into a folder; what the points say together is printed.";
 
-constexpr const char* kFooter =
+constexpr const char* kSweepFooter =
     "STUDY is YAML (docs/studies.md tells all):\n"
     "  study: {scene: rotor.yaml, seed: 7}\n"
     "  vary:\n"
@@ -75,7 +75,7 @@ constexpr const char* kFooter =
     "Exit status: 0 done, with points that failed or without; 1 it was stopped, cannot be written, "
     "or\nall points failed; 2 a study or scene that cannot be meant.";
 
-struct Request {
+struct SweepRequest {
   std::string study;
   std::optional<std::string> output;
   std::optional<std::uint64_t> point;
@@ -107,7 +107,7 @@ Share shareOf(const std::optional<std::string>& text) {
 }
 
 template <class Report>
-void print(const Request& request, const Study& study, const Report& report) {
+void print(const SweepRequest& request, const Study& study, const Report& report) {
   if (request.json) {
     printJson(json(study, report));
   } else {
@@ -121,7 +121,7 @@ int failed(const std::string& why) {
   return kFailed;
 }
 
-int runPoint(const Request& request, const Study& study, const std::atomic<bool>& stop) {
+int runPoint(const SweepRequest& request, const Study& study, const std::atomic<bool>& stop) {
   if (*request.point >= study.points()) {
     throw Refusal(
         fmt::format("--point: must be from 0 to {}, found {}", study.points() - 1, *request.point));
@@ -154,7 +154,8 @@ SweepProgress progressOf(const Study& study, const std::vector<std::uint64_t>& b
 }
 
 /// A study without points.
-int runOptimization(const Request& request, const Study& study, const std::atomic<bool>& stop) {
+int runOptimization(const SweepRequest& request, const Study& study,
+                    const std::atomic<bool>& stop) {
   const std::array<std::pair<bool, const char*>, 6> for_points{
       {{request.output.has_value(), "--output"},
        {request.point.has_value(), "--point"},
@@ -186,7 +187,7 @@ int runOptimization(const Request& request, const Study& study, const std::atomi
   }
 }
 
-void runAll(const Request& request, const Study& study, const ResultFolder& folder,
+void runAll(const SweepRequest& request, const Study& study, const ResultFolder& folder,
             std::atomic<bool>& stop) {
   const std::vector<std::uint64_t> blocks = unfinishedBlocks(study, folder, shareOf(request.part));
   if (blocks.empty()) {
@@ -200,7 +201,7 @@ void runAll(const Request& request, const Study& study, const ResultFolder& fold
       [&](std::uint64_t) { return deck.next(); }, stop, progressOf(study, blocks, request.insist));
 }
 
-int tellAnswers(const Request& request, const Study& study, const ResultFolder& folder) {
+int tellAnswers(const SweepRequest& request, const Study& study, const ResultFolder& folder) {
   const Answers answers = answersOf(study, folder.merge());
   writeHdf5Results(study, folder, answers);
   print(request, study, answers);
@@ -221,7 +222,7 @@ int ranksStarted() {
   return count != nullptr ? std::atoi(count) : 1;
 }
 
-int sweepAmongRanks(const Request& request, std::atomic<bool>& stop) {
+int sweepAmongRanks(const SweepRequest& request, std::atomic<bool>& stop) {
 #ifdef WHIRL_TWIN_MPI
   Ranks ranks;
   try {
@@ -261,7 +262,7 @@ int sweepAmongRanks(const Request& request, std::atomic<bool>& stop) {
 #endif
 }
 
-int sweepStudy(const Request& request) {
+int sweepStudy(const SweepRequest& request) {
   if (request.workers > 4096) {
     throw Refusal(fmt::format("--workers: must be from 1 to 4096, found {}", request.workers));
   }
@@ -312,8 +313,8 @@ int sweepStudy(const Request& request) {
 }  // namespace
 
 void addSweepCommand(const ProgramCommand& twin, int& status) {
-  const ProgramCommand command = twin.subcommand("sweep", kDescription);
-  const auto request = std::make_shared<Request>();
+  const ProgramCommand command = twin.subcommand("sweep", kSweepDescription);
+  const auto request = std::make_shared<SweepRequest>();
   command.option("STUDY", request->study, "what varies, is run and is measured")
       .required()
       .type("");
@@ -330,7 +331,7 @@ void addSweepCommand(const ProgramCommand& twin, int& status) {
                "go on with results of another version, compiler or processor");
   command.flag("--json", request->json, "print one JSON object");
   addInsistOption(command, request->insist);
-  command.footer(kFooter);
+  command.footer(kSweepFooter);
   command.callback([request, &status] { status = sweepStudy(*request); });
 }
 

@@ -21,13 +21,11 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000'000;
-
-constexpr const char* kDescription =
+constexpr const char* kTradeoffDescription =
     "What every method costs on this machine and what it gets wrong, at the scene's step, at\n"
     "multiples and at parts of it.";
 
-constexpr const char* kFooter =
+constexpr const char* kTradeoffFooter =
     "Errors are the largest over the duration against a run whose own error is known: positions\n"
     "and whirl radius in parts of the largest, phase in rad, energy in parts of the largest.\n"
     "drift: of the energy audit. A setting is recommended only if every finer step of its method\n"
@@ -38,7 +36,7 @@ constexpr const char* kFooter =
     "  twin tradeoff demo.yaml --plot tradeoff.svg\n"
     "  twin tradeoff double_pendulum.yaml --system rods --duration 30 --json";
 
-struct Request {
+struct TradeoffRequest {
   std::string scene;
   std::optional<std::string> system, duration, plot, output;
   bool json = false;
@@ -62,28 +60,29 @@ void writeTable(const std::string& path, const std::vector<TradeoffReport>& repo
   file.complete();
 }
 
-constexpr std::int64_t kLongest = 1'000'000 * kSecond;  // ns
+constexpr std::int64_t kLongestHorizon = 1'000'000 * kSecond;  // ns
 
 /// The horizon of the system, which has to be a duration that can be run. [ns]
 std::int64_t horizonOf(const Scene& one) {
   const SystemSpec& spec = one.systems.front();
   const double horizon = 1.0e9 * spec.horizon;
-  if (!(horizon >= static_cast<double>(one.step) && horizon <= static_cast<double>(kLongest))) {
+  if (!(horizon >= static_cast<double>(one.step) &&
+        horizon <= static_cast<double>(kLongestHorizon))) {
     throw Refusal(fmt::format(
         "{}: its horizon, {:g} s, is no duration for this; --duration: must be from {} to {}",
-        spec.name, spec.horizon, inSeconds(one.step), inSeconds(kLongest)));
+        spec.name, spec.horizon, inSeconds(one.step), inSeconds(kLongestHorizon)));
   }
   return static_cast<std::int64_t>(horizon);
 }
 
-int tradeoffOf(const Request& request) {
+int tradeoffOf(const TradeoffRequest& request) {
   requirePictureName(request.plot);
   requireTableName(request.output);
   const Scene scene = readSceneFile(scenePath(request.scene));
   const std::vector<std::size_t> systems = selectedSystems(scene, request.system);
   std::optional<std::int64_t> asked;  // [ns]
   if (request.duration) {
-    asked = parseNanoseconds("--duration", *request.duration, scene.step, kLongest);
+    asked = parseNanoseconds("--duration", *request.duration, scene.step, kLongestHorizon);
   }
   constexpr std::int64_t kParts = 1000;
   ProgressBar bar(fmt::format("--duration: {}", request.duration.value_or("the horizon")),
@@ -129,8 +128,8 @@ int tradeoffOf(const Request& request) {
 }  // namespace
 
 void addTradeoffCommand(const ProgramCommand& twin, int& status) {
-  const ProgramCommand command = twin.subcommand("tradeoff", kDescription);
-  const auto request = std::make_shared<Request>();
+  const ProgramCommand command = twin.subcommand("tradeoff", kTradeoffDescription);
+  const auto request = std::make_shared<TradeoffRequest>();
   addSceneOption(command, request->scene);
   command.option("--system", request->system, "this system only").type("NAME");
   command
@@ -142,7 +141,7 @@ void addTradeoffCommand(const ProgramCommand& twin, int& status) {
   command.option("--output", request->output, "the rows as a table, FILE.csv").type("FILE");
   command.flag("--json", request->json, "print one JSON object");
   addInsistOption(command, request->insist);
-  command.footer(kFooter);
+  command.footer(kTradeoffFooter);
   command.callback([request, &status] { status = tradeoffOf(*request); });
 }
 

@@ -23,11 +23,11 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kTwinDescription =
     "A digital twin of whirling rotors and pendulums, from a scene file.\n"
     "Check a scene, run it, judge its stability, look into recorded logs.";
 
-constexpr const char* kFooter =
+constexpr const char* kTwinFooter =
     "First steps:\n"
     "  twin check config/scenes/demo.yaml        is the scene sound, and what will be modelled\n"
     "  twin analyze config/scenes/demo.yaml      equilibria, frequencies, stability, criticals\n"
@@ -92,8 +92,8 @@ bool unknownCommand(const CLI::App& twin, const std::vector<std::string>& argume
 
 int run(int argc, const char* const* argv) {
   int status = kDone;
-  CLI::App twin(kDescription, "twin");
-  twin.footer(kFooter);
+  CLI::App twin(kTwinDescription, "twin");
+  twin.footer(kTwinFooter);
   twin.set_version_flag("--version", "twin (whirl_twin) " WHIRL_TWIN_VERSION,
                         "print the version and exit");
   twin.require_subcommand(1);

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "algebra/constants.h"
 #include "messages/refusal.h"
 #include "messages/slowest_part.h"
 #include "reports/live_lines.h"
@@ -21,10 +22,10 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr const char* kDescription =
+constexpr const char* kWatchDescription =
     "Watches a running twin in the terminal, by LCM: its loop, its systems, its alarms.";
 
-constexpr const char* kFooter =
+constexpr const char* kWatchFooter =
     "In a terminal it is drawn anew five times a second, until Ctrl-C; into a file or a pipe it "
     "goes\n"
     "every second. The alerts that stand are known within five seconds. Exit status: 0 a twin "
@@ -38,11 +39,7 @@ constexpr const char* kFooter =
 
 using Clock = std::chrono::steady_clock;
 
-double since(Clock::time_point begin) {
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
-struct Request {
+struct WatchRequest {
   std::string url = kDefaultLcmUrl;
   std::string lcm_prefix = kDefaultLcmPrefix;
   std::optional<double> duration;  // s
@@ -62,7 +59,9 @@ struct Heard {
   /// [s], of those that come once a second; "" while they do.
   std::string silence(const char* who) const {
     constexpr double kPatience = 3.0;  // s
-    return since(at) > kPatience ? fmt::format("{} is silent for {:.0f} s", who, since(at)) : "";
+    return secondsSince(at) > kPatience
+               ? fmt::format("{} is silent for {:.0f} s", who, secondsSince(at))
+               : "";
   }
 };
 
@@ -72,13 +71,12 @@ struct System {
   std::optional<state::StabilityMargin> margin;
 };
 
-std::string text(const System& system) {
+std::string systemLine(const System& system) {
   std::string out;
   const auto say = [&out](const std::string& part) { out += (out.empty() ? "" : ", ") + part; };
   if (system.whirl) {
-    constexpr double kRpm = 60.0 / (2.0 * 3.14159265358979323846);
     say(fmt::format("speed {:.2f} rad/s ({:.1f} rpm), whirl {:.1f} um", system.whirl->speed,
-                    kRpm * system.whirl->speed, 1.0e6 * system.whirl->radius));
+                    system.whirl->speed / kRpm, 1.0e6 * system.whirl->radius));
   }
   if (system.pendulum) {
     for (std::size_t i = 0; i < system.pendulum->name.size(); ++i) {
@@ -94,7 +92,7 @@ std::string text(const System& system) {
   return out;
 }
 
-std::string text(const state::Alert& alert) {
+std::string alertLine(const state::Alert& alert) {
   constexpr const char* kSeverities[] = {"INFO", "WARNING", "DANGER"};
   return fmt::format("  {} since {:.3f} s: {}{}", kSeverities[static_cast<int>(alert.severity)],
                      alert.raised_time, alert.text, alert.acknowledged ? " (acknowledged)" : "");
@@ -102,7 +100,7 @@ std::string text(const state::Alert& alert) {
 
 class Watch {
  public:
-  explicit Watch(const Request& request)
+  explicit Watch(const WatchRequest& request)
       : request_(request),
         receiver_(
             openLcm(request.url),
@@ -117,9 +115,9 @@ class Watch {
     const double between = lines_.onTerminal() ? 0.2 : 1.0;  // s
     const auto begin = Clock::now();
     auto drawn = begin;
-    while (!interrupted() && !(request_.duration && since(begin) >= *request_.duration)) {
+    while (!interrupted() && !(request_.duration && secondsSince(begin) >= *request_.duration)) {
       receiver_.receive(std::chrono::milliseconds(50));
-      if (!request_.json && since(drawn) >= between) {
+      if (!request_.json && secondsSince(drawn) >= between) {
         drawn = Clock::now();
         lines_.show(lines());
       }
@@ -165,7 +163,7 @@ class Watch {
     std::vector<std::string> lines{fmt::format("{:.3f} s", time_)};
     addLoop(lines);
     for (const auto& [name, system] : systems_) {
-      lines.push_back(name + ": " + text(system));
+      lines.push_back(name + ": " + systemLine(system));
     }
     addMonitor(lines);
     return lines;
@@ -219,7 +217,7 @@ class Watch {
                           monitor.alerts, monitor.dangers, 100.0 * monitor.load)
             : "monitor: " + silence + ", nothing is being watched");
     for (const auto& [id, alert] : alerts_) {
-      lines.push_back(text(alert));
+      lines.push_back(alertLine(alert));
     }
   }
 
@@ -246,7 +244,7 @@ class Watch {
     return json;
   }
 
-  const Request& request_;
+  const WatchRequest& request_;
   LiveLines lines_;
   double time_ = 0.0;  ///< [s], simulated
   Heard<state::LoopStatistics> loop_;
@@ -256,7 +254,7 @@ class Watch {
   LcmReceiver receiver_;  // last: it calls take()
 };
 
-int watch(const Request& request) {
+int watch(const WatchRequest& request) {
   requireLcmPrefix(request.lcm_prefix);
   if (request.duration && !(*request.duration > 0.0 && std::isfinite(*request.duration))) {
     throw Refusal(fmt::format("--duration: must be above 0 s, found {:g}", *request.duration));
@@ -271,8 +269,8 @@ int watch(const Request& request) {
 }  // namespace
 
 void addWatchCommand(const ProgramCommand& twin, int& status) {
-  const ProgramCommand command = twin.subcommand("watch", kDescription);
-  const auto request = std::make_shared<Request>();
+  const ProgramCommand command = twin.subcommand("watch", kWatchDescription);
+  const auto request = std::make_shared<WatchRequest>();
   command.option("--duration", request->duration, "s, wall time; default: until Ctrl-C").type("S");
   command.option("--lcm-url", request->url, std::string("default: ") + kDefaultLcmUrl).type("URL");
   command
@@ -280,7 +278,7 @@ void addWatchCommand(const ProgramCommand& twin, int& status) {
               "what the channels of the twin begin with; default: TWIN_")
       .type("PREFIX");
   command.flag("--json", request->json, "print one JSON object at the end");
-  command.footer(kFooter);
+  command.footer(kWatchFooter);
   command.callback([request, &status] { status = watch(*request); });
 }
 

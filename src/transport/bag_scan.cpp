@@ -13,32 +13,29 @@
 namespace whirl_twin {
 namespace {
 
-constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
 constexpr std::string_view kAnyBag = "#ROSBAG V";
-constexpr std::uint64_t kMaxHeader = 1 << 16;     // bytes; topics and names of types
-constexpr std::uint64_t kPieceLength = 1 << 20;   // bytes read at a time
-constexpr std::uint64_t kSearchLength = 1 << 16;  // bytes searched at a time
-constexpr std::uint64_t kFarBack = 64;            // bytes from a chunk's begin to its op, at most
+constexpr std::uint64_t kMaxHeader = 1 << 16;        // bytes; topics and names of types
+constexpr std::uint64_t kPieceLength = 1 << 20;      // bytes read at a time
+constexpr std::uint64_t kBagSearchLength = 1 << 16;  // bytes searched at a time
+constexpr std::uint64_t kFarBack = 64;  // bytes from a chunk's begin to its op, at most
 constexpr std::string_view kChunkField{"\4\0\0\0op=\5", 8};
 
-enum Op : int { kMessage = 2, kBagHeader = 3, kChunk = 5, kConnection = 7 };
-
-std::uint32_t littleEndian(const void* bytes) {
+std::uint32_t littleEndian32(const void* bytes) {
   const auto* b = static_cast<const std::uint8_t*>(bytes);
   return b[0] | static_cast<std::uint32_t>(b[1]) << 8 | static_cast<std::uint32_t>(b[2]) << 16 |
          static_cast<std::uint32_t>(b[3]) << 24;
 }
 
-using Fields = std::map<std::string, std::string, std::less<>>;
+using FoundFields = std::map<std::string, std::string, std::less<>>;
 
 /// Header fields; none if the bytes are not a whole number of them.
-std::optional<Fields> fieldsOf(const std::uint8_t* bytes, std::size_t size) {
-  Fields fields;
+std::optional<FoundFields> fieldsOf(const std::uint8_t* bytes, std::size_t size) {
+  FoundFields fields;
   while (size > 0) {
     if (size < 4) {
       return std::nullopt;
     }
-    const std::uint32_t length = littleEndian(bytes);
+    const std::uint32_t length = littleEndian32(bytes);
     if (length > size - 4) {
       return std::nullopt;
     }
@@ -54,14 +51,14 @@ std::optional<Fields> fieldsOf(const std::uint8_t* bytes, std::size_t size) {
   return fields;
 }
 
-std::optional<std::uint32_t> number(const Fields& fields, std::string_view name) {
+std::optional<std::uint32_t> number(const FoundFields& fields, std::string_view name) {
   const auto found = fields.find(name);
   return found != fields.end() && found->second.size() == 4
-             ? std::optional(littleEndian(found->second.data()))
+             ? std::optional(littleEndian32(found->second.data()))
              : std::nullopt;
 }
 
-std::string text(const Fields& fields, std::string_view name) {
+std::string fieldText(const FoundFields& fields, std::string_view name) {
   const auto found = fields.find(name);
   return found == fields.end() ? "" : found->second;
 }
@@ -76,7 +73,7 @@ struct Damage {
 
 /// The header of a record, and how long its data are.
 struct BagScan::Record {
-  Fields fields;
+  FoundFields fields;
   int op = 0;
   std::uint64_t header = 0;  ///< [bytes], with both lengths
   std::uint64_t size = 0;    ///< [bytes], of the data, as it says
@@ -89,14 +86,14 @@ struct BagScan::Record {
       why = fmt::format("a record of which {} bytes are there", left);
       return std::nullopt;
     }
-    const std::uint32_t length = littleEndian(bytes);
+    const std::uint32_t length = littleEndian32(bytes);
     if (length > std::min(kMaxHeader, left - 8)) {
       why = fmt::format("the header of a record: expected at most {} bytes, found {}",
                         std::min(kMaxHeader, left - 8), length);
       return std::nullopt;
     }
     auto fields = fieldsOf(bytes + 4, length);
-    const std::string op = fields ? whirl_twin::text(*fields, "op") : "";
+    const std::string op = fields ? fieldText(*fields, "op") : "";
     if (op.size() != 1) {
       why = "expected the header of a record";
       return std::nullopt;
@@ -104,7 +101,7 @@ struct BagScan::Record {
     record.fields = std::move(*fields);
     record.op = static_cast<unsigned char>(op.front());
     record.header = 8 + std::uint64_t{length};
-    record.size = littleEndian(bytes + 4 + length);
+    record.size = littleEndian32(bytes + 4 + length);
     return record;
   }
 };
@@ -121,21 +118,21 @@ bool BagScan::isBag(const std::string& path) {
 }
 
 BagScan::BagScan(const std::string& path) : file_(path) {
-  if (file_.size() < kMagic.size() ||
-      !std::equal(kMagic.begin(), kMagic.end(), file_.at(0, kMagic.size()))) {
+  if (file_.size() < kBagMagic.size() ||
+      !std::equal(kBagMagic.begin(), kBagMagic.end(), file_.at(0, kBagMagic.size()))) {
     throw Refusal(fmt::format(
         "{}: expected a rosbag of version 2.0 ('#ROSBAG V2.0' and a new line), found another "
         "beginning in {} bytes",
         path, file_.size()));
   }
-  at_ = kMagic.size();
+  at_ = kBagMagic.size();
   std::string why;
   const std::uint64_t left = file_.size() - at_;
   const auto first = Record::read(file_.at(at_, std::min(left, kMaxHeader + 8)),
                                   std::min(left, kMaxHeader + 8), why);
-  if (first && first->op == kBagHeader && !whirl_twin::text(first->fields, "encryptor").empty()) {
+  if (first && first->op == kBagHeader && !fieldText(first->fields, "encryptor").empty()) {
     throw Refusal(fmt::format("{}: expected a bag that is not encrypted, found one by {}", path,
-                              whirl_twin::text(first->fields, "encryptor")));
+                              fieldText(first->fields, "encryptor")));
   }
   readIndex(first);
 }
@@ -143,11 +140,11 @@ BagScan::BagScan(const std::string& path) : file_(path) {
 /// The index at the end tells every connection again: without it the loss of the chunk that tells
 /// one first would be that of all its messages.
 void BagScan::readIndex(const std::optional<Record>& header) {
-  const std::string place = header ? whirl_twin::text(header->fields, "index_pos") : "";
+  const std::string place = header ? fieldText(header->fields, "index_pos") : "";
   const std::uint64_t begin = at_;
   std::uint64_t index = 0;
   if (place.size() == 8) {
-    index = littleEndian(place.data()) | std::uint64_t{littleEndian(place.data() + 4)} << 32;
+    index = littleEndian32(place.data()) | std::uint64_t{littleEndian32(place.data() + 4)} << 32;
   }
   if (index > begin && index < file_.size()) {
     BagMessage none;
@@ -214,7 +211,7 @@ bool BagScan::nextOfFile(BagMessage& message) {
     throw Damage{begin, why};
   }
   const std::uint64_t data_at = begin + record->header;
-  if (record->op == kChunk) {
+  if (record->op == kBagChunk) {
     openChunk(*record, data_at);
     return false;
   }
@@ -224,7 +221,7 @@ bool BagScan::nextOfFile(BagMessage& message) {
                                     record->header + record->size, left)};
   }
   at_ = data_at + record->size;
-  if (record->op != kMessage && record->op != kConnection) {
+  if (record->op != kBagMessage && record->op != kBagConnection) {
     return false;  // the index
   }
   const bool readable = record->size <= kMaxPayload;
@@ -234,29 +231,28 @@ bool BagScan::nextOfFile(BagMessage& message) {
 /// A connection is kept; a message of a known one is given.
 bool BagScan::take(const Record& record, const std::uint8_t* data, BagMessage& message) {
   const auto id = number(record.fields, "conn");
-  if (record.op == kConnection && id && data != nullptr && record.size <= kMaxPayload) {
+  if (record.op == kBagConnection && id && data != nullptr && record.size <= kMaxPayload) {
     if (const auto fields = fieldsOf(data, record.size)) {
       // Not exchanged where it is told again, for others hold on to it.
       connections_.try_emplace(
           *id,
-          BagConnection{whirl_twin::text(record.fields, "topic"), whirl_twin::text(*fields, "type"),
-                        whirl_twin::text(*fields, "message_definition"),
-                        whirl_twin::text(*fields, "md5sum"), whirl_twin::text(*fields, "callerid"),
-                        whirl_twin::text(*fields, "latching") == "1"});
+          BagConnection{fieldText(record.fields, "topic"), fieldText(*fields, "type"),
+                        fieldText(*fields, "message_definition"), fieldText(*fields, "md5sum"),
+                        fieldText(*fields, "callerid"), fieldText(*fields, "latching") == "1"});
     }
     return false;
   }
-  if (record.op != kMessage) {
+  if (record.op != kBagMessage) {
     return false;
   }
-  const std::string time = whirl_twin::text(record.fields, "time");
+  const std::string time = fieldText(record.fields, "time");
   const auto connection = id ? connections_.find(*id) : connections_.end();
   if (connection == connections_.end() || time.size() != 8) {
     throw Damage{chunk_at_ > 0 ? chunk_offset_ : at_ - record.size - record.header,
                  "a message of a connection that is not known"};
   }
   message.time =
-      littleEndian(time.data()) * std::int64_t{1'000'000'000} + littleEndian(time.data() + 4);
+      littleEndian32(time.data()) * std::int64_t{1'000'000'000} + littleEndian32(time.data() + 4);
   message.connection = &connection->second;
   message.size = record.size;
   message.data = record.size <= kMaxPayload ? data : nullptr;
@@ -266,7 +262,7 @@ bool BagScan::take(const Record& record, const std::uint8_t* data, BagMessage& m
 /// Reads a chunk, as much as there is of it, without its compression.
 void BagScan::openChunk(const Record& record, std::uint64_t data_at) {
   const std::uint64_t begin = at_;
-  const std::string compression = whirl_twin::text(record.fields, "compression");
+  const std::string compression = fieldText(record.fields, "compression");
   const std::uint64_t expected = number(record.fields, "size").value_or(0);
   const std::uint64_t left = file_.size() - data_at;
   chunk_.clear();
@@ -305,7 +301,7 @@ void BagScan::openChunk(const Record& record, std::uint64_t data_at) {
 /// Where the next chunk begins, or the end of the file.
 std::uint64_t BagScan::findChunk(std::uint64_t from) {
   while (from + kChunkField.size() <= file_.size()) {
-    const std::uint64_t length = std::min(kSearchLength, file_.size() - from);
+    const std::uint64_t length = std::min(kBagSearchLength, file_.size() - from);
     const std::uint8_t* bytes = file_.at(from, length);
     const std::uint8_t* found =
         std::search(bytes, bytes + length, kChunkField.begin(), kChunkField.end());
@@ -313,10 +309,10 @@ std::uint64_t BagScan::findChunk(std::uint64_t from) {
       const std::uint64_t field = from + static_cast<std::uint64_t>(found - bytes);
       const std::uint64_t first = std::max(from, field - std::min(field, kFarBack));
       for (std::uint64_t begin = first; begin < field; ++begin) {
-        const std::uint64_t seen = std::min(file_.size() - begin, kFarBack + kSearchLength);
+        const std::uint64_t seen = std::min(file_.size() - begin, kFarBack + kBagSearchLength);
         std::string why;
         const auto record = Record::read(file_.at(begin, seen), seen, why);
-        if (record && record->op == kChunk && record->fields.count("compression") > 0) {
+        if (record && record->op == kBagChunk && record->fields.count("compression") > 0) {
           return begin;
         }
       }

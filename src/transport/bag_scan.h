@@ -12,12 +12,26 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "transport/file_window.h"
 #include "transport/recording_writer.h"
 
 namespace whirl_twin {
+
+/// What a bag begins with.
+inline constexpr std::string_view kBagMagic = "#ROSBAG V2.0\n";
+
+/// What a record is.
+enum BagOp : std::uint8_t {
+  kBagMessage = 2,
+  kBagHeader = 3,
+  kBagIndex = 4,
+  kBagChunk = 5,
+  kBagChunkInfo = 6,
+  kBagConnection = 7
+};
 
 using BagConnection = RecordedTopic;
 

@@ -3,27 +3,18 @@
 #include <algorithm>
 #include <string_view>
 
+#include "transport/bag_scan.h"
+
 namespace whirl_twin {
 namespace {
 
-constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
-constexpr std::size_t kChunkSize = std::size_t{768} << 10;  // bytes of records, about
-constexpr std::size_t kHeaderSize = 4096;                   // bytes of the bag's own record
-
-enum Op : char {
-  kMessage = 2,
-  kBagHeader = 3,
-  kIndex = 4,
-  kChunk = 5,
-  kChunkInfo = 6,
-  kConnection = 7
-};
+constexpr std::size_t kBagHeaderSize = 4096;  // bytes of the bag's own record
 
 /// Fields of a header, or of the data of a connection.
-class Fields {
+class BagFields {
  public:
-  Fields() = default;
-  explicit Fields(Op op) { number("op", static_cast<std::uint8_t>(op), 1); }
+  BagFields() = default;
+  explicit BagFields(BagOp op) { number("op", static_cast<std::uint8_t>(op), 1); }
 
   void number(std::string_view name, std::uint64_t value, int width) {
     begin(name, static_cast<std::size_t>(width));
@@ -55,27 +46,27 @@ class Fields {
   LittleEndian bytes_;
 };
 
-void putRecord(const Fields& header, const LittleEndian& data, LittleEndian& to) {
+void putBagRecord(const BagFields& header, const LittleEndian& data, LittleEndian& to) {
   to.block(header.bytes());
   to.block(data);
 }
 
 /// The bag's own record, filled up with blanks so that it can be written over at the end.
 LittleEndian bagHeader(std::uint64_t index, std::size_t connections, std::uint32_t chunks) {
-  Fields fields(kBagHeader);
+  BagFields fields(kBagHeader);
   fields.number("index_pos", index, 8);
   fields.number("conn_count", connections, 4);
   fields.number("chunk_count", chunks, 4);
   LittleEndian blanks, record;
-  blanks.bytes(std::string(kHeaderSize - fields.bytes().size(), ' '));
-  putRecord(fields, blanks, record);
+  blanks.bytes(std::string(kBagHeaderSize - fields.bytes().size(), ' '));
+  putBagRecord(fields, blanks, record);
   return record;
 }
 
 }  // namespace
 
 BagWriter::BagWriter(const std::string& path) : file_(path) {
-  file_.write(kMagic);
+  file_.write(kBagMagic);
   file_.write(bagHeader(0, 0, 0));
 }
 
@@ -83,7 +74,7 @@ BagWriter::Connection& BagWriter::connectionOf(const RecordedTopic& topic) {
   const auto [place, is_new] = connections_.try_emplace(topic.key());
   if (is_new) {
     place->second.id = static_cast<std::uint32_t>(connections_.size() - 1);
-    Fields header(kConnection), of_connection;
+    BagFields header(kBagConnection), of_connection;
     header.number("conn", place->second.id, 4);
     header.text("topic", topic.topic);
     of_connection.text("topic", topic.topic);
@@ -96,8 +87,8 @@ BagWriter::Connection& BagWriter::connectionOf(const RecordedTopic& topic) {
     if (topic.latching) {
       of_connection.text("latching", "1");
     }
-    putRecord(header, of_connection.bytes(), chunk_);
-    putRecord(header, of_connection.bytes(), connection_records_);
+    putBagRecord(header, of_connection.bytes(), chunk_);
+    putBagRecord(header, of_connection.bytes(), connection_records_);
   }
   return place->second;
 }
@@ -109,7 +100,7 @@ void BagWriter::write(const RecordedTopic& topic, std::int64_t time, const std::
     in_chunk_.push_back(&connection);
   }
   connection.index.emplace_back(time, static_cast<std::uint32_t>(chunk_.size()));
-  Fields header(kMessage);
+  BagFields header(kBagMessage);
   header.number("conn", connection.id, 4);
   header.time("time", time);
   chunk_.block(header.bytes());
@@ -122,7 +113,7 @@ void BagWriter::write(const RecordedTopic& topic, std::int64_t time, const std::
 
 void BagWriter::writeChunk() {
   const std::uint64_t begin = file_.offset();
-  Fields header(kChunk);
+  BagFields header(kBagChunk);
   header.text("compression", "none");
   header.number("size", chunk_.size(), 4);
   LittleEndian head, indexes, counts;
@@ -136,28 +127,28 @@ void BagWriter::writeChunk() {
     std::sort(index.begin(), index.end());
     first = std::min(first, index.front().first);
     last = std::max(last, index.back().first);
-    Fields of_index(kIndex);
+    BagFields of_index(kBagIndex);
     of_index.number("ver", 1, 4);
     of_index.number("conn", connection->id, 4);
     of_index.number("count", index.size(), 4);
     LittleEndian data;
     for (const auto& [time, offset] : index) {
-      Fields::putTime(time, data);
+      BagFields::putTime(time, data);
       data.number(offset, 4);
     }
-    putRecord(of_index, data, indexes);
+    putBagRecord(of_index, data, indexes);
     counts.number(connection->id, 4);
     counts.number(index.size(), 4);
     index.clear();
   }
   file_.write(indexes);
-  Fields info(kChunkInfo);
+  BagFields info(kBagChunkInfo);
   info.number("ver", 1, 4);
   info.number("chunk_pos", begin, 8);
   info.time("start_time", first);
   info.time("end_time", last);
   info.number("count", in_chunk_.size(), 4);
-  putRecord(info, counts, chunk_records_);
+  putBagRecord(info, counts, chunk_records_);
   ++chunks_;
   chunk_.clear();
   in_chunk_.clear();
@@ -170,7 +161,7 @@ void BagWriter::finish() {
   const std::uint64_t index = file_.offset();
   file_.write(connection_records_);
   file_.write(chunk_records_);
-  file_.rewrite(kMagic.size(), bagHeader(index, connections_.size(), chunks_));
+  file_.rewrite(kBagMagic.size(), bagHeader(index, connections_.size(), chunks_));
   file_.flush();
 }
 

@@ -20,10 +20,10 @@ constexpr const char* kAddress = "239.255.76.67";  // LCM's, where the url gives
 constexpr std::uint16_t kPort = 7667;
 
 // A short LCM message: a magic number, a sequence number, the channel and a zero, what it carries.
-constexpr std::uint32_t kMagic = 0x4c433032;  // LC02
-constexpr std::size_t kBeforeChannel = 8;     // bytes
-constexpr std::size_t kLongest = 65536;       // bytes of a datagram
-constexpr std::uint32_t kUdpHeader = 8;       // bytes, which a filter sees, too
+constexpr std::uint32_t kShortMessageMagic = 0x4c433032;  // LC02
+constexpr std::size_t kBeforeChannel = 8;                 // bytes
+constexpr std::size_t kLongestDatagram = 65536;           // bytes of a datagram
+constexpr std::uint32_t kUdpHeader = 8;                   // bytes, which a filter sees, too
 
 std::optional<sockaddr_in> addressOf(const std::string& url) {
   if (url.compare(0, std::strlen(kScheme), kScheme) != 0) {
@@ -54,12 +54,12 @@ std::vector<sock_filter> filterFor(const std::string& channel) {
     program.push_back(BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, value, 1, 0));
     program.push_back(BPF_STMT(BPF_RET | BPF_K, 0));
   };
-  require(BPF_W, kUdpHeader, kMagic);
+  require(BPF_W, kUdpHeader, kShortMessageMagic);
   for (std::size_t i = 0; i <= channel.size(); ++i) {  // and the zero
     require(BPF_B, static_cast<std::uint32_t>(kUdpHeader + kBeforeChannel + i),
             static_cast<unsigned char>(channel.c_str()[i]));
   }
-  program.push_back(BPF_STMT(BPF_RET | BPF_K, kLongest));
+  program.push_back(BPF_STMT(BPF_RET | BPF_K, kLongestDatagram));
   return program;
 }
 
@@ -72,7 +72,7 @@ bool ChannelListener::canListenTo(const std::string& url) {
 ChannelListener::ChannelListener(const std::string& url, const std::string& channel)
     : head_(kBeforeChannel + channel.size() + 1),
       socket_(socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)),
-      datagram_(kLongest) {
+      datagram_(kLongestDatagram) {
   const auto address = addressOf(url);
   std::vector<sock_filter> program = filterFor(channel);
   const sock_fprog filter{static_cast<unsigned short>(program.size()), program.data()};

@@ -10,11 +10,11 @@ namespace whirl_twin {
 namespace {
 
 constexpr std::array<std::uint8_t, 4> kSync{0xed, 0xa1, 0xda, 0x01};
-constexpr std::uint64_t kHeaderSize = 28;
+constexpr std::uint64_t kEventHeaderSize = 28;
 /// Longest channel name of LCM.
-constexpr std::int32_t kMaxChannelLength = 63;
+constexpr std::int32_t kLongestChannel = 63;
 /// Searched at a time [bytes]; short against the window, so that it seldom has to move.
-constexpr std::uint64_t kSearchLength = 1 << 16;
+constexpr std::uint64_t kEventSearchLength = 1 << 16;
 
 std::uint64_t bigEndian(const std::uint8_t* bytes, int count) {
   std::uint64_t number = 0;
@@ -34,15 +34,15 @@ EventScan::Found EventScan::next(RawEvent& event) {
   if (!syncAt(at_)) {
     return skipDamage("expected the sync word of an event");
   }
-  if (left < kHeaderSize) {
+  if (left < kEventHeaderSize) {
     return skipDamage("the file ends within the header of an event");
   }
-  const std::uint8_t* header = file_.at(at_, kHeaderSize);
+  const std::uint8_t* header = file_.at(at_, kEventHeaderSize);
   const auto channel_length = static_cast<std::int32_t>(bigEndian(header + 20, 4));
   const auto data_length = static_cast<std::int32_t>(bigEndian(header + 24, 4));
-  if (channel_length < 1 || channel_length > kMaxChannelLength) {
+  if (channel_length < 1 || channel_length > kLongestChannel) {
     return skipDamage(fmt::format("channel name: expected 1 to {} characters, found {}",
-                                  kMaxChannelLength, channel_length));
+                                  kLongestChannel, channel_length));
   }
   if (data_length < 0) {
     return skipDamage(fmt::format("payload: expected at least 0 bytes, found {}", data_length));
@@ -51,7 +51,7 @@ EventScan::Found EventScan::next(RawEvent& event) {
   event.number = static_cast<std::int64_t>(bigEndian(header + 4, 8));
   event.timestamp = static_cast<std::int64_t>(bigEndian(header + 12, 8));
   event.size = static_cast<std::uint64_t>(data_length);
-  const std::uint64_t payload = kHeaderSize + static_cast<std::uint64_t>(channel_length);
+  const std::uint64_t payload = kEventHeaderSize + static_cast<std::uint64_t>(channel_length);
   const std::uint64_t length = payload + event.size;
   if (length > left) {
     return skipDamage(
@@ -62,7 +62,7 @@ EventScan::Found EventScan::next(RawEvent& event) {
   }
   const bool readable = event.size <= kMaxPayload;
   const std::uint8_t* bytes = file_.at(at_, readable ? length : payload);
-  event.channel.assign(bytes + kHeaderSize, bytes + payload);
+  event.channel.assign(bytes + kEventHeaderSize, bytes + payload);
   event.data = readable ? bytes + payload : nullptr;
   at_ += length;
   return Found::kEvent;
@@ -78,7 +78,7 @@ bool EventScan::syncAt(std::uint64_t offset) {
 /// Where the next sync word stands, or the end of the file.
 std::uint64_t EventScan::findSync(std::uint64_t from) {
   while (from + kSync.size() <= file_.size()) {
-    const std::size_t length = std::min<std::uint64_t>(kSearchLength, file_.size() - from);
+    const std::size_t length = std::min<std::uint64_t>(kEventSearchLength, file_.size() - from);
     const std::uint8_t* bytes = file_.at(from, length);
     const std::uint8_t* found = std::search(bytes, bytes + length, kSync.begin(), kSync.end());
     if (found != bytes + length) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kFingerprintSize = 8;
 /// No message is near this, so that a few fields more fit an int, too.
-constexpr std::size_t kLongest = std::numeric_limits<int>::max() / 2;
+constexpr std::size_t kLongestPayload = std::numeric_limits<int>::max() / 2;
 
 bool hasFingerprint(std::uint64_t expected, const void* data, std::size_t size) {
   std::int64_t fingerprint = 0;
@@ -57,7 +57,7 @@ std::vector<std::uint8_t> inTodaysForm(const EarlierForm& form, const void* data
 template <class State>
 State decode(const void* data, std::size_t size) {
   using Type = LcmType<State>;
-  if (size > kLongest) {
+  if (size > kLongestPayload) {
     throw RejectedMessage(fmt::format("payload: too long: {} bytes", size));
   }
   if (const EarlierForm* form = earlierFormOf<State>(data, size)) {

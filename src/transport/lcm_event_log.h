@@ -69,6 +69,9 @@ struct LogSummary {
 /// prefix: of the channels of the twin that was recorded.
 LogSummary readEventLog(const std::string& path, const std::string& prefix = kDefaultLcmPrefix);
 
+/// Throws RunFailure for an `error` of the system, as in errno.
+[[noreturn]] void throwLogNotWritten(const std::string& path, int error);
+
 /// Writes messages as a log whose timestamps are the simulated time [us], theirs or one that is
 /// given; the same messages give the same bytes.
 class EventLogWriter {

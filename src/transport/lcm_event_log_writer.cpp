@@ -8,17 +8,14 @@
 #include "transport/lcm_event_log.h"
 
 namespace whirl_twin {
-namespace {
 
-[[noreturn]] void throwCannotWrite(const std::string& path) {
-  throw RunFailure(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
+void throwLogNotWritten(const std::string& path, int error) {
+  throw RunFailure(fmt::format("{}: cannot be written: {}", path, std::strerror(error)));
 }
-
-}  // namespace
 
 EventLogWriter::EventLogWriter(const std::string& path) : path_(path), file_(path, "w") {
   if (!file_.good()) {
-    throwCannotWrite(path_);
+    throwLogNotWritten(path_, errno);
   }
 }
 
@@ -30,13 +27,13 @@ void EventLogWriter::writeEvent(const std::string& channel, std::int64_t utime,
   event.datalen = static_cast<std::int32_t>(size);
   event.data = const_cast<std::uint8_t*>(data);  // LCM's struct is for reading, too
   if (file_.writeEvent(&event) != 0) {
-    throwCannotWrite(path_);
+    throwLogNotWritten(path_, errno);
   }
 }
 
 void EventLogWriter::finish() {
   if (std::fflush(file_.getFilePtr()) != 0 || std::ferror(file_.getFilePtr()) != 0) {
-    throwCannotWrite(path_);
+    throwLogNotWritten(path_, errno);
   }
 }
 

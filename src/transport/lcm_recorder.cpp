@@ -9,21 +9,15 @@
 
 #include "messages/refusal.h"
 #include "transport/lcm_connection.h"
+#include "transport/lcm_event_log.h"
 
 namespace whirl_twin {
-namespace {
-
-[[noreturn]] void throwCannotWrite(const std::string& path, int error) {
-  throw RunFailure(fmt::format("{}: cannot be written: {}", path, std::strerror(error)));
-}
-
-}  // namespace
 
 LcmRecorder::LcmRecorder(std::shared_ptr<lcm::LCM> lcm, const std::string& pattern,
                          const std::string& path)
     : lcm_(std::move(lcm)), path_(path), file_(path, "w") {
   if (!file_.good()) {
-    throwCannotWrite(path_, errno);
+    throwLogNotWritten(path_, errno);
   }
   subscription_ =
       lcm_subscribe(lcm_->getUnderlyingLCM(), pattern.c_str(), &LcmRecorder::take, this);
@@ -43,7 +37,7 @@ int LcmRecorder::record(std::chrono::milliseconds timeout, int most) {
     error_ = errno;
   }
   if (error_ != 0) {
-    throwCannotWrite(path_, error_);
+    throwLogNotWritten(path_, error_);
   }
   return handled;
 }

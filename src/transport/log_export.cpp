@@ -15,16 +15,13 @@
 namespace whirl_twin {
 namespace {
 
-constexpr std::uint64_t kTell = 256;          // messages from one look at the progress to the next
-constexpr std::int64_t kMicrosecond = 1'000;  // ns
-
 class Exporter {
  public:
   Exporter(LogExport& log, RecordingWriter& to, const LogProgress& advanced)
       : log_(log), to_(to), advanced_(advanced) {}
 
   void pass(std::uint64_t offset) {
-    if (++places_ % kTell == 0) {
+    if (++places_ % kMessagesPerProgress == 0) {
       advanced_(offset, log_.size);
     }
   }
@@ -57,7 +54,7 @@ class Exporter {
   std::uint64_t places_ = 0;
 };
 
-[[noreturn]] void tooLong(std::uint64_t size) {
+[[noreturn]] void rejectTooLong(std::uint64_t size) {
   throw RejectedMessage(
       fmt::format("payload: expected at most {} bytes, found {}", EventScan::kMaxPayload, size));
 }
@@ -79,7 +76,7 @@ void exportLcmLog(const std::string& path, const std::string& prefix, const Sele
     } else {
       exporter.message(event.offset, event.channel, [&](RecordingWriter& to) {
         if (event.data == nullptr) {
-          tooLong(event.size);
+          rejectTooLong(event.size);
         }
         requireRange("timestamp", event.timestamp, 0, kMaxStamp / kMicrosecond);
         const LittleEndian& bytes =
@@ -105,7 +102,7 @@ void exportBag(const std::string& path, const Selects& selects, LogExport& log,
     } else {
       exporter.message(scan.offset(), message.connection->topic, [&](RecordingWriter& to) {
         if (message.data == nullptr) {
-          tooLong(message.size);
+          rejectTooLong(message.size);
         }
         to.write(*message.connection, message.time, message.data, message.size);
         return message.connection->topic;

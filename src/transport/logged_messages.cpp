@@ -16,9 +16,6 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr std::uint64_t kTell = 256;          // events from one look at the progress to the next
-constexpr std::int64_t kMicrosecond = 1'000;  // ns
-
 bool isOneOf(const Kinds& kinds, const MessageKind* kind) {
   return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
@@ -30,7 +27,7 @@ class Tally {
       : log_(log), take_(take), advanced_(advanced) {}
 
   void pass(std::uint64_t offset) {
-    if (++places_ % kTell == 0) {
+    if (++places_ % kMessagesPerProgress == 0) {
       advanced_(offset, log_.size);
     }
   }

@@ -25,8 +25,11 @@ struct LoggedMessages {
 /// Called with each message and its stamp [us]: when it was received, or simulated time. What it
 /// throws as RejectedMessage counts as rejected.
 using TakeLogged = std::function<void(const Message&, std::int64_t)>;
-/// Told now and then how many bytes of how many have been read.
+/// Called with how many bytes of how many have been read, once for so many messages.
 using LogProgress = std::function<void(std::uint64_t, std::uint64_t)>;
+inline constexpr std::uint64_t kMessagesPerProgress = 256;
+
+inline constexpr std::int64_t kMicrosecond = 1'000;  ///< [ns]
 
 /// Gives `take` every message of these kinds on the channels that begin with `prefix`, in the order
 /// of the file. In a bag MACHINE_ stands for the topics of the namespace /machine, and

@@ -15,30 +15,29 @@
 namespace whirl_twin {
 namespace {
 
-constexpr std::string_view kMagic{"\x89MCAP0\r\n", 8};
-constexpr std::size_t kChunkSize = std::size_t{768} << 10;  // bytes of records, about
+constexpr std::string_view kMcapMagic{"\x89MCAP0\r\n", 8};
 
-enum Op : std::uint8_t {
-  kHeader = 0x01,
-  kFooter = 0x02,
-  kSchema = 0x03,
-  kChannel = 0x04,
-  kMessage = 0x05,
-  kChunk = 0x06,
-  kMessageIndex = 0x07,
-  kChunkIndex = 0x08,
-  kStatistics = 0x0b,
-  kSummaryOffset = 0x0e,
-  kDataEnd = 0x0f
+enum McapOp : std::uint8_t {
+  kMcapHeader = 0x01,
+  kMcapFooter = 0x02,
+  kMcapSchema = 0x03,
+  kMcapChannel = 0x04,
+  kMcapMessage = 0x05,
+  kMcapChunk = 0x06,
+  kMcapMessageIndex = 0x07,
+  kMcapChunkIndex = 0x08,
+  kMcapStatistics = 0x0b,
+  kMcapSummaryOffset = 0x0e,
+  kMcapDataEnd = 0x0f
 };
 
-void putHead(Op op, std::uint64_t length, LittleEndian& to) {
+void putMcapHead(McapOp op, std::uint64_t length, LittleEndian& to) {
   to.number(op, 1);
   to.number(length, 8);
 }
 
-void putRecord(Op op, const LittleEndian& content, LittleEndian& to) {
-  putHead(op, content.size(), to);
+void putMcapRecord(McapOp op, const LittleEndian& content, LittleEndian& to) {
+  putMcapHead(op, content.size(), to);
   to.bytes(content);
 }
 
@@ -96,8 +95,8 @@ McapWriter::McapWriter(const std::string& path, Compression compression)
   LittleEndian header, begin;
   header.text("ros1");
   header.text("whirl_twin");
-  begin.bytes(kMagic);
-  putRecord(kHeader, header, begin);
+  begin.bytes(kMcapMagic);
+  putMcapRecord(kMcapHeader, header, begin);
   file_.write(begin);
 }
 
@@ -114,8 +113,8 @@ McapWriter::Channel& McapWriter::channelOf(const RecordedTopic& topic) {
     content.text(topic.type);
     content.text("ros1msg");
     content.text(topic.definition);
-    putRecord(kSchema, content, chunk_);
-    putRecord(kSchema, content, schema_records_);
+    putMcapRecord(kMcapSchema, content, chunk_);
+    putMcapRecord(kMcapSchema, content, schema_records_);
   }
   place->second.id = numbered(channels_.size() - 1);
   LittleEndian metadata, content;
@@ -135,8 +134,8 @@ McapWriter::Channel& McapWriter::channelOf(const RecordedTopic& topic) {
   content.text(topic.topic);
   content.text("ros1");
   content.block(metadata);
-  putRecord(kChannel, content, chunk_);
-  putRecord(kChannel, content, channel_records_);
+  putMcapRecord(kMcapChannel, content, chunk_);
+  putMcapRecord(kMcapChannel, content, channel_records_);
   return place->second;
 }
 
@@ -149,7 +148,7 @@ void McapWriter::write(const RecordedTopic& topic, std::int64_t time, const std:
   }
   channel.index.number(instant, 8);
   channel.index.number(chunk_.size(), 8);
-  putHead(kMessage, 2 + 4 + 8 + 8 + size, chunk_);
+  putMcapHead(kMcapMessage, 2 + 4 + 8 + 8 + size, chunk_);
   chunk_.number(channel.id, 2);
   chunk_.number(channel.messages++, 4);
   chunk_.number(instant, 8);  // recorded
@@ -192,7 +191,7 @@ void McapWriter::writeChunk() {
   head.number(size, 8);
   const std::uint64_t begin = file_.offset();
   LittleEndian record;
-  putHead(kChunk, head.size() + size, record);
+  putMcapHead(kMcapChunk, head.size() + size, record);
   record.bytes(head);
   file_.write(record);
   file_.write(records, size);
@@ -205,7 +204,7 @@ void McapWriter::writeChunk() {
     LittleEndian index;
     index.number(channel->id, 2);
     index.block(channel->index);
-    putRecord(kMessageIndex, index, indexes);
+    putMcapRecord(kMcapMessageIndex, index, indexes);
     channel->index.clear();
   }
   file_.write(indexes);
@@ -220,7 +219,7 @@ void McapWriter::writeChunk() {
   where.text(name);
   where.number(size, 8);
   where.number(chunk_.size(), 8);
-  putRecord(kChunkIndex, where, chunk_indexes_);
+  putMcapRecord(kMcapChunkIndex, where, chunk_indexes_);
   ++chunks_;
   chunk_.clear();
   chunk_span_ = {};
@@ -236,7 +235,7 @@ void McapWriter::finish() {
 void McapWriter::writeSummary() {
   LittleEndian data_end, none;
   none.number(0, 4);  // no checksum of all the data: each chunk has its own
-  putRecord(kDataEnd, none, data_end);
+  putMcapRecord(kMcapDataEnd, none, data_end);
   file_.write(data_end);
 
   LittleEndian content, counts, statistics;
@@ -253,33 +252,33 @@ void McapWriter::writeSummary() {
     counts.number(channel.messages, 8);
   }
   content.block(counts);
-  putRecord(kStatistics, content, statistics);
+  putMcapRecord(kMcapStatistics, content, statistics);
 
   const std::uint64_t begin = file_.offset();
   LittleEndian summary, offsets;
-  const std::array<std::pair<Op, const LittleEndian*>, 4> groups = {
-      {{kSchema, &schema_records_},
-       {kChannel, &channel_records_},
-       {kStatistics, &statistics},
-       {kChunkIndex, &chunk_indexes_}}};
+  const std::array<std::pair<McapOp, const LittleEndian*>, 4> groups = {
+      {{kMcapSchema, &schema_records_},
+       {kMcapChannel, &channel_records_},
+       {kMcapStatistics, &statistics},
+       {kMcapChunkIndex, &chunk_indexes_}}};
   for (const auto& [op, records] : groups) {
     if (!records->empty()) {
       LittleEndian offset;
       offset.number(op, 1);
       offset.number(begin + summary.size(), 8);
       offset.number(records->size(), 8);
-      putRecord(kSummaryOffset, offset, offsets);
+      putMcapRecord(kMcapSummaryOffset, offset, offsets);
       summary.bytes(*records);
     }
   }
   const std::uint64_t offsets_begin = begin + summary.size();
   summary.bytes(offsets);
-  putHead(kFooter, 8 + 8 + 4, summary);
+  putMcapHead(kMcapFooter, 8 + 8 + 4, summary);
   summary.number(begin, 8);
   summary.number(offsets_begin, 8);
   const std::uint32_t crc = crcOf(summary);
   summary.number(crc, 4);
-  summary.bytes(kMagic);
+  summary.bytes(kMcapMagic);
   file_.write(summary);
 }
 

@@ -20,6 +20,9 @@ struct RecordedTopic {
   std::string key() const { return topic + '\n' + md5sum + '\n' + callerid; }
 };
 
+/// [bytes] of records that are written as one chunk, about.
+inline constexpr std::size_t kChunkSize = std::size_t{768} << 10;
+
 class RecordingWriter {
  public:
   virtual ~RecordingWriter() = default;

@@ -14,7 +14,7 @@
 namespace whirl_twin {
 namespace {
 
-constexpr int kDeepest = 8;                     // messages in messages
+constexpr int kDeepestMessage = 8;              // messages in messages
 constexpr std::size_t kMostFields = 1000;       // of a message
 constexpr std::size_t kLongestArray = 1 << 20;  // entries, of one whose length is fixed
 constexpr std::string_view kSeparator = "====";
@@ -36,7 +36,7 @@ void eachLine(std::string_view text, Take&& take) {
   }
 }
 
-std::uint64_t littleEndian(const std::uint8_t* bytes, std::size_t width) {
+std::uint64_t littleEndianOf(const std::uint8_t* bytes, std::size_t width) {
   std::uint64_t number = 0;
   for (std::size_t i = width; i > 0; --i) {
     number = number << 8 | bytes[i - 1];
@@ -93,9 +93,9 @@ std::vector<RosLayout::Field> RosLayout::fieldsOf(std::string_view text, const s
       {"uint64", {Kind::kUnsigned, 8}},   {"float32", {Kind::kReal, 4}},
       {"float64", {Kind::kReal, 8}},      {"time", {Kind::kTime, 8}},
       {"duration", {Kind::kDuration, 8}}, {"string", {Kind::kText, 4}}};
-  if (depth > kDeepest) {
+  if (depth > kDeepestMessage) {
     throw RejectedMessage(
-        fmt::format("definition: messages in messages more than {} deep", kDeepest));
+        fmt::format("definition: messages in messages more than {} deep", kDeepestMessage));
   }
   std::vector<Field> fields;
   eachLine(text, [&](std::string_view line) {
@@ -198,7 +198,7 @@ class RosLayout::Reader {
     for (const Field& field : fields) {
       std::size_t count = 1;
       if (field.is_array) {
-        count = field.count > 0 ? field.count : littleEndian(bytes(4, field), 4);
+        count = field.count > 0 ? field.count : littleEndianOf(bytes(4, field), 4);
         if (count > left_ / field.least) {
           throw tooShort(field);
         }
@@ -217,7 +217,7 @@ class RosLayout::Reader {
 
  private:
   void takeOne(const Field& field, RosValue& value) {
-    const std::uint64_t bits = littleEndian(bytes(field.width, field), field.width);
+    const std::uint64_t bits = littleEndianOf(bytes(field.width, field), field.width);
     switch (field.kind) {
       case Kind::kSigned:
         value.whole.push_back(signedOf(bits, field.width));

@@ -43,7 +43,7 @@ YAML::Node toYaml(XmlRpc::XmlRpcValue& value) {
 
 namespace {
 
-constexpr int kDeepest = 20;
+constexpr int kDeepestParameter = 20;
 constexpr int kMostValues = 1'000'000;
 
 XmlRpc::XmlRpcValue scalarOf(const YAML::Node& node) {
@@ -66,7 +66,7 @@ XmlRpc::XmlRpcValue scalarOf(const YAML::Node& node) {
 }
 
 XmlRpc::XmlRpcValue fromYaml(const YAML::Node& node, int depth, int& left) {
-  if (depth > kDeepest || --left < 0) {
+  if (depth > kDeepestParameter || --left < 0) {
     throw Refusal("deeper or larger than any scene");
   }
   XmlRpc::XmlRpcValue value;

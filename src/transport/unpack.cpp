@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kPiece = 1 << 16;  // bytes made at a time
 
-[[maybe_unused]] std::string tooLong(std::size_t most) {
+[[maybe_unused]] std::string tooLongText(std::size_t most) {
   return fmt::format("more than {} bytes without its compression", most);
 }
 
@@ -45,7 +45,7 @@ std::string unpackBz2(std::vector<std::uint8_t>& packed, std::size_t most,
     if (status != BZ_OK && status != BZ_STREAM_END) {
       why = "bz2: damaged";
     } else if (out.size() > most) {
-      why = tooLong(most);
+      why = tooLongText(most);
     } else if (status == BZ_OK && stream.avail_in == 0 && stream.avail_out > 0) {
       why = "bz2: ends too early";
     }
@@ -76,7 +76,7 @@ std::string unpackLz4(const std::vector<std::uint8_t>& packed, std::size_t most,
     if (damaged) {
       why = fmt::format("lz4: damaged ({})", LZ4F_getErrorName(hint));
     } else if (out.size() > most) {
-      why = tooLong(most);
+      why = tooLongText(most);
     }
   }
   if (why.empty() && hint != 0) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/constants.h"
 #include "scene/changed_controller.h"
 #include "scene/controlled_plant.h"
 #include "twin/record.h"
@@ -10,8 +11,6 @@
 namespace whirl_twin {
 
 namespace {
-
-constexpr double kNanosecond = 1.0e-9;  // s
 
 /// Samples whose outputs may be under way at once.
 std::size_t mostUnderWay(const ControllerSpec& spec) {

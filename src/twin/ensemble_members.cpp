@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "algebra/constants.h"
 #include "integration/exponential.h"
 #include "integration/finite.h"
 #include "integration/step_error_sum.h"
@@ -17,8 +18,6 @@
 namespace whirl_twin {
 
 namespace {
-
-constexpr double kStopped = std::numeric_limits<double>::quiet_NaN();
 
 class SideBySide final : public EnsembleSteps {
  public:
@@ -64,8 +63,8 @@ class SideBySide final : public EnsembleSteps {
   void write(double* values, double* peaks) const noexcept override {
     for (std::size_t i = 0; i < rotors_.count(); ++i) {
       const double radius = std::sqrt(std::norm(rotors_.position(i)));
-      values[i] = isFinite(radius) ? radius : kStopped;
-      peaks[i] = isFinite(radius) ? rotors_.peak(i) : kStopped;
+      values[i] = isFinite(radius) ? radius : kNaN;
+      peaks[i] = isFinite(radius) ? rotors_.peak(i) : kNaN;
     }
   }
 
@@ -181,8 +180,8 @@ class OneByOne final : public EnsembleSteps {
       double* const values = values_.data() + i * quantities_;
       double* const peaks = peaks_.data() + i * quantities_;
       if (member.status != StepStatus::kOk) {
-        std::fill_n(values, quantities_, kStopped);
-        std::fill_n(peaks, quantities_, kStopped);
+        std::fill_n(values, quantities_, kNaN);
+        std::fill_n(peaks, quantities_, kNaN);
         continue;
       }
       member.system->write(state_.data());

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "algebra/cholesky.h"
-#include "algebra/eigenvalues.h"
+#include "algebra/dense.h"
 
 namespace whirl_twin {
 
@@ -17,9 +16,7 @@ bool symmetric(const Eigen::MatrixXd& m, double sign) {
 }
 
 double largestEigenvalue(const Eigen::MatrixXd& m) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(m, Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .maxCoeff();
+  return symmetricEigenvalues(m).maxCoeff();
 }
 
 double squareOfNorm(const Eigen::MatrixXd& m) {
@@ -44,15 +41,15 @@ double largest(const Station& at, const Eigen::MatrixXd& r) {
 }  // namespace
 
 std::optional<FreeMotion> FreeMotion::of(const Linearization& l) {
-  const Eigen::LLT<Eigen::MatrixXd> mass(l.mass);
-  const Eigen::LLT<Eigen::MatrixXd> stiffness(l.stiffness);
+  const Cholesky mass(l.mass);
+  const Cholesky stiffness(l.stiffness);
   if (!symmetric(l.mass, 1.0) || !symmetric(l.stiffness, 1.0) || !symmetric(l.gyroscopic, -1.0) ||
-      mass.info() != Eigen::Success || stiffness.info() != Eigen::Success) {
+      !mass.succeeded() || !stiffness.succeeded()) {
     return std::nullopt;
   }
   FreeMotion free;
-  free.mass_root_ = mass.matrixL();
-  free.stiffness_root_ = stiffness.matrixL();
+  free.mass_root_ = mass.lower();
+  free.stiffness_root_ = stiffness.lower();
   const Eigen::Index n = l.mass.rows();
   const Eigen::MatrixXd damping = between(free.mass_root_, l.damping, free.mass_root_);
   const Eigen::MatrixXd turning = between(free.mass_root_, l.circulatory, free.stiffness_root_);

@@ -2,16 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
+#include "algebra/constants.h"
+
 namespace whirl_twin {
-
-namespace {
-
-constexpr double kNanosecond = 1.0e-9;  // s
-
-}  // namespace
 
 MeasuredSource::MeasuredSource(const SensorSpec& spec, const BuiltScene& scene,
                                const Observer& observer)
@@ -58,7 +53,6 @@ MeasuredSource::Point MeasuredSource::signal(const Channel& channel,
                                              const Observer& observer) const {
   const SignalSpec& at = channel.spec.signal;
   if (observer.status(at.system) != StepStatus::kOk) {
-    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
     return {kNaN, kNaN};
   }
   const double* q = observer.coordinates(at.system);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "algebra/constants.h"
 #include "integration/member_steps.h"
 #include "integration/step_error_sum.h"
 #include "models/side_by_side.h"
@@ -15,7 +16,6 @@ namespace {
 
 /// As many take their systems' own steps as long as a block of members.
 constexpr std::size_t kFewest = 12;
-constexpr double kStopped = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<const Dynamics*> dynamicsOf(const std::vector<EnsembleMember>& members) {
   std::vector<const Dynamics*> all;
@@ -80,8 +80,8 @@ class MembersSideBySide final : public EnsembleSteps {
     for (std::size_t i = 0; i < steps_.count(); ++i) {
       const bool stopped = steps_.stopped(i);
       for (std::size_t k = 0; k < n; ++k) {
-        values[i * n + k] = stopped ? kStopped : steps_.q(i, k);
-        peaks[i * n + k] = stopped ? kStopped : steps_.peak(i, k);
+        values[i * n + k] = stopped ? kNaN : steps_.q(i, k);
+        peaks[i * n + k] = stopped ? kNaN : steps_.peak(i, k);
       }
     }
   }

@@ -1,15 +1,14 @@
 #include "twin/observed_states.h"
 
 #include <cmath>
-#include <limits>
 
+#include "algebra/constants.h"
 #include "scene/system_setup.h"
 
 namespace whirl_twin {
 
 state::WhirlState whirlState(const WhirlMotion& at, const WhirlPhase& phase, const ShaftView& shaft,
                              double slowest_orbit) {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   state::WhirlState s;
   s.x = at.x;
   s.y = at.y;

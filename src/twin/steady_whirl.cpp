@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "algebra/lu.h"
+#include "algebra/dense.h"
 #include "analysis/orbit.h"
 #include "analysis/synchronous_poles.h"
 
@@ -31,9 +31,8 @@ std::optional<SteadyWhirl> SteadyWhirl::of(const Dynamics& dynamics,
   if (!once_a_turn || !steady.free_) {
     return std::nullopt;
   }
-  steady.sag_ = Eigen::PartialPivLU<Eigen::MatrixXd>(l.stiffness + l.circulatory).solve(rotor.load);
-  steady.response_ = Eigen::PartialPivLU<Eigen::MatrixXcd>(synchronousStiffness(l, speed))
-                         .solve(rotor.synchronousForce(speed));
+  steady.sag_ = Lu(l.stiffness + l.circulatory).solve(rotor.load);
+  steady.response_ = ComplexLu(synchronousStiffness(l, speed)).solve(rotor.synchronousForce(speed));
   for (const Station& station : stations) {
     const std::optional<StationBound> bound = steady.bound(station);
     if (!bound) {

@@ -4,13 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "algebra/constants.h"
+
 namespace whirl_twin {
-
-namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-
-}  // namespace
 
 double WhirlMotion::radius() const {
   return std::hypot(x, y);

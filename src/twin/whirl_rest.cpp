@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "algebra/lu.h"
+#include "algebra/dense.h"
 
 namespace whirl_twin {
 
@@ -38,7 +38,7 @@ std::optional<WhirlRest> WhirlRest::of(const Dynamics& dynamics,
   if (!rest.free_) {
     return std::nullopt;
   }
-  rest.sag_ = Eigen::PartialPivLU<Eigen::MatrixXd>(l.stiffness + l.circulatory).solve(rotor.load);
+  rest.sag_ = Lu(l.stiffness + l.circulatory).solve(rotor.load);
   for (const ShaftForce& force : rotor.forces) {
     (force.inertial ? rest.inertial_push_ : rest.steady_push_) +=
         rest.free_->pushed(force.amplitude);

@@ -13,7 +13,7 @@
 #include "twin/twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace error_estimate_test {
 
 constexpr double kHorizon = 4.0;  // s
 
@@ -187,5 +187,5 @@ TEST(ErrorEstimateOf, TheMembersOfAnEnsemble) {
   EXPECT_GT(rotors.estimate, 0.0);
 }
 
-}  // namespace
+}  // namespace error_estimate_test
 }  // namespace whirl_twin

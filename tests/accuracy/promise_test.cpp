@@ -14,7 +14,7 @@
 #include "scene/built_scene.h"
 
 namespace whirl_twin {
-namespace {
+namespace promise_test {
 
 /// The error of a choice over the horizon, at the scene's own samples.
 double trueError(const Scene& one, const StepChoice& choice) {
@@ -232,5 +232,5 @@ TEST(Promise, OfExactStepsHoldsOverAMonth) {
   EXPECT_LT(month.promise.error, 1e-6);
 }
 
-}  // namespace
+}  // namespace promise_test
 }  // namespace whirl_twin

@@ -12,7 +12,7 @@
 #include "scene/built_scene.h"
 
 namespace whirl_twin {
-namespace {
+namespace set_up_once_test {
 
 std::map<std::string, int> set_up;  // how often, by the model's name
 
@@ -122,5 +122,5 @@ TEST_F(SetUpOnce, AndAnewWhereTheSpecWasChanged) {
   EXPECT_EQ(pendulums(), 2);
 }
 
-}  // namespace
+}  // namespace set_up_once_test
 }  // namespace whirl_twin

@@ -18,7 +18,7 @@
 #include "twin/twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace step_choice_test {
 
 struct Promised {
   std::string scene;
@@ -259,5 +259,5 @@ systems:
   EXPECT_EQ(twin.systems()[2]->integrator_reason, "");
 }
 
-}  // namespace
+}  // namespace step_choice_test
 }  // namespace whirl_twin

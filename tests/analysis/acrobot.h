@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "algebra/lu.h"
+#include "algebra/dense.h"
 
 namespace whirl_twin {
 
@@ -25,7 +25,7 @@ inline Acrobot uprightAcrobot() {
   const double lower = kGravity * kMass2 * kCenter2;
   stiffness << kGravity * (kMass1 * kCenter1 + kMass2 * kLength1) + lower, lower, lower, lower;
   Acrobot acrobot{Eigen::MatrixXd::Zero(4, 4), Eigen::MatrixXd::Zero(4, 1)};
-  const Eigen::PartialPivLU<Eigen::MatrixXd> lu{Eigen::MatrixXd(mass)};
+  const Lu lu{Eigen::MatrixXd(mass)};
   acrobot.a.topRightCorner(2, 2).setIdentity();
   acrobot.a.bottomLeftCorner(2, 2) = lu.solve(stiffness);
   acrobot.b.bottomRows(2) = lu.solve(Eigen::Vector2d(0.0, 1.0));

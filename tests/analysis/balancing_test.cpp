@@ -11,7 +11,7 @@
 
 namespace whirl_twin {
 
-namespace {
+namespace balancing_test {
 
 using Complex = std::complex<double>;
 
@@ -91,6 +91,6 @@ TEST(Balancing, RefusesWhatDoesNotFit) {
                Refusal);
 }
 
-}  // namespace
+}  // namespace balancing_test
 
 }  // namespace whirl_twin

@@ -2,15 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <cmath>
 
-#include "algebra/eigenvalues.h"
-#include "algebra/lu.h"
+#include "algebra/dense.h"
 #include "analysis/banded_rotor.h"
 #include "mechanics/rotors/rotor_assembly.h"
 
 namespace whirl_twin {
-namespace {
+namespace banded_matrix_test {
 
 using Complex = std::complex<double>;
 
@@ -103,5 +104,5 @@ TEST(BandedRotor, HasTheMatricesOfItsRotorAtAnySpeed) {
   }
 }
 
-}  // namespace
+}  // namespace banded_matrix_test
 }  // namespace whirl_twin

@@ -10,7 +10,7 @@
 #include "messages/refusal.h"
 
 namespace whirl_twin {
-namespace {
+namespace critical_speed_map_test {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kLength = 2.0;
@@ -90,5 +90,5 @@ TEST(CriticalSpeedMap, OfOneBearingIsRefused) {
   EXPECT_THROW(criticalSpeedMap(plainShaft(), {3, 3}, 1.0, 10.0, 2, 3), Refusal);
 }
 
-}  // namespace
+}  // namespace critical_speed_map_test
 }  // namespace whirl_twin

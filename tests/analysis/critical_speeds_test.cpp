@@ -14,7 +14,7 @@
 
 namespace whirl_twin {
 
-namespace {
+namespace critical_speeds_test {
 
 std::shared_ptr<const Dynamics> rotor(double zeta, double stiffness_ratio = 1.0) {
   const double mass = 2.0;
@@ -108,6 +108,6 @@ TEST(CriticalSpeeds, aPendulumHasNone) {
       criticalSpeeds(*dynamicsOf("spinning_pendulum", {{"mass", 1.0}, {"length", 1.0}})).empty());
 }
 
-}  // namespace
+}  // namespace critical_speeds_test
 
 }  // namespace whirl_twin

@@ -9,7 +9,7 @@
 #include "models_under_test.h"
 
 namespace whirl_twin {
-namespace {
+namespace decrement_amplitude_test {
 
 SteadyMotion restOf(const Dynamics& dynamics) {
   return {Eigen::VectorXd::Zero(dynamics.dof()), Eigen::VectorXd::Zero(dynamics.dof())};
@@ -58,5 +58,5 @@ TEST(DecrementAmplitude, OfARotorEndsAtItsStator) {
   }
 }
 
-}  // namespace
+}  // namespace decrement_amplitude_test
 }  // namespace whirl_twin

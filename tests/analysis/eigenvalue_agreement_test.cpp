@@ -21,7 +21,7 @@
 #include "scene/scene_reader.h"
 
 namespace whirl_twin {
-namespace {
+namespace eigenvalue_agreement_test {
 
 constexpr double kAgrees = 1.0e-9;
 constexpr double kUsualSpeed = 100.0;  // [rad/s], of a rotor whose scene tells none
@@ -98,5 +98,5 @@ TEST(RandomShafts, HaveTheEigenvaluesOfTheDenseSolution) {
 INSTANTIATE_TEST_SUITE_P(, ShippedRotors, testing::ValuesIn(shippedScenes()),
                          [](const auto& scene) { return scene.param; });
 
-}  // namespace
+}  // namespace eigenvalue_agreement_test
 }  // namespace whirl_twin

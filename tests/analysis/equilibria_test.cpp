@@ -12,7 +12,7 @@
 
 namespace whirl_twin {
 
-namespace {
+namespace equilibria_test {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kGravity = 9.8044;
@@ -128,6 +128,6 @@ TEST(InstabilitySpeed, withoutInternalDampingARotorHasNone) {
   EXPECT_FALSE(instabilitySpeed(*rotor, Eigen::VectorXd::Zero(2), 0.0).has_value());
 }
 
-}  // namespace
+}  // namespace equilibria_test
 
 }  // namespace whirl_twin

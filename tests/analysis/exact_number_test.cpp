@@ -7,7 +7,7 @@
 #include "messages/refusal.h"
 
 namespace whirl_twin {
-namespace {
+namespace exact_number_test {
 
 TEST(ParseRational, IsExactWhereADoubleIsNot) {
   EXPECT_EQ(parseRational("0.1"), Rational(1, 10));
@@ -79,5 +79,5 @@ TEST(ToDouble, KeepsTheSignOfWhatADoubleCannotHold) {
   EXPECT_EQ(toDouble(parseRational("-1e-400")), -DBL_TRUE_MIN);
 }
 
-}  // namespace
+}  // namespace exact_number_test
 }  // namespace whirl_twin

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <random>
 
-#include "algebra/qr.h"
+#include "algebra/dense.h"
 #include "analysis/cyclic_coordinates.h"
 #include "analysis/instability_speed.h"
 #include "analysis/whirl_modes.h"
@@ -15,7 +15,7 @@
 #include "random_systems.h"
 
 namespace whirl_twin {
-namespace {
+namespace free_rotors_test {
 
 using Eigen::MatrixXd;
 
@@ -112,7 +112,7 @@ Linearization mixed(const Eigen::Matrix2d& stiffness, double gyroscopic, int cop
   for (int i = 0; i < n; ++i) {
     mix.col(i) = randomVector(n, random);
   }
-  mix = Eigen::HouseholderQR<MatrixXd>(mix).householderQ();
+  mix = orthogonalFactor(mix);
   for (MatrixXd* m : {&l.mass, &l.stiffness}) {
     const MatrixXd turned = mix.transpose() * *m * mix;
     *m = 0.5 * (turned + turned.transpose());
@@ -160,5 +160,5 @@ TEST(FreeSystems, ASoftSpringThatPushesIsUnstable) {
   }
 }
 
-}  // namespace
+}  // namespace free_rotors_test
 }  // namespace whirl_twin

@@ -6,14 +6,14 @@
 #include <Eigen/Core>
 #include <complex>
 
-#include "algebra/lu.h"
+#include "algebra/dense.h"
 #include "analysis/influence_coefficients.h"
 #include "analysis/natural_modes.h"
 #include "messages/refusal.h"
 #include "random_systems.h"
 
 namespace whirl_twin {
-namespace {
+namespace frequency_response_test {
 
 using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
@@ -117,5 +117,5 @@ TEST(SteadyResponse, AConstantForceOnAFreeBodyHasNone) {
   EXPECT_THROW(receptance(system, NAN), Refusal);
 }
 
-}  // namespace
+}  // namespace frequency_response_test
 }  // namespace whirl_twin

@@ -9,7 +9,7 @@
 #include "messages/refusal.h"
 
 namespace whirl_twin {
-namespace {
+namespace loop_margins_test {
 
 using Complex = std::complex<double>;
 constexpr double kPi = 3.14159265358979323846;
@@ -272,5 +272,5 @@ TEST(SampledMargins, ASlowLoopBesideItChangesNothingThatItDoesNotTouch) {
             1e-11);
 }
 
-}  // namespace
+}  // namespace loop_margins_test
 }  // namespace whirl_twin

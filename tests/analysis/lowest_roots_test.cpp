@@ -13,7 +13,7 @@
 #include "random_shafts.h"
 
 namespace whirl_twin {
-namespace {
+namespace lowest_roots_test {
 
 using Complex = std::complex<double>;
 
@@ -119,5 +119,5 @@ TEST(GrowthRadius, OfRotatingDampingIsTheSpeedOfTheShaft) {
   EXPECT_NEAR(growthRadius(RotorAssembly(shaft).bandedMatrices(700.0)).value(), 700.0, 8.0);
 }
 
-}  // namespace
+}  // namespace lowest_roots_test
 }  // namespace whirl_twin

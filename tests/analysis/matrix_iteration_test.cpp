@@ -4,14 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <Eigen/QR>
 
-#include "algebra/qr.h"
+#include "algebra/dense.h"
 #include "analysis/natural_modes.h"
 #include "messages/refusal.h"
 #include "random_systems.h"
 
 namespace whirl_twin {
-namespace {
+namespace matrix_iteration_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -100,5 +101,5 @@ TEST(MatrixIteration, RefusesWhatHasNoDynamicalMatrix) {
   EXPECT_THROW(matrixIteration(0.0 * one, one, 1, VectorXd::Ones(4)), Refusal);
 }
 
-}  // namespace
+}  // namespace matrix_iteration_test
 }  // namespace whirl_twin

@@ -7,12 +7,11 @@
 #include <cmath>
 #include <complex>
 
-#include "algebra/eigenvalues.h"
-#include "algebra/lu.h"
+#include "algebra/dense.h"
 #include "mechanics/rotors/rotor_assembly.h"
 
 namespace whirl_twin {
-namespace {
+namespace modal_reduction_test {
 
 using Complex = std::complex<double>;
 constexpr double kHighest = 450.0;  // rad/s: above four critical speeds
@@ -41,19 +40,19 @@ Complex responseX(const LinearRotor& rotor, const Station& station, double w) {
   const Linearization l = rotor.matrices(w);
   const Eigen::MatrixXcd dynamic = (l.stiffness + l.circulatory - w * w * l.mass).cast<Complex>() +
                                    Complex(0.0, w) * (l.damping + l.gyroscopic);
-  const Eigen::VectorXcd q = dynamic.partialPivLu().solve(rotor.synchronousForce(w));
+  const Eigen::VectorXcd q = ComplexLu(dynamic).solve(rotor.synchronousForce(w));
   return station.along_x.cast<Complex>().cwiseProduct(q).sum();
 }
 
 std::vector<Complex> eigenvaluesOf(const Linearization& l) {
   const Eigen::Index n = l.mass.rows();
   constexpr double kScale = 1.0e3;
-  const Eigen::LLT<Eigen::MatrixXd> mass(l.mass);
+  const Cholesky mass(l.mass);
   Eigen::MatrixXd state = Eigen::MatrixXd::Zero(2 * n, 2 * n);
   state.topRightCorner(n, n).diagonal().setConstant(kScale);
   state.bottomLeftCorner(n, n) = -mass.solve(l.stiffness + l.circulatory) / kScale;
   state.bottomRightCorner(n, n) = -mass.solve(l.damping + l.gyroscopic);
-  const Eigen::VectorXcd all = state.eigenvalues();
+  const Eigen::VectorXcd all = eigenvalues(state).values;
   return {all.begin(), all.end()};
 }
 
@@ -79,8 +78,8 @@ TEST(ModalReduction, isBetterThanModesAlone) {
   const RotorAssembly full(twoDiscs(3000.0));
   const LinearRotor rotor = full.linearRotor();
   const Linearization l = rotor.matrices(0.0);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(l.stiffness, l.mass);
-  const RotorAssembly truncated = full.in(modes.eigenvectors().leftCols(16));
+  const SymmetricModes<double> modes = generalizedModes(l.stiffness, l.mass);
+  const RotorAssembly truncated = full.in(modes.vectors.leftCols(16));
   const RotorReduction r = reduceRotor(rotor, stationsOf(full), kHighest, 16);
   double worst = 0.0;
   for (double w = 10.0; w <= kHighest; w += 10.0) {
@@ -126,10 +125,10 @@ TEST(ModalReduction, sagsAsTheFullRotor) {
   shaft.gravity = 9.80665;
   const RotorAssembly full(shaft);
   const LinearRotor rotor = full.linearRotor();
-  const Eigen::VectorXd sag = rotor.matrices(0.0).stiffness.ldlt().solve(rotor.load);
+  const Eigen::VectorXd sag = Ldlt(rotor.matrices(0.0).stiffness).solve(rotor.load);
   const RotorAssembly reduced = full.in(reduceRotor(rotor, stationsOf(full), kHighest, 10).shapes);
   const LinearRotor r = reduced.linearRotor();
-  const Eigen::VectorXd q = r.matrices(0.0).stiffness.ldlt().solve(r.load);
+  const Eigen::VectorXd q = Ldlt(r.matrices(0.0).stiffness).solve(r.load);
   for (int node = 0; node < 7; ++node) {
     EXPECT_NEAR(reduced.station(node).along_y.dot(q), full.station(node).along_y.dot(sag), 1e-12);
   }
@@ -185,5 +184,5 @@ TEST(ModalReduction, reducesARotorThatFloats) {
   EXPECT_LE(r.error.response, 1.0e-6);
 }
 
-}  // namespace
+}  // namespace modal_reduction_test
 }  // namespace whirl_twin

@@ -5,7 +5,7 @@
 #include "rotors_under_test.h"
 
 namespace whirl_twin {
-namespace {
+namespace mode_tracking_test {
 
 // A rotor of so many coordinates is followed by Newton's method from speed to speed.
 TEST(ModeTracking, WhatIsFollowedIsAmongAllModesOfTheRotor) {
@@ -27,5 +27,5 @@ TEST(ModeTracking, WhatIsFollowedIsAmongAllModesOfTheRotor) {
   }
 }
 
-}  // namespace
+}  // namespace mode_tracking_test
 }  // namespace whirl_twin

@@ -15,7 +15,7 @@
 #include "random_systems.h"
 
 namespace whirl_twin {
-namespace {
+namespace natural_modes_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -286,5 +286,5 @@ TEST(AssumedModes, EveryMatrixIsReduced) {
   EXPECT_NEAR(eta.dot(small.circulatory * eta), q.dot(system.circulatory * q), 1e-12);
 }
 
-}  // namespace
+}  // namespace natural_modes_test
 }  // namespace whirl_twin

@@ -7,7 +7,7 @@
 #include "hoop_bead.h"
 
 namespace whirl_twin {
-namespace {
+namespace operating_point_test {
 
 constexpr double kPi = 3.14159265358979323846;
 
@@ -68,5 +68,5 @@ TEST(OperatingPoint, IsWhereTheMotionOfTheBeadEnds) {
   }
 }
 
-}  // namespace
+}  // namespace operating_point_test
 }  // namespace whirl_twin

@@ -13,7 +13,7 @@
 #include "analysis/stability_margins.h"
 
 namespace whirl_twin {
-namespace {
+namespace quartic_test {
 
 std::vector<double> asVector(const std::array<double, 5>& a) {
   return {a.begin(), a.end()};
@@ -106,5 +106,5 @@ TEST(Quartic, RootsOfVeryDifferentSize) {
   EXPECT_NEAR(judgement.rightmost.imag(), 1.0e-4, 1.0e-8);
 }
 
-}  // namespace
+}  // namespace quartic_test
 }  // namespace whirl_twin

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "algebra/qr.h"
+#include "algebra/dense.h"
 
 namespace whirl_twin {
 
@@ -29,7 +29,7 @@ inline RandomSystem randomSystem(int n, std::mt19937& random, bool diagonal_mass
     if (diagonal) {
       return Eigen::MatrixXd(eigenvalue.asDiagonal());
     }
-    const Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(a).householderQ();
+    const Eigen::MatrixXd q = orthogonalFactor(a);
     const Eigen::MatrixXd full = q * eigenvalue.asDiagonal() * q.transpose();
     return Eigen::MatrixXd(0.5 * (full + full.transpose()));
   };

@@ -6,11 +6,11 @@
 #include <random>
 
 #include "acrobot.h"
-#include "algebra/eigenvalues.h"
+#include "algebra/dense.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {
-namespace {
+namespace riccati_test {
 
 using Eigen::MatrixXd;
 
@@ -22,7 +22,7 @@ void expectGain(const MatrixXd& gain, const Eigen::RowVectorXd& known, double di
 }
 
 double radius(const MatrixXd& m) {
-  return Eigen::EigenSolver<MatrixXd>(m, false).eigenvalues().cwiseAbs().maxCoeff();
+  return eigenvalues(m).values.cwiseAbs().maxCoeff();
 }
 
 /// Of the equation, in parts of the terms that it is a sum of.
@@ -109,7 +109,7 @@ TEST(Riccati, SolvesRandomEquationsAndStabilises) {
     const Regulator continuous = continuousRegulator(a, b, cost);
     worst_continuous = std::fmax(worst_continuous, continuousResidual(a, b, cost, continuous));
     const MatrixXd closed = a - b * continuous.gain;
-    EXPECT_LT(Eigen::EigenSolver<MatrixXd>(closed, false).eigenvalues().real().maxCoeff(), 0.0);
+    EXPECT_LT(eigenvalues(closed).values.real().maxCoeff(), 0.0);
 
     const SampledPlant held = sampledPlant(a, b, cost, 0.1);
     const Regulator sampled = discreteRegulator(held.a, held.b, held.cost);
@@ -166,5 +166,5 @@ TEST(Riccati, SaysWhereThereIsNoGain) {
   EXPECT_THROW(continuousRegulator(one, b, {one, one}), std::logic_error);
 }
 
-}  // namespace
+}  // namespace riccati_test
 }  // namespace whirl_twin

@@ -14,7 +14,7 @@
 #include "messages/refusal.h"
 
 namespace whirl_twin {
-namespace {
+namespace rigid_disc_test {
 
 using Json = nlohmann::json;
 
@@ -195,5 +195,5 @@ TEST(RigidDisc, RefusesShaftsThatThereAreNot) {
   EXPECT_EQ(complaint({{"stiffness_asymmetry", 0.1}}, true), "stiffness_asymmetry");
 }
 
-}  // namespace
+}  // namespace rigid_disc_test
 }  // namespace whirl_twin

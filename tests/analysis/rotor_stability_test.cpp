@@ -15,7 +15,7 @@
 
 namespace whirl_twin {
 
-namespace {
+namespace rotor_stability_test {
 
 /// The speed at which the rightmost eigenvalue crosses the axis, between two speeds.
 double thresholdByEigenvalues(const LinearRotor& rotor, double low, double high) {
@@ -126,6 +126,6 @@ TEST(CrossCouplingMargin, OfAnUndampedRotorIsZero) {
   EXPECT_EQ(crossCouplingMargin(r.rotor, r.stations, 0, 5000.0).value(), 0.0);
 }
 
-}  // namespace
+}  // namespace rotor_stability_test
 
 }  // namespace whirl_twin

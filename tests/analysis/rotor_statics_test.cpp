@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace whirl_twin {
-namespace {
+namespace rotor_statics_test {
 
 constexpr double kGravity = 9.80665;
 constexpr double kPi = 3.14159265358979323846;
@@ -127,5 +127,5 @@ TEST(RotorBody, HasTheMassAndInertiasOfItsParts) {
               1.0e-10);
 }
 
-}  // namespace
+}  // namespace rotor_statics_test
 }  // namespace whirl_twin

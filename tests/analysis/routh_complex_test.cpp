@@ -7,7 +7,7 @@
 #include "reference_polynomials.h"
 
 namespace whirl_twin {
-namespace {
+namespace routh_complex_test {
 
 using nlohmann::json;
 using Polynomial = std::vector<ComplexRational>;
@@ -103,5 +103,5 @@ TEST(RouthComplex, RandomRootsAreCountedWhereTheyWerePutWhateverTheComplexFactor
   }
 }
 
-}  // namespace
+}  // namespace routh_complex_test
 }  // namespace whirl_twin

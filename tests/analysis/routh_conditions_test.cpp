@@ -12,7 +12,7 @@
 #include "reference_polynomials.h"
 
 namespace whirl_twin {
-namespace {
+namespace routh_conditions_test {
 
 using Polynomial = std::vector<Rational>;
 
@@ -137,5 +137,5 @@ TEST(RouthConditions, RefuseOtherDegrees) {
   EXPECT_EQ(routhConditions(Polynomial{0, 0, 2, 4}).size(), 1u);  // leading zeros dropped
 }
 
-}  // namespace
+}  // namespace routh_conditions_test
 }  // namespace whirl_twin

@@ -6,7 +6,7 @@
 #include "reference_polynomials.h"
 
 namespace whirl_twin {
-namespace {
+namespace routh_notes_test {
 
 using nlohmann::json;
 using Polynomial = std::vector<Rational>;
@@ -111,5 +111,5 @@ TEST(NoteCriteria, TheSexticOnTheBoundaryIsMarginal) {
             Verdict::kMarginal);
 }
 
-}  // namespace
+}  // namespace routh_notes_test
 }  // namespace whirl_twin

@@ -11,7 +11,7 @@
 #include "analysis/stability_range.h"
 
 namespace whirl_twin {
-namespace {
+namespace routh_table_test {
 
 std::vector<SymbolicPolynomial> polynomial(const std::vector<std::string>& typed,
                                            const std::string& symbol = "") {
@@ -234,5 +234,5 @@ TEST(StabilityRange, RefusesWhatIsNoPolynomialInS) {
   EXPECT_THROW(rangeOf(Words(18, "K")), Refusal);
 }
 
-}  // namespace
+}  // namespace routh_table_test
 }  // namespace whirl_twin

@@ -12,7 +12,7 @@
 #include "reference_polynomials.h"
 
 namespace whirl_twin {
-namespace {
+namespace routh_test {
 
 using nlohmann::json;
 using Polynomial = std::vector<Rational>;
@@ -243,5 +243,5 @@ TEST_F(RandomRoots, AreTheSameForTheComplexTest) {
   }
 }
 
-}  // namespace
+}  // namespace routh_test
 }  // namespace whirl_twin

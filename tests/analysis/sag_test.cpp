@@ -15,7 +15,7 @@
 #include "scene/surroundings.h"
 
 namespace whirl_twin {
-namespace {
+namespace sag_test {
 
 using Eigen::VectorXd;
 
@@ -160,5 +160,5 @@ TEST(Sag, OfAFreeBodyIsTheStretchOfForcesThatBalance) {
   EXPECT_TRUE(equilibria(pulled(4.9), 0.0).empty());
 }
 
-}  // namespace
+}  // namespace sag_test
 }  // namespace whirl_twin

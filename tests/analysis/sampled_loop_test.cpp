@@ -11,7 +11,7 @@
 #include "simulated_loop.h"
 
 namespace whirl_twin {
-namespace {
+namespace sampled_loop_test {
 
 using Eigen::MatrixXd;
 
@@ -211,5 +211,5 @@ TEST(SampledLoop, RefusesWhatCannotBeMeant) {
   EXPECT_THROW(sampledLoop(plant, {c}), std::logic_error);
 }
 
-}  // namespace
+}  // namespace sampled_loop_test
 }  // namespace whirl_twin

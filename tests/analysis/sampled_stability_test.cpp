@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/eigen.hpp>
 #include <cmath>
@@ -9,13 +10,13 @@
 #include <limits>
 #include <string>
 
-#include "algebra/eigenvalues.h"
+#include "algebra/dense.h"
 #include "analysis/balanced_matrix.h"
 #include "analysis/unit_circle.h"
 #include "loops_under_test.h"
 
 namespace whirl_twin {
-namespace {
+namespace sampled_stability_test {
 
 using Eigen::MatrixXd;
 using Wide = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>,
@@ -222,5 +223,5 @@ TEST(SampledStability, CountsAsEigenvaluesInFiftyDigitsDo) {
   EXPECT_LT(stable, loops * 4 / 5);
 }
 
-}  // namespace
+}  // namespace sampled_stability_test
 }  // namespace whirl_twin

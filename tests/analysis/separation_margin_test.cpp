@@ -11,7 +11,7 @@
 #include <string>
 
 namespace whirl_twin {
-namespace {
+namespace separation_margin_test {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -96,5 +96,5 @@ TEST(SeparationMargin, ACriticalSpeedIsSeenFromTheSideTheRotorRunsOn) {
   EXPECT_DOUBLE_EQ(supercritical.band_high, 100.0 / 0.84);
 }
 
-}  // namespace
+}  // namespace separation_margin_test
 }  // namespace whirl_twin

@@ -9,7 +9,7 @@
 
 namespace whirl_twin {
 
-namespace {
+namespace slide_equilibria_test {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kGravity = 9.81;
@@ -215,6 +215,6 @@ TEST(Equilibria, aRotatingPendulumHangsOrStandsAtAnyTurn) {
   EXPECT_NEAR(of(0.0)[0].q[0], kPi, 1.0e-14);
 }
 
-}  // namespace
+}  // namespace slide_equilibria_test
 
 }  // namespace whirl_twin

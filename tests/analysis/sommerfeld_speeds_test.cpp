@@ -11,7 +11,7 @@
 
 namespace whirl_twin {
 
-namespace {
+namespace sommerfeld_speeds_test {
 
 std::shared_ptr<const Dynamics> captured() {
   const auto reference = rotorCase("G01");
@@ -65,6 +65,6 @@ TEST(WhirlTorque, OfInternalDampingAloneIsNone) {
   EXPECT_NEAR(whirlTorque(dynamics->linearRotor(), 50.0), 0.0, 1.0e-15);
 }
 
-}  // namespace
+}  // namespace sommerfeld_speeds_test
 
 }  // namespace whirl_twin

@@ -13,7 +13,7 @@
 #include "reference_polynomials.h"
 
 namespace whirl_twin {
-namespace {
+namespace stability_margins_test {
 
 using nlohmann::json;
 using Complex = std::complex<double>;
@@ -157,5 +157,5 @@ TEST(LogDecrement, IsUndefinedWithoutVibration) {
   EXPECT_TRUE(std::isnan(logDecrement(std::numeric_limits<double>::quiet_NaN())));
 }
 
-}  // namespace
+}  // namespace stability_margins_test
 }  // namespace whirl_twin

@@ -4,10 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <cmath>
 #include <random>
 
-#include "algebra/lu.h"
+#include "algebra/dense.h"
 #include "analysis/characteristic_polynomial.h"
 #include "analysis/equilibria.h"
 #include "messages/refusal.h"
@@ -15,7 +16,7 @@
 
 namespace whirl_twin {
 
-namespace {
+namespace stability_test {
 
 Linearization rotorAt(double speed, double damping, double internal_damping) {
   const auto rotor = dynamicsOf("jeffcott_rotor", {{"mass", 2.0},
@@ -178,6 +179,6 @@ TEST(RightByEigenvalues, isRouthsOfRepeatedRootsThatRoundingSpreads) {
   }
 }
 
-}  // namespace
+}  // namespace stability_test
 
 }  // namespace whirl_twin

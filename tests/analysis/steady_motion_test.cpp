@@ -11,7 +11,7 @@
 #include "models_under_test.h"
 
 namespace whirl_twin {
-namespace {
+namespace steady_motion_test {
 
 constexpr double kG = 9.81;
 using Vector = Eigen::VectorXd;
@@ -315,5 +315,5 @@ TEST_F(SteadyMotions, LargeSystemsAreJudgedByTheDefinitenessOfTheirMatrices) {
   }
 }
 
-}  // namespace
+}  // namespace steady_motion_test
 }  // namespace whirl_twin

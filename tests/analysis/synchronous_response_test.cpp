@@ -13,7 +13,7 @@
 
 namespace whirl_twin {
 
-namespace {
+namespace synchronous_response_test {
 
 constexpr double kPi = 3.14159265358979323846;
 
@@ -131,6 +131,6 @@ TEST(CriticalSpeeds, OfAnOverhungDiscIsItsForwardOne) {
   EXPECT_TRUE(found[0].forward);
 }
 
-}  // namespace
+}  // namespace synchronous_response_test
 
 }  // namespace whirl_twin

@@ -10,7 +10,7 @@
 
 namespace whirl_twin {
 
-namespace {
+namespace undamped_critical_speeds_test {
 
 // Of the overhung disc det(K - w^2 diag(m, Id -+ Ip)) = 0: two backward speeds, and with Ip > Id
 // one forward.
@@ -97,6 +97,6 @@ TEST(UndampedCriticalSpeeds, OfAFreeRotorLeaveOutItsDrift) {
   EXPECT_NEAR(found[0].speed, std::sqrt(5.0e5), 1.0e-2);
 }
 
-}  // namespace
+}  // namespace undamped_critical_speeds_test
 
 }  // namespace whirl_twin

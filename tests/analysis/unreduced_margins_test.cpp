@@ -15,7 +15,7 @@
 #include "random_shafts.h"
 
 namespace whirl_twin {
-namespace {
+namespace unreduced_margins_test {
 
 using Complex = std::complex<double>;
 
@@ -110,5 +110,5 @@ TEST(UnreducedMargins, AreNoneOfARotorInAllItsCoordinates) {
       std::make_shared<const LinearRotorDynamics>(std::move(description), whole.linearRotor())));
 }
 
-}  // namespace
+}  // namespace unreduced_margins_test
 }  // namespace whirl_twin

@@ -9,7 +9,7 @@
 #include "models_under_test.h"
 
 namespace whirl_twin {
-namespace {
+namespace validity_test {
 
 Eigen::VectorXd vector(std::initializer_list<double> x) {
   return Eigen::Map<const Eigen::VectorXd>(x.begin(), static_cast<Eigen::Index>(x.size()));
@@ -144,5 +144,5 @@ TEST(Validity, WhatIsBrokenIsSaidInWords) {
       << "what cannot be told does not hold";
 }
 
-}  // namespace
+}  // namespace validity_test
 }  // namespace whirl_twin

@@ -8,7 +8,7 @@
 #include "models_under_test.h"
 
 namespace whirl_twin {
-namespace {
+namespace virtual_work_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -61,5 +61,5 @@ TEST(VirtualWork, RefusesAWrongSize) {
   EXPECT_THROW(virtualWork(*pendulum, VectorXd::Ones(2), one(1.0), {}), std::logic_error);
 }
 
-}  // namespace
+}  // namespace virtual_work_test
 }  // namespace whirl_twin

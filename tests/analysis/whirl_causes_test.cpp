@@ -16,7 +16,7 @@
 #include "models_under_test.h"
 
 namespace whirl_twin {
-namespace {
+namespace whirl_causes_test {
 
 using Json = nlohmann::json;
 
@@ -131,5 +131,5 @@ TEST(WhirlCauses, GrowthSeenInTimeIsTheEigenvalues) {
   EXPECT_NEAR(growth(seal, 100.0), leastStable(seal, 100.0).real(), 1e-2);
 }
 
-}  // namespace
+}  // namespace whirl_causes_test
 }  // namespace whirl_twin

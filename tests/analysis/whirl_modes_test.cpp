@@ -13,7 +13,7 @@
 
 namespace whirl_twin {
 
-namespace {
+namespace whirl_modes_test {
 
 constexpr double kPi = 3.14159265358979323846;
 
@@ -212,6 +212,6 @@ TEST(Campbell, CrossingsSolveTheFrequencyEquation) {
   EXPECT_EQ(once, 3);  // Ip > Id: the second forward branch is never met
 }
 
-}  // namespace
+}  // namespace whirl_modes_test
 
 }  // namespace whirl_twin

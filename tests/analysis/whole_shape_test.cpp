@@ -5,13 +5,12 @@
 
 #include <cmath>
 
-#include "algebra/eigenvalues.h"
-#include "algebra/lu.h"
+#include "algebra/dense.h"
 #include "analysis/synchronous_response.h"
 #include "mechanics/rotors/rotor_assembly.h"
 
 namespace whirl_twin {
-namespace {
+namespace whole_shape_test {
 
 /// Two discs between bearings that are softer along y, an unbalance at node 2.
 FlexibleShaft twoDiscs() {
@@ -43,7 +42,7 @@ TEST(WholeShape, OfASteadyWhirlIsTheSteadyMotionUnderTheWeight) {
   const std::vector<Station> seen{assembly.station(4)};
   WholeShape shape(rotor, seen);
   for (const double speed : {60.0, 150.0, 300.0}) {
-    const Eigen::VectorXd sag = rotor.matrices(speed).stiffness.ldlt().solve(rotor.load);
+    const Eigen::VectorXd sag = Ldlt(rotor.matrices(speed).stiffness).solve(rotor.load);
     const Eigen::VectorXcd steady = synchronousResponse(rotor, {}, speed).q;
     for (const double angle : {0.3, 2.0, 5.1}) {
       const Eigen::VectorXd q = sag + (steady * std::polar(1.0, angle)).real();
@@ -69,11 +68,11 @@ TEST(WholeShape, OfAModeIsNearlyTheMode) {
   const RotorAssembly assembly(shaft);
   const LinearRotor rotor = assembly.linearRotor();
   const Linearization l = rotor.matrices(0.0);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(l.stiffness, l.mass);
+  const SymmetricModes<double> modes = generalizedModes(l.stiffness, l.mass);
   const std::vector<Station> seen{assembly.station(2)};
   WholeShape shape(rotor, seen);
   for (const Eigen::Index mode : {Eigen::Index{0}, Eigen::Index{1}}) {  // one in each plane
-    const Eigen::VectorXd q = modes.eigenvectors().col(mode);
+    const Eigen::VectorXd q = modes.vectors.col(mode);
     const Eigen::VectorXd wanted = whirlOf(assembly.stations(), q);
     const Eigen::VectorXd found =
         whirlOf(assembly.stations(), shape.at(0.0, 0.0, whirlOf(seen, q)));
@@ -96,5 +95,5 @@ TEST(WholeShape, OfAFloatingShaftIsStraight) {
   }
 }
 
-}  // namespace
+}  // namespace whole_shape_test
 }  // namespace whirl_twin

@@ -7,7 +7,7 @@
 #include <random>
 
 namespace whirl_twin {
-namespace {
+namespace actuator_test {
 
 ActuatorSettings settings(double limit, double slew, double resolution) {
   ActuatorSettings s;
@@ -51,5 +51,5 @@ TEST(Actuator, GivesWholeMultiplesOfItsResolution) {
   EXPECT_EQ(actuator.value(), 0.5);
 }
 
-}  // namespace
+}  // namespace actuator_test
 }  // namespace whirl_twin

@@ -14,7 +14,7 @@
 #include "control/drive.h"
 
 namespace whirl_twin {
-namespace {
+namespace drive_angle_test {
 
 using Exact = boost::multiprecision::cpp_bin_float_100;
 
@@ -203,5 +203,5 @@ TEST(DriveAngle, IsTheTwofoldIntegralOfTheAcceleration) {
   }
 }
 
-}  // namespace
+}  // namespace drive_angle_test
 }  // namespace whirl_twin

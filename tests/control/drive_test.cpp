@@ -16,7 +16,7 @@
 #include "messages/refusal.h"
 
 namespace whirl_twin {
-namespace {
+namespace drive_test {
 
 constexpr std::int64_t kSecond = 1000000000;
 
@@ -358,5 +358,5 @@ TEST(Drive, BadProfilesAreNamed) {
   EXPECT_THROW(Drive(0.0, 0.0, {{60.0, 1.0, 0.0, 0.0}}, 0, ExclusionBands({{54, 66}})), Refusal);
 }
 
-}  // namespace
+}  // namespace drive_test
 }  // namespace whirl_twin

@@ -13,7 +13,7 @@
 #include "messages/refusal.h"
 
 namespace whirl_twin {
-namespace {
+namespace exclusion_bands_test {
 
 const double kNone = std::numeric_limits<double>::quiet_NaN();
 
@@ -219,5 +219,5 @@ TEST(ExclusionBands, AllocateNothing) {
   EXPECT_GT(sum, 0.0);
 }
 
-}  // namespace
+}  // namespace exclusion_bands_test
 }  // namespace whirl_twin

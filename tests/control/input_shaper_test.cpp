@@ -9,7 +9,7 @@
 #include "control/inputs.h"
 
 namespace whirl_twin {
-namespace {
+namespace input_shaper_test {
 
 double whole(const std::vector<ShapedPart>& shaper) {
   double sum = 0.0;
@@ -87,5 +87,5 @@ TEST(InputShaper, ShapesATableByItsInstants) {
   EXPECT_EQ(held.values, (std::vector<double>{0.0, 0.0, 3.0, 4.0}));
 }
 
-}  // namespace
+}  // namespace input_shaper_test
 }  // namespace whirl_twin

@@ -12,7 +12,7 @@
 #include "allocation_guard.h"
 
 namespace whirl_twin {
-namespace {
+namespace inputs_test {
 
 constexpr std::int64_t kSecond = 1000000000;
 
@@ -164,5 +164,5 @@ TEST(Inputs, AllocateNothing) {
   EXPECT_NE(sum, 0.0);
 }
 
-}  // namespace
+}  // namespace inputs_test
 }  // namespace whirl_twin

@@ -10,7 +10,7 @@
 #include "control/keyphasor.h"
 
 namespace whirl_twin {
-namespace {
+namespace sensor_test {
 
 constexpr double kTwoPi = 6.283185307179586;
 
@@ -152,5 +152,5 @@ TEST(Keyphasor, ClockStampsWholeTicks) {
   EXPECT_GT(offsets.size(), 10u);  // jitter of ten ticks
 }
 
-}  // namespace
+}  // namespace sensor_test
 }  // namespace whirl_twin

@@ -13,7 +13,7 @@
 #include <random>
 
 namespace whirl_twin {
-namespace {
+namespace shaft_angle_test {
 
 using Exact = boost::multiprecision::cpp_bin_float_100;
 
@@ -220,5 +220,5 @@ TEST(SplitTime, ResolvesNanosecondsAfterAYear) {
             2e-24);
 }
 
-}  // namespace
+}  // namespace shaft_angle_test
 }  // namespace whirl_twin

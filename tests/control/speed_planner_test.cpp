@@ -11,7 +11,7 @@
 #include "../realtime/allocation_guard.h"
 
 namespace whirl_twin {
-namespace {
+namespace speed_planner_test {
 
 ShaftLimits steady(double acceleration) {
   return {Motor::constant(1.0), 0.01, 0.0, acceleration};
@@ -124,5 +124,5 @@ TEST(SpeedPlanner, AllocatesNothing) {
   EXPECT_EQ(guard.allocations(), 0u);
 }
 
-}  // namespace
+}  // namespace speed_planner_test
 }  // namespace whirl_twin

@@ -10,7 +10,7 @@
 #include <random>
 
 namespace whirl_twin {
-namespace {
+namespace speed_profile_test {
 
 // Speed and acceleration at the end of a piece.
 SpeedSegment endOf(const SpeedSegment& piece) {
@@ -144,5 +144,5 @@ TEST(SpeedMove, FaultsAreFound) {
   }
 }
 
-}  // namespace
+}  // namespace speed_profile_test
 }  // namespace whirl_twin

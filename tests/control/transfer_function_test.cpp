@@ -10,10 +10,10 @@
 #include <random>
 #include <stdexcept>
 
-#include "algebra/lu.h"
+#include "algebra/dense.h"
 
 namespace whirl_twin {
-namespace {
+namespace transfer_function_test {
 
 using Complex = std::complex<double>;
 using Eigen::VectorXd;
@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 Complex response(const DiscreteStateSpace& law, Complex z) {
   const Eigen::MatrixXcd pencil =
       z * Eigen::MatrixXcd::Identity(law.states(), law.states()) - law.a.cast<Complex>();
-  return (law.c.cast<Complex>() * pencil.partialPivLu().solve(law.b.cast<Complex>().eval()) +
+  return (law.c.cast<Complex>() * ComplexLu(pencil).solve(law.b.cast<Complex>().eval()) +
           law.d.cast<Complex>())(0, 0);
 }
 
@@ -97,5 +97,5 @@ TEST(OnEachAxis, CouplesNothing) {
             Eigen::MatrixXd::Identity(2, 2));
 }
 
-}  // namespace
+}  // namespace transfer_function_test
 }  // namespace whirl_twin

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace whirl_twin {
-namespace {
+namespace capture_supervisor_test {
 
 using Order = CaptureSupervisor::Order;
 using state::Supervision;
@@ -101,5 +101,5 @@ TEST(CaptureSupervisor, DoesNotTryWhatIsRefused) {
   EXPECT_EQ(first(s, 197.0, 0.0, 5000), Order::kNone);
 }
 
-}  // namespace
+}  // namespace capture_supervisor_test
 }  // namespace whirl_twin

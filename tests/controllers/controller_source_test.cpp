@@ -6,7 +6,7 @@
 #include "controllers/controller_registry.h"
 
 namespace whirl_twin {
-namespace {
+namespace controller_source_test {
 
 int asked = 0;
 std::vector<std::string> warnings;
@@ -49,5 +49,5 @@ TEST(ControllerSource, IsAskedOnceAndOnlyForWhatIsNotBuiltIn) {
   EXPECT_NE(warnings[2].find("'nothing'"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace controller_source_test
 }  // namespace whirl_twin

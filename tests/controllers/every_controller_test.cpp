@@ -11,7 +11,7 @@
 #include "example_controllers.h"
 
 namespace whirl_twin {
-namespace {
+namespace every_controller_test {
 
 constexpr double kSpeed = 40.0;  // [rad/s], of the shaft
 
@@ -165,5 +165,5 @@ TEST_P(EveryController, AllocatesNothing) {
 INSTANTIATE_TEST_SUITE_P(Controllers, EveryController, testing::ValuesIn(controllerNames()),
                          [](const auto& test) { return test.param; });
 
-}  // namespace
+}  // namespace every_controller_test
 }  // namespace whirl_twin

@@ -5,7 +5,7 @@
 #include "example_controllers.h"
 
 namespace whirl_twin {
-namespace {
+namespace lead_test {
 
 TEST(Lead, ActsAtOnceByThePoleOverTheZero) {
   // Samples so dense that Tustin's rule is continuous time: a step of 1 gives -gain pole / zero,
@@ -30,5 +30,5 @@ TEST(Lead, IsRefusedAPrewarpBeyondHalfOfTheRate) {
   EXPECT_EQ(text, "must be < 314.159 rad/s, half of the rate, found 400");
 }
 
-}  // namespace
+}  // namespace lead_test
 }  // namespace whirl_twin

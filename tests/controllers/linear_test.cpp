@@ -4,7 +4,7 @@
 #include "example_controllers.h"
 
 namespace whirl_twin {
-namespace {
+namespace linear_test {
 
 using Eigen::MatrixXd;
 
@@ -82,5 +82,5 @@ TEST(Linear, RefusesWhatDoesNotFitTogether) {
             "2 acted on");
 }
 
-}  // namespace
+}  // namespace linear_test
 }  // namespace whirl_twin

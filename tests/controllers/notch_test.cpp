@@ -7,11 +7,11 @@
 #include <complex>
 #include <limits>
 
-#include "algebra/eigenvalues.h"
+#include "algebra/dense.h"
 #include "example_controllers.h"
 
 namespace whirl_twin {
-namespace {
+namespace notch_test {
 
 using Complex = std::complex<double>;
 using Eigen::Index;
@@ -43,9 +43,9 @@ Complex poleNear(double speed, double phase, double period) {
   }
   MatrixXd loop(4 + law.states(), 4 + law.states());
   loop << a + b * law.d * c, b * law.c, law.b * c, law.a;
-  const Eigen::EigenSolver<MatrixXd> solver(loop, false);
+  const EigenPairs solver = eigenvalues(loop);
   Complex nearest(1e9, 0.0);
-  for (const Complex& z : solver.eigenvalues()) {
+  for (const Complex& z : solver.values) {
     const Complex s = std::log(z) / period;
     if (std::abs(s - Complex(0, speed)) < std::abs(nearest - Complex(0, speed))) {
       nearest = s;
@@ -94,9 +94,7 @@ TEST(Notch, OfASingleProbeIsStableByTheSamePhase) {
       const MatrixXd c = row({1, 0});
       MatrixXd loop(2 + law.states(), 2 + law.states());
       loop << a + b * law.d * c, b * law.c, law.b * c, law.a;
-      return std::log(
-                 Eigen::EigenSolver<MatrixXd>(loop, false).eigenvalues().cwiseAbs().maxCoeff()) /
-             period;
+      return std::log(eigenvalues(loop).values.cwiseAbs().maxCoeff()) / period;
     };
     EXPECT_NEAR(pole(phase), -0.01 * std::abs(sensitivity(speed)), 1e-3);
     EXPECT_GT(pole(phase + 3.14), 0.005);
@@ -232,5 +230,5 @@ TEST(Notch, RefusesWhatCannotBe) {
   EXPECT_EQ(refusal("pid", levitation(0.01, 0.3), settings, planOf(100.0, 2)).first, "notch_phase");
 }
 
-}  // namespace
+}  // namespace notch_test
 }  // namespace whirl_twin

@@ -10,7 +10,7 @@
 #include "made_controller.h"
 
 namespace whirl_twin {
-namespace {
+namespace pid_test {
 
 struct Response {
   double overshoot;  ///< [-]
@@ -233,5 +233,5 @@ TEST(Pid, WithoutAnIntegralANewGainActsAtOnce) {
   EXPECT_NEAR(found, 3.0 * expected, 1e-13);
 }
 
-}  // namespace
+}  // namespace pid_test
 }  // namespace whirl_twin

@@ -5,12 +5,12 @@
 
 #include <cmath>
 
-#include "algebra/eigenvalues.h"
+#include "algebra/dense.h"
 #include "analysis/riccati.h"
 #include "example_controllers.h"
 
 namespace whirl_twin {
-namespace {
+namespace quadratic_test {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -139,15 +139,15 @@ TEST(Lqg, HasThePolesOfItsRegulatorAndOfItsFilter) {
   const MatrixXd c = plan.plant->c;
   MatrixXd loop(8, 8);
   loop << plant.a + plant.b * law.d * c, plant.b * law.c, law.b * c, law.a;
-  const Eigen::EigenSolver<MatrixXd> all(loop, false);
+  const EigenPairs all = eigenvalues(loop);
 
   const MatrixXd gain =
       gainOf(*made("lqr", {}, regulatorOfTwoMasses("sampled"), planOfTwoMasses(kRate, 4)));
-  const Eigen::EigenSolver<MatrixXd> regulator(MatrixXd(plant.a - plant.b * gain), false);
+  const EigenPairs regulator = eigenvalues(plant.a - plant.b * gain);
   for (Index i = 0; i < 4; ++i) {
-    EXPECT_LT((all.eigenvalues().array() - regulator.eigenvalues()[i]).abs().minCoeff(), 1e-9);
+    EXPECT_LT((all.values.array() - regulator.values[i]).abs().minCoeff(), 1e-9);
   }
-  EXPECT_LT(all.eigenvalues().cwiseAbs().maxCoeff(), 1.0);
+  EXPECT_LT(all.values.cwiseAbs().maxCoeff(), 1.0);
 }
 
 // What is cut off an output never reached the plant: the prediction is without it.
@@ -190,5 +190,5 @@ TEST(Lqg, KeepsToTheStatesUnderLimits) {
   EXPECT_LT(x.norm(), 1e-9);
 }
 
-}  // namespace
+}  // namespace quadratic_test
 }  // namespace whirl_twin

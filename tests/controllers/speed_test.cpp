@@ -11,7 +11,7 @@
 #include "twin/twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace speed_test {
 
 Settings motor(double torque, bool avoids = false) {
   Settings settings;
@@ -141,5 +141,5 @@ controllers:
   EXPECT_NEAR(inside, 1000.0 * 40.0 / 15.0, 400.0) << "ms in the band";
 }
 
-}  // namespace
+}  // namespace speed_test
 }  // namespace whirl_twin

@@ -4,7 +4,7 @@
 #include "example_controllers.h"
 
 namespace whirl_twin {
-namespace {
+namespace state_feedback_test {
 
 TEST(StateFeedback, TakesItsGainOff) {
   const auto law =
@@ -24,5 +24,5 @@ TEST(StateFeedback, IsRefusedAGainOfAnotherSize) {
             "must be 1 x 2, a row an output, a column for each of what is measured, found 1 x 3");
 }
 
-}  // namespace
+}  // namespace state_feedback_test
 }  // namespace whirl_twin

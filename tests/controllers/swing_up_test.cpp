@@ -11,7 +11,7 @@
 #include "example_controllers.h"
 
 namespace whirl_twin {
-namespace {
+namespace swing_up_test {
 
 constexpr double kPi = 3.141592653589793;
 
@@ -167,5 +167,5 @@ TEST(SwingUp, RefusesWhatDoesNotFit) {
   EXPECT_EQ(refused(swinging(1.0, 10.0), {1.0, 1.0}, limited), "drive");
 }
 
-}  // namespace
+}  // namespace swing_up_test
 }  // namespace whirl_twin

@@ -6,7 +6,7 @@
 #include <random>
 
 namespace whirl_twin {
-namespace {
+namespace clock_watch_test {
 
 constexpr std::int64_t kEpoch = 1'750'000'000'000'000'000;  // ns
 
@@ -76,5 +76,5 @@ TEST(ClockWatch, SaysNothingBeforeItKnows) {
   EXPECT_TRUE(std::isnan(watch.deviation()));
 }
 
-}  // namespace
+}  // namespace clock_watch_test
 }  // namespace whirl_twin

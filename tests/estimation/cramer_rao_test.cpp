@@ -16,7 +16,7 @@
 #include "followed_machine.h"
 
 namespace whirl_twin {
-namespace {
+namespace cramer_rao_test {
 
 constexpr double kMass = 2.0, kStiffness = 20000.0, kDamping = 20.0, kEccentricity = 2.0e-5;
 constexpr double kNoise = 3.0e-6;        // m
@@ -55,7 +55,7 @@ struct RunUp {
   std::vector<ShaftInstant> shaft;
 
   RunUp(double stiffness, double damping, double eccentricity) {
-    Twin machine(sceneOf(rotor(stiffness, damping, eccentricity)));
+    Twin machine(builtSceneOf(rotor(stiffness, damping, eccentricity)));
     std::vector<double> record(machine.layout().size);
     for (std::int64_t k = 0; k <= kSteps; ++k) {
       if (k % kRatio == 0) {
@@ -137,7 +137,7 @@ TEST(CramerRao, IsReachedByTheFilterWithinATenth) {
   for (int run = 0; run < runs; ++run) {
     const double stiffness = kStiffness * std::exp(0.01 * normal(random));
     const double damping = kDamping * std::exp(0.1 * normal(random));
-    SystemFilter filter(sceneOf(rotor(stiffness, damping, 0.0)), 0, settings,
+    SystemFilter filter(builtSceneOf(rotor(stiffness, damping, 0.0)), 0, settings,
                         {probe("probes/x", 0.0), probe("probes/y", M_PI / 2.0)});
     filter.begin(truth.shaft[0]);
     for (std::size_t k = 1; k < truth.z.size(); ++k) {
@@ -209,5 +209,5 @@ TEST(FollowedRunUp, TellsUnbalanceStiffnessAndDampingThroughTheSensors) {
   expectWithin(2.0, widest[3], "unbalance's angle, off by degrees");
 }
 
-}  // namespace
+}  // namespace cramer_rao_test
 }  // namespace whirl_twin

@@ -15,7 +15,7 @@
 #include "control/counter_noise.h"
 
 namespace whirl_twin {
-namespace {
+namespace drift_watch_test {
 
 /// A filter at rest that estimates one parameter, and lets it walk: a gain, a memory [s] and a
 /// deviation.
@@ -214,5 +214,5 @@ TEST(DriftWatch, AllocatesNothingForASample) {
   EXPECT_EQ(guard.allocations(), 0u);
 }
 
-}  // namespace
+}  // namespace drift_watch_test
 }  // namespace whirl_twin

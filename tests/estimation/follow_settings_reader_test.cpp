@@ -9,7 +9,7 @@
 #include "scene/scene_reader.h"
 
 namespace whirl_twin {
-namespace {
+namespace follow_settings_reader_test {
 
 FollowSettings settingsOf(const std::string& pendulum) {
   static const BuiltScene scene = build(readScene(YAML::Load(R"(
@@ -70,5 +70,5 @@ TEST(FollowSettings, GivesDeviationsOfAParameterInPartsOfItsValue) {
   EXPECT_EQ(settings.of("pendulum").parameters[0].number.walk, 0.01);
 }
 
-}  // namespace
+}  // namespace follow_settings_reader_test
 }  // namespace whirl_twin

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace whirl_twin {
-namespace {
+namespace followed_input_test {
 
 constexpr std::int64_t kStep = 10'000'000;  // ns
 
@@ -56,5 +56,5 @@ TEST(FollowedInput, HasTheNoiseOfItsSamples) {
   EXPECT_DOUBLE_EQ(input.noiseDensity(), 0.04 * 0.01);
 }
 
-}  // namespace
+}  // namespace followed_input_test
 }  // namespace whirl_twin

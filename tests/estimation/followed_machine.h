@@ -14,7 +14,7 @@
 
 namespace whirl_twin {
 
-inline BuiltScene sceneOf(const std::string& text) {
+inline BuiltScene builtSceneOf(const std::string& text) {
   return build(readScene(YAML::Load(text), "a test"));
 }
 
@@ -22,7 +22,7 @@ inline BuiltScene sceneOf(const std::string& text) {
 class Machine {
  public:
   explicit Machine(const std::string& scene)
-      : twin_(sceneOf(scene)),
+      : twin_(builtSceneOf(scene)),
         generations_(std::make_shared<SystemGenerations>(twin_)),
         observer_(twin_, generations_),
         measurements_(twin_.scene().sensors, twin_.built(), observer_),

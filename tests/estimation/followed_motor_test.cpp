@@ -11,7 +11,7 @@
 #include "messages/refusal.h"
 
 namespace whirl_twin {
-namespace {
+namespace followed_motor_test {
 
 using testing::HasSubstr;
 
@@ -128,5 +128,5 @@ controllers:
   EXPECT_TRUE(readFollowedScene(YAML::Load(kMotor), "a test").drives[0].motor.has_value());
 }
 
-}  // namespace
+}  // namespace followed_motor_test
 }  // namespace whirl_twin

@@ -15,7 +15,7 @@
 #include "messages/refusal.h"
 
 namespace whirl_twin {
-namespace {
+namespace follower_test {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -502,7 +502,7 @@ sensors:
 
 TEST(Follower, RefusesASceneThatMeasuresNothing) {
   const std::string text = std::string(kRotor).substr(0, std::string(kRotor).find("sensors:"));
-  const Twin twin(sceneOf(text));
+  const Twin twin(builtSceneOf(text));
   EXPECT_THROW(Follower(twin, std::make_shared<SystemGenerations>(twin), {}, 1, {}), Refusal);
 }
 
@@ -582,5 +582,5 @@ TEST(Follower, BeginsAnewWhenItsEstimateRunsAway) {
   }
 }
 
-}  // namespace
+}  // namespace follower_test
 }  // namespace whirl_twin

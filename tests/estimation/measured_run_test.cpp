@@ -12,7 +12,7 @@
 #include "messages/refusal.h"
 
 namespace whirl_twin {
-namespace {
+namespace measured_run_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -97,5 +97,5 @@ TEST(MeasuredRun, RefusesWhatCannotBeMeant) {
   EXPECT_THAT(refusal("t,a\n0,1\n1e99,2\n"), HasSubstr("must be within 4.2e+09 s"));
 }
 
-}  // namespace
+}  // namespace measured_run_test
 }  // namespace whirl_twin

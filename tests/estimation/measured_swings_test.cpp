@@ -15,7 +15,7 @@
 #include "scene/scene_reader.h"
 
 namespace whirl_twin {
-namespace {
+namespace measured_swings_test {
 
 constexpr double kBetweenSwings = 1.0;  // s, at least
 constexpr double kBar = 1.8e-3;         // rad
@@ -161,5 +161,5 @@ TEST(MeasuredSwings, FollowedOnLineTellWhatPredictsThem) {
   }
 }
 
-}  // namespace
+}  // namespace measured_swings_test
 }  // namespace whirl_twin

@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace whirl_twin {
-namespace {
+namespace mode_pairing_test {
 
 using Complex = std::complex<double>;
 constexpr double kHalfPi = 1.57079632679489661923;
@@ -60,5 +60,5 @@ TEST(ModePairing, SeesOfAModeWhatOneProbeShows) {
   }
 }
 
-}  // namespace
+}  // namespace mode_pairing_test
 }  // namespace whirl_twin

@@ -15,7 +15,7 @@
 #include "estimation/alarm_limits.h"
 
 namespace whirl_twin {
-namespace {
+namespace residual_watch_test {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
@@ -175,5 +175,5 @@ TEST(ResidualWatch, AnAllowanceThatIsNotTakenIsNoMismatch) {
   }
 }
 
-}  // namespace
+}  // namespace residual_watch_test
 }  // namespace whirl_twin

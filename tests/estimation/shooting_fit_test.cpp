@@ -18,7 +18,7 @@
 #include "scene/scene_reader.h"
 
 namespace whirl_twin {
-namespace {
+namespace shooting_fit_test {
 
 constexpr double kInterval = 0.004;  // s
 
@@ -380,5 +380,5 @@ TEST(ShootingFit, AGrosslyWrongRowMovesNothingWhereResidualsAreRobust) {
   EXPECT_GT(off, 1e-4);
 }
 
-}  // namespace
+}  // namespace shooting_fit_test
 }  // namespace whirl_twin

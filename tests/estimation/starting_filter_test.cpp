@@ -11,7 +11,7 @@
 #include "twin/twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace starting_filter_test {
 
 constexpr double kNoise = 0.002;  // rad
 constexpr double kLength = 0.3, kDamping = 0.004;
@@ -93,5 +93,5 @@ TEST(StartingFilter, ThatKnowsEnoughKeepsNothing) {
   EXPECT_FALSE(filter.looksAtItsStart());
 }
 
-}  // namespace
+}  // namespace starting_filter_test
 }  // namespace whirl_twin

@@ -17,7 +17,7 @@
 #include "twin/twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace system_filter_test {
 
 BuiltScene sceneOf(const std::string& text) {
   return build(readScene(YAML::Load(text), "a test"));
@@ -364,5 +364,5 @@ TEST(SystemFilter, FindsStiffnessAndDampingInARunUp) {
         });
 }
 
-}  // namespace
+}  // namespace system_filter_test
 }  // namespace whirl_twin

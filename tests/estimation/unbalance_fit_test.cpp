@@ -10,7 +10,7 @@
 #include "analysis/synchronous_response.h"
 
 namespace whirl_twin {
-namespace {
+namespace unbalance_fit_test {
 
 using Complex = std::complex<double>;
 constexpr double kTurn = 6.283185307179586;
@@ -290,5 +290,5 @@ TEST(DrivenWhirl, IsTheRunUpOfTheEquationsOfMotion) {
   EXPECT_LT(off, 6e-3 * largest);
 }
 
-}  // namespace
+}  // namespace unbalance_fit_test
 }  // namespace whirl_twin

@@ -5,22 +5,22 @@
 // from its recurrence, as `auto` does.
 #pragma once
 
+#include <Eigen/LU>
 #include <cmath>
 #include <complex>
 #include <optional>
 #include <string>
 
-#include "algebra/eigenvalues.h"
-#include "algebra/lu.h"
+#include "algebra/dense.h"
 #include "integration/stoermer_growth.h"
 #include "mechanics/linearization.h"
 
 namespace whirl_twin {
 
-struct FreeMotion {
+struct FreeDeviation {
   Eigen::MatrixXd by_q, by_v;  ///< q'' = by_q q + by_v q'
 
-  explicit FreeMotion(const Linearization& l)
+  explicit FreeDeviation(const Linearization& l)
       : by_q(-l.mass.inverse() * (l.stiffness + l.circulatory)),
         by_v(-l.mass.inverse() * (l.damping + l.gyroscopic)) {}
 
@@ -33,11 +33,11 @@ struct FreeMotion {
     a.bottomRightCorner(n, n) = by_v;
     return a;
   }
-  Eigen::VectorXcd spectrum() const { return matrix().eigenvalues(); }
+  Eigen::VectorXcd spectrum() const { return eigenvalues(matrix()).values; }
 };
 
 inline double spectralRadius(const Eigen::MatrixXd& map) {
-  return map.eigenvalues().cwiseAbs().maxCoeff();
+  return eigenvalues(map).values.cwiseAbs().maxCoeff();
 }
 
 /// R(z) of a Runge-Kutta method; nothing for one that is not named here.
@@ -66,7 +66,8 @@ inline std::optional<std::complex<double>> stabilityFunction(const std::string& 
 }
 
 /// Largest growth a step of h [s] by the method; nothing where its form is not known here.
-inline std::optional<double> growth(const std::string& method, const FreeMotion& motion, double h) {
+inline std::optional<double> growth(const std::string& method, const FreeDeviation& motion,
+                                    double h) {
   const Eigen::Index n = motion.by_q.rows();
   const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(n, n);
   Eigen::MatrixXd map(2 * n, 2 * n);

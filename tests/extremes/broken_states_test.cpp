@@ -14,7 +14,7 @@
 #include "twin/observer.h"
 
 namespace whirl_twin {
-namespace {
+namespace broken_states_test {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -138,5 +138,5 @@ TEST(StateBrokenInTheMiddleOfARun, StopsItsSystemAtThatStepAndTheObserverSaysSo)
   }
 }
 
-}  // namespace
+}  // namespace broken_states_test
 }  // namespace whirl_twin

@@ -9,7 +9,7 @@
 #include "analysis/equilibria.h"
 
 namespace whirl_twin {
-namespace {
+namespace catalogue_extremes_test {
 
 constexpr std::int64_t kMillisecond = 1000000;
 constexpr double kPi = 3.14159265358979323846;
@@ -220,5 +220,5 @@ TEST(Extremes, ElevenDaysOfUndampedSwing) {
   EXPECT_LT(largest, 1e-9 * start);
 }
 
-}  // namespace
+}  // namespace catalogue_extremes_test
 }  // namespace whirl_twin

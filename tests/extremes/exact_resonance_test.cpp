@@ -13,7 +13,7 @@
 #include "measured.h"
 
 namespace whirl_twin {
-namespace {
+namespace exact_resonance_test {
 
 using Complex = std::complex<long double>;
 
@@ -59,11 +59,11 @@ TEST(AtTheExactCriticalSpeed, TheWhirlGrowsInProportionToTime) {
   }
 }
 
-class EveryMethod : public testing::TestWithParam<std::string> {};
+class EveryMethodAtResonance : public testing::TestWithParam<std::string> {};
 
 // A method's own frequency detunes it: after p t radians the whirl is beside the exact one by half
 // of that times p t, and in the end it beats.
-TEST_P(EveryMethod, GrowsAsItsOwnFrequencyAllows) {
+TEST_P(EveryMethodAtResonance, GrowsAsItsOwnFrequencyAllows) {
   constexpr std::int64_t kSteps = 10000;
   constexpr double kStepAngle = kP * 1e-3;  // p h
   RunningSystem rotor(atResonance(), GetParam(), kMillisecond);
@@ -73,7 +73,7 @@ TEST_P(EveryMethod, GrowsAsItsOwnFrequencyAllows) {
                "error of r = e p t / 2 at p t = 160 by " + GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(AtTheExactCriticalSpeed, EveryMethod,
+INSTANTIATE_TEST_SUITE_P(AtTheExactCriticalSpeed, EveryMethodAtResonance,
                          testing::ValuesIn(integratorsOf("jeffcott_rotor")),
                          [](const auto& test) { return test.param; });
 
@@ -86,5 +86,5 @@ TEST(AtTheExactCriticalSpeed, DampingWouldHoldTheGrowthAtAnAmplificationOfOneOve
   EXPECT_NEAR(std::hypot(rotor.q(0), rotor.q(1)) / (kEccentricity / (2.0 * zeta)), 1.0, 1e-10);
 }
 
-}  // namespace
+}  // namespace exact_resonance_test
 }  // namespace whirl_twin

@@ -10,7 +10,7 @@
 #include "measured.h"
 
 namespace whirl_twin {
-namespace {
+namespace extreme_parameters_test {
 
 using Complex = ClosedFormWhirl::Complex;
 
@@ -62,11 +62,11 @@ double largestError(const RunningSystem::Setup& s, const std::string& method, st
   return error;
 }
 
-class EveryMethod : public testing::TestWithParam<std::string> {};
+class EveryMethodOfExtremes : public testing::TestWithParam<std::string> {};
 
 // From no damping through critical, where two roots meet, to creeping: at zeta = 100 the roots lie
 // four decades apart, p / 200 and 200 p.
-TEST_P(EveryMethod, FollowsDampingFromNoneToAHundredTimesCritical) {
+TEST_P(EveryMethodOfExtremes, FollowsDampingFromNoneToAHundredTimesCritical) {
   constexpr double kP = 10.0;
   const bool exact = GetParam() == "exponential";
   // The exact step takes any step: 10 ms, p t = 100, rounding. The others take the fastest root by
@@ -87,7 +87,7 @@ TEST_P(EveryMethod, FollowsDampingFromNoneToAHundredTimesCritical) {
 
 // Speeds over fourteen decades. The exact step takes up to 100 rad of the shaft in a millisecond;
 // the others take the faster of whirl and shaft by 0.01 rad, semi-implicit Euler by a tenth of it.
-TEST_P(EveryMethod, FollowsShaftSpeedsFromZeroToAHundredThousand) {
+TEST_P(EveryMethodOfExtremes, FollowsShaftSpeedsFromZeroToAHundredThousand) {
   constexpr double kP = 10.0;
   const int order = orderOf(GetParam());
   const double z = order == 1 ? 1e-3 : 1e-2;
@@ -104,7 +104,7 @@ TEST_P(EveryMethod, FollowsShaftSpeedsFromZeroToAHundredThousand) {
                "shaft speeds 0 to 1e5 rad/s by " + GetParam() + ", relative error");
 }
 
-INSTANTIATE_TEST_SUITE_P(OfExtremes, EveryMethod,
+INSTANTIATE_TEST_SUITE_P(OfExtremes, EveryMethodOfExtremes,
                          testing::ValuesIn(integratorsOf("jeffcott_rotor")),
                          [](const auto& test) { return test.param; });
 
@@ -186,5 +186,5 @@ TEST(StiffnessRatioOfABillionThousands, OfTwoJoinedMassesLeavesTheSlowSwing) {
   }
 }
 
-}  // namespace
+}  // namespace extreme_parameters_test
 }  // namespace whirl_twin

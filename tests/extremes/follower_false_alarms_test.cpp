@@ -9,7 +9,7 @@
 #include "measured.h"
 
 namespace whirl_twin {
-namespace {
+namespace follower_false_alarms_test {
 
 constexpr const char* kRotor = R"(
 name: rig
@@ -81,5 +81,5 @@ TEST(FollowerFalseAlarms, AreFewerThanOneADay) {
                fmt::format("windows of residuals beyond their limits in {} h", hours));
 }
 
-}  // namespace
+}  // namespace follower_false_alarms_test
 }  // namespace whirl_twin

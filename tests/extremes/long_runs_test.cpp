@@ -11,7 +11,7 @@
 #include "measured.h"
 
 namespace whirl_twin {
-namespace {
+namespace long_runs_test {
 
 using Complex = std::complex<long double>;
 
@@ -122,7 +122,7 @@ TEST(AMonthOfSteps, StaysOnTheClosedFormOfAnUnbalancedRotor) {
   expectWithin(fullLength() ? 1e-9 : 1e-11, residual, "energy residual of it" + after);
 }
 
-class EveryMethod : public testing::TestWithParam<std::string> {};
+class EveryMethodInALongRun : public testing::TestWithParam<std::string> {};
 
 // What a method's stability function R says of a whirl e^(ipt): |R(i z)|^2 = 1 - z^6/72 + z^8/576
 // for Runge-Kutta 4; 1 for the implicit ones and the exact one. Semi-implicit Euler conserves
@@ -131,7 +131,7 @@ class EveryMethod : public testing::TestWithParam<std::string> {};
 // out of the sine, 863/12096 of the sixth difference and 275/4032 of the seventh, lags by half of
 // each step that it is taken back from. Those not named here are of order 7 or more, or conserve
 // it: 1 - O(z^8) at the worst, z^8 = 4e-15 with a factor of 1e-4 or less.
-TEST_P(EveryMethod, GainsAndLosesTheEnergyItsStabilityFunctionSays) {
+TEST_P(EveryMethodInALongRun, GainsAndLosesTheEnergyItsStabilityFunctionSays) {
   RunningSystem rotor(freeWhirl(), GetParam(), kMillisecond);
   const std::int64_t steps = runOf(200000, 100000000);
   const double rounding = fullLength() ? 1e-9 : 1e-12;
@@ -154,9 +154,9 @@ TEST_P(EveryMethod, GainsAndLosesTheEnergyItsStabilityFunctionSays) {
                            static_cast<double>(steps)));
 }
 
-INSTANTIATE_TEST_SUITE_P(AMonthOfSteps, EveryMethod,
+INSTANTIATE_TEST_SUITE_P(AMonthOfSteps, EveryMethodInALongRun,
                          testing::ValuesIn(integratorsOf("jeffcott_rotor")),
                          [](const auto& test) { return test.param; });
 
-}  // namespace
+}  // namespace long_runs_test
 }  // namespace whirl_twin

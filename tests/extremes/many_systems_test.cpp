@@ -13,7 +13,7 @@
 #include "twin/twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace many_systems_test {
 
 constexpr int kMany = 10000;
 
@@ -138,5 +138,5 @@ TEST(TenThousandSystems, TakeTheRoomOfEachInProportion) {
   }
 }
 
-}  // namespace
+}  // namespace many_systems_test
 }  // namespace whirl_twin

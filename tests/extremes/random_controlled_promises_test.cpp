@@ -21,7 +21,7 @@
 #include "scene/system_setup.h"
 
 namespace whirl_twin {
-namespace {
+namespace random_controlled_promises_test {
 
 constexpr std::uint64_t kSeed = 15;
 constexpr double kRounding = 1.0e-11;  // below, errors are not told apart
@@ -175,5 +175,5 @@ TEST(RandomControlledPromises, AreKept) {
   judged.expectMost();
 }
 
-}  // namespace
+}  // namespace random_controlled_promises_test
 }  // namespace whirl_twin

@@ -17,7 +17,7 @@
 #include "measured.h"
 
 namespace whirl_twin {
-namespace {
+namespace random_polynomials_test {
 
 using Polynomial = std::vector<Rational>;
 
@@ -189,5 +189,5 @@ TEST(RandomPolynomials, TheVerdictOnASystemIsThatOfTheModesItWasMadeOf) {
   }
 }
 
-}  // namespace
+}  // namespace random_polynomials_test
 }  // namespace whirl_twin

@@ -19,7 +19,7 @@
 #include "scene/system_setup.h"
 
 namespace whirl_twin {
-namespace {
+namespace random_promises_test {
 
 constexpr std::uint64_t kSeed = 12;    // or WHIRL_TWIN_SEED of the environment: other scenes
 constexpr double kRounding = 1.0e-12;  // below, errors are not told apart
@@ -201,5 +201,5 @@ TEST(RandomPromises, OfShaftsWithElementsAreKept) {
   judged.expectMost();
 }
 
-}  // namespace
+}  // namespace random_promises_test
 }  // namespace whirl_twin

@@ -13,7 +13,7 @@
 #include "measured.h"
 
 namespace whirl_twin {
-namespace {
+namespace replanned_speeds_test {
 
 constexpr double kUlp = std::numeric_limits<double>::epsilon();
 using Random = std::mt19937_64;
@@ -137,5 +137,5 @@ TEST(ReplannedSpeeds, AreInABandOnlyWhileTheyCrossItAtTheLargestAcceleration) {
   expectWithin(1.0e-9, missing, "acceleration missing inside of a band");
 }
 
-}  // namespace
+}  // namespace replanned_speeds_test
 }  // namespace whirl_twin

@@ -9,7 +9,7 @@
 #include "measured.h"
 
 namespace whirl_twin {
-namespace {
+namespace saddles_test {
 
 /// A saddle at q = 0, and its rate [1/s]: a nudge grows as cosh(rate t).
 struct Saddle {
@@ -112,5 +112,5 @@ TEST(ABalancedRotorAboveItsThreshold, StaysInTheCentreItIsRepelledFrom) {
   }
 }
 
-}  // namespace
+}  // namespace saddles_test
 }  // namespace whirl_twin

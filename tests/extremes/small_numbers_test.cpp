@@ -13,7 +13,7 @@
 #include "twin/observer.h"
 
 namespace whirl_twin {
-namespace {
+namespace small_numbers_test {
 
 using Complex = ClosedFormWhirl::Complex;
 
@@ -30,13 +30,13 @@ RunningSystem::Setup ringingDown(double radius) {
   return s;
 }
 
-class EveryMethod : public testing::TestWithParam<std::string> {};
+class EveryMethodWithSmallNumbers : public testing::TestWithParam<std::string> {};
 
 // From 1e-295 m into the denormals, 29 decades in 6.7 s. There a number has no relative rounding:
 // each step may err by a few of the smallest numbers in q, and of p times them by way of q'. In
 // sums an increment of the increment, (p h)^2 q, is lost where it is less than half the smallest
 // number, and the motion stands still.
-TEST_P(EveryMethod, RingsDownIntoDenormalsAndEndsThere) {
+TEST_P(EveryMethodWithSmallNumbers, RingsDownIntoDenormalsAndEndsThere) {
   constexpr double kStart = 1e-295;
   RunningSystem rotor(ringingDown(kStart), GetParam(), kMillisecond / 5);
   const ClosedFormWhirl exact(2.0L * kZeta * kP, kP * kP, 0.0L, 0.0L, Complex(kStart, 0.0L),
@@ -66,7 +66,7 @@ TEST_P(EveryMethod, RingsDownIntoDenormalsAndEndsThere) {
 }
 
 // As the real-time thread runs: no number smaller than 2.2e-308 is ever seen.
-TEST_P(EveryMethod, NeverMeetsADenormalWhereTheyAreRoundedToZero) {
+TEST_P(EveryMethodWithSmallNumbers, NeverMeetsADenormalWhereTheyAreRoundedToZero) {
   const auto denormals = [&] {
     RunningSystem rotor(ringingDown(1e-300), GetParam(), kMillisecond);
     int count = 0;
@@ -90,7 +90,7 @@ TEST_P(EveryMethod, NeverMeetsADenormalWhereTheyAreRoundedToZero) {
 
 // A plane motion through the centre: x = (v/p) sin(p t), y = 0. At the start the radius is 0; it is
 // again at every half period, after 50 steps.
-TEST_P(EveryMethod, PassesThroughTheCentreWithoutAJump) {
+TEST_P(EveryMethodWithSmallNumbers, PassesThroughTheCentreWithoutAJump) {
   const double h = 1e-3;
   const double p = M_PI / (50.0 * h);
   const std::string rotor = fmt::format(
@@ -147,7 +147,7 @@ TEST_P(EveryMethod, PassesThroughTheCentreWithoutAJump) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(NextToNothing, EveryMethod,
+INSTANTIATE_TEST_SUITE_P(NextToNothing, EveryMethodWithSmallNumbers,
                          testing::ValuesIn(integratorsOf("jeffcott_rotor")),
                          [](const auto& test) { return test.param; });
 
@@ -186,5 +186,5 @@ TEST(NonlinearRotorAtTheCentre, StartsAndPasses) {
   }
 }
 
-}  // namespace
+}  // namespace small_numbers_test
 }  // namespace whirl_twin

@@ -16,7 +16,7 @@
 #include "measured.h"
 
 namespace whirl_twin {
-namespace {
+namespace stability_limits_test {
 
 constexpr double kNone = std::numeric_limits<double>::infinity();
 constexpr double kLargest = 100.0;     // of h |lambda| looked at
@@ -201,7 +201,7 @@ class StabilityLimit : public testing::TestWithParam<Case> {
 
   RunningSystem::Setup setup_;
   RunningSystem start_;
-  FreeMotion motion_;
+  FreeDeviation motion_;
   double fastest_;  // [rad/s], |lambda|max
 };
 
@@ -236,5 +236,5 @@ INSTANTIATE_TEST_SUITE_P(Methods, StabilityLimit, testing::ValuesIn(everyCase())
                            return test.param.system + ("_" + test.param.method);
                          });
 
-}  // namespace
+}  // namespace stability_limits_test
 }  // namespace whirl_twin

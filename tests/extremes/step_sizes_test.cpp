@@ -11,7 +11,7 @@
 #include "twin/twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace step_sizes_test {
 
 using Complex = ClosedFormWhirl::Complex;
 
@@ -39,12 +39,12 @@ struct Rotor {
   }
 };
 
-class EveryMethod : public testing::TestWithParam<std::string> {};
+class EveryMethodAtAStepSize : public testing::TestWithParam<std::string> {};
 
 // A million steps of a nanosecond: a millisecond, p t = 0.1. Each adds 1e-7 of the radius, and its
 // rounding must not be lost, nor the truncation of first order, (p h) p t = 1e-8, be more than it
 // is.
-TEST_P(EveryMethod, AMillionStepsOfANanosecondAreAMillisecond) {
+TEST_P(EveryMethodAtAStepSize, AMillionStepsOfANanosecondAreAMillisecond) {
   const Rotor rotor{100.0, 0.05, 80.0, 1e-4};
   RunningSystem system(rotor.setup(), GetParam(), 1);
   ASSERT_EQ(system.run(1000000), StepStatus::kOk);
@@ -57,7 +57,7 @@ TEST_P(EveryMethod, AMillionStepsOfANanosecondAreAMillisecond) {
 }
 
 // A slow rotor, p = 0.001 rad/s, by steps of 10 s: p h = 0.01. After a day and more, p t = 100.
-TEST_P(EveryMethod, AHundredThousandSecondsInStepsOfTen) {
+TEST_P(EveryMethodAtAStepSize, AHundredThousandSecondsInStepsOfTen) {
   const Rotor rotor{0.001, 0.0, 0.0007, 1e-4};
   RunningSystem system(rotor.setup(), GetParam(), 10 * kSecond);
   double error = 0.0;
@@ -75,7 +75,8 @@ TEST_P(EveryMethod, AHundredThousandSecondsInStepsOfTen) {
                "1e5 s in steps of 10 s by " + GetParam() + ", error over radius");
 }
 
-INSTANTIATE_TEST_SUITE_P(Steps, EveryMethod, testing::ValuesIn(integratorsOf("jeffcott_rotor")),
+INSTANTIATE_TEST_SUITE_P(Steps, EveryMethodAtAStepSize,
+                         testing::ValuesIn(integratorsOf("jeffcott_rotor")),
                          [](const auto& test) { return test.param; });
 
 // What the exact step does with a rotor of 1000 rad/s in a step of ten seconds, 1600 turns.
@@ -126,5 +127,5 @@ TEST(TenMinutes, OfStepsOfTenSecondsAndOfAMillisecondEndInTheSameWhirl) {
   expectWithin(1e-11, error, "whirl after 600 s in steps of 10 s and of 1 ms, difference");
 }
 
-}  // namespace
+}  // namespace step_sizes_test
 }  // namespace whirl_twin

@@ -9,7 +9,7 @@
 #include "twin/observer.h"
 
 namespace whirl_twin {
-namespace {
+namespace turned_shaft_test {
 
 constexpr double kBillion = 1e9;  // [rad]
 /// 1e9 rad less 159154943 turns of 2 pi, to the last digit of a double.
@@ -80,5 +80,5 @@ TEST(ShaftTurnedByABillionRadians, StandsAtTheRemainder) {
   }
 }
 
-}  // namespace
+}  // namespace turned_shaft_test
 }  // namespace whirl_twin

@@ -14,7 +14,7 @@
 #include "twin/twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace unit_scales_test {
 
 /// Of a unit as the models write them ("N m s/rad", "kg m^2", "Pa s"): powers of mass and length.
 struct Dimension {
@@ -188,5 +188,5 @@ TEST_P(InOtherUnits, TheMotionIsTheSame) {
 INSTANTIATE_TEST_SUITE_P(Models, InOtherUnits, testing::ValuesIn(everyMovingVariant()),
                          [](const auto& test) { return testName(test.param); });
 
-}  // namespace
+}  // namespace unit_scales_test
 }  // namespace whirl_twin

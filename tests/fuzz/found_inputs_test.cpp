@@ -9,7 +9,7 @@
 #include "../tools/twin_program.h"
 
 namespace whirl_twin {
-namespace {
+namespace found_inputs_test {
 
 const std::string kCorpus = WHIRL_TWIN_SOURCE "/tests/fuzz/corpus/";
 
@@ -233,5 +233,5 @@ TEST(FoundInputs, FoldersDevicesAndPipesAreNoFiles) {
   }
 }
 
-}  // namespace
+}  // namespace found_inputs_test
 }  // namespace whirl_twin

@@ -14,7 +14,7 @@
 #include "messages/refusal.h"
 
 namespace whirl_twin {
-namespace {
+namespace measured_run_fuzz_test {
 
 std::string soundFile() {
   std::string text = "time,theta,torque\n";
@@ -144,5 +144,5 @@ TEST(MeasuredRunFuzz, EveryBrokenFileIsARunOrRefusedInWords) {
   EXPECT_GT(refused, files / 5);
 }
 
-}  // namespace
+}  // namespace measured_run_fuzz_test
 }  // namespace whirl_twin

@@ -24,7 +24,7 @@
 #include "transport/lcm_encode.h"
 
 namespace whirl_twin {
-namespace {
+namespace payload_fuzz_test {
 
 int often(int few, int many) {
   const char* length = std::getenv("WHIRL_TWIN_EXTREMES");
@@ -234,5 +234,5 @@ TEST(PayloadFuzz, DamagedLogsAreReadToTheirEnd) {
   }
 }
 
-}  // namespace
+}  // namespace payload_fuzz_test
 }  // namespace whirl_twin

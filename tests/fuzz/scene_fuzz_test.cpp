@@ -16,7 +16,7 @@
 #include "twin/observer.h"
 
 namespace whirl_twin {
-namespace {
+namespace scene_fuzz_test {
 
 constexpr int kCases = 1000;
 constexpr int kEachProgram = 12;   // every 12th case goes through the program too
@@ -127,5 +127,5 @@ TEST(SceneFuzz, UndamagedScenesAreSound) {
   }
 }
 
-}  // namespace
+}  // namespace scene_fuzz_test
 }  // namespace whirl_twin

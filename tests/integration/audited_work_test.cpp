@@ -8,7 +8,7 @@
 #include "running_system.h"
 
 namespace whirl_twin {
-namespace {
+namespace audited_work_test {
 
 RunningSystem::Setup randomRotor(std::mt19937_64& random, bool rotating_damping) {
   const auto between = [&](double low, double high) {
@@ -78,5 +78,5 @@ TEST(AuditedWork, OfAnUndampedPendulumIsNothing) {
   EXPECT_NEAR(pendulum.work(), 0.0, 1e-13 * start);
 }
 
-}  // namespace
+}  // namespace audited_work_test
 }  // namespace whirl_twin

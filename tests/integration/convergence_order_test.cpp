@@ -8,7 +8,7 @@
 #include "running_system.h"
 
 namespace whirl_twin {
-namespace {
+namespace convergence_order_test {
 
 // A shaft whose motion is smooth over the test: one piece of constant jerk.
 const std::vector<SpeedMove> kSpeedingUp{{100.0, 60.0, 10.0, 0.0}};
@@ -184,5 +184,5 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"OnRotor", "stoermer", 9, rotor, 16 * kMillisecond}),
     [](const auto& test) { return test.param.name; });
 
-}  // namespace
+}  // namespace convergence_order_test
 }  // namespace whirl_twin

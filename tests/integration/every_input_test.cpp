@@ -11,7 +11,7 @@
 #include "integration/step_methods.h"
 
 namespace whirl_twin {
-namespace {
+namespace every_input_test {
 
 struct Pair {
   VariantUnderTest variant;
@@ -151,5 +151,5 @@ INSTANTIATE_TEST_SUITE_P(Models, EveryInput, testing::ValuesIn(everyPair()), [](
   return testName(test.param.variant) + "_" + test.param.method;
 });
 
-}  // namespace
+}  // namespace every_input_test
 }  // namespace whirl_twin

@@ -10,7 +10,7 @@
 #include "whirl_closed_form.h"
 
 namespace whirl_twin {
-namespace {
+namespace exact_step_test {
 
 using Complex = ClosedFormWhirl::Complex;
 
@@ -166,5 +166,5 @@ TEST(ExactStep, FollowsALoadThatAlternatesWithoutAShaft) {
   EXPECT_NEAR(beam.q(0), exact, 1e-12);
 }
 
-}  // namespace
+}  // namespace exact_step_test
 }  // namespace whirl_twin

@@ -9,7 +9,7 @@
 #include "mechanics/rotors/jeffcott_rotor.h"
 
 namespace whirl_twin {
-namespace {
+namespace free_spin_step_test {
 
 using Rotor = FreeSpin<JeffcottRotor>;
 
@@ -58,5 +58,5 @@ TEST_F(FreeSpinStep, FromMillionsOfTurnsGoesOn) {
   EXPECT_NEAR(state()[2] - 1.0e9, 400.0 * kStep, 1.0e-3);
 }
 
-}  // namespace
+}  // namespace free_spin_step_test
 }  // namespace whirl_twin

@@ -16,7 +16,7 @@
 #include "models/model_registry.h"
 
 namespace whirl_twin {
-namespace {
+namespace isotropic_rotors_test {
 
 using Complex = std::complex<double>;
 constexpr std::int64_t kMillisecond = 1'000'000;
@@ -203,5 +203,5 @@ TEST(IsotropicRotors, StepWithoutAllocating) {
   EXPECT_EQ(guard.allocations(), 0u);
 }
 
-}  // namespace
+}  // namespace isotropic_rotors_test
 }  // namespace whirl_twin

@@ -20,7 +20,7 @@
 #include "running_system.h"
 
 namespace whirl_twin {
-namespace {
+namespace lateral_rotor_test {
 
 constexpr std::int64_t kMillisecond = 1'000'000;
 
@@ -390,5 +390,5 @@ TEST(FreeOscillation, IsTheMatrixExponential) {
   }
 }
 
-}  // namespace
+}  // namespace lateral_rotor_test
 }  // namespace whirl_twin

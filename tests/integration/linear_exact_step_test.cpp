@@ -8,7 +8,7 @@
 #include "linear_systems.h"
 
 namespace whirl_twin {
-namespace {
+namespace linear_exact_step_test {
 
 struct Run {
   double step;  // [s]
@@ -116,5 +116,5 @@ TEST(ExactLinearStep, LosesNoPhaseInAMillionSteps) {
   EXPECT_NEAR(end.q()[0], amplitude * (std::cos(w * 1e3) - std::cos(p * 1e3)), 1e-10 * amplitude);
 }
 
-}  // namespace
+}  // namespace linear_exact_step_test
 }  // namespace whirl_twin

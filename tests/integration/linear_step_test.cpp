@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "allocation_guard.h"
+#include "integration/called_equation.h"
 #include "integration/dormand_prince_8.h"
 #include "integration/exponential.h"
 #include "integration/gauss_legendre.h"
@@ -21,36 +22,11 @@
 #include "mechanics/rotors/jeffcott_rotor.h"
 
 namespace whirl_twin {
-namespace {
+namespace linear_step_test {
 
 using Eigen::VectorXd;
 
 constexpr double kSpeed = 17.0;  // rad/s
-
-/// A Jeffcott rotor at constant speed, for the methods of fixed size.
-struct RotorEquation {
-  using Array = std::array<double, 2>;
-  using Jacobian = AccelerationJacobian<2>;
-  const JeffcottRotor& rotor;
-  double time;
-
-  Moment<double> moment(double offset) const {
-    return {time + offset, kSpeed * (time + offset), kSpeed, 0.0};
-  }
-  Derivative<2> evaluate(const Array& q, const Array& v, const Moment<double>& at) const {
-    return derivative(rotor, q, v, at);
-  }
-  Derivative<2> operator()(const Array& q, const Array& v, double offset) const {
-    return evaluate(q, v, moment(offset));
-  }
-  Jacobian jacobian(const Array& q, const Array& v, double offset) const {
-    const auto l = linearization(rotor, q, v, Array{}, moment(offset));
-    const Eigen::Matrix2d inverse = l.mass.inverse();
-    return {-inverse * (l.stiffness + l.circulatory), -inverse * (l.damping + l.gyroscopic)};
-  }
-  bool constantSpeed(double) const { return true; }
-  bool hasInputs() const { return false; }
-};
 
 JeffcottRotor rotorOf(double eccentricity) {
   JeffcottRotor rotor;
@@ -97,9 +73,11 @@ TYPED_TEST(SameMethod, OfMatricesAsOfEnergies) {
     fixed.q = {0.02, -0.05};
     fixed.v = {0.3, 0.1};
     TypeParam method;
+    Drive drive(kSpeed, 0.0);
     for (long i = 0; i < kSteps; ++i) {
-      ASSERT_EQ(method.step(RotorEquation{rotor, static_cast<double>(i) * h}, 0.0, h, fixed),
-                StepStatus::kOk);
+      drive.begin(i * 3906250);  // [ns]: h
+      const DrivenEquation<JeffcottRotor> equation{rotor, drive, static_cast<double>(i) * h};
+      ASSERT_EQ(method.step(equation, 0.0, h, fixed), StepStatus::kOk);
     }
     const LinearModel model = matricesOf(rotor);
     LinearMotion motion(2);
@@ -210,5 +188,5 @@ TEST(LinearGaussLegendre, KeepsTheEnergyOfAnUndampedGyroscopicSystem) {
   EXPECT_NEAR(energy(model, end), energy(model, start), 1e-11 * energy(model, start));
 }
 
-}  // namespace
+}  // namespace linear_step_test
 }  // namespace whirl_twin

@@ -7,7 +7,7 @@
 #include <limits>
 
 namespace whirl_twin {
-namespace {
+namespace matrix_exponential_test {
 
 using Matrix2 = Eigen::Matrix2d;
 using Matrix3 = Eigen::Matrix3d;
@@ -123,5 +123,5 @@ TEST_P(QuadraticIntegral, IsTheQuadrature) {
 INSTANTIATE_TEST_SUITE_P(Steps, QuadraticIntegral, testing::Values(1e-6, 1e-3, 0.1, 1.0, 5.0),
                          [](const auto& test) { return "Case" + std::to_string(test.index); });
 
-}  // namespace
+}  // namespace matrix_exponential_test
 }  // namespace whirl_twin

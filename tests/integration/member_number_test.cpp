@@ -7,7 +7,7 @@
 #include <random>
 
 namespace whirl_twin {
-namespace {
+namespace member_number_test {
 
 /// The largest error of either over angles of this size.
 double worst(double size) {
@@ -56,5 +56,5 @@ TEST(MemberNumber, SmallSinesKeepTheirDigits) {
   }
 }
 
-}  // namespace
+}  // namespace member_number_test
 }  // namespace whirl_twin

@@ -10,7 +10,7 @@
 #include "running_system.h"
 
 namespace whirl_twin {
-namespace {
+namespace model_inputs_test {
 
 constexpr std::int64_t kMillisecond = 1000000;
 constexpr double kPi = 3.14159265358979323846;
@@ -407,5 +407,5 @@ TEST(Inputs, AConstantThatIsZeroIsNoInput) {
   EXPECT_EQ(with.work(), without.work());
 }
 
-}  // namespace
+}  // namespace model_inputs_test
 }  // namespace whirl_twin

@@ -18,7 +18,7 @@
 #include "running_system.h"
 
 namespace whirl_twin {
-namespace {
+namespace motor_test {
 
 constexpr std::int64_t kMillisecond = 1000000;
 
@@ -452,5 +452,5 @@ TEST(SpinningRotor, StopsBeyondTheSpeedsItWasPreparedFor) {
   EXPECT_EQ(rotor.run(20000), StepStatus::kOutOfRange);
 }
 
-}  // namespace
+}  // namespace motor_test
 }  // namespace whirl_twin

@@ -10,7 +10,7 @@
 #include "running_system.h"
 
 namespace whirl_twin {
-namespace {
+namespace rotor_causes_test {
 
 constexpr std::int64_t kMillisecond = 1000000;
 constexpr double kMass = 2.0;
@@ -238,5 +238,5 @@ TEST(JournalBearing, WhipsAtTheCriticalSpeedFarAboveTwiceIt) {
   }
 }
 
-}  // namespace
+}  // namespace rotor_causes_test
 }  // namespace whirl_twin

@@ -19,7 +19,7 @@
 #include "running_system.h"
 
 namespace whirl_twin {
-namespace {
+namespace rotor_step_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -389,5 +389,5 @@ TEST(PackedMatrix, ProductsAreThoseOfTheWholeMatrixWhateverItLeavesOut) {
   }
 }
 
-}  // namespace
+}  // namespace rotor_step_test
 }  // namespace whirl_twin

@@ -8,7 +8,7 @@
 #include "running_system.h"
 
 namespace whirl_twin {
-namespace {
+namespace run_up_test {
 
 constexpr double kP = 40.0;  // [rad/s]
 
@@ -110,5 +110,5 @@ TEST(RotatingDamping, AtConstantSpeedIsExactToo) {
   }
 }
 
-}  // namespace
+}  // namespace run_up_test
 }  // namespace whirl_twin

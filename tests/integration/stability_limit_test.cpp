@@ -10,7 +10,7 @@
 #include "running_system.h"
 
 namespace whirl_twin {
-namespace {
+namespace stability_limit_test {
 
 constexpr std::int64_t kStep = 1000000;  // [ns]
 
@@ -110,5 +110,5 @@ INSTANTIATE_TEST_SUITE_P(Implicit, Unlimited,
                                          "gauss_legendre_6", "exponential"),
                          [](const auto& test) { return test.param; });
 
-}  // namespace
+}  // namespace stability_limit_test
 }  // namespace whirl_twin

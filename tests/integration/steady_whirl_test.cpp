@@ -8,7 +8,7 @@
 #include "running_system.h"
 
 namespace whirl_twin {
-namespace {
+namespace steady_whirl_test {
 
 constexpr double kMass = 3.0;
 constexpr double kP = 50.0;  // [rad/s]
@@ -91,5 +91,5 @@ TEST(SteadyWhirlPhase, CountsFromTheUnbalanceNotFromTheMark) {
   expectWhirl(system, whirl, "lag behind the mark");
 }
 
-}  // namespace
+}  // namespace steady_whirl_test
 }  // namespace whirl_twin

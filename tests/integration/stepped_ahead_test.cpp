@@ -12,7 +12,7 @@
 #include "running_system.h"
 
 namespace whirl_twin {
-namespace {
+namespace stepped_ahead_test {
 
 constexpr std::int64_t kMillisecond = 1000000;
 
@@ -259,5 +259,5 @@ TEST(SteppedAhead, TakesAtMostOneStepOfTheMethodInOneOfTheTwin) {
   EXPECT_EQ(near, 0);
 }
 
-}  // namespace
+}  // namespace stepped_ahead_test
 }  // namespace whirl_twin

@@ -9,7 +9,7 @@
 #include "running_system.h"
 
 namespace whirl_twin {
-namespace {
+namespace stoermer_test {
 
 constexpr std::int64_t kMillisecond = 1000000;
 
@@ -263,5 +263,5 @@ INSTANTIATE_TEST_SUITE_P(Steps, Stoermer,
                                          Named{"stoermer", 2 * kMillisecond}),
                          [](const auto& test) { return test.param.method; });
 
-}  // namespace
+}  // namespace stoermer_test
 }  // namespace whirl_twin

@@ -9,7 +9,7 @@
 #include "running_system.h"
 
 namespace whirl_twin {
-namespace {
+namespace threshold_growth_test {
 
 struct Cause {
   const char* name;
@@ -82,5 +82,5 @@ INSTANTIATE_TEST_SUITE_P(
               kP*(1.0 + kDamping / 12.0) - 3600.0 / 12.0}),
     [](const testing::TestParamInfo<Cause>& test) { return std::string(test.param.name); });
 
-}  // namespace
+}  // namespace threshold_growth_test
 }  // namespace whirl_twin

@@ -12,7 +12,7 @@
 #include "integration/shaft_phasor.h"
 
 namespace whirl_twin {
-namespace {
+namespace turning_force_test {
 
 // 16 products, each rounding by some 1e-16, and as many differences of angles by 4e-16.
 TEST(ShaftPhasor, IsWhereTheShaftIs) {
@@ -84,5 +84,5 @@ TEST(TurningForce, RefusesWhatTurnsOtherwise) {
       << "no tangential part";
 }
 
-}  // namespace
+}  // namespace turning_force_test
 }  // namespace whirl_twin

@@ -13,7 +13,7 @@
 #include "mechanics/lagrangian_dual.h"
 
 namespace whirl_twin {
-namespace {
+namespace duals_test {
 
 using Wide = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>,
                                            boost::multiprecision::et_off>;
@@ -266,5 +266,5 @@ INSTANTIATE_TEST_SUITE_P(
                    [](double x) { return 2.0 * std::pow(x, -3.0); }}),
     [](const auto& test) { return test.param.name; });
 
-}  // namespace
+}  // namespace duals_test
 }  // namespace whirl_twin

@@ -8,7 +8,7 @@
 #include "random_state.h"
 
 namespace whirl_twin {
-namespace {
+namespace energy_balance_test {
 
 class EnergyBalanceOf : public testing::TestWithParam<VariantUnderTest> {};
 
@@ -86,5 +86,5 @@ TEST(EnergyBalanceOfRotor, ExternalDampingTakesAndRotatingDampingMayGive) {
   EXPECT_GT(power(15.0), 0.0);
 }
 
-}  // namespace
+}  // namespace energy_balance_test
 }  // namespace whirl_twin

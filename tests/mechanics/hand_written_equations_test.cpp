@@ -6,7 +6,7 @@
 #include "random_state.h"
 
 namespace whirl_twin {
-namespace {
+namespace hand_written_equations_test {
 
 using Vector = Eigen::VectorXd;
 
@@ -176,5 +176,5 @@ TEST(HandWritten, JeffcottRotorOnAnAcceleratingShaft) {
   }
 }
 
-}  // namespace
+}  // namespace hand_written_equations_test
 }  // namespace whirl_twin

@@ -11,7 +11,7 @@
 #include "messages/refusal.h"
 
 namespace whirl_twin {
-namespace {
+namespace linear_dynamics_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -148,5 +148,5 @@ TEST(LinearDynamics, RefusesWhatIsNoSystem) {
   EXPECT_THROW(LinearDynamics{model}, std::logic_error);
 }
 
-}  // namespace
+}  // namespace linear_dynamics_test
 }  // namespace whirl_twin

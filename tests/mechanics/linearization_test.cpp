@@ -2,15 +2,16 @@
 // to differences of the acceleration, and to the notes' closed forms.
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <cstdlib>
 
 #include "../analysis/models_under_test.h"
-#include "algebra/eigenvalues.h"
+#include "algebra/dense.h"
 #include "random_state.h"
 
 namespace whirl_twin {
-namespace {
+namespace linearization_test {
 
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
@@ -150,5 +151,5 @@ TEST(LinearizationOfRotor, InternalDampingDampsAndCirculates) {
   expectNear(l.circulatory, rows(0.0, ci * w, -ci * w, 0.0));
 }
 
-}  // namespace
+}  // namespace linearization_test
 }  // namespace whirl_twin

@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace whirl_twin {
-namespace {
+namespace local_elements_test {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr ShortJournalBearing kBearing{0.02, 0.05, 1.0e-4, 0.03};
@@ -135,5 +135,5 @@ TEST(LocalElements, TellTheSlopesOfWhatTheyPushWith) {
   }
 }
 
-}  // namespace
+}  // namespace local_elements_test
 }  // namespace whirl_twin

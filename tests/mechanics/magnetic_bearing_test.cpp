@@ -8,7 +8,7 @@
 #include <limits>
 
 namespace whirl_twin {
-namespace {
+namespace magnetic_bearing_test {
 
 constexpr double kKi = 100.0;    // N/A
 constexpr double kBias = 2.0;    // A
@@ -119,5 +119,5 @@ TEST(MagneticBearing, HasNoForceWhereItHasNoGap) {
   EXPECT_DOUBLE_EQ(magnet.room({1.0e-4, -3.0e-4}), 1.0e-4);
 }
 
-}  // namespace
+}  // namespace magnetic_bearing_test
 }  // namespace whirl_twin

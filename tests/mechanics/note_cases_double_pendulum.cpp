@@ -1,5 +1,9 @@
 // What the double pendulum answers to the lecture notes' reference numbers, in absolute and in
 // relative angles.
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include "algebra/dense.h"
 #include "note_system.h"
 
 namespace whirl_twin {
@@ -25,8 +29,8 @@ std::vector<double> entry(const NoteCase& c, const Linearization& l) {
 
 /// Second coordinate over the first in a mode of small motion.
 double modeRatio(const Linearization& l, int mode) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(l.stiffness, l.mass);
-  return modes.eigenvectors()(1, mode) / modes.eigenvectors()(0, mode);
+  const SymmetricModes<double> modes = generalizedModes(l.stiffness, l.mass);
+  return modes.vectors(1, mode) / modes.vectors(0, mode);
 }
 
 /// The notes' mode ratios and characteristic polynomial: equal masses and lengths of 1.

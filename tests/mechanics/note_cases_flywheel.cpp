@@ -1,5 +1,7 @@
 // What the flywheel with sliding masses and the governor answer to the lecture notes' reference
 // numbers: steady rotations, and small motion about them.
+#include <Eigen/LU>
+
 #include "note_system.h"
 
 namespace whirl_twin {

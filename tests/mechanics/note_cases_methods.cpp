@@ -1,6 +1,8 @@
 // What the methods of src/analysis answer to the lecture notes' reference numbers: the lever with
 // three masses, the beam without supports ("submarine"), the cantilever in assumed modes.
-#include "algebra/lu.h"
+#include <Eigen/LU>
+
+#include "algebra/dense.h"
 #include "analysis/assumed_modes.h"
 #include "analysis/cantilever_modes.h"
 #include "analysis/dunkerley.h"

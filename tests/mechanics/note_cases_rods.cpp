@@ -1,5 +1,8 @@
 // What the pendulums on a cart, with a slider, held by a spring and turning freely answer to the
 // lecture notes' reference numbers.
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
 #include "analysis/stability.h"
 #include "note_system.h"
 

@@ -1,11 +1,12 @@
 // What the Jeffcott rotor answers to the lecture notes' reference numbers.
 #include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <cmath>
 #include <complex>
 
 #include "../integration/running_system.h"
-#include "algebra/eigenvalues.h"
-#include "algebra/lu.h"
+#include "algebra/dense.h"
 #include "note_case.h"
 
 namespace whirl_twin {
@@ -39,7 +40,7 @@ Complex synchronousWhirl(const Dynamics& rotor, double speed) {
   const Eigen::Matrix2cd stiffness =
       (l.stiffness + l.circulatory - speed * speed * l.mass).cast<Complex>() +
       Complex(0.0, speed) * (l.damping + l.gyroscopic).cast<Complex>();
-  return stiffness.partialPivLu().solve(force)[0];
+  return ComplexLu(stiffness).solve(force)[0];
 }
 
 /// r/e, its phase lag and its peak, for p = 1 rad/s and e = 1 m.

@@ -9,7 +9,7 @@
 #include "note_case.h"
 
 namespace whirl_twin {
-namespace {
+namespace note_cases_test {
 
 using Answers = std::vector<double> (*)(const NoteCase&);
 
@@ -93,5 +93,5 @@ TEST_P(NoteCaseOf, IsReproduced) {
 INSTANTIATE_TEST_SUITE_P(Notes, NoteCaseOf, testing::ValuesIn(modelledCases()),
                          [](const auto& test) { return testName(test.param); });
 
-}  // namespace
+}  // namespace note_cases_test
 }  // namespace whirl_twin

@@ -10,13 +10,15 @@
 #include <vector>
 
 #include "../integration/running_system.h"
-#include "algebra/eigenvalues.h"
+#include "algebra/dense.h"
 #include "note_case.h"
 
 namespace whirl_twin {
 
 inline Eigen::VectorXd vector(const std::vector<double>& values) {
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  Eigen::VectorXd x(static_cast<Eigen::Index>(values.size()));
+  std::copy(values.begin(), values.end(), x.data());
+  return x;
 }
 
 /// State of a trajectory at the case's time, by Gauss-Legendre in steps of a millisecond.
@@ -30,8 +32,7 @@ inline double endOfMotion(const RunningSystem::Setup& setup, const NoteCase& c,
 
 /// Squares of the natural frequencies of small motion about a position at rest, in rising order.
 inline Eigen::VectorXd squaredFrequencies(const Linearization& l) {
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(l.stiffness, l.mass)
-      .eigenvalues();
+  return generalizedModes(l.stiffness, l.mass).values;
 }
 
 /// Where f passes through zero between two places where it has opposite signs.

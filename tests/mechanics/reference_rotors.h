@@ -9,7 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "algebra/eigenvalues.h"
+#include "algebra/constants.h"
+#include "algebra/dense.h"
 #include "mechanics/rotors/rotor_assembly.h"
 
 namespace whirl_twin {
@@ -61,12 +62,12 @@ inline std::vector<std::complex<double>> whirlEigenvalues(const Linearization& l
   const Eigen::Index n = l.mass.rows();
   // Velocities in a unit that makes the entries of the state matrix alike.
   const double scale = std::sqrt(l.stiffness.norm() / l.mass.norm());
-  const Eigen::LLT<Eigen::MatrixXd> mass(l.mass);
+  const Cholesky mass(l.mass);
   Eigen::MatrixXd state = Eigen::MatrixXd::Zero(2 * n, 2 * n);
   state.topRightCorner(n, n).diagonal().setConstant(scale);
   state.bottomLeftCorner(n, n) = -mass.solve(l.stiffness + l.circulatory) / scale;
   state.bottomRightCorner(n, n) = -mass.solve(l.damping + l.gyroscopic);
-  const Eigen::VectorXcd all = state.eigenvalues();
+  const Eigen::VectorXcd all = eigenvalues(state).values;
   std::vector<std::complex<double>> whirl;
   std::copy_if(all.begin(), all.end(), std::back_inserter(whirl),
                [](const std::complex<double>& s) { return s.imag() > 0.0; });
@@ -74,7 +75,5 @@ inline std::vector<std::complex<double>> whirlEigenvalues(const Linearization& l
             [](const auto& a, const auto& b) { return std::abs(a) < std::abs(b); });
   return whirl;
 }
-
-constexpr double kRpm = 3.14159265358979323846 / 30.0;  ///< [rad/s]
 
 }  // namespace whirl_twin

@@ -5,12 +5,11 @@
 
 #include <cmath>
 
-#include "algebra/cholesky.h"
-#include "algebra/lu.h"
+#include "algebra/dense.h"
 #include "reference_rotors.h"
 
 namespace whirl_twin {
-namespace {
+namespace rotor_assembly_test {
 
 using Complex = std::complex<double>;
 using nlohmann::json;
@@ -97,7 +96,7 @@ std::vector<double> criticalSpeeds(const FlexibleShaft& shaft, bool forward) {
   const Eigen::MatrixXcd inertia =
       whirl.adjoint() * (rest.mass.cast<Complex>() - Complex(0.0, 1.0) * gyroscopic) * whirl;
   // 1 / w^2 are the eigenvalues of K^-1 M; the largest are the most precise.
-  const Eigen::VectorXcd all = stiffness.partialPivLu().solve(inertia).eigenvalues();
+  const Eigen::VectorXcd all = eigenvalues(ComplexLu(stiffness).solve(inertia)).values;
   std::vector<double> speeds;
   for (const Complex& s : all) {
     if (s.real() > 0.0) {
@@ -147,7 +146,7 @@ TEST(RotorAssembly, respondsToUnbalanceAsTheReference) {
     const Eigen::MatrixXcd dynamic =
         (l.stiffness + l.circulatory - w * w * l.mass).cast<Complex>() +
         Complex(0.0, w) * (l.damping + l.gyroscopic);
-    const Eigen::VectorXcd q = dynamic.partialPivLu().solve(rotor.synchronousForce(w));
+    const Eigen::VectorXcd q = ComplexLu(dynamic).solve(rotor.synchronousForce(w));
     for (const auto& [disc, node] : {std::pair{"disc1", 2}, std::pair{"disc2", 4}}) {
       const Complex x(row[disc]["X"][0], row[disc]["X"][1]);
       const Complex y(row[disc]["Y"][0], row[disc]["Y"][1]);
@@ -164,7 +163,7 @@ TEST(RotorAssembly, sagsUnderItsWeight) {
   FlexibleShaft shaft = unbalancedRotor();
   shaft.gravity = reference["parameters"]["g"];
   const LinearRotor rotor = RotorAssembly(shaft).linearRotor();
-  const Eigen::VectorXd q = rotor.matrices(0.0).stiffness.ldlt().solve(rotor.load);
+  const Eigen::VectorXd q = Ldlt(rotor.matrices(0.0).stiffness).solve(rotor.load);
   const json sag = expected(reference, "node_sag_y");
   for (Eigen::Index node = 0; node < 7; ++node) {
     const double wanted = sag["value"][static_cast<std::size_t>(node)];
@@ -284,7 +283,7 @@ Eigen::VectorXd chainFrequencies(const Eigen::VectorXd& masses, const Eigen::Vec
     }
   }
   const Eigen::MatrixXd m = masses.asDiagonal();
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(k, m).eigenvalues().cwiseSqrt();
+  return generalizedModes(k, m).values.cwiseSqrt();
 }
 
 TEST(RotorAssembly, onPedestalsIsAChainOfMasses) {
@@ -327,7 +326,7 @@ TEST(RotorAssembly, sagsOnItsPedestalsAsOnSpringsInARow) {
   below.kxx = below.kyy = 0.5e6;
   shaft.pedestals = {{0, 20.0, 20.0, below}};
   const LinearRotor rotor = RotorAssembly(shaft).linearRotor();
-  const Eigen::VectorXd q = rotor.matrices(0.0).stiffness.ldlt().solve(rotor.load);
+  const Eigen::VectorXd q = Ldlt(rotor.matrices(0.0).stiffness).solve(rotor.load);
   const double half = 5.0 * kRigidMass;
   EXPECT_NEAR(q[1], -half * (1.0e-6 + 2.0e-6), 1e-9);
   EXPECT_NEAR(q[5], -half * 2.0e-6, 1e-9) << "its own weight was there before";
@@ -424,5 +423,5 @@ TEST(RotorAssembly, refusesANodeThatDoesNotExist) {
   }
 }
 
-}  // namespace
+}  // namespace rotor_assembly_test
 }  // namespace whirl_twin

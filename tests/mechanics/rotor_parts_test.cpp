@@ -2,22 +2,22 @@
 // damping by mode, pedestals over the speed.
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <cmath>
 
-#include "algebra/lu.h"
+#include "algebra/dense.h"
 #include "mechanics/rotors/bearing_laws.h"
 #include "mechanics/rotors/modal_damping.h"
 #include "mechanics/rotors/rotor_assembly.h"
 #include "reference_rotors.h"
 
 namespace whirl_twin {
-namespace {
+namespace rotor_parts_test {
 
 using Complex = std::complex<double>;
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr Complex kTurn{0.0, 1.0};
 
 /// Without shear.
@@ -53,9 +53,7 @@ TEST(RotorParts, aTorqueBucklesAShaftBetweenPins) {
     MatrixXd kept(n, n - 4);
     kept << MatrixXd::Identity(n, n).middleCols(2, n - 6), MatrixXd::Identity(n, n).rightCols(2);
     const Linearization l = rotor.in(kept).matrices(0.0);
-    const Eigen::EigenSolver<MatrixXd> by_place(
-        MatrixXd(l.mass.lu().solve(l.stiffness + l.circulatory)), false);
-    return by_place.eigenvalues().real().minCoeff();
+    return eigenvalues(Lu(l.mass).solve(l.stiffness + l.circulatory)).values.real().minCoeff();
   };
   const double without = lowest(0.0, 12);
   for (const double sense : {1.0, -1.0}) {
@@ -118,12 +116,12 @@ TEST(RotorParts, aTorqueFeedsAWhirlWhereItEntersAtAFreeEnd) {
     return RotorAssembly(shaft);
   };
   const Linearization plain = rotor(0.0).matrices(0.0);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> modes(plain.stiffness, plain.mass);
+  const SymmetricModes<double> modes = generalizedModes(plain.stiffness, plain.mass);
   // Both modes of the pair together span a plane: the squares of their slopes add up.
   const auto slopes = [&](Index node) {
-    return modes.eigenvectors().block(4 * node + 2, 0, 2, 2).squaredNorm() / 2.0;
+    return modes.vectors.block(4 * node + 2, 0, 2, 2).squaredNorm() / 2.0;
   };
-  const double frequency = std::sqrt(modes.eigenvalues()[0]);
+  const double frequency = std::sqrt(modes.values[0]);
   const double wanted = 0.5 * torque * std::fabs(slopes(5) - slopes(0)) / (2.0 * frequency);
   const auto found = whirlEigenvalues(rotor(torque).matrices(0.0));
   EXPECT_NEAR(std::max(found[0].real(), found[1].real()), wanted, 1e-3 * wanted);
@@ -254,5 +252,5 @@ TEST(RotorParts, pedestalsFollowTheSpeedByTheirTable) {
   EXPECT_TRUE(on({}, true).linearRotor().speed_dependent);
 }
 
-}  // namespace
+}  // namespace rotor_parts_test
 }  // namespace whirl_twin

@@ -4,12 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "reference_rotors.h"
 
 namespace whirl_twin {
-namespace {
+namespace shaft_element_test {
 
 using Vector = Eigen::Matrix<double, 8, 1>;
 
@@ -250,5 +251,5 @@ TEST(ShaftElement, convergesToTheExactWhirlOfASpinningShaft) {
   }
 }
 
-}  // namespace
+}  // namespace shaft_element_test
 }  // namespace whirl_twin

@@ -11,9 +11,7 @@
 #include "reference_rotors.h"
 
 namespace whirl_twin {
-namespace {
-
-constexpr double kPi = 3.14159265358979323846;
+namespace short_journal_bearing_test {
 
 struct Reference {
   nlohmann::json all = rotorCase("E05");
@@ -190,5 +188,5 @@ TEST(BearingTable, passesThroughItsRowsWithoutOvershoot) {
   EXPECT_NEAR(chord(299.99999, 300.0), chord(300.0, 300.00001), 1e-6);
 }
 
-}  // namespace
+}  // namespace short_journal_bearing_test
 }  // namespace whirl_twin

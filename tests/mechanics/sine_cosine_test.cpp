@@ -10,7 +10,7 @@
 #include "mechanics/elementary.h"
 
 namespace whirl_twin {
-namespace {
+namespace sine_cosine_test {
 
 constexpr long double kQuarter = 1.5707963267948966192313216916397514L;
 
@@ -91,5 +91,5 @@ TEST(CosOfDifference, IsThatOfTheDifferenceToTheRoundingOfOne) {
   }
 }
 
-}  // namespace
+}  // namespace sine_cosine_test
 }  // namespace whirl_twin

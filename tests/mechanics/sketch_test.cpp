@@ -7,7 +7,7 @@
 #include "random_state.h"
 
 namespace whirl_twin {
-namespace {
+namespace sketch_test {
 
 /// The model with everything massless but the traced mass.
 ParameterValues onlyTheTracedMass(ParameterValues parameters) {
@@ -103,5 +103,5 @@ TEST(CartPendulumSketch, ArrowsFollowForceAndSupport) {
   }
 }
 
-}  // namespace
+}  // namespace sketch_test
 }  // namespace whirl_twin

@@ -13,7 +13,7 @@
 #include "mechanics/pendulums/spinning_pendulum.h"
 
 namespace whirl_twin {
-namespace {
+namespace small_systems_test {
 
 constexpr std::int64_t kMillisecond = 1'000'000;  // ns
 constexpr double kGravity = 9.81;                 // m/s^2
@@ -213,5 +213,5 @@ TEST(FoucaultPendulum, WithoutRotationItSwingsInItsPlane) {
   EXPECT_NEAR(turned(0.8526, 0.0, 1.0, 0.3, 10), 0.0, 1e-12);
 }
 
-}  // namespace
+}  // namespace small_systems_test
 }  // namespace whirl_twin

@@ -11,7 +11,7 @@
 #include "messages/message.h"
 
 namespace whirl_twin {
-namespace {
+namespace message_files_test {
 
 struct Line {
   std::string type, name, comment;
@@ -99,5 +99,5 @@ TEST(MessageFiles, NameEveryTypeOfAlert) {
   EXPECT_EQ(listed, types);
 }
 
-}  // namespace
+}  // namespace message_files_test
 }  // namespace whirl_twin

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace whirl_twin {
-namespace {
+namespace names_test {
 
 TEST(Printable, TextIsShownAsItIs) {
   for (const char* text : {"rotor", "k = 2e4 N/m", "\u03c9\u00b2 \u2212 p\u00b2", "\U0001f300"}) {
@@ -38,5 +38,5 @@ TEST(PrintableLines, KeepsLinesAndTabs) {
   EXPECT_EQ(printableLines(std::string(200, 'a')), std::string(200, 'a'));
 }
 
-}  // namespace
+}  // namespace names_test
 }  // namespace whirl_twin

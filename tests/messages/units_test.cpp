@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace whirl_twin {
-namespace {
+namespace units_test {
 
 TEST(Units, AreBroughtToWhatIsWanted) {
   EXPECT_EQ(unitScale("m", "m"), 1.0);
@@ -63,5 +63,5 @@ TEST(Units, OfAnotherKindAreNotTaken) {
   }
 }
 
-}  // namespace
+}  // namespace units_test
 }  // namespace whirl_twin

@@ -8,7 +8,7 @@
 #include "twin/twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace cantilever_beam_test {
 
 using Eigen::VectorXd;
 
@@ -167,5 +167,5 @@ TEST(CantileverBeam, TakesUpToThirtyModes) {
   }
 }
 
-}  // namespace
+}  // namespace cantilever_beam_test
 }  // namespace whirl_twin

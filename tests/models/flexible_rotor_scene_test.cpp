@@ -8,7 +8,7 @@
 #include <ostream>
 
 #include "../scene/scenes.h"
-#include "algebra/lu.h"
+#include "algebra/dense.h"
 #include "analysis/equilibria.h"
 #include "models/model_registry.h"
 #include "scene/parameter_paths.h"
@@ -16,7 +16,7 @@
 #include "twin/twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace flexible_rotor_scene_test {
 
 constexpr const char* kShaft =
     "youngs_modulus: 211.0e+9, density: 7810, elements: [{length: 0.25, outer_diameter: 0.05, "
@@ -392,7 +392,7 @@ TEST(FlexibleRotorScene, WhirlsAsItsMatricesSay) {
   const Eigen::MatrixXcd dynamic =
       (l.stiffness + l.circulatory - w * w * l.mass).cast<std::complex<double>>() +
       std::complex<double>(0.0, w) * (l.damping + l.gyroscopic);
-  const Eigen::VectorXcd whirl = dynamic.partialPivLu().solve(rotor.synchronousForce(w));
+  const Eigen::VectorXcd whirl = ComplexLu(dynamic).solve(rotor.synchronousForce(w));
   // The slowest mode decays at 0.15 / s: after 200 s nothing of it is left.
   constexpr int kSteps = 200000;
   for (int i = 0; i < kSteps; ++i) {
@@ -446,7 +446,7 @@ TEST(FlexibleRotor, WhirlsAtItsPublishedNodeAsTheHarmonicResponseSays) {
     const Eigen::MatrixXcd dynamic =
         (l.stiffness + l.circulatory - w * w * l.mass).cast<std::complex<double>>() +
         i * w * (l.damping + l.gyroscopic).cast<std::complex<double>>();
-    const Eigen::VectorXcd q = dynamic.partialPivLu().solve(matrices.synchronousForce(w));
+    const Eigen::VectorXcd q = ComplexLu(dynamic).solve(matrices.synchronousForce(w));
     const std::complex<double> x = node.along_x.cast<std::complex<double>>().cwiseProduct(q).sum();
     const std::complex<double> y = node.along_y.cast<std::complex<double>>().cwiseProduct(q).sum();
     for (int step = 0; step < 4000; ++step) {
@@ -499,5 +499,5 @@ TEST(FlexibleRotor, KeepsThePromiseOfModesAutoInARunUp) {
   EXPECT_LT(difference, 1.0e-6 * largest);
 }
 
-}  // namespace
+}  // namespace flexible_rotor_scene_test
 }  // namespace whirl_twin

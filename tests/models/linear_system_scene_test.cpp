@@ -11,7 +11,7 @@
 #include "twin/twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace linear_system_scene_test {
 
 std::string sceneText(const std::string& parameters, const std::string& more = "") {
   return "{step: 0.01, systems: {s: {model: linear_system, parameters: {" + parameters + "}" +
@@ -225,5 +225,5 @@ TEST(LinearSystemScene, KeepsItsLastGoodStateWhenItBreaksDown) {
   EXPECT_TRUE(std::isfinite(twin.layout().system(record.data(), 0).q()[0]));
 }
 
-}  // namespace
+}  // namespace linear_system_scene_test
 }  // namespace whirl_twin

@@ -7,7 +7,7 @@
 #include "models/model_registry.h"
 
 namespace whirl_twin {
-namespace {
+namespace model_source_test {
 
 int asked = 0;
 std::vector<std::string> warnings;
@@ -55,5 +55,5 @@ TEST(ModelSource, IsAskedOnceAndOnlyForWhatIsNotBuiltIn) {
   EXPECT_NE(warnings[2].find("'nothing'"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace model_source_test
 }  // namespace whirl_twin

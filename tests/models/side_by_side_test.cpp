@@ -16,7 +16,7 @@
 #include "integration/member_steps.h"
 
 namespace whirl_twin {
-namespace {
+namespace side_by_side_test {
 
 constexpr std::int64_t kStep = 1000000;  // ns
 constexpr double kStepSeconds = 1.0e-3;
@@ -233,5 +233,5 @@ TEST(MembersSideBySide, StepWithoutAllocating) {
   EXPECT_EQ(guard.allocations(), 0u);
 }
 
-}  // namespace
+}  // namespace side_by_side_test
 }  // namespace whirl_twin

@@ -11,7 +11,7 @@
 #include "watched_twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace alarm_commands_test {
 
 constexpr char kTwo[] = R"(
 name: two
@@ -129,5 +129,5 @@ TEST(AlarmCommands, RefuseWhatCannotBeMeantAndDoNothingOfIt) {
   EXPECT_EQ(twin.monitor.status(twin.time, false).inhibited, (std::vector<double>{0.0, 0.0}));
 }
 
-}  // namespace
+}  // namespace alarm_commands_test
 }  // namespace whirl_twin

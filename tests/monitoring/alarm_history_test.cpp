@@ -11,7 +11,7 @@
 #include "watched_twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace alarm_history_test {
 
 constexpr char kGrowing[] = R"(
 name: growing
@@ -188,5 +188,5 @@ TEST_F(AlarmHistoryTest, ASimulationThatWasStartedAnewHasToSaySoTwice) {
   EXPECT_TRUE(again.monitor.alerts().active().empty());
 }
 
-}  // namespace
+}  // namespace alarm_history_test
 }  // namespace whirl_twin

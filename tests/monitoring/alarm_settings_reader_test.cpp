@@ -11,7 +11,7 @@
 #include "scene/scene_error.h"
 
 namespace whirl_twin {
-namespace {
+namespace alarm_settings_reader_test {
 
 AlarmSettings settingsOf(const std::string& text) {
   return readAlarmSettings(YAML::Load(text), "monitor.yaml", {"rotor", "pump"}, {"lcm_url"});
@@ -140,5 +140,5 @@ decay_audit: 40
                 "monitor.yaml: decay_audit: must be 0, or from 5 to 3600 s, found 1"});
 }
 
-}  // namespace
+}  // namespace alarm_settings_reader_test
 }  // namespace whirl_twin

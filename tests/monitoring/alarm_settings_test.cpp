@@ -8,7 +8,7 @@
 #include <string>
 
 namespace whirl_twin {
-namespace {
+namespace alarm_settings_test {
 
 TEST(AlarmSettings, TheFileHoldsTheDefaults) {
   const YAML::Node file = YAML::LoadFile(std::string(WHIRL_TWIN_SOURCE) + "/config/monitor.yaml");
@@ -53,5 +53,5 @@ TEST(AlarmSettings, EveryValueOutOfRangeIsNamedWithItsUnitAndWhatWasFound) {
   EXPECT_EQ(errors[7], "data_timeout: must be > 0 s, found inf");
 }
 
-}  // namespace
+}  // namespace alarm_settings_test
 }  // namespace whirl_twin

@@ -6,7 +6,7 @@
 #include <string>
 
 namespace whirl_twin {
-namespace {
+namespace alert_list_test {
 
 state::Alert alertOf(const std::string& system, const std::string& type, state::Severity severity,
                      double time = 0.0) {
@@ -179,5 +179,5 @@ TEST(AlertList, TheFirstOfASystemIsFirstOutAndRepeatsCount) {
   EXPECT_EQ(list.find("a", "X")->repeats, 0u);
 }
 
-}  // namespace
+}  // namespace alert_list_test
 }  // namespace whirl_twin

@@ -10,7 +10,7 @@
 #include "watched_twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace amplitude_alarm_test {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -137,5 +137,5 @@ TEST(AmplitudeAlarm, ARunUpTripsUnlessItsLevelsAreMultiplied) {
   EXPECT_EQ(multiplied.count(alert_type::kWhirlAmplitude, true), 0u);
 }
 
-}  // namespace
+}  // namespace amplitude_alarm_test
 }  // namespace whirl_twin

@@ -8,7 +8,7 @@
 #include "watched_twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace capture_alarm_test {
 
 constexpr const char* kCapture = "SOMMERFELD_CAPTURE";
 
@@ -163,5 +163,5 @@ systems:
   EXPECT_EQ(watched.count("IN_CRITICAL_BAND", true), 1u);
 }
 
-}  // namespace
+}  // namespace capture_alarm_test
 }  // namespace whirl_twin

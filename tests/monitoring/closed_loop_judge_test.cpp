@@ -12,7 +12,7 @@
 #include "watched_twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace closed_loop_judge_test {
 
 /// x'' = x + u, sampled ten times a second, so late.
 BuiltScene levitated(double delay) {
@@ -164,5 +164,5 @@ TEST(ClosedLoopJudge, EachSystemOfALoopIsJudgedWhereItIsHeld) {
   }
 }
 
-}  // namespace
+}  // namespace closed_loop_judge_test
 }  // namespace whirl_twin

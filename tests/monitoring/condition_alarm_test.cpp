@@ -7,7 +7,7 @@
 #include <random>
 
 namespace whirl_twin {
-namespace {
+namespace condition_alarm_test {
 
 using Change = ConditionAlarm::Change;
 
@@ -99,5 +99,5 @@ TEST(ConditionAlarm, ATimeThatIsNotFiniteChangesNothing) {
   EXPECT_TRUE(alarm.active());
 }
 
-}  // namespace
+}  // namespace condition_alarm_test
 }  // namespace whirl_twin

@@ -7,7 +7,7 @@
 #include "watched_twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace controller_alarm_test {
 
 TEST(ControllerAlarm, NamesWhatIsLostAndClearsWhenItAnswersAgain) {
   AlertList list;
@@ -23,5 +23,5 @@ TEST(ControllerAlarm, NamesWhatIsLostAndClearsWhenItAnswersAgain) {
   EXPECT_TRUE(list.active().empty());
 }
 
-}  // namespace
+}  // namespace controller_alarm_test
 }  // namespace whirl_twin

@@ -4,7 +4,7 @@
 #include "watched_rotor.h"
 
 namespace whirl_twin {
-namespace {
+namespace critical_speed_alarm_noise_test {
 
 TEST(CriticalSpeedAlarmNoise, NoiseOfThePickUpMakesNoChatter) {
   // Noise of 0.3 rad/s rms within the hysteresis of 1.6 rad/s, ramps slow enough for the edges to
@@ -61,5 +61,5 @@ TEST(CriticalSpeedAlarmNoise, AnAccelerationThatIsNotANumberHoldsTheApproach) {
   EXPECT_EQ(rotor.list.active().size(), 1u);
 }
 
-}  // namespace
+}  // namespace critical_speed_alarm_noise_test
 }  // namespace whirl_twin

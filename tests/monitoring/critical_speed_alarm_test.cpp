@@ -4,7 +4,7 @@
 #include "watched_rotor.h"
 
 namespace whirl_twin {
-namespace {
+namespace critical_speed_alarm_test {
 
 // One passage, whatever its direction: from 0 time the band is entered at entry [s], left by the
 // hysteresis at leave [s].
@@ -165,5 +165,5 @@ TEST(CriticalSpeedAlarm, TheNextCriticalSpeedIsWarnedOfWhileStillInTheBandOfTheF
   EXPECT_EQ(rotor.count(kInBand, false), 1) << "one stay: the bands lie closer than clear_delay";
 }
 
-}  // namespace
+}  // namespace critical_speed_alarm_test
 }  // namespace whirl_twin

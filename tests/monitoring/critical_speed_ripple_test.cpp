@@ -7,7 +7,7 @@
 #include "watched_rotor.h"
 
 namespace whirl_twin {
-namespace {
+namespace critical_speed_ripple_test {
 
 enum class Ripple { kSine, kTriangle, kSquare };
 
@@ -203,5 +203,5 @@ TEST(CriticalSpeedCountdown, ThatWouldTakeForEverIsNone) {
       "80.0 and 120.0 rad/s");
 }
 
-}  // namespace
+}  // namespace critical_speed_ripple_test
 }  // namespace whirl_twin

@@ -6,7 +6,7 @@
 #include "messages/alert_types.h"
 
 namespace whirl_twin {
-namespace {
+namespace data_lost_alarm_test {
 
 class DataLostAlarmTest : public testing::Test {
  protected:
@@ -103,5 +103,5 @@ TEST_F(DataLostAlarmTest, EverybodySilentWithoutAPauseMeansThatNothingIsWatched)
   EXPECT_FALSE(lost("twin"));
 }
 
-}  // namespace
+}  // namespace data_lost_alarm_test
 }  // namespace whirl_twin

@@ -13,7 +13,7 @@
 #include "watched_twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace data_quality_test {
 
 constexpr char kCalm[] = R"(
 name: calm
@@ -167,5 +167,5 @@ TEST(StuckChannel, IsNotWhatStandsStillSinceAGapOrAReset) {
   EXPECT_EQ(told.notOk(), "");
 }
 
-}  // namespace
+}  // namespace data_quality_test
 }  // namespace whirl_twin

@@ -10,7 +10,7 @@
 #include "messages/alert_types.h"
 
 namespace whirl_twin {
-namespace {
+namespace decay_alarm_test {
 
 using Complex = std::complex<double>;
 
@@ -112,5 +112,5 @@ TEST(DecayAlarm, OneStateInFiveIsEnough) {
   EXPECT_NE(watched.alert(), nullptr);
 }
 
-}  // namespace
+}  // namespace decay_alarm_test
 }  // namespace whirl_twin

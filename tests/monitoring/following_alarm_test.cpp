@@ -11,7 +11,7 @@
 #include "watched_twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace following_alarm_test {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
@@ -281,5 +281,5 @@ TEST(FollowingAlarm, IsInTheMonitor) {
   EXPECT_NE(alerts.find("rotor", alert_type::kSensor), nullptr);
 }
 
-}  // namespace
+}  // namespace following_alarm_test
 }  // namespace whirl_twin

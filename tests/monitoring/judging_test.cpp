@@ -9,7 +9,7 @@
 #include "watched_twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace judging_test {
 
 constexpr const char* kTwoRotors = R"(
 name: two
@@ -166,5 +166,5 @@ systems:
   }
 }
 
-}  // namespace
+}  // namespace judging_test
 }  // namespace whirl_twin

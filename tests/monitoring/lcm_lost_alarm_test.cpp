@@ -7,7 +7,7 @@
 #include "watched_twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace lcm_lost_alarm_test {
 
 TEST(LcmLostAlarm, StandsWhileMessagesAreLostAndClearsAfterTheDelay) {
   AlertList list;
@@ -67,5 +67,5 @@ systems:
   EXPECT_TRUE(watched.monitor.alerts().active().empty()) << "what was lost before is told";
 }
 
-}  // namespace
+}  // namespace lcm_lost_alarm_test
 }  // namespace whirl_twin

@@ -13,7 +13,7 @@
 #include "watched_twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace live_alarm_settings_test {
 
 LiveAlarmSettings settingsOf(const std::string& text) {
   return LiveAlarmSettings(YAML::Load(text), "monitor.yaml", {"rotor", "pump"}, {"lcm_url"});
@@ -181,5 +181,5 @@ TEST(LiveAlarmSettings, ASetDelayThatRunsGoesOn) {
   EXPECT_NE(told.alert(), nullptr);
 }
 
-}  // namespace
+}  // namespace live_alarm_settings_test
 }  // namespace whirl_twin

@@ -10,7 +10,7 @@
 #include "watched_twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace loop_alarm_test {
 
 /// x'' = x + u, sampled ten times a second: PD of gains (2, sqrt 2) times `gain`, `delay` [s] late.
 Scene levitated(double delay, double gain = 1.0) {
@@ -139,5 +139,5 @@ TEST(LoopAlarm, LetsGoBeyondItsHysteresis) {
   EXPECT_TRUE(list.active().empty());
 }
 
-}  // namespace
+}  // namespace loop_alarm_test
 }  // namespace whirl_twin

@@ -10,7 +10,7 @@
 #include "watched_twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace margin_search_test {
 
 // Unstable above 100 (1 + 10/10) = 200 rad/s; cross-coupling of 20 * 100 - 10 w brings it there.
 constexpr const char* kSelfExcited = R"(
@@ -116,5 +116,5 @@ TEST(MarginSearch, IsPartOfTheMonitor) {
   EXPECT_FALSE(watched.margins.back().routh_disagrees);
 }
 
-}  // namespace
+}  // namespace margin_search_test
 }  // namespace whirl_twin

@@ -18,7 +18,7 @@
 #include "watched_twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace measured_signal_test {
 
 // 1X of 2e-5 * 2.25 / 1.25 = 36 um at 150 rad/s; its critical speed is 100 rad/s.
 constexpr const char* kMeasured = R"(
@@ -245,5 +245,5 @@ TEST(MeasuredSignal, WithoutPulsesVibrationIsJudgedOn) {
   EXPECT_NE(machine.alert(alert_type::kVibrationZone), nullptr);
 }
 
-}  // namespace
+}  // namespace measured_signal_test
 }  // namespace whirl_twin

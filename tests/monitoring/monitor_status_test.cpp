@@ -6,7 +6,7 @@
 #include "watched_twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace monitor_status_test {
 
 TEST(MonitorStatus, TellsTheAgeOfEveryVerdictAndCountsAlerts) {
   WatchedTwin watched(sceneOf(R"(
@@ -50,5 +50,5 @@ TEST(MonitorPulse, IsMissedAfterThreeSeconds) {
   EXPECT_EQ(pulse.silence(16.5), "");
 }
 
-}  // namespace
+}  // namespace monitor_status_test
 }  // namespace whirl_twin

@@ -11,7 +11,7 @@
 #include "watched_twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace order_alarm_test {
 
 AlarmSettings withLevels() {
   AlarmSettings settings;
@@ -219,5 +219,5 @@ TEST(OrderAlarm, OilWhipIsNamedBeforeItIsWide) {
   EXPECT_LT(alert->amplitude, 50e-6);
 }
 
-}  // namespace
+}  // namespace order_alarm_test
 }  // namespace whirl_twin

@@ -13,7 +13,7 @@
 #include "scene/built_scene.h"
 
 namespace whirl_twin {
-namespace {
+namespace parameter_margins_test {
 
 /// The first system of a scene about its operating point.
 struct Operating {
@@ -184,5 +184,5 @@ TEST(ParameterMargins, followWhereItHangs) {
   EXPECT_NEAR(instabilitySpeed(*soft->dynamics, *rest, 55.0).value_or(0.0), 60.0, 1.0e-5);
 }
 
-}  // namespace
+}  // namespace parameter_margins_test
 }  // namespace whirl_twin

@@ -7,7 +7,7 @@
 #include "watched_twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace passage_alarm_test {
 
 using state::Supervision;
 
@@ -61,5 +61,5 @@ TEST(PassageAlarm, SaysWhatIsRefusedAndWhy) {
   }
 }
 
-}  // namespace
+}  // namespace passage_alarm_test
 }  // namespace whirl_twin

@@ -14,7 +14,7 @@
 #include "scene/built_scene.h"
 
 namespace whirl_twin {
-namespace {
+namespace reduced_rotor_judge_test {
 
 constexpr const char* kShaft =
     "youngs_modulus: 211.0e+9, shear_modulus: 81.2e+9, density: 7810, elements: [{length: 0.25, "
@@ -178,5 +178,5 @@ TEST(ReducedRotorJudge, SaysNothingOfWhatIsNotReduced) {
   EXPECT_FALSE(margin.reduction_disagrees);
 }
 
-}  // namespace
+}  // namespace reduced_rotor_judge_test
 }  // namespace whirl_twin

@@ -5,7 +5,7 @@
 #include "watched_twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace reset_test {
 
 // It dwells in the band of its critical speed, 100 rad/s, and is in danger from 3 s on.
 constexpr const char* kDwelling = R"(
@@ -191,5 +191,5 @@ TEST_F(InDanger, ATopicSecondsAheadOfAnotherIsNoReset) {
   expectUntouched();
 }
 
-}  // namespace
+}  // namespace reset_test
 }  // namespace whirl_twin

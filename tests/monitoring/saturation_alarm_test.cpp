@@ -10,7 +10,7 @@
 #include "watched_twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace saturation_alarm_test {
 
 /// A mass on a spring of 1 N/m, brought to a set-point by no more than 1 N.
 Scene held(double setpoint) {
@@ -93,5 +93,5 @@ TEST(SaturationAlarm, IsToldLiveBesideTheMargins) {
   }
 }
 
-}  // namespace
+}  // namespace saturation_alarm_test
 }  // namespace whirl_twin

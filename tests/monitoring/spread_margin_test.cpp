@@ -13,7 +13,7 @@
 #include "watched_twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace spread_margin_test {
 
 /// A rotor of 1 kg and 1e4 N/m at 150 rad/s, damped by 10 N s/m from outside: stable up to an
 /// internal damping of 20 N s/m.
@@ -288,5 +288,5 @@ TEST(SpreadMargin, AnEnsembleIsJudgedByItsMembersThatRun) {
   EXPECT_EQ(watched.count("UNSTABLE_WITHIN_SPREAD", true), 0u);
 }
 
-}  // namespace
+}  // namespace spread_margin_test
 }  // namespace whirl_twin

@@ -11,7 +11,7 @@
 #include "messages/alert_types.h"
 
 namespace whirl_twin {
-namespace {
+namespace stability_alarm_test {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -270,5 +270,5 @@ TEST_F(StabilityAlarmTest, ARotorAndItsShapesThatDisagreeAreAWarning) {
   EXPECT_EQ(unstable()->severity, state::Severity::kDanger);
 }
 
-}  // namespace
+}  // namespace stability_alarm_test
 }  // namespace whirl_twin

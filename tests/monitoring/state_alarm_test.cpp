@@ -14,7 +14,7 @@
 #include "twin/twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace state_alarm_test {
 
 TEST(StateAlarm, AnEnergyBalanceThatIsOffInEitherDirectionWarns) {
   for (const double residual : {2.0e-6, -2.0e-6}) {
@@ -134,5 +134,5 @@ TEST(StateAlarm, AStopForAnotherCauseTakesThePlaceOfTheOneBefore) {
   EXPECT_EQ(list.active()[0].text, "rotor: the second");
 }
 
-}  // namespace
+}  // namespace state_alarm_test
 }  // namespace whirl_twin

@@ -7,7 +7,7 @@
 #include "watched_twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace threshold_speeds_test {
 
 TEST(ThresholdSpeeds, AreNeighboursOnBothSides) {
   const ThresholdSpeeds none;
@@ -105,5 +105,5 @@ systems:
   }
 }
 
-}  // namespace
+}  // namespace threshold_speeds_test
 }  // namespace whirl_twin

@@ -12,7 +12,7 @@
 
 namespace whirl_twin {
 
-namespace {
+namespace twin_monitor_test {
 
 // Threshold 100 (1 + 10/10) = 200 rad/s, passed upwards and back.
 constexpr const char* kSelfExcited = R"(
@@ -272,6 +272,6 @@ systems:
   EXPECT_NEAR(last["film"].operating_point[3], rest.y, 1.0e-9);
 }
 
-}  // namespace
+}  // namespace twin_monitor_test
 
 }  // namespace whirl_twin

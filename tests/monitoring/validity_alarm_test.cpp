@@ -7,7 +7,7 @@
 #include "messages/alert_types.h"
 
 namespace whirl_twin {
-namespace {
+namespace validity_alarm_test {
 
 Eigen::VectorXd vector(std::initializer_list<double> x) {
   return Eigen::Map<const Eigen::VectorXd>(x.begin(), static_cast<Eigen::Index>(x.size()));
@@ -51,5 +51,5 @@ TEST(ValidityAlarm, IsSilentForASystemThatHoldsEverywhere) {
   EXPECT_TRUE(list.active().empty());
 }
 
-}  // namespace
+}  // namespace validity_alarm_test
 }  // namespace whirl_twin

@@ -14,7 +14,7 @@
 #include "watched_twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace voted_alarm_test {
 
 constexpr double kSilent = -1.0;  // no state at all
 constexpr double kBroken = std::numeric_limits<double>::quiet_NaN();
@@ -187,5 +187,5 @@ voting:
   }
 }
 
-}  // namespace
+}  // namespace voted_alarm_test
 }  // namespace whirl_twin

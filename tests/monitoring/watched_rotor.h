@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <utility>
 #include <vector>
 
+#include "algebra/constants.h"
 #include "messages/alert_types.h"
 #include "monitoring/critical_speed_alarm.h"
 
@@ -19,7 +19,6 @@ namespace whirl_twin {
 inline constexpr const char* kApproach = alert_type::kCriticalSpeedApproach;
 inline constexpr const char* kInBand = alert_type::kInCriticalBand;
 
-inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 inline constexpr double kStep = 0.001;  // [s]
 
 inline state::CriticalSpeedMargin criticalAt(double speed, double low, double high) {

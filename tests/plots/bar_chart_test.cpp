@@ -10,7 +10,7 @@
 #include "svg_text.h"
 
 namespace whirl_twin {
-namespace {
+namespace bar_chart_test {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kFirstColour = "rgb(0%,44.7%,69.8%)";
@@ -90,5 +90,5 @@ TEST(ResponseMap, ShowsHolesAndThinsWhatIsFine) {
   EXPECT_TRUE(wellFormed(mapImage(map, ImageFormat::kSvg)));
 }
 
-}  // namespace
+}  // namespace bar_chart_test
 }  // namespace whirl_twin

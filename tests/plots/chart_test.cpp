@@ -11,7 +11,7 @@
 #include "svg_text.h"
 
 namespace whirl_twin {
-namespace {
+namespace chart_test {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // As Cairo writes the first two colours of the palette.
@@ -169,5 +169,5 @@ TEST(ImageFormat, IsByExtension) {
   EXPECT_THROW(imageFormat("png"), Refusal);
 }
 
-}  // namespace
+}  // namespace chart_test
 }  // namespace whirl_twin

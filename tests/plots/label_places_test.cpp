@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace whirl_twin {
-namespace {
+namespace label_places_test {
 
 const Rectangle kSheet{0.0, 0.0, 100.0, 100.0};
 
@@ -48,5 +48,5 @@ TEST(LabelPlaces, PassOverABrokenLine) {
   EXPECT_EQ(places.take({{10.0, 10.0, 20.0, 8.0}, {50.0, 50.0, 20.0, 8.0}}).left, 10.0);
 }
 
-}  // namespace
+}  // namespace label_places_test
 }  // namespace whirl_twin

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace whirl_twin {
-namespace {
+namespace marked_axis_test {
 
 MarkedAxis axis(double low, double high) {
   return {{low, high}, false, {}, {}};
@@ -39,5 +39,5 @@ INSTANTIATE_TEST_SUITE_P(MarkedAxis, EqualAxes,
                                          std::pair{AxisRange{-1.0, 1.0}, AxisRange{-1.0, 1.0}},
                                          std::pair{AxisRange{0.0, 5.0}, AxisRange{1e-7, 3e-7}}));
 
-}  // namespace
+}  // namespace marked_axis_test
 }  // namespace whirl_twin

@@ -9,7 +9,7 @@
 #include "svg_text.h"
 
 namespace whirl_twin {
-namespace {
+namespace sketch_picture_test {
 
 std::size_t elements(const SketchPicture& picture) {
   const std::string text = sketchImage(picture, ImageFormat::kSvg);
@@ -126,5 +126,5 @@ TEST(View, HoldsADiscSeenFromItsEdge) {
   EXPECT_NEAR(bounds.bottom - bounds.top, 1.0, 0.0014);
 }
 
-}  // namespace
+}  // namespace sketch_picture_test
 }  // namespace whirl_twin

@@ -7,7 +7,7 @@
 #include <cmath>
 
 namespace whirl_twin {
-namespace {
+namespace thinning_test {
 
 std::vector<Spot> wave(int points, double cycles, double width, double amplitude) {
   std::vector<Spot> line;
@@ -92,5 +92,5 @@ TEST(Thinning, LeavesPointsAndPairsAlone) {
   EXPECT_EQ(thinned({{1.0, 2.0}, {1.0, 2.0}}).size(), 2u);
 }
 
-}  // namespace
+}  // namespace thinning_test
 }  // namespace whirl_twin

@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace whirl_twin {
-namespace {
+namespace ticks_test {
 
 class Ranges : public testing::TestWithParam<AxisRange> {};
 
@@ -119,5 +119,5 @@ TEST(Labels, OfPowersOfTenAreShort) {
   EXPECT_EQ(logarithmicLabels({0.1, 1.0, 10.0}).text, (std::vector<std::string>{"0.1", "1", "10"}));
 }
 
-}  // namespace
+}  // namespace ticks_test
 }  // namespace whirl_twin

@@ -12,7 +12,7 @@
 #include <vector>
 
 namespace whirl_twin {
-namespace {
+namespace allocation_guard_test {
 
 // The compiler may leave out an allocation whose result nobody sees.
 void* volatile seen = nullptr;
@@ -123,5 +123,5 @@ TEST(AllocationGuard, GuardsNest) {
   EXPECT_EQ(inner.allocations(), counted(1));
 }
 
-}  // namespace
+}  // namespace allocation_guard_test
 }  // namespace whirl_twin

@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace whirl_twin {
-namespace {
+namespace even_thinning_test {
 
 constexpr std::size_t kCapacity = 1000;
 
@@ -76,5 +76,5 @@ TEST(EvenThinning, StaysBelowABoundWhateverHappens) {
   EXPECT_EQ(consumer.thinning.every(), 4096);
 }
 
-}  // namespace
+}  // namespace even_thinning_test
 }  // namespace whirl_twin

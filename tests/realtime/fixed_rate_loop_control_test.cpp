@@ -15,7 +15,7 @@
 #include "without_privileges.h"
 
 namespace whirl_twin {
-namespace {
+namespace fixed_rate_loop_control_test {
 
 TEST(FixedRateLoopControl, CanBeStoppedFromAnotherThread) {
   std::atomic<int> cycles{0};
@@ -162,5 +162,5 @@ TEST(FixedRateLoopControl, AnOptionOutOfRangeIsNamed) {
   EXPECT_THROW(loop.start(nullptr), std::logic_error);
 }
 
-}  // namespace
+}  // namespace fixed_rate_loop_control_test
 }  // namespace whirl_twin

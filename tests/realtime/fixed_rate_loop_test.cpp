@@ -17,7 +17,7 @@
 #include "messages/refusal.h"
 
 namespace whirl_twin {
-namespace {
+namespace fixed_rate_loop_test {
 
 // What the cycles of one run saw.
 struct Trace {
@@ -319,5 +319,5 @@ TEST(FixedRateLoop, ASignalDoesNotWakeItEarly) {
   EXPECT_FALSE(early);
 }
 
-}  // namespace
+}  // namespace fixed_rate_loop_test
 }  // namespace whirl_twin

@@ -11,7 +11,7 @@
 #include "allocation_guard.h"
 
 namespace whirl_twin {
-namespace {
+namespace latest_record_test {
 
 void publish(LatestRecord& latest, double value, std::size_t size) {
   std::fill_n(latest.room(), size, value);
@@ -64,5 +64,5 @@ TEST(LatestRecord, StaysWholeBetweenTwoThreads) {
   EXPECT_EQ(allocations, 0u);
 }
 
-}  // namespace
+}  // namespace latest_record_test
 }  // namespace whirl_twin

@@ -7,7 +7,7 @@
 #include "messages/refusal.h"
 
 namespace whirl_twin {
-namespace {
+namespace overrun_policy_test {
 
 // The instants of these cases: due at 1000, every 100.
 struct Case {
@@ -167,5 +167,5 @@ TEST(OverrunPolicy, AnUnknownNameIsRefusedWithWhatIsExpected) {
   }
 }
 
-}  // namespace
+}  // namespace overrun_policy_test
 }  // namespace whirl_twin

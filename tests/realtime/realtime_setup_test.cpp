@@ -14,7 +14,7 @@
 #include "without_privileges.h"
 
 namespace whirl_twin {
-namespace {
+namespace realtime_setup_test {
 
 using ::testing::HasSubstr;
 
@@ -134,5 +134,5 @@ TEST(DenormalsToZero, HoldsWhileItLivesAndNoLonger) {
   EXPECT_GT(half, 0.0);
 }
 
-}  // namespace
+}  // namespace realtime_setup_test
 }  // namespace whirl_twin

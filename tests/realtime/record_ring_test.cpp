@@ -12,7 +12,7 @@
 #include "allocation_guard.h"
 
 namespace whirl_twin {
-namespace {
+namespace record_ring_test {
 
 constexpr std::size_t kSize =
     7;  // does not divide the ring's length, so records wrap around its end
@@ -143,5 +143,5 @@ TEST(RecordRing, PushAndPopDoNotAllocate) {
   EXPECT_EQ(guard.allocations(), 0U);
 }
 
-}  // namespace
+}  // namespace record_ring_test
 }  // namespace whirl_twin

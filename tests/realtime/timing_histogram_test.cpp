@@ -11,7 +11,7 @@
 #include "allocation_guard.h"
 
 namespace whirl_twin {
-namespace {
+namespace timing_histogram_test {
 
 // The percentile by its definition (nearest rank), from all samples sorted.
 std::int64_t nearestRank(std::vector<std::int64_t> samples, double percent) {
@@ -145,5 +145,5 @@ TEST(TimingHistogram, NeverAllocates) {
   EXPECT_EQ(guard.allocations(), 0U);
 }
 
-}  // namespace
+}  // namespace timing_histogram_test
 }  // namespace whirl_twin

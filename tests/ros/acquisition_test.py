@@ -1,29 +1,25 @@
-#!/usr/bin/python3
 """Of a file that grows while examples/acquisition/csv_to_ros.py reads it every row arrives once, with its instant."""
 import os
 import subprocess
-import sys
 import tempfile
 import time
-import unittest
 
-import rospkg
-import rospy
-import rostest
 from whirl_twin.msg import Measurement
 
-PATIENCE = 30.0  # s, wall
+from node_trial import PACKAGE, PATIENCE, NodeTrial
+
 ROWS = 400
 PERIOD = 1000001  # ns
 
 
-class Acquisition(unittest.TestCase):
+class Acquisition(NodeTrial):
     def setUp(self):
+        super().setUp()
         self.blocks = []
-        rospy.Subscriber('/twin/measured/probes', Measurement, self.blocks.append)
+        self.listen('/twin/measured/probes', Measurement, self.blocks.append)
 
     def test_every_row_arrives_once(self):
-        adapter = os.path.join(rospkg.RosPack().get_path('whirl_twin'), 'examples/acquisition/csv_to_ros.py')
+        adapter = os.path.join(PACKAGE, 'examples/acquisition/csv_to_ros.py')
         with tempfile.NamedTemporaryFile('w', suffix='.csv') as file:
             file.write('time,probe_x[m],probe_y[m]\n')
             file.flush()
@@ -44,8 +40,3 @@ class Acquisition(unittest.TestCase):
         valid = [valid for block in self.blocks for valid in block.valid[1::2]]
         self.assertEqual(valid, [k % 7 != 3 for k in range(ROWS)])
         self.assertEqual(self.blocks[0].header.frame_id, 'probes')
-
-
-if __name__ == '__main__':
-    rospy.init_node('acquisition_test')
-    rostest.rosrun('whirl_twin', 'acquisition_test', Acquisition, sys.argv)

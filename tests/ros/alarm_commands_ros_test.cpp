@@ -16,8 +16,7 @@
 #include "waiting.h"
 
 namespace whirl_twin {
-
-namespace {
+namespace alarm_commands_test {
 
 class AlarmCommandsTest : public ::testing::Test {
  protected:
@@ -129,13 +128,5 @@ TEST_F(AlarmCommandsTest, SettingsChangeWholeOrNotAtAllAndTheParametersFollow) {
   ASSERT_TRUE(waitUntil([&] { return unstable() == nullptr; }));
 }
 
-}  // namespace
-
+}  // namespace alarm_commands_test
 }  // namespace whirl_twin
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "alarm_commands_ros_test");
-  const ros::NodeHandle node;  // ROS shuts down with the last handle: it outlives the tests
-  return RUN_ALL_TESTS();
-}

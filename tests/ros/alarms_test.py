@@ -1,51 +1,27 @@
-#!/usr/bin/python3
 """An alert is acknowledged, outlives a monitor that is killed, latches, is reset, and is held back, by the services
 of the monitor."""
-import subprocess
-import sys
-import tempfile
-import time
-import unittest
+import os
 
-import roslib.packages
-import rospy
-import rostest
 from std_srvs.srv import Trigger
 from whirl_twin.msg import AlertArray, MonitorStatus, StabilityMargin
 from whirl_twin.srv import Acknowledge, Inhibit, SetSpeed
 
-PATIENCE = 30.0  # s
+from node_trial import TRIAL_SCENES, NodeTrial, call, load_scene, wait_until
 
 
-def wait_until(condition):
-    end = time.monotonic() + PATIENCE
-    while not condition() and time.monotonic() < end:
-        time.sleep(0.05)
-    return condition()
-
-
-def call(name, kind, *request):
-    rospy.wait_for_service(name, PATIENCE)
-    return rospy.ServiceProxy(name, kind)(*request)
-
-
-class Alarms(unittest.TestCase):
+class Alarms(NodeTrial):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.list = self.margin = self.status = None
-        rospy.Subscriber('/twin/alerts', AlertArray, lambda m: setattr(self, 'list', m))
-        rospy.Subscriber('/twin/rotor/stability', StabilityMargin, lambda m: setattr(self, 'margin', m))
-        rospy.Subscriber('/twin/monitor', MonitorStatus, lambda m: setattr(self, 'status', m))
+        super().setUp()
+        load_scene(os.path.join(TRIAL_SCENES, 'threshold.yaml'))
+        self.list = self.margin = self.monitor_status = None
+        self.listen('/twin/alerts', AlertArray, lambda m: setattr(self, 'list', m))
+        self.listen('/twin/rotor/stability', StabilityMargin, lambda m: setattr(self, 'margin', m))
+        self.listen('/twin/monitor', MonitorStatus, lambda m: setattr(self, 'monitor_status', m))
+        self.start('simulation_node', '_realtime:=ignore')
         self.start_monitor()
 
-    def tearDown(self):
-        self.monitor.kill()
-        self.monitor.wait()
-        self.folder.cleanup()
-
     def start_monitor(self):
-        program = roslib.packages.find_node('whirl_twin', 'monitor_node')[0]
-        self.monitor = subprocess.Popen([program, '_latch:=danger', '_history:=%s/of/alarms' % self.folder.name])
+        self.monitor, _ = self.start('monitor_node', '_latch:=danger', '_history:=' + self.path('of/alarms'))
 
     def unstable(self):
         alerts = [a for a in self.list.alerts if a.type == 'UNSTABLE'] if self.list else []
@@ -87,13 +63,8 @@ class Alarms(unittest.TestCase):
         self.assertTrue(call('/monitor_node/inhibit', Inhibit, 'rotor', 60.0).success)
         self.run_to(250.0)
         self.assertTrue(wait_until(lambda: self.margin.verdict == StabilityMargin.UNSTABLE and
-                                   self.status.inhibited[0] > 0.0))
+                                   self.monitor_status.inhibited[0] > 0.0))
         self.assertFalse(self.unstable())
         self.assertTrue(call('/monitor_node/inhibit', Inhibit, '', 0.0).success)
         self.assertTrue(wait_until(self.unstable))
         self.assertGreater(self.unstable().id, raised.id)
-
-
-if __name__ == '__main__':
-    rospy.init_node('alarms_test')
-    rostest.rosrun('whirl_twin', 'alarms_test', Alarms, sys.argv)

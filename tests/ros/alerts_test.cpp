@@ -12,8 +12,7 @@
 #include "waiting.h"
 
 namespace whirl_twin {
-
-namespace {
+namespace alerts_test {
 
 /// What the latched list said over time.
 struct AlertLog {
@@ -82,12 +81,5 @@ TEST(Alerts, theListIsLatched) {
   EXPECT_TRUE(waitUntil([&] { return heard; }));
 }
 
-}  // namespace
-
+}  // namespace alerts_test
 }  // namespace whirl_twin
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "alerts_test");
-  return RUN_ALL_TESTS();
-}

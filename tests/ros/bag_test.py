@@ -1,24 +1,20 @@
-#!/usr/bin/python3
 """A machine's measurements, recorded by rosbag without and with both of its compressions, are followed like the LCM log of
 the same run, to the bit; and an encoder that speaks sensor_msgs/JointState is fitted from a bag.
 """
 import json
 import math
 import os
-import shutil
 import signal
 import struct
 import subprocess
-import sys
-import tempfile
 import time
-import unittest
 
 import rospy
-import rostest
 from sensor_msgs.msg import JointState
 
 from whirl_twin.msg import Measurement
+
+from node_trial import NodeTrial, wait_until
 
 SCENE = '''name: rig
 step: 0.001
@@ -40,7 +36,6 @@ runs:
 windows: {length: 1.0, start: estimated}
 fit: {length: {min: 0.1, max: 1.0, start: 0.33}}
 '''
-PATIENCE = 25.0  # s
 
 
 class Bytes:
@@ -94,16 +89,10 @@ def measurement(taken):
     return message
 
 
-class Bags(unittest.TestCase):
+class Bags(NodeTrial):
     def setUp(self):
-        self.folder = tempfile.mkdtemp()
+        super().setUp()
         self.file('arm.yaml', SCENE)
-
-    def tearDown(self):
-        shutil.rmtree(self.folder, ignore_errors=True)  # a recorder may still be taking its leave
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
 
     def file(self, name, text):
         with open(self.path(name), 'w') as file:
@@ -118,26 +107,20 @@ class Bags(unittest.TestCase):
     def record(self, topic, messages):
         """Bags of the messages, as rosbag records them: by name."""
         bags = {'run.bag': [], 'run.bz2.bag': ['--bz2'], 'run.lz4.bag': ['--lz4']}
-        recorders = [subprocess.Popen(['rosbag', 'record', '-O', self.path(bag), topic] + options)
+        recorders = [self.start_program('rosbag', 'record', '-O', self.path(bag), topic, *options)
                      for bag, options in bags.items()]
         messages = list(messages)
-        publisher = rospy.Publisher(topic, type(messages[0]), queue_size=len(messages))
-        end = time.monotonic() + PATIENCE
-        while publisher.get_num_connections() < len(bags) and time.monotonic() < end:
-            time.sleep(0.1)
-        self.assertEqual(publisher.get_num_connections(), len(bags))
+        publisher = self.publisher(topic, type(messages[0]), len(messages))
+        self.assertTrue(wait_until(lambda: publisher.get_num_connections() == len(bags)))
         for message in messages:
             publisher.publish(message)
         time.sleep(2.0)  # rosbag writes what it has taken
-        for recorder in recorders:
-            recorder.send_signal(signal.SIGINT)
-        for recorder in recorders:
-            recorder.wait(timeout=20)
-        publisher.unregister()
+        for process, _ in recorders:
+            process.send_signal(signal.SIGINT)
+        for process, _ in recorders:
+            process.wait(timeout=20)
         paths = [self.path(bag) for bag in bags]
-        end = time.monotonic() + PATIENCE  # what writes a bag may outlive what started it
-        while not all(os.path.exists(path) for path in paths) and time.monotonic() < end:
-            time.sleep(0.1)
+        wait_until(lambda: all(map(os.path.exists, paths)))  # what writes a bag may outlive what started it
         return paths
 
     def test_a_bag_is_followed_like_the_lcm_log_of_the_run(self):
@@ -173,8 +156,3 @@ class Bags(unittest.TestCase):
                 self.skipTest('twin fit is not built')
             raise
         self.assertAlmostEqual(fit['parameters']['length']['value'], 0.3, 4)
-
-
-if __name__ == '__main__':
-    rospy.init_node('bag_test')
-    rostest.rosrun('whirl_twin', 'bag_test', Bags, sys.argv)

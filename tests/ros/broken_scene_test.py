@@ -1,12 +1,10 @@
-#!/usr/bin/python3
 """A broken scene: the nodes say everything that is wrong with it and exit with status 2."""
 import subprocess
-import sys
-import unittest
 
 import roslib.packages
 import rospy
-import rostest
+
+from node_trial import NodeTrial
 
 SCENE = {
     'step': 0.001,
@@ -24,7 +22,7 @@ def run(node):
                           stderr=subprocess.STDOUT, universal_newlines=True, timeout=60)
 
 
-class BrokenScene(unittest.TestCase):
+class BrokenScene(NodeTrial):
     def check(self, node):
         rospy.set_param('/twin/scene', SCENE)
         rospy.set_param('/twin/scene_file', 'bad.yaml')
@@ -55,13 +53,6 @@ class BrokenScene(unittest.TestCase):
                           done.stdout)
 
     def test_no_scene_at_all(self):
-        if rospy.has_param('/twin/scene'):
-            rospy.delete_param('/twin/scene')
         done = run('simulation_node')
         self.assertEqual(done.returncode, 2, done.stdout)
         self.assertIn('no scene there', done.stdout)
-
-
-if __name__ == '__main__':
-    rospy.init_node('broken_scene_test')
-    rostest.rosrun('whirl_twin', 'broken_scene_test', BrokenScene, sys.argv)

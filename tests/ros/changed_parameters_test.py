@@ -1,11 +1,8 @@
-#!/usr/bin/python3
 """`rosparam set` on a node that runs: limits of the monitor are obeyed, or refused in words, and what is read only at
 the start is said to be; all of it until it is put back."""
 import os
-import sys
 
 import rospy
-import rostest
 from whirl_twin.srv import SetAlarmSettings
 
 from node_trial import OK, SCENES, WARN, NodeTrial, load_scene, wait_until
@@ -53,8 +50,3 @@ class ChangedParameters(NodeTrial):
         self.assertTrue(self.says(simulation, 'publish_rate: changed'))
         rospy.set_param('/simulation_node/publish_rate', 100)
         self.expect_diagnosed(SIMULATION, OK)
-
-
-if __name__ == '__main__':
-    rospy.init_node('changed_parameters_test')
-    rostest.rosrun('whirl_twin', 'changed_parameters_test', ChangedParameters, sys.argv)

@@ -1,13 +1,10 @@
-#!/usr/bin/python3
 """A twin that was killed goes on from its checkpoint by another process, byte for byte as the one that was killed did,
 with what was changed live; one that was ended goes on where it ended; a file it cannot go on from is refused."""
 import io
 import os
 import signal
-import sys
 
 import rospy
-import rostest
 from whirl_twin.msg import ControllerState, DriveState, PendulumState, WhirlState
 from whirl_twin.srv import SetParameter, SetSpeed
 
@@ -137,8 +134,3 @@ def load_scene_with(scene, text, other):
     with open(scene + '.changed.yaml', 'w') as file:
         file.write(changed)
     load_scene(scene + '.changed.yaml')
-
-
-if __name__ == '__main__':
-    rospy.init_node('checkpoint_test')
-    rostest.rosrun('whirl_twin', 'checkpoint_test', CheckpointOfTheTwin, sys.argv)

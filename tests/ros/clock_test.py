@@ -1,22 +1,13 @@
-#!/usr/bin/python3
 """/clock goes at the rate asked for, and a reset, which begins the twin's own time anew, does not turn it back. States that
 leave together are all there, each as it would be alone."""
 import os
-import sys
 
-import rospy
-import rostest
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 from whirl_twin.msg import WhirlState
 
-from node_trial import SCENES, NodeTrial, load_scene, wait_until
-
-
-def call(name):
-    rospy.wait_for_service(name, 30)
-    return rospy.ServiceProxy(name, Trigger)()
+from node_trial import SCENES, NodeTrial, call, load_scene, wait_until
 
 
 class ClockOfTheTwin(NodeTrial):
@@ -30,7 +21,7 @@ class ClockOfTheTwin(NodeTrial):
         self.assertEqual({after - before for before, after in zip(clocks[:20], clocks[1:21])}, {50_000_000})
         for _ in range(2):
             begun = len(whirls)
-            self.assertTrue(call('/simulation_node/reset').success)
+            self.assertTrue(call('/simulation_node/reset', Trigger).success)
             self.assertTrue(wait_until(lambda: any(w.step == 0 for w in whirls[begun:])))
             heard = len(clocks)
             self.assertTrue(wait_until(lambda: len(clocks) > heard + 10))
@@ -53,8 +44,3 @@ class ClockOfTheTwin(NodeTrial):
         for heard in (whirls, joints):
             counted = [message.header.seq for message in heard]
             self.assertEqual(counted, list(range(counted[0], counted[0] + len(counted))))
-
-
-if __name__ == '__main__':
-    rospy.init_node('clock_test')
-    rostest.rosrun('whirl_twin', 'clock_test', ClockOfTheTwin, sys.argv)

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """Commands go from ROS to LCM and from LCM to a twin on ROS, of one commander at a time; who else commands is told whose
 turn it is, but may always pause. What is malformed, or comes out of a log, is not carried out."""
 import itertools
@@ -12,7 +11,6 @@ import time
 
 import rospkg
 import rospy
-import rostest
 from std_srvs.srv import Trigger
 from whirl_twin.srv import SetInput, SetParameter, SetSpeed, StepN
 from whirl_twin_lcm.whirl_twin import command_answer_t, twin_command_t
@@ -47,6 +45,8 @@ class Commands(NodeTrial):
         self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self.numbers = itertools.count(1)
         self.answers, self.channels = {}, []
+        self.over = threading.Event()
+        self.addCleanup(self.over.set)
         threading.Thread(target=self.hear, daemon=True).start()
         self.start('simulation_node', '_realtime:=ignore', '_lcm_url:=')
         self.start('command_bridge_node', '__name:=taker', '_lease:=%g' % LEASE)
@@ -58,6 +58,8 @@ class Commands(NodeTrial):
 
     def hear(self):
         for channel, data in LcmReceiver('udpm://239.255.76.67:7667'):
+            if self.over.is_set():
+                break
             self.channels.append(channel)
             if channel == 'TWIN_COMMAND_ANSWERS':
                 answer = command_answer_t.decode(data)
@@ -175,8 +177,3 @@ class Commands(NodeTrial):
             subprocess.check_call(play + options, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
             self.assertTrue(wait_until(lambda: 'OTHER' in self.channels))
             self.assertEqual([c for c in self.channels if c in ('TWIN_COMMANDS', 'OTHER')], heard)
-
-
-if __name__ == '__main__':
-    rospy.init_node('commands_test')
-    rostest.rosrun('whirl_twin', 'commands_test', Commands, sys.argv)

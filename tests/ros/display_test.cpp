@@ -2,6 +2,7 @@
 // exaggerated.
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -12,7 +13,7 @@
 #include "mechanics/round_number.h"
 
 namespace whirl_twin {
-namespace {
+namespace display_test {
 
 // Geometry is a handful of products and sines of numbers about 1.
 constexpr double kRounding = 1e-12;
@@ -241,5 +242,5 @@ TEST(RotorDisplay, StaysWhereItWasWhenTheStateIsNotFinite) {
   EXPECT_TRUE(display.bodyPose().isApprox(before));
 }
 
-}  // namespace
+}  // namespace display_test
 }  // namespace whirl_twin

@@ -8,7 +8,7 @@
 #include "display/terminal_text.h"
 
 namespace whirl_twin {
-namespace {
+namespace display_text_test {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -206,5 +206,5 @@ TEST(TwinTopics, AreKnownByTheirTypeAndName) {
             (std::vector<std::string>{"rotor", "arm", "rotor", "shaft", "", "", "pd", "pd"}));
 }
 
-}  // namespace
+}  // namespace display_text_test
 }  // namespace whirl_twin

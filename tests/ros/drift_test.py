@@ -1,27 +1,30 @@
-#!/usr/bin/python3
 """Cross-coupling that drifts up is announced half a minute before any growth shows, and by the margin, not the motion."""
-import sys
+import os
 import time
-import unittest
 
 import rospy
-import rostest
 from whirl_twin.msg import AlertArray, OrderState
 from whirl_twin.srv import SetParameter
+
+from node_trial import TRIAL_SCENES, NodeTrial, load_scene
 
 PATIENCE = 80.0  # s, wall
 DRIFT = 5.0  # N/m each second: 600 N/m, where it begins to grow, after two minutes
 SHOWS = 1.5  # times as wide as at first
 
 
-class Drift(unittest.TestCase):
+class Drift(NodeTrial):
     def setUp(self):
+        super().setUp()
+        load_scene(os.path.join(TRIAL_SCENES, 'drift.yaml'))
         self.raised = {}
         self.orders = None
         self.narrow = None  # m, as it was at first
         self.grown_at = None  # s, simulated
-        rospy.Subscriber('/twin/alerts', AlertArray, self.on_alerts)
-        rospy.Subscriber('/twin/rotor/orders', OrderState, self.on_orders)
+        self.listen('/twin/alerts', AlertArray, self.on_alerts)
+        self.listen('/twin/rotor/orders', OrderState, self.on_orders)
+        self.start('simulation_node', '_realtime:=ignore', '_real_time_factor:=10')
+        self.start('monitor_node')
 
     def on_alerts(self, message):
         for alert in message.alerts:
@@ -50,8 +53,3 @@ class Drift(unittest.TestCase):
         self.assertGreater(self.raised['LOW_DAMPING'].raised_time, 55.0)
         self.assertLess(self.raised['LOW_DAMPING'].raised_time + 30.0, self.grown_at)
         self.assertLess(self.raised['UNSTABLE'].raised_time, self.grown_at)
-
-
-if __name__ == '__main__':
-    rospy.init_node('drift_test')
-    rostest.rosrun('whirl_twin', 'drift_test', Drift, sys.argv)

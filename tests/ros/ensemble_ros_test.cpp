@@ -14,8 +14,7 @@
 #include "waiting.h"
 
 namespace whirl_twin {
-
-namespace {
+namespace ensemble_test {
 
 using Spreads = std::map<std::int64_t, EnsembleState>;  // by step
 
@@ -108,13 +107,5 @@ TEST_F(Ensemble, speaksFiftyTimesASimulatedSecond) {
   EXPECT_LE(shortest, 25);
 }
 
-}  // namespace
-
+}  // namespace ensemble_test
 }  // namespace whirl_twin
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "ensemble_ros_test");
-  const ros::NodeHandle node;  // ROS shuts down with the last handle: it outlives the tests
-  return RUN_ALL_TESTS();
-}

@@ -1,23 +1,16 @@
-#!/usr/bin/python3
 """Every shipped scene runs live, loaded as demo.launch loads it: each system publishes finite states,
 rotors their orders, and a stability margin, with no alert that its model does not hold. The verdict is
 uncertain of what is being swung up, and of nothing else."""
 import glob
 import math
 import os
-import signal
-import subprocess
-import sys
-import unittest
 
-import roslib.packages
-import rospkg
 import rospy
 import rosparam
-import rostest
 from whirl_twin.msg import AlertArray, OrderState, PendulumState, StabilityMargin, WhirlState
 
-SCENES = os.path.join(rospkg.RosPack().get_path('whirl_twin'), 'config', 'scenes', '*.yaml')
+from node_trial import SCENES, NodeTrial, load_scene
+
 ROTORS = ['flexible_rotor', 'jeffcott_rotor', 'rigid_disc_rotor']
 START = ['_lcm_url:=', '_realtime:=ignore']
 
@@ -28,19 +21,11 @@ def swung_up(scene):
             if law['type'] == 'swing_up' for acted in law['acts_on']}
 
 
-class EveryScene(unittest.TestCase):
-    def start(self, node, arguments):
-        program = roslib.packages.find_node('whirl_twin', node)[:1]
-        return subprocess.Popen(program + arguments, stdout=subprocess.PIPE,
-                                stderr=subprocess.STDOUT, universal_newlines=True)
-
+class EveryScene(NodeTrial):
     def run_scene(self, path):
-        if rospy.has_param('/twin/scene'):
-            rospy.delete_param('/twin/scene')
         (scene, _), = rosparam.load_file(path)
-        rosparam.upload_params('/twin/scene', scene)
-        rospy.set_param('/twin/scene_file', path)
-        nodes = [self.start('simulation_node', START), self.start('monitor_node', ['_lcm_url:='])]
+        load_scene(path)
+        nodes = [self.start('simulation_node', *START), self.start('monitor_node', '_lcm_url:=')]
         try:
             for name, system in scene['systems'].items():
                 rotor = system['model'] in ROTORS
@@ -62,13 +47,11 @@ class EveryScene(unittest.TestCase):
             alerts = rospy.wait_for_message('/twin/alerts', AlertArray, 10).alerts
             self.assertFalse([a.text for a in alerts if a.type == 'MODEL_INVALID'])
         finally:
-            for node in nodes:
-                node.send_signal(signal.SIGINT)
-            said = [node.communicate(timeout=20)[0] for node in nodes]
-        self.assertEqual([node.returncode for node in nodes], [0, 0], said)
+            statuses = [self.end(node) for node in nodes]
+        self.assertEqual(statuses, [0, 0], [self.log(node) for node in nodes])
 
     def test_runs_live(self):
-        scenes = sorted(glob.glob(SCENES))
+        scenes = sorted(glob.glob(os.path.join(SCENES, '*.yaml')))
         self.assertGreater(len(scenes), 10)
         wrong = []  # rostest reports no subtests
         for path in scenes:
@@ -77,8 +60,3 @@ class EveryScene(unittest.TestCase):
             except Exception as error:
                 wrong.append('%s: %s' % (os.path.basename(path), error))
         self.assertFalse(wrong, '\n'.join(wrong))
-
-
-if __name__ == '__main__':
-    rospy.init_node('every_scene_test')
-    rostest.rosrun('whirl_twin', 'every_scene_test', EveryScene, sys.argv)

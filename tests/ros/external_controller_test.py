@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """The controllers of examples/external_controller, in processes of their own: in lockstep what they hold moves as what the
 built-in law holds, byte for byte; free-running their age is told; killed, one is named by an alert and nothing else
 stops."""
@@ -6,11 +5,9 @@ import collections
 import os
 import struct
 import subprocess
-import sys
 
 import rospkg
 import rospy
-import rostest
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 from whirl_twin.msg import AlertArray, ControllerState, LoopStatistics, PendulumState
@@ -88,7 +85,7 @@ class ExternalController(NodeTrial):
         process.kill()
         process.wait()
         self.assertTrue(wait_until(lambda: ('CONTROLLER_LOST', 'pd') in self.alerts), self.alerts)
-        self.assertTrue(self.controller.lost)
+        self.assertTrue(wait_until(lambda: self.controller.lost))
         reached = self.newest('pendulum')
         self.assertTrue(wait_until(lambda: self.newest('pendulum') > reached + 500), 'nothing else stops')
 
@@ -117,7 +114,7 @@ class ExternalController(NodeTrial):
 
     def test_plain_numbers_are_commands(self):
         self.begin('free_running')
-        numbers = rospy.Publisher('/twin/controllers/pd/command_value', Float64, queue_size=10)
+        numbers = self.publisher('/twin/controllers/pd/command_value', Float64)
         self.assertTrue(wait_until(lambda: numbers.get_num_connections() > 0))
         self.assertTrue(wait_until(lambda: numbers.publish(0.0025) or list(self.controller.output) == [0.0025]))
         self.assertGreaterEqual(self.controller.age, 0, 'it answers a sample')
@@ -131,8 +128,3 @@ class ExternalController(NodeTrial):
         self.assertNotIn(('STOPPED', 'inside'), self.alerts)
         reached = self.newest('inside')
         self.assertTrue(wait_until(lambda: self.newest('inside') > reached + 100), 'nothing else stops')
-
-
-if __name__ == '__main__':
-    rospy.init_node('external_controller_test')
-    rostest.rosrun('whirl_twin', 'external_controller_test', ExternalController, sys.argv)

@@ -1,24 +1,24 @@
-#!/usr/bin/python3
 """What a follower says on <system>/follow becomes alerts of the monitor, and clears with its cause."""
 import math
-import sys
+import os
 import time
-import unittest
 
-import rospy
-import rostest
 from whirl_twin.msg import AlertArray, FollowState, WhirlState
 
-PATIENCE = 30.0  # s, wall
+from node_trial import PATIENCE, TRIAL_SCENES, NodeTrial, load_scene
 
 
-class FollowAlerts(unittest.TestCase):
+class FollowAlerts(NodeTrial):
     def setUp(self):
+        super().setUp()
+        load_scene(os.path.join(TRIAL_SCENES, 'drift.yaml'))
         self.alerts = {}
         self.time = None  # s, simulated
-        self.topic = rospy.Publisher('/twin/rotor/follow', FollowState, queue_size=10)
-        rospy.Subscriber('/twin/alerts', AlertArray, self.on_alerts)
-        rospy.Subscriber('/twin/rotor/whirl', WhirlState, self.on_whirl)
+        self.topic = self.publisher('/twin/rotor/follow', FollowState)
+        self.listen('/twin/alerts', AlertArray, self.on_alerts)
+        self.listen('/twin/rotor/whirl', WhirlState, self.on_whirl)
+        self.start('simulation_node', '_realtime:=ignore', '_real_time_factor:=2')
+        self.start('monitor_node')
 
     def on_alerts(self, message):
         self.alerts = {alert.type: alert.text for alert in message.alerts}
@@ -49,8 +49,3 @@ class FollowAlerts(unittest.TestCase):
         self.tell_until(lambda: 'MODEL_MISMATCH' in self.alerts, mismatch=1.3)
         self.tell_until(lambda: 'SENSOR' in self.alerts, shaft_known=False)
         self.tell_until(lambda: not {'SENSOR', 'MODEL_MISMATCH'} & set(self.alerts))
-
-
-if __name__ == '__main__':
-    rospy.init_node('follow_alerts_test')
-    rostest.rosrun('whirl_twin', 'follow_alerts_test', FollowAlerts, sys.argv)

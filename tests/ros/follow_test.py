@@ -1,39 +1,37 @@
-#!/usr/bin/python3
 """A twin that follows a machine moves as it does, knows its stiffness, and says so when it hears no more of it."""
 import math
-import subprocess
-import sys
+import os
 import time
-import unittest
 
-import rospy
-import rostest
 import yaml
 from whirl_twin.msg import AlertArray, FollowState, Measurement, SceneText, WhirlState
 
-PATIENCE = 20.0  # s, wall
+from node_trial import PACKAGE, SCENES, NodeTrial, load_parameters, load_scene, wait_until
+
 NOISE = 3.0e-6  # m, of the probes
 STIFFNESS = 7200.0  # N/m
 SAMPLES = 300  # of the twin's motion, 100 a second
 
 
-def wait_until(condition):
-    end = time.monotonic() + PATIENCE
-    while not condition() and time.monotonic() < end:
-        time.sleep(0.02)
-    return condition()
-
-
-class Follow(unittest.TestCase):
+class Follow(NodeTrial):
     def setUp(self):
+        super().setUp()
         self.machine, self.twin = {}, {}  # step: x + i y
         self.follow, self.raw, self.alerts, self.scene = None, None, {}, None
-        rospy.Subscriber('/machine/rotor/whirl', WhirlState, lambda m: self.machine.update({m.step: complex(m.x, m.y)}))
-        rospy.Subscriber('/twin/rotor/whirl', WhirlState, lambda m: self.twin.update({m.step: complex(m.x, m.y)}))
-        rospy.Subscriber('/twin/rotor/follow', FollowState, lambda m: setattr(self, 'follow', m))
-        rospy.Subscriber('/twin/measured/probes', Measurement, lambda m: setattr(self, 'raw', m))
-        rospy.Subscriber('/twin/scene', SceneText, lambda m: setattr(self, 'scene', m))
-        rospy.Subscriber('/twin/alerts', AlertArray, lambda m: self.alerts.update({a.type: a for a in m.alerts}))
+        self.listen('/machine/rotor/whirl', WhirlState, lambda m: self.machine.update({m.step: complex(m.x, m.y)}))
+        self.listen('/twin/rotor/whirl', WhirlState, lambda m: self.twin.update({m.step: complex(m.x, m.y)}))
+        self.listen('/twin/rotor/follow', FollowState, lambda m: setattr(self, 'follow', m))
+        self.listen('/twin/measured/probes', Measurement, lambda m: setattr(self, 'raw', m))
+        self.listen('/twin/scene', SceneText, lambda m: setattr(self, 'scene', m))
+        self.listen('/twin/alerts', AlertArray, lambda m: self.alerts.update({a.type: a for a in m.alerts}))
+        # The machine is simulated in /machine and publishes what its sensors see; /twin follows it.
+        for place in ('/machine', '/twin'):
+            load_scene(os.path.join(SCENES, 'followed_rotor.yaml'), place)
+        load_parameters(os.path.join(PACKAGE, 'config/follow/followed_rotor.yaml'), '/follow_node/follow')
+        load_parameters(os.path.join(PACKAGE, 'config/monitor.yaml'), '/monitor_node')
+        self.simulation = self.start('simulation_node', '__ns:=/machine', '_realtime:=ignore', '_measure:=true')
+        self.start('follow_node', '_publish_rate:=100')
+        self.start('monitor_node')
 
     def apart(self, ahead):
         """rms between both, if the twin's step 0 was the machine's step `ahead`; m."""
@@ -67,13 +65,8 @@ class Follow(unittest.TestCase):
         self.assertEqual(yaml.safe_load('\n'.join(self.scene.line))['systems']['rotor']['model'], 'jeffcott_rotor')
         self.assertNotIn('SENSOR', self.alerts)
 
-        subprocess.check_call(['rosnode', 'kill', '/machine/simulation_node'], stdout=subprocess.DEVNULL)
+        self.end(self.simulation)
         # Beside it a machine that is held up, as on a loaded computer, has a clock that is off.
         self.assertTrue(wait_until(lambda: 'SENSOR' in self.alerts and
                                    'probes/x is silent' in self.alerts['SENSOR'].text), self.alerts)
         self.assertEqual(self.follow.channel_status[0], FollowState.SILENT)
-
-
-if __name__ == '__main__':
-    rospy.init_node('follow_test')
-    rostest.rosrun('whirl_twin', 'follow_test', Follow, sys.argv)

@@ -15,7 +15,7 @@
 #include "drawn_markers.h"
 
 namespace whirl_twin {
-namespace {
+namespace instruments_test {
 
 using Marker = visualization_msgs::Marker;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -370,5 +370,5 @@ TEST(CommandBars, TellHowFarTheLoopIsFromInstability) {
   EXPECT_EQ(controller.loopText(), "loop unstable");
 }
 
-}  // namespace
+}  // namespace instruments_test
 }  // namespace whirl_twin

@@ -12,7 +12,7 @@
 #include "drawn_markers.h"
 
 namespace whirl_twin {
-namespace {
+namespace layout_test {
 
 /// Where a point is seen: right and up from the middle, by the tangents of the half angles of the
 /// view; within -1..1 it is in the picture.
@@ -130,5 +130,5 @@ TEST(Layout, ARotorStaysWithinItsPlace) {
   }
 }
 
-}  // namespace
+}  // namespace layout_test
 }  // namespace whirl_twin

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """The programs of examples/listeners, on ROS and LCM, in C++ and Python, say the same of a rotor, and what the simulation
 says; the receiver in Python puts together what came in fragments, and gives nothing of a message that lost one."""
 import itertools
@@ -8,8 +7,6 @@ import subprocess
 import sys
 
 import rospkg
-import rospy
-import rostest
 from whirl_twin.msg import WhirlState
 from whirl_twin_lcm.whirl_twin import measurement_t
 
@@ -87,8 +84,3 @@ class Listeners(NodeTrial):
         self.assertIsNone(receiver.take(b'LC03', 'here'))
         self.assertIsNone(receiver.take(b'something else', 'here'))
         self.assertEqual(receiver.take(b'LC02\0\0\0\3B\0xy', 'here'), ('B', b'xy'))
-
-
-if __name__ == '__main__':
-    rospy.init_node('listeners_test')
-    rostest.rosrun('whirl_twin', 'listeners_test', Listeners, sys.argv)

@@ -18,8 +18,7 @@
 #include "waiting.h"
 
 namespace whirl_twin {
-
-namespace {
+namespace live_change_test {
 
 class LiveChange : public testing::Test {
  protected:
@@ -162,12 +161,5 @@ TEST_F(LiveChange, whatASceneWouldRefuseIsRefusedInItsWords) {
   EXPECT_FALSE(set("rotor", "mass", 1.0, -1.0).success);
 }
 
-}  // namespace
-
+}  // namespace live_change_test
 }  // namespace whirl_twin
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "live_change_ros_test");
-  return RUN_ALL_TESTS();
-}

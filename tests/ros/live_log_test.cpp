@@ -20,8 +20,7 @@
 #include "waiting.h"
 
 namespace whirl_twin {
-
-namespace {
+namespace live_log_test {
 
 constexpr const char* kScene = WHIRL_TWIN_SOURCE "/tests/ros/scenes/all_messages.yaml";
 constexpr std::int64_t kLastStep = 11000;  // parameters are told again after 10 s
@@ -108,12 +107,5 @@ TEST(LiveLog, holdsWhatASimulatedLogHolds) {
   }
 }
 
-}  // namespace
-
+}  // namespace live_log_test
 }  // namespace whirl_twin
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "live_log_test");
-  return RUN_ALL_TESTS();
-}

@@ -14,8 +14,7 @@
 #include "waiting.h"
 
 namespace whirl_twin {
-
-namespace {
+namespace live_topics_test {
 
 constexpr std::uint32_t kQueue = 20000;
 constexpr std::size_t kEnough = 2000;  // steps
@@ -115,12 +114,5 @@ TEST_F(LiveTopics, loopStatisticsSayWhatWasObtained) {
   }
 }
 
-}  // namespace
-
+}  // namespace live_topics_test
 }  // namespace whirl_twin
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "live_topics_test");
-  return RUN_ALL_TESTS();
-}

@@ -1,13 +1,10 @@
-#!/usr/bin/python3
 """A twin in lockstep goes as fast as those who listen: a slow one hears every step, and no step is taken before it has
 dealt with the one before. One that is killed is named, and the twin stands until it is told to go on without it, or
 it is there again."""
 import os
 import subprocess
-import sys
 
 import rospy
-import rostest
 from std_srvs.srv import Trigger
 from whirl_twin.msg import LoopStatistics
 from whirl_twin.srv import SetRealTimeFactor, StepN
@@ -120,8 +117,3 @@ class InLockstep(NodeTrial):
         self.assertGreater(len(checked), 10)
         for next_begun, done in checked:
             self.assertGreater(next_begun, done)
-
-
-if __name__ == '__main__':
-    rospy.init_node('lockstep_test')
-    rostest.rosrun('whirl_twin', 'lockstep_test', InLockstep, sys.argv)

@@ -1,36 +1,22 @@
-#!/usr/bin/python3
 """The ROS master is killed under a running twin and started again: the same processes are found as before,
 with topics, services, scene and alerts, and LCM has no hole."""
 import json
 import os
-import signal
 import subprocess
-import sys
-import tempfile
 import threading
 import time
-import unittest
 import xmlrpc.client
 import xmlrpc.server
 
-import roslib.packages
 import rosgraph
-import rospkg
 import rosparam
-import rostest
+
+from node_trial import PATIENCE, TRIAL_SCENES, NodeTrial, wait_until
 
 PORT = 11499
-PATIENCE = 30.0  # s
-SCENE = os.path.join(rospkg.RosPack().get_path('whirl_twin'), 'tests', 'ros', 'scenes', 'threshold.yaml')
+SCENE = os.path.join(TRIAL_SCENES, 'threshold.yaml')
 TOPICS = ['/twin/rotor/whirl', '/twin/loop', '/twin/alerts', '/twin/rotor/stability', '/diagnostics']
 SERVICES = ['/simulation_node/set_speed', '/simulation_node/reset']
-
-
-def wait_until(condition):
-    end = time.monotonic() + PATIENCE
-    while not condition() and time.monotonic() < end:
-        time.sleep(0.2)
-    return condition()
 
 
 class DyingMaster(xmlrpc.server.SimpleXMLRPCServer):
@@ -55,41 +41,30 @@ class DyingMaster(xmlrpc.server.SimpleXMLRPCServer):
         self.socket.close()
 
 
-class MasterRestart(unittest.TestCase):
+class MasterRestart(NodeTrial):
+    """Beside the master of the other trials, which these nodes do not know."""
+
     def setUp(self):
-        self.environment = dict(os.environ, ROS_MASTER_URI='http://127.0.0.1:%d' % PORT)
-        self.master = rosgraph.Master('/test', 'http://127.0.0.1:%d' % PORT)
-        self.processes = []
-        self.folder = tempfile.TemporaryDirectory()
+        super().setUp()
+        self.uri = 'http://127.0.0.1:%d' % PORT
+        self.master = rosgraph.Master('/test', self.uri)
         self.start_master()
         (scene, _), = rosparam.load_file(SCENE)
         self.master.setParam('/twin/scene', scene)
         self.master.setParam('/twin/scene_file', SCENE)
 
-    def tearDown(self):
-        for process in reversed(self.processes):
-            if process.poll() is None:
-                process.send_signal(signal.SIGINT)
-        for process in reversed(self.processes):
-            process.wait(20)
-        self.folder.cleanup()
-
-    def start(self, command, **options):
-        process = subprocess.Popen(command, env=self.environment, **options)
-        self.processes.append(process)
-        return process
-
     def start_node(self, node, *arguments):
-        program = roslib.packages.find_node('whirl_twin', node)[0]
-        log = open(os.path.join(self.folder.name, '%s%d.log' % (node, len(self.processes))), 'w+')
-        self.start([program] + list(arguments), stdout=log, stderr=subprocess.STDOUT)
-        return log
+        return self.start(node, *arguments, ROS_MASTER_URI=self.uri)
 
     def start_master(self):
         # rosmaster alone: roscore would also start rosout, another process to wait for.
-        self.core = self.start(['rosmaster', '--core', '-p', str(PORT)], stdout=subprocess.DEVNULL,
-                               stderr=subprocess.DEVNULL)
+        self.core, _ = self.start_program('rosmaster', '--core', '-p', str(PORT))
         self.assertTrue(wait_until(self.master.is_online), 'no master')
+
+    def asked(self, *command):
+        """What a command says of that master."""
+        return subprocess.run(command, env=dict(os.environ, ROS_MASTER_URI=self.uri), timeout=PATIENCE,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
 
     def registered(self):
         try:
@@ -102,33 +77,27 @@ class MasterRestart(unittest.TestCase):
 
     def hears(self, topic):
         """Does somebody new hear the topic, through the master?"""
-        return subprocess.run(['rostopic', 'echo', '-n1', topic], env=self.environment, timeout=PATIENCE,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
+        return self.asked('rostopic', 'echo', '-n1', topic)
 
     def run_to(self, speed):
-        answer = subprocess.run(['rosservice', 'call', '/simulation_node/set_speed',
-                                 '{drive: shaft, speed: %g, max_acceleration: 200.0, max_jerk: 0.0}' % speed],
-                                env=self.environment, timeout=PATIENCE, stdout=subprocess.PIPE,
-                                universal_newlines=True)
+        answer = self.asked('rosservice', 'call', '/simulation_node/set_speed',
+                            '{drive: shaft, speed: %g, max_acceleration: 200.0, max_jerk: 0.0}' % speed)
         self.assertIn('success: True', answer.stdout)
 
     def test_one_that_dies_while_a_node_subscribes_does_not_keep_the_node(self):
-        dying = DyingMaster(self.environment['ROS_MASTER_URI'])
-        self.environment['ROS_MASTER_URI'] = 'http://127.0.0.1:%d' % dying.server_address[1]
-        self.start_node('monitor_node')
+        dying = DyingMaster(self.uri)
+        self.uri = 'http://127.0.0.1:%d' % dying.server_address[1]
+        monitor = self.start_node('monitor_node')
         self.assertTrue(dying.dead.wait(PATIENCE))
         time.sleep(2.0)
-        monitor = self.processes[-1]
-        self.assertIsNone(monitor.poll())
-        monitor.send_signal(signal.SIGINT)
-        monitor.wait(20)
+        self.assertIsNone(monitor[0].poll())
+        self.end(monitor)
 
     def test_everything_is_back(self):
-        log = os.path.join(self.folder.name, 'run.lcmlog')
-        said = self.start_node('simulation_node', '_realtime:=ignore')
+        log = self.path('run.lcmlog')
+        twin = self.start_node('simulation_node', '_realtime:=ignore')
         self.start_node('monitor_node', '_latch:=danger')
-        recorder = self.start([roslib.packages.find_node('whirl_twin', 'lcm_recorder_node')[0], '_log:=' + log],
-                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        recorder = self.start_node('lcm_recorder_node', '_log:=' + log)
         self.assertTrue(wait_until(self.registered))
         self.assertTrue(wait_until(lambda: os.path.exists(log)))
         scene = self.master.getParam('/twin/scene')
@@ -148,17 +117,9 @@ class MasterRestart(unittest.TestCase):
             self.assertEqual(heard.returncode, 0, heard.stdout)
         self.assertIn('latched: True', self.hears('/twin/alerts').stdout)
         self.run_to(140.0)
-        said.seek(0)
-        self.assertIn('the ROS master was restarted', said.read())
+        self.assertTrue(self.says(twin, 'the ROS master was restarted'))
 
-        recorder.send_signal(signal.SIGINT)
-        recorder.wait(20)
-        twin = roslib.packages.find_node('whirl_twin', 'simulation_node')[0]
-        program = os.path.join(os.path.dirname(twin), '..', '..', '..', 'bin', 'twin')
-        summary = json.loads(subprocess.run([program, 'log', log, '--json'], stdout=subprocess.PIPE).stdout)
+        self.end(recorder)
+        summary = json.loads(self.asked(os.environ['WHIRL_TWIN_PROGRAM'], 'log', log, '--json').stdout)
         # Over an outage of three seconds: a loaded machine may lose a message here and there.
         self.assertLess(summary['channels']['TWIN_ROTOR_WHIRL']['lost'], 300, summary)
-
-
-if __name__ == '__main__':
-    rostest.rosrun('whirl_twin', 'master_restart_test', MasterRestart, sys.argv)

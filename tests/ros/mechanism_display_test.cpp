@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -19,7 +20,7 @@
 #include "scene/scene_reader.h"
 
 namespace whirl_twin {
-namespace {
+namespace mechanism_display_test {
 
 // Geometry is a handful of products and sines of numbers about 1.
 constexpr double kRounding = 1e-12;
@@ -310,5 +311,5 @@ TEST_P(EveryScene, IsDrawnWithinItsPlaceByMarkersThatStay) {
 INSTANTIATE_TEST_SUITE_P(Shipped, EveryScene, testing::ValuesIn(shippedScenes()),
                          [](const auto& scene) { return scene.param; });
 
-}  // namespace
+}  // namespace mechanism_display_test
 }  // namespace whirl_twin

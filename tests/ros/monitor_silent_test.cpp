@@ -13,7 +13,7 @@
 #include "waiting.h"
 
 namespace whirl_twin {
-namespace {
+namespace monitor_silent_test {
 
 TEST(MonitorSilent, ItsDeathIsSeen) {
   ros::NodeHandle node;
@@ -53,11 +53,5 @@ TEST(MonitorSilent, ItsDeathIsSeen) {
   })) << loop_says;
 }
 
-}  // namespace
+}  // namespace monitor_silent_test
 }  // namespace whirl_twin
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "monitor_silent_test");
-  return RUN_ALL_TESTS();
-}

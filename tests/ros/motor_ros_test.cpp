@@ -10,8 +10,7 @@
 #include "waiting.h"
 
 namespace whirl_twin {
-
-namespace {
+namespace motor_test {
 
 TEST(Motor, whatItGivesIsDissipatedOrKept) {
   ros::NodeHandle node("/twin");
@@ -45,13 +44,5 @@ TEST(Motor, isNotSentToASpeed) {
   EXPECT_NE(call.response.message.find("motor"), std::string::npos) << call.response.message;
 }
 
-}  // namespace
-
+}  // namespace motor_test
 }  // namespace whirl_twin
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "motor_ros_test");
-  const ros::NodeHandle node;  // ROS shuts down with the last handle: it outlives the tests
-  return RUN_ALL_TESTS();
-}

@@ -1,13 +1,10 @@
-#!/usr/bin/python3
 """The bridge passes on every message, or of states the newest at a rate: never an older one behind it, and the last one
 too. Parameters are never left out, and who comes later gets them. One that comes late to a twin that has long stood hears
 by LCM what ROS would have latched: the scene, the parameters, the alerts that stand."""
 import os
 import subprocess
-import sys
 
 import rospy
-import rostest
 from std_srvs.srv import Trigger
 from whirl_twin.msg import AlertArray, DriveState, ParameterChange, WhirlState
 
@@ -71,7 +68,6 @@ class NewestStates(NodeTrial):
         with open(scene, 'w') as file:
             file.write(SCENE.replace('20.0', '60.0') + '    initial: {x: 250 um}\n')
         load_scene(scene)
-        self.addCleanup(rospy.delete_param, '/twin/scene')
         alerts, far_alerts, far_parameters = [], [], []
         self.listen('/twin/alerts', AlertArray, lambda m: alerts.append(m.alerts))
         self.start('simulation_node', '_realtime:=ignore')
@@ -87,8 +83,3 @@ class NewestStates(NodeTrial):
         self.assertEqual(dict(zip(far_parameters[-1].names, far_parameters[-1].values))['stiffness'], 7200.0)
         stand = [(alert.id, alert.text) for alert in alerts[-1]]
         self.assertTrue(wait_until(lambda: [(alert.id, alert.text) for alert in far_alerts[-1]] == stand))
-
-
-if __name__ == '__main__':
-    rospy.init_node('newest_test')
-    rostest.rosrun('whirl_twin', 'newest_test', NewestStates, sys.argv)

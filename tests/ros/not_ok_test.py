@@ -1,43 +1,32 @@
-#!/usr/bin/python3
 """What cannot be judged (a gap, numbers that are none, a channel that is stuck) is told apart from the alarms, raises
 none, clears none, and is over when the states are good again."""
 import math
-import subprocess
-import sys
+import os
 import threading
 import time
-import unittest
 
-import roslib.packages
 import rospy
-import rostest
 from whirl_twin.msg import AlertArray, MonitorStatus, WhirlState
 
-PATIENCE = 30.0  # s
+from node_trial import TRIAL_SCENES, NodeTrial, load_scene, wait_until
+
 PERIOD = 0.01  # s, between states
 SPEED = 30.0  # rad/s
 NARROW, WIDE = 0.1e-3, 0.5e-3  # m
 LEVEL = 0.3e-3  # m
 
 
-def wait_until(condition):
-    end = time.monotonic() + PATIENCE
-    while not condition() and time.monotonic() < end:
-        time.sleep(0.02)
-    return condition()
-
-
 class Machine(threading.Thread):
-    """Publishes a whirl, with whatever is wrong with its sensor."""
+    """Is the machine, there is no simulation: publishes a whirl, with whatever is wrong with its sensor."""
 
-    def __init__(self):
+    def __init__(self, topic):
         super().__init__(daemon=True)
+        self.topic = topic
         self.radius = NARROW
         self.fault = lambda state: state
         self.over = False
 
     def run(self):
-        topic = rospy.Publisher('/twin/rotor/whirl', WhirlState, queue_size=100)
         begin = time.monotonic()
         step = 0
         while not self.over:
@@ -49,7 +38,7 @@ class Machine(threading.Thread):
             state.x, state.y = self.radius * math.cos(angle), self.radius * math.sin(angle)
             state = self.fault(state)
             if state is not None:
-                topic.publish(state)
+                self.topic.publish(state)
             time.sleep(max(0.0, begin + step * PERIOD - time.monotonic()))
 
 
@@ -68,28 +57,28 @@ def stuck(state):
     return state
 
 
-class NotOk(unittest.TestCase):
+class NotOk(NodeTrial):
     def setUp(self):
+        super().setUp()
+        load_scene(os.path.join(TRIAL_SCENES, 'run_ups.yaml'))
         rospy.set_param('/monitor_node/amplitude', {'rotor': {'alert': LEVEL}})
-        self.list = self.status = None
-        rospy.Subscriber('/twin/alerts', AlertArray, lambda m: setattr(self, 'list', m))
-        rospy.Subscriber('/twin/monitor', MonitorStatus, lambda m: setattr(self, 'status', m))
-        program = roslib.packages.find_node('whirl_twin', 'monitor_node')[0]
-        self.monitor = subprocess.Popen([program])
-        self.machine = Machine()
+        self.list = self.monitor_status = None
+        self.listen('/twin/alerts', AlertArray, lambda m: setattr(self, 'list', m))
+        self.listen('/twin/monitor', MonitorStatus, lambda m: setattr(self, 'monitor_status', m))
+        self.start('monitor_node')
+        self.machine = Machine(self.publisher('/twin/rotor/whirl', WhirlState, 100))
         self.machine.start()
+        self.addCleanup(self.stop_machine)
 
-    def tearDown(self):
+    def stop_machine(self):
         self.machine.over = True
         self.machine.join()
-        self.monitor.kill()
-        self.monitor.wait()
 
     def wide(self):
         return [a.id for a in self.list.alerts if a.type == 'WHIRL_AMPLITUDE'] if self.list else []
 
     def not_ok(self):
-        return self.status.not_ok[0] if self.status else None
+        return self.monitor_status.not_ok[0] if self.monitor_status else None
 
     def test_each_fault_is_told_and_neither_raises_nor_clears(self):
         self.assertTrue(wait_until(lambda: self.not_ok() == ''))
@@ -118,8 +107,3 @@ class NotOk(unittest.TestCase):
             self.assertTrue(wait_until(self.wide), told)
             self.machine.radius = NARROW
             self.assertTrue(wait_until(lambda: not self.wide()), told)
-
-
-if __name__ == '__main__':
-    rospy.init_node('not_ok_test')
-    rostest.rosrun('whirl_twin', 'not_ok_test', NotOk, sys.argv)

@@ -1,57 +1,34 @@
-#!/usr/bin/python3
 """Run-ups through a critical speed at three accelerations, a speed that ripples about the edge of its band, one that
 dwells in it, and trip multiply: what the monitor wrote into its history of each."""
 import json
+import os
 import pathlib
-import subprocess
-import sys
-import tempfile
-import time
-import unittest
 
-import roslib.packages
-import rospy
-import rostest
 from whirl_twin.msg import DriveState, MonitorStatus
 from whirl_twin.srv import SetAlarmSettings, SetSpeed
 
-PATIENCE = 40.0  # s, wall
+from node_trial import TRIAL_SCENES, NodeTrial, call, load_scene, wait_until
+
 LOW = 30.0  # rad/s
 HIGH = 120.0
 WARNING, DANGER = 1, 2
 
 
-def wait_until(condition):
-    end = time.monotonic() + PATIENCE
-    while not condition() and time.monotonic() < end:
-        time.sleep(0.02)
-    return condition()
-
-
-def call(name, kind, *request):
-    rospy.wait_for_service(name, PATIENCE)
-    return rospy.ServiceProxy(name, kind)(*request)
-
-
-class RunUps(unittest.TestCase):
+class RunUps(NodeTrial):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.history = pathlib.Path(self.folder.name, 'alarms')
-        self.shaft = self.status = None
-        rospy.Subscriber('/twin/drives/shaft', DriveState, lambda m: setattr(self, 'shaft', m))
-        rospy.Subscriber('/twin/monitor', MonitorStatus, lambda m: setattr(self, 'status', m))
-        program = roslib.packages.find_node('whirl_twin', 'monitor_node')[0]
-        self.monitor = subprocess.Popen([program, '_history:=%s' % self.history])
-        self.assertTrue(wait_until(lambda: self.shaft and self.status))
+        super().setUp()
+        load_scene(os.path.join(TRIAL_SCENES, 'run_ups.yaml'))
+        self.history = pathlib.Path(self.path('alarms'))
+        self.shaft = self.monitor_status = None
+        self.listen('/twin/drives/shaft', DriveState, lambda m: setattr(self, 'shaft', m))
+        self.listen('/twin/monitor', MonitorStatus, lambda m: setattr(self, 'monitor_status', m))
+        self.start('simulation_node', '_realtime:=ignore', '_real_time_factor:=6')
+        self.start('monitor_node', '_history:=%s' % self.history)
+        self.assertTrue(wait_until(lambda: self.shaft and self.monitor_status))
         self.before = 0  # the last id of before the test
         self.run_to(LOW, 60.0)
         self.calm()
         self.before = max([event['id'] for event in self.events()], default=0)
-
-    def tearDown(self):
-        self.monitor.kill()
-        self.monitor.wait()
-        self.folder.cleanup()
 
     def events(self, kind=None):
         if not self.history.exists():
@@ -73,9 +50,9 @@ class RunUps(unittest.TestCase):
     def calm(self):
         """All that was raised has cleared, for so long [s] that what comes is no repeat of it."""
         now = self.shaft.time
-        self.assertTrue(wait_until(lambda: self.status.time > now and self.status.alerts == 0))
+        self.assertTrue(wait_until(lambda: self.monitor_status.time > now and self.monitor_status.alerts == 0))
         now = self.shaft.time
-        self.assertTrue(wait_until(lambda: self.status.time > now + 4.0))
+        self.assertTrue(wait_until(lambda: self.monitor_status.time > now + 4.0))
 
     def set_alarms(self, settings):
         told = call('/monitor_node/set_alarm_settings', SetAlarmSettings, settings)
@@ -122,8 +99,3 @@ class RunUps(unittest.TestCase):
         self.run_to(HIGH, 20.0)
         self.calm()
         self.assertEqual(len(self.ids('WHIRL_AMPLITUDE')), 2)
-
-
-if __name__ == '__main__':
-    rospy.init_node('run_ups_test')
-    rostest.rosrun('whirl_twin', 'run_ups_test', RunUps, sys.argv)

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 """The same scene and the same commands at the same steps give the same bytes, with the clock of the twin: two runs of
 simulation_node, in which the commands come at other instants of the wall clock and the steps in other portions, on
 every topic and on every channel; the log of the one as tables and as a bag has what ROS had; and before the first
@@ -8,12 +7,10 @@ import csv
 import os
 import struct
 import subprocess
-import sys
 import time
 
 import rosbag
 import rospy
-import rostest
 from std_srvs.srv import Trigger
 from whirl_twin.msg import ControllerState, DriveState, ParameterChange, PendulumState, WhirlState
 from whirl_twin.srv import SetInput, SetParameter, SetSpeed, StepN
@@ -238,8 +235,3 @@ class SameBytes(NodeTrial):
             self.assertEqual(float(row['time']), whirl.time)
             self.assertEqual(float(row['rotor.whirl_radius']), whirl.radius)
             self.assertEqual([float(row['mass.' + name]) for name in arms.name], list(arms.angle))
-
-
-if __name__ == '__main__':
-    rospy.init_node('same_bytes_test')
-    rostest.rosrun('whirl_twin', 'same_bytes_test', SameBytes, sys.argv)

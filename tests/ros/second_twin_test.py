@@ -1,11 +1,7 @@
-#!/usr/bin/python3
 """A second twin, or a bridge, on the topics or the LCM channels of a twin is named in the log and in /diagnostics, also
 where the two share nothing but LCM; when it is gone that is over."""
 import os
-import sys
 
-import rospy
-import rostest
 
 from node_trial import ERROR, OK, SCENES, NodeTrial, load_scene, wait_until
 
@@ -54,8 +50,3 @@ class SecondTwin(NodeTrial):
         self.expect_said(twin, NAMED % 'lcm_bridge_node')
         for node, rival in (('simulation_node', 'lcm_bridge_node'), ('lcm_bridge_node', 'simulation_node')):
             self.expect_diagnosed(node + ': ROS master', ERROR, NAMED % rival)
-
-
-if __name__ == '__main__':
-    rospy.init_node('second_twin_test')
-    rostest.rosrun('whirl_twin', 'second_twin_test', SecondTwin, sys.argv)

@@ -19,8 +19,7 @@
 #include "waiting.h"
 
 namespace whirl_twin {
-
-namespace {
+namespace services_test {
 
 class Services : public testing::Test {
  protected:
@@ -185,12 +184,5 @@ TEST_F(Services, badSpeedsAreRefusedWithAReason) {
   EXPECT_FALSE(setSpeed("shaft", std::nan(""), 1.0, 1.0).success);
 }
 
-}  // namespace
-
+}  // namespace services_test
 }  // namespace whirl_twin
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "services_test");
-  return RUN_ALL_TESTS();
-}

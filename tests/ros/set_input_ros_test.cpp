@@ -15,8 +15,7 @@
 #include "waiting.h"
 
 namespace whirl_twin {
-
-namespace {
+namespace set_input_test {
 
 SetInput::Response setInput(const std::string& system, const std::string& input, double value,
                             double duration) {
@@ -84,13 +83,5 @@ TEST(SetInput, refusesWhatThereIsNot) {
   EXPECT_FALSE(setInput("rotor", "force_x", 1.0, 0.0).success);
 }
 
-}  // namespace
-
+}  // namespace set_input_test
 }  // namespace whirl_twin
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "set_input_ros_test");
-  const ros::NodeHandle node;  // ROS shuts down with the last handle: it outlives the tests
-  return RUN_ALL_TESTS();
-}

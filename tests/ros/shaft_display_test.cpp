@@ -13,7 +13,7 @@
 #include "scene/scene_reader.h"
 
 namespace whirl_twin {
-namespace {
+namespace shaft_display_test {
 
 using Marker = visualization_msgs::Marker;
 
@@ -142,5 +142,5 @@ TEST(ShaftDisplay, DrawsAnOrbitAtEveryPlaceAndKeepsItsMarkers) {
   }
 }
 
-}  // namespace
+}  // namespace shaft_display_test
 }  // namespace whirl_twin

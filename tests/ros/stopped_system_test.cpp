@@ -11,8 +11,7 @@
 #include "waiting.h"
 
 namespace whirl_twin {
-
-namespace {
+namespace stopped_system_test {
 
 TEST(StoppedSystem, isReportedWhileTheOthersGoOn) {
   ros::NodeHandle node("/twin");
@@ -51,12 +50,5 @@ TEST(StoppedSystem, isReportedWhileTheOthersGoOn) {
   EXPECT_TRUE(waitUntil([&] { return rotor_step > then + 500; }));
 }
 
-}  // namespace
-
+}  // namespace stopped_system_test
 }  // namespace whirl_twin
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "stopped_system_test");
-  return RUN_ALL_TESTS();
-}

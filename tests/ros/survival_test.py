@@ -1,31 +1,22 @@
-#!/usr/bin/python3
 """What breaks around the loop (the route of LCM, a subscriber that stalls, too much to send, the wall clock) is counted
 and said, and over when it is over."""
 import os
 import socket
 import subprocess
-import sys
 import time
 import xmlrpc.client
 
 import roslib.packages
-import rospy
 import rosgraph
-import rostest
 from rosgraph.network import write_ros_handshake_header
 from std_srvs.srv import Trigger
 from whirl_twin.msg import AlertArray, LoopStatistics, WhirlState
 from whirl_twin.srv import StepN
 
-from node_trial import SCENES, NodeTrial, load_scene, wait_until
+from node_trial import SCENES, NodeTrial, call, load_scene, wait_until
 
 LOOP = 'simulation_node: real-time loop'
 TOPIC = '/twin/rotor/whirl'
-
-
-def call(name, kind, *request):
-    rospy.wait_for_service(name, 30)
-    return rospy.ServiceProxy(name, kind)(*request)
 
 
 class SlowSubscriber:
@@ -62,8 +53,6 @@ class SlowSubscriber:
 class Survival(NodeTrial):
     def setUp(self):
         super().setUp()
-        if rospy.has_param('/simulation_node'):
-            rospy.delete_param('/simulation_node')  # what the test before gave its node stays there
         self.loops = []
         self.whirls = []
         self.alerts = []
@@ -159,8 +148,3 @@ class Survival(NodeTrial):
         self.assertTrue(self.says(twin, r'the wall clock was set by \+36\d\d\.\d+ s'))
         steps = [whirl.step for whirl in self.whirls]
         self.assertEqual(steps, sorted(steps))
-
-
-if __name__ == '__main__':
-    rospy.init_node('survival_test')
-    rostest.rosrun('whirl_twin', 'survival_test', Survival, sys.argv)

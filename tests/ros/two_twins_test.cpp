@@ -15,8 +15,7 @@
 #include "waiting.h"
 
 namespace whirl_twin {
-
-namespace {
+namespace two_twins_test {
 
 constexpr char kRotor[] = "rotor";      // /twin has a system without a shaft beside it
 constexpr double kTwinSpeed = 150.0;    // rad/s, of tests/ros/scenes/supercritical.yaml
@@ -93,12 +92,5 @@ TEST_F(TwoTwins, areHeardApartOnLcm) {
   EXPECT_EQ(of_machine.channels().count("PLANT_MACHINE_ROTOR_ENSEMBLE"), 1u);
 }
 
-}  // namespace
-
+}  // namespace two_twins_test
 }  // namespace whirl_twin
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "two_twins_test");
-  return RUN_ALL_TESTS();
-}

@@ -1,33 +1,27 @@
-#!/usr/bin/python3
 """What rviz is given: instruments with a live verdict, limits, the loop's health, a frame for the camera; and where the
 monitor has died no margin that looks live."""
-import subprocess
-import sys
-import time
-import unittest
+import os
 
 import rospy
-import rostest
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
 
-PATIENCE = 30.0  # s
+from node_trial import PACKAGE, SCENES, NodeTrial, load_parameters, load_scene, wait_until
 
 
-def wait_until(condition):
-    end = time.monotonic() + PATIENCE
-    while not condition() and time.monotonic() < end:
-        time.sleep(0.05)
-    return condition()
-
-
-class Visualization(unittest.TestCase):
+class Visualization(NodeTrial):
     def setUp(self):
+        super().setUp()
         self.markers = {}
         self.frames = set()
-        rospy.Subscriber('/twin/markers', MarkerArray, self.take)
-        rospy.Subscriber('/tf', TFMessage,
-                         lambda m: self.frames.update(t.child_frame_id for t in m.transforms))
+        self.listen('/twin/markers', MarkerArray, self.take)
+        self.listen('/tf', TFMessage, lambda m: self.frames.update(t.child_frame_id for t in m.transforms))
+        load_scene(os.path.join(SCENES, 'demo.yaml'))
+        load_parameters(os.path.join(PACKAGE, 'config', 'monitor.yaml'), '/monitor_node')
+        rospy.set_param('/monitor_node/zones', {'rotor': {'a': 80.0e-6, 'b': 150.0e-6, 'c': 220.0e-6}})
+        self.start('simulation_node', '_realtime:=ignore')
+        self.monitor = self.start('monitor_node')
+        self.start('visualization_node')
 
     def take(self, array):
         self.markers = {(m.ns, m.id): m for m in array.markers}
@@ -52,14 +46,9 @@ class Visualization(unittest.TestCase):
         self.assertTrue(wait_until(lambda: 'oldest verdict' in self.text('(twin)/monitor')), self.text('(twin)/monitor'))
         self.assertTrue(wait_until(lambda: 'twin_view' in self.frames))
 
-        subprocess.check_call(['rosnode', 'kill', '/monitor_node'], stdout=subprocess.DEVNULL)
+        self.end(self.monitor)
         self.assertTrue(wait_until(lambda: not self.shown('rotor/margin_pointer')))
         self.assertFalse(self.shown('rotor/speed_avoid'))
         self.assertTrue(self.shown('rotor/speed_pointer'))  # the states go on
         self.assertEqual(self.text('rotor/margin_caption'), 'margin: the monitor is silent')
         self.assertTrue(self.text('(twin)/title').startswith('alarms not known'))
-
-
-if __name__ == '__main__':
-    rospy.init_node('visualization_test')
-    rostest.rosrun('whirl_twin', 'visualization_test', Visualization, sys.argv)

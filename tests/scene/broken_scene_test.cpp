@@ -8,7 +8,7 @@
 #include "scenes.h"
 
 namespace whirl_twin {
-namespace {
+namespace broken_scene_test {
 
 using Errors = std::vector<std::string>;
 
@@ -316,5 +316,5 @@ TEST(BrokenSceneWithManyErrors, NamesThemAllAtOnce) {
                         modelNames()}));
 }
 
-}  // namespace
+}  // namespace broken_scene_test
 }  // namespace whirl_twin

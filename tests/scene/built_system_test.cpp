@@ -12,7 +12,7 @@
 #include "twin/twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace built_system_test {
 
 constexpr const char* kShaft = R"(
 step: 0.001
@@ -133,5 +133,5 @@ TEST(BuiltScene, HasTheDrivesOfTheSceneThenThoseOfConstantSpeeds) {
   }
 }
 
-}  // namespace
+}  // namespace built_system_test
 }  // namespace whirl_twin

@@ -16,7 +16,7 @@
 #include "scenes.h"
 
 namespace whirl_twin {
-namespace {
+namespace controller_reader_test {
 
 std::string withControllers(const std::string& controllers, const std::string& of_system = "") {
   return "{step: 0.001, systems: {s: {model: linear_system, parameters: {names: [x], mass: "
@@ -234,5 +234,5 @@ TEST(PartOfAScene, KeepsTheControllersThatHaveToDoWithNothingElse) {
   EXPECT_EQ(part.controllers[0].acts_on[0].system, 0u);
 }
 
-}  // namespace
+}  // namespace controller_reader_test
 }  // namespace whirl_twin

@@ -19,7 +19,7 @@
 #include "twin/twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace held_motion_test {
 
 constexpr double kGravity = 9.81;
 
@@ -143,5 +143,5 @@ TEST(HeldMotion, AShaftSagsInItsMagnetsAsItDoesInTheTwin) {
   EXPECT_GT(std::fabs(parts.outputs[0][1]), 0.1);  // A
 }
 
-}  // namespace
+}  // namespace held_motion_test
 }  // namespace whirl_twin

@@ -8,7 +8,7 @@
 #include "scenes.h"
 
 namespace whirl_twin {
-namespace {
+namespace scene_file_test {
 
 class SceneFile : public testing::Test {
  protected:
@@ -90,5 +90,5 @@ TEST_F(SceneFile, WithAliasesOfAliasesIsRefusedInGoodTime) {
   EXPECT_NE(complaint(bomb), "");
 }
 
-}  // namespace
+}  // namespace scene_file_test
 }  // namespace whirl_twin

@@ -10,7 +10,7 @@
 #include "scenes.h"
 
 namespace whirl_twin {
-namespace {
+namespace scene_inputs_test {
 
 using Errors = std::vector<std::string>;
 
@@ -187,5 +187,5 @@ TEST_F(SceneInputs, SceneWithoutAFolderNeedsAbsolutePaths) {
   EXPECT_THROW(scene("torque.csv"), SceneError);
 }
 
-}  // namespace
+}  // namespace scene_inputs_test
 }  // namespace whirl_twin

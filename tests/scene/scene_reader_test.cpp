@@ -6,7 +6,7 @@
 #include "scenes.h"
 
 namespace whirl_twin {
-namespace {
+namespace scene_reader_test {
 
 TEST(SceneReader, FillsInDefaults) {
   const Scene scene = sceneOf(R"(
@@ -155,5 +155,5 @@ TEST(SceneReader, KeepsStepsOfWholeNanoseconds) {
   }
 }
 
-}  // namespace
+}  // namespace scene_reader_test
 }  // namespace whirl_twin

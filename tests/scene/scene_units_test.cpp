@@ -10,7 +10,7 @@
 #include "scenes.h"
 
 namespace whirl_twin {
-namespace {
+namespace scene_units_test {
 
 TEST(SceneUnits, AMachineInItsDrawingsUnitsIsTheMachineInSI) {
   const Scene drawn = sceneOf(
@@ -121,5 +121,5 @@ TEST(SceneUnits, EveryUnitThatIsAskedForCanBeWritten) {
   }
 }
 
-}  // namespace
+}  // namespace scene_units_test
 }  // namespace whirl_twin

@@ -9,7 +9,7 @@
 #include "scenes.h"
 
 namespace whirl_twin {
-namespace {
+namespace sensor_reader_test {
 
 Scene with(const std::string& sensors) {
   return sceneOf(std::string(kThreeSystems) + "sensors: " + sensors + "\n");
@@ -113,5 +113,5 @@ TEST(SensorReader, StationsHaveNamesThatNoSystemHas) {
   }
 }
 
-}  // namespace
+}  // namespace sensor_reader_test
 }  // namespace whirl_twin

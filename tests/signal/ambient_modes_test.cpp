@@ -11,7 +11,7 @@
 #include "signal/subspace_identification.h"
 
 namespace whirl_twin {
-namespace {
+namespace ambient_modes_test {
 
 struct KnownMode {
   Complex pole;  // [1/s]
@@ -195,5 +195,5 @@ TEST(SubspaceIdentification, TellsTwoModesOfOneFrequencyByTheirShapes) {
   EXPECT_LT((modes[1].shape - across).norm(), 1e-6);
 }
 
-}  // namespace
+}  // namespace ambient_modes_test
 }  // namespace whirl_twin

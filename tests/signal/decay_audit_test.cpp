@@ -10,7 +10,7 @@
 #include "signal/subspace_identification.h"
 
 namespace whirl_twin {
-namespace {
+namespace decay_audit_test {
 
 TEST(SubspaceIdentification, FindsTheModesOfExactCovariances) {
   const Complex forward(-0.8, 100.0), backward(-3.0, -90.0);
@@ -169,5 +169,5 @@ TEST(DecayAudit, SeesGrowth) {
   EXPECT_NEAR(last->frequency, 100.0, 1e-2);
 }
 
-}  // namespace
+}  // namespace decay_audit_test
 }  // namespace whirl_twin

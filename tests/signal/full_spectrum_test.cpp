@@ -9,7 +9,7 @@
 #include "known_motion.h"
 
 namespace whirl_twin {
-namespace {
+namespace full_spectrum_test {
 
 constexpr double kPeriod = 1.0e-3;  // [s]
 
@@ -68,5 +68,5 @@ TEST(FullSpectrum, FrequenciesRiseFromMinusNyquist) {
   EXPECT_NEAR(spectrum.amplitude(128), 1.0, 1e-12);
 }
 
-}  // namespace
+}  // namespace full_spectrum_test
 }  // namespace whirl_twin

@@ -6,12 +6,12 @@
 #include <functional>
 #include <random>
 
+#include "algebra/constants.h"
 #include "signal/order_filter.h"
 
 namespace whirl_twin {
 
 using Complex = std::complex<double>;
-inline constexpr double kPi = 3.14159265358979323846;
 
 /// Turns with 1X: unbalance response of an isotropic rotor, as if each speed were kept for long.
 inline Complex quasiStaticResponse(double speed, double critical, double damping_ratio,

@@ -13,7 +13,7 @@
 #include "signal/order_filter.h"
 
 namespace whirl_twin {
-namespace {
+namespace measured_orbit_test {
 
 constexpr double kTurn = ShaftAngle::kTurn;
 constexpr double kRate = 2000.0;  // Hz
@@ -249,5 +249,5 @@ TEST(MeasuredOrbit, TwoProbesAlongOneLineAreRefused) {
   EXPECT_THROW(MeasuredOrbit(probePair(0.4, 0.4 + 0.5 * kTurn)), std::invalid_argument);
 }
 
-}  // namespace
+}  // namespace measured_orbit_test
 }  // namespace whirl_twin

@@ -8,9 +8,7 @@
 #include "known_motion.h"
 
 namespace whirl_twin {
-namespace {
-
-constexpr double kDegree = kPi / 180.0;
+namespace order_filter_test {
 
 void expectVector(const Complex& found, const Complex& truth, double part, double angle) {
   EXPECT_NEAR(std::abs(found), std::abs(truth), part * std::abs(truth));
@@ -279,5 +277,5 @@ TEST(OrderVector, ProbesSeeWhatTheMotionIs) {
   }
 }
 
-}  // namespace
+}  // namespace order_filter_test
 }  // namespace whirl_twin

@@ -9,7 +9,7 @@
 #include "known_motion.h"
 
 namespace whirl_twin {
-namespace {
+namespace run_up_response_test {
 
 constexpr double kCritical = 100.0;  // [rad/s]
 
@@ -120,5 +120,5 @@ TEST(RunUpResponse, OfARunUpThroughTheTrackingFilter) {
   EXPECT_TRUE(whole[0].slow);
 }
 
-}  // namespace
+}  // namespace run_up_response_test
 }  // namespace whirl_twin

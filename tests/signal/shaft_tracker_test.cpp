@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace whirl_twin {
-namespace {
+namespace shaft_tracker_test {
 
 constexpr double kTurn = ShaftAngle::kTurn;
 constexpr double kNanosecond = 1.0e-9;  // s
@@ -294,5 +294,5 @@ TEST(ShaftTracker, APulseThatIsNotLaterIsRefused) {
   EXPECT_EQ(tracker.counts().refused, 2);
 }
 
-}  // namespace
+}  // namespace shaft_tracker_test
 }  // namespace whirl_twin

@@ -9,7 +9,7 @@
 #include "known_motion.h"
 
 namespace whirl_twin {
-namespace {
+namespace spectrum_cascade_test {
 
 SpectrumCascade fed(const KnownMotion& motion, double until, std::int64_t stride = 1) {
   SpectrumCascade cascade;
@@ -128,5 +128,5 @@ TEST(SpectrumCascade, NoiseHasNoLines) {
   EXPECT_LT(lines, cascade.spectra().size() / 4);
 }
 
-}  // namespace
+}  // namespace spectrum_cascade_test
 }  // namespace whirl_twin

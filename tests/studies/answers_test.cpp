@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace whirl_twin {
-namespace {
+namespace answers_test {
 
 TEST(Distributed, HasItsMomentsAndPercentiles) {
   std::vector<double> values;
@@ -47,5 +47,5 @@ TEST(Yield, HasWilsonsInterval) {
   EXPECT_LT(yieldOf(50, 50).low, 1.0);
 }
 
-}  // namespace
+}  // namespace answers_test
 }  // namespace whirl_twin

@@ -6,7 +6,7 @@
 #include "study_files.h"
 
 namespace whirl_twin {
-namespace {
+namespace block_evaluator_test {
 
 const std::string kRunUp = R"(
 vary:
@@ -115,5 +115,5 @@ measure: {peak: max(rotor.whirl.radius)}
             5U);
 }
 
-}  // namespace
+}  // namespace block_evaluator_test
 }  // namespace whirl_twin

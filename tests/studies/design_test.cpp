@@ -7,7 +7,7 @@
 #include <set>
 
 namespace whirl_twin {
-namespace {
+namespace design_test {
 
 Design of(Design::Kind kind, std::uint64_t points, std::size_t dimensions) {
   Design design;
@@ -157,5 +157,5 @@ TEST(OneAtATime, BeginsWithTheSceneAsItIs) {
   EXPECT_EQ(levelsAt(design, 5), (std::vector<std::optional<std::size_t>>{{}, 2}));
 }
 
-}  // namespace
+}  // namespace design_test
 }  // namespace whirl_twin

@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace whirl_twin {
-namespace {
+namespace distribution_test {
 
 TEST(Distribution, UniformMeetsItsEndsExactly) {
   const Distribution d{Distribution::Kind::kUniform, 0.1, 0.7};
@@ -47,5 +47,5 @@ TEST(Distribution, ListHasItsEntriesAllAlikeLikely) {
   EXPECT_EQ(d.largest(), 40.0);
 }
 
-}  // namespace
+}  // namespace distribution_test
 }  // namespace whirl_twin

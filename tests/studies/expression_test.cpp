@@ -7,7 +7,7 @@
 #include "messages/refusal.h"
 
 namespace whirl_twin {
-namespace {
+namespace expression_test {
 
 double value(const std::string& text, const std::vector<double>& leaves = {}) {
   return Expression(text).value(leaves);
@@ -92,5 +92,5 @@ TEST(Reduction, WhatKeepsSwingingDoesNotSettle) {
   EXPECT_EQ(still.result(), 0.0);
 }
 
-}  // namespace
+}  // namespace expression_test
 }  // namespace whirl_twin

@@ -10,7 +10,7 @@
 #include "study_files.h"
 
 namespace whirl_twin {
-namespace {
+namespace optimizer_test {
 
 const std::atomic<bool> kNever{false};
 
@@ -177,5 +177,5 @@ run: {analyze: true, speed: 0.0}
   EXPECT_NE(never.ended.find("infinite"), std::string::npos) << never.ended;
 }
 
-}  // namespace
+}  // namespace optimizer_test
 }  // namespace whirl_twin

@@ -9,7 +9,7 @@
 #include "study_files.h"
 
 namespace whirl_twin {
-namespace {
+namespace point_evaluator_test {
 
 const std::atomic<bool> kNever{false};
 
@@ -202,5 +202,5 @@ measure: {third: max(beam.q3)}
   EXPECT_EQ(table.failed, (std::vector<bool>{false, false, true}));
 }
 
-}  // namespace
+}  // namespace point_evaluator_test
 }  // namespace whirl_twin

@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace whirl_twin {
-namespace {
+namespace sensitivity_test {
 
 constexpr double kPi = 3.14159265358979323846;
 
@@ -130,5 +130,5 @@ TEST(MorrisEffects, OfAProductDeviate) {
   EXPECT_GT(found.mean[0].high, 0.5);
 }
 
-}  // namespace
+}  // namespace sensitivity_test
 }  // namespace whirl_twin

@@ -6,7 +6,7 @@
 #include "study_files.h"
 
 namespace whirl_twin {
-namespace {
+namespace study_reader_test {
 
 std::string refusalOf(const StudyFiles& files, const std::string& rest) {
   try {
@@ -215,5 +215,5 @@ measure: {critical: "critical_speeds[0]"}
   EXPECT_EQ(one.valuesAt(5), (std::vector<double>{1.0, 20.0}));
 }
 
-}  // namespace
+}  // namespace study_reader_test
 }  // namespace whirl_twin

@@ -8,7 +8,7 @@
 #include "twin_program.h"
 
 namespace whirl_twin {
-namespace {
+namespace analyze_command_test {
 
 using Json = nlohmann::json;
 
@@ -463,5 +463,5 @@ TEST(Analyze, OfManyCoordinatesTheReportShowsNoMatrices) {
   EXPECT_EQ(twin({"analyze", scene, "--modes", "none"}).status, 2);
 }
 
-}  // namespace
+}  // namespace analyze_command_test
 }  // namespace whirl_twin

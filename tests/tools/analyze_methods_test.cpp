@@ -7,7 +7,7 @@
 #include "twin_program.h"
 
 namespace whirl_twin {
-namespace {
+namespace analyze_methods_test {
 
 using Json = nlohmann::json;
 
@@ -132,5 +132,5 @@ TEST(CheckRefuses, AStartWithoutInertiaGivingThePhysicalReason) {
       << end.err;
 }
 
-}  // namespace
+}  // namespace analyze_methods_test
 }  // namespace whirl_twin

@@ -4,7 +4,7 @@
 #include "twin_program.h"
 
 namespace whirl_twin {
-namespace {
+namespace check_command_test {
 
 using Json = nlohmann::json;
 
@@ -232,5 +232,5 @@ TEST(Check, TakesTheScenesOfTheReadme) {
   EXPECT_GE(scenes, 2);
 }
 
-}  // namespace
+}  // namespace check_command_test
 }  // namespace whirl_twin

@@ -4,7 +4,7 @@
 #include "twin_program.h"
 
 namespace whirl_twin {
-namespace {
+namespace command_line_test {
 
 using testing::TestWithParam;
 
@@ -117,5 +117,5 @@ TEST(CommandLine, ResultsThatCannotBeWrittenFailTheRun) {
   }
 }
 
-}  // namespace
+}  // namespace command_line_test
 }  // namespace whirl_twin

@@ -4,7 +4,7 @@
 #include "twin_program.h"
 
 namespace whirl_twin {
-namespace {
+namespace controllers_command_test {
 
 using Json = nlohmann::json;
 
@@ -45,5 +45,5 @@ TEST(Controllers, ANameThatNoneHasIsRefusedWithTheNearest) {
   EXPECT_NE(wrong.err.find("no controller 'pdi'"), std::string::npos) << wrong.err;
 }
 
-}  // namespace
+}  // namespace controllers_command_test
 }  // namespace whirl_twin

@@ -8,7 +8,7 @@
 #include "twin_program.h"
 
 namespace whirl_twin {
-namespace {
+namespace csv_test {
 
 using Json = nlohmann::json;
 using Words = std::vector<std::string>;
@@ -180,5 +180,5 @@ TEST_F(Csv, RouthsTableAndRoots) {
   expectNumber(table("table_roots")[0].at("im"), judged["roots"][0][1]);
 }
 
-}  // namespace
+}  // namespace csv_test
 }  // namespace whirl_twin

@@ -10,7 +10,7 @@
 #include "twin_program.h"
 
 namespace whirl_twin {
-namespace {
+namespace ensemble_command_test {
 
 const char* const kScene = R"(
 step: 0.001
@@ -128,5 +128,5 @@ TEST(EnsembleCommands, TheLogHasThem) {
   EXPECT_EQ(channel["rejected"], 0);
 }
 
-}  // namespace
+}  // namespace ensemble_command_test
 }  // namespace whirl_twin

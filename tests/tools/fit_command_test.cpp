@@ -13,7 +13,7 @@
 #include "twin_program.h"
 
 namespace whirl_twin {
-namespace {
+namespace fit_command_test {
 
 using testing::HasSubstr;
 
@@ -329,5 +329,5 @@ TEST_F(Fit, TellsAllMistakesOfAStudyAtOnce) {
   EXPECT_EQ(fit(std::string(kRuns) + "fit: {}\n").status, 2);
 }
 
-}  // namespace
+}  // namespace fit_command_test
 }  // namespace whirl_twin

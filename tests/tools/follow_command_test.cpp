@@ -8,7 +8,7 @@
 #include "twin_program.h"
 
 namespace whirl_twin {
-namespace {
+namespace follow_command_test {
 
 using Json = nlohmann::json;
 
@@ -186,5 +186,5 @@ TEST_F(FollowedArm, NothingToFollowIsSaid) {
   EXPECT_NE(unseen.err.find("sensors"), std::string::npos) << unseen.err;
 }
 
-}  // namespace
+}  // namespace follow_command_test
 }  // namespace whirl_twin

@@ -9,7 +9,7 @@
 #include "swept_study.h"
 
 namespace whirl_twin {
-namespace {
+namespace hdf5_results_test {
 
 /// Likewise with measures of all kinds.
 const std::string kStudy = R"yaml(
@@ -266,5 +266,5 @@ measure: {frequency: "natural_frequencies[0]"}
   EXPECT_NE(results.texts("failed/reason")[19].find("must be >= 0"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace hdf5_results_test
 }  // namespace whirl_twin

@@ -7,7 +7,7 @@
 #include "twin_program.h"
 
 namespace whirl_twin {
-namespace {
+namespace import_command_test {
 
 using Json = nlohmann::json;
 
@@ -366,5 +366,5 @@ TEST(Import, ATableOfElementsIsAShaft) {
   }
 }
 
-}  // namespace
+}  // namespace import_command_test
 }  // namespace whirl_twin

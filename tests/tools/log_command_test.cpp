@@ -4,7 +4,7 @@
 #include "twin_program.h"
 
 namespace whirl_twin {
-namespace {
+namespace log_command_test {
 
 using Json = nlohmann::json;
 
@@ -129,5 +129,5 @@ TEST(Log, RefusesWhatIsNoLog) {
   }
 }
 
-}  // namespace
+}  // namespace log_command_test
 }  // namespace whirl_twin

@@ -13,7 +13,7 @@
 #include "twin_program.h"
 
 namespace whirl_twin {
-namespace {
+namespace loop_command_test {
 
 using Json = nlohmann::json;
 
@@ -170,5 +170,5 @@ TEST(Loop, NeedsAController) {
       << end.err;
 }
 
-}  // namespace
+}  // namespace loop_command_test
 }  // namespace whirl_twin

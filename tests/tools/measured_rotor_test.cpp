@@ -8,7 +8,7 @@
 #include "twin_program.h"
 
 namespace whirl_twin {
-namespace {
+namespace measured_rotor_test {
 
 constexpr double kRadian = 3.14159265358979323846 / 180.0;
 const std::string kScenes = WHIRL_TWIN_SOURCE "/config/scenes/";
@@ -211,5 +211,5 @@ TEST(BalanceMeasured, RefusesPlanesThatAreNotThereAndOptionsWithoutALog) {
   EXPECT_NE(none.err.find("from 500 to 1e+06 rad/s, found none"), std::string::npos) << none.err;
 }
 
-}  // namespace
+}  // namespace measured_rotor_test
 }  // namespace whirl_twin

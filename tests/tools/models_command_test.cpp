@@ -4,7 +4,7 @@
 #include "twin_program.h"
 
 namespace whirl_twin {
-namespace {
+namespace models_command_test {
 
 using Json = nlohmann::json;
 
@@ -80,5 +80,5 @@ TEST(Models, ListForReadersHasEveryModel) {
   }
 }
 
-}  // namespace
+}  // namespace models_command_test
 }  // namespace whirl_twin

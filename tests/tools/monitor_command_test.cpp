@@ -4,7 +4,7 @@
 #include "twin_program.h"
 
 namespace whirl_twin {
-namespace {
+namespace monitor_command_test {
 
 using Json = nlohmann::json;
 
@@ -210,5 +210,5 @@ TEST(MonitorCommand, TakesWhatSensorsMeasure) {
   EXPECT_NEAR(passed[0]["speed"].get<double>(), 62.0, 1.5);
 }
 
-}  // namespace
+}  // namespace monitor_command_test
 }  // namespace whirl_twin

@@ -4,7 +4,7 @@
 #include "twin_program.h"
 
 namespace whirl_twin {
-namespace {
+namespace new_command_test {
 
 using Json = nlohmann::json;
 
@@ -62,5 +62,5 @@ TEST(New, OfNoModelSaysWhichThereAre) {
   EXPECT_EQ(end.err, "twin: no model 'jeffcot_rotor'; did you mean 'jeffcott_rotor'?\n");
 }
 
-}  // namespace
+}  // namespace new_command_test
 }  // namespace whirl_twin

@@ -4,7 +4,7 @@
 #include "twin_program.h"
 
 namespace whirl_twin {
-namespace {
+namespace plot_command_test {
 
 using Names = std::vector<std::string>;
 
@@ -126,9 +126,9 @@ struct Refused {
   Names options;
   std::string message;
 };
-class RefusedOptions : public testing::TestWithParam<Refused> {};
+class RefusedPlotOptions : public testing::TestWithParam<Refused> {};
 
-TEST_P(RefusedOptions, SayWhatWasExpected) {
+TEST_P(RefusedPlotOptions, SayWhatWasExpected) {
   Names arguments{"plot", kDemo};
   arguments.insert(arguments.end(), GetParam().options.begin(), GetParam().options.end());
   const Ending end = twin(arguments);
@@ -138,7 +138,7 @@ TEST_P(RefusedOptions, SayWhatWasExpected) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Plot, RefusedOptions,
+    Plot, RefusedPlotOptions,
     testing::Values(
         Refused{{"--format", "pdf"}, "twin: --format: must be svg or png, found 'pdf'"},
         Refused{{"--output", "/dev/null"}, "twin: --output: must be a folder, found '/dev/null'"},
@@ -188,5 +188,5 @@ TEST(Plot, OfASystemThatDivergesShowsItUntilThen) {
                                    "scene.yaml"}));
 }
 
-}  // namespace
+}  // namespace plot_command_test
 }  // namespace whirl_twin

@@ -9,7 +9,7 @@
 #include "twin_program.h"
 
 namespace whirl_twin {
-namespace {
+namespace rotor_commands_test {
 
 TEST(Campbell, FindsTheCriticalSpeedOfTheDemo) {
   const Ending end = twin({"campbell", kDemo, "--points", "20", "--json"});
@@ -321,5 +321,5 @@ INSTANTIATE_TEST_SUITE_P(
         RefusedCommand{{"orbit", kDemo, "--speed", "-3"},
                        "--speed: expected a shaft speed >= 0 rad/s, found -3"}));
 
-}  // namespace
+}  // namespace rotor_commands_test
 }  // namespace whirl_twin

@@ -10,7 +10,7 @@
 #include "twin_program.h"
 
 namespace whirl_twin {
-namespace {
+namespace rotor_design_test {
 
 using Json = nlohmann::json;
 
@@ -172,5 +172,5 @@ systems:
   EXPECT_NEAR(state["y_1"].get<double>(), (y * turn).real(), 1.0e-6 * size);
 }
 
-}  // namespace
+}  // namespace rotor_design_test
 }  // namespace whirl_twin

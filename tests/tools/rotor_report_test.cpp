@@ -9,7 +9,7 @@
 #include "twin_program.h"
 
 namespace whirl_twin {
-namespace {
+namespace rotor_report_test {
 
 using Json = nlohmann::json;
 
@@ -131,5 +131,5 @@ TEST(Report, OfAPendulumIsRefusedAndLeavesNothing) {
   EXPECT_TRUE(folder.files().empty());
 }
 
-}  // namespace
+}  // namespace rotor_report_test
 }  // namespace whirl_twin

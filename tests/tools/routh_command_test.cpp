@@ -6,7 +6,7 @@
 #include "twin_program.h"
 
 namespace whirl_twin {
-namespace {
+namespace routh_command_test {
 
 using Json = nlohmann::json;
 using Words = std::vector<std::string>;
@@ -177,5 +177,5 @@ TEST(Routh, ReportForReaders) {
   EXPECT_NE(end.out.find("decay rate      0.5 1/s"), std::string::npos) << end.out;
 }
 
-}  // namespace
+}  // namespace routh_command_test
 }  // namespace whirl_twin

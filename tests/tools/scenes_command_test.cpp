@@ -6,7 +6,7 @@
 #include "twin_program.h"
 
 namespace whirl_twin {
-namespace {
+namespace scenes_command_test {
 
 using Json = nlohmann::json;
 
@@ -78,5 +78,5 @@ TEST(Scenes, AreTakenByNameByEveryCommandThatReadsOne) {
   EXPECT_NE(end.err.find("rod_sliders: no such file"), std::string::npos) << end.err;
 }
 
-}  // namespace
+}  // namespace scenes_command_test
 }  // namespace whirl_twin

@@ -6,7 +6,7 @@
 #include "twin_program.h"
 
 namespace whirl_twin {
-namespace {
+namespace simulate_output_test {
 
 using Json = nlohmann::json;
 
@@ -15,9 +15,9 @@ struct Refused {
   Lines messages;
 };
 
-class RefusedOptions : public testing::TestWithParam<Refused> {};
+class RefusedSimulateOptions : public testing::TestWithParam<Refused> {};
 
-TEST_P(RefusedOptions, SayWhatWasExpected) {
+TEST_P(RefusedSimulateOptions, SayWhatWasExpected) {
   std::vector<std::string> arguments{"simulate", kDemo};
   arguments.insert(arguments.end(), GetParam().options.begin(), GetParam().options.end());
   const Ending end = twin(arguments);
@@ -27,7 +27,7 @@ TEST_P(RefusedOptions, SayWhatWasExpected) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    Simulate, RefusedOptions,
+    Simulate, RefusedSimulateOptions,
     testing::Values(
         Refused{{"--sample", "0"},
                 {"twin: --sample: must be from 0.001 s to 1000000000 s, found 0 s"}},
@@ -230,5 +230,5 @@ TEST_F(DivergingScene, ASystemThatIsNotShownDoesNotFailTheRun) {
   EXPECT_EQ(end.err, "");
 }
 
-}  // namespace
+}  // namespace simulate_output_test
 }  // namespace whirl_twin

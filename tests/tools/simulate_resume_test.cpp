@@ -7,7 +7,7 @@
 #include "twin_program.h"
 
 namespace whirl_twin {
-namespace {
+namespace simulate_resume_test {
 
 Lines rest(const Lines& all, std::size_t from) {
   return Lines(all.begin() + static_cast<std::ptrdiff_t>(from), all.end());
@@ -59,5 +59,5 @@ TEST(Resume, RefusesWhatItCannotGoOnFrom) {
   EXPECT_NE(whyNot({}).find("run.checkpoint: is torn: must have "), std::string::npos);
 }
 
-}  // namespace
+}  // namespace simulate_resume_test
 }  // namespace whirl_twin

@@ -7,7 +7,7 @@
 #include "twin_program.h"
 
 namespace whirl_twin {
-namespace {
+namespace simulate_table_test {
 
 using Json = nlohmann::json;
 
@@ -165,5 +165,5 @@ TEST(Table, OfOneSystemTheIntegratorOnlyThere) {
   EXPECT_EQ(end.json()["systems"].size(), 1u);
 }
 
-}  // namespace
+}  // namespace simulate_table_test
 }  // namespace whirl_twin

@@ -6,7 +6,7 @@
 #include "swept_study.h"
 
 namespace whirl_twin {
-namespace {
+namespace study_alarms_test {
 
 /// It runs up through its critical speed.
 std::string sceneOf(const std::string& damping) {
@@ -60,5 +60,5 @@ measure:
   EXPECT_GT(most, 1.0);
 }
 
-}  // namespace
+}  // namespace study_alarms_test
 }  // namespace whirl_twin

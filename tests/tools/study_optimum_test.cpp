@@ -4,7 +4,7 @@
 #include "swept_study.h"
 
 namespace whirl_twin {
-namespace {
+namespace study_optimum_test {
 
 const std::string kStudy = R"(
 study: {scene: scene.yaml}
@@ -57,5 +57,5 @@ TEST(StudyOptimum, OfTheShippedRunUpIsAtItsLimit) {
   EXPECT_NEAR(said["measures"]["acceleration"]["best"].get<double>(), 58.8, 0.2);
 }
 
-}  // namespace
+}  // namespace study_optimum_test
 }  // namespace whirl_twin

@@ -4,7 +4,7 @@
 #include "swept_study.h"
 
 namespace whirl_twin {
-namespace {
+namespace study_plot_test {
 
 using Names = std::vector<std::string>;
 
@@ -138,5 +138,5 @@ TEST(StudyPlot, ShippedStudiesSayWhatTheyAreSaidToSay) {
   EXPECT_EQ(tolerances["failed"], 0);
 }
 
-}  // namespace
+}  // namespace study_plot_test
 }  // namespace whirl_twin

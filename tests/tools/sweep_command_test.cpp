@@ -11,7 +11,7 @@
 #include "swept_study.h"
 
 namespace whirl_twin {
-namespace {
+namespace sweep_command_test {
 
 TEST(Sweep, WorkersPartsAndBreaksChangeNoByte) {
   const StudyFiles files;
@@ -296,5 +296,5 @@ TEST(Sweep, OptionsThatCannotBeMeantAreRefused) {
   EXPECT_FALSE(std::filesystem::exists(files.file("r")));
 }
 
-}  // namespace
+}  // namespace sweep_command_test
 }  // namespace whirl_twin

@@ -9,7 +9,7 @@
 #include "swept_study.h"
 
 namespace whirl_twin {
-namespace {
+namespace sweep_ranks_test {
 
 /// Starts `mpirun -n 4 twin ...` as the leader of a process group of its own.
 pid_t startRanks(const std::vector<std::string>& arguments, const std::string& out,
@@ -126,5 +126,5 @@ TEST(SweepRanks, CtrlCEndsAllOfThemAndTheCommandGoesOn) {
   EXPECT_EQ(files.results("r"), files.results("whole"));
 }
 
-}  // namespace
+}  // namespace sweep_ranks_test
 }  // namespace whirl_twin

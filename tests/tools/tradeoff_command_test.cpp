@@ -12,7 +12,7 @@
 #include "twin_program.h"
 
 namespace whirl_twin {
-namespace {
+namespace tradeoff_command_test {
 
 using Json = nlohmann::json;
 
@@ -183,5 +183,5 @@ TEST(Tradeoff, RefusesNamesOfFilesAndDurationsItCannotMean) {
   }
 }
 
-}  // namespace
+}  // namespace tradeoff_command_test
 }  // namespace whirl_twin

@@ -18,7 +18,7 @@
 #include "transport/lcm_decode.h"
 
 namespace whirl_twin {
-namespace {
+namespace acquisition_test {
 
 constexpr std::int64_t kBegin = 1'700'000'000'000'000'000;  // [ns], of a clock on a wall
 constexpr std::int64_t kPeriod = 500'001;                   // [ns]
@@ -201,5 +201,5 @@ TEST(Acquisition, TwoColumnsOfOneNameEndTheAdapters) {
   }
 }
 
-}  // namespace
+}  // namespace acquisition_test
 }  // namespace whirl_twin

@@ -5,7 +5,7 @@
 #include "messages/message_check.h"
 
 namespace whirl_twin {
-namespace {
+namespace channels_test {
 
 TEST(Channels, AreNamedAsTheInterfaceSays) {
   EXPECT_EQ(channelName(state::WhirlState::kKind, "rotor"), "TWIN_ROTOR_WHIRL");
@@ -84,5 +84,5 @@ TEST(Channels, OfTheLongestNameFitLcm) {
                Refusal);
 }
 
-}  // namespace
+}  // namespace channels_test
 }  // namespace whirl_twin

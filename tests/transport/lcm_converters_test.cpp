@@ -10,7 +10,7 @@
 #include "state_samples.h"
 
 namespace whirl_twin {
-namespace {
+namespace lcm_converters_test {
 
 TEST(LcmConverters, BringEveryBitBack) {
   StateSamples samples(1);
@@ -369,5 +369,5 @@ TEST(LcmConverters, RejectImpossibleAlerts) {
        [](auto& m) { m.text = std::string(1001, 'a'); }});
 }
 
-}  // namespace
+}  // namespace lcm_converters_test
 }  // namespace whirl_twin

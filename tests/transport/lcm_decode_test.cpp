@@ -12,7 +12,7 @@
 #include "transport/lcm_encode.h"
 
 namespace whirl_twin {
-namespace {
+namespace lcm_decode_test {
 
 using Payload = std::vector<std::uint8_t>;
 
@@ -168,5 +168,5 @@ TEST(LcmDecode, SurvivesAnyDamage) {
   }
 }
 
-}  // namespace
+}  // namespace lcm_decode_test
 }  // namespace whirl_twin

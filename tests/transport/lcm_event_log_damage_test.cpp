@@ -12,7 +12,7 @@
 #include "transport/payload_layout.h"
 
 namespace whirl_twin {
-namespace {
+namespace lcm_event_log_damage_test {
 
 constexpr std::size_t kHeaderSize = 28;
 
@@ -248,5 +248,5 @@ TEST(DamagedEventLog, WhoseClockWasSetBackIsNoticed) {
   EXPECT_FALSE(readEventLog(log.path()).intact());
 }
 
-}  // namespace
+}  // namespace lcm_event_log_damage_test
 }  // namespace whirl_twin

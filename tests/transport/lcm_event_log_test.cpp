@@ -13,7 +13,7 @@
 #include "transport/lcm_decode.h"
 
 namespace whirl_twin {
-namespace {
+namespace lcm_event_log_test {
 
 const ChannelSummary& channelIn(const LogSummary& summary, const std::string& name) {
   for (const auto& channel : summary.channels) {
@@ -246,5 +246,5 @@ TEST(EventLogWriter, NoticesAFullDisk) {
       std::runtime_error);
 }
 
-}  // namespace
+}  // namespace lcm_event_log_test
 }  // namespace whirl_twin

@@ -12,7 +12,7 @@
 #include "transport/lcm_recorder.h"
 
 namespace whirl_twin {
-namespace {
+namespace lcm_link_test {
 
 constexpr std::chrono::milliseconds kNow{0};
 
@@ -161,5 +161,5 @@ TEST(LcmPublisher, StaysOffAndSaysWhyIfLcmDoesNotOpen) {
   EXPECT_EQ(publisher.sent() + publisher.failed(), 0u);
 }
 
-}  // namespace
+}  // namespace lcm_link_test
 }  // namespace whirl_twin

@@ -16,7 +16,7 @@
 #include "transport/ros_layout.h"
 
 namespace whirl_twin {
-namespace {
+namespace logged_bag_test {
 
 struct Read {
   LoggedMessages log;
@@ -235,5 +235,5 @@ TEST(LoggedBag, WhateverStandsInAFileIsReadToItsEnd) {
   }
 }
 
-}  // namespace
+}  // namespace logged_bag_test
 }  // namespace whirl_twin

@@ -10,7 +10,7 @@
 #include "state_samples.h"
 
 namespace whirl_twin {
-namespace {
+namespace ros_converters_test {
 
 TEST(RosConverters, BringEveryBitBack) {
   StateSamples samples(1);
@@ -127,5 +127,5 @@ TEST(RosConverters, RejectWhatCannotBeMeant) {
       {[](auto& m) { m.alerts[0].severity = 3; }, [](auto& m) { m.alerts[0].text = "\x80"; }});
 }
 
-}  // namespace
+}  // namespace ros_converters_test
 }  // namespace whirl_twin

@@ -13,7 +13,7 @@
 #include "transport/ros_converters.h"
 
 namespace whirl_twin {
-namespace {
+namespace ros_encode_test {
 
 template <class RosMessage>
 std::string serialized(const RosMessage& message) {
@@ -73,5 +73,5 @@ TEST(RosEncode, AlertsBecomeTheListOfThoseThatStand) {
   EXPECT_EQ(encoded(encoder, mild), serialized(toRos(std::vector{mild}, mild.stamp)));
 }
 
-}  // namespace
+}  // namespace ros_encode_test
 }  // namespace whirl_twin

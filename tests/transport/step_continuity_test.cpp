@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace whirl_twin {
-namespace {
+namespace step_continuity_test {
 
 StepContinuity of(std::initializer_list<std::int64_t> steps) {
   StepContinuity continuity;
@@ -66,5 +66,5 @@ TEST(StepContinuity, SurvivesThatEveryDifferenceIsAnother) {
   EXPECT_GT(continuity.gaps(), 4000u);
 }
 
-}  // namespace
+}  // namespace step_continuity_test
 }  // namespace whirl_twin

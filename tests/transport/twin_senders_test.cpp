@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace whirl_twin {
-namespace {
+namespace twin_senders_test {
 
 state::LoopStatistics beatOf(std::int64_t started, const std::string& sender) {
   state::LoopStatistics loop;
@@ -70,5 +70,5 @@ TEST(TwinSenders, MessagesOfBeforeRunsWereToldApartAreLeft) {
   EXPECT_EQ(heard.trouble(3.5), "");
 }
 
-}  // namespace
+}  // namespace twin_senders_test
 }  // namespace whirl_twin

@@ -20,7 +20,7 @@
 #endif
 
 namespace whirl_twin {
-namespace {
+namespace wire_test {
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -135,5 +135,5 @@ TEST(Wire, OfRosIsWhatItWas) {
 }
 #endif
 
-}  // namespace
+}  // namespace wire_test
 }  // namespace whirl_twin

@@ -22,7 +22,7 @@
 #include "twin/live_checkpoint.h"
 
 namespace whirl_twin {
-namespace {
+namespace checkpoint_test {
 
 namespace fs = std::filesystem;
 
@@ -159,7 +159,7 @@ controllers:
 )";
 
 /// Whose loop is run by hand, changed live, saved and resumed.
-class Live : public testing::Test {
+class LiveCheckpoint : public testing::Test {
  protected:
   static Checkpoint saved(Running& running) {
     Checkpoint checkpoint;
@@ -213,7 +213,7 @@ class Live : public testing::Test {
   }
 };
 
-TEST_F(Live, WhatWasChangedGoesOnToTheBit) {
+TEST_F(LiveCheckpoint, WhatWasChangedGoesOnToTheBit) {
   const Scene scene = sceneOf(kChanged);
   Running unbroken(scene);
   unbroken.cycle(301);
@@ -275,7 +275,7 @@ TEST(ALawThatOwnsMemory, HasToSayWhatItsStateIs) {
   EXPECT_TRUE(canBeSaved<Exchanging>());
 }
 
-TEST_F(Live, AStateOfAnotherTwinIsRefused) {
+TEST_F(LiveCheckpoint, AStateOfAnotherTwinIsRefused) {
   Running running(sceneOf(kChanged));
   running.cycle(10);
   const Checkpoint saved = this->saved(running);
@@ -394,5 +394,5 @@ TEST_F(File, OfAnotherSceneItIsRefusedByWhatIsOther) {
             "  systems.rotor.parameters.stiffness: expected 25000, found 10000");
 }
 
-}  // namespace
+}  // namespace checkpoint_test
 }  // namespace whirl_twin

@@ -18,7 +18,7 @@
 #include "twin/twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace control_loop_test {
 
 /// x'' = x + u, levitated by u = -(kp x + kd x'), the derivative a backward difference.
 struct Levitation {
@@ -426,5 +426,5 @@ TEST(ControlLoop, OutputsWithJitterActAtTheirInstants) {
   EXPECT_EQ(withJitter(4'000'000, 1), coarse) << "a reset gives the same bytes";
 }
 
-}  // namespace
+}  // namespace control_loop_test
 }  // namespace whirl_twin

@@ -13,7 +13,7 @@
 #include "twin/twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace controlled_pendulums_test {
 
 constexpr double kPi = 3.141592653589793;
 constexpr std::size_t kTheta = 1;  // of the cart and its rod, after x
@@ -131,5 +131,5 @@ TEST(ControlledPendulums, HoldAnEngineThatHunts) {
   }
 }
 
-}  // namespace
+}  // namespace controlled_pendulums_test
 }  // namespace whirl_twin

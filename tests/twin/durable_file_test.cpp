@@ -10,7 +10,7 @@
 #include "messages/refusal.h"
 
 namespace whirl_twin {
-namespace {
+namespace durable_file_test {
 
 class DurableFileTest : public testing::Test {
  protected:
@@ -80,5 +80,5 @@ TEST_F(DurableFileTest, SaysWhyItCannotBeWritten) {
   }
 }
 
-}  // namespace
+}  // namespace durable_file_test
 }  // namespace whirl_twin

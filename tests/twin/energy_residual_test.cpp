@@ -9,7 +9,7 @@
 #include "twin/observer.h"
 
 namespace whirl_twin {
-namespace {
+namespace energy_residual_test {
 
 constexpr int kDraws = 200;
 
@@ -106,5 +106,5 @@ INSTANTIATE_TEST_SUITE_P(
         Audit{"SpinningPendulumOnADrive", "spinning_pendulum", "gauss_legendre_6", 0.02, true}),
     [](const auto& test) { return test.param.name; });
 
-}  // namespace
+}  // namespace energy_residual_test
 }  // namespace whirl_twin

@@ -17,7 +17,7 @@
 #include "twin/observer.h"
 
 namespace whirl_twin {
-namespace {
+namespace ensemble_test {
 
 std::string rotorScene(const std::string& more) {
   return R"(
@@ -504,5 +504,5 @@ TEST(Ensemble, MembersThatDoNotFitTogetherAreNamed) {
   }
 }
 
-}  // namespace
+}  // namespace ensemble_test
 }  // namespace whirl_twin

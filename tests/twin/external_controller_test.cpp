@@ -13,7 +13,7 @@
 #include "twin/observer.h"
 
 namespace whirl_twin {
-namespace {
+namespace external_controller_test {
 
 constexpr std::int64_t kStep = 1'000'000;  // ns
 
@@ -312,5 +312,5 @@ TEST(ExternalController, InLockstepADelayBelowAStepIsRefused) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace external_controller_test
 }  // namespace whirl_twin

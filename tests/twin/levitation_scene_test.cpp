@@ -15,7 +15,7 @@
 #include "twin/twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace levitation_scene_test {
 
 using Complex = std::complex<double>;
 constexpr double kPi = 3.14159265358979323846;
@@ -235,5 +235,5 @@ TEST(LevitationScene, HasTheSensitivityThatAChirpMeasures) {
   }
 }
 
-}  // namespace
+}  // namespace levitation_scene_test
 }  // namespace whirl_twin

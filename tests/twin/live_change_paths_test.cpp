@@ -12,7 +12,7 @@
 #include "scene/scene_reader.h"
 
 namespace whirl_twin {
-namespace {
+namespace live_change_paths_test {
 
 TEST(LiveChange, WhatASceneWouldRefuseIsRefusedInItsWords) {
   Running twin(sceneOf(kTwoSystems));
@@ -153,5 +153,5 @@ TEST_P(EveryParameter, OfEveryModelChangesWhileItRuns) {
 INSTANTIATE_TEST_SUITE_P(Models, EveryParameter, testing::ValuesIn(everyVariant()),
                          [](const auto& test) { return testName(test.param); });
 
-}  // namespace
+}  // namespace live_change_paths_test
 }  // namespace whirl_twin

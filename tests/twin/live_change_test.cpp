@@ -11,7 +11,7 @@
 #include "running_twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace live_change_test {
 
 TEST(LiveChange, IsARecordOfItsStepWithTheSameState) {
   Running twin(sceneOf(kTwoSystems));
@@ -256,5 +256,5 @@ TEST(LiveChange, WhatTheLoopNeverTookIsDeleted) {
   live.reset();  // leaks are seen by the sanitizer's build
 }
 
-}  // namespace
+}  // namespace live_change_test
 }  // namespace whirl_twin

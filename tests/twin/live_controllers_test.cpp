@@ -10,7 +10,7 @@
 #include "running_twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace live_controllers_test {
 
 /// A damped mass on a spring of 50 N/m, held 0.02 m away by a PID law: at rest u = 1 N, all of it
 /// the integral's. And one on a spring alone.
@@ -173,5 +173,5 @@ TEST(LiveControllersOf, AnotherProcessHaveTheirParametersThere) {
             "set_parameter: controllers.far.parameters: it is the other process that has them");
 }
 
-}  // namespace
+}  // namespace live_controllers_test
 }  // namespace whirl_twin

@@ -9,7 +9,7 @@
 #include "realtime/monotonic_clock.h"
 
 namespace whirl_twin {
-namespace {
+namespace live_twin_test {
 
 class Live : public testing::Test {
  protected:
@@ -207,5 +207,5 @@ TEST_F(SmallRing, KeepsTheOldestRecordsAndCountsTheDropped) {
   EXPECT_EQ(stepsAfter(1), (Steps{8}));
 }
 
-}  // namespace
+}  // namespace live_twin_test
 }  // namespace whirl_twin

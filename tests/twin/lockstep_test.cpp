@@ -7,7 +7,7 @@
 #include "twin/live_twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace lockstep_test {
 
 using Names = std::vector<std::string>;
 
@@ -178,5 +178,5 @@ TEST_F(InLongerStrides, ItGoesSoManyPublicationsAhead) {
   EXPECT_EQ(after(50), 40);
 }
 
-}  // namespace
+}  // namespace lockstep_test
 }  // namespace whirl_twin

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "../scene/scenes.h"
-#include "algebra/eigenvalues.h"
+#include "algebra/dense.h"
 #include "allocation_guard.h"
 #include "analysis/sampled_stability.h"
 #include "analysis/validity.h"
@@ -23,7 +23,7 @@
 #include "twin/twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace magnetic_bearings_test {
 
 /// A disc on a shaft and a magnet of ki 100 N/A, bias 2 A, gap 0.4 mm: ks = 5e5 N/m.
 std::string disc(double step, double stiffness, const std::string& more) {
@@ -291,9 +291,9 @@ TEST(MagneticBearings, HoldATiltingRotorUpToASpeedAndWithCrossCouplingBeyond) {
     const Scene scene = sceneOf(tilting(speed, late, cross));
     const ClosedLoop::Parts parts = *closedLoops(scene).front().parts(
         [&](std::size_t system) { return motionAtStart(scene, system); }, speed);
-    const Eigen::EigenSolver<Eigen::MatrixXd> solver(
-        sampledLoop(parts.plant, parts.controllers).transition, false);
-    return solver.eigenvalues().cwiseAbs().maxCoeff();
+    return eigenvalues(sampledLoop(parts.plant, parts.controllers).transition)
+        .values.cwiseAbs()
+        .maxCoeff();
   };
   for (const auto& [late, threshold] :
        {std::pair{0.05, 24.254970788536}, {0.1, 11.166108253016}, {0.2, 4.613163688883}}) {
@@ -357,5 +357,5 @@ TEST(MagneticBearings, AreRefusedWhereTheyDoNotFitTogether) {
   }
 }
 
-}  // namespace
+}  // namespace magnetic_bearings_test
 }  // namespace whirl_twin

@@ -13,7 +13,7 @@
 #include "twin/twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace measurements_test {
 
 constexpr double kTwoPi = 6.283185307179586;
 
@@ -154,5 +154,5 @@ TEST(Measurements, KeyphasorTellsThePhaseOfTheShaft) {
   }
 }
 
-}  // namespace
+}  // namespace measurements_test
 }  // namespace whirl_twin

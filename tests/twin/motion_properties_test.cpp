@@ -11,7 +11,7 @@
 #include "analysis/equilibria.h"
 
 namespace whirl_twin {
-namespace {
+namespace motion_properties_test {
 
 constexpr int kDraws = 200;
 constexpr std::int64_t kMillisecond = 1000000;
@@ -223,5 +223,5 @@ TEST_F(Motions, TheVerdictOnARestIsWhatIsSeenInTime) {
   EXPECT_GT(unstable, 100) << "both kinds are met";
 }
 
-}  // namespace
+}  // namespace motion_properties_test
 }  // namespace whirl_twin

@@ -8,7 +8,7 @@
 #include "twin/twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace motor_scene_test {
 
 std::string scene(const std::string& motor, const std::string& system = "") {
   return "{step: 0.0005, drives: {engine: {speed: 20.0, angle: 0.5, motor: " + motor +
@@ -169,5 +169,5 @@ TEST(MotorScene, ItsShaftIsTheOneThatIsPublished) {
   EXPECT_EQ(observer.motor(0).motor_work, 0.0);
 }
 
-}  // namespace
+}  // namespace motor_scene_test
 }  // namespace whirl_twin

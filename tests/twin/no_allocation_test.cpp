@@ -12,7 +12,7 @@
 #include "twin/twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace no_allocation_test {
 
 struct Pair {
   VariantUnderTest variant;
@@ -159,5 +159,5 @@ TEST(NoAllocationOf, AStiffImplicitStepOrOneThatFails) {
   }
 }
 
-}  // namespace
+}  // namespace no_allocation_test
 }  // namespace whirl_twin

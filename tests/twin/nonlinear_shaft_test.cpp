@@ -17,7 +17,7 @@
 #include "twin/twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace nonlinear_shaft_test {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kHalf = 0.2;  // m, of the shaft
@@ -361,5 +361,5 @@ TEST(LocalElements, AreRefusedWhereTheyDoNotFitTogether) {
   }
 }
 
-}  // namespace
+}  // namespace nonlinear_shaft_test
 }  // namespace whirl_twin

@@ -9,7 +9,7 @@
 #include "../scene/scenes.h"
 
 namespace whirl_twin {
-namespace {
+namespace observer_test {
 
 constexpr double kSpeed = 30.0;  // [rad/s]
 
@@ -224,5 +224,5 @@ TEST(Observer, StationsOfAShaftHaveWhirlsOfTheirOwn) {
   EXPECT_GT(middle.radius, left.radius);
 }
 
-}  // namespace
+}  // namespace observer_test
 }  // namespace whirl_twin

@@ -14,7 +14,7 @@
 #include "signal/full_spectrum.h"
 
 namespace whirl_twin {
-namespace {
+namespace order_observer_test {
 
 namespace fs = std::filesystem;
 using Complex = std::complex<double>;
@@ -213,5 +213,5 @@ TEST(OrderObserver, TellsTheSameWhicheverRecordsTheObserverSees) {
   EXPECT_EQ(told, 60);  // 20 a second
 }
 
-}  // namespace
+}  // namespace order_observer_test
 }  // namespace whirl_twin

@@ -11,7 +11,7 @@
 #include "twin/observer.h"
 
 namespace whirl_twin {
-namespace {
+namespace prepared_system_test {
 
 int made_ready = 0;
 int deleted = 0;
@@ -161,5 +161,5 @@ TEST_F(Prepared, AChangedSystemIsReadyForTheSpeedsOfItsDriveAndGoesOnAtTheSameSt
   EXPECT_TRUE(std::equal(was.q(), was.q() + 4, is.q())) << "x, y and their rates";
 }
 
-}  // namespace
+}  // namespace prepared_system_test
 }  // namespace whirl_twin

@@ -16,7 +16,7 @@
 #include "twin/observer.h"
 
 namespace whirl_twin {
-namespace {
+namespace sparse_observation_test {
 
 struct Comparison {
   std::int64_t observed = 0;  ///< steps, of those that nobody was told of
@@ -340,5 +340,5 @@ TEST(SparseObservation, AnErrorIsSeenInTheStepThatFindsIt) {
   EXPECT_GT(found, 5);
 }
 
-}  // namespace
+}  // namespace sparse_observation_test
 }  // namespace whirl_twin

@@ -7,7 +7,7 @@
 #include "twin/live_twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace step_times_test {
 
 constexpr std::int64_t kPeriod = 10'000;  // ns
 constexpr std::size_t kLight = 0, kHeavy = 1, kControllers = 2;
@@ -81,5 +81,5 @@ TEST(StepTimes, LooksAtTheClockStaySmallBesideThePeriod) {
   EXPECT_EQ(dueOf(3, kPeriod, false), 128);
 }
 
-}  // namespace
+}  // namespace step_times_test
 }  // namespace whirl_twin

@@ -12,7 +12,7 @@
 #include "twin/twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace supervised_speed_test {
 
 using state::Supervision;
 
@@ -194,5 +194,5 @@ TEST(SupervisedSpeed, NeverSitsWhateverTheRotor) {
   EXPECT_GT(given_up, 1);
 }
 
-}  // namespace
+}  // namespace supervised_speed_test
 }  // namespace whirl_twin

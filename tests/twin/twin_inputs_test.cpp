@@ -8,7 +8,7 @@
 #include "twin/live_twin.h"
 
 namespace whirl_twin {
-namespace {
+namespace twin_inputs_test {
 
 constexpr std::int64_t kMillisecond = 1000000;
 
@@ -102,5 +102,5 @@ TEST(TwinInputs, ActOnAllMembersOfAnEnsemble) {
   }
 }
 
-}  // namespace
+}  // namespace twin_inputs_test
 }  // namespace whirl_twin

@@ -11,7 +11,7 @@
 #include "twin/stop_text.h"
 
 namespace whirl_twin {
-namespace {
+namespace twin_test {
 
 std::vector<double> record(const Twin& twin) {
   std::vector<double> r(twin.layout().size, 0.0);
@@ -231,5 +231,5 @@ TEST(SetSpeed, RefusesWhatIsOutOfRange) {
   EXPECT_EQ(twin.drive(0).targetSpeed(), 12.0) << "nothing changed";
 }
 
-}  // namespace
+}  // namespace twin_test
 }  // namespace whirl_twin

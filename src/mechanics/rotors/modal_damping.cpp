@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algebra/cholesky.h"
-#include "algebra/eigenvalues.h"
+#include "algebra/dense.h"
 
 namespace whirl_twin {
 
@@ -24,22 +23,19 @@ Eigen::MatrixXd modalDamping(const Eigen::MatrixXd& mass, const Eigen::MatrixXd&
                              const std::vector<DampingRatio>& ratios) {
   // Turns and displacements of one size first: the frequencies of a long shaft span six decades.
   const Eigen::VectorXd unit = mass.diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::LLT<Eigen::MatrixXd> factor(unit.asDiagonal() * mass * unit.asDiagonal());
-  if (!mass.allFinite() || !stiffness.allFinite() || factor.info() != Eigen::Success) {
+  const Cholesky factor(unit.asDiagonal() * mass * unit.asDiagonal());
+  if (!mass.allFinite() || !stiffness.allFinite() || !factor.succeeded()) {
     return Eigen::MatrixXd::Zero(mass.rows(), mass.cols());
   }
-  const Eigen::MatrixXd half =
-      factor.matrixL().solve(unit.asDiagonal() * stiffness * unit.asDiagonal());
-  const Eigen::MatrixXd whole = factor.matrixL().solve(half.transpose());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(
-      Eigen::MatrixXd(0.5 * (whole + whole.transpose())));
+  const Eigen::MatrixXd half = factor.solveLower(unit.asDiagonal() * stiffness * unit.asDiagonal());
+  const Eigen::MatrixXd whole = factor.solveLower(half.transpose());
+  const SymmetricModes<double> modes = symmetricModes(0.5 * (whole + whole.transpose()));
   Eigen::VectorXd by_rate(mass.rows());
   for (Eigen::Index i = 0; i < by_rate.size(); ++i) {
-    const double frequency = std::sqrt(std::max(0.0, modes.eigenvalues()[i]));
+    const double frequency = std::sqrt(std::max(0.0, modes.values[i]));
     by_rate[i] = 2.0 * ratioAt(ratios, frequency) * frequency;
   }
-  const Eigen::MatrixXd shapes =
-      unit.cwiseInverse().asDiagonal() * Eigen::MatrixXd(factor.matrixL()) * modes.eigenvectors();
+  const Eigen::MatrixXd shapes = unit.cwiseInverse().asDiagonal() * factor.lower() * modes.vectors;
   return shapes * by_rate.asDiagonal() * shapes.transpose();
 }
 

@@ -4,11 +4,11 @@
 #include <array>
 #include <cmath>
 
+#include "algebra/constants.h"
+
 namespace whirl_twin {
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// One bending plane: deflection, rotation at the first node and at the second.
 using PlaneMatrix = Eigen::Matrix4d;

@@ -2,13 +2,12 @@
 
 #include <cmath>
 
+#include "algebra/constants.h"
 #include "mechanics/gradient.h"
 
 namespace whirl_twin {
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 /// 1 / S of an eccentricity ratio: the load in units of D w mu L^3 / (8 c^2); it rises with e.
 double loadNumber(double e) {

@@ -1,3 +1,0 @@
-#include "algebra/cholesky.h"
-
-WHIRL_TWIN_CHOLESKY()

@@ -1,3 +1,0 @@
-#include "algebra/eigenvalues.h"
-
-WHIRL_TWIN_EIGENVALUES()

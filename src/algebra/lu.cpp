@@ -1,3 +1,0 @@
-#include "algebra/lu.h"
-
-WHIRL_TWIN_LU()

@@ -1,3 +1,0 @@
-#include "algebra/qr.h"
-
-WHIRL_TWIN_QR()

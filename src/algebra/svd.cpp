@@ -1,3 +1,0 @@
-#include "algebra/svd.h"
-
-WHIRL_TWIN_SVD()

@@ -1,0 +1,49 @@
+// What SteppedSystem asks of a model: constants of one that it is composed with, or what a
+// CalledModel says.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "integration/called_equation.h"
+#include "integration/driven_equation.h"
+
+namespace whirl_twin {
+
+template <class Model>
+struct SteppedModel {
+  static constexpr std::size_t n = Model::kDof;
+  using Array = std::array<double, n>;
+  using Equation = DrivenEquation<Model>;
+
+  static constexpr bool hasShaft(const Model&) { return Model::kHasShaft; }
+  static constexpr bool hasSpin(const Model&) { return HasSpin<Model>::value; }
+  static constexpr bool angular(const Model&, std::size_t i) { return formOf<Model>().angular[i]; }
+  static EquationsOfMotion<double, n> at(const Model& model, const Array& q, const Array& v,
+                                         const Moment<double>& at) noexcept {
+    return equationsAt(model, q, v, at);
+  }
+  static WHIRL_TWIN_INLINE Equation equation(const Model& model, const Drive& drive, double time) {
+    return {model, drive, time};
+  }
+};
+
+template <std::size_t n>
+struct SteppedModel<CalledModel<n>> {
+  using Array = std::array<double, n>;
+  using Model = CalledModel<n>;
+  using Equation = CalledEquation<n>;
+
+  static bool hasShaft(const Model& model) { return model.calls().form().has_shaft; }
+  static bool hasSpin(const Model& model) { return model.calls().form().has_spin; }
+  static bool angular(const Model& model, std::size_t i) { return model.calls().form().angular[i]; }
+  static EquationsOfMotion<double, n> at(const Model& model, const Array& q, const Array& v,
+                                         const Moment<double>& at) noexcept {
+    return model.calls().at(q, v, at);
+  }
+  static Equation equation(const Model& model, const Drive& drive, double time) {
+    return {model.calls(), drive, time};
+  }
+};
+
+}  // namespace whirl_twin
