@@ -6,7 +6,8 @@
 //     ----------------------------------------------------------------------------------------
 //     energies, nonlinear: pendulums, free_rotor,     any but          SteppedSystem<Model, Method>
 //     a rotor with hysteresis, rub, motor or films    exponential
-//         Method and energies are one function after compiling. `auto` calibrates. What rests on
+//         Method and energies are one function after compiling, where `auto` may take the method;
+//         others are reached by calls (called_system.h). `auto` calibrates. What rests on
 //         earlier steps (stoermer) drops them at corners, commands and changes. SteppedAhead takes
 //         many of the twin's steps at once where nothing acts from outside (stoermer_ahead).
 //
