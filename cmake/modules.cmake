@@ -20,49 +20,64 @@ target_include_directories(whirl_twin_libraries INTERFACE ${PROJECT_SOURCE_DIR}/
 target_link_libraries(whirl_twin_libraries INTERFACE
   Eigen3::Eigen fmt::fmt Boost::boost Threads::Threads yaml-cpp)
 
-# whirl_twin_headers(NAME [OPTIONS OPTION...] [LIBRARIES LIB...] [HEADERS HEADER...]): an object library of headers that
-# are precompiled for the targets that name it. g++ takes them at any optimization level but none.
+# whirl_twin_headers(NAME [OPTIONS OPTION...] [LIBRARIES LIB...] [HEADERS HEADER...]): headers that are precompiled, once
+# for all targets of an optimization level that name them. g++ compiles whatever includes them with their options and not
+# with those of its own command line, without a word: so the options of both have to be the same.
 if(NOT EXISTS ${PROJECT_BINARY_DIR}/nothing.cpp)
   file(WRITE ${PROJECT_BINARY_DIR}/nothing.cpp "")
 endif()
 function(whirl_twin_headers name)
   cmake_parse_arguments(headers "" "" "OPTIONS;LIBRARIES;HEADERS" ${ARGN})
-  add_library(${name} OBJECT ${PROJECT_BINARY_DIR}/nothing.cpp)
-  target_link_libraries(${name} PRIVATE whirl_twin_libraries ${headers_LIBRARIES} whirl_twin_warnings)
-  target_compile_options(${name} PRIVATE ${headers_OPTIONS})
-  target_precompile_headers(${name} PRIVATE ${whirl_twin_common_headers} ${headers_HEADERS})
-  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
+  foreach(key OPTIONS LIBRARIES HEADERS)
+    set_property(GLOBAL PROPERTY ${name}_${key} "${headers_${key}}")
+  endforeach()
 endfunction()
 whirl_twin_headers(whirl_twin_core_headers)
 whirl_twin_headers(whirl_twin_step_headers OPTIONS ${whirl_twin_step_options})
 
 # whirl_twin_compile(TARGET LEVEL BATCH [HEADERS]): its optimization in a release, how many of its sources are one unit,
-# and which headers are precompiled for it.
+# and which headers are precompiled for it, with the options that come with them.
 function(whirl_twin_compile target level batch)
-  target_link_libraries(${target} PRIVATE whirl_twin_warnings)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${level}>)
+  set(options -fno-semantic-interposition $<$<CONFIG:Release>:${level}>)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE ${batch})
   if(ARGN)
-    target_precompile_headers(${target} REUSE_FROM ${ARGN})
+    foreach(key OPTIONS LIBRARIES HEADERS)
+      get_property(headers_${key} GLOBAL PROPERTY ${ARGN}_${key})
+    endforeach()
+    list(APPEND options ${headers_OPTIONS})
+    set(precompiled ${ARGN}${level})
+    if(NOT TARGET ${precompiled})
+      add_library(${precompiled} OBJECT ${PROJECT_BINARY_DIR}/nothing.cpp)
+      target_link_libraries(${precompiled} PRIVATE whirl_twin_libraries ${headers_LIBRARIES} whirl_twin_warnings)
+      target_compile_options(${precompiled} PRIVATE ${options})
+      target_precompile_headers(${precompiled} PRIVATE ${whirl_twin_common_headers} ${headers_HEADERS})
+      set_target_properties(${precompiled} PROPERTIES UNITY_BUILD OFF)
+    endif()
+    target_precompile_headers(${target} REUSE_FROM ${precompiled})
   endif()
+  target_link_libraries(${target} PRIVATE whirl_twin_warnings)
+  target_compile_options(${target} PRIVATE ${options})
 endfunction()
 
-# whirl_twin_module(NAME [LIBRARY TARGET] OPTIMIZE LEVEL BATCH N [HEADERS TARGET] [OPTIONS OPTION...] SOURCES SOURCE...):
-# an object library whirl_twin_NAME_objects, a part of LIBRARY (whirl_twin_core). Calls within a source are made
-# directly: otherwise those of a shared library cannot be inlined.
+# whirl_twin_module(NAME [LIBRARY TARGET] OPTIMIZE LEVEL BATCH N [HEADERS NAME | NO_HEADERS] [OPTIONS OPTION...]
+#   SOURCES SOURCE...):
+# an object library whirl_twin_NAME_objects, a part of LIBRARY (whirl_twin_core). Options of its own go with NO_HEADERS.
 function(whirl_twin_module name)
   set(module_LIBRARY whirl_twin_core)
   set(module_HEADERS whirl_twin_core_headers)
-  cmake_parse_arguments(given "" "LIBRARY;OPTIMIZE;BATCH;HEADERS" "OPTIONS;SOURCES" ${ARGN})
+  cmake_parse_arguments(given "NO_HEADERS" "LIBRARY;OPTIMIZE;BATCH;HEADERS" "OPTIONS;SOURCES" ${ARGN})
   foreach(key LIBRARY HEADERS)
     if(given_${key})
       set(module_${key} ${given_${key}})
     endif()
   endforeach()
+  if(given_NO_HEADERS)
+    set(module_HEADERS)
+  endif()
   set(objects whirl_twin_${name}_objects)
   add_library(${objects} OBJECT ${given_SOURCES})
   target_link_libraries(${objects} PRIVATE whirl_twin_libraries)
-  target_compile_options(${objects} PRIVATE -fno-semantic-interposition ${given_OPTIONS})
+  target_compile_options(${objects} PRIVATE ${given_OPTIONS})
   whirl_twin_compile(${objects} ${given_OPTIMIZE} ${given_BATCH} ${module_HEADERS})
   target_sources(${module_LIBRARY} PRIVATE $<TARGET_OBJECTS:${objects}>)
 endfunction()

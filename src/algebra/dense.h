@@ -85,7 +85,6 @@ class Ldlt {
   DenseSolution<double, Right> solve(const Eigen::MatrixBase<Right>& b) const {
     return solution(b);
   }
-  double rcond() const;
   /// False where the factorization failed.
   bool succeeded() const;
   /// The diagonal of D.
@@ -121,8 +120,7 @@ Eigen::MatrixXd orthogonalFactor(const DenseArgument<double>& a);
 Eigen::MatrixXd orthonormalBasis(const DenseArgument<double>& a);
 Eigen::MatrixXcd orthonormalBasis(const DenseArgument<std::complex<double>>& a);
 
-/// Values and vectors of A = U diag(values) V^H, the values falling. Only the vectors asked for are
-/// there.
+/// Values and vectors of A = U diag(values) V^H, the values falling.
 struct SingularVectors {
   Eigen::VectorXd values;
   Eigen::MatrixXd u, v;
@@ -166,10 +164,9 @@ struct EigenPairs {
   Eigen::VectorXcd values;
   Eigen::MatrixXcd vectors;
 };
-/// `max_iterations`: of the QR algorithm; 0: Eigen's default, 40 a row.
-EigenPairs eigenPairs(const DenseArgument<double>& a, Eigen::Index max_iterations = 0);
+EigenPairs eigenPairs(const DenseArgument<double>& a);
 EigenPairs eigenPairs(const DenseArgument<std::complex<double>>& a);
-/// Without vectors.
+/// Without vectors. `max_iterations`: of the QR algorithm; 0: Eigen's default, 40 a row.
 EigenPairs eigenvalues(const DenseArgument<double>& a, Eigen::Index max_iterations = 0);
 EigenPairs eigenvalues(const DenseArgument<std::complex<double>>& a);
 

@@ -64,9 +64,6 @@ Ldlt::Ldlt(const DenseArgument<double>& a)
 Eigen::MatrixXd Ldlt::solution(const DenseArgument<double>& b) const {
   return solutionWith(*factors_, b);
 }
-double Ldlt::rcond() const {
-  return factors_->rcond();
-}
 bool Ldlt::succeeded() const {
   return factors_->info() == Eigen::Success;
 }

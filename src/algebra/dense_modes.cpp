@@ -77,28 +77,21 @@ EigenPairs notConverged(Eigen::Index n) {
   return {false, Eigen::VectorXcd::Constant(n, kNaN), Eigen::MatrixXcd::Constant(n, n, kNaN)};
 }
 
-/// The real matrix's solver, with its iterations.
-Eigen::EigenSolver<Eigen::MatrixXd> solved(const DenseArgument<double>& a, bool vectors,
-                                           Eigen::Index max_iterations) {
-  Eigen::EigenSolver<Eigen::MatrixXd> solver(a.rows());
-  if (max_iterations > 0) {
-    solver.setMaxIterations(max_iterations);
-  }
-  solver.compute(a, vectors);
-  return solver;
-}
-
 }  // namespace
 
-EigenPairs eigenPairs(const DenseArgument<double>& a, Eigen::Index max_iterations) {
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver = solved(a, true, max_iterations);
+EigenPairs eigenPairs(const DenseArgument<double>& a) {
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(a, true);
   if (solver.info() != Eigen::Success) {
     return notConverged(a.rows());
   }
   return {true, solver.eigenvalues(), solver.eigenvectors()};
 }
 EigenPairs eigenvalues(const DenseArgument<double>& a, Eigen::Index max_iterations) {
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver = solved(a, false, max_iterations);
+  Eigen::EigenSolver<Eigen::MatrixXd> solver(a.rows());
+  if (max_iterations > 0) {
+    solver.setMaxIterations(max_iterations);
+  }
+  solver.compute(a, false);
   if (solver.info() != Eigen::Success) {
     return notConverged(a.rows());
   }

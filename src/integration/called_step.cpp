@@ -1,5 +1,7 @@
 #include "integration/called_step.h"
 
+#include "integration/called_system.h"
+
 namespace whirl_twin {
 
 Moment<double> momentOf(const Drive& drive, bool angle, double time, double offset) noexcept {
@@ -12,5 +14,11 @@ WHIRL_TWIN_CALLED_STEPS(, 2)
 WHIRL_TWIN_CALLED_STEPS(, 3)
 WHIRL_TWIN_CALLED_STEPS(, 4)
 WHIRL_TWIN_CALLED_STEPS(, 5)
+
+WHIRL_TWIN_CALLED_SYSTEM(, 1)
+WHIRL_TWIN_CALLED_SYSTEM(, 2)
+WHIRL_TWIN_CALLED_SYSTEM(, 3)
+WHIRL_TWIN_CALLED_SYSTEM(, 4)
+WHIRL_TWIN_CALLED_SYSTEM(, 5)
 
 }  // namespace whirl_twin

@@ -25,7 +25,7 @@ std::unique_ptr<Stepper> calledSystem(const CalledModel<n>& model, const std::st
   return makeStepper(AnyModelsMethods<n>{}, model, integrator, drive, inputs, step, substeps);
 }
 
-// Compiled in called_system.cpp for the numbers of coordinates that the package's own models have.
+// Compiled in called_step.cpp for the numbers of coordinates that the package's own models have.
 #define WHIRL_TWIN_CALLED_SYSTEM(storage, n)              \
   storage template std::unique_ptr<Stepper> calledSystem( \
       const CalledModel<n>&, const std::string&, const Drive&, const InputForce&, double, int);

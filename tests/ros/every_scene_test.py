@@ -9,7 +9,7 @@ import rospy
 import rosparam
 from whirl_twin.msg import AlertArray, OrderState, PendulumState, StabilityMargin, WhirlState
 
-from node_trial import SCENES, NodeTrial, load_scene
+from node_trial import PATIENCE, SCENES, NodeTrial, load_scene
 
 ROTORS = ['flexible_rotor', 'jeffcott_rotor', 'rigid_disc_rotor']
 START = ['_lcm_url:=', '_realtime:=ignore']
@@ -30,21 +30,21 @@ class EveryScene(NodeTrial):
             for name, system in scene['systems'].items():
                 rotor = system['model'] in ROTORS
                 kind, topic = (WhirlState, 'whirl') if rotor else (PendulumState, 'pendulum')
-                state = rospy.wait_for_message('/twin/%s/%s' % (name, topic), kind, 10)
+                state = rospy.wait_for_message('/twin/%s/%s' % (name, topic), kind, PATIENCE)
                 while state.step < 20:  # a first step from rest has no energy to be measured by
-                    state = rospy.wait_for_message('/twin/%s/%s' % (name, topic), kind, 10)
+                    state = rospy.wait_for_message('/twin/%s/%s' % (name, topic), kind, PATIENCE)
                 numbers = [state.x, state.y] if rotor else list(state.angle) + list(state.rate)
                 self.assertTrue(numbers and all(math.isfinite(x) for x in numbers), name)
                 self.assertLess(abs(state.energy_residual), 1e-6, name)
                 if rotor:
-                    orders = rospy.wait_for_message('/twin/%s/orders' % name, OrderState, 10)
+                    orders = rospy.wait_for_message('/twin/%s/orders' % name, OrderState, PATIENCE)
                     self.assertTrue(math.isfinite(orders.mean_x + orders.peak_to_peak), name)
                     self.assertEqual(len(orders.forward_lag), len(orders.order), name)
-                margin = rospy.wait_for_message('/twin/%s/stability' % name, StabilityMargin, 10)
+                margin = rospy.wait_for_message('/twin/%s/stability' % name, StabilityMargin, PATIENCE)
                 self.assertEqual(margin.model, system['model'])
                 if name not in swung_up(scene):
                     self.assertNotEqual(margin.verdict_name, 'uncertain', name)
-            alerts = rospy.wait_for_message('/twin/alerts', AlertArray, 10).alerts
+            alerts = rospy.wait_for_message('/twin/alerts', AlertArray, PATIENCE).alerts
             self.assertFalse([a.text for a in alerts if a.type == 'MODEL_INVALID'])
         finally:
             statuses = [self.end(node) for node in nodes]
