@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <toml.hpp>
 
 #include "messages/names.h"
@@ -64,6 +67,15 @@ nlohmann::json treeOf(const std::string& path) {
 }
 
 }  // namespace
+
+bool RossEntry::isSupport() const {
+  return fields->contains("kxx") && !is("Magnetic") && !is("Coupling");
+}
+
+bool RossEntry::isDisc() const {
+  const bool like_one = fields->contains("m") && fields->contains("Ip") && fields->contains("Id");
+  return is("DiskElement") || (like_one && !is("ShaftElement") && !is("CouplingElement"));
+}
 
 RossFile::RossFile(const std::string& path, Complaints& complaints)
     : tree_(treeOf(path)), complaints_(complaints) {
@@ -139,38 +151,84 @@ RossMaterial RossFile::material(const RossEntry& entry) {
 }
 
 std::vector<double> RossFile::coefficient(const RossEntry& entry, const std::string& name,
-                                          std::size_t count) {
+                                          const RossAxes& axes) {
   const auto found = entry.fields->find(name);
   if (found == entry.fields->end() || found->is_null()) {
-    return std::vector<double>(count, 0.0);
+    return std::vector<double>(axes.count(), 0.0);
   }
+  const std::string where = fmt::format("{}.{}", entry.key, name);
   std::vector<double> values;
   for (const nlohmann::json& value : found->is_array() ? *found : nlohmann::json::array({*found})) {
-    if (!value.is_number()) {
-      complaints_.add(fmt::format("{}.{}", entry.key, name),
-                      fmt::format("must be numbers, found {}", printable(value.dump())));
-      return std::vector<double>(count, 0.0);
+    const bool is_row = value.is_array() && values.size() < axes.places.size() &&
+                        value.size() == axes.frequencies.size() &&
+                        std::all_of(value.begin(), value.end(),
+                                    [](const nlohmann::json& one) { return one.is_number(); });
+    if (!is_row && !value.is_number()) {
+      complaints_.add(
+          where, axes.frequencies.empty() || !value.is_array()
+                     ? fmt::format("must be numbers, found {}", printable(value.dump()))
+                     : fmt::format("must have {} rows of {} numbers, as speed and frequency have",
+                                   axes.places.size(), axes.frequencies.size()));
+      return std::vector<double>(axes.count(), 0.0);
     }
-    values.push_back(value.get<double>());
+    values.push_back(is_row ? synchronous(value, axes.places[values.size()], axes)
+                            : value.get<double>());
   }
   if (values.size() == 1) {
-    values.resize(count, values.front());
+    values.resize(axes.count(), values.front());
   }
-  if (values.size() != count) {
+  if (values.size() != axes.count()) {
     complaints_.add(
-        fmt::format("{}.{}", entry.key, name),
-        fmt::format("must have {} numbers as frequency has, found {}", count, values.size()));
-    values.resize(count, 0.0);
+        where,
+        axes.places.empty()
+            ? fmt::format("must be one number without speed or frequency, found {}", values.size())
+            : fmt::format("must have {} numbers as {} has, found {}", axes.count(), axes.name,
+                          values.size()));
+    values.resize(axes.count(), 0.0);
   }
   return values;
 }
 
-std::vector<double> RossFile::frequencies(const RossEntry& entry) {
-  const auto found = entry.fields->find("frequency");
+double RossFile::synchronous(const nlohmann::json& row, double speed, const RossAxes& axes) {
+  const std::vector<double>& at = axes.frequencies;
+  const auto above = std::upper_bound(at.begin(), at.end(), speed);
+  if (above == at.begin() || above == at.end()) {
+    return row[above == at.begin() ? 0 : at.size() - 1].get<double>();
+  }
+  const auto i = static_cast<std::size_t>(above - at.begin());
+  const double part = (speed - at[i - 1]) / (at[i] - at[i - 1]);
+  return (1.0 - part) * row[i - 1].get<double>() + part * row[i].get<double>();
+}
+
+std::vector<double> RossFile::numbers(const RossEntry& entry, const char* name) {
+  const auto found = entry.fields->find(name);
   if (found == entry.fields->end() || found->is_null()) {
     return {};
   }
-  return coefficient(entry, "frequency", found->is_array() ? found->size() : 1);
+  RossAxes own;
+  own.name = name;
+  own.places.resize(found->is_array() ? found->size() : 1);
+  std::vector<double> values = coefficient(entry, name, own);
+  if (std::adjacent_find(values.begin(), values.end(), std::greater_equal<>()) != values.end()) {
+    complaints_.add(fmt::format("{}.{}", entry.key, name), "must rise");
+  }
+  return values;
+}
+
+RossAxes RossFile::axes(const RossEntry& entry) {
+  RossAxes axes;
+  axes.places = numbers(entry, "speed");
+  std::vector<double> frequencies = numbers(entry, "frequency");
+  if (axes.places.empty()) {
+    const auto version = tree_.find("ross_version");
+    axes.places = std::move(frequencies);
+    axes.name = "frequency";
+    axes.of_whirl = !axes.places.empty() && version != tree_.end() && version->is_string() &&
+                    std::atoi(version->get_ref<const std::string&>().c_str()) >= 3;
+  } else {
+    axes.frequencies = std::move(frequencies);
+  }
+  return axes;
 }
 
 }  // namespace whirl_twin

@@ -55,14 +55,7 @@ class RossReader {
     RossEntry entry;
   };
 
-  static bool is(const RossEntry& entry, const char* kind) {
-    return entry.kind.rfind(kind, 0) == 0;
-  }
-  static bool isSupport(const RossEntry& entry) {
-    return entry.fields->contains("kxx") && !is(entry, "Magnetic") && !is(entry, "Coupling");
-  }
-
-  void leaveOut(const std::string& line) { drawing_.left_out.push_back(printable(line)); }
+  void leaveOut(const std::string& line) { drawing_.left_out.push_back(printable(line, 200)); }
 
   void readOperation() {
     drawing_.speed = file_.parameter("rated_w", "rad/s");
@@ -85,10 +78,10 @@ class RossReader {
   std::vector<Layer> layers() {
     std::vector<Layer> all;
     for (const RossEntry& entry : file_.entries()) {
-      if (is(entry, "CouplingElement")) {
+      if (entry.is("CouplingElement")) {
         all.push_back(coupling(entry));
       }
-      if (!is(entry, "ShaftElement")) {
+      if (!entry.is("ShaftElement")) {
         continue;
       }
       Layer layer;
@@ -250,13 +243,17 @@ class RossReader {
 
   void readDiscs() {
     for (const RossEntry& entry : file_.entries()) {
-      if (is(entry, "DiskElement")) {
+      if (entry.isDisc()) {
+        if (!entry.is("DiskElement")) {
+          leaveOut(fmt::format("{}: what a {} is beside a disc: its mass and inertias are taken",
+                               entry.key, entry.kind));
+        }
         drawing_.discs.push_back(
             {{"node", std::to_string(file_.node(entry))},
              {"mass", drawn(file_.number(entry, "m", "kg"))},
              {"polar_inertia", drawn(file_.number(entry, "Ip", "kg m^2"))},
              {"transverse_inertia", drawn(file_.number(entry, "Id", "kg m^2"))}});
-      } else if (is(entry, "PointMass") && file_.node(entry) <= last_node_) {
+      } else if (entry.is("PointMass") && file_.node(entry) <= last_node_) {
         const auto [along_x, along_y] = file_.mass(entry);
         drawing_.discs.push_back(
             {{"node", std::to_string(file_.node(entry))}, {"mass", drawn(along_x)}});
@@ -267,14 +264,14 @@ class RossReader {
     }
   }
 
-  /// Behind what is in `row`; k of frequency, of a table.
-  void addCoefficients(const RossEntry& entry, std::size_t k, std::size_t count, DrawnRow& row) {
+  /// Behind what is in `row`; the kth of a table.
+  void addCoefficients(const RossEntry& entry, std::size_t k, const RossAxes& axes, DrawnRow& row) {
     for (const char letter : {'k', 'c'}) {
-      for (const char* axes : {"xx", "yy", "xy", "yx"}) {
-        const std::string name = letter + std::string(axes);
-        std::vector<double> values = file_.coefficient(entry, name, count);
-        const bool as_x = axes == std::string("yy") && entry.fields->count(name) == 0;
-        if (!as_x && (values[k] != 0.0 || axes == std::string("yy"))) {
+      for (const char* pair : {"xx", "yy", "xy", "yx"}) {
+        const std::string name = letter + std::string(pair);
+        std::vector<double> values = file_.coefficient(entry, name, axes);
+        const bool as_x = pair == std::string("yy") && entry.fields->count(name) == 0;
+        if (!as_x && (values[k] != 0.0 || pair == std::string("yy"))) {
           row.emplace_back(name, drawn(values[k]));
         }
       }
@@ -283,44 +280,57 @@ class RossReader {
 
   void readSupports() {
     for (const RossEntry& entry : file_.entries()) {
-      if (isSupport(entry) && file_.node(entry) <= last_node_) {
+      if (entry.isSupport() && file_.node(entry) <= last_node_) {
         addBearing(entry);
         addPedestals(entry, file_.node(entry));
       }
     }
   }
 
+  /// Coefficients behind what is in `row`, or in a row of `table` for each speed: `of` names whose.
+  void addTable(const RossEntry& entry, const RossAxes& axes, const DrawnRow::value_type& of,
+                DrawnRow& row, std::vector<DrawnRow>& table) {
+    if (axes.of_whirl || !axes.frequencies.empty()) {
+      leaveOut(fmt::format(
+          "{}: coefficients over the frequency of the whirl; those where it is the speed "
+          "(1X) are taken, others whirl with other coefficients",
+          entry.key));
+    }
+    if (axes.places.size() < 2) {
+      addCoefficients(entry, 0, axes, row);
+      return;
+    }
+    for (std::size_t k = 0; k < axes.places.size(); ++k) {
+      table.push_back({of, {"speed", drawn(axes.places[k])}});
+      addCoefficients(entry, k, axes, table.back());
+    }
+  }
+
   void addBearing(const RossEntry& entry) {
-    const std::vector<double> speeds = file_.frequencies(entry);
+    const RossAxes axes = file_.axes(entry);
     DrawnRow row{{"node", std::to_string(file_.node(entry))}};
-    const std::size_t count = std::max<std::size_t>(speeds.size(), 1);
-    if (speeds.size() < 2) {
-      addCoefficients(entry, 0, count, row);
-    }
-    for (std::size_t k = 0; speeds.size() >= 2 && k < count; ++k) {
-      DrawnRow of_speed{{"bearing", std::to_string(drawing_.bearings.size())},
-                        {"speed", drawn(speeds[k])}};
-      addCoefficients(entry, k, count, of_speed);
-      drawing_.bearing_tables.push_back(of_speed);
-    }
+    addTable(entry, axes, {"bearing", std::to_string(drawing_.bearings.size())}, row,
+             drawing_.bearing_tables);
+    std::vector<double> across;
     for (const char* name : {"mxx", "myy", "mxy"}) {
-      const std::vector<double> values = file_.coefficient(entry, name, count);
+      const std::vector<double> values = file_.coefficient(entry, name, axes);
       if (std::any_of(values.begin(), values.end(), [&](double m) { return m != values[0]; })) {
         leaveOut(fmt::format("{}: {} over speed; its mean is taken", entry.key, name));
       }
       double mean = 0.0;
       for (const double value : values) {
-        mean += value / static_cast<double>(count);
+        mean += value / static_cast<double>(values.size());
       }
+      across = values;
       if (mean != 0.0 || (name == std::string("myy") && row.back().first == "mxx")) {
         row.emplace_back(name, drawn(mean));
       }
     }
-    if (file_.coefficient(entry, "myx", count) != file_.coefficient(entry, "mxy", count)) {
+    if (file_.coefficient(entry, "myx", axes) != across) {
       leaveOut(entry.key + ": myx other than mxy, which is taken");
     }
     for (const char* name : {"kzz", "czz", "mzz"}) {
-      const std::vector<double> values = file_.coefficient(entry, name, count);
+      const std::vector<double> values = file_.coefficient(entry, name, axes);
       if (std::any_of(values.begin(), values.end(), [](double z) { return z != 0.0; })) {
         leaveOut(fmt::format("{}: {}, along the shaft", entry.key, name));
       }
@@ -344,10 +354,10 @@ class RossReader {
       };
       const auto mass =
           std::find_if(file_.entries().begin(), file_.entries().end(),
-                       [&](const RossEntry& entry) { return is(entry, "PointMass") && at(entry); });
+                       [&](const RossEntry& entry) { return entry.is("PointMass") && at(entry); });
       const auto below =
           std::find_if(file_.entries().begin(), file_.entries().end(),
-                       [&](const RossEntry& entry) { return isSupport(entry) && at(entry); });
+                       [&](const RossEntry& entry) { return entry.isSupport() && at(entry); });
       if (mass == file_.entries().end() || below == file_.entries().end()) {
         leaveOut(fmt::format("{}: its n_link {} has no {}: it stands on the ground", above->key,
                              place, mass == file_.entries().end() ? "PointMass" : "bearing below"));
@@ -358,17 +368,8 @@ class RossReader {
       if (along_x != along_y) {
         row.emplace_back("mass_y", drawn(along_y));
       }
-      const std::vector<double> speeds = file_.frequencies(*below);
-      const std::size_t count = std::max<std::size_t>(speeds.size(), 1);
-      if (speeds.size() < 2) {
-        addCoefficients(*below, 0, count, row);
-      }
-      for (std::size_t k = 0; speeds.size() >= 2 && k < count; ++k) {
-        DrawnRow of_speed{{"pedestal", std::to_string(drawing_.pedestals.size())},
-                          {"speed", drawn(speeds[k])}};
-        addCoefficients(*below, k, count, of_speed);
-        drawing_.pedestal_tables.push_back(of_speed);
-      }
+      addTable(*below, file_.axes(*below), {"pedestal", std::to_string(drawing_.pedestals.size())},
+               row, drawing_.pedestal_tables);
       drawing_.pedestals.push_back(row);
       above = &*below;
     }
@@ -376,8 +377,8 @@ class RossReader {
 
   void nameOthers() {
     for (const RossEntry& entry : file_.entries()) {
-      if (!is(entry, "ShaftElement") && !is(entry, "DiskElement") && !is(entry, "PointMass") &&
-          !is(entry, "CouplingElement") && !isSupport(entry)) {
+      if (!entry.is("ShaftElement") && !entry.isDisc() && !entry.is("PointMass") &&
+          !entry.is("CouplingElement") && !entry.isSupport()) {
         leaveOut(fmt::format("{}: a {}", entry.key, entry.kind));
       }
     }

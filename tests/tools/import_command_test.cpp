@@ -299,6 +299,105 @@ TEST(Import, ACouplingOfRossJoinsTwoShaftsAndAFoundationFollowsTheSpeed) {
               151.55 + 7810.0 * 0.7 * M_PI * 0.0016, 1e-6);
 }
 
+/// A shaft of four elements of steel, 1 m long, 50 mm thick, with a disc of 32.59 kg at its middle.
+std::string shaftWithDisc(const std::string& version, const std::string& further) {
+  std::string text = fmt::format("ross_version = \"{}\"\n[parameters]\n", version);
+  for (int n = 0; n < 4; ++n) {
+    text += fmt::format(R"(["ShaftElement_{0}"]
+L = 0.25
+idl = 0.0
+odl = 0.05
+n = {0}
+["ShaftElement_{0}".material]
+name = "Steel"
+rho = 7810.0
+E = 211000000000.0
+G_s = 81200000000.0
+)",
+                        n);
+  }
+  return text + "[\"DiskElement_0\"]\nn = 2\nm = 32.59\nIp = 0.329\nId = 0.178\n" + further;
+}
+
+/// Two bearings alike, at the ends.
+std::string bearings(const std::string& coefficients) {
+  return "[\"BearingElement_0\"]\nn = 0\n" + coefficients + "[\"BearingElement_1\"]\nn = 4\n" +
+         coefficients;
+}
+
+/// Frequencies [rad/s] of the modes at 300 rad/s, rising.
+std::vector<double> frequenciesAt300(const std::string& scene) {
+  std::vector<double> all;
+  const Json json = twin({"modes", scene, "--speed", "300", "--json"}).json();
+  for (const Json& mode : json["systems"]["rotor"]["modes"]) {
+    all.push_back(mode["frequency"].get<double>());
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+// Beam elements and the second row of the table in a dense eigenproblem, computed beside the
+// program: 175.82, 187.63, 594.31, 706.16 rad/s.
+TEST(Import, ATableOfRoss3IsOfTheSpeedAndOneOfTwoAxesIsTakenWhereTheWhirlHasTheSpeed) {
+  const std::string damping = "cxx = [100.0, 80.0, 60.0]\ncyy = [100.0, 80.0, 60.0]\n";
+  const std::string other = "mxy = [0, 0, 0]\nmyx = [0, 0, 0]\n";
+  const std::string of_speed =
+      "speed = [100.0, 300.0, 500.0]\nkxx = [1.0e6, 1.5e6, 2.0e6]\n"
+      "kyy = [0.8e6, 1.2e6, 1.6e6]\n";
+  // At a frequency of 300 rad/s the rows are what they are above.
+  const std::string of_both =
+      "speed = [100.0, 300.0, 500.0]\nfrequency = [0.0, 200.0, 600.0]\n"
+      "kxx = [[1.0e6, 1.0e6, 9.0e6], [0.9e6, 1.4e6, 1.8e6], [2.0e6, 2.0e6, 2.0e6]]\n"
+      "kyy = [[0.8e6, 0.8e6, 9.0e6], [0.9e6, 1.1e6, 1.5e6], [1.6e6, 1.6e6, 1.6e6]]\n";
+  for (const auto& [version, table, remark] : std::vector<std::array<std::string, 3>>{
+           {"3.0.0", of_speed, ""},
+           {"2.3.0", std::string(of_speed).replace(0, 5, "frequency"), ""},
+           {"3.0.0", std::string(of_speed).replace(0, 5, "frequency"), "frequency of the whirl"},
+           {"3.1.0", of_both, "frequency of the whirl"}}) {
+    const TemporaryDirectory folder;
+    const Ending imported = twin(
+        {"import", "ross",
+         folder.write("rotor.toml", shaftWithDisc(version, bearings(table + damping + other)))});
+    ASSERT_EQ(imported.status, 0) << imported.err;
+    EXPECT_EQ(imported.err.find("BearingElement") != std::string::npos, !remark.empty());
+    EXPECT_NE(imported.err.find(remark), std::string::npos) << imported.err;
+    const std::vector<double> found = frequenciesAt300(folder.write("rotor.yaml", imported.out));
+    const double expected[] = {175.82, 187.63, 594.31, 706.16};
+    ASSERT_GE(found.size(), 4u);
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_NEAR(found[i], expected[i], 1e-3 * expected[i]) << table;
+    }
+  }
+}
+
+// The same rotor as dense beam elements: 59.92 kg, 150.01 and 463.12 rad/s at rest, each twice.
+TEST(Import, AGearOfRossIsADiscToo) {
+  const TemporaryDirectory folder;
+  const std::string gear =
+      "[\"GearElement_0\"]\nn = 3\nm = 12.0\nIp = 0.1\nId = 0.05\n"
+      "n_teeth = 40\npitch_diameter = 0.2\npr_angle = 0.349\n";
+  const Ending imported =
+      twin({"import", "ross",
+            folder.write("gear.toml",
+                         shaftWithDisc("2.3.0", bearings("kxx = 1.0e6\ncxx = 100.0\n") + gear))});
+  ASSERT_EQ(imported.status, 0) << imported.err;
+  EXPECT_NE(imported.err.find("GearElement_0: what a GearElement is beside a disc"),
+            std::string::npos)
+      << imported.err;
+  const std::string scene = folder.write("gear.yaml", imported.out);
+  const Json json = twin({"analyze", scene, "--json"}).json()["systems"]["rotor"];
+  EXPECT_NEAR(json["rotor"]["mass"].get<double>(), 59.92, 0.01);
+  std::vector<double> frequencies;
+  for (const Json& value : json["eigenvalues"]) {
+    frequencies.push_back(std::hypot(value[0].get<double>(), value[1].get<double>()));
+  }
+  std::sort(frequencies.begin(), frequencies.end());
+  for (const auto& [i, expected] : std::vector<std::pair<std::size_t, double>>{
+           {0, 150.01}, {2, 150.01}, {4, 463.12}, {6, 463.12}}) {
+    EXPECT_NEAR(frequencies.at(i), expected, 1e-3 * expected);
+  }
+}
+
 TEST(Import, WhatIsWrongInARotorOfRossIsToldAtOnce) {
   const TemporaryDirectory folder;
   const Ending wrong = twin({"import", "ross", folder.write("wrong.toml", R"(
