@@ -1,5 +1,6 @@
 #include "analysis/cross_coupling_margin.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "analysis/bracketed_root.h"
@@ -11,27 +12,48 @@ namespace {
 
 constexpr double kFirst = 1.0e-6;  // of the largest stiffness
 constexpr double kLast = 1.0e6;
-constexpr double kStiffnessStride = 1.5;
+constexpr double kStiffnessStride = 2.0;
 
-ModeTracker trackerOf(const LinearRotor& rotor, const std::vector<Station>& stations,
-                      std::size_t station, double speed) {
-  return {[matrices = rotor.matrices(speed), place = stations.at(station)](double q) {
-            return withCrossCoupling(matrices, place, q);
-          },
-          stations};
-}
+/// The modes of lowest frequency that whirl, with Q [N/m] at a station.
+class CoupledModes {
+ public:
+  CoupledModes(const LinearRotor& rotor, const std::vector<Station>& stations, std::size_t station,
+               double speed)
+      : all_(static_cast<std::size_t>(rotor.dof())),
+        modes_([matrices = rotor.matrices(speed), place = stations.at(station)](
+                   double q) { return withCrossCoupling(matrices, place, q); },
+               stations) {}
 
-ModeTracker::Modes firstForward(const ModeTracker& tracker, const LinearRotor& rotor) {
-  constexpr std::size_t kFew = 12;  // of a long shaft all of them cost much more
-  for (const std::size_t count : {kFew, static_cast<std::size_t>(rotor.dof())}) {
-    for (const auto& mode : tracker.lowest(0.0, count)) {
-      if (mode->whirl != Whirl::kBackward) {
-        return {mode};
+  std::vector<WhirlMode> at(double cross_coupling) const {
+    constexpr std::size_t kEnough = 6;  // forward and backward, of three bending shapes
+    std::vector<WhirlMode> whirls;
+    // Of a long shaft all of them cost much more; bearings may damp the lowest of them too much.
+    for (std::size_t count = 12; whirls.size() < kEnough; count *= 4) {
+      whirls.clear();
+      for (auto& mode : modes_.lowest(cross_coupling, count)) {
+        if (isWhirl(*mode)) {
+          whirls.push_back(std::move(*mode));
+        }
+      }
+      if (count >= all_) {
+        break;
       }
     }
+    return whirls;
   }
-  return {std::nullopt};
-}
+  /// [1/s], of whatever decays slowest; none where nothing whirls.
+  std::optional<double> growth(double cross_coupling) const {
+    std::optional<double> fastest;
+    for (const WhirlMode& mode : at(cross_coupling)) {
+      fastest = std::max(fastest.value_or(mode.eigenvalue.real()), mode.eigenvalue.real());
+    }
+    return fastest;
+  }
+
+ private:
+  std::size_t all_;
+  ModeTracker modes_;
+};
 
 }  // namespace
 
@@ -42,21 +64,23 @@ Linearization withCrossCoupling(Linearization matrices, const Station& station,
   return matrices;
 }
 
-std::vector<CrossCouplingRow> firstForwardMode(const LinearRotor& rotor,
-                                               const std::vector<Station>& stations,
-                                               std::size_t station, double speed,
-                                               const std::vector<double>& cross_couplings) {
-  const ModeTracker tracker = trackerOf(rotor, stations, station, speed);
-  ModeTracker::Modes mode = firstForward(tracker, rotor);
-  double before = 0.0;
+std::vector<CrossCouplingRow> slowestForwardMode(const LinearRotor& rotor,
+                                                 const std::vector<Station>& stations,
+                                                 std::size_t station, double speed,
+                                                 const std::vector<double>& cross_couplings) {
+  const CoupledModes coupled(rotor, stations, station, speed);
   std::vector<CrossCouplingRow> rows;
   for (const double q : cross_couplings) {
-    mode = tracker.follow(mode, before, q);
-    before = q;
-    if (!mode.front()) {
-      break;
+    std::optional<WhirlMode> least;
+    for (WhirlMode& mode : coupled.at(q)) {
+      if (mode.whirl != Whirl::kBackward &&
+          (!least || mode.eigenvalue.real() > least->eigenvalue.real())) {
+        least = std::move(mode);
+      }
     }
-    rows.push_back({q, *mode.front()});
+    if (least) {
+      rows.push_back({q, std::move(*least)});
+    }
   }
   return rows;
 }
@@ -64,31 +88,22 @@ std::vector<CrossCouplingRow> firstForwardMode(const LinearRotor& rotor,
 std::optional<double> crossCouplingMargin(const LinearRotor& rotor,
                                           const std::vector<Station>& stations, std::size_t station,
                                           double speed) {
-  const ModeTracker tracker = trackerOf(rotor, stations, station, speed);
-  ModeTracker::Modes mode = firstForward(tracker, rotor);
-  if (!mode.front()) {
-    return std::nullopt;
-  }
-  if (mode.front()->eigenvalue.real() >= 0.0) {
+  const CoupledModes coupled(rotor, stations, station, speed);
+  std::optional<double> before = coupled.growth(0.0);
+  if (before && *before >= 0.0) {
     return 0.0;
   }
   const double stiffness = rotor.matrices(speed).stiffness.cwiseAbs().maxCoeff();
   double low = 0.0;
   for (double high = kFirst * stiffness; high < kLast * stiffness; high *= kStiffnessStride) {
-    const ModeTracker::Modes next = tracker.follow(mode, low, high);
-    if (!next.front()) {
-      return std::nullopt;
-    }
-    if (next.front()->eigenvalue.real() >= 0.0) {
-      const auto growth = [&](double q) {
-        const auto there = tracker.follow(mode, low, q).front();
-        return (there ? there : next.front())->eigenvalue.real();
-      };
-      return bracketedRoot(growth, low, high, mode.front()->eigenvalue.real(),
-                           next.front()->eigenvalue.real());
+    const std::optional<double> growth = coupled.growth(high);
+    if (growth && *growth >= 0.0) {
+      // A mode that is backward gains nothing from Q: what ceases to decay is forward.
+      return bracketedRoot([&](double q) { return coupled.growth(q).value_or(*growth); }, low, high,
+                           before.value_or(-*growth), *growth);
     }
     low = high;
-    mode = next;
+    before = growth;
   }
   return std::nullopt;
 }

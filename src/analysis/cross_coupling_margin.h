@@ -1,7 +1,10 @@
 // How much destabilizing cross-coupled stiffness a rotor bears (API 617 and API RP 684, level I):
 // kxy = +Q, kyx = -Q [N/m] at one station, as seals and impellers have it, and the logarithmic
-// decrement of the first forward mode over Q. It is zero at Q0, the margin. (Where the bearings,
-// not gyroscopic moments, give modes their planes: the first that does not whirl backward.)
+// decrement over Q of the forward mode that decays slowest there. (Where the bearings, not
+// gyroscopic moments, give modes their planes: of those that do not whirl backward.) Q0, the
+// margin, is the least Q at which a mode ceases to decay. Modes are judged at each Q by themselves:
+// between unlike bearings one that is forward without Q may be backward with it, and another
+// forward. Only those that whirl count (isWhirl).
 #pragma once
 
 #include <optional>
@@ -20,18 +23,18 @@ Linearization withCrossCoupling(Linearization matrices, const Station& station,
 
 struct CrossCouplingRow {
   double cross_coupling = 0.0;  ///< Q [N/m]
-  WhirlMode mode;               ///< the first forward one
+  WhirlMode mode;               ///< the forward one that decays slowest
 };
 
-/// The first forward mode over ascending Q [N/m], followed by its shape from Q = 0 on. Empty for a
-/// rotor without a forward mode at this speed [rad/s].
-std::vector<CrossCouplingRow> firstForwardMode(const LinearRotor& rotor,
-                                               const std::vector<Station>& stations,
-                                               std::size_t station, double speed,
-                                               const std::vector<double>& cross_couplings);
+/// The forward mode that decays slowest at each Q [N/m] that has a forward mode at this speed
+/// [rad/s].
+std::vector<CrossCouplingRow> slowestForwardMode(const LinearRotor& rotor,
+                                                 const std::vector<Station>& stations,
+                                                 std::size_t station, double speed,
+                                                 const std::vector<double>& cross_couplings);
 
-/// Q0 [N/m] >= 0; 0 if the mode does not decay as it is, nothing if there is no such mode or no
-/// cross-coupling up to 1e6 times the largest stiffness makes it grow.
+/// Q0 [N/m] >= 0; 0 if a mode does not decay as it is, nothing if no cross-coupling up to 1e6 times
+/// the largest stiffness makes one grow.
 std::optional<double> crossCouplingMargin(const LinearRotor& rotor,
                                           const std::vector<Station>& stations, std::size_t station,
                                           double speed);

@@ -136,6 +136,11 @@ std::optional<WhirlModes> lowestWhirlModes(const BandedLinearization& at_speed,
   return all;
 }
 
+bool isWhirl(const WhirlMode& mode) {
+  constexpr double kMostDamped = 0.7;
+  return mode.dampingRatio() <= kMostDamped;
+}
+
 double WhirlMode::logDecrement() const {
   return whirl_twin::logDecrement(dampingRatio());
 }

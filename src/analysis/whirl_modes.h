@@ -31,6 +31,10 @@ struct WhirlMode {
   double logDecrement() const;                                                            ///< [-]
 };
 
+/// A motion whose damping ratio is above 0.7 hardly goes round once: an overdamped root, or one
+/// that is nearly so, of a bearing with much damping. No verdict on whirl modes is about it.
+bool isWhirl(const WhirlMode& mode);
+
 struct WhirlModes {
   std::vector<WhirlMode> modes;    ///< by rising damped frequency
   std::vector<double> real_roots;  ///< [1/s], ascending: overdamped motions, and 0 of free ones

@@ -89,7 +89,7 @@ std::vector<std::string> LevelOneReport::reasons() const {
   if (!at_applied || at_applied->mode.logDecrement() < kLeastDecrement) {
     all.push_back(at_applied ? fmt::format("the log. decrement at Q_A, {:.3g}, is below {:g}",
                                            at_applied->mode.logDecrement(), kLeastDecrement)
-                             : std::string("the first forward mode cannot be followed to Q_A"));
+                             : std::string("no mode whirls forward at Q_A"));
   }
   return all;
 }
@@ -103,7 +103,7 @@ LevelOneReport levelOneReport(const RotorSystem& system, const LevelOneRequest& 
   const std::size_t station = stationOrMiddle(system, request.at);
   r.station = system.stations[station].name;
   const WholeRotor whole = wholeRotor(system);
-  if (firstForwardMode(whole.rotor, whole.stations, station, r.speed, {0.0}).empty()) {
+  if (slowestForwardMode(whole.rotor, whole.stations, station, r.speed, {0.0}).empty()) {
     throw Refusal(fmt::format("{}: expected a rotor with a forward mode at {:g} rad/s, found none",
                               system.title(), r.speed));
   }
@@ -120,11 +120,11 @@ LevelOneReport levelOneReport(const RotorSystem& system, const LevelOneRequest& 
   for (int i = 0; i < kRows; ++i) {
     couplings.push_back(last * i / (kRows - 1));
   }
-  r.rows = firstForwardMode(whole.rotor, whole.stations, station, r.speed, couplings);
+  r.rows = slowestForwardMode(whole.rotor, whole.stations, station, r.speed, couplings);
   if (r.applied) {
     const auto rows =
-        firstForwardMode(whole.rotor, whole.stations, station, r.speed, {0.0, *r.applied});
-    r.at_applied = rows.size() == 2 ? std::optional(rows.back()) : std::nullopt;
+        slowestForwardMode(whole.rotor, whole.stations, station, r.speed, {*r.applied});
+    r.at_applied = rows.empty() ? std::nullopt : std::optional(rows.front());
   }
   if (system.shaft) {
     try {
@@ -184,7 +184,7 @@ CsvTables tables(const LevelOneReport& r) {
 
 std::string text(const LevelOneReport& r) {
   std::string out = fmt::format(
-      "{}: first forward whirl at {:g} rad/s ({:.0f} rpm), cross-coupling at {}\n"
+      "{}: slowest decaying forward whirl at {:g} rad/s ({:.0f} rpm), cross-coupling at {}\n"
       "    Q, N/m          log. decrement       rad/s\n",
       r.system->title(), r.speed, r.speed / kRpm, r.station);
   for (std::size_t i = 0; i < r.rows.size(); i += 2) {
@@ -233,7 +233,7 @@ std::string text(const LevelOneReport& r) {
 Figure figure(const LevelOneReport& r) {
   Chart chart;
   chart.x = {fmt::format("cross-coupled stiffness at {} (N/m)", r.station), false, true};
-  chart.y.label = "log. decrement of the first forward whirl";
+  chart.y.label = "log. decrement, slowest decaying forward whirl";
   Series curve{"", {}, {}, Pen{ink::kBlue, 2.2}};
   for (const CrossCouplingRow& row : r.rows) {
     curve.x.push_back(row.cross_coupling);

@@ -1,6 +1,6 @@
 // What `twin stability` shows of one rotor: stability level I of API 617, the logarithmic decrement
-// of the first forward whirl over a cross-coupled stiffness at mid-span, and what its stages are
-// taken to have.
+// of the slowest decaying forward whirl over a cross-coupled stiffness at mid-span, and what its
+// stages are taken to have.
 #pragma once
 
 #include <optional>

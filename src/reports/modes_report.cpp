@@ -19,11 +19,19 @@ constexpr double kOfNyquist = 0.8;     // what probes can tell
 constexpr double kLeastTurn = 1.0e-4;  // rad from sample to sample, of the frequencies looked at
 constexpr double kWellKnown = 0.25;    // deviation of a decay rate, of it
 
+/// Whirls first, then what is damped too much to be one.
+std::vector<WhirlMode> whirlsFirst(std::vector<WhirlMode> modes) {
+  std::stable_partition(modes.begin(), modes.end(), isWhirl);
+  return modes;
+}
+
 /// The frequencies to look at: as far as the model has its first modes, and the samples reach.
 double limitOf(const std::vector<WhirlMode>& model, double speed, double period) {
   double limit = 3.0 * speed;
   if (!model.empty()) {
-    const std::size_t last = std::min(model.size(), kModesOfInterest) - 1;
+    const auto whirls =
+        static_cast<std::size_t>(std::count_if(model.begin(), model.end(), isWhirl));
+    const std::size_t last = std::clamp<std::size_t>(whirls, 1, kModesOfInterest) - 1;
     limit = std::max(kBeyondLastMode * model[last].dampedFrequency(),
                      kBeyondFirst * model.front().dampedFrequency());
   }
@@ -115,12 +123,21 @@ ModesReport modesReport(const RotorSystem& system, double speed) {
   report.system = &system;
   report.speed = speed;
   const WholeRotor whole = wholeRotor(system);
-  std::optional<WhirlModes> lowest;
+  const auto all = static_cast<std::size_t>(whole.rotor.dof());
   if (whole.rotor.dof() > kMostCompleteCoordinates) {
-    lowest =
-        lowestWhirlModes(BandedRotor(whole.rotor).matrices(speed), whole.stations, kLowestModes);
+    const BandedLinearization matrices = BandedRotor(whole.rotor).matrices(speed);
+    std::size_t whirls = 0;
+    for (std::size_t count = kLowestModes; count <= all && whirls < kLowestModes; count *= 2) {
+      const auto lowest = lowestWhirlModes(matrices, whole.stations, count);
+      report.model = lowest ? lowest->modes : std::vector<WhirlMode>();
+      whirls = static_cast<std::size_t>(
+          std::count_if(report.model.begin(), report.model.end(), isWhirl));
+    }
   }
-  report.model = lowest ? lowest->modes : whirlModes(whole.rotor, whole.stations, speed).modes;
+  if (report.model.empty()) {
+    report.model = whirlModes(whole.rotor, whole.stations, speed).modes;
+  }
+  report.model = whirlsFirst(std::move(report.model));
   return report;
 }
 
@@ -129,7 +146,7 @@ ModesReport modesReport(const RotorSystem& system, const RotorRecord& record,
   ModesReport report;
   report.system = &system;
   report.speed = speed.value_or(record.steadySpeed());
-  report.model = whirlModes(system.rotor, system.stations, report.speed).modes;
+  report.model = whirlsFirst(whirlModes(system.rotor, system.stations, report.speed).modes);
   report.log = record.log();
   std::vector<std::size_t> places;
   std::vector<double> directions;
@@ -173,7 +190,7 @@ ModesReport modesReport(const RotorSystem& system, const RotorRecord& record,
   report.record = ambient.told();
   if (report.record) {
     report.speed = report.record->speed;
-    report.model = whirlModes(system.rotor, system.stations, report.speed).modes;
+    report.model = whirlsFirst(whirlModes(system.rotor, system.stations, report.speed).modes);
     std::vector<SeenMode> seen;
     for (const WhirlMode& mode : report.model) {
       seen.push_back(seenMode(mode, stations));
@@ -182,7 +199,8 @@ ModesReport modesReport(const RotorSystem& system, const RotorRecord& record,
     for (std::size_t k = 0; k < report.model.size(); ++k) {
       const bool found = std::any_of(report.modes.begin(), report.modes.end(),
                                      [&](const ComparedMode& one) { return one.model == k; });
-      if (!found && report.model[k].dampedFrequency() <= report.record->limit) {
+      if (!found && isWhirl(report.model[k]) &&
+          report.model[k].dampedFrequency() <= report.record->limit) {
         report.not_seen.push_back(k);
       }
     }

@@ -57,6 +57,7 @@ Json modelJson(const ModesReport& report, std::size_t place) {
   json["damping_ratio"] = mode.dampingRatio();
   json["log_decrement"] = mode.logDecrement();
   json["whirl"] = name(mode.whirl);
+  json["overdamped"] = !isWhirl(mode);
   json["shape"] = Json::array();
   for (std::size_t s = 0; s < mode.orbits.size(); ++s) {
     const Orbit& orbit = mode.orbits[s];
@@ -119,6 +120,9 @@ std::string modelLine(const ModesReport& report, std::size_t place) {
 std::string modelText(const ModesReport& report) {
   std::string out = "  mode  whirl          rad/s  decay 1/s      ratio   log dec.    kappa\n";
   for (std::size_t k = 0; k < report.model.size(); ++k) {
+    if (!isWhirl(report.model[k]) && (k == 0 || isWhirl(report.model[k - 1]))) {
+      out += "  no whirl, with a damping ratio above 0.7:\n";
+    }
     out += modelLine(report, k);
   }
   return report.model.empty()

@@ -34,7 +34,7 @@ constexpr const char* kAnalyzeFooter =
     "separation margins are those of API 617, in percent of the speed. Of a reduced rotor none is\n"
     "told beyond the speed that it holds to.\n"
     "The cross-coupling margin (API 617, level I) is the stiffness kxy = -kyx at the published\n"
-    "station at which the first forward whirl stops to decay. Steady speeds: the motor's torque\n"
+    "station at which a whirl stops to decay. Steady speeds: the motor's torque\n"
     "carries drag and whirl there; stable where the load rises faster with the speed.\n"
     "Each number of a stable system is changed alone, in strides, to where stability is lost: by\n"
     "divergence (a real root passes zero) or by whirl or flutter (a pair passes the axis). An "

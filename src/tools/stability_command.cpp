@@ -14,7 +14,8 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kStabilityDescription =
-    "Stability level I of API 617: the logarithmic decrement of a rotor's first forward whirl "
+    "Stability level I of API 617: the logarithmic decrement of a rotor's slowest decaying forward "
+    "whirl "
     "over\n"
     "a cross-coupled stiffness at mid-span, and what its stages are taken to have.";
 

@@ -63,6 +63,51 @@ TEST(Stability, AsksForLevelTwoWhereTheStagesHaveTooMuch) {
             std::string::npos);
 }
 
+const std::string kCases = WHIRL_TWIN_REFERENCE "/rotors/";
+
+void expectLevelOne(const Json& json, double threshold, double decrement, double tolerance) {
+  EXPECT_NEAR(json["threshold_cross_coupling"].get<double>(), threshold, tolerance * threshold);
+  EXPECT_NEAR(json["log_decrement_expected"].get<double>(), decrement,
+              tolerance * std::fabs(decrement));
+  EXPECT_FALSE(json["level_two"].empty()) << "level II is required";
+}
+
+// Dense finite elements, computed beside the program. Bearings of 5e4 N s/m have roots with a
+// damping ratio of 0.9999 and a small imaginary part, which are no whirl.
+TEST(Stability, IsOfWhatWhirlsAndNotOfNearlyCriticallyDampedRoots) {
+  const std::string scene = kCases + "level_one_overdamped.yaml";
+  const Json json = twin({"stability", scene, "--stage", "1000000", "0.4", "0.02", "1.5", "--json"})
+                        .json()["systems"]["rotor"];
+  EXPECT_NEAR(json["frequency"][0].get<double>(), 760.0, 0.76);
+  EXPECT_NEAR(json["log_decrement"][0].get<double>(), 0.1775, 2e-4);
+  EXPECT_NEAR(json["expected_cross_coupling"].get<double>(), 5.625e5, 6e2);
+  expectLevelOne(json, 9.92e5, 0.0768, 1e-3);
+  const Json analyzed = twin({"analyze", scene, "--json"}).json()["systems"]["rotor"];
+  EXPECT_NEAR(analyzed["cross_coupling_margin"]["stiffness"].get<double>(), 9.92e5, 1e3)
+      << analyzed.dump(1);
+  const Json modes =
+      twin({"modes", scene, "--speed", "1000", "--json"}).json()["systems"]["rotor"]["modes"];
+  bool whirls = true;
+  for (const Json& mode : modes) {
+    EXPECT_EQ(mode["overdamped"].get<bool>(), mode["damping_ratio"].get<double>() > 0.7);
+    EXPECT_TRUE(whirls || mode["overdamped"].get<bool>()) << "whirls are listed first";
+    whirls = !mode["overdamped"].get<bool>();
+  }
+  EXPECT_LT(modes[0]["damping_ratio"].get<double>(), 0.1);
+}
+
+// Dense finite elements: the mode that is forward without Q is backward with it, another is
+// forward.
+TEST(Stability, IsOfTheModeThatIsForwardAtQAndNotOfTheOneThatWas) {
+  const std::string scene = kCases + "level_one.yaml";
+  const auto of = [&](const char* power) {
+    return twin({"stability", scene, "--stage", power, "0.4", "0.02", "1", "--json"})
+        .json()["systems"]["rotor"];
+  };
+  expectLevelOne(of("27440000"), 8.229e6, -0.234, 2e-3);
+  expectLevelOne(of("13832000"), 8.229e6, 0.310, 2e-3);
+}
+
 TEST(Stability, ActsAtMidSpanUnlessItIsTold) {
   EXPECT_EQ(rotorOf(twin({"stability", kFriswell, "--json"}))["station"], "node_3");
   const Json at = rotorOf(twin({"stability", kFriswell, "--at", "node_2", "--json"}));
