@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Where a rotor whirls, ten times a second, from LCM: its speed, its radius, its lag behind the unbalance.
+"""Where a rotor whirls, ten times a second, from LCM: its speed, its radius, its lag behind the phase mark of the shaft.
 
 usage: whirl_by_lcm.py CHANNEL [URL]     CHANNEL: TWIN_ROTOR_WHIRL say
 

@@ -25,7 +25,7 @@ void drawLimits(const std::vector<VibrationLimit>& limits, const OrderState* ord
     if (i < limits.size() && scale * limits[i].radius <= kLargest) {
       const VibrationLimit& limit = limits[i];
       Eigen::Vector2d centre = Eigen::Vector2d::Zero();
-      if (limit.about_mean && orders != nullptr) {
+      if (orders != nullptr) {
         centre = scale * Eigen::Vector2d(orders->mean_x, orders->mean_y);
       }
       for (int k = 0; k <= kSides; ++k) {

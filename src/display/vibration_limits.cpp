@@ -17,19 +17,19 @@ std::vector<VibrationLimit> vibrationLimits(const AlarmSettings& settings,
   std::vector<VibrationLimit> limits;
   const auto zones = settings.zones.find(system);
   if (zones != settings.zones.end()) {
-    limits.push_back({0.5 * zones->second.a, true, Alert::INFO, "zone A"});
-    limits.push_back({0.5 * zones->second.b, true, Alert::WARNING, "zone B"});
-    limits.push_back({0.5 * zones->second.c, true, Alert::DANGER, "zone C"});
+    limits.push_back({0.5 * zones->second.a, Alert::INFO, "zone A"});
+    limits.push_back({0.5 * zones->second.b, Alert::WARNING, "zone B"});
+    limits.push_back({0.5 * zones->second.c, Alert::DANGER, "zone C"});
   }
   const auto levels = settings.amplitude.find(system);
   if (levels != settings.amplitude.end()) {
     const double alert = levels->second.alertAt(speed);
     const double danger = levels->second.dangerAt(speed);
     if (std::isfinite(alert)) {
-      limits.push_back({alert, false, Alert::WARNING, "alert level"});
+      limits.push_back({alert, Alert::WARNING, "alert level"});
     }
     if (std::isfinite(danger)) {
-      limits.push_back({danger, false, Alert::DANGER, "danger level"});
+      limits.push_back({danger, Alert::DANGER, "danger level"});
     }
   }
   return limits;

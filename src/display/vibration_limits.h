@@ -12,10 +12,9 @@ namespace whirl_twin {
 
 /// A circle that an orbit should stay within.
 struct VibrationLimit {
-  double radius = 0.0;      ///< [m]
-  bool about_mean = false;  ///< about the middle of the orbit; else about the line of the bearings
-  int severity = 0;         ///< of the alert beyond it (Alert.msg); INFO: end of zone A
-  std::string name;         ///< "zone B", "alert level"
+  double radius = 0.0;  ///< [m], about the middle of the orbit
+  int severity = 0;     ///< of the alert beyond it (Alert.msg); INFO: end of zone A
+  std::string name;     ///< "zone B", "alert level"
 };
 
 /// Those of a rotor at a speed [rad/s] of its shaft. Zones are of peak-to-peak values, a circle of

@@ -14,8 +14,9 @@ namespace whirl_twin {
 /// Which alerts stay after their cause has gone, until the alarms are reset.
 enum class Latch { kNone, kDanger, kAll };
 
-/// Levels of a system's whirl radius [m] over the speed of its shaft, its sign left out: linear
-/// between the points, and beyond them as at the last. Without points of speed, one level for all.
+/// Levels of a rotor's amplitude [m] (whirl_vibration.h) over the speed of its shaft, its sign left
+/// out: linear between the points, and beyond them as at the last. Without points of speed, one
+/// level for all.
 struct AmplitudeLevels {
   std::vector<double> speed;   ///< [rad/s], rising
   std::vector<double> alert;   ///< [m], one a point; empty: none

@@ -24,12 +24,12 @@ void AmplitudeAlarm::set(const AlarmSettings& settings) {
   has_levels_ = levels != settings.amplitude.end();
 }
 
-void AmplitudeAlarm::update(double time, double radius, double speed, double acceleration,
+void AmplitudeAlarm::update(double time, double amplitude, double speed, double acceleration,
                             AlertList& alerts) {
   if (!has_levels_ && !alarm_.active()) {  // without levels it can only clear
     return;
   }
-  if (!std::isfinite(radius) || !std::isfinite(speed) || !std::isfinite(time)) {
+  if (!std::isfinite(amplitude) || !std::isfinite(speed) || !std::isfinite(time)) {
     alarm_.update(time, AlarmCondition::kHold);
     return;
   }
@@ -37,17 +37,17 @@ void AmplitudeAlarm::update(double time, double radius, double speed, double acc
   const double alert_level = by * levels_.alertAt(speed);
   const double danger_level = by * levels_.dangerAt(speed);
   AlarmCondition condition = AlarmCondition::kHold;
-  if (radius > danger_level) {
+  if (amplitude > danger_level) {
     condition = AlarmCondition::kDanger;
-  } else if (radius > alert_level) {
+  } else if (amplitude > alert_level) {
     condition = AlarmCondition::kWarning;
-  } else if (radius <= std::fmin(alert_level, danger_level) * (1.0 - hysteresis_)) {
+  } else if (amplitude <= std::fmin(alert_level, danger_level) * (1.0 - hysteresis_)) {
     condition = AlarmCondition::kClear;
   }
   if (alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
     alerts.clear(system_, alert_type::kWhirlAmplitude, time,
-                 fmt::format("{}: whirl back to {:.3g} mm, speed {:.1f} rad/s", system_,
-                             1.0e3 * radius, speed));
+                 fmt::format("{}: vibration back to {:.3g} mm, speed {:.1f} rad/s", system_,
+                             1.0e3 * amplitude, speed));
   } else if (alarm_.active() && isRaising(condition)) {
     const bool danger = condition == AlarmCondition::kDanger;
     state::Alert alert;
@@ -57,11 +57,11 @@ void AmplitudeAlarm::update(double time, double radius, double speed, double acc
     alert.time = time;
     alert.speed = speed;
     alert.acceleration = acceleration;
-    alert.amplitude = radius;
+    alert.amplitude = amplitude;
     alert.amplitude_limit = danger ? danger_level : alert_level;
     alert.text = fmt::format(
-        "{}: whirl {:.3g} mm at {:.1f} rad/s, above the {} level {:.3g} mm{}: {}", system_,
-        1.0e3 * radius, speed, danger ? "danger" : "alert", 1.0e3 * alert.amplitude_limit,
+        "{}: vibration {:.3g} mm at {:.1f} rad/s, above the {} level {:.3g} mm{}: {}", system_,
+        1.0e3 * amplitude, speed, danger ? "danger" : "alert", 1.0e3 * alert.amplitude_limit,
         by != 1.0 ? fmt::format(" (times {:g} in start-up)", by) : "",
         danger ? "stop it, or leave this speed" : "look for what has grown, or leave this speed");
     alerts.raise(std::move(alert), danger ? "danger" : "alert");

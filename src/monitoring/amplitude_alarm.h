@@ -1,7 +1,7 @@
-// WHIRL_AMPLITUDE: the whirl of a system is wider than its alert level (a warning) or its danger
-// level, as set for the speed of its shaft. While the shaft starts up, and clear_delay after, the
-// levels are multiplied (trip multiply): the resonances it passes are expected, and the protection
-// does not go blind meanwhile.
+// WHIRL_AMPLITUDE: the vibration of a rotor over a revolution (whirl_vibration.h) is above its
+// alert level (a warning) or its danger level, as set for the speed of its shaft. While the shaft
+// starts up, and clear_delay after, the levels are multiplied (trip multiply): the resonances it
+// passes are expected, and the protection does not go blind meanwhile.
 #pragma once
 
 #include <string>
@@ -19,9 +19,9 @@ class AmplitudeAlarm {
 
   /// Other settings from now on; what it knows of its cause, and for how long, stays.
   void set(const AlarmSettings& settings);
-  /// radius [m] at time [s, simulated], with the speed [rad/s] and acceleration [rad/s^2] of the
+  /// amplitude [m] at time [s, simulated], with the speed [rad/s] and acceleration [rad/s^2] of the
   /// shaft. A NaN neither raises nor clears.
-  void update(double time, double radius, double speed, double acceleration, AlertList& alerts);
+  void update(double time, double amplitude, double speed, double acceleration, AlertList& alerts);
   /// What comes cannot be judged: delays are broken, and nothing is raised or cleared.
   void hold() { alarm_.hold(); }
 

@@ -117,6 +117,7 @@ void SystemWatch::restart(const AlarmSettings& settings) {
   if (measured) {
     measured->restart();
   }
+  vibration = {};
   amplitude_alarm = AmplitudeAlarm(name, settings);
   voted_alarm = VotedAlarm(name, settings);
   order_alarm = OrderAlarm(name, settings);

@@ -23,6 +23,7 @@
 #include "monitoring/state_alarm.h"
 #include "monitoring/validity_alarm.h"
 #include "monitoring/voted_alarm.h"
+#include "monitoring/whirl_vibration.h"
 #include "scene/built_scene.h"
 
 namespace whirl_twin {
@@ -63,6 +64,7 @@ struct SystemWatch {
   double acceleration = 0.0;              ///< [rad/s^2], newest
   DataQuality quality;
   std::optional<MeasuredSignal> measured;  ///< where the scene has sensors for it
+  WhirlVibration vibration;
   AmplitudeAlarm amplitude_alarm;
   VotedAlarm voted_alarm;
   OrderAlarm order_alarm;

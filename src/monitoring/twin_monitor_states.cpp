@@ -89,8 +89,8 @@ void TwinMonitor::take(const state::WhirlState& whirl, double wall_time) {
 }
 
 void TwinMonitor::watchMotion(SystemWatch& watch, const state::WhirlState& whirl) {
-  watch.amplitude_alarm.update(whirl.at.time, whirl.radius, whirl.speed, watch.acceleration,
-                               alerts_);
+  watch.amplitude_alarm.update(whirl.at.time, watch.vibration.take(whirl), whirl.speed,
+                               watch.acceleration, alerts_);
   watch.decay_alarm.update(whirl, alerts_);
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -68,10 +69,10 @@ VotedAlarm::Count VotedAlarm::count(double by) const {
   for (const Source& source : sources_) {
     if (!source.votes) {
       ++count.doubtful;
-    } else if (source.radius > std::min(alert, danger)) {
+    } else if (source.amplitude > std::min(alert, danger)) {
       ++count.warning;
-      count.danger += source.radius > danger ? 1 : 0;
-    } else if (source.radius > std::min(alert, danger) * (1.0 - hysteresis_)) {
+      count.danger += source.amplitude > danger ? 1 : 0;
+    } else if (source.amplitude > std::min(alert, danger) * (1.0 - hysteresis_)) {
       ++count.doubtful;
     }
   }
@@ -83,7 +84,10 @@ void VotedAlarm::take(const state::WhirlState& whirl, double acceleration, doubl
   for (Source& source : sources_) {
     if (source.name == whirl.system) {
       source.votes = source.quality.take(whirl, wall_time);
-      source.radius = whirl.radius;
+      if (source.votes) {
+        source.amplitude = source.vibration.take(whirl);
+        source.votes = std::isfinite(source.amplitude);
+      }
     }
   }
   const bool taken_away = voting_->agree > static_cast<int>(sources_.size());
@@ -98,8 +102,8 @@ void VotedAlarm::take(const state::WhirlState& whirl, double acceleration, doubl
   if (alarm_.update(time, condition) == ConditionAlarm::Change::kCleared) {
     alerts.clear(system_, alert_type::kVotedAmplitude, time,
                  taken_away ? fmt::format("{}: its sources are no longer asked", system_)
-                            : fmt::format("{}: fewer than {} of {} sources whirl too wide", system_,
-                                          voting_->agree, sources_.size()));
+                            : fmt::format("{}: fewer than {} of {} sources vibrate too wide",
+                                          system_, voting_->agree, sources_.size()));
     if (taken_away) {
       sources_.clear();
     }
@@ -125,17 +129,17 @@ state::Alert VotedAlarm::alertOf(const state::WhirlState& whirl, double by,
   for (const Source& source : sources_) {
     if (!source.votes) {
       silent += (silent.empty() ? "; not OK: " : ", ") + source.name;
-    } else if (source.radius > alert.amplitude_limit) {
-      above.push_back(source.radius);
+    } else if (source.amplitude > alert.amplitude_limit) {
+      above.push_back(source.amplitude);
       who += fmt::format("{}{} {:.3g} mm", who.empty() ? "" : ", ", source.name,
-                         kMillimetre * source.radius);
+                         kMillimetre * source.amplitude);
     }
   }
   // What so many of them agree on.
   std::sort(above.begin(), above.end(), std::greater<>());
   alert.amplitude = above[static_cast<std::size_t>(voting_->agree) - 1];
   alert.text = fmt::format(
-      "{}: {} of {} sources whirl beyond the {} level {:.3g} mm{} ({}{}): {}", system_,
+      "{}: {} of {} sources vibrate beyond the {} level {:.3g} mm{} ({}{}): {}", system_,
       above.size(), sources_.size(), danger ? "danger" : "alert",
       kMillimetre * alert.amplitude_limit,
       by != 1.0 ? fmt::format(", times {:g} in start-up", by) : "", who, silent,

@@ -19,6 +19,7 @@
 #include "monitoring/condition_alarm.h"
 #include "monitoring/data_quality.h"
 #include "monitoring/start_up.h"
+#include "monitoring/whirl_vibration.h"
 
 namespace whirl_twin {
 
@@ -41,7 +42,8 @@ class VotedAlarm {
   struct Source {
     std::string name;
     DataQuality quality;
-    double radius = 0.0;  ///< [m]
+    WhirlVibration vibration = {};
+    double amplitude = 0.0;  ///< [m]
     bool votes = false;
   };
   struct Count;

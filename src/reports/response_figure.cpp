@@ -181,10 +181,10 @@ Figure figure(const ResponseReport& r) {
   amplitude.x = speedAxis();
   amplitude.y.label = "semi-major axis (m)";
   lag.x = {"shaft speed (rad/s)", false, true};
-  lag.y.label = "phase lag of the whirl (deg)";
+  lag.y.label = "lag behind the phase mark (deg)";
   lag.y.degrees = true;
-  polar.x.label = "in line with the unbalance (m)";
-  polar.y.label = "ahead of the unbalance (m)";
+  polar.x.label = "along the shaft's phase mark (m)";
+  polar.y.label = "ahead of the phase mark (m)";
   polar.title = "forward whirl seen from the shaft";
   polar.equal_aspect = true;
   const std::vector<std::size_t> shown = shownStations(r);

@@ -147,18 +147,39 @@ OrbitPart OrbitWindow::last(double seconds, std::size_t most) const {
   return part;
 }
 
+OrbitWindow::Box OrbitWindow::boxFrom(std::size_t first) const {
+  const Kept& newest = kept_.back();
+  Box box{newest.x, newest.x, newest.y, newest.y};
+  for (std::size_t i = first; i < kept_.size(); ++i) {
+    box.left = std::min(box.left, kept_[i].x);
+    box.right = std::max(box.right, kept_[i].x);
+    box.bottom = std::min(box.bottom, kept_[i].y);
+    box.top = std::max(box.top, kept_[i].y);
+  }
+  return box;
+}
+
 double OrbitWindow::peakToPeak(double seconds) const {
   if (kept_.empty()) {
     return 0.0;
   }
-  double left = kept_.back().x, right = left, bottom = kept_.back().y, top = bottom;
-  for (std::size_t i = firstOf(seconds); i < kept_.size(); ++i) {
-    left = std::min(left, kept_[i].x);
-    right = std::max(right, kept_[i].x);
-    bottom = std::min(bottom, kept_[i].y);
-    top = std::max(top, kept_[i].y);
+  const Box box = boxFrom(firstOf(seconds));
+  return std::max(box.right - box.left, box.top - box.bottom);
+}
+
+double OrbitWindow::amplitude(double seconds, std::size_t least) const {
+  if (kept_.size() < least || kept_.empty()) {
+    return kNaN;
   }
-  return std::max(right - left, top - bottom);
+  const std::size_t first = std::min(firstOf(seconds), kept_.size() - least);
+  const Box box = boxFrom(first);
+  const double x = 0.5 * (box.left + box.right);
+  const double y = 0.5 * (box.bottom + box.top);
+  double largest = 0.0;
+  for (std::size_t i = first; i < kept_.size(); ++i) {
+    largest = std::max(largest, std::hypot(kept_[i].x - x, kept_[i].y - y));
+  }
+  return largest;
 }
 
 }  // namespace whirl_twin

@@ -50,13 +50,23 @@ class OrbitWindow {
   OrbitPart last(double seconds, std::size_t most) const;
   /// The larger of the peak-to-peak values [m] along x and y in the last so many seconds.
   double peakToPeak(double seconds) const;
+  /// The largest distance [m] of the motion in the last so many seconds, and of `least` samples at
+  /// least, from its middle, halfway between its extremes along x and y. Of an ellipse it is the
+  /// semi-major axis, wherever the centre lies. NaN where there are fewer samples.
+  double amplitude(double seconds, std::size_t least) const;
 
  private:
   struct Kept : OrbitSample {
     std::int64_t stride = 1;  // a power of two: of these indices samples were kept then
   };
 
+  struct Box {
+    double left = 0.0, right = 0.0, bottom = 0.0, top = 0.0;
+  };
+
   std::size_t firstOf(double seconds) const;
+  /// Around the samples from this one on.
+  Box boxFrom(std::size_t first) const;
 
   std::vector<Kept> kept_;
   std::int64_t stride_ = 1;

@@ -16,9 +16,10 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kResponseFooter =
-    "Speeds are added where a peak needs them: none is missed between two points. The phase lag "
-    "is\n"
-    "that of the forward whirl behind the unbalance. The picture: amplitude, phase, polar plot.\n"
+    "Speeds are added where a peak needs them: none is missed between two points. The phase lag\n"
+    "is that of the forward whirl behind the shaft's phase mark (parameter phase_mark, an angle "
+    "of\n"
+    "the shaft as those of its unbalances). The picture: amplitude, phase, polar plot.\n"
     "\n"
     "With --force the rotor's unbalance is left out: a harmonic force of 1 N that does not turn "
     "acts\n"

@@ -22,7 +22,8 @@ constexpr const char* kSimulateDescription =
 constexpr const char* kSimulateFooter =
     "The table has a row at the start and one every sample up to and including the duration:\n"
     "  time, then for each system its coordinates, their rates (NAME_rate) and, for a rotor,\n"
-    "  whirl_radius (m) and whirl_phase (rad, how far the whirl lags the unbalance, unwrapped).\n"
+    "  whirl_radius (m) and whirl_phase (rad, how far the whirl lags the shaft's phase mark, "
+    "unwrapped).\n"
     "17 significant digits; nan where a value is undefined or a system has stopped. Same input,\n"
     "same build: same bytes. A file appears only when it is complete.\n"
     "\n"

@@ -37,12 +37,7 @@ struct Commanded {
   void tell(double radius, double duration) {
     for (const double end = time + duration; time < end - 1.0e-9; time += 0.01) {
       for (const char* system : {"rotor", "pump"}) {
-        state::WhirlState whirl;
-        whirl.system = system;
-        whirl.at.time = time;
-        whirl.x = whirl.radius = radius;
-        whirl.speed = 50.0;
-        monitor.take(whirl, time);
+        monitor.take(circularWhirl(system, time, radius, 50.0), time);
       }
       monitor.tick(time, false);
     }
@@ -70,7 +65,7 @@ constexpr int kInhibit = state::AlarmCommand::kInhibit;
 
 TEST(AlarmCommands, AcknowledgeTheAlertsOfOneSystemAndLeaveTheOthers) {
   Commanded twin;
-  twin.tell(2.0e-3, 0.1);
+  twin.tell(2.0e-3, 0.4);
   const CommandAnswer answer = twin.command(kAcknowledge, "rotor", "WHIRL_AMPLITUDE");
   EXPECT_TRUE(answer.done);
   EXPECT_EQ(answer.text, "1 acknowledged");
@@ -82,7 +77,7 @@ TEST(AlarmCommands, AcknowledgeTheAlertsOfOneSystemAndLeaveTheOthers) {
 
 TEST(AlarmCommands, AResetTakesOffWhatIsLatchedAndOnlyThat) {
   Commanded twin;
-  twin.tell(2.0e-3, 0.1);
+  twin.tell(2.0e-3, 0.4);
   EXPECT_EQ(twin.command(kReset).text, "0 cleared, 2 have their cause still");
   twin.tell(0.1e-3, 2.0);
   ASSERT_TRUE(twin.alertOf("rotor")->latched);
@@ -92,19 +87,19 @@ TEST(AlarmCommands, AResetTakesOffWhatIsLatchedAndOnlyThat) {
 
 TEST(AlarmCommands, AnInhibitionHoldsBackOneSystemUntilItIsEnded) {
   Commanded twin;
-  twin.tell(0.1e-3, 0.1);
+  twin.tell(0.1e-3, 0.4);
   EXPECT_TRUE(twin.command(kInhibit, "rotor", "", 100.0).done);
   twin.tell(2.0e-3, 1.0);
   EXPECT_EQ(twin.alertOf("rotor"), nullptr);
   EXPECT_NE(twin.alertOf("pump"), nullptr);
   EXPECT_TRUE(twin.command(kInhibit, "rotor").done);
-  twin.tell(2.0e-3, 0.1);
+  twin.tell(2.0e-3, 0.4);
   EXPECT_NE(twin.alertOf("rotor"), nullptr);
 }
 
 TEST(AlarmCommands, RefuseWhatCannotBeMeantAndDoNothingOfIt) {
   Commanded twin;
-  twin.tell(2.0e-3, 0.1);
+  twin.tell(2.0e-3, 0.4);
   const auto refusal = [&](const CommandAnswer& answer) {
     EXPECT_FALSE(answer.done);
     return answer.text;

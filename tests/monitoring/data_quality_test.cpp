@@ -35,19 +35,17 @@ AlarmSettings levels() {
 /// A monitor that is told a whirl [m] for a while.
 struct Told {
   Told() : monitor(build(sceneOf(kCalm)), levels()) {}
-  void tell(double x, double duration) {
-    tell([x](double) { return x; }, [](double) { return 0.0; }, duration);
+  void tell(double radius, double duration) {
+    tell([=](double t) { return circularWhirl("", t, radius, 50.0).x; },
+         [=](double t) { return circularWhirl("", t, radius, 50.0).y; }, duration);
   }
   void tell(const std::function<double(double)>& x, const std::function<double(double)>& y,
             double duration) {
     for (const double end = time + duration; time < end - 1.0e-9; time += 0.01) {
-      state::WhirlState whirl;
-      whirl.system = "rotor";
-      whirl.at.time = time;
+      state::WhirlState whirl = circularWhirl("rotor", time, 0.0, 50.0);
       whirl.x = x(time);
       whirl.y = y(time);
       whirl.radius = std::hypot(whirl.x, whirl.y);
-      whirl.speed = 50.0;
       monitor.take(whirl, time);
       monitor.tick(time, false);
     }
@@ -62,7 +60,7 @@ struct Told {
 TEST(DataQuality, WhatIsNotFiniteClearsNothingAndBreaksTheClearDelay) {
   Told told;
   EXPECT_EQ(told.notOk(), "stale: nothing has come yet");
-  told.tell(2.0e-3, 0.1);
+  told.tell(2.0e-3, 0.5);
   EXPECT_EQ(told.notOk(), "");
   ASSERT_TRUE(told.raised());
   told.tell(0.1e-3, 0.9);
@@ -82,7 +80,7 @@ TEST(DataQuality, BeyondItsRangeAWhirlIsNoMeasurement) {
   told.tell(9.0e-3, 2.0);
   EXPECT_FALSE(told.raised());
   EXPECT_EQ(told.notOk(), "out of range: whirl 9 mm, beyond 5 mm");
-  told.tell(4.0e-3, 0.1);
+  told.tell(4.0e-3, 0.5);
   EXPECT_TRUE(told.raised());
   told.tell(9.0e-3, 5.0);
   EXPECT_TRUE(told.raised());
@@ -90,7 +88,7 @@ TEST(DataQuality, BeyondItsRangeAWhirlIsNoMeasurement) {
 
 TEST(DataQuality, AGapIsNoTimeWithoutTheCause) {
   Told told;
-  told.tell(2.0e-3, 0.1);
+  told.tell(2.0e-3, 0.5);
   told.tell(0.1e-3, 0.9);
   for (const double end = told.time + 5.0; told.time < end; told.time += 0.1) {
     told.monitor.tick(told.time, false);
@@ -126,7 +124,8 @@ TEST(StuckChannel, IsNotOkRaisesAndClearsNothingAndComesBack) {
   EXPECT_TRUE(told.raised()) << "its delay begins anew";
   told.tell(whirlX, whirlY, 0.2);
   EXPECT_FALSE(told.raised());
-  told.tell(whirlX(told.time), 1.0);
+  const double last = whirlX(told.time);
+  told.tell([=](double) { return last; }, [](double) { return 0.0; }, 1.0);
   EXPECT_EQ(told.notOk(), "stuck: x, y") << "y reads nothing, x the same again and again";
 }
 

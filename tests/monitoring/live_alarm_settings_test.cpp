@@ -106,14 +106,9 @@ struct Told {
   explicit Told(const std::string& text = "{amplitude: {rotor: {alert: 1.0e-3, danger: 5.0e-3}}}")
       : live(YAML::Load(text), "monitor.yaml", {"rotor"}),
         monitor(build(sceneOf(kCalm)), live.settings()) {}
-  void tell(double x, double duration) {
-    for (const double end = time + duration; time < end - 1.0e-9; time += 0.01) {
-      state::WhirlState whirl;
-      whirl.system = "rotor";
-      whirl.at.time = time;
-      whirl.x = whirl.radius = x;
-      whirl.speed = 50.0;
-      monitor.take(whirl, time);
+  void tell(double radius, double duration) {
+    for (const double end = time + duration; time < end - 1.0e-9; time += 0.002) {
+      monitor.take(circularWhirl("rotor", time, radius, 50.0), time);
       monitor.tick(time, false);
     }
   }
@@ -133,19 +128,19 @@ TEST(LiveAlarmSettings, ALoweredLevelRaisesAndOneThatIsLiftedClearsAfterItsDelay
   told.tell(0.8e-3, 1.0);
   EXPECT_EQ(told.alert(), nullptr);
   told.change("{amplitude: {rotor: {alert: 0.5e-3}}}");
-  told.tell(0.8e-3, 0.1);
+  told.tell(0.8e-3, 0.3);
   ASSERT_NE(told.alert(), nullptr);
   EXPECT_EQ(told.alert()->amplitude_limit, 0.5e-3);
   told.change("{amplitude: {rotor: {alert: 1.0e-3}}}");
   told.tell(0.8e-3, 0.9);
   EXPECT_NE(told.alert(), nullptr) << "the clear delay";
-  told.tell(0.8e-3, 0.3);
+  told.tell(0.8e-3, 0.5);
   EXPECT_EQ(told.alert(), nullptr);
 }
 
 TEST(LiveAlarmSettings, AnAlertWhoseLevelIsTakenAwayClears) {
   Told told;
-  told.tell(2.0e-3, 0.1);
+  told.tell(2.0e-3, 0.3);
   ASSERT_NE(told.alert(), nullptr);
   told.change("{amplitude: ~}");
   told.tell(2.0e-3, 1.2);
@@ -154,7 +149,7 @@ TEST(LiveAlarmSettings, AnAlertWhoseLevelIsTakenAwayClears) {
 
 TEST(LiveAlarmSettings, AnAlertKeepsItsIdAndWhatIsLatchedStays) {
   Told told("{latch: all, amplitude: {rotor: {alert: 1.0e-3}}}");
-  told.tell(2.0e-3, 0.1);
+  told.tell(2.0e-3, 0.3);
   ASSERT_NE(told.alert(), nullptr);
   const std::uint32_t id = told.alert()->id;
   told.monitor.alerts().acknowledge("", "");

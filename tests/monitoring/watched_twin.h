@@ -12,6 +12,20 @@
 
 namespace whirl_twin {
 
+/// A circular whirl about the bearings, in step with the shaft: radius [m], speed [rad/s].
+inline state::WhirlState circularWhirl(const std::string& system, double time, double radius,
+                                       double speed) {
+  state::WhirlState whirl;
+  whirl.system = system;
+  whirl.at.time = time;
+  whirl.radius = radius;
+  whirl.speed = speed;
+  whirl.shaft_angle = speed * time;
+  whirl.x = radius * std::cos(whirl.shaft_angle);
+  whirl.y = radius * std::sin(whirl.shaft_angle);
+  return whirl;
+}
+
 /// Runs the scene for `duration` [s] and feeds every step to the monitor.
 struct WatchedTwin {
   explicit WatchedTwin(const Scene& scene, const AlarmSettings& settings = {})

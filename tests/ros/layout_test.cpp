@@ -103,7 +103,7 @@ TEST(Layout, ARotorStaysWithinItsPlace) {
   margin->band_high = {70.0, 220.0, 330.0};
   SystemStatus status;
   status.live.margin = margin;
-  status.limits = {{1e-4, true, Alert::WARNING, "zone B"}, {2e-4, true, Alert::DANGER, "zone C"}};
+  status.limits = {{1e-4, Alert::WARNING, "zone B"}, {2e-4, Alert::DANGER, "zone C"}};
   status.alerts.resize(3);
   for (Alert& alert : status.alerts) {
     alert.type = "CRITICAL_SPEED_APPROACH";

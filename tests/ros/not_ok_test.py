@@ -34,7 +34,7 @@ class Machine(threading.Thread):
             state = WhirlState(step=step, time=step * PERIOD, speed=SPEED, radius=self.radius, phase_valid=True)
             state.header.stamp = rospy.Time.now()
             state.header.frame_id = 'rotor'
-            angle = SPEED * state.time
+            angle = state.shaft_angle = SPEED * state.time
             state.x, state.y = self.radius * math.cos(angle), self.radius * math.sin(angle)
             state = self.fault(state)
             if state is not None:
