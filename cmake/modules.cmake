@@ -21,8 +21,8 @@ target_link_libraries(whirl_twin_libraries INTERFACE
   Eigen3::Eigen fmt::fmt Boost::boost Threads::Threads yaml-cpp)
 
 # whirl_twin_headers(NAME [OPTIONS OPTION...] [LIBRARIES LIB...] [HEADERS HEADER...]): headers that are precompiled, once
-# for all targets of an optimization level that name them. g++ compiles whatever includes them with their options and not
-# with those of its own command line, without a word: so the options of both have to be the same.
+# for all targets of an optimization level that name them. g++ compiles whatever includes them with their options instead of
+# those on its command line, and does not warn: both must be the same.
 if(NOT EXISTS ${PROJECT_BINARY_DIR}/nothing.cpp)
   file(WRITE ${PROJECT_BINARY_DIR}/nothing.cpp "")
 endif()
@@ -61,7 +61,7 @@ endfunction()
 
 # whirl_twin_module(NAME [LIBRARY TARGET] OPTIMIZE LEVEL BATCH N [HEADERS NAME | NO_HEADERS] [OPTIONS OPTION...]
 #   SOURCES SOURCE...):
-# an object library whirl_twin_NAME_objects, a part of LIBRARY (whirl_twin_core). Options of its own go with NO_HEADERS.
+# an object library whirl_twin_NAME_objects, a part of LIBRARY (whirl_twin_core). A module with further OPTIONS needs NO_HEADERS.
 function(whirl_twin_module name)
   set(module_LIBRARY whirl_twin_core)
   set(module_HEADERS whirl_twin_core_headers)

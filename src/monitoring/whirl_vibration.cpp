@@ -1,6 +1,5 @@
 #include "monitoring/whirl_vibration.h"
 
-#include <algorithm>
 #include <cstddef>
 
 #include "algebra/constants.h"

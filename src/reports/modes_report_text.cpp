@@ -57,7 +57,7 @@ Json modelJson(const ModesReport& report, std::size_t place) {
   json["damping_ratio"] = mode.dampingRatio();
   json["log_decrement"] = mode.logDecrement();
   json["whirl"] = name(mode.whirl);
-  json["overdamped"] = !isWhirl(mode);
+  json["is_whirl"] = isWhirl(mode);
   json["shape"] = Json::array();
   for (std::size_t s = 0; s < mode.orbits.size(); ++s) {
     const Orbit& orbit = mode.orbits[s];
