@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -87,6 +88,60 @@ TEST(StiffRotors, HaveAllTheirCriticalSpeedsOnEveryGrid) {
     }
   }
   EXPECT_GT(all, 20U);
+}
+
+/// [1/s], with the lowest to all digits: the reciprocals of the eigenvalues of the inverse problem
+/// [-(K + N)^-1 (C + G), -(K + N)^-1 M; 1, 0] of (phi, s phi).
+std::vector<std::complex<double>> lowestOfAll(const Linearization& l) {
+  using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+  const Eigen::Index n = l.mass.rows();
+  const Eigen::PartialPivLU<LongMatrix> place((l.stiffness + l.circulatory).cast<long double>());
+  LongMatrix a = LongMatrix::Zero(2 * n, 2 * n);
+  a.topLeftCorner(n, n) = -place.solve((l.damping + l.gyroscopic).cast<long double>());
+  a.topRightCorner(n, n) = -kHighest * place.solve(l.mass.cast<long double>());
+  a.bottomLeftCorner(n, n).diagonal().setConstant(1.0L / kHighest);
+  Eigen::EigenSolver<LongMatrix> solver;
+  solver.setMaxIterations(800 * n).compute(a, false);
+  EXPECT_EQ(solver.info(), Eigen::Success);
+  std::vector<std::complex<double>> all;
+  for (const std::complex<long double>& inverse : solver.eigenvalues()) {
+    if (std::abs(inverse) * 1.0e9L > 1.0L) {
+      const std::complex<long double> s = 1.0L / inverse;
+      all.emplace_back(static_cast<double>(s.real()), static_cast<double>(s.imag()));
+    }
+  }
+  return all;
+}
+
+// As many whirls are slower than the shaft at its highest speed as have met it.
+TEST(StiffRotors, MeetTheSpeedAsOftenAsTheirDampedWhirlsAreOvertaken) {
+  int all = 0;
+  for (unsigned seed = 101; seed <= 110; ++seed) {
+    const RotorAssembly assembly(stiffRotor(seed, true));
+    const LinearRotor rotor = assembly.linearRotor();
+    const CampbellDiagram diagram =
+        campbell(rotor, assembly.stations(), {{0.0, 400.0, 1700.0, kHighest}});
+    const auto slower = [&](double speed) {
+      int count = 0;  // the overdamped in pairs
+      for (const std::complex<double>& s : lowestOfAll(rotor.matrices(speed))) {
+        const double vibrates = std::fabs(s.imag()) > 1.0e-9 * std::abs(s) ? s.imag() : 0.0;
+        count += std::fabs(vibrates) < speed ? 1 : 0;
+      }
+      return count / 2;
+    };
+    int net = 0;
+    for (const CampbellCrossing& one : diagram.crossings) {
+      net += one.slows ? 1 : -1;
+      double nearest = kHighest;
+      for (const std::complex<double>& s : lowestOfAll(rotor.matrices(one.speed))) {
+        nearest = std::min(nearest, std::fabs(s.imag() - one.speed));
+      }
+      EXPECT_LE(nearest, 1.0e-6 * one.speed) << seed;
+    }
+    EXPECT_EQ(net, slower(kHighest) - slower(0.01)) << seed;
+    all += net;
+  }
+  EXPECT_GT(all, 10);
 }
 
 }  // namespace stiff_rotors_test
