@@ -5,10 +5,14 @@
 
 #include "algebra/constants.h"
 #include "analysis/bracketed_root.h"
+#include "analysis/crossing_search.h"
 
 namespace whirl_twin {
 
 namespace {
+
+constexpr double kAboveRest = 1.0e-3;  // of the next speed
+constexpr double kSameSpeed = 1.0e-8;  // of a critical speed
 
 /// Where between two neighbouring speeds a branch meets h w, if it does.
 void addCrossings(const ModeTracker& tracker, const CampbellRequest& request, std::size_t place,
@@ -34,10 +38,103 @@ void addCrossings(const ModeTracker& tracker, const CampbellRequest& request, st
       };
       const double speed = bracketedRoot(excess, low, high, f_low, f_high);
       excess(speed);
-      diagram.crossings.push_back({i, harmonic, speed, campbellPoint(mode)});
+      diagram.crossings.push_back({i, harmonic, speed, campbellPoint(mode), f_low >= 0.0});
     }
   }
 }
+
+/// Adds the crossings that following has missed, between speeds that are neighbours where `last` is
+/// `first` + 1, and the branches they are of from there on.
+class MissedCrossings {
+ public:
+  MissedCrossings(const LinearRotor& rotor, const std::vector<Station>& stations,
+                  const ModeTracker& tracker, CampbellDiagram& diagram)
+      : search_(rotor.matrices, stations), tracker_(tracker), diagram_(diagram) {}
+
+  void add(double harmonic, std::size_t first, std::size_t last) {
+    const double low = speedOf(first);
+    const double high = speedOf(last);
+    const auto net = search_.net(harmonic, low, high);
+    if (!net || *net == followed(harmonic, low, high)) {
+      return;
+    }
+    if (last > first + 1) {
+      const std::size_t middle = first + (last - first) / 2;
+      add(harmonic, first, middle);
+      add(harmonic, middle, last);
+      return;
+    }
+    for (const FoundCrossing& one : search_.between(harmonic, low, high)) {
+      if (one.rank < diagram_.branches.size() && !known(harmonic, one)) {
+        const std::size_t branch = lostBranch(one, last);
+        diagram_.crossings.push_back(
+            {branch, harmonic, one.speed, campbellPoint(one.mode), *net > 0});
+        follow(one, branch, last);
+      }
+    }
+  }
+
+ private:
+  /// At rest no mode is slower than it turns: a little above.
+  double speedOf(std::size_t place) const {
+    const std::vector<double>& speeds = diagram_.speeds;
+    return speeds[place] > 0.0 ? speeds[place] : kAboveRest * speeds[place + 1];
+  }
+  int followed(double harmonic, double low, double high) const {
+    int net = 0;
+    for (const CampbellCrossing& one : diagram_.crossings) {
+      if (one.harmonic == harmonic && one.speed >= low && one.speed < high) {
+        net += one.slows ? 1 : -1;
+      }
+    }
+    return net;
+  }
+  bool known(double harmonic, const FoundCrossing& one) const {
+    return std::any_of(diagram_.crossings.begin(), diagram_.crossings.end(),
+                       [&](const CampbellCrossing& other) {
+                         return other.harmonic == harmonic && other.mode.whirl == one.mode.whirl &&
+                                std::fabs(other.speed - one.speed) <= kSameSpeed * one.speed;
+                       });
+  }
+  /// The one whose frequency was nearest when it was last known; none: a new one.
+  std::size_t lostBranch(const FoundCrossing& one, std::size_t place) {
+    std::size_t nearest = diagram_.branches.size();
+    double least = kInfinity;
+    for (std::size_t i = 0; i < diagram_.branches.size(); ++i) {
+      const std::vector<CampbellPoint>& branch = diagram_.branches[i];
+      if (!std::isnan(branch[place].frequency)) {
+        continue;
+      }
+      const auto last =
+          std::find_if(branch.rend() - static_cast<std::ptrdiff_t>(place), branch.rend(),
+                       [](const CampbellPoint& point) { return !std::isnan(point.frequency); });
+      const double apart = last == branch.rend()
+                               ? kInfinity
+                               : std::fabs(last->frequency - one.mode.dampedFrequency());
+      if (apart < least) {
+        least = apart;
+        nearest = i;
+      }
+    }
+    if (nearest == diagram_.branches.size()) {
+      diagram_.branches.emplace_back(diagram_.speeds.size(), campbellPoint(std::nullopt));
+    }
+    return nearest;
+  }
+  void follow(const FoundCrossing& one, std::size_t branch, std::size_t from) {
+    ModeTracker::Modes modes{one.mode};
+    double before = one.speed;
+    for (std::size_t k = from; k < diagram_.speeds.size(); ++k) {
+      modes = tracker_.follow(modes, before, diagram_.speeds[k]);
+      diagram_.branches[branch][k] = campbellPoint(modes.front());
+      before = diagram_.speeds[k];
+    }
+  }
+
+  CrossingSearch search_;
+  const ModeTracker& tracker_;
+  CampbellDiagram& diagram_;
+};
 
 }  // namespace
 
@@ -70,6 +167,12 @@ CampbellDiagram campbell(const LinearRotor& rotor, const std::vector<Station>& s
     }
     if (request.progress) {
       request.progress(k + 1);
+    }
+  }
+  if (request.speeds.size() > 1) {
+    MissedCrossings missed(rotor, stations, tracker, diagram);
+    for (const double harmonic : request.harmonics) {
+      missed.add(harmonic, 0, request.speeds.size() - 1);
     }
   }
   std::sort(diagram.crossings.begin(), diagram.crossings.end(),

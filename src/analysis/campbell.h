@@ -27,6 +27,7 @@ struct CampbellCrossing {
   double harmonic = 1.0;  ///< h, of the speed
   double speed = 0.0;     ///< [rad/s]
   CampbellPoint mode;     ///< there
+  bool slows = true;      ///< slower than h w beyond; false: it outruns h w
 };
 
 struct CampbellDiagram {
@@ -43,7 +44,8 @@ struct CampbellRequest {
   std::function<void(std::size_t)> progress = {};
 };
 
-/// Crossings are refined to the last digits of the eigenvalues.
+/// Crossings are refined to the last digits of the eigenvalues, and counted without following the
+/// modes (crossing_search.h): one that following misses is added, on the branch that was lost.
 CampbellDiagram campbell(const LinearRotor& rotor, const std::vector<Station>& stations,
                          const CampbellRequest& request);
 

@@ -6,6 +6,7 @@
 
 #include "algebra/dense.h"
 #include "analysis/cyclic_coordinates.h"
+#include "analysis/flexibility_form.h"
 #include "analysis/growth_radius.h"
 #include "analysis/lowest_eigenvalues.h"
 #include "analysis/stability_margins.h"
@@ -26,13 +27,22 @@ constexpr double kStandsStill = 1.0e-6;     // of the widest orbit
 constexpr double kZero = 1.0e-13;           // of the largest eigenvalue: rounding
 constexpr double kWhirlRounding = 1.0e-12;  // of the largest: a real part that may be rounding
 
-/// Eigenvalues and the upper half, the displacement, of the eigenvectors of the state matrix.
+/// Eigenvalues and the upper half, the displacement, of the eigenvectors.
 struct RotorEigenPairs {
   VectorXcd values;
   MatrixXcd shapes;
+  double inverse_error = 0.0;  ///< [s], of 1/s: of those of the flexibility form; else 0
+
+  /// Of s [1/s], a part of which `rounding` is of the largest or, of the flexibility form, of s.
+  double doubt(const Complex& s, double rounding, double largest) const {
+    return inverse_error > 0.0 ? std::max(rounding * std::abs(s),
+                                          std::min(inverse_error * std::norm(s), std::abs(s)))
+                               : rounding * largest;
+  }
 };
 
-RotorEigenPairs rotorEigenPairs(const Linearization& l) {
+/// Of the state matrix: of a rotor with rigid-body motions, or on springs that push.
+RotorEigenPairs stateEigenPairs(const Linearization& l) {
   const Index n = l.mass.rows();
   const Lu mass(l.mass);
   const MatrixXd by_q = mass.solve(l.stiffness + l.circulatory);
@@ -60,6 +70,20 @@ void setToZero(std::size_t count, VectorXcd& values) {
   for (const Index i : order) {
     values[i] = 0.0;
   }
+}
+
+RotorEigenPairs rotorEigenPairs(const Linearization& l) {
+  const CyclicCoordinates rigid = rigidBodyMotions(l);
+  if (!rigid.any()) {
+    if (const auto found = flexibilityPairs(l)) {
+      return {found->values, found->shapes, found->error};
+    }
+  }
+  RotorEigenPairs pairs = stateEigenPairs(l);
+  if (rigid.any()) {
+    setToZero(zeroEigenvalues(l, rigid), pairs.values);
+  }
+  return pairs;
 }
 
 /// -Re s [1/s] of a whirl without circulatory forces, from what its damping takes out of it:
@@ -210,27 +234,23 @@ MatrixXcd separatedByDirection(const MatrixXcd& shapes, const std::vector<Statio
 }
 
 WhirlModes whirlModes(const Linearization& at_speed, const std::vector<Station>& stations) {
-  RotorEigenPairs pairs = rotorEigenPairs(at_speed);
-  const CyclicCoordinates rigid = rigidBodyMotions(at_speed);
-  if (rigid.any()) {
-    setToZero(zeroEigenvalues(at_speed, rigid), pairs.values);
-  }
+  const RotorEigenPairs pairs = rotorEigenPairs(at_speed);
   const double largest = pairs.values.cwiseAbs().maxCoeff();
-  const double doubtful = !cannotGrow(at_speed)          ? 0.0
-                          : at_speed.damping.isZero(0.0) ? largest
-                                                         : kWhirlRounding * largest;
+  const bool undamped = at_speed.damping.isZero(0.0);
+  const bool bounded = cannotGrow(at_speed);
   WhirlModes all;
   for (Index i = 0; i < pairs.values.size(); ++i) {
     const Complex s = pairs.values[i];
-    if (s.imag() > kZero * largest) {
+    const double zero = pairs.doubt(s, kZero, largest);
+    if (s.imag() > zero) {
       WhirlMode mode;
       mode.eigenvalue = s;
       mode.shape = pairs.shapes.col(i);
-      if (doubtful > 0.0 && std::fabs(s.real()) <= doubtful) {
+      if (bounded && (undamped || std::fabs(s.real()) <= pairs.doubt(s, kWhirlRounding, largest))) {
         mode.eigenvalue = {-decayOf(at_speed, s, mode.shape), s.imag()};
       }
       all.modes.push_back(mode);
-    } else if (std::fabs(s.imag()) <= kZero * largest) {
+    } else if (std::fabs(s.imag()) <= zero) {
       all.real_roots.push_back(s.real());
     }
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "../scene/scenes.h"
@@ -63,6 +64,59 @@ TEST(Campbell, OfAnUndampedRotorHasNoDampingAtAll) {
   for (const auto& crossing : rotor["crossings"]) {
     EXPECT_EQ(crossing["log_decrement"].get<double>(), 0.0);
   }
+}
+
+struct StiffCase {
+  std::string file;
+  std::vector<double> speeds;  ///< rad/s
+};
+class StiffPins : public testing::TestWithParam<StiffCase> {};
+
+// From the synchronous eigenproblem, K phi = w^2 (M - i G / w) phi, dense, pinned rows removed.
+TEST_P(StiffPins, HaveTheSameCriticalSpeedsOnEveryGrid) {
+  const std::string scene = std::string(WHIRL_TWIN_REFERENCE) + "/" + GetParam().file;
+  for (const int to : {1000, 2000, 3000}) {
+    std::vector<double> expected = GetParam().speeds;
+    expected.erase(std::upper_bound(expected.begin(), expected.end(), to), expected.end());
+    for (const char* points : {"50", "200", "333"}) {
+      const Ending end =
+          twin({"campbell", scene, "--to", std::to_string(to), "--points", points, "--json"});
+      ASSERT_EQ(end.status, 0) << end.err;
+      const auto found = end.json()["systems"]["rotor"]["crossings"];
+      ASSERT_EQ(found.size(), expected.size()) << to << ' ' << points;
+      int backward = 0;
+      for (std::size_t i = 0; i < expected.size(); ++i) {
+        EXPECT_NEAR(found[i]["speed"].get<double>(), expected[i], 1.0e-5 * expected[i]);
+        backward += found[i]["direction"] == "backward" ? 1 : 0;
+      }
+      EXPECT_EQ(2 * backward, static_cast<int>(expected.size()));
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Campbell, StiffPins,
+    testing::Values(StiffCase{"stiff_pins_light_shaft.yaml", {565.789, 565.789}},
+                    StiffCase{"stiff_pins_fine_mesh.yaml", {596.69, 597.72, 2369.35, 2385.47}}),
+    [](const auto& one) { return one.param.file.substr(0, one.param.file.find('.')); });
+
+// On rigid supports in the middle of a shaft without mass: 48 E I / l^3 and the disc.
+TEST(Modes, OfADiscOnRigidPinsAreThoseOfTheShaftAlone) {
+  const TemporaryDirectory folder;
+  std::string scene =
+      contentsOf(std::string(WHIRL_TWIN_REFERENCE) + "/stiff_pins_light_shaft.yaml");
+  for (auto at = scene.find("1.0e+9"); at != std::string::npos; at = scene.find("1.0e+9")) {
+    scene.replace(at, 6, "1.0e+20");
+  }
+  const Ending end = twin({"modes", folder.write("rigid.yaml", scene), "--speed", "500", "--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  const double second_moment = 3.14159265358979323846 * std::pow(0.03, 4) / 64.0;
+  const double frequency = std::sqrt(48.0 * 2.1e11 * second_moment / std::pow(0.5, 3) / 10.0);
+  const auto modes = end.json()["systems"]["rotor"]["modes"];
+  for (const std::size_t i : {0U, 1U}) {
+    EXPECT_NEAR(modes[i]["frequency"].get<double>(), frequency, 1.0e-5 * frequency);
+  }
+  EXPECT_NE(modes[0]["whirl"], modes[1]["whirl"]);
 }
 
 /// A shaft with a disc, reduced to what holds up to 600 rad/s.
