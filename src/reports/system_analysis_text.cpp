@@ -174,10 +174,10 @@ std::string decrementText(const SystemAnalysis& a) {
 
 std::string stabilityText(const SystemAnalysis& a) {
   const Stability& s = a.reduced_stability;
-  std::string out = fmt::format("  stability: {}\n", verdictText(s.routh.verdict));
   if (!a.at_equilibrium && isJudgedOnlyAtRest(*a.dynamics)) {
-    return out + "    no equilibrium was found at this speed to judge a motion about\n";
+    return "  stability: uncertain: no equilibrium was found at this speed\n";
   }
+  std::string out = fmt::format("  stability: {}\n", verdictText(s.routh.verdict));
   out += s.eigenvalues.empty()
              ? std::string("    polynomial      none: no motion is left to judge\n")
          : s.polynomial.empty()
