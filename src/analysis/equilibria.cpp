@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "algebra/constants.h"
+#include "analysis/judged_at_rest.h"
 #include "analysis/mass_matrix.h"
 #include "analysis/steady_motion.h"
 
@@ -179,24 +180,38 @@ std::optional<Equilibrium> operatingPoint(const Dynamics& dynamics, const Eigen:
   return operatingPointAmong(dynamics, equilibria(dynamics, speed, q, v), q, v, speed);
 }
 
+bool isJudgedOnlyAtRest(const Dynamics& dynamics) {
+  return dynamics.isRotor() && !dynamics.linear();
+}
+
+Stability unjudged() {
+  Stability s;
+  s.routh.verdict = Verdict::kUncertain;
+  s.decay_rate = s.damping_ratio = s.log_decrement = kNaN;
+  return s;
+}
+
 std::optional<Equilibrium> operatingPointAmong(const Dynamics& dynamics,
-                                               std::vector<Equilibrium> stable,
+                                               std::vector<Equilibrium> known,
                                                const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                                double speed) {
   const CyclicCoordinates cyclic = cyclicCoordinates(dynamics, speed);
   const Eigen::VectorXd momenta = dynamics.momenta(q, v, {0.0, 0.0, speed, 0.0});
-  stable.erase(std::remove_if(stable.begin(), stable.end(),
-                              [](const Equilibrium& e) { return !e.stability.bounded(); }),
-               stable.end());
+  const auto first_unbounded = std::stable_partition(
+      known.begin(), known.end(), [](const Equilibrium& e) { return e.stability.bounded(); });
+  // A rotor that has lost its stability in its films still whirls about where it would rest.
+  if (first_unbounded != known.begin() || !isJudgedOnlyAtRest(dynamics)) {
+    known.erase(first_unbounded, known.end());
+  }
   Eigen::VectorXd from = q;
-  if (stable.size() > 1) {
+  if (known.size() > 1) {
     if (const auto settled = creepsTo(dynamics, cyclic, {q, v}, momenta, speed)) {
       from = settled->q;
     }
   }
   std::optional<Equilibrium> nearest;
   double nearest_distance = 0.0;
-  for (const Equilibrium& e : stable) {
+  for (const Equilibrium& e : known) {
     // Where rates are driven the nearest rate decides, then the shape.
     const Eigen::VectorXd now = v(cyclic.driven);
     const Eigen::VectorXd then = e.v(cyclic.driven);

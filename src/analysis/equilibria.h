@@ -41,10 +41,11 @@ std::optional<Eigen::VectorXd> equilibriumNear(const Dynamics& dynamics, const E
 /// ends there, which need not be the nearest. From the top of a hill, and where rates are driven,
 /// the nearest (angles by the shorter way round, cyclic coordinates aside; of several rates of a
 /// driven one the nearest). With the momenta of the motion through q and v; nothing if there is
-/// none.
+/// none. Of a nonlinear rotor without a bounded one the nearest of the others: above its threshold
+/// speed a rotor whirls about an unstable equilibrium.
 std::optional<Equilibrium> operatingPoint(const Dynamics& dynamics, const Eigen::VectorXd& q,
                                           const Eigen::VectorXd& v, double speed);
-/// The same among equilibria that are known.
+/// As operatingPoint(), among equilibria that are known.
 std::optional<Equilibrium> operatingPointAmong(const Dynamics& dynamics,
                                                std::vector<Equilibrium> known,
                                                const Eigen::VectorXd& q, const Eigen::VectorXd& v,

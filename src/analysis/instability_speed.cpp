@@ -137,6 +137,27 @@ double thresholdBetween(const Dynamics& dynamics, GrowthTest& test, const RestAt
   return 0.5 * (low + high);
 }
 
+/// The speed above which an equilibrium is unstable that is so at `present`; 0 where it is so at
+/// every speed down to `least` [rad/s].
+double instabilitySpeedBelow(const Dynamics& dynamics, GrowthTest& test, const RestAt& present,
+                             double least) {
+  const double ratio = std::pow(kInstabilityReach / kNearStandstill, 1.0 / stridesFor(dynamics));
+  RestAt unstable = present;
+  while (unstable.speed > least) {
+    const double slower = unstable.speed / ratio;
+    auto rest = judgedPlaceNear(dynamics, unstable.q, slower);
+    if (!rest) {
+      break;
+    }
+    RestAt next{slower, std::move(*rest)};
+    if (!test.unstable(motionAt(dynamics, next.q, slower))) {
+      return thresholdBetween(dynamics, test, next, unstable.speed, true);
+    }
+    unstable = std::move(next);
+  }
+  return 0.0;
+}
+
 }  // namespace
 
 std::optional<double> instabilitySpeed(const Dynamics& dynamics, const Eigen::VectorXd& q,
@@ -155,6 +176,9 @@ std::optional<double> instabilitySpeed(const Dynamics& dynamics, const Eigen::Ve
   const double last = kInstabilityReach * lowest;
   std::vector<RestAt> passed{{from, q}};
   GrowthTest test;
+  if (!dynamics.linear() && surelyUnstable(motionAt(dynamics, q, from))) {
+    return instabilitySpeedBelow(dynamics, test, passed.back(), kNearStandstill * lowest);
+  }
   const int strides = stridesFor(dynamics);
   for (int i = 0; i <= strides; ++i) {
     const double high = first * std::pow(last / first, static_cast<double>(i) / strides);

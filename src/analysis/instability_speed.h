@@ -12,10 +12,11 @@ namespace whirl_twin {
 /// The lowest speed [rad/s] above which the state the system operates about is unstable, searched
 /// to 1000 times its lowest natural frequency; nothing if there is none, or no shaft. A linear
 /// rotor is judged from standstill on; any other model follows the equilibrium q from `speed`
-/// [rad/s] up. Where the eigenvalues leave it open, Routh's test decides, so the threshold is exact
-/// to rounding; beyond kMostExactCoordinates, or where exact numbers become too long, the
-/// eigenvalues alone do, to about 1e-10 of it; of more than kMostCompleteCoordinates the lowest
-/// modes, and all within the radius that motions grow in, where one is known (growth_radius.h).
+/// [rad/s] up, or down where it is unstable there (0: at every slower speed too). Where the
+/// eigenvalues leave it open, Routh's test decides, so the threshold is exact to rounding; beyond
+/// kMostExactCoordinates, or where exact numbers become too long, the eigenvalues alone do, to
+/// about 1e-10 of it; of more than kMostCompleteCoordinates the lowest modes, and all within the
+/// radius that motions grow in, where one is known (growth_radius.h).
 std::optional<double> instabilitySpeed(const Dynamics& dynamics, const Eigen::VectorXd& q,
                                        double speed);
 

@@ -5,6 +5,7 @@
 
 #include "algebra/dense.h"
 #include "analysis/mass_matrix.h"
+#include "analysis/rest_search.h"
 
 namespace whirl_twin {
 
@@ -84,6 +85,24 @@ class ReducedSystem {
     matchMomenta(x);
   }
 
+  /// [m], that is left to each bound of a rotor; empty of anything else.
+  Eigen::VectorXd room(const SteadyMotion& x) const {
+    const std::vector<Condition> bounds =
+        dynamics_.isRotor() ? dynamics_.conditions(x.q, x.v, Eigen::VectorXd::Zero(x.q.size()), at_)
+                            : std::vector<Condition>{};
+    Eigen::VectorXd room(static_cast<Eigen::Index>(bounds.size()));
+    for (std::size_t i = 0; i < bounds.size(); ++i) {
+      room[static_cast<Eigen::Index>(i)] = bounds[i].margin;
+    }
+    return room;
+  }
+
+  /// The shape, then the driven rates, in units.
+  Eigen::VectorXd unknowns(const SteadyMotion& x) const {
+    Eigen::VectorXd y(static_cast<Eigen::Index>(rows_.size()));
+    y << x.q.cwiseQuotient(unit_)(cyclic_.shape), x.v.cwiseQuotient(unit_)(cyclic_.driven);
+    return y;
+  }
   /// Size of the unknowns in units.
   double size(const SteadyMotion& x) const {
     return std::hypot(x.q.cwiseQuotient(unit_)(cyclic_.shape).norm(),
@@ -138,6 +157,24 @@ std::optional<SteadyMotion> deflection(const Dynamics& dynamics, double speed) {
   return SteadyMotion{Lu(slope).solve(pull), zero};
 }
 
+/// Within the bounds of a rotor, from a start within them.
+std::optional<SteadyMotion> withinBounds(const ReducedSystem& system, const SteadyMotion& start) {
+  const Eigen::VectorXd first = system.unknowns(start);
+  const auto placeOf = [&](const Eigen::VectorXd& y) {
+    SteadyMotion x = start;
+    system.move(y - first, x);
+    return x;
+  };
+  const RestProblem problem{
+      [&](const Eigen::VectorXd& y) { return system.pull(placeOf(y)); },
+      [&](const Eigen::VectorXd& y, const Eigen::VectorXd& pull) {
+        return Eigen::VectorXd(PivotedQr(system.slope(placeOf(y))).solve(pull));
+      },
+      [&](const Eigen::VectorXd& y) { return system.room(placeOf(y)); }};
+  const auto rest = restWithinBounds(problem, first);
+  return rest ? std::optional<SteadyMotion>(placeOf(*rest)) : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<SteadyMotion> steadyMotionNear(const Dynamics& dynamics,
@@ -156,6 +193,9 @@ std::optional<SteadyMotion> steadyMotionNear(const Dynamics& dynamics,
   system.matchMomenta(x);
   if (cyclic.shape.empty() && cyclic.driven.empty()) {  // its momenta tell all of it
     return x;
+  }
+  if (system.room(x).size() > 0) {
+    return withinBounds(system, x);
   }
   for (int i = 0; i < kMaxIterations; ++i) {
     const Eigen::MatrixXd slope = system.slope(x);

@@ -10,10 +10,12 @@
 #include "analysis/cyclic_coordinates.h"
 #include "analysis/equilibria.h"
 #include "analysis/lowest_eigenvalues.h"
+#include "analysis/rest_search.h"
 #include "analysis/stability.h"
 #include "analysis/stability_margins.h"
 #include "mechanics/locally_forced_rotor.h"
 #include "mechanics/spinning_rotor.h"
+#include "messages/refusal.h"
 
 namespace whirl_twin {
 
@@ -22,9 +24,6 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::VectorXd;
 
-constexpr int kMaxNewtonSteps = 30;         // of Newton's method
-constexpr double kRests = 1e-12;            // of the place: a step that is none
-constexpr double kNearly = 1e-8;            // where rounding lets no step be so short
 constexpr double kRigidEigenvalue = 1e-14;  // of the largest eigenvalue: a motion as a rigid body
 
 LocalState stateAt(const LocalForce& force, const VectorXd& q, double speed) {
@@ -48,35 +47,41 @@ BandedLinearization linearizationAt(const UnreducedRotor& rotor, const VectorXd&
   return l;
 }
 
-/// Where it rests next to q; q itself where Newton's method finds no such place.
-VectorXd unreducedEquilibriumNear(const UnreducedRotor& rotor, const VectorXd& q, double speed) {
+/// Where it rests near q, else where the path from its bearings' line leads to; nothing where its
+/// films carry it nowhere.
+std::optional<VectorXd> unreducedEquilibriumNear(const UnreducedRotor& rotor, const VectorXd& q,
+                                                 double speed) {
   if (rotor.forces.empty()) {
     return q;
   }
   const BandedMatrix<double> linear = rotor.assembly->bandedMatrices(speed).byPlace();
-  VectorXd rest = q;
-  double step_length = 1.0;
-  for (int step = 0; step < kMaxNewtonSteps; ++step) {
-    VectorXd left = rotor.assembly->load() - linear.times(rest).col(0);
+  const auto pull = [&](const VectorXd& place) {
+    VectorXd left = rotor.assembly->load() - linear.times(place).col(0);
     for (const LocalForce& force : rotor.forces) {
       LocalPush push;
-      if (!force.law->push(stateAt(force, rest, speed), push)) {
-        return q;
+      if (!force.law->push(stateAt(force, place, speed), push)) {
+        push.force.fill(std::numeric_limits<double>::quiet_NaN());
       }
       left += push.force[0] * force.along_x + push.force[1] * force.along_y;
     }
-    const BandedLU<double> slope(linearizationAt(rotor, rest, speed).byPlace());
-    const VectorXd change = slope.solve(left);
-    rest += change;
-    if (!rest.allFinite()) {
-      return q;
+    return left;
+  };
+  const auto step = [&](const VectorXd& place, const VectorXd& left) {
+    const BandedLU<double> slope(linearizationAt(rotor, place, speed).byPlace());
+    return VectorXd(slope.solve(left));
+  };
+  const auto room = [&](const VectorXd& place) {
+    VectorXd all(static_cast<Eigen::Index>(rotor.forces.size()));
+    for (std::size_t i = 0; i < rotor.forces.size(); ++i) {
+      const LocalForce& force = rotor.forces[i];
+      all[static_cast<Eigen::Index>(i)] =
+          force.law->room({force.along_x.dot(place), force.along_y.dot(place)});
     }
-    step_length = change.norm() / rest.norm();
-    if (step_length <= kRests) {
-      return rest;
-    }
-  }
-  return step_length <= kNearly ? rest : q;
+    return all;
+  };
+  const RestProblem problem{pull, step, room};
+  const auto rest = restWithinBounds(problem, q);
+  return rest ? rest : restWithinBounds(problem, VectorXd::Zero(q.size()));
 }
 
 /// Of those with |s| up to `reach`, of the lowest at least, and of those that grow if there are.
@@ -157,9 +162,12 @@ ReducedMargins UnreducedMargins::at(const VectorXd& q, double speed) const {
   ReducedMargins margins;
   margins.reduced = marginsOf(linearizationAtRest(*held_, amplitudes, speed),
                               std::numeric_limits<double>::infinity());
-  const VectorXd rest = unreducedEquilibriumNear(*rotor_, rotor_->shapes * amplitudes, speed);
+  const auto rest = unreducedEquilibriumNear(*rotor_, rotor_->shapes * amplitudes, speed);
+  if (!rest) {
+    throw RunFailure("a rotor whose reduction rests in its films rests nowhere itself");
+  }
   margins.unreduced =
-      marginsOf(linearizationAt(*rotor_, rest, speed), std::max(highest_speed_, std::fabs(speed)));
+      marginsOf(linearizationAt(*rotor_, *rest, speed), std::max(highest_speed_, std::fabs(speed)));
   return margins;
 }
 

@@ -41,7 +41,7 @@ class UnreducedMargins {
   Eigen::Index amplitudes() const;
   /// About amplitudes q at rest at a shaft speed [rad/s]; entries of q behind those of the shapes
   /// do not matter. Local forces are those of the place where the full rotor rests next to that.
-  /// Throws what stability() does.
+  /// Throws what stability() does, and RunFailure where it rests nowhere.
   ReducedMargins at(const Eigen::VectorXd& q, double speed) const;
 
  private:

@@ -6,6 +6,7 @@
 
 #include "algebra/constants.h"
 #include "analysis/equilibria.h"
+#include "analysis/judged_at_rest.h"
 
 namespace whirl_twin {
 
@@ -104,6 +105,9 @@ Stability SystemJudge::openStability(const state::Instant& at, const Eigen::Vect
   } else if (dynamics.linear()) {
     about.setZero();
   }
+  if (!point && isJudgedOnlyAtRest(dynamics)) {
+    return unjudged();
+  }
   Stability s = point ? point->stability
                       : reducedStability(linearizationAbout(dynamics, about, rates, speed),
                                          cyclicCoordinates(dynamics, speed));
@@ -132,21 +136,21 @@ state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::v
   const Eigen::VectorXd present = Eigen::Map<const Eigen::VectorXd>(q.data(), n);
   const Eigen::VectorXd rates = Eigen::Map<const Eigen::VectorXd>(v.data(), n);
   Eigen::VectorXd about = present;
-  Stability s;
-  s.routh.verdict = Verdict::kUncertain;
-  s.decay_rate = s.damping_ratio = s.log_decrement = kNaN;
+  Stability s = unjudged();
   std::optional<ReducedMargins> reduction;
   motion_.reset();
   lacks_thresholds_ = false;
   try {
     s = loop_ ? loop_->judge(at.time, {&dynamics, present, rates, shaft_speed}, beside, about)
               : openStability(at, present, rates, shaft_speed, about);
-    if (unreduced_) {
+    if (unreduced_ && (motion_ || !isJudgedOnlyAtRest(dynamics))) {
       reduction = unreducedMargins(
           about, dynamics.hasShaft() ? speed : (motion_ ? motion_->v : rates)[n - 1]);
     }
   } catch (const std::exception&) {
-    // Numbers beyond the range of double, or a singular mass: uncertain. The others are watched on.
+    // Numbers beyond the range of double, a singular mass, or a rotor that rests nowhere before its
+    // reduction: uncertain. The others are watched on.
+    s = unjudged();
   }
   if (reduction && reduction->disagree()) {
     s.routh.verdict = Verdict::kUncertain;

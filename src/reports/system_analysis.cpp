@@ -8,6 +8,7 @@
 #include "algebra/dense.h"
 #include "analysis/critical_speeds.h"
 #include "analysis/instability_speed.h"
+#include "analysis/judged_at_rest.h"
 #include "analysis/separation_margin.h"
 #include "messages/refusal.h"
 #include "scene/held_rotor.h"
@@ -79,7 +80,11 @@ SystemAnalysis analyzeSystem(const BuiltScene& scene, const BuiltSystem& system,
     }
   }
   a.sheet = rotorSheet(system, shaft.speed);
-  a.instability_speed = instabilitySpeed(dynamics, a.about, shaft.speed);
+  if (a.at_equilibrium || !isJudgedOnlyAtRest(dynamics)) {
+    a.instability_speed = instabilitySpeed(dynamics, a.about, shaft.speed);
+  } else {
+    a.stability = a.reduced_stability = unjudged();
+  }
   const CriticalSpeedSearch critical_speeds = searchCriticalSpeeds(*heldDynamics(system));
   a.critical_speeds_beyond = critical_speeds.beyond;
   a.highest_speed = critical_speeds.highest_speed;
@@ -91,11 +96,14 @@ SystemAnalysis analyzeSystem(const BuiltScene& scene, const BuiltSystem& system,
   }
   a.cross_coupling = crossCouplingMarginOf(dynamics, shaft.speed);
   a.steady_speeds = steadySpeedsOf(system);
-  if (a.at_equilibrium && (search == ParameterSearch::kOfAll || isQuickToSearch(system))) {
+  // An equilibrium that is unstable has no stability to lose.
+  const bool holds =
+      a.at_equilibrium && (!isJudgedOnlyAtRest(dynamics) || a.reduced_stability.bounded());
+  if (holds && (search == ParameterSearch::kOfAll || isQuickToSearch(system))) {
     a.parameter_margins = parameterMargins(system, {a.about, a.about_v}, shaft.speed);
     a.decrement_amplitude = decrementAmplitude(dynamics, {a.about, a.about_v}, shaft.speed);
   }
-  if (a.at_equilibrium) {
+  if (holds) {
     a.spread_margin = spreadMargin(system, {a.about, a.about_v}, shaft.speed);
   }
   return a;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "algebra/constants.h"
+#include "analysis/judged_at_rest.h"
 #include "analysis/stability_margins.h"
 #include "reports/matrix_text.h"
 #include "reports/system_analysis.h"
@@ -173,6 +174,9 @@ std::string decrementText(const SystemAnalysis& a) {
 
 std::string stabilityText(const SystemAnalysis& a) {
   const Stability& s = a.reduced_stability;
+  if (!a.at_equilibrium && isJudgedOnlyAtRest(*a.dynamics)) {
+    return "  stability: uncertain: no equilibrium was found at this speed\n";
+  }
   std::string out = fmt::format("  stability: {}\n", verdictText(s.routh.verdict));
   out += s.eigenvalues.empty()
              ? std::string("    polynomial      none: no motion is left to judge\n")
@@ -256,7 +260,7 @@ std::string lossText(const SystemAnalysis& a, const LossOfStability& loss) {
 
 std::string parameterMarginsText(const SystemAnalysis& a) {
   if (!a.parameter_margins) {
-    return a.at_equilibrium
+    return a.at_equilibrium && a.reduced_stability.bounded()
                ? fmt::format(
                      "  numbers that stability is lost by: not looked for, of {} coordinates "
                      "(--parameters)\n",

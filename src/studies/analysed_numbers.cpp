@@ -9,6 +9,7 @@
 #include "analysis/critical_speeds.h"
 #include "analysis/equilibria.h"
 #include "analysis/instability_speed.h"
+#include "analysis/judged_at_rest.h"
 #include "analysis/separation_margin.h"
 #include "scene/held_rotor.h"
 
@@ -104,6 +105,7 @@ std::string unitOf(const AnalysedNumber& number) {
 struct AnalysedScene::Results {
   std::optional<Linearization> linearization;
   Eigen::VectorXd about;
+  bool judged = true;  ///< not so where a rotor rests nowhere in its films
   std::optional<Stability> stability;
   std::optional<std::vector<CriticalSpeed>> critical_speeds;
   std::optional<double> instability_speed;
@@ -119,6 +121,7 @@ struct AnalysedScene::Results {
         linearization = linearizationAbout(dynamics, point->q, point->v, speed);
       } else {
         about = q;
+        judged = !isJudgedOnlyAtRest(dynamics);
         linearization = dynamics.linearization(q, v, dynamics.acceleration(q, v, start), start);
       }
     }
@@ -131,7 +134,8 @@ struct AnalysedScene::Results {
       const Dynamics& dynamics = *system.dynamics;
       const Linearization& l = linearizationOf(system, speed, start);
       const CyclicCoordinates cyclic = cyclicCoordinates(dynamics, speed);
-      stability = cyclic.any()        ? reducedStability(l, cyclic)
+      stability = !judged             ? unjudged()
+                  : cyclic.any()      ? reducedStability(l, cyclic)
                   : dynamics.linear() ? stabilityWithRigidBodyModes(l, cyclic)
                                       : whirl_twin::stability(l);
     }
@@ -176,7 +180,9 @@ double AnalysedScene::value(const AnalysedNumber& number) {
       if (!known.instability_speed) {
         static_cast<void>(known.linearizationOf(system, speed, start));
         known.instability_speed =
-            instabilitySpeed(*system.dynamics, known.about, speed).value_or(kInfinity);
+            known.judged
+                ? instabilitySpeed(*system.dynamics, known.about, speed).value_or(kInfinity)
+                : kNaN;
       }
       return *known.instability_speed;
     default:

@@ -30,7 +30,9 @@ constexpr const char* kAnalyzeDescription =
 constexpr const char* kAnalyzeFooter =
     "Linearized about the operating point at the initial shaft speed: the stable equilibrium that\n"
     "the initial position creeps to, strongly damped (the nearest where it does not move), or the\n"
-    "initial state if there is none. Critical speeds are the peaks of the unbalance response;\n"
+    "initial state if there is none. Of a nonlinear rotor it is the unstable equilibrium where no\n"
+    "other exists, as above its threshold in oil films; where none is found the verdict is\n"
+    "uncertain. Critical speeds are the peaks of the unbalance response;\n"
     "separation margins are those of API 617, in percent of the speed. Of a reduced rotor none is\n"
     "told beyond the speed that it holds to.\n"
     "The cross-coupling margin (API 617, level I) is the stiffness kxy = -kyx at the published\n"
