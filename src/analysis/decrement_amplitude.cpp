@@ -104,6 +104,9 @@ Width widthOf(const Dynamics& dynamics, const VectorXcd& shape) {
 
 std::optional<DecrementAmplitude> decrementAmplitude(const Dynamics& dynamics,
                                                      const SteadyMotion& motion, double speed) {
+  if (timeDependence(dynamics, speed).period) {
+    return std::nullopt;  // no mode of the mean loads decays as the motion does
+  }
   const Dynamics& mean = dynamics.atMeanLoad();
   const std::optional<Mode> mode = leastDamped(mean, motion, speed);
   if (!mode) {

@@ -96,6 +96,33 @@ bool sameMotion(const Dynamics& dynamics, const CyclicCoordinates& cyclic, const
          (v - w).norm() <= kSameEquilibrium * v.norm();
 }
 
+/// By the multipliers of the periodic motions near by, where coefficients repeat.
+void judgePeriodic(const Dynamics& dynamics, const CyclicCoordinates& cyclic, double speed,
+                   std::vector<Equilibrium>& all) {
+  const TimeDependence time = timeDependence(dynamics, speed);
+  if (!time.period) {
+    if (time.varies && dynamics.linear()) {  // matrices of one moment
+      for (Equilibrium& e : all) {
+        e.stability = unjudged();
+      }
+    }
+    return;
+  }
+  for (Equilibrium& e : all) {
+    e.periodic = periodicMotionNear(dynamics, speed, *time.period, {e.q, e.v});
+    const auto off = [&](const Equilibrium& other) {
+      return distance(dynamics, cyclic, e.periodic->q, other.q);
+    };
+    // Newton's method may lead to the motion about another equilibrium.
+    if (e.periodic && std::any_of(all.begin(), all.end(), [&](const Equilibrium& other) {
+          return &other != &e && off(other) < off(e);
+        })) {
+      e.periodic.reset();
+    }
+    e.stability = e.periodic ? stabilityOf(*e.periodic, e.stability.eigenvalues) : unjudged();
+  }
+}
+
 std::vector<Equilibrium> allOf(const Dynamics& dynamics, const CyclicCoordinates& cyclic,
                                double speed, const Eigen::VectorXd& near,
                                const Eigen::VectorXd& momenta, const Eigen::VectorXd& rates) {
@@ -131,6 +158,7 @@ std::vector<Equilibrium> allOf(const Dynamics& dynamics, const CyclicCoordinates
       all.push_back({motion.q, motion.v, reducedStability(l, cyclic)});
     }
   }
+  judgePeriodic(dynamics, cyclic, speed, all);
   return all;
 }
 
@@ -181,7 +209,7 @@ std::optional<Equilibrium> operatingPoint(const Dynamics& dynamics, const Eigen:
 }
 
 bool isJudgedOnlyAtRest(const Dynamics& dynamics) {
-  return dynamics.isRotor() && !dynamics.linear();
+  return !dynamics.linear() && (dynamics.isRotor() || !dynamics.loadFrequencies().empty());
 }
 
 Stability unjudged() {
@@ -199,8 +227,10 @@ std::optional<Equilibrium> operatingPointAmong(const Dynamics& dynamics,
   const Eigen::VectorXd momenta = dynamics.momenta(q, v, {0.0, 0.0, speed, 0.0});
   const auto first_unbounded = std::stable_partition(
       known.begin(), known.end(), [](const Equilibrium& e) { return e.stability.bounded(); });
+  const bool periodic = std::any_of(known.begin(), known.end(),
+                                    [](const Equilibrium& e) { return e.periodic.has_value(); });
   // A rotor that has lost its stability in its films still whirls about where it would rest.
-  if (first_unbounded != known.begin() || !isJudgedOnlyAtRest(dynamics)) {
+  if (!periodic && (first_unbounded != known.begin() || !isJudgedOnlyAtRest(dynamics))) {
     known.erase(first_unbounded, known.end());
   }
   Eigen::VectorXd from = q;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analysis/cyclic_coordinates.h"
+#include "analysis/floquet.h"
 #include "analysis/stability.h"
 #include "mechanics/dynamics.h"
 
@@ -18,16 +19,20 @@ struct Equilibrium {
   Eigen::VectorXd q;    ///< angles in (-pi, pi]; cyclic coordinates at 0
   Eigen::VectorXd v;    ///< zero but for cyclic coordinates
   Stability stability;  ///< of the shape, with the momenta as they are (reducedStability)
+  /// The motion about it where what drives the system alternates: the stability is that of this
+  /// motion, by its multipliers, and kUncertain where none was found.
+  std::optional<PeriodicMotion> periodic = std::nullopt;
 };
 
 /// All equilibria found at a constant speed [rad/s], by Newton's method on the reduced potential
 /// from a grid of starts, ascending: over the circle of an angle, as many natural lengths of a
 /// slide (eight circles where it is the only coordinate); eight starts for each of up to four
 /// coordinates, fewer for more. Conserved momenta are those of the motion
-/// through q and v. Loads that alternate are at their mean. One where a coordinate has no inertia
-/// (a rotating pendulum without a hub, hanging) has no small motion in these coordinates and is
-/// left out. A linear system has one, where its constant loads hold it, K q = load: a rotor with
-/// weight sags, and its unbalance whirls it about that; none where a load meets no stiffness.
+/// through q and v. Loads that alternate are at their mean; where they have a common period the
+/// stability is that of the periodic motion near by (floquet.h). One where a coordinate has no
+/// inertia (a rotating pendulum without a hub, hanging) has no small motion in these coordinates
+/// and is left out. A linear system has one, where its constant loads hold it, K q = load: a rotor
+/// with weight sags, and its unbalance whirls it about that; none where a load meets no stiffness.
 std::vector<Equilibrium> equilibria(const Dynamics& dynamics, double speed,
                                     const Eigen::VectorXd& q, const Eigen::VectorXd& v);
 /// With all conserved momenta zero.
@@ -42,7 +47,8 @@ std::optional<Eigen::VectorXd> equilibriumNear(const Dynamics& dynamics, const E
 /// the nearest (angles by the shorter way round, cyclic coordinates aside; of several rates of a
 /// driven one the nearest). With the momenta of the motion through q and v; nothing if there is
 /// none. Of a nonlinear rotor without a bounded one the nearest of the others: above its threshold
-/// speed a rotor whirls about an unstable equilibrium.
+/// speed a rotor whirls about an unstable equilibrium. Where loads alternate, bounded or not: the
+/// mean motion, which creeps, may settle where the motion itself grows.
 std::optional<Equilibrium> operatingPoint(const Dynamics& dynamics, const Eigen::VectorXd& q,
                                           const Eigen::VectorXd& v, double speed);
 /// As operatingPoint(), among equilibria that are known.

@@ -27,7 +27,7 @@ constexpr int kFewerStrides = 120;  // where each costs milliseconds
 constexpr double kGrows = 1.0e-9;   // of a frequency: no rounding
 
 /// At a speed, without the rigid-body modes of a linear rotor, whose zeros rounding would scatter.
-SmallMotion motionAt(const Dynamics& dynamics, const Eigen::VectorXd& q, double speed) {
+SmallMotion ofMeanLoads(const Dynamics& dynamics, const Eigen::VectorXd& q, double speed) {
   const Linearization l = linearizationAtRest(dynamics, q, speed);
   if (!dynamics.linear()) {
     return {l, 0};
@@ -35,6 +35,15 @@ SmallMotion motionAt(const Dynamics& dynamics, const Eigen::VectorXd& q, double 
   const CyclicCoordinates rigid = rigidBodyMotions(l);
   return rigid.any() ? SmallMotion{atFixedMomenta(l, rigid), rigid.driven.size()}
                      : SmallMotion{l, 0};
+}
+
+SmallMotion motionAt(const Dynamics& dynamics, const Eigen::VectorXd& q, double speed) {
+  SmallMotion small = ofMeanLoads(dynamics, q, speed);
+  if (const auto period = timeDependence(dynamics, speed).period) {
+    small.periodic =
+        periodicMotionNear(dynamics, speed, *period, {q, Eigen::VectorXd::Zero(q.size())});
+  }
+  return small;
 }
 
 /// Where it rests at a speed, near where it did; a linear rotor is judged anywhere.

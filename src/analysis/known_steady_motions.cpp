@@ -14,8 +14,8 @@ constexpr double kFirstWait = 1.0;  // s, and twice as long after every search
 KnownSteadyMotions::KnownSteadyMotions(std::shared_ptr<const Dynamics> dynamics)
     : dynamics_(std::move(dynamics)),
       cyclic_(cyclicCoordinates(*dynamics_, 0.0)),
-      apply_(!dynamics_->linear() && !dynamics_->hasShaft() && !cyclic_.driven.empty() &&
-             cyclic_.conserved.empty()),
+      apply_(!dynamics_->linear() && !dynamics_->hasShaft() && cyclic_.conserved.empty() &&
+             (!cyclic_.driven.empty() || !dynamics_->loadFrequencies().empty())),
       wait_(kFirstWait) {}
 
 std::optional<Equilibrium> KnownSteadyMotions::operatingPoint(double time, const Eigen::VectorXd& q,

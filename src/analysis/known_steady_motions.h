@@ -1,4 +1,5 @@
-// The steady motions of a rotor whose spin is free and driven, kept from one judgement to the next:
+// The steady motions of a rotor whose spin is free and driven, or of a system that alternating
+// loads drive, kept from one judgement to the next:
 // they follow from its parameters alone, so that the one it operates about now is picked from those
 // that are known. To find all anew takes hundreds of runs of Newton's method; that is done rarely,
 // from the rates that the motion has then, for one that had not been found.
@@ -17,8 +18,8 @@ class KnownSteadyMotions {
  public:
   explicit KnownSteadyMotions(std::shared_ptr<const Dynamics> dynamics);
 
-  /// Its steady motions are those of its parameters: rates are driven, no momentum is conserved,
-  /// and no shaft's speed is prescribed.
+  /// Its steady motions are those of its parameters, and take long to find: rates are driven or
+  /// loads alternate, no momentum is conserved, and no shaft's speed is prescribed.
   bool apply() const { return apply_; }
   /// As operatingPoint(), of the motion through q and v at time [s].
   std::optional<Equilibrium> operatingPoint(double time, const Eigen::VectorXd& q,

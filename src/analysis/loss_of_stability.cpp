@@ -56,13 +56,15 @@ class Way {
     const auto motion =
         steadyMotionNear(*system->dynamics, cyclicCoordinates(*system->dynamics, system->speed),
                          from.motion, momenta_, system->speed);
-    return {true, motion ? passed(*system, value, *motion) : std::optional<Passed>()};
+    return {true, motion ? passed(*system, value, *motion) : std::nullopt};
   }
 
  private:
-  static Passed passed(const SystemAtNumber& system, double value, const SteadyMotion& motion) {
+  static std::optional<Passed> passed(const SystemAtNumber& system, double value,
+                                      const SteadyMotion& motion) {
     const CyclicCoordinates cyclic = cyclicCoordinates(*system.dynamics, system.speed);
-    return {value, motion, smallMotionAbout(*system.dynamics, cyclic, motion, system.speed)};
+    auto small = smallMotionAbout(*system.dynamics, cyclic, motion, system.speed);
+    return small ? std::optional<Passed>({value, motion, std::move(*small)}) : std::nullopt;
   }
 
   const SystemOfNumber& system_;
@@ -131,6 +133,9 @@ LossOfStability closeIn(const Way& way, GrowthTest& test, Passed low, double los
 bool equal(const SmallMotion& a, const SmallMotion& b) {
   const Linearization& l = a.matrices;
   const Linearization& m = b.matrices;
+  if (a.periodic || b.periodic) {
+    return a.periodic && b.periodic && a.periodic->multipliers == b.periodic->multipliers;
+  }
   return a.zeros == b.zeros && l.mass.rows() == m.mass.rows() && l.mass == m.mass &&
          l.damping == m.damping && l.gyroscopic == m.gyroscopic && l.stiffness == m.stiffness &&
          l.circulatory == m.circulatory;

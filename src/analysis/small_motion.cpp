@@ -55,28 +55,43 @@ double growth(const SmallMotion& motion) {
 
 }  // namespace
 
-SmallMotion smallMotionAbout(const Dynamics& dynamics, const CyclicCoordinates& cyclic,
-                             const SteadyMotion& motion, double speed) {
+std::optional<SmallMotion> smallMotionAbout(const Dynamics& dynamics,
+                                            const CyclicCoordinates& cyclic,
+                                            const SteadyMotion& motion, double speed) {
   const Linearization l = linearizationAbout(dynamics, motion.q, motion.v, speed);
-  return cyclic.any() ? SmallMotion{atFixedMomenta(l, cyclic), cyclic.driven.size()}
-                      : SmallMotion{l, 0};
+  SmallMotion small = cyclic.any() ? SmallMotion{atFixedMomenta(l, cyclic), cyclic.driven.size()}
+                                   : SmallMotion{l, 0};
+  if (const auto period = timeDependence(dynamics, speed).period) {
+    small.periodic = periodicMotionNear(dynamics, speed, *period, motion);
+    if (!small.periodic) {
+      return std::nullopt;
+    }
+  }
+  return small;
 }
 
 std::complex<double> fastestGrowing(const SmallMotion& motion) {
   if (motion.matrices.mass.rows() == 0) {
     return 0.0;
   }
-  const auto roots = eigenvalues(motion.matrices, motion.zeros);
+  const auto roots = motion.periodic ? exponentsOf(*motion.periodic, eigenvalues(motion.matrices))
+                                     : eigenvalues(motion.matrices, motion.zeros);
   return *std::max_element(roots.begin(), roots.end(),
                            [](const auto& a, const auto& b) { return a.real() < b.real(); });
 }
 
 bool surelyUnstable(const SmallMotion& motion) {
+  if (motion.periodic) {
+    return grows(*motion.periodic);
+  }
   return motion.matrices.mass.rows() > 0 && !cannotGrow(motion.matrices) &&
          growth(motion) > kGrowth;
 }
 
 bool GrowthTest::unstable(const SmallMotion& motion) {
+  if (motion.periodic) {
+    return grows(*motion.periodic);
+  }
   if (motion.matrices.mass.rows() == 0) {
     return false;
   }

@@ -5,8 +5,11 @@
 
 #include <complex>
 #include <cstddef>
+#include <optional>
+#include <vector>
 
 #include "analysis/exact_number.h"
+#include "analysis/floquet.h"
 #include "analysis/stability.h"
 #include "analysis/steady_motion.h"
 #include "mechanics/dynamics.h"
@@ -17,12 +20,16 @@ namespace whirl_twin {
 struct SmallMotion {
   Linearization matrices;
   std::size_t zeros = 0;
+  /// Where coefficients repeat: what decides, and not the matrices, which are of the mean loads.
+  std::optional<PeriodicMotion> periodic = std::nullopt;
 };
 
 /// About a steady motion at a shaft speed [rad/s]: without the rigid-body modes of a linear system,
 /// whose zeros rounding would scatter, and with the conserved momenta of any other as they are.
-SmallMotion smallMotionAbout(const Dynamics& dynamics, const CyclicCoordinates& cyclic,
-                             const SteadyMotion& motion, double speed);
+/// Nothing where coefficients repeat and no periodic motion was found near by.
+std::optional<SmallMotion> smallMotionAbout(const Dynamics& dynamics,
+                                            const CyclicCoordinates& cyclic,
+                                            const SteadyMotion& motion, double speed);
 
 /// The root with the largest real part [1/s]; 0 where nothing is left that could move.
 std::complex<double> fastestGrowing(const SmallMotion& motion);

@@ -7,8 +7,8 @@
 
 #include "control/drive.h"
 #include "integration/acceleration_jacobian.h"
-#include "mechanics/dynamics.h"
 #include "mechanics/lagrangian.h"
+#include "mechanics/lagrangian_dynamics.h"
 
 namespace whirl_twin {
 

@@ -13,6 +13,7 @@
 #include <array>
 #include <cstddef>
 
+#include "mechanics/energies.h"
 #include "mechanics/gradient.h"
 #include "mechanics/lagrangian_dual.h"
 #include "mechanics/moment.h"
@@ -32,14 +33,6 @@ template <std::size_t n>
 struct Derivative {
   std::array<double, n> acceleration{};
   double power = 0.0;  ///< [W]
-};
-
-struct Energies {
-  double kinetic = 0.0;           ///< [J], T
-  double potential = 0.0;         ///< [J], V
-  double jacobi = 0.0;            ///< [J], h = v . dL/dv - L
-  double dissipated_power = 0.0;  ///< [W], v . dD/dv
-  double input_power = 0.0;       ///< [W], Q . v - dL/dt|explicit
 };
 
 /// M q'' + (C + G) q' + (K + N) q = 0 for small deviations; C, K symmetric, G, N skew. [n x n]

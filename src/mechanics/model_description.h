@@ -10,8 +10,9 @@ namespace whirl_twin {
 
 /// A generalized coordinate.
 struct Coordinate {
-  const char* name;  ///< as in scene files; its rate is NAME_rate
-  const char* unit;  ///< "rad" or "m"
+  const char* name;          ///< as in scene files; its rate is NAME_rate
+  const char* unit;          ///< "rad" or "m"
+  const char* meaning = "";  ///< of what, from where, and which way is positive
 };
 
 /// What may act on a model of n coordinates from outside, along a direction that does not change:

@@ -102,7 +102,7 @@ double SpinningRotor::torque(const VectorXd& x, const VectorXd& r, double speed)
 
 std::vector<CoordinateInfo> SpinningRotor::coordinates() const {
   std::vector<CoordinateInfo> all = held_->coordinates();
-  all.push_back({"spin", "rad"});
+  all.push_back({"spin", "rad", "of the shaft, in the sense of its motor"});
   return all;
 }
 

@@ -145,6 +145,7 @@ ModelInfo cantileverBeamInfo() {
   ModelInfo info;
   info.name = "cantilever_beam";
   info.summary = "uniform cantilever in bending, by assumed modes";
+  info.coordinates_meaning = "q1, q2 ... (m): what each mode adds to the deflection of the tip, up";
   info.parameters = {
       {"mass_per_length", "kg/m", Range::kPositive, "of the beam", {}, ""},
       {"length", "m", Range::kPositive, "of the beam", {}, ""},

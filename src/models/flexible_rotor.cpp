@@ -270,6 +270,9 @@ ModelInfo flexibleRotorInfo() {
   ModelInfo info;
   info.name = "flexible_rotor";
   info.summary = "shaft of finite elements with discs, bearings and unbalances";
+  info.coordinates_meaning =
+      "x_N, y_N (m): of node N from the bearings' line, y up; alpha_N, beta_N (rad): its tilts "
+      "about x and y, right-handed; with modes: q1, q2 ... (m), of its shapes";
   info.parameters = materialParameters();
   const std::vector<ParameterInfo> further{
       {"internal_damping", "s", Range::kNotNegative,

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "integration/linear_methods.h"
+#include "mechanics/lagrangian_dynamics.h"
 #include "mechanics/oscillators/small_hinged_beam.h"
 #include "models/linear_setup.h"
 #include "models/model_entry.h"

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "integration/jacobi_integral.h"
+#include "mechanics/lagrangian_dynamics.h"
 #include "mechanics/local_elements.h"
 #include "mechanics/rotors/journal_jeffcott_rotor.h"
 #include "models/jeffcott_forms.h"

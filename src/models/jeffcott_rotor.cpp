@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "mechanics/lagrangian_dynamics.h"
 #include "models/jeffcott_forms.h"
 #include "models/levitated_rotor.h"
 #include "models/linear_rotor_setup.h"

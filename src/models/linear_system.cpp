@@ -188,6 +188,7 @@ ModelInfo linearSystemInfo() {
   ModelInfo info;
   info.name = "linear_system";
   info.summary = "any linear system, by its matrices";
+  info.coordinates_meaning = "q1, q2 ... or the names given, in the unit that its matrices are in";
   info.settings = {
       matrix("mass", "kg", "symmetric, positive definite; a row a coordinate"),
       matrix("stiffness", "N/m", "symmetric; rigid-body modes are allowed"),

@@ -20,6 +20,7 @@
 #include "integration/method_list.h"
 #include "integration/runge_kutta_4.h"
 #include "integration/stoermer.h"
+#include "mechanics/lagrangian_dynamics.h"
 #include "models/exact_stepper.h"
 #include "models/model_info.h"
 
@@ -114,7 +115,7 @@ ModelVariant variant(const std::string& when) {
   ModelVariant v;
   v.when = when;
   for (const Coordinate& c : Model::kCoordinates) {
-    v.coordinates.push_back({c.name, c.unit});
+    v.coordinates.push_back({c.name, c.unit, c.meaning});
   }
   v.linear = Model::kLinear;
   v.rotor = RotorTraits<Model>::kRotor;

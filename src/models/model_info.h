@@ -84,8 +84,10 @@ struct ModelInfo {
   std::vector<ParameterInfo> parameters;
   std::vector<SettingInfo> settings;
   std::vector<ModelVariant> variants;  ///< the plain form first
-  bool has_shaft = false;              ///< a scene gives it a drive or a constant speed
-  bool takes_motor = false;            ///< its drive may be a motor
+  /// Which coordinates its parameters give it, where variants list none: names, units, meanings.
+  std::string coordinates_meaning = "";
+  bool has_shaft = false;    ///< a scene gives it a drive or a constant speed
+  bool takes_motor = false;  ///< its drive may be a motor
 
   /// The model with these parameters (all of `parameters`) and settings. Throws SetupError.
   std::function<ModelSetup(const ParameterValues&, const Settings&, const Surroundings&)> setUp;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "mechanics/lagrangian_dynamics.h"
 #include "mechanics/rotors/turning_rigid_disc_rotor.h"
 #include "models/levitated_rotor.h"
 #include "models/linear_rotor_setup.h"

@@ -6,6 +6,7 @@
 
 #include "integration/member_number.h"
 #include "mechanics/lagrangian.h"
+#include "mechanics/lagrangian_dynamics.h"
 #include "mechanics/oscillators/hinged_beam.h"
 #include "mechanics/oscillators/rolling_disc.h"
 #include "mechanics/oscillators/two_bar_linkage.h"

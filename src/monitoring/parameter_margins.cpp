@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "analysis/stability.h"
+#include "scene/driven_dynamics.h"
 #include "scene/parameter_paths.h"
 #include "scene/system_setup.h"
 
@@ -41,8 +42,8 @@ SystemOfNumber withNumber(const BuiltSystem& system, const std::string& path, do
       }
     }
     try {
-      auto dynamics =
-          system.model->setUp(spec.parameters, spec.settings, spec.setup->around).dynamics;
+      auto dynamics = judgedDynamics(
+          system.model->setUp(spec.parameters, spec.settings, spec.setup->around).dynamics, spec);
       if (dynamics->dof() != system.dynamics->dof()) {  // a system of another kind
         return std::nullopt;
       }
@@ -54,8 +55,9 @@ SystemOfNumber withNumber(const BuiltSystem& system, const std::string& path, do
 }
 
 SystemOfNumber withSpeed(const BuiltSystem& system) {
-  return [&system](double speed) -> std::optional<SystemAtNumber> {
-    return SystemAtNumber{system.dynamics, speed};
+  return [dynamics = judgedDynamics(system.dynamics, system.spec)](
+             double speed) -> std::optional<SystemAtNumber> {
+    return SystemAtNumber{dynamics, speed};
   };
 }
 

@@ -11,6 +11,7 @@
 #include "analysis/stability.h"
 #include "messages/refusal.h"
 #include "monitoring/parameter_margins.h"
+#include "scene/driven_dynamics.h"
 #include "scene/ensemble_draw.h"
 #include "scene/spread_correlations.h"
 
@@ -51,8 +52,9 @@ class Box {
   /// Of a member; nothing where the model cannot have it, or is one of another kind.
   std::optional<Place> at(const SystemSpec& spec) const {
     try {
-      const auto dynamics =
-          system_.model->setUp(spec.parameters, spec.settings, system_.spec.setup->around).dynamics;
+      const auto dynamics = judgedDynamics(
+          system_.model->setUp(spec.parameters, spec.settings, system_.spec.setup->around).dynamics,
+          spec);
       if (dynamics->dof() != system_.dynamics->dof()) {
         return std::nullopt;
       }
@@ -63,8 +65,12 @@ class Box {
       if (!motion) {
         return Place{-kInfinity, {}};
       }
+      auto small = smallMotionAbout(*dynamics, cyclic, *motion, speed_);
+      if (!small) {
+        return Place{-kInfinity, {}};
+      }
       Place place;
-      place.small = smallMotionAbout(*dynamics, cyclic, *motion, speed_);
+      place.small = std::move(*small);
       const double decay = -fastestGrowing(place.small).real();
       place.decay_rate = surelyUnstable(place.small) ? decay : std::fmax(decay, 0.0);
       return place;
@@ -118,7 +124,7 @@ class CoefficientIntervals {
  public:
   void add(const SmallMotion& small) {
     const Eigen::Index coordinates = small.matrices.mass.rows();
-    if (small.zeros > 0 || coordinates == 0 ||  // roots that are set aside
+    if (small.periodic || small.zeros > 0 || coordinates == 0 ||  // roots that are set aside
         coordinates > kMostExactCoordinates) {
       usable_ = false;
       return;

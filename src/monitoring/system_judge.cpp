@@ -7,6 +7,7 @@
 #include "algebra/constants.h"
 #include "analysis/equilibria.h"
 #include "analysis/judged_at_rest.h"
+#include "scene/driven_dynamics.h"
 
 namespace whirl_twin {
 
@@ -21,7 +22,9 @@ constexpr double kSame = 1.0e-4;
 }  // namespace
 
 SystemJudge::SystemJudge(SharedSystem system, std::shared_ptr<const ClosedLoop> loop)
-    : system_(std::move(system)), steady_motions_(system_->dynamics) {
+    : system_(std::move(system)),
+      judged_(judgedDynamics(system_->dynamics, system_->spec)),
+      steady_motions_(judged_) {
   if (loop) {
     loop_.emplace(system_, std::move(loop));
   } else {
@@ -69,8 +72,7 @@ void SystemJudge::findSpeeds(double speed, state::StabilityMargin& margin) {
     const auto n = static_cast<Eigen::Index>(about.size());
     try {
       speeds_->thresholds = ThresholdSpeeds(stabilityThresholds(
-          *system_->dynamics, Eigen::Map<const Eigen::VectorXd>(about.data(), n),
-          shaftSpeed(speed)));
+          *judged_, Eigen::Map<const Eigen::VectorXd>(about.data(), n), shaftSpeed(speed)));
       searched_at_ = margin.at.time;
     } catch (const std::exception&) {
       // Numbers beyond the range of double, or a singular mass: it is tried again.
@@ -91,7 +93,7 @@ void SystemJudge::putSpeeds(double speed, state::StabilityMargin& margin) const 
 Stability SystemJudge::openStability(const state::Instant& at, const Eigen::VectorXd& present,
                                      const Eigen::VectorXd& rates, double speed,
                                      Eigen::VectorXd& about) {
-  const Dynamics& dynamics = *system_->dynamics;
+  const Dynamics& dynamics = *judged_;
   const std::optional<Equilibrium> point =
       settled_                  ? settled_
       : steady_motions_.apply() ? steady_motions_.operatingPoint(at.time, present, rates)

@@ -65,6 +65,7 @@ class SystemJudge {
   ReducedMargins unreducedMargins(const Eigen::VectorXd& about, double speed);
 
   SharedSystem system_;
+  std::shared_ptr<const Dynamics> judged_;  ///< with its harmonic inputs (judgedDynamics)
   std::optional<LoopJudge> loop_;
   std::optional<JudgedSpeeds> speeds_;
   KnownSteadyMotions steady_motions_;

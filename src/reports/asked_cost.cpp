@@ -28,7 +28,7 @@ constexpr double kLong = 10.0;  // s
 
 // Measured on one core at 2.x GHz, g++ 12, on shafts of 44, 84 and 164 coordinates. [s] for the
 // cube of the coordinates, as products and eigenvalues of their matrices go.
-constexpr double kTable = 6.6e-6;          // two tables over speed, of a step and of its halves
+constexpr double kTablesOfSpeed = 6.6e-6;  // two tables over speed, of a step and of its halves
 constexpr double kOneSpeed = 2.2e-7;       // two maps for one constant speed
 constexpr double kAnalysis = 2.5e-7;       // critical speeds and the loss of stability
 constexpr double kLowestModesOf = 3.0e-3;  // the same by the lowest modes: s a coordinate
@@ -98,7 +98,7 @@ AskedCost costOfSteps(const BuiltScene& scene, std::size_t system) {
   const bool on_motor = !built.dynamics->hasShaft();
   const bool changes = low < high || on_motor;
   const int coordinates = static_cast<int>(built.dynamics->dof());
-  AskedCost cost = bySize(built.spec.name, coordinates, changes ? kTable : kOneSpeed);
+  AskedCost cost = bySize(built.spec.name, coordinates, changes ? kTablesOfSpeed : kOneSpeed);
   cost.memory = changes ? kTableMemory * square(coordinates) : cost.memory;
   if (on_motor) {  // to three nodes of a step
     cost.seconds *= 3.0;

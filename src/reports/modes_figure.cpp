@@ -17,7 +17,8 @@ constexpr double kPale = 0.6;
 
 Chart shapeChart(const ModesReport& r, std::size_t place) {
   const WhirlMode& mode = r.model[place];
-  OrbitChart drawn = orbitChart(mode.orbits, r.system->stations, "of the widest orbit");
+  OrbitChart drawn = orbitChart(mode.orbits, r.system->stations, "of the widest orbit",
+                                DrawnInstant::kWidestHighest);
   Chart& chart = drawn.chart;
   if (r.system->shaft && drawn.along_shaft) {
     const std::vector<Series> outline =

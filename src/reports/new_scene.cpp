@@ -117,6 +117,7 @@ void addInitial(Lines& lines, const ModelInfo& model, const YAML::Node& given) {
     } else {
       lines.off(4, "initial: {q1: 0.0, q1_rate: 0.0}", "rad or m, and their rates; default: all 0");
     }
+    lines.off(4, "", model.coordinates_meaning);
     return;
   }
   const bool any = given.IsMap() && given.size() > 0;
@@ -126,8 +127,9 @@ void addInitial(Lines& lines, const ModelInfo& model, const YAML::Node& given) {
     lines.off(4, "initial:", "default: all 0");
   }
   for (const CoordinateInfo& c : model.variants.front().coordinates) {
+    const std::string meaning = c.meaning.empty() ? c.unit : c.unit + ": " + c.meaning;
     for (const auto& [name, unit] :
-         {std::pair{c.name, c.unit}, std::pair{c.name + "_rate", c.unit + "/s"}}) {
+         {std::pair{c.name, meaning}, std::pair{c.name + "_rate", c.unit + "/s"}}) {
       if (any && given[name]) {
         lines.add(6, fmt::format("{}: {}", name, flow(given[name])), unit);
       } else if (any) {

@@ -47,14 +47,14 @@ std::vector<std::size_t> orderAlongShaft(const std::vector<Station>& stations) {
 
 /// The orbits where they are on the shaft, seen from the side: x goes into the picture, aslant.
 Chart orbitsAlongShaft(const std::vector<Orbit>& orbits, const std::vector<Station>& stations,
-                       const std::vector<std::size_t>& order) {
+                       const std::vector<std::size_t>& order, DrawnInstant instant) {
   constexpr double kAslant = 0.05;  // of the shaft's length, the largest amplitude
   double largest = 0.0;
-  double highest = 0.0;  // [rad], the shaft's angle where the largest orbit is highest
+  double start = 0.0;  // [rad], the shaft's angle at that instant
   for (const Orbit& orbit : orbits) {
     if (orbit.major() > largest) {
       largest = orbit.major();
-      highest = -std::arg(orbit.y);
+      start = instant == DrawnInstant::kPhaseMark ? 0.0 : -std::arg(orbit.y);
     }
   }
   const auto position = [&](std::size_t i) { return stations[i].position; };
@@ -64,13 +64,17 @@ Chart orbitsAlongShaft(const std::vector<Orbit>& orbits, const std::vector<Stati
   chart.x = {"along the shaft (m); x of the orbits is drawn aslant", false, true};
   chart.y.label = "y";
   bool named[2] = {false, false};
-  Series shaft{"the shaft at one instant", {}, {}, Pen{ink::kBlack, 1.2}};
+  Series shaft{instant == DrawnInstant::kPhaseMark ? "the shaft as its phase mark passes x"
+                                                   : "the shaft at one instant",
+               {},
+               {},
+               Pen{ink::kBlack, 1.2}};
   const std::size_t stride = 1 + (order.size() - 1) / kMostOrbits;
   shaft.marks = stride == 1 ? Marks::kDots : Marks::kNone;
   for (std::size_t k = 0; k < order.size(); ++k) {
     const std::size_t i = order[k];
     const Orbit& orbit = orbits[i];
-    Series path = orbitPath(orbit, highest);
+    Series path = orbitPath(orbit, start);
     for (double& x : path.x) {
       x = position(i) + slant * x;
     }
@@ -118,11 +122,11 @@ Chart orbitsInOnePlane(const std::vector<Orbit>& orbits, const std::vector<Stati
 }  // namespace
 
 OrbitChart orbitChart(const std::vector<Orbit>& orbits, const std::vector<Station>& stations,
-                      const std::string& unit) {
+                      const std::string& unit, DrawnInstant instant) {
   const std::vector<std::size_t> order = orderAlongShaft(stations);
   OrbitChart drawn;
   drawn.along_shaft = !order.empty();
-  drawn.chart = drawn.along_shaft ? orbitsAlongShaft(orbits, stations, order)
+  drawn.chart = drawn.along_shaft ? orbitsAlongShaft(orbits, stations, order, instant)
                                   : orbitsInOnePlane(orbits, stations);
   drawn.chart.y.label += fmt::format(" ({})", unit);
   if (!drawn.along_shaft) {

@@ -221,7 +221,8 @@ Figure figure(const ResponseReport& r) {
 }
 
 Figure figure(const OrbitReport& r) {
-  const OrbitChart orbits = orbitChart(r.response.orbits, r.system->stations, "m");
+  const OrbitChart orbits =
+      orbitChart(r.response.orbits, r.system->stations, "m", DrawnInstant::kPhaseMark);
   Figure figure;
   figure.title = fmt::format("{}: orbits at {}", r.system->title(), speedName(r.response.speed));
   figure.charts = {orbits.chart};

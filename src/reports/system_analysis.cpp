@@ -11,6 +11,7 @@
 #include "analysis/judged_at_rest.h"
 #include "analysis/separation_margin.h"
 #include "messages/refusal.h"
+#include "scene/driven_dynamics.h"
 #include "scene/held_rotor.h"
 
 namespace whirl_twin {
@@ -21,12 +22,16 @@ Eigen::VectorXd vector(const std::vector<double>& x) {
   return Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
 }
 
-void linearize(const Dynamics& dynamics, double speed, SystemAnalysis& a) {
+/// Into `judged` the verdict on the operating point, if there is one.
+void linearize(const Dynamics& dynamics, double speed, SystemAnalysis& a,
+               std::optional<Stability>& judged) {
   if (const auto point = operatingPoint(dynamics, a.q, a.v, speed)) {
     a.at_equilibrium = true;
     a.about = point->q;
     a.about_v = point->v;
     a.linearization = linearizationAbout(dynamics, a.about, a.about_v, speed);
+    a.periodic = point->periodic;
+    judged = point->stability;
   } else {
     a.about = a.q;
     a.about_v = a.v;
@@ -47,12 +52,13 @@ Eigen::VectorXd inputForce(const BuiltScene& scene, const BuiltSystem& system) {
 
 SystemAnalysis analyzeSystem(const BuiltScene& scene, const BuiltSystem& system,
                              ParameterSearch search, std::size_t modes) {
-  const Dynamics& dynamics = *system.dynamics;
+  const std::shared_ptr<const Dynamics> driven = judgedDynamics(system.dynamics, system.spec);
+  const Dynamics& dynamics = *driven;
   const ShaftMotion shaft = scene.driveOf(system).at(0.0);
   SystemAnalysis a;
   a.name = system.spec.name;
   a.model = system.model;
-  a.dynamics = &dynamics;
+  a.dynamics = system.dynamics.get();
   a.coordinates = dynamics.coordinates();
   a.moment = {scene.startSeconds(), shaft.angle, shaft.speed, shaft.acceleration};
   if (system.model->has_shaft) {
@@ -60,7 +66,7 @@ SystemAnalysis analyzeSystem(const BuiltScene& scene, const BuiltSystem& system,
   }
   a.q = vector(system.spec.q);
   a.v = vector(system.spec.v);
-  a.acceleration = dynamics.acceleration(a.q, a.v, a.moment);
+  a.acceleration = system.dynamics->acceleration(a.q, a.v, a.moment);
   if (!system.spec.inputs.empty()) {
     a.acceleration +=
         Ldlt(dynamics.massMatrix(a.q, a.v, a.moment)).solve(inputForce(scene, system));
@@ -69,11 +75,17 @@ SystemAnalysis analyzeSystem(const BuiltScene& scene, const BuiltSystem& system,
   a.momenta = dynamics.momenta(a.q, a.v, a.moment);
   a.cyclic = cyclicCoordinates(dynamics, shaft.speed);
   a.equilibria = equilibria(dynamics, shaft.speed, a.q, a.v);
-  linearize(dynamics, shaft.speed, a);
+  std::optional<Stability> judged;
+  linearize(dynamics, shaft.speed, a, judged);
   a.stability = dynamics.linear() ? stabilityWithRigidBodyModes(a.linearization, a.cyclic, modes)
                                   : stability(a.linearization, 0, modes);
   a.reduced_stability =
       a.cyclic.any() ? reducedStability(a.linearization, a.cyclic, modes) : a.stability;
+  const TimeDependence time = timeDependence(dynamics, shaft.speed);
+  a.of_mean_loads = time.varies && !time.period && !dynamics.linear();
+  if (time.period || (time.varies && dynamics.linear())) {
+    a.stability = a.reduced_stability = judged ? *judged : unjudged();
+  }
   for (const double coefficient : a.stability.polynomial) {
     if (std::fabs(coefficient) == std::numeric_limits<double>::max()) {  // it has been capped
       throw std::overflow_error("a coefficient of the characteristic polynomial");

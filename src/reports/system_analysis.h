@@ -39,6 +39,11 @@ struct SystemAnalysis {
   Linearization linearization;
   Stability stability;  ///< of all coordinates
 
+  /// The motion that is judged where loads or coefficients alternate with a period.
+  std::optional<PeriodicMotion> periodic;
+  /// They alternate, and the verdict is that of the motion under their mean only.
+  bool of_mean_loads = false;
+
   CyclicCoordinates cyclic;
   Eigen::VectorXd momenta;                  ///< generalized, of the initial state
   Stability reduced_stability;              ///< of the shape with its momenta as they are

@@ -121,6 +121,17 @@ Json spreadMarginJson(const SystemAnalysis& a) {
           {"stable_throughout", a.spread_margin->stable_throughout}};
 }
 
+/// The state at time 0 and the multipliers over a period.
+Json periodicJson(const SystemAnalysis& a) {
+  Json json{{"period", a.periodic->period},
+            {"state", stateJson(a, a.periodic->q, a.periodic->v)},
+            {"multipliers", Json::array()}};
+  for (const std::complex<double>& multiplier : a.periodic->multipliers) {
+    json["multipliers"].push_back({multiplier.real(), multiplier.imag()});
+  }
+  return json;
+}
+
 }  // namespace
 
 CsvTables tables(const SystemAnalysis& a) {
@@ -174,7 +185,9 @@ Json json(const SystemAnalysis& a) {
   }
   json["equilibria"] = Json::array();
   for (const Equilibrium& e : a.equilibria) {
-    Json entry{{"state", byCoordinate(a, e.q)}, {"verdict", name(e.stability.routh.verdict)}};
+    Json entry{{"state", byCoordinate(a, e.q)},
+               {"verdict", name(e.stability.routh.verdict)},
+               {"decay_rate", e.stability.decay_rate}};
     for (const auto* places : {&a.cyclic.conserved, &a.cyclic.driven}) {
       for (const Eigen::Index i : *places) {
         entry["steady_rates"][a.coordinates[static_cast<std::size_t>(i)].name] = e.v[i];
@@ -183,6 +196,11 @@ Json json(const SystemAnalysis& a) {
     json["equilibria"].push_back(entry);
   }
   json["linearization"] = linearizationJson(a);
+  json["judged_about"] = a.periodic         ? "periodic_motion"
+                         : a.of_mean_loads  ? "mean_motion"
+                         : a.at_equilibrium ? "equilibrium"
+                                            : "initial_state";
+  json["periodic_motion"] = a.periodic ? periodicJson(a) : Json();
   json["eigenvalues"] = Json::array();
   for (const auto& root : a.stability.eigenvalues) {
     json["eigenvalues"].push_back({root.real() + 0.0, root.imag() + 0.0});

@@ -178,6 +178,18 @@ std::string stabilityText(const SystemAnalysis& a) {
     return "  stability: uncertain: no equilibrium was found at this speed\n";
   }
   std::string out = fmt::format("  stability: {}\n", verdictText(s.routh.verdict));
+  if (a.of_mean_loads) {
+    out += "    of the motion under mean loads: what alternates is left out\n";
+  }
+  if (a.periodic) {
+    out += fmt::format("    of the periodic motion about the operating point, period {:.6g} s\n",
+                       a.periodic->period);
+    for (const std::complex<double>& multiplier : a.periodic->multipliers) {
+      out += fmt::format("    multiplier      {:.9g} {:+.9g}i, modulus {:.9g}\n", multiplier.real(),
+                         multiplier.imag(), std::abs(multiplier));
+    }
+    return out + marginsText(s.decay_rate, s.damping_ratio, s.log_decrement);
+  }
   out += s.eigenvalues.empty()
              ? std::string("    polynomial      none: no motion is left to judge\n")
          : s.polynomial.empty()

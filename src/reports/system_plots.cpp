@@ -109,7 +109,8 @@ Figure phaseFigure(const BuiltSystem& system, const PlotHistory& history) {
   Figure figure;
   const std::vector<CoordinateInfo> coordinates = system.dynamics->coordinates();
   for (std::size_t k = 0; k < coordinates.size(); ++k) {
-    const auto& [name, unit] = coordinates[k];
+    const std::string& name = coordinates[k].name;
+    const std::string& unit = coordinates[k].unit;
     Chart chart;
     chart.x.label = fmt::format("{} ({})", name, unit);
     chart.y.label = fmt::format("{}_rate ({}/s)", name, unit);

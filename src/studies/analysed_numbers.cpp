@@ -11,6 +11,7 @@
 #include "analysis/instability_speed.h"
 #include "analysis/judged_at_rest.h"
 #include "analysis/separation_margin.h"
+#include "scene/driven_dynamics.h"
 #include "scene/held_rotor.h"
 
 namespace whirl_twin {
@@ -103,9 +104,12 @@ std::string unitOf(const AnalysedNumber& number) {
 }
 
 struct AnalysedScene::Results {
+  std::shared_ptr<const Dynamics> dynamics_judged;
   std::optional<Linearization> linearization;
   Eigen::VectorXd about;
-  bool judged = true;  ///< not so where a rotor rests nowhere in its films
+  bool periodic = false;  ///< judged by the multipliers of a periodic motion
+  Stability of_point;     ///< of the operating point
+  bool judged = true;     ///< not so where a rotor rests nowhere in its films
   std::optional<Stability> stability;
   std::optional<std::vector<CriticalSpeed>> critical_speeds;
   std::optional<double> instability_speed;
@@ -113,11 +117,14 @@ struct AnalysedScene::Results {
   const Linearization& linearizationOf(const BuiltSystem& system, double speed,
                                        const Moment<double>& start) {
     if (!linearization) {
-      const Dynamics& dynamics = *system.dynamics;
+      dynamics_judged = judgedDynamics(system.dynamics, system.spec);
+      const Dynamics& dynamics = *dynamics_judged;
       const Eigen::VectorXd q = coordinateVector(system.spec.q);
       const Eigen::VectorXd v = coordinateVector(system.spec.v);
       if (const auto point = operatingPoint(dynamics, q, v, speed)) {
         about = point->q;
+        periodic = point->periodic.has_value();
+        of_point = point->stability;
         linearization = linearizationAbout(dynamics, point->q, point->v, speed);
       } else {
         about = q;
@@ -131,10 +138,11 @@ struct AnalysedScene::Results {
   const Stability& stabilityOf(const BuiltSystem& system, double speed,
                                const Moment<double>& start) {
     if (!stability) {
-      const Dynamics& dynamics = *system.dynamics;
       const Linearization& l = linearizationOf(system, speed, start);
+      const Dynamics& dynamics = *dynamics_judged;
       const CyclicCoordinates cyclic = cyclicCoordinates(dynamics, speed);
       stability = !judged             ? unjudged()
+                  : periodic          ? of_point
                   : cyclic.any()      ? reducedStability(l, cyclic)
                   : dynamics.linear() ? stabilityWithRigidBodyModes(l, cyclic)
                                       : whirl_twin::stability(l);
@@ -181,7 +189,7 @@ double AnalysedScene::value(const AnalysedNumber& number) {
         static_cast<void>(known.linearizationOf(system, speed, start));
         known.instability_speed =
             known.judged
-                ? instabilitySpeed(*system.dynamics, known.about, speed).value_or(kInfinity)
+                ? instabilitySpeed(*known.dynamics_judged, known.about, speed).value_or(kInfinity)
                 : kNaN;
       }
       return *known.instability_speed;

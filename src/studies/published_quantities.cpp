@@ -23,7 +23,8 @@ std::map<std::string, PublishedQuantity> publishedQuantities(const BuiltScene& s
     const std::string& name = system.spec.name;
     const std::vector<CoordinateInfo> coordinates = system.dynamics->coordinates();
     for (std::size_t k = 0; k < coordinates.size(); ++k) {
-      const auto& [coordinate, unit] = coordinates[k];
+      const std::string& coordinate = coordinates[k].name;
+      const std::string& unit = coordinates[k].unit;
       all.emplace(name + "." + coordinate,
                   PublishedQuantity{QuantityKind::kCoordinate, i, k, unit});
       all.emplace(name + "." + coordinate + "_rate",

@@ -91,7 +91,8 @@ void addSystem(const SystemSpec& spec, std::size_t place, Numbers& all) {
   }
   const std::vector<CoordinateInfo> coordinates = spec.setup->made.dynamics->coordinates();
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
-    const auto& [name, unit] = coordinates[i];
+    const std::string& name = coordinates[i].name;
+    const std::string& unit = coordinates[i].unit;
     all.emplace(spec.name + ".initial." + name,
                 NamedNumber{{below(root, "initial." + name)}, spec.q[i], unit, "", place});
     all.emplace(

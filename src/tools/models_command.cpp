@@ -33,10 +33,11 @@ std::string listedModelText(const ModelInfo& model) {
                        v.linear ? "linear" : "nonlinear",
                        model.has_shaft ? ", on a turning shaft" : "");
     for (const CoordinateInfo& c : v.coordinates) {
-      out += fmt::format("  coordinate  {0} ({1}), rate {0}_rate ({1}/s)\n", c.name, c.unit);
+      out += fmt::format("  coordinate  {0} ({1}), rate {0}_rate ({1}/s){2}{3}\n", c.name, c.unit,
+                         c.meaning.empty() ? "" : ": ", c.meaning);
     }
     if (v.coordinates.empty()) {
-      out += "  coordinate  as many as the parameters give\n";
+      out += fmt::format("  coordinate  {}\n", model.coordinates_meaning);
     }
     for (const InputInfo& input : v.inputs) {
       out += fmt::format("  input       {:<18} {:<9} {}\n", input.name, input.unit, input.meaning);
@@ -62,7 +63,7 @@ Json variantJson(const ModelVariant& v) {
   json["rotor"] = v.rotor;
   json["coordinates"] = Json::object();
   for (const CoordinateInfo& c : v.coordinates) {
-    json["coordinates"][c.name] = {{"unit", c.unit}};
+    json["coordinates"][c.name] = {{"unit", c.unit}, {"meaning", c.meaning}};
   }
   json["inputs"] = Json::object();
   for (const InputInfo& input : v.inputs) {

@@ -16,7 +16,7 @@ const char* describe(StepStatus status) {
     case StepStatus::kOutOfRange:
       return "its shaft runs at a speed that it was not prepared for";
     case StepStatus::kNoGap:
-      return "it touches the poles of a magnetic bearing";
+      return "its shaft touches a bearing: no air gap or oil film is left";
     case StepStatus::kControllerLost:
       return "its controller was lost";
     case StepStatus::kOk:

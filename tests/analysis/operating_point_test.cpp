@@ -5,6 +5,7 @@
 
 #include "analysis/equilibria.h"
 #include "hoop_bead.h"
+#include "mechanics/lagrangian_dynamics.h"
 
 namespace whirl_twin {
 namespace operating_point_test {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "mechanics/lagrangian_dynamics.h"
 #include "mechanics/rotors/jeffcott_rotor.h"
 #include "messages/refusal.h"
 

@@ -39,7 +39,8 @@ struct FrictionOscillator {
   static constexpr std::size_t kDof = 1;
   static constexpr bool kLinear = true;
   static constexpr bool kHasShaft = false;
-  static constexpr std::array<Coordinate, kDof> kCoordinates{{{"x", "m"}}};
+  static constexpr std::array<Coordinate, kDof> kCoordinates{
+      {{"x", "m", "of the mass centre, to the right from midway between the rollers"}}};
 
   double mass = 0.0;                  ///< [kg], of the plank
   double friction_coefficient = 0.0;  ///< [-], mu

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include "mechanics/elementary.h"
 #include "mechanics/force_inline.h"
@@ -26,7 +27,8 @@ struct HingedBeam {
   static constexpr std::size_t kDof = 1;
   static constexpr bool kLinear = false;
   static constexpr bool kHasShaft = false;
-  static constexpr std::array<Coordinate, kDof> kCoordinates{{{"theta", "rad"}}};
+  static constexpr std::array<Coordinate, kDof> kCoordinates{
+      {{"theta", "rad", "from the rest under its weight, in the sense of the load"}}};
 
   double mass = 0.0;            ///< [kg], of the beam
   double length = 0.0;          ///< [m], of the beam
@@ -53,6 +55,9 @@ struct HingedBeam {
     HingedBeam mean = *this;
     mean.load_amplitude = loadAlternates() ? 0.0 : load_amplitude;
     return mean;
+  }
+  std::vector<double> loadFrequencies() const {
+    return loadAlternates() ? std::vector<double>{load_frequency} : std::vector<double>();
   }
 
   std::array<Input<kDof>, 1> inputs() const {
@@ -97,7 +102,9 @@ struct HingedBeam {
     s.centre.x = 0.5 * length;
     s.rods.push_back({along(0.0), end, 0.02 * length, SketchRole::kBody});
     addPin(s, {});
-    s.springs.push_back({below(middle), middle, 0.04 * length});
+    if (stiffness > 0.0) {
+      s.springs.push_back({below(middle), middle, 0.04 * length});
+    }
     if (damping != 0.0) {
       s.dampers.push_back({below(end), end, 0.04 * length});
     }

@@ -24,7 +24,8 @@ struct MassSpringDamper {
   static constexpr std::size_t kDof = 1;
   static constexpr bool kLinear = true;
   static constexpr bool kHasShaft = false;
-  static constexpr std::array<Coordinate, kDof> kCoordinates{{{"x", "m"}}};
+  static constexpr std::array<Coordinate, kDof> kCoordinates{
+      {{"x", "m", "from where the spring is free, as it stretches"}}};
 
   double mass = 0.0;            ///< [kg]
   double stiffness = 0.0;       ///< [N/m], of the spring
@@ -98,7 +99,9 @@ struct MassSpringDamper {
         {{-l - 0.21 * l, 0.0, 0.1 * l}, {0.06 * l, 0.5 * l, 0.68 * l}, 0.0, SketchRole::kSupport},
         {{q[0], 0.0, 0.0}, {body, body, body}, 0.0, SketchRole::kMass}};
     const double wall = -1.18 * l;
-    s.springs = {{{wall, 0.0, 0.09 * l}, {left, 0.0, 0.09 * l}, 0.06 * l}};
+    if (stiffness > 0.0) {
+      s.springs = {{{wall, 0.0, 0.09 * l}, {left, 0.0, 0.09 * l}, 0.06 * l}};
+    }
     if (damping > 0.0) {
       s.dampers = {{{wall, 0.0, -0.08 * l}, {left, 0.0, -0.08 * l}, 0.05 * l}};
     }

@@ -27,7 +27,9 @@ struct RollingDisc {
   static constexpr std::size_t kDof = 1;
   static constexpr bool kLinear = false;
   static constexpr bool kHasShaft = false;
-  static constexpr std::array<Coordinate, kDof> kCoordinates{{{"x", "m"}}};
+  static constexpr std::array<Coordinate, kDof> kCoordinates{
+      {{"x", "m",
+        "of the centre, to the right from where the spring is free and the point mass below"}}};
 
   double disc_mass = 0.0;             ///< [kg], of the disc
   double disc_inertia = 0.0;          ///< [kg m^2], about its centre
@@ -129,7 +131,9 @@ struct RollingDisc {
                 {0.2 * r, 0.3 * r, 1.5 * r},
                 0.0,
                 SketchRole::kSupport}};
-    s.springs = {{{-wall, behind, 0.0}, {q[0], behind, 0.0}, 0.13 * r}};
+    if (stiffness > 0.0) {
+      s.springs = {{{-wall, behind, 0.0}, {q[0], behind, 0.0}, 0.13 * r}};
+    }
     if (damping > 0.0) {
       s.boxes.push_back({{wall + 0.1 * r, behind, -0.3 * r},
                          {0.2 * r, 0.3 * r, 1.5 * r},

@@ -23,7 +23,8 @@ struct TwoBarLinkage {
   static constexpr std::size_t kDof = 1;
   static constexpr bool kLinear = false;
   static constexpr bool kHasShaft = false;
-  static constexpr std::array<Coordinate, kDof> kCoordinates{{{"theta", "rad"}}};
+  static constexpr std::array<Coordinate, kDof> kCoordinates{
+      {{"theta", "rad", "of each bar, from the vertical, the roller outwards"}}};
 
   double bar_mass = 0.0;    ///< [kg], of each bar
   double bar_length = 0.0;  ///< [m], of each bar

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include "mechanics/elementary.h"
 #include "mechanics/force_inline.h"
@@ -25,7 +26,9 @@ struct CartPendulum {
   static constexpr std::size_t kDof = 2;
   static constexpr bool kLinear = false;
   static constexpr bool kHasShaft = false;
-  static constexpr std::array<Coordinate, kDof> kCoordinates{{{"x", "m"}, {"theta", "rad"}}};
+  static constexpr std::array<Coordinate, kDof> kCoordinates{
+      {{"x", "m", "of the cart, to the right from where the spring is free"},
+       {"theta", "rad", "of the rod, from hanging, its end to the right"}}};
 
   double cart_mass = 0.0;          ///< [kg], of the cart
   double rod_mass = 0.0;           ///< [kg], of the uniform rod
@@ -61,6 +64,16 @@ struct CartPendulum {
     mean.force_amplitude = force_frequency == 0.0 ? force_amplitude : 0.0;
     mean.support_amplitude = 0.0;
     return mean;
+  }
+  std::vector<double> loadFrequencies() const {
+    std::vector<double> all;
+    if (force_amplitude != 0.0 && force_frequency != 0.0) {
+      all.push_back(force_frequency);
+    }
+    if (support_amplitude != 0.0 && support_frequency != 0.0) {
+      all.push_back(support_frequency);
+    }
+    return all;
   }
 
   std::array<Input<kDof>, 2> inputs() const {
@@ -110,10 +123,6 @@ struct CartPendulum {
     const SketchPoint tip = hangingPoint(hinge, l, q[1]);
     s.boxes = {
         {{0.0, behind, track - 0.02 * l}, {2.3 * l, 0.16 * l, 0.04 * l}, 0.0, SketchRole::kSupport},
-        {{wall - 0.04 * l, behind, 0.02 * l},
-         {0.08 * l, 0.16 * l, 0.34 * l},
-         0.0,
-         SketchRole::kSupport},
         {{q[0], behind, 0.0}, {0.4 * l, 0.1 * l, 0.16 * l}, 0.0, SketchRole::kMass}};
     for (const double side : {-0.12 * l, 0.12 * l}) {
       s.discs.push_back({{q[0] + side, behind, track + wheel},
@@ -125,7 +134,13 @@ struct CartPendulum {
     }
     s.rods = {{hinge, tip, 0.022 * l, SketchRole::kBody},
               {{q[0], behind, 0.0}, {q[0], -0.04 * l, 0.0}, 0.03 * l, SketchRole::kSupport}};
-    s.springs = {{{wall, behind, 0.0}, {q[0] - 0.2 * l, behind, 0.0}, 0.05 * l}};
+    if (stiffness > 0.0) {  // without a spring there is no wall to hold it
+      s.boxes.push_back({{wall - 0.04 * l, behind, 0.02 * l},
+                         {0.08 * l, 0.16 * l, 0.34 * l},
+                         0.0,
+                         SketchRole::kSupport});
+      s.springs = {{{wall, behind, 0.0}, {q[0] - 0.2 * l, behind, 0.0}, 0.05 * l}};
+    }
     const double push = force_amplitude == 0.0 ? 0.0 : std::cos(force_frequency * at.time);
     const double shake = support_amplitude == 0.0 ? 0.0 : shaking;
     s.arrows = {

@@ -43,7 +43,8 @@ struct DoublePendulum {
   static constexpr bool kLinear = false;
   static constexpr bool kHasShaft = false;
   static constexpr std::array<Coordinate, kDof> kCoordinates{
-      {{"theta1", "rad"}, {"theta2", "rad"}}};
+      {{"theta1", "rad", "of the upper arm, from hanging, its end to the right"},
+       {"theta2", "rad", "of the lower arm, from the vertical, its end to the right"}}};
 
   double mass1 = 0.0;         ///< [kg]
   double mass2 = 0.0;         ///< [kg]

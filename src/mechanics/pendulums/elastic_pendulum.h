@@ -27,7 +27,9 @@ struct ElasticPendulum {
   static constexpr std::size_t kDof = 2;
   static constexpr bool kLinear = false;
   static constexpr bool kHasShaft = false;
-  static constexpr std::array<Coordinate, kDof> kCoordinates{{{"r", "m"}, {"theta", "rad"}}};
+  static constexpr std::array<Coordinate, kDof> kCoordinates{
+      {{"r", "m", "from the pivot to the mass, > 0"},
+       {"theta", "rad", "of the spring, from hanging, the mass to the right"}}};
 
   double mass = 0.0;         ///< [kg]
   double stiffness = 0.0;    ///< [N/m], of the spring

@@ -28,7 +28,9 @@ struct FoucaultPendulum {
   static constexpr std::size_t kDof = 2;
   static constexpr bool kLinear = false;
   static constexpr bool kHasShaft = false;
-  static constexpr std::array<Coordinate, kDof> kCoordinates{{{"x", "m"}, {"y", "m"}}};
+  static constexpr std::array<Coordinate, kDof> kCoordinates{
+      {{"x", "m", "east: where the thread points to on a floor one length below the pivot (l tan)"},
+       {"y", "m", "north, likewise"}}};
 
   double mass = 0.0;           ///< [kg], of the bob
   double length = 0.0;         ///< [m], pivot to bob

@@ -6,13 +6,14 @@
 //
 // theta is measured from hanging. The mean motion is that of the potential
 //   V_mean = m g l (1 - cos theta) + m a^2 Omega^2 sin^2(theta) / 4,
-// for a << l and Omega >> sqrt(g/l): upright is stable from a^2 Omega^2 = 2 g l on. Equilibria and
-// verdicts are those of the mean motion.
+// for a << l and Omega >> sqrt(g/l): upright is stable from a^2 Omega^2 = 2 g l on. Equilibria are
+// sought in the mean motion; verdicts are those of the motion itself (analysis/floquet.h).
 #pragma once
 
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include "mechanics/elementary.h"
 #include "mechanics/force_inline.h"
@@ -28,7 +29,8 @@ struct KapitzaPendulum {
   static constexpr std::size_t kDof = 1;
   static constexpr bool kLinear = false;
   static constexpr bool kHasShaft = false;
-  static constexpr std::array<Coordinate, kDof> kCoordinates{{{"theta", "rad"}}};
+  static constexpr std::array<Coordinate, kDof> kCoordinates{
+      {{"theta", "rad", "from hanging, the bob to the right"}}};
 
   double mass = 0.0;       ///< [kg], of the bob
   double length = 0.0;     ///< [m], pivot to bob
@@ -54,6 +56,10 @@ struct KapitzaPendulum {
     mean.amplitude = 0.0;
     mean.mean_rate = amplitude * frequency;
     return mean;
+  }
+  std::vector<double> loadFrequencies() const {
+    return amplitude == 0.0 || frequency == 0.0 ? std::vector<double>()
+                                                : std::vector<double>{frequency};
   }
 
   std::array<Input<kDof>, 1> inputs() const {

@@ -25,7 +25,8 @@ struct Pendulum {
   static constexpr std::size_t kDof = 1;
   static constexpr bool kLinear = false;
   static constexpr bool kHasShaft = false;
-  static constexpr std::array<Coordinate, kDof> kCoordinates{{{"theta", "rad"}}};
+  static constexpr std::array<Coordinate, kDof> kCoordinates{
+      {{"theta", "rad", "from hanging, the body to the right"}}};
 
   double mass = 0.0;          ///< [kg]
   double length = 0.0;        ///< [m], pivot to mass centre

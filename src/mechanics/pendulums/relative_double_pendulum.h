@@ -11,7 +11,8 @@ namespace whirl_twin {
 
 struct RelativeDoublePendulum : DoublePendulum {
   static constexpr std::array<Coordinate, kDof> kCoordinates{
-      {{"theta1", "rad"}, {"theta3", "rad"}}};
+      {{"theta1", "rad", "of the upper arm, from hanging, its end to the right"},
+       {"theta3", "rad", "of the lower arm, from the line of the upper one, theta2 - theta1"}}};
 
   static constexpr std::array<Parameter<RelativeDoublePendulum>, 21> parameters() {
     return inherited<RelativeDoublePendulum>(DoublePendulum::parameters());

@@ -26,7 +26,9 @@ struct RodSlider {
   static constexpr std::size_t kDof = 2;
   static constexpr bool kLinear = false;
   static constexpr bool kHasShaft = false;
-  static constexpr std::array<Coordinate, kDof> kCoordinates{{{"r", "m"}, {"theta", "rad"}}};
+  static constexpr std::array<Coordinate, kDof> kCoordinates{
+      {{"r", "m", "from the pivot to the slider, > 0"},
+       {"theta", "rad", "of the rod, from hanging, its end to the right"}}};
 
   double slider_mass = 0.0;  ///< [kg], of the slider
   double rod_mass = 0.0;     ///< [kg], of the uniform rod

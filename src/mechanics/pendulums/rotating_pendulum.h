@@ -26,7 +26,9 @@ struct RotatingPendulum {
   static constexpr std::size_t kDof = 2;
   static constexpr bool kLinear = false;
   static constexpr bool kHasShaft = false;
-  static constexpr std::array<Coordinate, kDof> kCoordinates{{{"theta", "rad"}, {"phi", "rad"}}};
+  static constexpr std::array<Coordinate, kDof> kCoordinates{
+      {{"theta", "rad", "from hanging, in the plane that turns"},
+       {"phi", "rad", "of that plane about the vertical, counterclockwise from above"}}};
 
   double mass = 0.0;         ///< [kg], of the bob
   double length = 0.0;       ///< [m], pivot to bob

@@ -25,7 +25,8 @@ struct SpinningPendulum {
   static constexpr bool kLinear = false;
   static constexpr bool kHasShaft = true;
   static constexpr bool kHasShaftAngle = false;  ///< only a picture needs it
-  static constexpr std::array<Coordinate, kDof> kCoordinates{{{"theta", "rad"}}};
+  static constexpr std::array<Coordinate, kDof> kCoordinates{
+      {{"theta", "rad", "from hanging, in the plane that the shaft turns"}}};
 
   double mass = 0.0;     ///< [kg]
   double length = 0.0;   ///< [m]

@@ -23,7 +23,8 @@ struct SprungInvertedPendulum {
   static constexpr std::size_t kDof = 1;
   static constexpr bool kLinear = false;
   static constexpr bool kHasShaft = false;
-  static constexpr std::array<Coordinate, kDof> kCoordinates{{{"theta", "rad"}}};
+  static constexpr std::array<Coordinate, kDof> kCoordinates{
+      {{"theta", "rad", "from upright, the bob to the right"}}};
 
   double mass = 0.0;       ///< [kg], of the bob
   double length = 0.0;     ///< [m], pivot to bob and spring
@@ -75,16 +76,20 @@ struct SprungInvertedPendulum {
     const SketchPoint bob{length * std::sin(q[0]), 0.0, length * std::cos(q[0])};
     const double guide = -1.2 * length;
     const double bob_radius = 0.09 * length;
-    s.rods = {{{}, bob, 0.02 * length, SketchRole::kBody},
-              {{guide, 0.0, -1.15 * length},
-               {guide, 0.0, 1.15 * length},
-               0.02 * length,
-               SketchRole::kSupport}};
+    s.rods = {{{}, bob, 0.02 * length, SketchRole::kBody}};
     addPin(s, {});
-    s.boxes = {
-        {{guide, 0.0, bob.z}, {0.1 * length, 0.1 * length, 0.12 * length}, 0.0, SketchRole::kBody}};
     s.balls = {{bob, bob_radius, SketchRole::kMass}};
-    s.springs = {{{guide, 0.0, bob.z}, {bob.x - bob_radius, 0.0, bob.z}, 0.05 * length}};
+    if (stiffness > 0.0) {
+      s.rods.push_back({{guide, 0.0, -1.15 * length},
+                        {guide, 0.0, 1.15 * length},
+                        0.02 * length,
+                        SketchRole::kSupport});
+      s.boxes = {{{guide, 0.0, bob.z},
+                  {0.1 * length, 0.1 * length, 0.12 * length},
+                  0.0,
+                  SketchRole::kBody}};
+      s.springs = {{{guide, 0.0, bob.z}, {bob.x - bob_radius, 0.0, bob.z}, 0.05 * length}};
+    }
     s.tracer = bob;
     s.has_tracer = true;
     return s;

@@ -19,6 +19,7 @@
 #include "control/motor.h"
 #include "mechanics/dynamics.h"
 #include "mechanics/force_inline.h"
+#include "mechanics/lagrangian_dynamics.h"
 #include "mechanics/model_description.h"
 #include "mechanics/moment.h"
 #include "mechanics/reaction.h"

@@ -28,7 +28,9 @@ struct Governor {
   static constexpr std::size_t kDof = 2;
   static constexpr bool kLinear = false;
   static constexpr bool kHasShaft = false;
-  static constexpr std::array<Coordinate, kDof> kCoordinates{{{"theta", "rad"}, {"phi", "rad"}}};
+  static constexpr std::array<Coordinate, kDof> kCoordinates{
+      {{"theta", "rad", "of the arms, from hanging, outwards"},
+       {"phi", "rad", "of the shaft, in the sense of the engine"}}};
 
   double mass = 0.0;     ///< [kg], of both balls together
   double length = 0.0;   ///< [m], of the arms

@@ -38,7 +38,9 @@ struct JeffcottRotor {
   static constexpr std::size_t kDof = 2;
   static constexpr bool kLinear = true;
   static constexpr bool kHasShaft = true;
-  static constexpr std::array<Coordinate, kDof> kCoordinates{{{"x", "m"}, {"y", "m"}}};
+  static constexpr std::array<Coordinate, kDof> kCoordinates{
+      {{"x", "m", "of the shaft's centre at the disc, from the bearings' line"},
+       {"y", "m", "likewise, up, a quarter turn ahead of x"}}};
 
   double mass = 0.0;                ///< [kg]
   double stiffness = 0.0;           ///< [N/m], along x

@@ -26,7 +26,10 @@ namespace whirl_twin {
 struct FilmlessJeffcottRotor : JeffcottRotor {
   static constexpr std::size_t kDof = 4;
   static constexpr std::array<Coordinate, kDof> kCoordinates{
-      {{"x", "m"}, {"y", "m"}, {"journal_x", "m"}, {"journal_y", "m"}}};
+      {{"x", "m", "of the disc's centre, from the bearings' line"},
+       {"y", "m", "likewise, up"},
+       {"journal_x", "m", "of each journal, from its bearing's centre"},
+       {"journal_y", "m", "likewise, up"}}};
 
   static constexpr auto parameters() {
     return inherited<FilmlessJeffcottRotor>(JeffcottRotor::parameters());

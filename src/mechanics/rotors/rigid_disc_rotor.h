@@ -16,7 +16,10 @@ namespace whirl_twin {
 
 struct RigidDiscRotor : RigidDisc {
   static constexpr std::array<Coordinate, kDof> kCoordinates{
-      {{"x", "m"}, {"y", "m"}, {"alpha", "rad"}, {"beta", "rad"}}};
+      {{"x", "m", "of the shaft's centre at the disc, from the bearings' line"},
+       {"y", "m", "likewise, up, a quarter turn ahead of x"},
+       {"alpha", "rad", "tilt of the disc about x, right-handed"},
+       {"beta", "rad", "tilt of the disc about y, right-handed"}}};
 
   static constexpr auto parameters() { return inherited<RigidDiscRotor>(RigidDisc::parameters()); }
   /// [rad], that the phase counts from.

@@ -32,7 +32,9 @@ struct SlidingMassFlywheel {
   static constexpr bool kLinear = false;
   static constexpr bool kHasShaft = false;
   static constexpr std::array<Coordinate, kDof> kCoordinates{
-      {{"rho1", "m"}, {"rho2", "m"}, {"phi", "rad"}}};
+      {{"rho1", "m", "from the axis to the first mass, outwards"},
+       {"rho2", "m", "from the axis to the second mass, outwards"},
+       {"phi", "rad", "of the wheel, counterclockwise"}}};
 
   double inertia = 0.0;      ///< [kg m^2], of the wheel about its axis
   double slider_mass = 0.0;  ///< [kg], of each slider

@@ -9,7 +9,9 @@ namespace whirl_twin {
 
 struct SymmetricSlidingMassFlywheel : SlidingMassFlywheel {
   static constexpr std::size_t kDof = 2;
-  static constexpr std::array<Coordinate, kDof> kCoordinates{{{"rho", "m"}, {"phi", "rad"}}};
+  static constexpr std::array<Coordinate, kDof> kCoordinates{
+      {{"rho", "m", "from the axis to each mass, outwards"},
+       {"phi", "rad", "of the wheel, counterclockwise"}}};
 
   static constexpr std::array<Parameter<SymmetricSlidingMassFlywheel>, 4> parameters() {
     return inherited<SymmetricSlidingMassFlywheel>(SlidingMassFlywheel::parameters());

@@ -17,7 +17,10 @@ namespace whirl_twin {
 
 struct TurningRigidDiscRotor : RigidDisc {
   static constexpr std::array<Coordinate, kDof> kCoordinates{
-      {{"xi", "m"}, {"eta", "m"}, {"alpha", "rad"}, {"beta", "rad"}}};
+      {{"xi", "m", "of the shaft's centre at the disc, along the stiffer axis, which turns"},
+       {"eta", "m", "a quarter turn ahead of xi"},
+       {"alpha", "rad", "tilt about xi, right-handed"},
+       {"beta", "rad", "tilt about eta, right-handed"}}};
 
   static constexpr auto parameters() {
     return inherited<TurningRigidDiscRotor>(RigidDisc::parameters());

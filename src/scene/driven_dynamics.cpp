@@ -1,0 +1,125 @@
+#include "scene/driven_dynamics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "algebra/dense.h"
+#include "mechanics/held_inputs.h"
+#include "scene/input_reader.h"
+
+namespace whirl_twin {
+
+namespace {
+
+using Eigen::VectorXd;
+
+bool alternates(const InputSignal& signal) {
+  return signal.kind == InputSignal::Kind::kHarmonic && signal.amplitude != 0.0 &&
+         signal.frequency != 0.0;
+}
+
+class DrivenDynamics final : public Dynamics {
+ public:
+  DrivenDynamics(std::shared_ptr<const Dynamics> dynamics, std::vector<InputSignal> signals)
+      : system_(std::move(dynamics)), signals_(std::move(signals)) {}
+
+  std::string model() const override { return system_->model(); }
+  int dof() const override { return system_->dof(); }
+  std::vector<CoordinateInfo> coordinates() const override { return system_->coordinates(); }
+  std::vector<InputInfo> inputs() const override { return system_->inputs(); }
+  bool linear() const override { return false; }
+  bool hasShaft() const override { return system_->hasShaft(); }
+  bool isRotor() const override { return system_->isRotor(); }
+  bool speedDependent() const override { return system_->speedDependent(); }
+  double phaseMark() const override { return system_->phaseMark(); }
+  double naturalLength() const override { return system_->naturalLength(); }
+  const Dynamics& atMeanLoad() const override { return system_->atMeanLoad(); }
+  std::vector<double> loadFrequencies() const override {
+    std::vector<double> all = system_->loadFrequencies();
+    for (const InputSignal& signal : signals_) {
+      if (alternates(signal)) {
+        all.push_back(signal.frequency);
+      }
+    }
+    return all;
+  }
+
+  VectorXd acceleration(const VectorXd& q, const VectorXd& v,
+                        const Moment<double>& at) const override {
+    return system_->acceleration(q, v, at) +
+           Ldlt(system_->massMatrix(q, v, at)).solve(held(q, at).force);
+  }
+  VectorXd unbalancedForce(const VectorXd& q, const VectorXd& v,
+                           const Moment<double>& at) const override {
+    return system_->unbalancedForce(q, v, at) + held(q, at).force;
+  }
+  VectorXd appliedForce(const VectorXd& q, const VectorXd& v,
+                        const Moment<double>& at) const override {
+    return system_->appliedForce(q, v, at) + held(q, at).force;
+  }
+  Eigen::MatrixXd massMatrix(const VectorXd& q, const VectorXd& v,
+                             const Moment<double>& at) const override {
+    return system_->massMatrix(q, v, at);
+  }
+  VectorXd momenta(const VectorXd& q, const VectorXd& v, const Moment<double>& at) const override {
+    return system_->momenta(q, v, at);
+  }
+  Energies energies(const VectorXd& q, const VectorXd& v, const Moment<double>& at) const override {
+    return system_->energies(q, v, at);
+  }
+  Linearization linearization(const VectorXd& q, const VectorXd& v, const VectorXd& a,
+                              const Moment<double>& at) const override {
+    Linearization l = system_->linearization(q, v, a, at);
+    const Eigen::MatrixXd stiffness = held(q, at).stiffness;
+    l.stiffness += 0.5 * (stiffness + stiffness.transpose());
+    l.circulatory += 0.5 * (stiffness - stiffness.transpose());
+    return l;
+  }
+  std::vector<Reaction> reactions(const VectorXd& q, const VectorXd& v, const VectorXd& a,
+                                  const Moment<double>& at) const override {
+    return system_->reactions(q, v, a, at);
+  }
+  std::vector<Condition> conditions(const VectorXd& q, const VectorXd& v, const VectorXd& a,
+                                    const Moment<double>& at) const override {
+    return system_->conditions(q, v, a, at);
+  }
+  std::string singularMass() const override { return system_->singularMass(); }
+  std::vector<Station> stations() const override { return system_->stations(); }
+  Sketch sketch(const VectorXd& q, const Moment<double>& at) const override {
+    return system_->sketch(q, at);
+  }
+
+ private:
+  HeldInputs held(const VectorXd& q, const Moment<double>& at) const {
+    VectorXd values = VectorXd::Zero(static_cast<Eigen::Index>(signals_.size()));
+    for (std::size_t i = 0; i < signals_.size(); ++i) {
+      const InputSignal& signal = signals_[i];
+      if (alternates(signal)) {
+        values[static_cast<Eigen::Index>(i)] =
+            signal.amplitude * std::cos(signal.frequency * at.time + signal.phase);
+      }
+    }
+    return heldInputs(*system_, q, values);
+  }
+
+  std::shared_ptr<const Dynamics> system_;
+  std::vector<InputSignal> signals_;  // of all inputs
+};
+
+}  // namespace
+
+std::shared_ptr<const Dynamics> judgedDynamics(std::shared_ptr<const Dynamics> dynamics,
+                                               const SystemSpec& spec) {
+  if (dynamics->linear() || spec.inputs.empty()) {
+    return dynamics;
+  }
+  std::vector<InputSignal> signals = signalsOf(dynamics->inputs(), spec.inputs);
+  if (std::none_of(signals.begin(), signals.end(), alternates)) {
+    return dynamics;
+  }
+  return std::make_shared<DrivenDynamics>(std::move(dynamics), std::move(signals));
+}
+
+}  // namespace whirl_twin
