@@ -23,9 +23,12 @@ namespace whirl_twin {
 namespace {
 
 constexpr std::size_t kMostCalibrations = 32;
-constexpr double kHorizons = 3.0;      // looked ahead, without a profile
-constexpr double kLookBudget = 5.0e5;  // evaluations, for that
-constexpr int kRounds = 2;
+constexpr double kHorizons = 3.0;       // evaluated ahead, without a profile
+constexpr double kMostHorizons = 16.0;  // and on as long as the estimate grows
+constexpr double kStillGrows = 1.2;     // from one horizon to the next
+constexpr double kLookBudget = 4.0e6;   // evaluations, for that
+constexpr int kRounds = 4;
+constexpr int kMostRaised = 16;  // times the substeps, where nothing is promised
 constexpr std::int64_t kLook = 64;
 constexpr double kFastRate = 1.0e3;  // [m/s] or [rad/s]
 constexpr double kLengthsOfParts = 36.0;
@@ -88,40 +91,65 @@ std::string reasonFor(const StepChoice& choice, const SystemSpec& spec) {
                 : fmt::format(", no step resolves it over {:.3g} s", p.known_until);
   }
   return "the best here: " + said +
-         (known ? "" : fmt::format("; not known beyond {:.3g} s", p.known_until));
+         (known ? "" : fmt::format("; not known beyond {:.3g} s", p.known_until)) +
+         (choice.raised ? "; its later motion needs shorter steps" : "");
 }
 
-/// Largest error over a horizon that the twin would see in itself (observer.h) in so many steps.
-double largestEstimate(const Scene& one, const StepChoice& choice, std::int64_t steps) {
+/// The largest error over a horizon that the twin would estimate of itself (observer.h), or the
+/// largest residual of its energy in two records running, if that is larger: few of the sampled
+/// steps meet a contact, which the residual shows. Over `steps`, and on up to `most` as long as the
+/// estimate grows from one horizon to the next.
+double largestEstimate(const Scene& one, const StepChoice& choice, std::int64_t steps,
+                       std::int64_t most) {
   const DenormalsToZero denormals_to_zero;
   Twin twin(withSetting(one, settingOf(one, choice)));
   Observer observer(twin);
   std::vector<double> record(twin.layout().size);
+  const auto horizon =
+      static_cast<std::int64_t>(std::ceil(one.systems.front().horizon / one.stepSeconds()));
   double largest = 0.0;
+  double horizon_ago = 0.0;
+  double residual_before = 0.0;
   for (std::int64_t i = 1; i <= steps; ++i) {
     twin.step();
     if (i % kLook == 0 || i == steps) {
       twin.write(record.data());
       observer.observe(record.data());
-      largest = std::max(largest, observer.errorEstimate(0));
+      const double residual = std::fabs(observer.energyResidual(0));
+      largest = std::max({largest, observer.errorEstimate(0), std::min(residual, residual_before)});
+      residual_before = residual;
+    }
+    if (i == steps && steps < most && observer.errorEstimate(0) > kStillGrows * horizon_ago) {
+      steps = std::min(most, steps + horizon);
+    }
+    if (i % horizon == 0) {
+      horizon_ago = observer.errorEstimate(0);
     }
   }
   return twin.status(0) == StepStatus::kOk ? largest : kInfinity;
 }
 
 /// With as many substeps as the motion after the horizon needs: through the drive's profile, or a
-/// few horizons, as far as the budget goes.
-StepChoice lasting(const Scene& one, const ModelSetup& setup, StepChoice choice) {
+/// few horizons, as far as the budget goes. Where nothing is promised, only if that many keep the
+/// estimate within the tolerance.
+StepChoice lasting(const Scene& one, const ModelSetup& setup, const StepChoice& given) {
+  StepChoice choice = given;
+  bool keeps = false;
   const SystemSpec& spec = one.systems.front();
   const double later = one.drives.empty() ? 0.0 : profileDuration(one.drives.front());
-  const double steps = std::max(later, kHorizons * spec.horizon) / one.stepSeconds();
+  const double horizons = spec.horizon / one.stepSeconds();
+  const double steps = std::max(later / one.stepSeconds(), kHorizons * horizons);
   const StepMethod& method = stepMethod(choice.integrator);
   for (int round = 0; round < kRounds; ++round) {
     EvaluationBudget budget(kLookBudget, one, setup);
     const double affordable = kLookBudget / budget.cost(settingOf(one, choice), one.step, 1);
-    const double estimate = largestEstimate(
-        one, choice, static_cast<std::int64_t>(std::max(1.0, std::min(steps, affordable))));
-    if (!(estimate > spec.tolerance)) {
+    const auto within = [&](double count) {
+      return static_cast<std::int64_t>(std::max(1.0, std::min(count, affordable)));
+    };
+    const double estimate = largestEstimate(one, choice, within(steps),
+                                            within(std::max(steps, kMostHorizons * horizons)));
+    keeps = !(estimate > spec.tolerance);
+    if (keeps) {
       break;
     }
     if (method.ahead) {
@@ -135,7 +163,8 @@ StepChoice lasting(const Scene& one, const ModelSetup& setup, StepChoice choice)
     choice.substeps <<= more;
     choice.raised = true;
   }
-  return choice;
+  const bool promised = given.promise.kept;
+  return promised || (keeps && choice.substeps <= kMostRaised * given.substeps) ? choice : given;
 }
 
 struct Searched {
@@ -202,12 +231,10 @@ StepChoice chooseStep(const Scene& given, double evaluations) {
   const Searched found = searched(one, setup, judge);
   const auto withPromise = [&](StepChoice of) {
     of.promise = judge.promise(settingOf(one, of));
-    if (of.promise.kept) {
-      const StepChoice longer = lasting(one, setup, of);
-      if (longer.raised) {
-        of = longer;
-        of.promise = judge.promise(settingOf(one, of));
-      }
+    const StepChoice longer = lasting(one, setup, of);
+    if (longer.raised) {
+      of = longer;
+      of.promise = judge.promise(settingOf(one, of));
     }
     return of;
   };

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "algebra/constants.h"
+#include "algebra/dense.h"
 #include "analysis/bracketed_root.h"
 #include "messages/refusal.h"
 
@@ -36,7 +37,7 @@ struct Point {
 
 /// Where to look: evenly on a logarithmic scale, and around each pole from a fraction of its width
 /// outwards.
-std::vector<double> frequencies(const LoopResponse& response) {
+std::vector<double> frequencies(const LoopSpan& response) {
   double least = kInfinity;
   double largest = 0.0;
   for (const Complex& pole : response.poles) {
@@ -50,6 +51,9 @@ std::vector<double> frequencies(const LoopResponse& response) {
   std::vector<double> w{0.0, end};
   const double ratio = std::pow(10.0, 1.0 / kPointsOfDecade);
   for (double x = begin; x < end; x *= ratio) {
+    w.push_back(x);
+  }
+  for (double x = response.spacing; x < end; x += response.spacing) {
     w.push_back(x);
   }
   for (const Complex& pole : response.poles) {
@@ -144,6 +148,55 @@ void findCrossings(const LoopResponse& response, const std::vector<Point>& point
   }
 }
 
+/// The eigenvalues of L at a frequency.
+struct Loci {
+  double frequency;
+  std::vector<Complex> values;
+};
+
+Loci lociAt(const LoopMatrixResponse& response, double w) {
+  const Eigen::VectorXcd values = eigenvalues(response.open_loop(w)).values;
+  return {w, {values.data(), values.data() + values.size()}};
+}
+
+bool isFiniteAt(const Loci& loci) {
+  return std::all_of(loci.values.begin(), loci.values.end(), [](const Complex& value) {
+    return std::isfinite(value.real()) && std::isfinite(value.imag());
+  });
+}
+
+const Complex& nearestTo(const Complex& place, const std::vector<Complex>& values) {
+  return *std::min_element(values.begin(), values.end(), [&](const Complex& x, const Complex& y) {
+    return std::norm(x - place) < std::norm(y - place);
+  });
+}
+
+/// The values of b in the order of those of a that they continue.
+void continueLoci(const Loci& a, Loci& b) {
+  std::vector<Complex> left = b.values;
+  for (std::size_t i = 0; i < a.values.size(); ++i) {
+    const Complex found = nearestTo(a.values[i], left);
+    left.erase(std::find(left.begin(), left.end(), found));
+    b.values[i] = found;
+  }
+}
+
+/// Where a function of an eigenvalue, of different signs at a and b, passes through 0.
+template <class Function>
+std::pair<double, Complex> passage(const LoopMatrixResponse& response, const Loci& a, const Loci& b,
+                                   std::size_t i, const Function& of) {
+  constexpr int kBisections = 60;
+  std::pair<double, Complex> low{a.frequency, a.values[i]};
+  std::pair<double, Complex> high{b.frequency, b.values[i]};
+  const bool sign = of(low.second) > 0.0;
+  for (int k = 0; k < kBisections; ++k) {
+    const double w = 0.5 * (low.first + high.first);
+    const Complex value = nearestTo(0.5 * (low.second + high.second), lociAt(response, w).values);
+    ((of(value) > 0.0) == sign ? low : high) = {w, value};
+  }
+  return high;
+}
+
 }  // namespace
 
 const char* name(SensitivityZone zone) {
@@ -188,6 +241,50 @@ LoopMargins loopMargins(const LoopResponse& response) {
   }
   m.zone = zoneOf(m.sensitivity_peak);
   findCrossings(response, points, m);
+  return m;
+}
+
+LoopMargins simultaneousMargins(const LoopMatrixResponse& response) {
+  LoopMargins m;
+  m.gain_margin = m.phase_margin = m.delay_margin = kInfinity;
+  const auto size = [](const Complex& value) { return std::log(std::abs(value)); };
+  const auto imaginary = [](const Complex& value) { return value.imag(); };
+  const auto takeEnd = [&](const Loci& loci) {
+    for (const Complex& value : loci.values) {
+      if (isReal(value)) {
+        takeGain(value.real(), m);
+      }
+    }
+  };
+  Loci before;
+  for (const double w : frequencies(response)) {
+    Loci now = lociAt(response, w);
+    if (!isFiniteAt(now)) {
+      continue;  // a pole
+    }
+    if (before.values.empty()) {
+      takeEnd(now);
+      before = now;
+      continue;
+    }
+    continueLoci(before, now);
+    for (std::size_t i = 0; i < now.values.size(); ++i) {
+      const Complex& a = before.values[i];
+      const Complex& b = now.values[i];
+      if ((size(a) > 0.0) != (size(b) > 0.0)) {
+        const auto [at, value] = passage(response, before, now, i, size);
+        takeCrossover(at, value, m);
+      }
+      if ((a.imag() > 0.0) != (b.imag() > 0.0) && (a.real() < 0.0 || b.real() < 0.0)) {
+        const auto [at, value] = passage(response, before, now, i, imaginary);
+        takeGain(value.real(), m);
+      }
+    }
+    before = now;
+  }
+  if (!before.values.empty()) {
+    takeEnd(before);
+  }
   return m;
 }
 

@@ -11,6 +11,7 @@
 // so that no peak is below 1.
 #pragma once
 
+#include <Eigen/Core>
 #include <complex>
 #include <cstdint>
 #include <functional>
@@ -19,14 +20,26 @@
 
 namespace whirl_twin {
 
-struct LoopResponse {
-  /// L(w), w >= 0 [rad/s].
-  std::function<std::complex<double>(double)> open_loop;
+/// The frequencies that a response is evaluated at.
+struct LoopSpan {
   /// rad/s: pi / T of a sampled loop.
   double highest = std::numeric_limits<double>::infinity();
-  /// 1/s, as far as they are known: poles of the open and of the closed loop, where to look
+  /// 1/s, as far as they are known: poles of the open and of the closed loop, where it is evaluated
   /// closely. At least one is not 0.
   std::vector<std::complex<double>> poles;
+  /// rad/s: two frequencies are no further apart; of a long delay, a part of 2 pi / delay.
+  double spacing = std::numeric_limits<double>::infinity();
+};
+
+struct LoopResponse : LoopSpan {
+  /// L(w), w >= 0 [rad/s].
+  std::function<std::complex<double>(double)> open_loop;
+};
+
+/// Of a loop that is opened at several places at once.
+struct LoopMatrixResponse : LoopSpan {
+  /// The return ratio L(w), [places x places].
+  std::function<Eigen::MatrixXcd(double)> open_loop;
 };
 
 enum class SensitivityZone : std::uint8_t {
@@ -56,6 +69,12 @@ struct LoopMargins {
 /// Throws RunFailure where the peak of |S| is below 1, which no strictly proper loop can be: the
 /// response is not that of a loop. Not real-time safe (allocates).
 LoopMargins loopMargins(const LoopResponse& response);
+
+/// What all places of a stable loop bear at once, the same change at each: gain, phase and delay
+/// margin from the eigenvalues of L, for det(I + k e^(-i p) L) = 0 where an eigenvalue is
+/// -e^(i p) / k (A. MacFarlane, I. Postlethwaite, Int. J. Control 25 (1977) 81). It can be less
+/// than what any of them bears alone. No peak of the sensitivity: it is 0. Errors as loopMargins().
+LoopMargins simultaneousMargins(const LoopMatrixResponse& response);
 
 /// Integral of ln|S| over 0..highest [rad/s].
 double logSensitivityIntegral(const LoopResponse& response);

@@ -10,7 +10,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr double kCancelled = 1e-13;  // of the terms whose sum is nothing but rounding
+constexpr double kCancelledAtRest = 1e-13;  // of the terms whose sum is nothing but rounding
 
 /// Rows and columns times powers of two: the largest of each is near 1.
 MatrixXd equilibrated(MatrixXd m) {
@@ -63,7 +63,7 @@ int standingDirections(const LoopPlant& plant, const std::vector<LoopController>
   if (size == 0) {
     return 0;
   }
-  return static_cast<int>((singularValues(equilibrated(rest)).array() <= kCancelled).count());
+  return static_cast<int>((singularValues(equilibrated(rest)).array() <= kCancelledAtRest).count());
 }
 
 }  // namespace whirl_twin

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <deque>
 #include <map>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -131,18 +130,13 @@ Continuous continuousPart(const LoopPlant& plant, const std::vector<LoopControll
   return part;
 }
 
-struct Tap {
-  std::size_t controller;
-  Index measure;
-};
-
 /// Takes the loop through a period. Every quantity is rows of a linear map of the states at the
 /// beginning and of what is added at the tap, sample by sample.
 class LoopWalk {
  public:
   LoopWalk(const Continuous& part, const std::vector<LoopController>& controllers,
-           LoopInstants instants, std::optional<Tap> tap)
-      : part_(part), controllers_(controllers), instants_(std::move(instants)), tap_(tap) {
+           LoopInstants instants, const std::vector<LoopPlace>& places)
+      : part_(part), controllers_(controllers), instants_(std::move(instants)), places_(places) {
     begin();
     std::int64_t now = 0;
     for (const LoopEvent& event : instants_.events) {
@@ -174,7 +168,7 @@ class LoopWalk {
     return rows;
   }
 
-  /// Rows of what the tap was shown.
+  /// Rows of what was found at the places.
   const MatrixXd& shown() const { return shown_; }
 
  private:
@@ -191,7 +185,11 @@ class LoopWalk {
                       "states, of which at most {} are judged",
                       count, states_, kMostLoopStates));
     }
-    columns_ = states_ + (tap_ ? instants_.samples[tap_->controller] : 0);
+    columns_ = states_;
+    for (const LoopPlace& place : places_) {
+      tapped_.push_back(columns_ - states_);
+      columns_ += instants_.samples[place.controller];
+    }
     Index next = 0;
     const auto take = [&](Index rows) {
       MatrixXd m = MatrixXd::Zero(rows, columns_);
@@ -235,13 +233,21 @@ class LoopWalk {
 
   void read(std::size_t i) {
     MatrixXd measured = part_.c[i] * x_;
-    if (tap_ && tap_->controller == i) {
-      measured(tap_->measure, states_ + tapped_) += 1.0;
-      shown_.row(tapped_++) = measured.row(tap_->measure);
-    }
+    tap(i, false, measured);
     const DiscreteStateSpace& law = controllers_[i].law;
-    on_the_way_[i].push_back(law.c * law_[i] + law.d * measured);
+    MatrixXd output = law.c * law_[i] + law.d * measured;
+    tap(i, true, output);
+    on_the_way_[i].push_back(std::move(output));
     law_[i] = (law.a * law_[i] + law.b * measured).eval();
+  }
+
+  void tap(std::size_t i, bool at_output, MatrixXd& signals) {
+    for (std::size_t k = 0; k < places_.size(); ++k) {
+      if (places_[k].controller == i && places_[k].at_output == at_output) {
+        signals(places_[k].channel, states_ + tapped_[k]) += 1.0;
+        shown_.row(tapped_[k]++) = signals.row(places_[k].channel);
+      }
+    }
   }
 
   void act(std::size_t i) {
@@ -252,8 +258,9 @@ class LoopWalk {
   const Continuous& part_;
   const std::vector<LoopController>& controllers_;
   LoopInstants instants_;
-  std::optional<Tap> tap_;
-  Index states_ = 0, columns_ = 0, tapped_ = 0;
+  const std::vector<LoopPlace>& places_;
+  std::vector<Index> tapped_;  // of each place: the sample that comes next
+  Index states_ = 0, columns_ = 0;
   MatrixXd x_, held_, shown_;
   std::vector<MatrixXd> law_;
   std::vector<std::deque<MatrixXd>> on_the_way_;
@@ -267,7 +274,8 @@ SampledLoop sampledLoop(const LoopPlant& plant, const std::vector<LoopController
   checkLoop(plant, controllers);
   const Continuous part = continuousPart(plant, controllers);
   const LoopInstants instants = loopInstants(controllers);
-  const LoopWalk walk(part, controllers, instants, std::nullopt);
+  const std::vector<LoopPlace> nowhere;
+  const LoopWalk walk(part, controllers, instants, nowhere);
   SampledLoop loop;
   loop.transition = walk.end();
   loop.period = static_cast<double>(instants.period) * instants.tick;
@@ -278,14 +286,19 @@ SampledLoop sampledLoop(const LoopPlant& plant, const std::vector<LoopController
 }
 
 LoopTap loopTap(const LoopPlant& plant, const std::vector<LoopController>& controllers,
-                std::size_t controller, Index measure) {
+                const std::vector<LoopPlace>& places) {
   checkLoop(plant, controllers);
-  if (controller >= controllers.size() || measure < 0 ||
-      measure >= sizeOf(controllers[controller].measures)) {
-    throw std::logic_error("sampled loop: there is no such measure");
+  for (const LoopPlace& place : places) {
+    const bool found =
+        place.controller < controllers.size() && place.channel >= 0 &&
+        place.channel < sizeOf(place.at_output ? controllers[place.controller].acts_on
+                                               : controllers[place.controller].measures);
+    if (!found) {
+      throw std::logic_error("sampled loop: there is no such measure or output");
+    }
   }
   const Continuous part = continuousPart(plant, controllers);
-  const LoopWalk walk(part, controllers, loopInstants(controllers), Tap{controller, measure});
+  const LoopWalk walk(part, controllers, loopInstants(controllers), places);
   const Index n = walk.states();
   const MatrixXd end = walk.end();
   return {end.rightCols(end.cols() - n), walk.shown().leftCols(n),

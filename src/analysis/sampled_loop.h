@@ -52,7 +52,7 @@ struct SampledLoop {
 
 /// Most samples of all controllers in a common period, and most states of a loop.
 constexpr int kMostLoopSamples = 1000;
-constexpr int kMostLoopStates = 1000;
+constexpr int kMostLoopStates = 4000;
 
 /// Throws Refusal where a number cannot be meant (a rate <= 0, a delay < 0, no controller at all),
 /// RunFailure where the rates have no common period of kMostLoopSamples or delays make more states
@@ -60,16 +60,25 @@ constexpr int kMostLoopStates = 1000;
 /// Not real-time safe (allocates).
 SampledLoop sampledLoop(const LoopPlant& plant, const std::vector<LoopController>& controllers);
 
-/// The loop opened to a number that is added to what a controller is shown of one of its measures,
-/// and to what it is then shown. From the j-th of its samples in a period to the i-th.
+/// Where a loop is opened: at what a controller is shown of one of its measures, or at an output of
+/// it, which is where the plant is acted on.
+struct LoopPlace {
+  std::size_t controller = 0;
+  Eigen::Index channel = 0;  ///< of the controller's own `measures` or `acts_on`
+  bool at_output = false;
+};
+
+/// The loop opened to numbers that are added at places, and to what is then found there. Columns of
+/// `input` and rows of `output`: the samples in a period of the controller of each place in turn.
 struct LoopTap {
   Eigen::MatrixXd input;   ///< [n x samples]
   Eigen::MatrixXd output;  ///< [samples x n]
-  Eigen::MatrixXd direct;  ///< [samples x samples], lower triangular, 1 on the diagonal
+  Eigen::MatrixXd
+      direct;  ///< [samples x samples]; of one place lower triangular, 1 on the diagonal
 };
 
-/// `measure` counts in the controller's own `measures`. Errors as sampledLoop().
+/// Errors as sampledLoop().
 LoopTap loopTap(const LoopPlant& plant, const std::vector<LoopController>& controllers,
-                std::size_t controller, Eigen::Index measure);
+                const std::vector<LoopPlace>& places);
 
 }  // namespace whirl_twin

@@ -1,6 +1,8 @@
 #include "analysis/sampled_margins.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -8,6 +10,7 @@
 #include "algebra/constants.h"
 #include "algebra/dense.h"
 #include "analysis/balanced_matrix.h"
+#include "analysis/delayed_matrix.h"
 
 namespace whirl_twin {
 
@@ -20,12 +23,20 @@ using Eigen::MatrixXd;
 /// Eigenvalues below it are those of delays, which have no frequency.
 constexpr double kGoneInASample = 1e-6;
 
-/// The loop with one measure of a controller cut.
-std::vector<LoopController> opened(std::vector<LoopController> controllers, std::size_t controller,
-                                   Index measure) {
-  DiscreteStateSpace& law = controllers.at(controller).law;
-  law.b.col(measure).setZero();
-  law.d.col(measure).setZero();
+/// Frequencies for each state, where most of them are delays.
+constexpr double kPointsOfState = 8.0;
+
+/// The loop cut at a place.
+std::vector<LoopController> opened(std::vector<LoopController> controllers,
+                                   const LoopPlace& place) {
+  DiscreteStateSpace& law = controllers.at(place.controller).law;
+  if (place.at_output) {
+    law.c.row(place.channel).setZero();
+    law.d.row(place.channel).setZero();
+  } else {
+    law.b.col(place.channel).setZero();
+    law.d.col(place.channel).setZero();
+  }
   return controllers;
 }
 
@@ -60,71 +71,119 @@ struct SchurForm {
   Eigen::MatrixXcd triangle, to, from;
 };
 
-/// What a tap is shown of a motion z^k that is added there: output (z - F)^-1 input + direct, one z
-/// a substitution.
-class ShownByTap {
+/// (z - F)^-1 of a transition F.
+class Resolvent {
  public:
-  ShownByTap(std::shared_ptr<const SchurForm> schur, const LoopTap& tap)
-      : schur_(std::move(schur)), direct_(tap.direct) {
-    if (schur_->triangle.size() > 0) {
-      input_ = schur_->to * tap.input;
-      output_ = tap.output * schur_->from;
+  explicit Resolvent(const MatrixXd& transition) {
+    auto delayed = std::make_shared<const DelayedMatrix>(transition);
+    if (isMostlyDelays(*delayed)) {
+      delayed_ = std::move(delayed);
+    } else {
+      schur_ = std::make_shared<const SchurForm>(transition);
     }
   }
 
-  Eigen::MatrixXcd at(const Complex& z) const {
-    Eigen::MatrixXcd shown = direct_;
-    const Eigen::MatrixXcd& t = schur_->triangle;
-    Eigen::VectorXcd rest;
-    for (Index column = 0; column < input_.cols(); ++column) {
-      rest = input_.col(column);
-      for (Index k = t.rows() - 1; k >= 0; --k) {
-        const Complex away = z - t(k, k);
-        rest[k] *= std::conj(away) / std::norm(away);
-        rest.head(k) += rest[k] * t.col(k).head(k);
-      }
-      shown.col(column).noalias() += output_ * rest;
+  /// Poles [1/s] of F over a period [s], and how closely the frequencies lie. `open`: F is of the
+  /// loop that is opened.
+  void addTo(LoopSpan& span, double period, int samples, bool open) const {
+    if (!delayed_) {
+      addPoles(schur_->triangle.diagonal(), period, samples, span.poles);
+      return;
     }
-    return shown;
+    span.spacing = span.highest / (kPointsOfState * static_cast<double>(delayed_->states()));
+    std::vector<Complex> narrow;
+    for (const Complex& z : open ? delayed_->rootsWithoutDelays() : delayed_->roots()) {
+      if (open || std::fabs(std::log(std::abs(z))) < span.spacing * period) {
+        narrow.push_back(z);
+      }
+    }
+    addPoles(Eigen::Map<const Eigen::VectorXcd>(narrow.data(), static_cast<Index>(narrow.size())),
+             period, samples, span.poles);
+  }
+  bool isOfDelays() const { return delayed_ != nullptr; }
+
+  /// What is found at a tap of a motion z^k that is added there: output (z - F)^-1 input + direct,
+  /// one z a substitution.
+  std::function<Eigen::MatrixXcd(const Complex&)> at(const LoopTap& tap) const {
+    if (delayed_) {
+      return [delayed = delayed_, tap](const Complex& z) -> Eigen::MatrixXcd {
+        return tap.output * delayed->solve(z, tap.input) + tap.direct;
+      };
+    }
+    Eigen::MatrixXcd input, output;
+    if (schur_->triangle.size() > 0) {
+      input = schur_->to * tap.input;
+      output = tap.output * schur_->from;
+    }
+    return [schur = schur_, input, output, direct = tap.direct](const Complex& z) {
+      Eigen::MatrixXcd shown = direct;
+      const Eigen::MatrixXcd& t = schur->triangle;
+      Eigen::VectorXcd rest;
+      for (Index column = 0; column < input.cols(); ++column) {
+        rest = input.col(column);
+        for (Index k = t.rows() - 1; k >= 0; --k) {
+          const Complex away = z - t(k, k);
+          rest[k] *= std::conj(away) / std::norm(away);
+          rest.head(k) += rest[k] * t.col(k).head(k);
+        }
+        shown.col(column).noalias() += output * rest;
+      }
+      return shown;
+    };
   }
 
  private:
   std::shared_ptr<const SchurForm> schur_;
-  Eigen::MatrixXcd direct_, input_, output_;
+  std::shared_ptr<const DelayedMatrix> delayed_;  // instead, where most states are delays
 };
 
 struct Response : LoopResponse {
-  /// sum of ln|p| over the unstable poles of the open loop
+  /// sum of ln|p| over the unstable poles of the open loop; NaN: not known
   double unstable = 0.0;
   int samples = 1;  ///< in a period
 };
 
+std::vector<LoopPlace> placesOf(const LoopController& controller, std::size_t index,
+                                LoopSide side) {
+  const bool at_output = side == LoopSide::kOutputs;
+  const auto& channels = at_output ? controller.acts_on : controller.measures;
+  std::vector<LoopPlace> places;
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    places.push_back({index, static_cast<Index>(i), at_output});
+  }
+  return places;
+}
+
 std::vector<Response> responses(const LoopPlant& plant,
                                 const std::vector<LoopController>& controllers,
-                                std::size_t controller) {
+                                std::size_t controller, LoopSide side) {
   const SampledLoop loop = sampledLoop(plant, controllers);
   const int samples = loop.samples.at(controller);
   const double step = loop.period / samples;
-  const auto schur = std::make_shared<const SchurForm>(loop.transition);
-  std::vector<Complex> closed{Complex(-1.0 / step, 0.0)};
-  addPoles(schur->triangle.diagonal(), loop.period, samples, closed);
-  std::vector<Response> all(controllers[controller].measures.size());
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const auto measure = static_cast<Index>(i);
-    Response& response = all[i];
+  const Resolvent resolvent(loop.transition);
+  LoopSpan closed;
+  closed.highest = kPi / step;
+  closed.poles = {Complex(-1.0 / step, 0.0)};
+  resolvent.addTo(closed, loop.period, samples, false);
+  std::vector<Response> all;
+  for (const LoopPlace& place : placesOf(controllers[controller], controller, side)) {
+    Response& response = all.emplace_back();
+    static_cast<LoopSpan&>(response) = closed;
     response.samples = samples;
-    response.highest = kPi / step;
-    response.poles = closed;
-    const SampledLoop open = sampledLoop(plant, opened(controllers, controller, measure));
-    const Eigen::VectorXcd poles = balancedEigenvalues(open.transition);
-    addPoles(poles, loop.period, samples, response.poles);
-    for (const Complex& z : poles) {
-      response.unstable += std::fmax(0.0, std::log(std::abs(z)));
+    const SampledLoop open = sampledLoop(plant, opened(controllers, place));
+    if (resolvent.isOfDelays()) {
+      Resolvent(open.transition).addTo(response, loop.period, samples, true);
+      response.unstable = kNaN;
+    } else {
+      const Eigen::VectorXcd poles = balancedEigenvalues(open.transition);
+      addPoles(poles, loop.period, samples, response.poles);
+      for (const Complex& z : poles) {
+        response.unstable += std::fmax(0.0, std::log(std::abs(z)));
+      }
     }
-    const LoopTap tap = loopTap(plant, controllers, controller, measure);
-    response.open_loop = [shown = ShownByTap(schur, tap), period = loop.period, step,
-                          samples](double w) {
-      const Eigen::MatrixXcd lifted = shown.at(std::polar(1.0, w * period));
+    response.open_loop = [shown = resolvent.at(loopTap(plant, controllers, {place})),
+                          period = loop.period, step, samples](double w) {
+      const Eigen::MatrixXcd lifted = shown(std::polar(1.0, w * period));
       Complex sensitivity = 0.0;
       for (Index to = 0; to < samples; ++to) {
         for (Index from = 0; from < samples; ++from) {
@@ -142,18 +201,18 @@ std::vector<Response> responses(const LoopPlant& plant,
 
 std::vector<LoopResponse> sampledResponses(const LoopPlant& plant,
                                            const std::vector<LoopController>& controllers,
-                                           std::size_t controller) {
-  const std::vector<Response> all = responses(plant, controllers, controller);
+                                           std::size_t controller, LoopSide side) {
+  const std::vector<Response> all = responses(plant, controllers, controller, side);
   return {all.begin(), all.end()};
 }
 
 std::vector<SampledMargins> sampledMargins(const LoopPlant& plant,
                                            const std::vector<LoopController>& controllers,
-                                           std::size_t controller, Verdict verdict) {
+                                           std::size_t controller, Verdict verdict, LoopSide side) {
   if (controller >= controllers.size()) {
     throw std::logic_error("sampled loop: there is no such controller");
   }
-  std::vector<SampledMargins> all(controllers[controller].measures.size());
+  std::vector<SampledMargins> all(placesOf(controllers[controller], controller, side).size());
   if (verdict != Verdict::kAsymptoticallyStable) {
     for (SampledMargins& margins : all) {
       margins.sensitivity_peak = kInfinity;
@@ -162,7 +221,7 @@ std::vector<SampledMargins> sampledMargins(const LoopPlant& plant,
     }
     return all;
   }
-  const std::vector<Response> open = responses(plant, controllers, controller);
+  const std::vector<Response> open = responses(plant, controllers, controller, side);
   for (std::size_t i = 0; i < all.size(); ++i) {
     SampledMargins& margins = all[i];
     static_cast<LoopMargins&>(margins) = loopMargins(open[i]);
@@ -172,14 +231,60 @@ std::vector<SampledMargins> sampledMargins(const LoopPlant& plant,
       continue;
     }
     margins.bode_error =
-        std::fabs(logSensitivityIntegral(open[i]) / open[i].highest - open[i].unstable);
+        std::isnan(open[i].unstable)
+            ? kNaN
+            : std::fabs(logSensitivityIntegral(open[i]) / open[i].highest - open[i].unstable);
   }
   return all;
 }
 
-LoopMargins leastMargins(const std::vector<SampledMargins>& margins) {
-  LoopMargins all = margins.front();
-  for (const LoopMargins& one : margins) {
+LoopMargins sampledMarginsAtOnce(const LoopPlant& plant,
+                                 const std::vector<LoopController>& controllers, Verdict verdict) {
+  LoopMargins margins;
+  if (verdict != Verdict::kAsymptoticallyStable) {
+    margins.sensitivity_peak = kInfinity;
+    margins.gain_reduction = margins.gain_margin = 1.0;
+    return margins;
+  }
+  const SampledLoop loop = sampledLoop(plant, controllers);
+  if (std::any_of(loop.samples.begin(), loop.samples.end(), [](int n) { return n > 1; })) {
+    margins.gain_margin = margins.gain_reduction = margins.phase_margin = kNaN;
+    margins.phase_crossover = margins.delay_margin = kNaN;
+    return margins;
+  }
+  const Resolvent resolvent(loop.transition);
+  LoopMatrixResponse response;
+  response.highest = kPi / loop.period;
+  response.poles = {Complex(-1.0 / loop.period, 0.0)};
+  resolvent.addTo(response, loop.period, 1, false);
+  // The return ratios at sensors and at outputs have the same eigenvalues but for zeros.
+  std::size_t sensors = 0, outputs = 0;
+  for (const LoopController& controller : controllers) {
+    sensors += controller.measures.size();
+    outputs += controller.acts_on.size();
+  }
+  const LoopSide side = outputs < sensors ? LoopSide::kOutputs : LoopSide::kSensors;
+  std::vector<LoopPlace> places;
+  std::vector<LoopController> all_open = controllers;
+  for (std::size_t i = 0; i < controllers.size(); ++i) {
+    for (const LoopPlace& place : placesOf(controllers[i], i, side)) {
+      places.push_back(place);
+      all_open = opened(all_open, place);
+    }
+  }
+  Resolvent(sampledLoop(plant, all_open).transition).addTo(response, loop.period, 1, true);
+  response.open_loop = [shown = resolvent.at(loopTap(plant, controllers, places)),
+                        period = loop.period](double w) -> Eigen::MatrixXcd {
+    Eigen::MatrixXcd ratio = ComplexLu(shown(std::polar(1.0, w * period))).inverse();
+    ratio.diagonal().array() -= 1.0;
+    return ratio;
+  };
+  return simultaneousMargins(response);
+}
+
+LoopMargins leastMargins(const LoopMargins& at_once, const std::vector<SampledMargins>& margins) {
+  LoopMargins all = margins.empty() ? at_once : margins.front();
+  const auto take = [&all](const LoopMargins& one) {
     if (one.sensitivity_peak > all.sensitivity_peak) {
       all.sensitivity_peak = one.sensitivity_peak;
       all.peak_frequency = one.peak_frequency;
@@ -192,7 +297,9 @@ LoopMargins leastMargins(const std::vector<SampledMargins>& margins) {
     all.gain_margin = std::fmin(all.gain_margin, one.gain_margin);
     all.gain_reduction = std::fmax(all.gain_reduction, one.gain_reduction);
     all.delay_margin = std::fmin(all.delay_margin, one.delay_margin);
-  }
+  };
+  take(at_once);
+  std::for_each(margins.begin(), margins.end(), take);
   return all;
 }
 

@@ -1,6 +1,9 @@
-// Margins of a sampled loop at each of its sensors, all other loops closed (loop_margins.h).
+// Margins of a sampled loop: with all of its places changed at once, and at each alone, all other
+// loops closed (loop_margins.h).
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "analysis/loop_margins.h"
@@ -8,29 +11,41 @@
 
 namespace whirl_twin {
 
-/// Of each measure of a controller in turn the loop opened where it is shown, in z = exp(i w T), T
-/// its own period: 1 + L = 1 / S. With controllers faster than it the response is that of its
-/// samples; with one whose rate is no whole multiple of its own, what goes round comes back at
+/// Where a controller's loop is opened, one place after another: at each of its sensors or, which
+/// is at the input of the plant, at each of its outputs.
+enum class LoopSide : std::uint8_t { kSensors, kOutputs };
+
+/// Of each place in turn the loop opened there, all others closed, in z = exp(i w T), T the
+/// controller's own period: 1 + L = 1 / S. With controllers faster than it the response is that of
+/// its samples; with one whose rate is no whole multiple of its own, what goes round comes back at
 /// other frequencies, too, and S is the part that keeps its own. Errors as loopTap().
 std::vector<LoopResponse> sampledResponses(const LoopPlant& plant,
                                            const std::vector<LoopController>& controllers,
-                                           std::size_t controller);
+                                           std::size_t controller,
+                                           LoopSide side = LoopSide::kSensors);
 
 struct SampledMargins : LoopMargins {
   /// |integral of ln|S| - (pi / T) sum ln|p|| over pi / T, of what Bode's integral says: rounding.
+  /// NaN of a loop with long delays, whose open loop's poles are not all computed.
   double bode_error = 0.0;
 };
 
-/// Of each measure of a controller in turn; `verdict` is that of sampledStability(). Not stable: no
-/// margins, and a sensitivity without bound. The delay is the phase over the frequency: exact in
-/// whole samples, for delays between them to the second order of the period. Where S is only the
-/// part at the same frequency (sampledResponses) gain, phase and delay margin and Bode's integral
-/// are NaN. Errors as loopMargins() and loopTap().
+/// Of each place in turn; `verdict` is that of sampledStability(). Not stable: no margins, and a
+/// sensitivity without bound. The delay is the phase over the frequency: exact in whole samples,
+/// for delays between them to the second order of the period. Where S is only the part at the same
+/// frequency (sampledResponses) gain, phase and delay margin and Bode's integral are NaN. Errors as
+/// loopMargins() and loopTap().
 std::vector<SampledMargins> sampledMargins(const LoopPlant& plant,
                                            const std::vector<LoopController>& controllers,
-                                           std::size_t controller, Verdict verdict);
+                                           std::size_t controller, Verdict verdict,
+                                           LoopSide side = LoopSide::kSensors);
 
-/// The least of each margin, and the highest peak with its zone; of one at least.
-LoopMargins leastMargins(const std::vector<SampledMargins>& margins);
+/// What the loop bears when all sensors of all controllers change alike, or, which is the same, all
+/// outputs (simultaneousMargins()): NaN where their rates differ.
+LoopMargins sampledMarginsAtOnce(const LoopPlant& plant,
+                                 const std::vector<LoopController>& controllers, Verdict verdict);
+
+/// The least of each margin, and the highest peak with its zone; of `at_once` and all others.
+LoopMargins leastMargins(const LoopMargins& at_once, const std::vector<SampledMargins>& margins);
 
 }  // namespace whirl_twin

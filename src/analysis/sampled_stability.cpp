@@ -9,6 +9,7 @@
 #include "algebra/dense.h"
 #include "analysis/balanced_matrix.h"
 #include "analysis/characteristic_polynomial.h"
+#include "analysis/delayed_matrix.h"
 #include "analysis/unit_circle.h"
 #include "messages/refusal.h"
 
@@ -94,6 +95,30 @@ Sides sides(const MatrixXd& a, std::vector<Complex> eigenvalues, int standing, d
   return sides;
 }
 
+/// Of a loop with long delays.
+SampledStability delayedStability(const DelayedMatrix& matrix, int standing) {
+  const std::optional<LeadingRoots> leading = leadingRoots(matrix);
+  if (!leading) {
+    throw RunFailure(
+        "sampled loop: of its eigenvalues not all can be told apart, with delays so long");
+  }
+  SampledStability result;
+  result.eigenvalues = leading->roots;
+  result.spectral_radius = leading->roots.empty() ? 0.0 : std::abs(leading->roots.front());
+  result.routh.right = leading->outside;
+  result.routh.imaginary = std::max(leading->near, standing);
+  result.routh.left =
+      static_cast<int>(matrix.states()) - result.routh.right - result.routh.imaginary;
+  result.routh.largest_imaginary_multiplicity = standing > 0 ? 1 : 0;
+  const bool stays = standing == 1 && leading->near == 1;
+  result.verdict = result.routh.verdict = leading->outside > 0 ? Verdict::kUnstable
+                                          : stays              ? Verdict::kMarginal
+                                          : result.routh.imaginary > 0
+                                              ? Verdict::kUncertain
+                                              : Verdict::kAsymptoticallyStable;
+  return result;
+}
+
 }  // namespace
 
 SampledStability sampledStability(const SampledLoop& loop) {
@@ -105,6 +130,10 @@ SampledStability sampledStability(const SampledLoop& loop) {
     result.verdict = Verdict::kAsymptoticallyStable;
     result.exact = true;
     return result;
+  }
+  const DelayedMatrix delayed(loop.transition);
+  if (isMostlyDelays(delayed)) {
+    return delayedStability(delayed, loop.standing);
   }
   const MatrixXd a = balanced(loop.transition);
   result.eigenvalues = sortedEigenvalues(a);

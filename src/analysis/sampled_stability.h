@@ -20,13 +20,16 @@ struct SampledStability {
   RouthResult routh;
   /// Beyond kMostExactStates, or where exact numbers become too long, `routh` counts eigenvalues.
   bool exact = false;
-  std::vector<std::complex<double>> eigenvalues;  ///< of a period, by falling modulus
-  double spectral_radius = 0.0;                   ///< of a period: with one rate of a sample
+  /// Of a period, by falling modulus; of a loop with long delays those of largest modulus.
+  std::vector<std::complex<double>> eigenvalues;
+  double spectral_radius = 0.0;  ///< of a period: with one rate of a sample
 };
 
 constexpr Eigen::Index kMostExactStates = 24;
 
-/// Throws RunFailure for a transition beyond the range of double.
+/// Of a loop that is mostly delays the eigenvalues are counted by the argument principle
+/// (analysis/delayed_matrix.h). Throws RunFailure for a transition beyond the range of double, or
+/// where such a count fails.
 SampledStability sampledStability(const SampledLoop& loop);
 
 }  // namespace whirl_twin

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algebra/constants.h"
 #include "display/scale_bar.h"
+#include "monitoring/stability_alarm.h"
 
 namespace whirl_twin {
 namespace {
@@ -29,6 +31,11 @@ double roundUp(double number) {
     }
   }
   return 10.0 * decade;
+}
+
+double decrementPlace(double log_decrement) {
+  return std::clamp((log_decrement - kLeastDecrement) / (kMostDecrement - kLeastDecrement), 0.0,
+                    1.0);
 }
 
 bool stable(const StabilityMargin& margin) {
@@ -79,14 +86,14 @@ void drawSpeed(double speed, const LiveMargin& live, double middle, double heigh
 
 void drawMargin(const LiveMargin& live, double middle, double height, MarkerCanvas& board) {
   ScaleBar bar("margin", middle, height, board);
-  const auto place = live.margin ? marginPlace(*live.margin) : std::nullopt;
-  const double asked = decrementPlace(live.least_decrement);
-  bar.range("track", 0.0, 1.0, kTrackColor, 0);
-  bar.range("unstable", 0.0, place ? kEdge : 0.0, kRed, 1);
-  bar.range("low", kEdge, place ? asked : 0.0, kOrange, 1);
-  bar.range("enough", asked, place ? 1.0 : 0.0, kGreen, 1);
-  if (place) {
-    bar.pointer(*place);
+  const std::optional<MarginScale> scale = marginScale(live);
+  const double required = scale ? scale->required : 0.0;
+  bar.range("track", 0.0, scale || !live.margin ? 1.0 : 0.0, kTrackColor, 0);
+  bar.range("unstable", 0.0, scale ? MarginScale::kEdge : 0.0, kRed, 1);
+  bar.range("low", MarginScale::kEdge, required, kOrange, 1);
+  bar.range("enough", required, scale && required > MarginScale::kEdge ? 1.0 : 0.0, kGreen, 1);
+  if (scale) {
+    bar.pointer(scale->place);
   } else {
     bar.noPointer();
   }
@@ -173,38 +180,54 @@ std::string scaleText(const SpeedScale& scale) {
                      fmt::join(parts, ", "));
 }
 
-double decrementPlace(double log_decrement) {
-  return std::clamp((log_decrement - kLeastDecrement) / (kMostDecrement - kLeastDecrement), 0.0,
-                    1.0);
-}
-
-std::optional<double> marginPlace(const StabilityMargin& margin) {
-  if (std::isfinite(margin.log_decrement)) {
-    return decrementPlace(margin.log_decrement);
+std::optional<MarginScale> marginScale(const LiveMargin& live) {
+  if (!live.margin) {
+    return std::nullopt;
   }
-  if (std::isfinite(margin.decay_rate)) {  // it does not swing: overdamped, or falls over
-    return margin.decay_rate > 0.0 ? 1.0 : margin.decay_rate < 0.0 ? 0.0 : kEdge;
+  const StabilityMargin& margin = *live.margin;
+  const double rate = judgedDecayRate(margin);
+  const double decrement = judgedLogDecrement(margin);
+  if (!stable(margin)) {
+    return MarginScale{std::isfinite(decrement) ? decrementPlace(decrement) : 0.0,
+                       MarginScale::kEdge, "unstable"};
   }
-  return std::nullopt;
+  const auto nearness = [](double value, double level) {  // infinite: not required, or not known
+    return level > 0.0 && std::isfinite(value) ? value / level : kInfinity;
+  };
+  const double by_decrement = nearness(decrement, live.least_decrement);
+  const double by_rate = nearness(rate, live.least_decay_rate);
+  if (!requiresDamping(margin) || !std::isfinite(rate) ||
+      !(live.least_decrement > 0.0 || live.least_decay_rate > 0.0)) {
+    return std::nullopt;
+  }
+  if (std::isfinite(by_rate) && by_rate < by_decrement) {
+    // Its level is as far from the edge as from the end.
+    constexpr double kLevel = 0.5 * (MarginScale::kEdge + 1.0);
+    return MarginScale{
+        std::clamp(MarginScale::kEdge + by_rate * (kLevel - MarginScale::kEdge), 0.0, 1.0), kLevel,
+        fmt::format("decay rate {:.3g} 1/s ({:g} required)", rate, live.least_decay_rate)};
+  }
+  if (!std::isfinite(by_decrement)) {  // overdamped, or standing
+    if (!(rate > 0.0)) {
+      return std::nullopt;
+    }
+    return MarginScale{1.0, decrementPlace(live.least_decrement), "does not swing, decays"};
+  }
+  return MarginScale{
+      decrementPlace(decrement), decrementPlace(live.least_decrement),
+      fmt::format("log decrement {:.3g} ({:g} required)", decrement, live.least_decrement)};
 }
 
 std::string marginText(const LiveMargin& live) {
   if (!live.margin) {
     return live.why_not.empty() ? "not judged yet" : live.why_not;
   }
-  const StabilityMargin& margin = *live.margin;
-  std::string text;
-  if (std::isfinite(margin.log_decrement)) {
-    text = fmt::format("log decrement {:.3g}", margin.log_decrement);
-    if (live.least_decrement > 0.0) {
-      text += fmt::format(" ({:g} asked for)", live.least_decrement);
-    }
-  } else if (std::isfinite(margin.decay_rate)) {
-    text = margin.decay_rate > 0.0 ? "does not swing, decays" : "does not swing, grows";
-  } else {
-    text = "no margin";
+  const std::optional<MarginScale> scale = marginScale(live);
+  if (!scale) {
+    return "";
   }
-  return std::isfinite(live.age) ? text + fmt::format(", {:.1f} s old", live.age) : text;
+  return std::isfinite(live.age) ? scale->text + fmt::format(", {:.1f} s old", live.age)
+                                 : scale->text;
 }
 
 double drawInstruments(const LiveMargin& live, double speed, bool compact, MarkerCanvas& board) {
@@ -219,7 +242,9 @@ double drawInstruments(const LiveMargin& live, double speed, bool compact, Marke
     y += 0.4 * words + room;
   };
   drawMargin(live, y, bar, board);
-  caption("margin_caption", "margin: " + marginText(live), live.margin ? kWordsColor : kGrey);
+  const std::string margin = marginText(live);
+  caption("margin_caption", margin.empty() ? "" : "margin: " + margin,
+          live.margin ? kWordsColor : kGrey);
   y += 0.5 * bar;
   drawSpeed(speed, live, y, bar, board);
   if (!shaft) {

@@ -1,6 +1,7 @@
 // Two instruments on a board above each system: how damped it is, on a scale with the edge of
-// stability and the decrement that is asked for, and how fast it turns, on a scale with the speeds
-// to avoid. Without a verdict that is live neither has anything to show but the speed.
+// stability and the level below which the monitor warns, and how fast it turns, on a scale with the
+// speeds to avoid. Without a verdict that is live neither has anything to show but the speed; and
+// where the monitor requires no damping the first shows nothing but instability.
 #pragma once
 
 #include <limits>
@@ -19,7 +20,8 @@ struct LiveMargin {
   StabilityMargin::ConstPtr margin;                       ///< null: none that is live
   double age = std::numeric_limits<double>::quiet_NaN();  ///< [s], wall time; NaN: not told
   std::string why_not;                                    ///< there is none that is live
-  double least_decrement = 0.1;  ///< [-], log decrement below which the monitor warns; 0: none
+  double least_decrement = 0.1;   ///< [-], log decrement below which the monitor warns; 0: none
+  double least_decay_rate = 0.0;  ///< [1/s], decay rate, likewise
 };
 
 /// Whether a verdict is still live.
@@ -43,13 +45,20 @@ SpeedScale speedScale(double speed, const StabilityMargin* margin);
 /// "0 to 100 rad/s: avoid 48.1 to 70.7, unstable above 80"
 std::string scaleText(const SpeedScale& scale);
 
-/// Where a margin stands on its scale, from 0, unstable, to 1; none: it is not known. The edge of
-/// stability is at kEdge.
-constexpr double kEdge = 0.25;
-std::optional<double> marginPlace(const StabilityMargin& margin);
-double decrementPlace(double log_decrement);
+/// A margin on its scale from 0, unstable, to 1, and the level below which LOW_DAMPING is raised.
+struct MarginScale {
+  double place = 0.0;
+  double required = kEdge;  ///< kEdge: no damping is required, instability is all there is to show
+  std::string text;         ///< "log decrement 0.314 (0.1 required)"
 
-/// "log decrement 0.314 (0.1 asked for), 0.1 s old"; why there is none.
+  /// Where the edge of stability is.
+  static constexpr double kEdge = 0.25;
+};
+/// Of the decrement or the decay rate, whichever is nearer to its level. Nothing where the margin
+/// is not known or not live, and where no damping is required of a system that is not unstable.
+std::optional<MarginScale> marginScale(const LiveMargin& live);
+
+/// "log decrement 0.314 (0.1 required), 0.1 s old"; why there is none; "" where none is required.
 std::string marginText(const LiveMargin& live);
 
 /// Draws both upwards from the origin of the board (layout.h).

@@ -51,7 +51,7 @@ AlarmSettings settingsOfMonitor(const std::string& node, const std::vector<std::
   }
   YAML::Node given = toYaml(all);
   YAML::Node levels(YAML::NodeType::Map);  // what is drawn of them
-  for (const char* key : {"amplitude", "zones", "log_decrement_warning"}) {
+  for (const char* key : {"amplitude", "zones", "log_decrement_warning", "decay_rate_alarm"}) {
     if (given[key]) {
       levels[key] = given[key];
     }

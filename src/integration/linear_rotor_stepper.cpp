@@ -165,8 +165,8 @@ void LinearRotorStepper::estimateError() noexcept {
     }
   }
   // Of the coordinates: what the rates of stiff modes are off by comes and goes within a step.
-  errors_.add(dof(), next_.q().data(), next_.v().data(), finer_.q().data(), next_.v().data(),
-              [&](std::size_t i) { return angular_[i] != 0; });
+  errors_.add(dof(), step_, state_.v().data(), next_.q().data(), next_.v().data(),
+              finer_.q().data(), next_.v().data(), [&](std::size_t i) { return angular_[i] != 0; });
 }
 
 void LinearRotorStepper::motion(double* out) const noexcept {

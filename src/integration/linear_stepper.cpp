@@ -92,7 +92,8 @@ void LinearStepper::estimateError(double time) noexcept {
   for (int i = 0; i < 2 * substeps_; ++i) {
     halves_.advance(time + i * h, finer_, i * h);
   }
-  errors_.add(dof(), next_.q().data(), next_.v().data(), finer_.q().data(), finer_.v().data(),
+  errors_.add(dof(), substeps_ * substep_, state_.v().data(), next_.q().data(), next_.v().data(),
+              finer_.q().data(), finer_.v().data(),
               [&](std::size_t i) { return angular_[i] != 0; });
 }
 

@@ -47,6 +47,7 @@ SpinningRotorStepper::SpinningRotorStepper(std::shared_ptr<const SpinningRotor> 
       state_(dynamics_->held().dof()),
       next_(state_.dof()),
       finer_(state_.dof()),
+      start_rates_(dof()),
       taken_(2 * dof()),
       in_halves_(2 * dof()) {
   for (const CoordinateInfo& c : dynamics_->coordinates()) {
@@ -125,8 +126,10 @@ void SpinningRotorStepper::estimateError() noexcept {
   put(next_, next_spin_.angle.high, next_spin_.speed.high, taken_.data());
   put(finer_, finer_spin_.angle.high + ShaftAngle::kTurn * turns, finer_spin_.speed.high,
       in_halves_.data());
-  errors_.add(n, taken_.data(), taken_.data() + n, in_halves_.data(), in_halves_.data() + n,
-              [&](std::size_t i) { return angular_[i] != 0; });
+  std::copy_n(state_.v().data(), n - 1, start_rates_.data());
+  start_rates_[n - 1] = spin_.speed.high;
+  errors_.add(n, step_, start_rates_.data(), taken_.data(), taken_.data() + n, in_halves_.data(),
+              in_halves_.data() + n, [&](std::size_t i) { return angular_[i] != 0; });
 }
 
 void SpinningRotorStepper::motion(double* out) const noexcept {

@@ -51,7 +51,8 @@ class SpinningRotorStepper final : public Stepper {
   LinearMotion finer_;  ///< next_, by halves
   SpinMotion spin_, next_spin_, finer_spin_;
   std::vector<char> angular_;              ///< of each coordinate
-  std::vector<double> taken_, in_halves_;  ///< q and v after a step
+  std::vector<double> start_rates_;        ///< before a step
+  std::vector<double> taken_, in_halves_;  ///< q and v after it
   StepErrorSum errors_{kLinearErrorEvery, false};
 };
 

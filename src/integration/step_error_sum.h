@@ -3,10 +3,14 @@
 // A step of the sample is taken twice, the second time in halves; what the two differ by is the
 // error of that step (order p leaves out a part of 2^-p of it), and stands for all steps since the
 // one before it in the sample: the first, the second, the fourth ... the 64th, then one in 64 (or
-// in another power of two). The sum is in parts of the largest coordinates and rates so far,
+// in another power of two). The sum is relative to the largest coordinates and rates so far,
 // lengths and angles each by themselves; of an angle that is larger than one radian, in radians.
-// The first 64 steps count in parts of the largest at the 64th, or of the present ones before: a
-// motion from rest is small.
+//
+// A motion from rest is small at first. So the first 64 steps count relative to the sizes at the
+// 64th, which before it are extrapolated at the present acceleration; and their rates relative to
+// sqrt(a q) at least, a the acceleration at the start, which is the largest rate of a harmonic
+// motion that starts from rest at q (a = w^2 q, v = w q). Where a size more than doubles from one
+// sample to the next the motion starts again, after a rest: a force or a drive sets in.
 #pragma once
 
 #include <array>
@@ -29,29 +33,46 @@ class StepErrorSum {
   /// Counts a step. True: this one is of the sample, and is to be given to add() or passOver().
   bool countStep() noexcept { return --until_next_ == 0; }
 
-  /// n coordinates and rates at the end of the step, as taken and in halves; angular(i): is
-  /// coordinate i an angle?
-  template <class Vector, class Angular>
-  void add(std::size_t n, const Vector& q, const Vector& v, const Vector& finer_q,
-           const Vector& finer_v, const Angular& angular) noexcept {
+  /// The rates at the start of a step of h [s], and n coordinates and rates at its end, as taken
+  /// and in halves; angular(i): is coordinate i an angle?
+  template <class Start, class Vector, class Angular>
+  void add(std::size_t n, double h, const Start& start_v, const Vector& q, const Vector& v,
+           const Vector& finer_q, const Vector& finer_v, const Angular& angular) noexcept {
+    const std::array<Size, 2> before = sizes_;
     std::array<Size, 2> errors{};
+    std::array<double, 2> accelerations{};
     for (std::size_t i = 0; i < n; ++i) {
       const std::size_t unit = angular(i) ? 1 : 0;
       sizes_[unit].q = std::fmax(sizes_[unit].q, std::fabs(q[i]));
       sizes_[unit].v = std::fmax(sizes_[unit].v, std::fabs(v[i]));
       errors[unit].q = std::fmax(errors[unit].q, std::fabs(q[i] - finer_q[i]));
       errors[unit].v = std::fmax(errors[unit].v, std::fabs(v[i] - finer_v[i]));
+      accelerations[unit] = std::fmax(accelerations[unit], std::fabs(v[i] - start_v[i]) / h);
     }
-    if (taken_ < every_) {
+    if (!started_) {
+      started_ = true;
+      start_accelerations_ = accelerations;
+    }
+    const bool starts_again = taken_ >= every_ && grew(before);
+    if (starts_again) {
+      sum_ += early_sum_;
+      early_ = {};
+    }
+    if (taken_ < every_ || starts_again) {
       for (std::size_t unit = 0; unit < 2; ++unit) {
         early_[unit].q += steps() * errors[unit].q;
         early_[unit].v += steps() * errors[unit].v;
       }
-      early_sum_ = relative(early_);
+      const int left = starts_again ? every_ : every_ - (taken_ + gap_);
+      early_sum_ = relative(early_, extrapolated(left * h, accelerations));
     } else {
-      sum_ += steps() * relative(errors);
+      sum_ += steps() * relative(errors, sizes_);
     }
     passOver();
+    if (starts_again) {
+      gap_ = until_next_ = 1;
+      taken_ = 0;
+    }
   }
   /// The step has no second outcome.
   void passOver() noexcept {
@@ -73,13 +94,39 @@ class StepErrorSum {
   /// That an error stands for.
   double steps() const noexcept { return adding_up_ ? gap_ : 1; }
 
-  double relative(const std::array<Size, 2>& errors) const noexcept {
+  bool grew(const std::array<Size, 2>& before) const noexcept {
+    bool any = false;
+    for (std::size_t unit = 0; unit < 2; ++unit) {
+      any = any || sizes_[unit].q > 2.0 * before[unit].q || sizes_[unit].v > 2.0 * before[unit].v;
+    }
+    return any;
+  }
+
+  /// Of an angle at most one radian.
+  static double positionSize(const std::array<Size, 2>& sizes, std::size_t unit) noexcept {
+    return unit == 1 ? std::fmin(sizes[unit].q, 1.0) : sizes[unit].q;
+  }
+
+  /// The sizes of a motion from rest, a time [s] later.
+  std::array<Size, 2> extrapolated(double time,
+                                   const std::array<double, 2>& accelerations) const noexcept {
+    std::array<Size, 2> then = sizes_;
+    for (std::size_t unit = 0; unit < 2; ++unit) {
+      const double q = positionSize(then, unit);
+      then[unit].q += time * (sizes_[unit].v + 0.5 * time * accelerations[unit]);
+      then[unit].v = std::fmax(then[unit].v + time * accelerations[unit],
+                               std::sqrt(start_accelerations_[unit] * q));
+    }
+    return then;
+  }
+
+  static double relative(const std::array<Size, 2>& errors,
+                         const std::array<Size, 2>& sizes) noexcept {
     const auto part = [](double error, double size) { return error == 0.0 ? 0.0 : error / size; };
     double largest = 0.0;
     for (std::size_t unit = 0; unit < 2; ++unit) {
-      const double q_size = unit == 1 ? std::fmin(sizes_[unit].q, 1.0) : sizes_[unit].q;
-      largest = std::fmax(
-          largest, std::fmax(part(errors[unit].q, q_size), part(errors[unit].v, sizes_[unit].v)));
+      largest = std::fmax(largest, std::fmax(part(errors[unit].q, positionSize(sizes, unit)),
+                                             part(errors[unit].v, sizes[unit].v)));
     }
     return largest;
   }
@@ -88,6 +135,8 @@ class StepErrorSum {
   bool adding_up_;
   std::array<Size, 2> sizes_{};  ///< of lengths, of angles
   std::array<Size, 2> early_{};  ///< errors of the beginning
+  std::array<double, 2> start_accelerations_{};
+  bool started_ = false;
   double early_sum_ = 0.0;
   double sum_ = 0.0;
   int gap_ = 1;         ///< steps that the next of the sample stands for

@@ -302,7 +302,7 @@ class SteppedSystem final : public ReadOffStepper {
     const MotionState<n>& end = state_;
     MotionState<n> finer = start;
     const auto add = [&] {
-      errors_.add(n, end.q, end.v, finer.q, finer.v,
+      errors_.add(n, count * h, start.v, end.q, end.v, finer.q, finer.v,
                   [&](std::size_t i) { return Form::angular(model_, i); });
     };
     if constexpr (kHasHistory) {

@@ -33,7 +33,7 @@ std::vector<double> polynomialOf(const std::vector<std::complex<double>>& roots)
 }
 
 void setMargins(const std::vector<SampledMargins>& found, state::ControllerMargins& margins) {
-  const LoopMargins least = leastMargins(found);
+  const LoopMargins least = leastMargins(found.front(), found);  // of each sensor alone
   margins.sensitivity_peak = least.sensitivity_peak;
   margins.peak_frequency = least.peak_frequency;
   margins.zone = name(least.zone);

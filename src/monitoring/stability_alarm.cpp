@@ -32,16 +32,6 @@ AlarmCondition verdictCondition(const state::StabilityMargin& margin) {
   return margin.reduction_disagrees ? AlarmCondition::kWarning : verdictCondition(margin.verdict);
 }
 
-// Of the machine: where its rotor is reduced, of the one that it was made of. Shapes have motions
-// of high frequency besides that are none of the rotor's.
-double decayRateOf(const state::StabilityMargin& margin) {
-  return std::isnan(margin.unreduced_decay_rate) ? margin.decay_rate : margin.unreduced_decay_rate;
-}
-double logDecrementOf(const state::StabilityMargin& margin) {
-  return std::isnan(margin.unreduced_decay_rate) ? margin.log_decrement
-                                                 : margin.unreduced_log_decrement;
-}
-
 std::string speedText(double speed) {
   return std::isnan(speed) ? std::string() : fmt::format(" at {:.1f} rad/s", speed);
 }
@@ -147,22 +137,22 @@ void StabilityAlarm::updateLowDamping(const state::StabilityMargin& margin, Aler
   const AlarmCondition condition = dampingCondition(margin);
   const auto change = low_damping_alarm_.update(margin.at.time, condition);
   if (change == ConditionAlarm::Change::kCleared) {
-    alerts.clear(
-        system_, alert_type::kLowDamping, margin.at.time,
-        fmt::format("{}{}: damped enough again, log decrement {:.3g}, decay rate "
-                    "{:.3g} 1/s",
-                    system_, speedText(margin.speed), logDecrementOf(margin), decayRateOf(margin)));
+    alerts.clear(system_, alert_type::kLowDamping, margin.at.time,
+                 fmt::format("{}{}: damped enough again, log decrement {:.3g}, decay rate "
+                             "{:.3g} 1/s",
+                             system_, speedText(margin.speed), judgedLogDecrement(margin),
+                             judgedDecayRate(margin)));
   } else if (low_damping_alarm_.active() && isRaising(condition)) {
     state::Alert alert = alertAbout(margin);
     alert.type = alert_type::kLowDamping;
     alert.severity = low_damping_alarm_.severity();
-    if (logDecrementOf(margin) < settings_.log_decrement_warning) {
+    if (judgedLogDecrement(margin) < settings_.log_decrement_warning) {
       alert.text = fmt::format("{}{}: log decrement {:.3g}, below {:g}: {}", system_,
-                               speedText(margin.speed), logDecrementOf(margin),
+                               speedText(margin.speed), judgedLogDecrement(margin),
                                settings_.log_decrement_warning, wayToStay(margin));
     } else {
       alert.text = fmt::format("{}{}: decay rate {:.3g} 1/s, below {:g} 1/s: {}", system_,
-                               speedText(margin.speed), decayRateOf(margin),
+                               speedText(margin.speed), judgedDecayRate(margin),
                                settings_.decay_rate_alarm, wayToStay(margin));
     }
     alerts.raise(std::move(alert), "low damping");
@@ -220,24 +210,24 @@ void StabilityAlarm::updateSpread(const state::StabilityMargin& margin, AlertLis
 
 AlarmCondition StabilityAlarm::dampingCondition(const state::StabilityMargin& margin) const {
   // Once unstable, UNSTABLE speaks; and a margin that is not a number says nothing.
-  if (verdictCondition(margin) != AlarmCondition::kClear || !std::isfinite(margin.speed) ||
-      !std::isfinite(decayRateOf(margin))) {
+  if (verdictCondition(margin) != AlarmCondition::kClear || !requiresDamping(margin) ||
+      !std::isfinite(judgedDecayRate(margin))) {
     return AlarmCondition::kHold;
   }
   // An overdamped system has no log decrement; one that is only marginal should have.
-  if (std::isnan(logDecrementOf(margin)) &&
+  if (std::isnan(judgedLogDecrement(margin)) &&
       static_cast<Verdict>(margin.verdict) != Verdict::kAsymptoticallyStable) {
     return AlarmCondition::kHold;
   }
   // A limit of zero is switched off; a NaN log decrement, overdamped, is below none.
   const auto below = [](double value, double limit) { return limit > 0.0 && value < limit; };
-  if (below(logDecrementOf(margin), settings_.log_decrement_warning) ||
-      below(decayRateOf(margin), settings_.decay_rate_alarm)) {
+  if (below(judgedLogDecrement(margin), settings_.log_decrement_warning) ||
+      below(judgedDecayRate(margin), settings_.decay_rate_alarm)) {
     return AlarmCondition::kWarning;
   }
   const double beyond = 1.0 + settings_.hysteresis;
-  if (below(logDecrementOf(margin), beyond * settings_.log_decrement_warning) ||
-      below(decayRateOf(margin), beyond * settings_.decay_rate_alarm)) {
+  if (below(judgedLogDecrement(margin), beyond * settings_.log_decrement_warning) ||
+      below(judgedDecayRate(margin), beyond * settings_.decay_rate_alarm)) {
     return AlarmCondition::kHold;
   }
   return AlarmCondition::kClear;

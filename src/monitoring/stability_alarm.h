@@ -17,6 +17,7 @@
 // that rotor.
 #pragma once
 
+#include <cmath>
 #include <string>
 
 #include "messages/stability_margin.h"
@@ -25,6 +26,25 @@
 #include "monitoring/condition_alarm.h"
 
 namespace whirl_twin {
+
+/// The damping that LOW_DAMPING goes by, [1/s] and [-], of a margin of the twin or of ROS, which have
+/// the same fields: of the machine: where its rotor is reduced, of the one that it was reduced from.
+/// Retained modes have motions of high frequency besides that are none of the rotor's.
+template <class Margin>
+double judgedDecayRate(const Margin& margin) {
+  return std::isnan(margin.unreduced_decay_rate) ? margin.decay_rate : margin.unreduced_decay_rate;
+}
+template <class Margin>
+double judgedLogDecrement(const Margin& margin) {
+  return std::isnan(margin.unreduced_decay_rate) ? margin.log_decrement
+                                                 : margin.unreduced_log_decrement;
+}
+
+/// LOW_DAMPING is a criterion for rotors: of a system without a shaft no damping is required.
+template <class Margin>
+bool requiresDamping(const Margin& margin) {
+  return std::isfinite(margin.speed);
+}
 
 class StabilityAlarm {
  public:

@@ -24,7 +24,7 @@ void StateAlarm::set(const AlarmSettings& settings) {
 }
 
 void StateAlarm::updateEnergy(double time, double residual, AlertList& alerts) {
-  const double limit = settings_.energy_residual;
+  const double limit = std::fmax(settings_.energy_residual, tolerance_);
   AlarmCondition condition = AlarmCondition::kHold;
   const bool above = std::abs(residual) > limit;
   if (above && energy_above_) {
@@ -49,6 +49,7 @@ void StateAlarm::updateEnergy(double time, double residual, AlertList& alerts) {
 }
 
 void StateAlarm::updateAccuracy(double time, double estimate, double tolerance, AlertList& alerts) {
+  tolerance_ = tolerance;  // NaN: not chosen by `auto`
   AlarmCondition condition = AlarmCondition::kHold;
   if (estimate > tolerance) {
     condition = AlarmCondition::kWarning;

@@ -2,8 +2,9 @@
 //
 // ENERGY_RESIDUAL: a warning when the energy balance, change of energy against work and
 // dissipation, is off by more than the setting in two messages running: the step is too long for
-// the motion, or the model is wrong. Two, for the residual is relative to the largest energy so
-// far, and after one step from rest there is next to none to compare with.
+// the motion, or the model is wrong; of a system that `auto` steps, by more than its tolerance, if
+// that is larger: then it keeps what the scene asks. Two, for the residual is relative to the
+// largest energy so far, and after one step from rest there is next to none to compare with.
 // ACCURACY_LOST: a warning when the error that the twin estimates of its own steps is above what
 // the scene allows. NOT_FINITE: danger when the system was stopped because a state was no longer a
 // finite number. STOPPED: danger when it was stopped for another cause, an implicit step that did
@@ -45,6 +46,7 @@ class StateAlarm {
   std::string system_;
   AlarmSettings settings_;
   bool energy_above_ = false;
+  double tolerance_ = 0.0;  // [-], of the error over the horizon, as last reported
   ConditionAlarm energy_alarm_;
   ConditionAlarm accuracy_alarm_;
   ConditionAlarm stopped_alarm_;

@@ -283,6 +283,7 @@ class VisualizationNode {
     status.live =
         liveMargin(of.margin, ros::WallTime::now().toSec() - of.margin_heard, held, silence);
     status.live.least_decrement = settings_.log_decrement_warning;
+    status.live.least_decay_rate = settings_.decay_rate_alarm;
     status.alerts = listener_.alertsOf(name);
     for (const auto& [controller, live] : controllers_) {
       const std::vector<Command> commands = live.commandsOn(name);

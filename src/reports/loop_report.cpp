@@ -46,14 +46,17 @@ std::vector<LoopedController> judged(const Scene& scene, const ClosedLoop& loop,
     const SampledLoop sampled = sampledLoop(parts->plant, parts->controllers);
     all.stability = sampledStability(sampled);
     all.period = sampled.period;
+    const Verdict verdict = all.stability->verdict;
+    all.at_once = sampledMarginsAtOnce(parts->plant, parts->controllers, verdict);
     std::vector<LoopedController> controllers(parts->controllers.size(), all);
     for (std::size_t i = 0; i < controllers.size(); ++i) {
       if (!parts->outputs.empty()) {
         controllers[i].held_measured = measuredIn(loop.controller(i), parts->about);
         controllers[i].held_outputs = {parts->outputs[i].begin(), parts->outputs[i].end()};
       }
-      controllers[i].margins =
-          sampledMargins(parts->plant, parts->controllers, i, all.stability->verdict);
+      controllers[i].margins = sampledMargins(parts->plant, parts->controllers, i, verdict);
+      controllers[i].at_outputs =
+          sampledMargins(parts->plant, parts->controllers, i, verdict, LoopSide::kOutputs);
       controllers[i].responses = sampledResponses(parts->plant, parts->controllers, i);
     }
     return controllers;
@@ -63,15 +66,31 @@ std::vector<LoopedController> judged(const Scene& scene, const ClosedLoop& loop,
   }
 }
 
-Json marginsJson(const LoopMargins& margins) {
-  return {{"sensitivity_peak", margins.sensitivity_peak},
-          {"peak_frequency", margins.peak_frequency},
-          {"zone", name(margins.zone)},
-          {"gain_margin", margins.gain_margin},
+Json robustnessJson(const LoopMargins& margins) {
+  return {{"gain_margin", margins.gain_margin},
           {"gain_reduction", margins.gain_reduction},
           {"phase_margin", margins.phase_margin},
           {"phase_crossover", margins.phase_crossover},
           {"delay_margin", margins.delay_margin}};
+}
+
+Json marginsJson(const LoopMargins& margins) {
+  Json json{{"sensitivity_peak", margins.sensitivity_peak},
+            {"peak_frequency", margins.peak_frequency},
+            {"zone", name(margins.zone)}};
+  json.update(robustnessJson(margins));
+  return json;
+}
+
+Json placesJson(const std::vector<std::string>& names, const std::vector<SampledMargins>& margins) {
+  Json places = Json::array();
+  for (std::size_t i = 0; i < margins.size(); ++i) {
+    Json place{{"signal", names[i]}};
+    place.update(marginsJson(margins[i]));
+    place["bode_error"] = margins[i].bode_error;
+    places.push_back(place);
+  }
+  return places;
 }
 
 Json byName(const std::vector<std::string>& names, const std::vector<double>& values) {
@@ -126,13 +145,10 @@ Json loopedControllerJson(const LoopedController& controller) {
   json["on_circle"] = stability.routh.imaginary;
   json["outside"] = stability.routh.right;
   if (!controller.margins.empty()) {
-    json.update(marginsJson(leastMargins(controller.margins)));
-    for (std::size_t i = 0; i < controller.margins.size(); ++i) {
-      Json axis{{"signal", controller.spec->measured[i]}};
-      axis.update(marginsJson(controller.margins[i]));
-      axis["bode_error"] = controller.margins[i].bode_error;
-      json["axes"].push_back(axis);
-    }
+    json.update(marginsJson(leastMargins(controller.at_once, controller.margins)));
+    json["all_at_once"] = robustnessJson(controller.at_once);
+    json["axes"] = placesJson(controller.spec->measured, controller.margins);
+    json["plant_inputs"] = placesJson(controller.spec->acted_on, controller.at_outputs);
   }
   json["eigenvalues"] = Json::array();
   for (const std::complex<double>& z : stability.eigenvalues) {
@@ -143,7 +159,32 @@ Json loopedControllerJson(const LoopedController& controller) {
 
 /// A margin; there is no end to some.
 std::string orAny(double margin, const char* format) {
-  return std::isfinite(margin) ? fmt::format(fmt::runtime(format), margin) : "any";
+  return std::isfinite(margin) ? fmt::format(fmt::runtime(format), margin)
+         : std::isnan(margin)  ? "not known"
+                               : "any";
+}
+
+/// "gain times 0.5 to 2, phase 40 degrees, delay 0.01 s more"
+std::string robustnessText(const LoopMargins& margins) {
+  return fmt::format("gain times {} to {}, phase {}, delay {}",
+                     orAny(margins.gain_reduction, "{:.4g}"), orAny(margins.gain_margin, "{:.4g}"),
+                     orAny(margins.phase_margin / kDegree, "{:.3g} degrees"),
+                     orAny(margins.delay_margin, "{:.3g} s more"));
+}
+
+std::string placesText(const char* title, const std::vector<std::string>& names,
+                       const std::vector<SampledMargins>& margins) {
+  std::string out = fmt::format("  {}, each alone, all other loops closed\n", title);
+  for (std::size_t i = 0; i < margins.size(); ++i) {
+    const SampledMargins& place = margins[i];
+    out += fmt::format("    at {:<12} ", names[i]);
+    out += place.zone == SensitivityZone::kUnbounded
+               ? std::string("sensitivity without bound\n")
+               : fmt::format("sensitivity {:.4g} at {:.4g} rad/s, zone {}; {}\n",
+                             place.sensitivity_peak, place.peak_frequency, name(place.zone),
+                             robustnessText(place));
+  }
+  return out;
 }
 
 std::string loopedControllerText(const LoopedController& controller) {
@@ -169,20 +210,12 @@ std::string loopedControllerText(const LoopedController& controller) {
                      controller.period,
                      controller.loop.size() > 1 ? ", after which all samples come again"
                                                 : ", from sample to sample");
-  for (std::size_t i = 0; i < controller.margins.size(); ++i) {
-    const SampledMargins& axis = controller.margins[i];
-    out += fmt::format("  at {:<14} ", spec.measured[i]);
-    out +=
-        axis.zone == SensitivityZone::kUnbounded
-            ? std::string("sensitivity without bound\n")
-            : fmt::format(
-                  "sensitivity {:.4g} at {:.4g} rad/s, zone {}; gain times {:.4g} to {}, phase {}, "
-                  "delay {}\n",
-                  axis.sensitivity_peak, axis.peak_frequency, name(axis.zone), axis.gain_reduction,
-                  orAny(axis.gain_margin, "{:.4g}"),
-                  orAny(axis.phase_margin / kDegree, "{:.3g} degrees"),
-                  orAny(axis.delay_margin, "{:.3g} s more"));
-  }
+  out += fmt::format("  all at once      {}\n",
+                     std::isinf(controller.at_once.sensitivity_peak)
+                         ? "no margins"
+                         : robustnessText(controller.at_once) + ": every sensor, or every output");
+  out += placesText("sensors", spec.measured, controller.margins);
+  out += placesText("outputs (inputs of the plant)", spec.acted_on, controller.at_outputs);
   return out;
 }
 

@@ -26,7 +26,9 @@ struct LoopedController {
   std::optional<SampledStability> stability;
   double period = 0.0;  ///< [s], that the spectral radius is of: of a sample, or, of several
                         ///< rates, after which they come again
-  std::vector<SampledMargins> margins;  ///< at each of its sensors, all other loops closed
+  LoopMargins at_once;  ///< of all sensors of its loop, or all outputs, changed alike
+  std::vector<SampledMargins> margins;     ///< at each of its sensors alone, all other loops closed
+  std::vector<SampledMargins> at_outputs;  ///< likewise at each output, the input of the plant
   /// Loops opened at each of them, for pictures.
   std::vector<LoopResponse> responses;
   std::string objection;  ///< why nothing can be said; else ""

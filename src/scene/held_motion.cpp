@@ -22,7 +22,10 @@ using Eigen::VectorXd;
 constexpr int kMostIterations = 100;
 constexpr double kLongestStep = 0.5;  // units
 constexpr double kThere = 1.0e-10;    // of what it is
-constexpr double kBalanced = 1.0e-9;  // of the terms that balance
+constexpr double kBalanced = 1.0e-9;  // of the forces that balance in an equation
+/// Of its terms, each a slope times an unknown: no residual is smaller than their rounding.
+constexpr double kRounding = 1.0e-13;
+constexpr double kRoundingOfUnits = 1.0e-15;  // likewise, of unknowns that are 0
 
 /// A system, with one unknown for each coordinate: its place, or, where that does not matter, its
 /// rate.
@@ -146,17 +149,25 @@ class Balance {
     return true;
   }
 
+  /// The residual of each equation is small beside the forces that balance in it, or rounding. (How
+  /// little the places move is not enough: currents may still move, where forces go as their
+  /// squares.)
   bool isThere() const {
     if (last_moved_ > kThere) {
       return false;
     }
     VectorXd sizes(size_);
+    VectorXd unknowns(size_);
     for (const Part& part : parts_) {
       sizes.segment(part.at, part.unit.size()) = sizesOf(part);
+      unknowns.segment(part.at, part.unit.size()) = unknownsOf(part).cwiseAbs();
     }
-    sizes.tail(size_ - mechanical_) = by_laws_.cwiseAbs();
-    const VectorXd terms = slope_.cwiseAbs() * sizes;
-    return (left_.cwiseAbs().array() <= kBalanced * terms.array()).all();
+    sizes.tail(size_ - mechanical_) = unknowns.tail(size_ - mechanical_) = by_laws_.cwiseAbs();
+    const MatrixXd slopes = slope_.cwiseAbs();
+    const VectorXd allowed = (kBalanced * forces_)
+                                 .cwiseMax(kRounding * (slopes * unknowns))
+                                 .cwiseMax(kRoundingOfUnits * (slopes * sizes));
+    return (left_.cwiseAbs().array() <= allowed.array()).all();
   }
 
   Held held() const {
@@ -183,14 +194,18 @@ class Balance {
     return scale;
   }
 
+  static VectorXd unknownsOf(const Part& part) {
+    VectorXd unknowns = part.q;
+    for (Index i = 0; i < unknowns.size(); ++i) {
+      if (part.by_rate[static_cast<std::size_t>(i)]) {
+        unknowns[i] = part.v[i];
+      }
+    }
+    return unknowns;
+  }
   /// Of its unknowns, a unit at least.
   static VectorXd sizesOf(const Part& part) {
-    VectorXd sizes = part.unit;
-    for (Index i = 0; i < sizes.size(); ++i) {
-      const double x = part.by_rate[static_cast<std::size_t>(i)] ? part.v[i] : part.q[i];
-      sizes[i] = std::max(sizes[i], std::fabs(x));
-    }
-    return sizes;
+    return part.unit.cwiseMax(unknownsOf(part).cwiseAbs());
   }
 
   VectorXd inputsOf(const Part& part) const {
@@ -217,6 +232,7 @@ class Balance {
   void linearize() {
     slope_ = MatrixXd::Zero(size_, size_);
     left_ = VectorXd::Zero(size_);
+    forces_ = VectorXd::Zero(size_);
     for (const Part& part : parts_) {
       linearizeSystem(part);
     }
@@ -233,7 +249,9 @@ class Balance {
     const Moment<double> moment{0.0, 0.0, part.speed, 0.0};
     const HeldInputs held = heldInputs(*part.dynamics, part.q, inputsOf(part));
     const Linearization l = mean.linearization(part.q, part.v, VectorXd::Zero(n), moment);
-    left_.segment(part.at, n) = mean.unbalancedForce(part.q, part.v, moment) + held.force;
+    const VectorXd own = mean.unbalancedForce(part.q, part.v, moment);
+    left_.segment(part.at, n) = own + held.force;
+    forces_.segment(part.at, n) = own.cwiseAbs() + held.force.cwiseAbs();
     const MatrixXd by_place = -(l.stiffness + l.circulatory + held.stiffness);
     const MatrixXd by_rate = -(l.damping + l.gyroscopic);
     for (Index i = 0; i < n; ++i) {
@@ -300,6 +318,7 @@ class Balance {
   VectorXd by_laws_;      // of each law: states, then outputs
   MatrixXd slope_;
   VectorXd left_;
+  VectorXd forces_;          // those of inputs and all others, by equation of a system
   double last_moved_ = 0.0;  // of their sizes, what the last step was to move the unknowns by
 };
 
@@ -309,6 +328,7 @@ std::optional<Held> heldMotions(const std::vector<HoldingLaw>& laws, const Syste
   Balance balance(laws, present);
   for (int i = 0; i < kMostIterations; ++i) {
     if (i > 0 && balance.isThere()) {
+      balance.step();  // to the last digits
       return balance.held();
     }
     if (!balance.step()) {

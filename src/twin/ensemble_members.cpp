@@ -23,10 +23,13 @@ class SideBySide final : public EnsembleSteps {
  public:
   SideBySide(const std::vector<IsotropicRotor>& rotors, const Drive& drive, double step)
       : drive_(drive),
+        step_(step),
         rotors_(rotors, step, highestSpeed(drive)),
         sampled_(sampledMembers(rotors.size())),
         halves_(of(sampled_, rotors), step, highestSpeed(drive), 2),
-        errors_(sampled_.size(), StepErrorSum(kLinearErrorEvery)) {}
+        errors_(sampled_.size(), StepErrorSum(kLinearErrorEvery)),
+        due_(sampled_.size()),
+        start_rates_(sampled_.size()) {}
   int parts() const { return rotors_.parts(); }
 
   const char* description() const override { return "side by side in vectors"; }
@@ -41,15 +44,17 @@ class SideBySide final : public EnsembleSteps {
   }
   void exchange(StateImage& image) noexcept override { image(rotors_, errors_); }
   void step(double) noexcept override {
-    bool due = false;
-    for (StepErrorSum& errors : errors_) {
-      due = errors.countStep();  // of all at once
+    bool any = false;
+    for (std::size_t k = 0; k < sampled_.size(); ++k) {
+      due_[k] = errors_[k].countStep() ? 1 : 0;
+      any = any || due_[k] != 0;
     }
-    for (std::size_t k = 0; due && k < sampled_.size(); ++k) {
+    for (std::size_t k = 0; any && k < sampled_.size(); ++k) {
       halves_.put(k, rotors_, sampled_[k]);
+      start_rates_[k] = rotors_.rate(sampled_[k]);
     }
     rotors_.step(drive_);
-    if (due) {
+    if (any) {
       estimateErrors();
     }
   }
@@ -88,9 +93,12 @@ class SideBySide final : public EnsembleSteps {
       const auto plane = [](const std::complex<double>& z) {
         return std::array<double, 2>{z.real(), z.imag()};
       };
+      if (due_[k] == 0) {
+        continue;
+      }
       if (isFinite(std::norm(q))) {
-        errors_[k].add(2, plane(q), plane(v), plane(finer_q), plane(finer_v),
-                       [](std::size_t) { return false; });
+        errors_[k].add(2, step_, plane(start_rates_[k]), plane(q), plane(v), plane(finer_q),
+                       plane(finer_v), [](std::size_t) { return false; });
       } else {
         errors_[k].passOver();
       }
@@ -98,10 +106,13 @@ class SideBySide final : public EnsembleSteps {
   }
 
   const Drive& drive_;
+  double step_;  // [s]
   IsotropicRotors rotors_;
-  std::vector<std::size_t> sampled_;  // members
-  IsotropicRotors halves_;            // of these, by steps of half the length
-  std::vector<StepErrorSum> errors_;  // likewise
+  std::vector<std::size_t> sampled_;               // members
+  IsotropicRotors halves_;                         // of these, by steps of half the length
+  std::vector<StepErrorSum> errors_;               // likewise
+  std::vector<char> due_;                          // likewise: is this step of the sample?
+  std::vector<std::complex<double>> start_rates_;  // [m/s], likewise: before a step of the sample
 };
 
 class OneByOne final : public EnsembleSteps {

@@ -31,11 +31,14 @@ class MembersSideBySide final : public EnsembleSteps {
                     std::unique_ptr<MemberEquations> equations, const RungeKuttaTable& method,
                     const Drive& drive, double step)
       : drive_(drive),
+        step_(step),
         steps_(std::move(equations), method, step, members.front().spec.substeps),
         sampled_(sampledMembers(members.size())),
         halves_(memberEquations(chosen(dynamicsOf(members), sampled_)), method, step,
                 2 * members.front().spec.substeps),
         errors_(sampled_.size()),
+        due_(sampled_.size()),
+        start_rates_(sampled_.size(), std::vector<double>(steps_.dof())),
         q_(steps_.dof()),
         v_(steps_.dof()),
         finer_q_(steps_.dof()),
@@ -59,19 +62,22 @@ class MembersSideBySide final : public EnsembleSteps {
   }
   void exchange(StateImage& image) noexcept override { image(steps_, errors_); }
   void step(double time) noexcept override {
-    bool due = false;
-    for (StepErrorSum& errors : errors_) {
-      due = errors.countStep();  // of all at once
+    bool any = false;
+    for (std::size_t k = 0; k < sampled_.size(); ++k) {
+      due_[k] = errors_[k].countStep() ? 1 : 0;
+      any = any || due_[k] != 0;
     }
-    for (std::size_t k = 0; due && k < sampled_.size(); ++k) {
-      look(steps_, sampled_[k], q_, v_);
-      halves_.set(k, q_.data(), v_.data());
+    for (std::size_t k = 0; any && k < sampled_.size(); ++k) {
+      look(steps_, sampled_[k], q_, start_rates_[k]);
+      halves_.set(k, q_.data(), start_rates_[k].data());
     }
     steps_.step(drive_, time);
-    if (due) {
+    if (any) {
       halves_.step(drive_, time);
       for (std::size_t k = 0; k < sampled_.size(); ++k) {
-        estimateError(k);
+        if (due_[k] != 0) {
+          estimateError(k);
+        }
       }
     }
   }
@@ -123,15 +129,18 @@ class MembersSideBySide final : public EnsembleSteps {
     }
     look(steps_, sampled_[k], q_, v_);
     look(halves_, k, finer_q_, finer_v_);
-    errors_[k].add(steps_.dof(), q_, v_, finer_q_, finer_v_,
+    errors_[k].add(steps_.dof(), step_, start_rates_[k], q_, v_, finer_q_, finer_v_,
                    [this](std::size_t i) { return steps_.equations().angular(i); });
   }
 
   const Drive& drive_;
+  double step_;  // [s]
   MemberSteps steps_;
-  std::vector<std::size_t> sampled_;  // members
-  MemberSteps halves_;                // of these, by steps of half the length
-  std::vector<StepErrorSum> errors_;  // likewise
+  std::vector<std::size_t> sampled_;              // members
+  MemberSteps halves_;                            // of these, by steps of half the length
+  std::vector<StepErrorSum> errors_;              // likewise
+  std::vector<char> due_;                         // likewise: is this step of the sample?
+  std::vector<std::vector<double>> start_rates_;  // likewise: before a step of the sample
   std::vector<Start> starts_;
   std::vector<double> q_, v_, finer_q_, finer_v_;  // room for those of one member
 };

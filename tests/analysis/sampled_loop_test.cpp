@@ -205,7 +205,7 @@ TEST(SampledLoop, RefusesWhatCannotBeMeant) {
   c.rate = NAN;
   EXPECT_THROW(sampledLoop(plant, {c}), Refusal);
   EXPECT_THROW(sampledLoop(plant, {levitation(1, 1, 0.1, -0.1)}), Refusal);
-  EXPECT_THROW(sampledLoop(plant, {levitation(1, 1, 0.1, 1001.0)}), RunFailure);
+  EXPECT_THROW(sampledLoop(plant, {levitation(1, 1, 0.1, 4001.0)}), RunFailure);
   c = levitation(1, 1, 0.1, 0);
   c.acts_on = {1};
   EXPECT_THROW(sampledLoop(plant, {c}), std::logic_error);

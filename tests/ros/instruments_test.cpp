@@ -13,6 +13,7 @@
 #include "display/rotor_display.h"
 #include "display/twin_panel.h"
 #include "drawn_markers.h"
+#include "monitoring/stability_alarm.h"
 
 namespace whirl_twin {
 namespace instruments_test {
@@ -27,6 +28,7 @@ StabilityMargin marginOf(double log_decrement) {
   margin.log_decrement = log_decrement;
   margin.decay_rate = 10.0 * log_decrement;
   margin.threshold_below = margin.threshold_above = kNaN;
+  margin.unreduced_decay_rate = margin.unreduced_log_decrement = kNaN;
   margin.band_low = {48.0};
   margin.band_high = {71.0};
   return margin;
@@ -65,19 +67,102 @@ TEST(MarginGauge, TheEdgeOfStabilityPartsRedFromTheRest) {
 }
 
 TEST(MarginGauge, StaysOnItsScaleAndKnowsMotionsThatDoNotSwing) {
-  EXPECT_EQ(*marginPlace(marginOf(5.0)), 1.0);
-  EXPECT_EQ(*marginPlace(marginOf(-5.0)), 0.0);
+  const auto place = [](const StabilityMargin& margin) { return marginScale(live(margin))->place; };
+  EXPECT_EQ(place(marginOf(5.0)), 1.0);
+  EXPECT_EQ(place(marginOf(-5.0)), 0.0);
   StabilityMargin overdamped = marginOf(kNaN);
+  overdamped.verdict = StabilityMargin::ASYMPTOTICALLY_STABLE;
   overdamped.decay_rate = 2.0;
-  EXPECT_EQ(*marginPlace(overdamped), 1.0);
+  EXPECT_EQ(place(overdamped), 1.0);
+  overdamped.verdict = StabilityMargin::UNSTABLE;
   overdamped.decay_rate = -2.0;
-  EXPECT_EQ(*marginPlace(overdamped), 0.0);
+  EXPECT_EQ(place(overdamped), 0.0);
+  overdamped.verdict = StabilityMargin::UNCERTAIN;
   overdamped.decay_rate = kNaN;
-  EXPECT_FALSE(marginPlace(overdamped));
+  EXPECT_FALSE(marginScale(live(overdamped)));
 }
 
 TEST(MarginGauge, TellsTheAgeOfTheVerdict) {
-  EXPECT_EQ(marginText(live(marginOf(0.314))), "log decrement 0.314 (0.1 asked for), 0.1 s old");
+  EXPECT_EQ(marginText(live(marginOf(0.314))), "log decrement 0.314 (0.1 required), 0.1 s old");
+}
+
+std::vector<std::string> coloursOf(const LiveMargin& margin) {
+  const auto markers = panel(margin, kNaN);
+  std::vector<std::string> shown;
+  for (const char* name : {"margin_unstable", "margin_low", "margin_enough", "margin_pointer"}) {
+    if (isShown(part(markers, name))) {
+      shown.emplace_back(name);
+    }
+  }
+  return shown;
+}
+
+/// Is the pointer in the orange range?
+bool isLow(const LiveMargin& margin) {
+  const auto markers = panel(margin, kNaN);
+  const Marker& low = part(markers, "margin_low");
+  const double pointer = part(markers, "margin_pointer").pose.position.x;
+  return isShown(low) && std::fabs(pointer - low.pose.position.x) <= 0.5 * low.scale.x + 1e-9;
+}
+
+AlertList alertsOf(const StabilityMargin& shown, const AlarmSettings& settings) {
+  state::StabilityMargin margin;
+  margin.system = "system";
+  margin.verdict = shown.verdict;
+  margin.speed = shown.speed;
+  margin.decay_rate = shown.decay_rate;
+  margin.log_decrement = shown.log_decrement;
+  margin.unreduced_decay_rate = shown.unreduced_decay_rate;
+  margin.unreduced_log_decrement = shown.unreduced_log_decrement;
+  margin.threshold_below = margin.threshold_above = kNaN;
+  AlertList alerts;
+  StabilityAlarm("system", settings).update(margin, alerts);
+  return alerts;
+}
+
+/// Orange where, and only where, the monitor raises LOW_DAMPING.
+TEST(MarginGauge, IsOrangeWhereTheMonitorRaisesItsAlarm) {
+  for (const double level : {0.0, 0.05, 0.1}) {
+    for (const double rate_level : {0.0, 0.3, 2.0}) {
+      for (const double decrement : {0.0, 0.0141, 0.07, 0.2}) {
+        for (const double unreduced : {kNaN, 0.03, 0.36}) {
+          for (const double speed : {kNaN, 100.0}) {
+            StabilityMargin margin = marginOf(decrement);
+            margin.speed = speed;
+            margin.unreduced_log_decrement = unreduced;
+            margin.unreduced_decay_rate = 10.0 * unreduced;
+            LiveMargin shown = live(margin);
+            shown.least_decrement = level;
+            shown.least_decay_rate = rate_level;
+            AlarmSettings settings;
+            settings.log_decrement_warning = level;
+            settings.decay_rate_alarm = rate_level;
+            const bool raised = !alertsOf(margin, settings).active().empty();
+            EXPECT_EQ(isLow(shown), raised) << level << " " << rate_level << " " << decrement << " "
+                                            << unreduced << " " << speed;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(MarginGauge, ShowsNothingWhereNoDampingIsRequired) {
+  StabilityMargin pendulum = marginOf(0.0);
+  pendulum.verdict = StabilityMargin::MARGINAL;
+  pendulum.speed = kNaN;
+  EXPECT_TRUE(coloursOf(live(pendulum)).empty());
+  EXPECT_EQ(marginText(live(pendulum)), "");
+  EXPECT_FALSE(isShown(part(panel(live(pendulum), kNaN), "margin_track")));
+  EXPECT_FALSE(isShown(part(panel(live(pendulum), kNaN), "margin_caption")));
+  LiveMargin switched_off = live(marginOf(0.05));
+  switched_off.least_decrement = 0.0;
+  EXPECT_TRUE(coloursOf(switched_off).empty());
+  // Instability is an alarm of every system.
+  pendulum.verdict = StabilityMargin::UNSTABLE;
+  pendulum.log_decrement = -0.1;
+  EXPECT_EQ(coloursOf(live(pendulum)),
+            (std::vector<std::string>{"margin_unstable", "margin_pointer"}));
 }
 
 /// A gauge without a live verdict has no pointer, no colours, and says why.

@@ -40,7 +40,7 @@ class Visualization(NodeTrial):
         self.assertTrue(self.shown('rotor/speed_avoid'))
         self.assertFalse(self.shown('pendulum/speed_avoid'))
         self.assertIn('avoid 48.1 to 70.7', self.text('rotor/speed_caption'))
-        self.assertIn('log decrement 0.315 (0.1 asked for)', self.text('rotor/margin_caption'))
+        self.assertIn('log decrement 0.315 (0.1 required)', self.text('rotor/margin_caption'))
         self.assertTrue(wait_until(lambda: 'zone C 110 um' in self.text('rotor/text')), self.text('rotor/text'))
         self.assertTrue(wait_until(lambda: self.text('(twin)/loop').startswith('loop: 1000 steps/s')))
         self.assertTrue(wait_until(lambda: 'oldest verdict' in self.text('(twin)/monitor')), self.text('(twin)/monitor'))

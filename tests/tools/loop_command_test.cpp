@@ -150,6 +150,103 @@ TEST(Loop, TheNotchOfLevitationTakesTheCurrentAtTheShaftsSpeedAway) {
   }
 }
 
+// 2 / (5 s + 1) with a dead time of 1 s: numbers of the loop sampled at each rate, from
+// L = 2 (1 - a) z^-n / (z - a), a = exp(-0.2 T), n T = 1 s, solved for |L| = 1 and arg L = -180
+// degrees; without sampling 4.25121, 100.1522 degrees and 5.0460 s.
+TEST(Loop, ADeadTimeOfManySamplesHasTheMarginsOfItsClosedForm) {
+  struct Right {
+    double rate, gain, phase, delay;  // Hz, -, degrees, s
+  };
+  for (const Right& right :
+       {Right{20.0, 4.154243, 99.654384, 5.020835}, Right{200.0, 4.24142, 100.10252, 5.043496},
+        Right{500.0, 4.247293, 100.13231, 5.044998}}) {
+    const Json found = controllerOf(fmt::format(
+        "{{step: 0.001, systems: {{p: {{model: mass_spring_damper, parameters: {{mass: 5.0, "
+        "stiffness: 0.0, damping: 1.0}}}}}}, controllers: {{pd: {{type: pid, rate: {}, measures: "
+        "[p.x_rate], acts_on: [p.force], delay: 1.0, parameters: {{kp: 2.0, ki: 0.0, kd: "
+        "0.0}}}}}}}}",
+        right.rate));
+    EXPECT_NEAR(found["gain_margin"], right.gain, 1e-5) << right.rate;
+    EXPECT_NEAR(found["phase_margin"].get<double>() * 180.0 / M_PI, right.phase, 1e-4)
+        << right.rate;
+    EXPECT_NEAR(found["delay_margin"], right.delay, 1e-5) << right.rate;
+  }
+}
+
+// A rotor of 19.68 kg held 0.15 mm off the middle of its magnets, along y, which carries its
+// weight, and along x.
+TEST(Loop, HoldsARotorWithTheCurrentsThatBalanceIt) {
+  const TemporaryDirectory folder;
+  const Ending end = twin({"loop", folder.write("scene.yaml", R"(step: 0.001
+gravity: 9.81
+systems:
+  rotor:
+    model: flexible_rotor
+    parameters:
+      speed: 0.0
+      youngs_modulus: 2.1e11
+      density: 7800.0
+      modes: 0
+      internal_damping: 1.0e-5
+      gravity_on_shaft: true
+      elements: [{length: 0.1, outer_diameter: 0.08, count: 4}]
+      discs: [{node: 2, mass: 4.0, polar_inertia: 0.02, transverse_inertia: 0.011}]
+      magnets:
+        - {node: 0, ki: 100.0, bias: 1.0, gap: 5.0e-4}
+        - {node: 4, ki: 100.0, bias: 1.0, gap: 5.0e-4}
+      stations: [{node: 0}, {node: 4}]
+controllers:
+  pd:
+    type: pid
+    rate: 20000.0
+    measures: [rotor.node_0.x, rotor.node_0.y, rotor.node_4.x, rotor.node_4.y]
+    acts_on: [rotor.current_x_0, rotor.current_y_0, rotor.current_x_4, rotor.current_y_4]
+    parameters: {kp: 5.0e3, ki: 5.0e4, kd: 20.785, derivative_time: 5.0e-5, setpoint: 1.5e-4}
+)"),
+                           "--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  const Json found = end.json()["controllers"]["pd"];
+  const Json& currents = found["held"]["outputs"];
+  // Of two poles with k = ki gap^2 / (4 bias); two magnets carry the weight.
+  const auto force = [](double i) {
+    const double k = 100.0 * 5.0e-4 * 5.0e-4 / 4.0;
+    return k * (std::pow((1.0 + i) / 3.5e-4, 2) - std::pow((1.0 - i) / 6.5e-4, 2));
+  };
+  const double mass = 4.0 + 7800.0 * 0.4 * M_PI * 0.04 * 0.04;
+  EXPECT_NEAR(force(currents["rotor.current_x_0"]), 0.0, 1e-6);
+  EXPECT_NEAR(force(currents["rotor.current_y_0"]), 0.5 * mass * 9.81, 1e-6);
+  EXPECT_NEAR(currents["rotor.current_y_0"], 0.4116, 1e-4);
+  EXPECT_NEAR(found["axes"][1]["sensitivity_peak"], 3.165, 1e-3);
+}
+
+// What four axes bear at once is less than what any bears alone (0.71 ms).
+TEST(Loop, OfLevitationBearsLessDelayAtOnceThanAtEachSensor) {
+  const Ending end = twin({"loop", "levitation", "--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  const Json magnets = end.json()["controllers"]["magnets"];
+  const double at_once = magnets["all_at_once"]["delay_margin"];
+  EXPECT_EQ(magnets["delay_margin"], at_once);
+  for (const char* places : {"axes", "plant_inputs"}) {
+    ASSERT_EQ(magnets[places].size(), 4U);
+    for (const Json& place : magnets[places]) {
+      EXPECT_GT(place["delay_margin"], 1.4 * at_once);
+    }
+  }
+  // The loop itself, later by a little less and a little more.
+  const std::string scene = contentsOf(WHIRL_TWIN_SOURCE "/config/scenes/levitation.yaml");
+  const TemporaryDirectory folder;
+  for (const double part : {0.97, 1.03}) {
+    const std::string late =
+        std::regex_replace(scene, std::regex("delay: [0-9.e-]+"),
+                           fmt::format("delay: {:.9f}", 5.0e-5 + part * at_once),
+                           std::regex_constants::format_first_only);
+    const Ending judged = twin({"loop", folder.write("late.yaml", late), "--json"});
+    ASSERT_EQ(judged.status, 0) << judged.err;
+    EXPECT_EQ(judged.json()["controllers"]["magnets"]["verdict"],
+              part < 1.0 ? "asymptotically_stable" : "unstable");
+  }
+}
+
 TEST(Loop, IsDrawn) {
   const TemporaryDirectory folder;
   const std::string scene = folder.write("scene.yaml", levitation(2.0, 1.4, 0.1, 0.03));
