@@ -7,6 +7,7 @@
 #include "algebra/constants.h"
 #include "analysis/equilibria.h"
 #include "analysis/judged_at_rest.h"
+#include "scene/held_rotor.h"
 
 namespace whirl_twin {
 
@@ -21,7 +22,9 @@ constexpr double kSame = 1.0e-4;
 }  // namespace
 
 SystemJudge::SystemJudge(SharedSystem system, std::shared_ptr<const ClosedLoop> loop)
-    : system_(std::move(system)), steady_motions_(system_->dynamics) {
+    : system_(std::move(system)),
+      tables_(tableSpeeds(*system_)),
+      steady_motions_(system_->dynamics) {
   if (loop) {
     loop_.emplace(system_, std::move(loop));
   } else {
@@ -154,6 +157,9 @@ state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::v
   }
   if (reduction && reduction->disagree()) {
     s.routh.verdict = Verdict::kUncertain;
+  }
+  if (!tables_.covers(dynamics.hasShaft() ? speed : rates[n - 1])) {
+    s.routh.verdict = Verdict::kUncertain;  // of coefficients that nobody has measured
   }
 
   state::StabilityMargin m;

@@ -18,6 +18,7 @@
 #include "analysis/known_steady_motions.h"
 #include "analysis/steady_motion.h"
 #include "analysis/unreduced_margins.h"
+#include "mechanics/rotors/rotor_assembly.h"
 #include "messages/stability_margin.h"
 #include "monitoring/judged_speeds.h"
 #include "monitoring/loop_judge.h"
@@ -65,6 +66,7 @@ class SystemJudge {
   ReducedMargins unreducedMargins(const Eigen::VectorXd& about, double speed);
 
   SharedSystem system_;
+  DataSpeeds tables_;
   std::optional<LoopJudge> loop_;
   std::optional<JudgedSpeeds> speeds_;
   KnownSteadyMotions steady_motions_;
