@@ -30,7 +30,7 @@ ForwardWhirl forwardWhirl(FlexibleShaft shaft) {
   shaft.pedestals.clear();
   shaft.internal_damping = shaft.mass_damping = shaft.stiffness_damping = 0.0;
   const Index nodes = shaft.nodes();
-  const Linearization l = RotorAssembly(shaft).matrices(1.0);
+  const Linearization l = RotorAssembly::unsupported(shaft).matrices(1.0);
   // x and beta of the plane, and where y and alpha follow: y = -i x, alpha = i beta.
   const auto own = [](Index k) { return kNodeCoordinates * (k / kPlane) + (k % kPlane) * 3; };
   const auto other = [](Index k) { return kNodeCoordinates * (k / kPlane) + 1 + k % kPlane; };
@@ -43,6 +43,16 @@ ForwardWhirl forwardWhirl(FlexibleShaft shaft) {
       // The entry of -i G between own(i) and other(j), whose coordinate is -+i times the own one.
       const double sign = j % kPlane == 0 ? -1.0 : 1.0;
       whirl.inertia(i, j) = l.mass(own(i), own(j)) + sign * l.gyroscopic(own(i), other(j));
+    }
+  }
+  for (const RigidSupport& support : shaft.rigid_supports) {
+    if (support.clamps) {  // no slope
+      const Index beta = kPlane * support.node + 1;
+      for (MatrixXd* matrix : {&whirl.stiffness, &whirl.inertia}) {
+        matrix->row(beta).setZero();
+        matrix->col(beta).setZero();
+      }
+      whirl.stiffness(beta, beta) = 1.0;
     }
   }
   return whirl;

@@ -1,6 +1,7 @@
 #include "analysis/rotor_statics.h"
 
 #include "algebra/banded_matrix.h"
+#include "algebra/dense.h"
 
 namespace whirl_twin {
 
@@ -23,6 +24,40 @@ BearingLoad forceOf(const FlexibleShaft& shaft, int node, const BearingCoefficie
     y -= q[first + kNodeCoordinates + 1];
   }
   return {node, {-b.kxx * x - b.kxy * y, -b.kyx * x - b.kyy * y}};
+}
+
+/// [n], of all coordinates; nothing where some motion is free.
+std::optional<Eigen::VectorXd> deflection(const FlexibleShaft& shaft, const RotorAssembly& assembly,
+                                          double speed) {
+  const auto holds = [](const BandedMatrix<double>& stiffness) {
+    const Eigen::ArrayXd own = stiffness.diagonal().array();
+    return (own > 0.0).all() && hasCholesky(stiffness.scaled(own.rsqrt()), kFreePivot);
+  };
+  if (shaft.rigid_supports.empty()) {
+    const BandedLinearization l = assembly.bandedMatrices(speed);
+    if (!holds(l.stiffness)) {
+      return std::nullopt;
+    }
+    return BandedLU<double>(l.byPlace()).solve(assembly.load());
+  }
+  const Linearization all = assembly.matrices(speed);
+  const Eigen::MatrixXd shapes = supportedShapes(all.mass.rows(), heldCoordinates(shaft));
+  const Eigen::MatrixXd stiffness = shapes.transpose() * all.stiffness * shapes;
+  const Eigen::MatrixXd circulatory = shapes.transpose() * all.circulatory * shapes;
+  if (!holds(BandedMatrix<double>::of(stiffness))) {
+    return std::nullopt;
+  }
+  return shapes * Lu(stiffness + circulatory).solve(shapes.transpose() * assembly.load());
+}
+
+/// [n], what rigid supports push the rotor with.
+Eigen::VectorXd heldBy(const FlexibleShaft& shaft, const RotorAssembly& assembly, double speed,
+                       const Eigen::VectorXd& q) {
+  if (shaft.rigid_supports.empty()) {
+    return Eigen::VectorXd::Zero(q.size());
+  }
+  const Linearization all = assembly.matrices(speed);
+  return (all.stiffness + all.circulatory) * q - assembly.load();
 }
 
 }  // namespace
@@ -56,13 +91,13 @@ RotorBody rotorBody(const FlexibleShaft& shaft) {
 std::optional<RotorStatics> rotorStatics(const FlexibleShaft& shaft, double gravity, double speed) {
   FlexibleShaft heavy = shaft;
   heavy.gravity = gravity;
-  const RotorAssembly assembly(heavy);
-  const BandedLinearization l = assembly.bandedMatrices(speed);
-  const Eigen::ArrayXd stiffness = l.stiffness.diagonal().array();
-  if (!(stiffness > 0.0).all() || !hasCholesky(l.stiffness.scaled(stiffness.rsqrt()), kFreePivot)) {
+  const RotorAssembly assembly = RotorAssembly::unsupported(heavy);
+  const auto deflected = deflection(shaft, assembly, speed);
+  if (!deflected) {
     return std::nullopt;
   }
-  const Eigen::VectorXd q = BandedLU<double>(l.byPlace()).solve(assembly.linearRotor().load);
+  const Eigen::VectorXd& q = *deflected;
+  const Eigen::VectorXd held = heldBy(shaft, assembly, speed, q);
 
   RotorStatics statics;
   for (const RotorBearing& bearing : shaft.bearings) {
@@ -72,6 +107,14 @@ std::optional<RotorStatics> rotorStatics(const FlexibleShaft& shaft, double grav
     statics.bearings.push_back(forceOf(shaft, bearing.node, bearing.coefficients(speed), q));
   }
   std::vector<Across> at_nodes(static_cast<std::size_t>(shaft.nodes()));
+  std::vector<Across> moments(at_nodes.size());  // of clamps
+  for (const RigidSupport& support : shaft.rigid_supports) {
+    const Eigen::Index x = shaft.firstOf(support.node);
+    statics.bearings.push_back({support.node, {held[x], held[x + 1]}});
+    if (support.clamps) {  // alpha is minus the slope along y, beta that along x
+      moments[static_cast<std::size_t>(support.node)] = {-held[x + 3], held[x + 2]};
+    }
+  }
   for (const BearingLoad& bearing : statics.bearings) {
     Across& there = at_nodes[static_cast<std::size_t>(bearing.node)];
     there = add(there, bearing.force);
@@ -84,6 +127,7 @@ std::optional<RotorStatics> rotorStatics(const FlexibleShaft& shaft, double grav
   Across moment;
   for (std::size_t i = 0; i < z.size(); ++i) {
     const auto first = shaft.firstOf(static_cast<int>(i));
+    moment = add(moment, moments[i]);
     SagAtNode node{z[i], {q[first], q[first + 1]}, shear, add(shear, at_nodes[i]), moment};
     statics.nodes.push_back(node);
     if (i < shaft.elements.size()) {

@@ -43,7 +43,8 @@ struct SagAtNode {
 };
 
 struct RotorStatics {
-  std::vector<BearingLoad> bearings;  ///< in the shaft's order, then those that follow the speed
+  std::vector<BearingLoad>
+      bearings;  ///< in the shaft's order, those that follow the speed, rigid ones
   std::vector<SagAtNode> nodes;
 };
 

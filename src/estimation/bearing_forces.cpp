@@ -33,7 +33,12 @@ std::vector<BearingForce> bearingForces(const BuiltSystem& system) {
         std::any_of(pedestals->second.begin(), pedestals->second.end(),
                     [&](const auto& row) { return row.numbers.at("node") == number.at("node"); });
     const bool with_mass = number.at("mxx") != 0.0 || number.at("myy") != 0.0;
-    if (at_node == stations.end() || by_table || on_pedestal || with_mass) {
+    const auto isTrue = [&](const char* word) {
+      const auto given = bearings->second[i].words.find(word);
+      return given != bearings->second[i].words.end() && given->second == "true";
+    };
+    const bool rigid = isTrue("pin") || isTrue("clamp");
+    if (at_node == stations.end() || by_table || on_pedestal || with_mass || rigid) {
       continue;
     }
     BearingForce force{fmt::format("bearings[{}]", i), Eigen::VectorXd(2 * n),

@@ -1,10 +1,13 @@
 #include "mechanics/linear_rotor_dynamics.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
 #include "algebra/dense.h"
+#include "mechanics/rotors/rotor_assembly.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {
@@ -105,6 +108,21 @@ Linearization LinearRotorDynamics::linearization(const Eigen::VectorXd&, const E
                                                  const Eigen::VectorXd&,
                                                  const Moment<double>& at) const {
   return rotor_.matrices(at.speed);
+}
+
+std::vector<Condition> LinearRotorDynamics::conditions(const Eigen::VectorXd&,
+                                                       const Eigen::VectorXd&,
+                                                       const Eigen::VectorXd&,
+                                                       const Moment<double>& at) const {
+  const DataSpeeds data = dataSpeeds(rotor_);
+  if (data.everywhere()) {
+    return {};
+  }
+  // The first and the last speed of a table are its own.
+  const double inside = std::min(at.speed - data.from, data.to - at.speed);
+  const double margin = inside == 0.0 ? std::numeric_limits<double>::min() : inside;
+  return {{"speed_of_tables", "rad/s", margin,
+           "the speed is beyond its tables of bearings and pedestals"}};
 }
 
 }  // namespace whirl_twin

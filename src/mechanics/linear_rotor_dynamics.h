@@ -67,10 +67,10 @@ class LinearRotorDynamics final : public Dynamics {
                                   const Eigen::VectorXd&, const Moment<double>&) const override {
     return {};
   }
-  std::vector<Condition> conditions(const Eigen::VectorXd&, const Eigen::VectorXd&,
-                                    const Eigen::VectorXd&, const Moment<double>&) const override {
-    return {};
-  }
+  /// That tables of its bearings and pedestals cover the speed.
+  std::vector<Condition> conditions(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                    const Eigen::VectorXd& a,
+                                    const Moment<double>& at) const override;
   std::string singularMass() const override { return ""; }
   Sketch sketch(const Eigen::VectorXd& q, const Moment<double>& at) const override {
     return description_.sketch ? description_.sketch(q, at.angle) : Sketch{};

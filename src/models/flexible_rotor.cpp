@@ -34,19 +34,44 @@ namespace {
 
 using Eigen::Index;
 
+bool isHeld(const FlexibleShaft& shaft, int node) {
+  return shaft.pedestalsOf(node) == 0 &&
+         std::any_of(shaft.rigid_supports.begin(), shaft.rigid_supports.end(),
+                     [node](const RigidSupport& support) { return support.node == node; });
+}
+
 int probeNode(const Settings& settings, const FlexibleShaft& shaft) {
   const std::string& given = settings.choices.at("probe_node");
   const int last = shaft.nodes() - 1;
   if (given == "auto") {
-    return !shaft.unbalances.empty() ? shaft.unbalances.front().node
-           : !shaft.discs.empty()    ? shaft.discs.front().node
-                                     : last / 2;
+    std::vector<int> choice;
+    for (const NodeUnbalance& unbalance : shaft.unbalances) {
+      choice.push_back(unbalance.node);
+    }
+    for (const RotorDisc& disc : shaft.discs) {
+      choice.push_back(disc.node);
+    }
+    choice.push_back(last / 2);
+    for (int node = last; node >= 0; --node) {
+      choice.push_back(node);
+    }
+    const auto moves =
+        std::find_if(choice.begin(), choice.end(), [&](int node) { return !isHeld(shaft, node); });
+    if (moves == choice.end()) {
+      throw SetupError("bearings", "hold every node rigidly: nothing is left that moves");
+    }
+    return *moves;
   }
   const int node = std::stoi(given);
   if (node > last) {
     throw SetupError(
         "probe_node",
         fmt::format("must be auto or a whole number from 0 to {}, found {}", last, node));
+  }
+  if (isHeld(shaft, node)) {
+    throw SetupError("probe_node", fmt::format("must be a node that moves; a pin or clamp holds "
+                                               "node {}",
+                                               node));
   }
   return node;
 }
@@ -61,11 +86,28 @@ std::vector<Station> publishedFirst(std::vector<Station> stations, int node,
   return stations;
 }
 
-/// Forces along x and y at every node, and the control currents of magnets.
-std::vector<InputInfo> inputsAt(const std::vector<Station>& stations,
+/// The nodes whose displacements are coordinates. A force on another one would have to bend the
+/// shaft there at once, or does nothing.
+std::vector<std::size_t> pushableNodes(const RotorAssembly& assembly) {
+  std::vector<std::size_t> nodes;
+  const auto isCoordinate = [](const Eigen::VectorXd& along) {
+    return (along.array() == 1.0).count() == 1 && (along.array() != 0.0).count() == 1;
+  };
+  for (std::size_t node = 0; node < assembly.stations().size(); ++node) {
+    const Station& station = assembly.stations()[node];
+    if (isCoordinate(station.along_x) && isCoordinate(station.along_y)) {
+      nodes.push_back(node);
+    }
+  }
+  return nodes;
+}
+
+/// Forces along x and y at these nodes, and the control currents of magnets.
+std::vector<InputInfo> inputsAt(const std::vector<std::size_t>& nodes,
+                                const std::vector<Station>& stations,
                                 const std::vector<PlacedMagnet>& magnets) {
   std::vector<InputInfo> all;
-  for (std::size_t node = 0; node < stations.size(); ++node) {
+  for (const std::size_t node : nodes) {
     all.push_back({fmt::format("force_x_{}", node), "N", stations[node].along_x,
                    fmt::format("on node {}, along x", node)});
     all.push_back({fmt::format("force_y_{}", node), "N", stations[node].along_y,
@@ -90,8 +132,9 @@ std::vector<PlacedMagnet> placed(const std::vector<NodeMagnet>& magnets,
   return all;
 }
 
-/// In the order of RotorAssembly.
-std::vector<CoordinateInfo> nodeCoordinates(const FlexibleShaft& shaft) {
+/// In the order of RotorAssembly, those that are left in it.
+std::vector<CoordinateInfo> nodeCoordinates(const FlexibleShaft& shaft,
+                                            const RotorAssembly& assembly) {
   std::vector<CoordinateInfo> all;
   for (int i = 0; i < shaft.nodes(); ++i) {
     all.push_back({fmt::format("x_{}", i), "m"});
@@ -104,7 +147,11 @@ std::vector<CoordinateInfo> nodeCoordinates(const FlexibleShaft& shaft) {
       all.push_back({"pedestal_y_" + which, "m"});
     }
   }
-  return all;
+  std::vector<CoordinateInfo> left;
+  for (const Index i : assembly.moving()) {
+    left.push_back(all[static_cast<std::size_t>(i)]);
+  }
+  return left;
 }
 
 std::vector<CoordinateInfo> shapeCoordinates(Index count) {
@@ -133,7 +180,7 @@ std::vector<Station> everywhere(std::vector<Station> stations,
 
 RotorReduction reduction(const LinearRotor& rotor, const std::vector<Station>& stations,
                          const Eigen::MatrixXd& pushed, const ParameterValues& values,
-                         const std::string& modes, bool pedestals) {
+                         const std::string& modes, const char* coordinates) {
   const double given = values.at("highest_speed");
   const double highest = given > 0.0 ? given : usualHighestSpeed(rotor);
   if (modes == "auto") {
@@ -142,9 +189,8 @@ RotorReduction reduction(const LinearRotor& rotor, const std::vector<Station>& s
   const int count = std::stoi(modes);
   if (count > rotor.dof()) {
     throw SetupError("modes",
-                     fmt::format("must be auto or a whole number from 0 to {}, four a "
-                                 "node{}, found {}",
-                                 rotor.dof(), pedestals ? " and two a pedestal" : "", count));
+                     fmt::format("must be auto or a whole number from 0 to {}, {}, found {}",
+                                 rotor.dof(), coordinates, count));
   }
   return reduceRotor(rotor, stations, highest, count, pushed);
 }
@@ -176,15 +222,30 @@ std::shared_ptr<const Dynamics> dynamicsOf(RotorDescription description, LinearR
   }
 }
 
-/// Of magnets, whose currents are the inputs behind those of the nodes, and of elements.
-std::vector<LocalForce> allForcesOf(const std::vector<PlacedMagnet>& magnets,
+/// Of magnets, whose currents are the inputs behind those of `pushable` nodes, and of elements.
+std::vector<LocalForce> allForcesOf(const std::vector<PlacedMagnet>& magnets, std::size_t pushable,
                                     const std::vector<NodeElement>& elements,
                                     const FlexibleShaft& shaft, const RotorAssembly& assembly) {
-  std::vector<LocalForce> forces = localForcesOf(magnets, 2 * assembly.stations().size());
+  std::vector<LocalForce> forces = localForcesOf(magnets, 2 * pushable);
   for (LocalForce& force : forcesOf(elements, shaft, assembly)) {
     forces.push_back(std::move(force));
   }
   return forces;
+}
+
+RotorAssembly assembled(const FlexibleShaft& shaft) {
+  try {
+    return RotorAssembly(shaft);
+  } catch (const Refusal& refusal) {
+    throw SetupError("elements", refusal.what());
+  }
+}
+
+const char* coordinatesInWords(const FlexibleShaft& shaft, const RotorAssembly& assembly) {
+  return static_cast<Index>(assembly.moving().size()) < shaft.coordinates()
+             ? "those that are neither held rigidly nor without mass"
+         : shaft.pedestals.empty() ? "four a node"
+                                   : "four a node and two a pedestal";
 }
 
 std::shared_ptr<const UnreducedRotor> unreducedRotor(const RotorAssembly& assembly,
@@ -193,17 +254,19 @@ std::shared_ptr<const UnreducedRotor> unreducedRotor(const RotorAssembly& assemb
                                                      const Settings& settings,
                                                      const std::vector<NodeElement>& elements) {
   const auto magnets = placed(nodeMagnets(settings, shaft.nodes()), assembly.stations());
-  return std::make_shared<const UnreducedRotor>(
-      UnreducedRotor{std::make_shared<const RotorAssembly>(assembly), shapes,
-                     allForcesOf(magnets, elements, shaft, assembly)});
+  return std::make_shared<const UnreducedRotor>(UnreducedRotor{
+      std::make_shared<const RotorAssembly>(assembly), shapes,
+      allForcesOf(magnets, pushableNodes(assembly).size(), elements, shaft, assembly)});
 }
 
 ModelSetup setUpFlexibleRotor(const ParameterValues& values, const Settings& settings,
                               const Surroundings& around) {
-  const FlexibleShaft shaft = flexibleShaft(values, settings, around.gravity);
+  FlexibleShaft shaft = flexibleShaft(values, settings, around.gravity);
   const int probe = probeNode(settings, shaft);
+  shaft.pushed.push_back(probe);  // analyses put a cross-coupling there
   const std::vector<NodeElement> elements = nodeElements(settings, shaft.nodes());
-  RotorAssembly assembly(withDamping(shaft, elements));
+  RotorAssembly assembly = assembled(withDamping(shaft, elements));
+  const std::vector<std::size_t> pushable = pushableNodes(assembly);
   requireFinite(assembly.linearRotor());
 
   RotorDescription description;
@@ -211,17 +274,23 @@ ModelSetup setUpFlexibleRotor(const ParameterValues& values, const Settings& set
   description.natural_length = whirlLength(shaft, rotorBody(shaft).mass);
   description.phase_mark = values.at("phase_mark");
   std::vector<std::string> notes = shaftNotes(values, settings, shaft);
+  if (!assembly.massive().empty()) {
+    notes.push_back(
+        fmt::format("{} coordinates of the shaft have no mass and do not follow the "
+                    "others at once; each is given {:g} of the heaviest node's",
+                    assembly.massive().size(), kNegligible));
+  }
   double highest_speed = kInfinity;
   std::shared_ptr<const UnreducedRotor> unreduced;
   const std::string& modes = settings.choices.at("modes");
   if (modes == "0") {
-    description.coordinates = nodeCoordinates(shaft);
+    description.coordinates = nodeCoordinates(shaft, assembly);
   } else {
     const RotorReduction kept =
         reduction(inItsFilms(shaft, elements),
                   everywhere(publishedFirst(assembly.stations(), probe), assembly.pedestals()),
                   directionsOf(forcesOf(elements, shaft, assembly), assembly.dof()), values, modes,
-                  !shaft.pedestals.empty());
+                  coordinatesInWords(shaft, assembly));
     if (kept.shapes.cols() < assembly.dof()) {
       unreduced = unreducedRotor(assembly, kept.shapes, shaft, settings, elements);
     }
@@ -234,12 +303,12 @@ ModelSetup setUpFlexibleRotor(const ParameterValues& values, const Settings& set
       publishedFirst(assembly.stations(), probe, publishedNodes(settings, shaft));
   const std::vector<PlacedMagnet> magnets =
       placed(nodeMagnets(settings, shaft.nodes()), assembly.stations());
-  description.inputs = inputsAt(assembly.stations(), magnets);
+  description.inputs = inputsAt(pushable, assembly.stations(), magnets);
   description.sketch =
       FlexibleRotorPicture(shaft, assembly.stations(), assembly.pedestals(), probe);
   LinearRotor rotor = assembly.linearRotor(std::move(unreduced));
   rotor.highest_speed = highest_speed;
-  std::vector<LocalForce> forces = allForcesOf(magnets, elements, shaft, assembly);
+  std::vector<LocalForce> forces = allForcesOf(magnets, pushable.size(), elements, shaft, assembly);
   const double fastest = std::isfinite(highest_speed)       ? highest_speed
                          : values.at("highest_speed") > 0.0 ? values.at("highest_speed")
                          : around.motor                     ? usualHighestSpeed(rotor)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "algebra/constants.h"
@@ -33,6 +34,9 @@ std::vector<Held> heldNodes(const FlexibleShaft& shaft) {
   for (const SpeedBearing& bearing : shaft.speed_bearings) {
     const double speed = bearing.knots.empty() ? 0.0 : bearing.knots.back();
     held.push_back({bearing.node, size(bearing.coefficients(speed))});
+  }
+  for (const RigidSupport& support : shaft.rigid_supports) {
+    held.push_back({support.node, std::numeric_limits<double>::max()});
   }
   return held;
 }
@@ -76,9 +80,11 @@ FlexibleRotorPicture::FlexibleRotorPicture(const FlexibleShaft& shaft,
     }
   }
   const std::vector<Held> held = heldNodes(shaft);
-  double stiffest = 0.0;
+  double stiffest = 0.0;  // of those that yield
   for (const Held& at : held) {
-    stiffest = std::max(stiffest, at.stiffness);
+    if (at.stiffness < std::numeric_limits<double>::max()) {
+      stiffest = std::max(stiffest, at.stiffness);
+    }
   }
   for (const Held& at : held) {
     if (at.stiffness < kSeal * stiffest && shaft.pedestalsOf(at.node) == 0) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "models/local_element_settings.h"
 #include "models/shaft_materials.h"
 #include "models/shaft_supports.h"
 #include "models/table_rows.h"
@@ -220,8 +221,10 @@ std::vector<SettingInfo> flexibleShaftSettings() {
   std::vector<SettingInfo> all{
       ofMaterial(
           rows("elements",
-               "of the shaft; element i joins node i and node i + 1. A row tapers evenly to its "
-               "diameters at its _end; its axial force pulls, its torque turns what follows with x "
+               "of the shaft; element i joins node i and node i + 1. length is that of each of its "
+               "count elements, which are count times as long together. A row tapers evenly over "
+               "all of them to its diameters at its _end; its axial force pulls, its torque turns "
+               "what follows with x "
                "towards y",
                {{"length", "m", Range::kPositive, kRequired},
                 {"outer_diameter", "m", Range::kPositive, kRequired},
@@ -310,6 +313,12 @@ FlexibleShaft flexibleShaft(const ParameterValues& values, const Settings& setti
     shaft.discs.push_back(discOf(discs[i], materials, last, fmt::format("discs[{}]", i)));
   }
   addSupports(settings, shaft);
+  for (const NodeMagnet& magnet : nodeMagnets(settings, shaft.nodes())) {
+    shaft.pushed.push_back(magnet.node);
+  }
+  for (const NodeElement& element : nodeElements(settings, shaft.nodes())) {
+    shaft.pushed.push_back(element.node);
+  }
   const std::vector<TableRow>& unbalances = rowsOf(settings, "unbalances");
   for (std::size_t i = 0; i < unbalances.size(); ++i) {
     const auto& n = unbalances[i].numbers;

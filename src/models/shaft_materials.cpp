@@ -27,7 +27,12 @@ std::vector<ParameterInfo> materialParameters() {
            "of the shaft; 0: youngs_modulus / 2 (1 + poissons_ratio)", 0.0, ""},
           {"poissons_ratio", "-", Range::kNotNegative, "of the shaft, without shear_modulus",
            kUsualPoissonsRatio, ""},
-          {"density", "kg/m^3", Range::kPositive, "of the shaft", {}, ""}};
+          {"density",
+           "kg/m^3",
+           Range::kNotNegative,
+           "of the shaft; 0: without mass, which the discs have",
+           {},
+           ""}};
 }
 
 SettingInfo materialsSetting() {
@@ -36,7 +41,7 @@ SettingInfo materialsSetting() {
   info.columns = {{"youngs_modulus", "Pa", Range::kPositive, kRequired},
                   {"shear_modulus", "Pa", Range::kNotNegative, 0.0},
                   {"poissons_ratio", "-", Range::kNotNegative, kUsualPoissonsRatio},
-                  {"density", "kg/m^3", Range::kPositive, kRequired}};
+                  {"density", "kg/m^3", Range::kNotNegative, kRequired}};
   info.word_columns = {"name"};
   return info;
 }

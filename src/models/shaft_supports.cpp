@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "mechanics/rotors/bearing_laws.h"
@@ -74,14 +75,73 @@ std::vector<std::vector<BearingRow>> speedTables(const Settings& settings, const
   return tables;
 }
 
+/// Of a word that is yes or no.
+bool isTrue(const TableRow& row, const char* word, const std::string& key) {
+  const auto found = row.words.find(word);
+  const std::string& given = found == row.words.end() ? std::string() : found->second;
+  if (!given.empty() && given != "true" && given != "false") {
+    throw SetupError(fmt::format("{}.{}", key, word),
+                     fmt::format("must be true or false, found '{}'", given));
+  }
+  return given == "true";
+}
+
+/// Which of a row's rigid supports it is; nothing of a bearing with coefficients.
+std::optional<RigidSupport> rigidSupport(const TableRow& row, int node, bool over_speed,
+                                         const std::string& key) {
+  const bool pins = isTrue(row, "pin", key);
+  const bool clamps = isTrue(row, "clamp", key);
+  if (!pins && !clamps) {
+    return std::nullopt;
+  }
+  const char* what = clamps ? "clamp" : "pin";
+  if (pins && clamps) {
+    throw SetupError(key, "must give pin or clamp, not both: a clamp holds what a pin holds");
+  }
+  if (over_speed) {
+    throw SetupError(key, fmt::format("a {} is rigid: it has no rows in bearing_tables", what));
+  }
+  for (const auto& [name, value] : row.numbers) {
+    if (name != "node" && value != 0.0) {
+      throw SetupError(fmt::format("{}.{}", key, name),
+                       fmt::format("a {} is rigid: it has no {}, found {}", what, name, value));
+    }
+  }
+  return RigidSupport{node, clamps};
+}
+
+/// Nothing else holds a node that is held rigidly.
+void requireRigidAlone(const Settings& settings, const FlexibleShaft& shaft) {
+  const std::vector<NodeElement> elements = nodeElements(settings, shaft.nodes());
+  for (std::size_t i = 0; i < shaft.rigid_supports.size(); ++i) {
+    const int node = shaft.rigid_supports[i].node;
+    const auto here = [node](const auto& each) { return each.node == node; };
+    const auto others = [&](const auto& all) { return std::any_of(all.begin(), all.end(), here); };
+    const bool by_element = std::any_of(elements.begin(), elements.end(), [&](const auto& one) {
+      return one.node == node && one.between != NodeElement::Between::kPedestalAndGround;
+    });
+    const auto same = std::count_if(shaft.rigid_supports.begin(), shaft.rigid_supports.end(), here);
+    if (same > 1 || others(shaft.bearings) || others(shaft.speed_bearings) || by_element) {
+      throw SetupError("bearings",
+                       fmt::format("node {} is held rigidly by a pin or clamp: no other bearing, "
+                                   "film, magnet, spring or rub can act on the shaft there",
+                                   node));
+    }
+  }
+}
+
 void addBearings(const Settings& settings, FlexibleShaft& shaft) {
   const int last = shaft.nodes() - 1;
   const std::vector<TableRow>& rows = rowsOf(settings, "bearings");
   const auto tables = speedTables(settings, "bearing_tables", "bearing", rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::string key = fmt::format("bearings[{}]", i);
-    const RotorBearing bearing{indexIn(rows[i], key, "node", last),
-                               withMass(coefficientsOf(rows[i]), rows[i], key)};
+    const int node = indexIn(rows[i], key, "node", last);
+    if (const auto rigid = rigidSupport(rows[i], node, !tables[i].empty(), key)) {
+      shaft.rigid_supports.push_back(*rigid);
+      continue;
+    }
+    const RotorBearing bearing{node, withMass(coefficientsOf(rows[i]), rows[i], key)};
     if (tables[i].empty()) {
       shaft.bearings.push_back(bearing);
     } else if (isGiven(bearing.coefficients)) {
@@ -126,6 +186,7 @@ void addPedestals(const Settings& settings, FlexibleShaft& shaft) {
     }
     if (std::none_of(shaft.bearings.begin(), shaft.bearings.end(), here) &&
         std::none_of(shaft.speed_bearings.begin(), shaft.speed_bearings.end(), here) &&
+        std::none_of(shaft.rigid_supports.begin(), shaft.rigid_supports.end(), here) &&
         std::none_of(elements.begin(), elements.end(), [node](const NodeElement& element) {
           return element.node == node && element.between == NodeElement::Between::kShaftAndPedestal;
         })) {
@@ -153,6 +214,7 @@ void addPedestals(const Settings& settings, FlexibleShaft& shaft) {
     const SpeedBearing law = tabulatedBearing(node, tables[i]);
     pedestal.over_speed = law.coefficients;
     pedestal.knots = law.knots;
+    pedestal.data = law.data;
   }
 }
 
@@ -181,11 +243,15 @@ std::vector<SettingInfo> supportSettings() {
   bearing.insert(bearing.end(), {{"mxx", "kg", Range::kNotNegative, 0.0},
                                  {"myy", "kg", Range::kNotNegative, 0.0, "mxx"},
                                  {"mxy", "kg", Range::kAny, 0.0}});
-  return {
+  SettingInfo bearings =
       rows("bearings",
            "by eight coefficients, and the mass that a film adds; kyy, cyy, myy as kxx, cxx, mxx "
-           "unless they are given; none at all: the rotor floats",
-           bearing),
+           "unless they are given; pin: true instead of coefficients: rigid; clamp: true: rigid, "
+           "and holds the slope, too; none at all: the rotor floats",
+           bearing);
+  bearings.optional_words = {"pin", "clamp"};
+  return {
+      bearings,
       rows("bearing_tables", "coefficients of bearings[bearing] over the shaft's speed",
            coefficientColumns({{"bearing", "-", Range::kNotNegative, kRequired},
                                {"speed", "rad/s", Range::kAny, kRequired}})),
@@ -213,6 +279,7 @@ std::vector<SettingInfo> supportSettings() {
 
 void addSupports(const Settings& settings, FlexibleShaft& shaft) {
   addBearings(settings, shaft);
+  requireRigidAlone(settings, shaft);
   addPedestals(settings, shaft);
 }
 

@@ -8,6 +8,7 @@
 #include "analysis/equilibria.h"
 #include "analysis/judged_at_rest.h"
 #include "scene/driven_dynamics.h"
+#include "scene/held_rotor.h"
 
 namespace whirl_twin {
 
@@ -24,6 +25,7 @@ constexpr double kSame = 1.0e-4;
 SystemJudge::SystemJudge(SharedSystem system, std::shared_ptr<const ClosedLoop> loop)
     : system_(std::move(system)),
       judged_(judgedDynamics(system_->dynamics, system_->spec)),
+      tables_(tableSpeeds(*system_)),
       steady_motions_(judged_) {
   if (loop) {
     loop_.emplace(system_, std::move(loop));
@@ -156,6 +158,9 @@ state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::v
   }
   if (reduction && reduction->disagree()) {
     s.routh.verdict = Verdict::kUncertain;
+  }
+  if (!tables_.covers(dynamics.hasShaft() ? speed : rates[n - 1])) {
+    s.routh.verdict = Verdict::kUncertain;  // of coefficients that nobody has measured
   }
 
   state::StabilityMargin m;

@@ -18,6 +18,7 @@
 #include "analysis/known_steady_motions.h"
 #include "analysis/steady_motion.h"
 #include "analysis/unreduced_margins.h"
+#include "mechanics/rotors/rotor_assembly.h"
 #include "messages/stability_margin.h"
 #include "monitoring/judged_speeds.h"
 #include "monitoring/loop_judge.h"
@@ -66,6 +67,7 @@ class SystemJudge {
 
   SharedSystem system_;
   std::shared_ptr<const Dynamics> judged_;  ///< with its harmonic inputs (judgedDynamics)
+  DataSpeeds tables_;
   std::optional<LoopJudge> loop_;
   std::optional<JudgedSpeeds> speeds_;
   KnownSteadyMotions steady_motions_;

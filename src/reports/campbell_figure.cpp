@@ -9,6 +9,7 @@
 #include "algebra/constants.h"
 #include "analysis/separation_margin.h"
 #include "reports/campbell_report.h"
+#include "reports/table_speeds.h"
 
 namespace whirl_twin {
 
@@ -112,6 +113,7 @@ void addBranches(const CampbellReport& r, const Value& value, bool named, Chart&
 }
 
 void addBands(const CampbellReport& r, bool named, Chart& chart) {
+  shadeBeyond(r.system->tables(), r.range.from, r.range.to, named, chart);
   if (r.system->highest_speed > r.system->lowest_speed) {
     chart.bands.push_back({named ? "running speeds" : "", r.system->lowest_speed,
                            r.system->highest_speed, paler(ink::kGreen, 0.88)});

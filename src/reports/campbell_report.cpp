@@ -9,6 +9,7 @@
 #include "analysis/separation_margin.h"
 #include "messages/refusal.h"
 #include "reports/matrix_json.h"
+#include "reports/table_speeds.h"
 #include "reports/verdict_text.h"
 
 namespace whirl_twin {
@@ -49,9 +50,9 @@ std::string crossingsText(const CampbellReport& r) {
       "  critical speeds, where a whirl meets the speed\n"
       "           rad/s         rpm  order  branch  direction   log decrement\n";
   for (const CampbellCrossing& c : r.diagram.crossings) {
-    out += fmt::format("    {:>12.6g} {:>11.6g} {:>5g}X {:>7}  {:<9} {:>15}\n", c.speed,
+    out += fmt::format("    {:>12.6g} {:>11.6g} {:>5g}X {:>7}  {:<9} {:>15}{}\n", c.speed,
                        c.speed / kRpm, c.harmonic, c.branch + 1, name(c.mode.whirl),
-                       defined(c.mode.log_decrement, "-"));
+                       defined(c.mode.log_decrement, "-"), beyondMark(r.system->tables(), c.speed));
   }
   return out;
 }
@@ -87,10 +88,12 @@ CampbellReport campbellReport(const RotorSystem& system, const SpeedRange& range
 }
 
 CsvTables tables(const CampbellReport& r) {
+  const DataSpeeds data = r.system->tables();
   const std::vector<std::string> point{"frequency",     "natural_frequency", "decay_rate",
                                        "damping_ratio", "log_decrement",     "direction"};
   const auto with_point = [&](std::vector<std::string> columns) {
     columns.insert(columns.end(), point.begin(), point.end());
+    columns.emplace_back("beyond_tables");
     return columns;
   };
   CsvTable branches{"", with_point({"branch", "speed"})};
@@ -98,6 +101,7 @@ CsvTables tables(const CampbellReport& r) {
     for (std::size_t k = 0; k < r.diagram.speeds.size(); ++k) {
       Json row{{"branch", i + 1}, {"speed", r.diagram.speeds[k]}};
       row.update(pointJson(r.diagram.branches[i][k]));
+      row["beyond_tables"] = !data.covers(r.diagram.speeds[k]);
       branches.rows.push_back(row);
     }
   }
@@ -105,12 +109,13 @@ CsvTables tables(const CampbellReport& r) {
   for (const CampbellCrossing& c : r.diagram.crossings) {
     Json row{{"branch", c.branch + 1}, {"harmonic", c.harmonic}, {"speed", c.speed}};
     row.update(pointJson(c.mode));
+    row["beyond_tables"] = !data.covers(c.speed);
     crossings.rows.push_back(row);
   }
   return {branches,
           crossings,
           {"peaks",
-           {"speed", "direction", "amplification_factor", "band_low", "band_high"},
+           {"speed", "direction", "amplification_factor", "band_low", "band_high", "beyond_tables"},
            json(r)["response_peaks"]}};
 }
 
@@ -121,6 +126,9 @@ Json json(const CampbellReport& r) {
   json["speeds"] = arrayJson(r.diagram.speeds);
   json["highest_speed"] = r.system->rotor.highest_speed;  // null: every speed
   json["beyond_reduction"] = r.beyond;
+  const DataSpeeds data = r.system->tables();
+  json["table_speeds"] = tableSpeedsJson(data);  // null: every speed
+  json["beyond_tables"] = beyondJson(data, r.diagram.speeds);
   json["branches"] = Json::array();
   for (const auto& branch : r.diagram.branches) {
     json["branches"].push_back(branchJson(branch));
@@ -129,12 +137,14 @@ Json json(const CampbellReport& r) {
   for (const CampbellCrossing& c : r.diagram.crossings) {
     Json one{{"branch", c.branch}, {"harmonic", c.harmonic}, {"speed", c.speed}};
     one.update(pointJson(c.mode));
+    one["beyond_tables"] = !data.covers(c.speed);
     json["crossings"].push_back(one);
   }
   json["undamped_critical_speeds"] = Json::array();
   for (const auto& one : r.undamped) {
-    json["undamped_critical_speeds"].push_back(
-        {{"speed", one.speed}, {"direction", name(one.whirl)}});
+    json["undamped_critical_speeds"].push_back({{"speed", one.speed},
+                                                {"direction", name(one.whirl)},
+                                                {"beyond_tables", !data.covers(one.speed)}});
   }
   json["response_peaks"] = Json::array();
   for (const CriticalSpeed& peak : r.peaks) {
@@ -143,12 +153,14 @@ Json json(const CampbellReport& r) {
                                       {"direction", peak.forward ? "forward" : "backward"},
                                       {"amplification_factor", peak.amplification_factor},
                                       {"band_low", band.from},
-                                      {"band_high", band.to}});
+                                      {"band_high", band.to},
+                                      {"beyond_tables", !data.covers(peak.speed)}});
   }
   return json;
 }
 
 std::string text(const CampbellReport& r) {
+  const DataSpeeds data = r.system->tables();
   std::string out =
       fmt::format("{}: from {:g} to {:g} rad/s ({:.4g} to {:.4g} rpm)\n", r.system->title(),
                   r.range.from, r.range.to, r.range.from / kRpm, r.range.to / kRpm);
@@ -166,7 +178,7 @@ std::string text(const CampbellReport& r) {
   out += crossingsText(r);
   out += "  undamped critical speeds, rad/s\n   ";
   for (const auto& one : r.undamped) {
-    out += fmt::format(" {:.6g} {},", one.speed, name(one.whirl));
+    out += fmt::format(" {:.6g} {}{},", one.speed, name(one.whirl), beyondMark(data, one.speed));
   }
   if (r.undamped.empty()) {
     out += " none,";
@@ -176,13 +188,15 @@ std::string text(const CampbellReport& r) {
   for (const CriticalSpeed& peak : r.peaks) {
     const SpeedBand band = criticalBand(peak.speed, peak.amplification_factor);
     out += fmt::format(
-        "    {:.6g}, amplification {}{}\n", peak.speed, defined(peak.amplification_factor, "-"),
+        "    {:.6g}, amplification {}{}{}\n", peak.speed, defined(peak.amplification_factor, "-"),
         band.empty() ? std::string(": critically damped")
-                     : fmt::format(": keep out of {:.5g} to {:.5g}", band.from, band.to));
+                     : fmt::format(": keep out of {:.5g} to {:.5g}", band.from, band.to),
+        beyondMark(data, peak.speed));
   }
   if (r.peaks.empty()) {
     out += "    none\n";
   }
+  out += beyondLine(data, r.range.from, r.range.to);
   return r.range.to <= r.system->rotor.highest_speed
              ? out
              : out +

@@ -10,6 +10,7 @@
 #include "messages/refusal.h"
 #include "reports/matrix_json.h"
 #include "reports/rotor_outline.h"
+#include "reports/table_speeds.h"
 
 namespace whirl_twin {
 
@@ -18,6 +19,7 @@ namespace {
 constexpr double kLeastShare = 0.1;  // of the stiffest: less is a seal
 constexpr int kSpeeds = 41;
 constexpr double kStiffest = 1.0e18;  // N/m
+constexpr double kUsual = 1.0e8;      // N/m, where all bearings are rigid
 
 /// At a speed [rad/s], of all bearings of a node: kxx, kyy.
 std::pair<double, double> stiffnessOf(const FlexibleShaft& shaft, int node, double speed) {
@@ -36,6 +38,11 @@ std::pair<double, double> stiffnessOf(const FlexibleShaft& shaft, int node, doub
       add(bearing.coefficients(speed));
     }
   }
+  for (const RigidSupport& support : shaft.rigid_supports) {
+    if (support.node == node) {
+      kxx = kyy = kInfinity;
+    }
+  }
   return {kxx, kyy};
 }
 
@@ -48,7 +55,9 @@ void chooseBearings(const FlexibleShaft& shaft, const std::vector<int>& asked, d
     return 0.5 * (kxx + kyy);
   };
   for (const int node : all) {
-    stiffest = std::max(stiffest, direct(node));
+    if (std::isfinite(direct(node))) {
+      stiffest = std::max(stiffest, direct(node));
+    }
   }
   for (const int node : asked) {
     if (std::find(all.begin(), all.end(), node) == all.end()) {
@@ -73,23 +82,46 @@ std::pair<double, double> rangeOf(const CriticalMapRequest& request, const Criti
   for (const BearingOnMap& bearing : r.bearings) {
     for (const std::vector<double>* list : {&bearing.kxx, &bearing.kyy}) {
       for (const double k : *list) {
-        least = k > 0.0 ? std::min(least, k) : least;
-        most = std::max(most, k);
+        if (std::isfinite(k)) {
+          least = k > 0.0 ? std::min(least, k) : least;
+          most = std::max(most, k);
+        }
       }
     }
+  }
+  if (std::all_of(r.bearings.begin(), r.bearings.end(),
+                  [](const BearingOnMap& bearing) { return bearing.rigid(); })) {
+    least = most = kUsual;
   }
   if (!(most > 0.0)) {
     throw Refusal("critical speed map: expected bearings that hold the rotor, kxx or kyy > 0");
   }
-  const double from = request.from.value_or(
-      std::pow(10.0, std::floor(std::log10(std::max(least, 1e-3 * most))) - 1));
-  const double to = request.to.value_or(std::pow(10.0, std::ceil(std::log10(most)) + 2));
+  const double to =
+      request.to.value_or(std::min(std::pow(10.0, std::ceil(std::log10(most)) + 2), kStiffest));
+  const double from = request.from.value_or(std::pow(
+      10.0, std::floor(std::log10(std::min(std::max(least, 1e-3 * most), 1e-3 * kStiffest))) - 1));
   if (!(from > 0.0 && from < to && to <= kStiffest)) {
     throw Refusal(fmt::format(
         "--from, --to: expected stiffnesses above 0, --from below --to, found {:g} and {:g} N/m",
         from, to));
   }
   return {from, to};
+}
+
+/// Of a curve over the speeds the part that the tables cover.
+Series withinTables(const CriticalMapReport& r, Series curve) {
+  for (std::size_t i = 0; i < curve.y.size(); ++i) {
+    curve.y[i] = r.system->tables().covers(curve.y[i]) ? curve.y[i] : kNaN;
+  }
+  return curve;
+}
+
+/// The other part.
+Series beyondTables(const CriticalMapReport& r, Series curve) {
+  for (std::size_t i = 0; i < curve.y.size(); ++i) {
+    curve.y[i] = r.system->tables().covers(curve.y[i]) ? kNaN : curve.y[i];
+  }
+  return curve;
 }
 
 }  // namespace
@@ -142,6 +174,8 @@ Json json(const CriticalMapReport& r) {
   }
   json["on_rigid_bearings"] = arrayJson(r.map.rigid);
   json["speeds"] = arrayJson(r.speeds);
+  json["table_speeds"] = tableSpeedsJson(r.system->tables());  // null: every speed
+  json["beyond_tables"] = beyondJson(r.system->tables(), r.speeds);
   json["bearings"] = Json::array();
   for (const BearingOnMap& bearing : r.bearings) {
     json["bearings"].push_back(
@@ -161,13 +195,14 @@ CsvTables tables(const CriticalMapReport& r) {
                           {"critical_speed", r.map.speeds[mode][i]}});
     }
   }
-  CsvTable bearings{"bearings", {"node", "speed", "kxx", "kyy"}};
+  CsvTable bearings{"bearings", {"node", "speed", "kxx", "kyy", "beyond_tables"}};
   for (const BearingOnMap& bearing : r.bearings) {
     for (std::size_t i = 0; i < r.speeds.size(); ++i) {
       bearings.rows.push_back({{"node", bearing.node},
                                {"speed", r.speeds[i]},
                                {"kxx", bearing.kxx[i]},
-                               {"kyy", bearing.kyy[i]}});
+                               {"kyy", bearing.kyy[i]},
+                               {"beyond_tables", !r.system->tables().covers(r.speeds[i])}});
     }
   }
   return {map, bearings};
@@ -195,13 +230,19 @@ std::string text(const CriticalMapReport& r) {
   }
   out += "\n";
   for (const BearingOnMap& bearing : r.bearings) {
-    out += fmt::format("    bearing at node {:<4} kxx {:.5g}, kyy {:.5g} N/m at {:.5g} rad/s\n",
-                       bearing.node, bearing.kxx.back(), bearing.kyy.back(), r.speeds.back());
+    if (bearing.rigid()) {
+      out += fmt::format("    bearing at node {:<4} rigid\n", bearing.node);
+      continue;
+    }
+    out += fmt::format("    bearing at node {:<4} kxx {:.5g}, kyy {:.5g} N/m at {:.5g} rad/s{}\n",
+                       bearing.node, bearing.kxx.back(), bearing.kyy.back(), r.speeds.back(),
+                       beyondMark(r.system->tables(), r.speeds.back()));
   }
   if (!r.left_out.empty()) {
     out += fmt::format("    left out: the bearings at {} {}, which do not carry it (--bearing)\n",
                        r.left_out.size() == 1 ? "node" : "nodes", fmt::join(r.left_out, ", "));
   }
+  out += beyondLine(r.system->tables(), r.speeds.front(), r.speeds.back());
   return r.pedestals ? out +
                            "    left out: pedestals; the stiffness is that of bearing and pedestal "
                            "in series\n"
@@ -222,10 +263,18 @@ Figure figure(const CriticalMapReport& r) {
   }
   bool first = true;
   for (const BearingOnMap& bearing : r.bearings) {
-    chart.series.push_back({first ? "kxx of the bearings over the speed" : "", bearing.kxx,
-                            r.speeds, Pen{ink::kVermilion, 1.8}});
-    chart.series.push_back(
-        {first ? "kyy" : "", bearing.kyy, r.speeds, Pen{ink::kGreen, 1.8, {6.0, 3.0}}});
+    if (bearing.rigid()) {
+      continue;
+    }
+    chart.series.push_back(withinTables(r, {first ? "kxx of the bearings over the speed" : "",
+                                            bearing.kxx, r.speeds, Pen{ink::kVermilion, 1.8}}));
+    chart.series.push_back(withinTables(
+        r, {first ? "kyy" : "", bearing.kyy, r.speeds, Pen{ink::kGreen, 1.8, {6.0, 3.0}}}));
+    chart.series.push_back(beyondTables(
+        r, {first && !beyondLine(r.system->tables(), r.speeds.front(), r.speeds.back()).empty()
+                ? "beyond the tables"
+                : "",
+            bearing.kxx, r.speeds, Pen{ink::kBlack, 1.2, {2.0, 4.0}}}));
     chart.notes.push_back(
         {bearing.kxx.back(), r.speeds.back(), fmt::format("node {}", bearing.node)});
     first = false;

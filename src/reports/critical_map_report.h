@@ -2,6 +2,7 @@
 // bearings, and where on that map its own bearings are.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ namespace whirl_twin {
 struct BearingOnMap {
   int node = 0;
   std::vector<double> kxx, kyy;  ///< [N/m], of all that holds the node, at each speed
+
+  bool rigid() const { return std::isinf(kxx.back()); }
 };
 
 struct CriticalMapReport {

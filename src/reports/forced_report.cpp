@@ -96,7 +96,7 @@ ForcedReport forcedReport(const RotorSystem& system, const ForcedRequest& reques
     throw Refusal(fmt::format("--from, --to: expected --from below --to, found {:g} and {:g} rad/s",
                               from, to));
   }
-  const WholeRotor whole = wholeRotor(system);
+  const WholeRotor whole = wholeRotor(system, force);
   const Station& place = whole.stations[force];
   r.sweep = forcedResponse(whole.rotor, whole.stations, r.speed,
                            request.along == "x" ? place.along_x : place.along_y,

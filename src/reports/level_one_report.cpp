@@ -11,6 +11,7 @@
 #include "messages/refusal.h"
 #include "reports/critical_map_report.h"
 #include "reports/rotor_outline.h"
+#include "reports/table_speeds.h"
 
 namespace whirl_twin {
 
@@ -102,7 +103,7 @@ LevelOneReport levelOneReport(const RotorSystem& system, const LevelOneRequest& 
   requireNumbers(r);
   const std::size_t station = stationOrMiddle(system, request.at);
   r.station = system.stations[station].name;
-  const WholeRotor whole = wholeRotor(system);
+  const WholeRotor whole = wholeRotor(system, station);
   if (slowestForwardMode(whole.rotor, whole.stations, station, r.speed, {0.0}).empty()) {
     throw Refusal(fmt::format("{}: expected a rotor with a forward mode at {:g} rad/s, found none",
                               system.title(), r.speed));
@@ -141,7 +142,10 @@ Json json(const LevelOneReport& r) {
   const auto number = [](const std::optional<double>& value) {
     return value ? Json(*value) : Json();
   };
-  Json json{{"model", r.system->model}, {"speed", r.speed}, {"station", r.station}};
+  Json json{{"model", r.system->model},
+            {"speed", r.speed},
+            {"station", r.station},
+            {"beyond_tables", !r.system->tables().covers(r.speed)}};
   json["stages"] = Json::array();
   for (std::size_t i = 0; i < r.expected.size(); ++i) {
     const Stage& stage = r.request.stages[i];
@@ -187,6 +191,7 @@ std::string text(const LevelOneReport& r) {
       "{}: slowest decaying forward whirl at {:g} rad/s ({:.0f} rpm), cross-coupling at {}\n"
       "    Q, N/m          log. decrement       rad/s\n",
       r.system->title(), r.speed, r.speed / kRpm, r.station);
+  const std::string beyond = beyondLine(r.system->tables(), r.speed, r.speed);
   for (std::size_t i = 0; i < r.rows.size(); i += 2) {
     const CrossCouplingRow& row = r.rows[i];
     out += fmt::format("    {:<15.5g} {:>14.4g} {:>11.5g}\n", row.cross_coupling,
@@ -195,7 +200,8 @@ std::string text(const LevelOneReport& r) {
   out += r.margin ? fmt::format("  Q_0, where it stops to decay: {:.5g} N/m\n", *r.margin)
                   : std::string("  Q_0, where it stops to decay: none found\n");
   if (!r.applied) {
-    return out + "  Q_A, what the stages have: not known (--stage POWER DIAMETER WIDTH RATIO)\n";
+    return out + "  Q_A, what the stages have: not known (--stage POWER DIAMETER WIDTH RATIO)\n" +
+           beyond;
   }
   for (std::size_t i = 0; i < r.expected.size(); ++i) {
     const Stage& stage = r.request.stages[i];
@@ -227,7 +233,7 @@ std::string text(const LevelOneReport& r) {
         kSureRatio,
         r.critical_speed_ratio ? fmt::format(", which is {:.3g}", *r.critical_speed_ratio) : "");
   }
-  return out + "  check the clause against the edition in force\n";
+  return out + beyond + "  check the clause against the edition in force\n";
 }
 
 Figure figure(const LevelOneReport& r) {
@@ -249,7 +255,8 @@ Figure figure(const LevelOneReport& r) {
     chart.vertical.push_back({*r.margin, "Q_0"});
   }
   Figure figure;
-  figure.title = fmt::format("{}: stability level I at {:.4g} rad/s", r.system->title(), r.speed);
+  figure.title = fmt::format("{}: stability level I at {:.4g} rad/s{}", r.system->title(), r.speed,
+                             beyondMark(r.system->tables(), r.speed));
   figure.charts = {chart};
   figure.width = 860;
   figure.chart_height = 420;

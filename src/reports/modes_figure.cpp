@@ -7,6 +7,7 @@
 #include "reports/modes_report.h"
 #include "reports/orbit_chart.h"
 #include "reports/rotor_outline.h"
+#include "reports/table_speeds.h"
 
 namespace whirl_twin {
 
@@ -39,9 +40,9 @@ Chart shapeChart(const ModesReport& r, std::size_t place) {
 
 Figure figure(const ModesReport& r, std::size_t count) {
   Figure figure;
-  figure.title =
-      fmt::format("{}: whirl modes at {:.4g} rad/s, {:.0f} rpm (blue forward, red backward)",
-                  r.system->title(), r.speed, r.speed / kRpm);
+  figure.title = fmt::format(
+      "{}: whirl modes at {:.4g} rad/s, {:.0f} rpm (blue forward, red backward){}",
+      r.system->title(), r.speed, r.speed / kRpm, beyondMark(r.system->tables(), r.speed));
   for (std::size_t k = 0; k < std::min(count, r.model.size()); ++k) {
     figure.charts.push_back(shapeChart(r, k));
   }

@@ -6,6 +6,7 @@
 
 #include "algebra/constants.h"
 #include "reports/modes_report.h"
+#include "reports/table_speeds.h"
 
 namespace whirl_twin {
 
@@ -172,6 +173,7 @@ std::string measuredText(const ModesReport& report, const ComparedMode& one) {
 Json json(const ModesReport& report) {
   Json json;
   json["speed"] = report.speed;
+  json["beyond_tables"] = !report.system->tables().covers(report.speed);
   if (report.log.empty()) {
     json["modes"] = Json::array();
     for (std::size_t k = 0; k < report.model.size(); ++k) {
@@ -245,8 +247,9 @@ CsvTables tables(const ModesReport& report) {
 
 std::string text(const ModesReport& report) {
   std::string out = report.system->title();
+  const std::string beyond = beyondLine(report.system->tables(), report.speed, report.speed);
   if (report.log.empty()) {
-    return out + fmt::format(": at {:g} rad/s\n", report.speed) + modelText(report);
+    return out + fmt::format(": at {:g} rad/s\n", report.speed) + beyond + modelText(report);
   }
   if (report.record) {
     const AmbientRecord& record = *report.record;
@@ -270,7 +273,7 @@ std::string text(const ModesReport& report) {
   for (const std::string& note : report.notes) {
     out += fmt::format("  {}\n", note);
   }
-  return out;
+  return out + beyond;
 }
 
 }  // namespace whirl_twin

@@ -68,6 +68,11 @@ Rows bearingRows(const FlexibleShaft& shaft, double speed) {
   for (const SpeedBearing& bearing : shaft.speed_bearings) {
     add(bearing.node, bearing.coefficients(speed), "over speed");
   }
+  for (const RigidSupport& support : shaft.rigid_supports) {
+    const std::string none = "-";
+    rows.push_back({std::to_string(support.node), none, none, none, none, none, none, none, none,
+                    support.clamps ? "clamp" : "pin"});
+  }
   return rows;
 }
 

@@ -11,6 +11,7 @@
 #include "algebra/constants.h"
 #include "reports/orbit_chart.h"
 #include "reports/response_report.h"
+#include "reports/table_speeds.h"
 
 namespace whirl_twin {
 
@@ -208,6 +209,8 @@ Figure figure(const ResponseReport& r) {
     amplitude.vertical.push_back({peak.speed, speedName(peak.speed)});
     lag.vertical.push_back({peak.speed, ""});
   }
+  shadeBeyond(r.system->tables(), r.sweep.front().speed, r.sweep.back().speed, true, amplitude);
+  shadeBeyond(r.system->tables(), r.sweep.front().speed, r.sweep.back().speed, false, lag);
   lag.horizontal = {{90.0, ""}, {180.0, ""}};
   Figure figure;
   figure.title = r.system->title() + ": unbalance response";
@@ -224,7 +227,8 @@ Figure figure(const OrbitReport& r) {
   const OrbitChart orbits =
       orbitChart(r.response.orbits, r.system->stations, "m", DrawnInstant::kPhaseMark);
   Figure figure;
-  figure.title = fmt::format("{}: orbits at {}", r.system->title(), speedName(r.response.speed));
+  figure.title = fmt::format("{}: orbits at {}{}", r.system->title(), speedName(r.response.speed),
+                             beyondMark(r.system->tables(), r.response.speed));
   figure.charts = {orbits.chart};
   figure.width = orbits.along_shaft ? 900 : 640;
   figure.chart_height = orbits.along_shaft ? 460 : 640;

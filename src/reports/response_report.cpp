@@ -8,6 +8,7 @@
 #include "algebra/constants.h"
 #include "messages/names.h"
 #include "messages/refusal.h"
+#include "reports/table_speeds.h"
 #include "reports/verdict_text.h"
 
 namespace whirl_twin {
@@ -35,18 +36,20 @@ Json orbitJson(const Orbit& orbit, double phase_mark) {
           {"phase_lag", phaseLag(orbit, phase_mark)}};
 }
 
-std::string orbitText(const std::string& start, const Orbit& orbit, double phase_mark) {
+std::string orbitText(const std::string& start, const Orbit& orbit, double phase_mark,
+                      const std::string& mark = "") {
   constexpr double kRound = 1.0e-6;  // of a circle: how far the axes may be apart
   const bool circle = orbit.major() - orbit.minor() <= kRound * orbit.major();
-  return fmt::format(
-      "    {:<14} {:>11.5g} {:>11.5g} {:>13}  {:<9} {:>12.5g} {:>10.5g}\n", start, orbit.major(),
-      orbit.minor(), circle ? "circle" : fmt::format("{:.5g}", orbit.inclination() / kDegree),
-      name(orbit.direction()), std::abs(orbit.forward), phaseLag(orbit, phase_mark) / kDegree);
+  return fmt::format("    {:<14} {:>11.5g} {:>11.5g} {:>13}  {:<9} {:>12.5g} {:>10.5g}{}\n", start,
+                     orbit.major(), orbit.minor(),
+                     circle ? "circle" : fmt::format("{:.5g}", orbit.inclination() / kDegree),
+                     name(orbit.direction()), std::abs(orbit.forward),
+                     phaseLag(orbit, phase_mark) / kDegree, mark);
 }
 
 std::vector<std::string> withOrbit(std::vector<std::string> columns) {
-  for (const char* column :
-       {"major", "minor", "inclination", "direction", "forward", "backward", "phase_lag"}) {
+  for (const char* column : {"major", "minor", "inclination", "direction", "forward", "backward",
+                             "phase_lag", "beyond_tables"}) {
     columns.emplace_back(column);
   }
   return columns;
@@ -88,9 +91,13 @@ Json json(const ResponseReport& r) {
   json["model"] = r.system->model;
   json["phase_mark"] = r.system->dynamics->phaseMark();
   json["unbalance_angle"] = r.system->dynamics->phaseMark();  // as scripts know it
+  const DataSpeeds data = r.system->tables();
   json["speeds"] = Json::array();
+  json["table_speeds"] = tableSpeedsJson(data);  // null: every speed
+  json["beyond_tables"] = Json::array();
   for (const SynchronousResponse& response : r.sweep) {
     json["speeds"].push_back(response.speed);
+    json["beyond_tables"].push_back(!data.covers(response.speed));
   }
   for (const std::size_t i : r.stations) {
     Json list = Json::array();
@@ -104,7 +111,8 @@ Json json(const ResponseReport& r) {
     json["peaks"].push_back({{"speed", peak.speed},
                              {"major", peak.peak},
                              {"direction", peak.forward ? "forward" : "backward"},
-                             {"amplification_factor", peak.amplification_factor}});
+                             {"amplification_factor", peak.amplification_factor},
+                             {"beyond_tables", !data.covers(peak.speed)}});
   }
   return json;
 }
@@ -115,16 +123,20 @@ CsvTables tables(const ResponseReport& r) {
     for (const SynchronousResponse& response : r.sweep) {
       Json row{{"station", r.system->stations[i].name}, {"speed", response.speed}};
       row.update(orbitJson(response.orbits[i], r.system->dynamics->phaseMark()));
+      row["beyond_tables"] = !r.system->tables().covers(response.speed);
       sweep.rows.push_back(row);
     }
   }
   return {sweep,
-          {"peaks", {"speed", "major", "direction", "amplification_factor"}, json(r)["peaks"]}};
+          {"peaks",
+           {"speed", "major", "direction", "amplification_factor", "beyond_tables"},
+           json(r)["peaks"]}};
 }
 
 std::string text(const ResponseReport& r) {
   constexpr std::size_t kRows = 20;
   const std::size_t stride = 1 + r.sweep.size() / kRows;
+  const DataSpeeds data = r.system->tables();
   std::string out = fmt::format("{}: response to its unbalance\n", r.system->title());
   if (stride > 1) {
     out += fmt::format("  one of {} of {} speeds; all of them with --json or --csv\n", stride,
@@ -134,16 +146,17 @@ std::string text(const ResponseReport& r) {
     out += fmt::format("  at {}\n    speed, rad/s{}", r.system->stations[i].name, kOrbitHead);
     for (std::size_t k = 0; k < r.sweep.size(); k += stride) {
       out += orbitText(fmt::format("{:.6g}", r.sweep[k].speed), r.sweep[k].orbits[i],
-                       r.system->dynamics->phaseMark());
+                       r.system->dynamics->phaseMark(), beyondMark(data, r.sweep[k].speed));
     }
   }
   out += fmt::format("  peaks at {}\n", r.system->stations.front().name);
   for (const CriticalSpeed& peak : r.peaks) {
-    out +=
-        fmt::format("    {:.6g} rad/s: {:.5g} m, {}, amplification {}\n", peak.speed, peak.peak,
-                    peak.forward ? "forward" : "backward", defined(peak.amplification_factor, "-"));
+    out += fmt::format("    {:.6g} rad/s: {:.5g} m, {}, amplification {}{}\n", peak.speed,
+                       peak.peak, peak.forward ? "forward" : "backward",
+                       defined(peak.amplification_factor, "-"), beyondMark(data, peak.speed));
   }
-  return r.peaks.empty() ? out + "    none in the range\n" : out;
+  return out + (r.peaks.empty() ? "    none in the range\n" : "") +
+         beyondLine(data, r.sweep.front().speed, r.sweep.back().speed);
 }
 
 OrbitReport orbitReport(const RotorSystem& system, double speed) {
@@ -155,7 +168,9 @@ OrbitReport orbitReport(const RotorSystem& system, double speed) {
 }
 
 Json json(const OrbitReport& r) {
-  Json json{{"model", r.system->model}, {"speed", r.response.speed}};
+  Json json{{"model", r.system->model},
+            {"speed", r.response.speed},
+            {"beyond_tables", !r.system->tables().covers(r.response.speed)}};
   for (std::size_t i = 0; i < r.response.orbits.size(); ++i) {
     const Station& station = r.system->stations[i];
     json["stations"][station.name] =
@@ -171,6 +186,7 @@ CsvTables tables(const OrbitReport& r) {
     const Station& station = r.system->stations[i];
     Json row{{"station", station.name}, {"position", station.position}};
     row.update(orbitJson(r.response.orbits[i], r.system->dynamics->phaseMark()));
+    row["beyond_tables"] = !r.system->tables().covers(r.response.speed);
     orbits.rows.push_back(row);
   }
   return {orbits};
@@ -183,7 +199,7 @@ std::string text(const OrbitReport& r) {
     out += orbitText(r.system->stations[i].name, r.response.orbits[i],
                      r.system->dynamics->phaseMark());
   }
-  return out;
+  return out + beyondLine(r.system->tables(), r.response.speed, r.response.speed);
 }
 
 }  // namespace whirl_twin

@@ -89,6 +89,9 @@ std::vector<int> bearingNodes(const FlexibleShaft& shaft) {
   for (const SpeedBearing& bearing : shaft.speed_bearings) {
     nodes.push_back(bearing.node);
   }
+  for (const RigidSupport& support : shaft.rigid_supports) {
+    nodes.push_back(support.node);
+  }
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;

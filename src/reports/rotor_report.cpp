@@ -17,6 +17,7 @@
 #include "reports/response_report.h"
 #include "reports/rotor_sheet.h"
 #include "reports/shaft_figures.h"
+#include "reports/table_speeds.h"
 #include "reports/verdict_text.h"
 
 namespace whirl_twin {
@@ -98,6 +99,13 @@ class RotorReport {
     const std::string& note = built().setup().note;
     if (!note.empty()) {
       page_.text("As it is stepped: " + note + ".");
+    }
+    const DataSpeeds data = system_.tables();
+    if (!data.covers(speed_)) {
+      page_.text(fmt::format("{:.5g} rad/s is {}.", speed_, beyondText(data)));
+    }
+    if (!data.everywhere()) {
+      missing_.push_back("Results marked \"beyond the tables\" or shaded are " + beyondText(data));
     }
   }
 
@@ -199,13 +207,14 @@ class RotorReport {
     std::vector<std::vector<std::string>> rows;
     for (const CampbellCrossing& crossing : report.diagram.crossings) {
       rows.push_back({numberOrDash(crossing.speed), rpm(crossing.speed), name(crossing.mode.whirl),
-                      numberOrDash(crossing.mode.log_decrement)});
+                      numberOrDash(crossing.mode.log_decrement),
+                      beyondMark(system_.tables(), crossing.speed)});
     }
     if (rows.empty()) {
       page_.text("No whirl meets the speed in the range.");
     } else {
       page_.part("Where a whirl meets the speed");
-      page_.table({"rad/s", "rpm", "whirl", "log. decrement"}, rows);
+      page_.table({"rad/s", "rpm", "whirl", "log. decrement", ""}, rows);
     }
     if (report.beyond > 0) {
       missing_.push_back(fmt::format(
@@ -233,6 +242,7 @@ class RotorReport {
            damped ? "critically damped"
            : near ? "too near"
                   : "kept"});
+      rows.back().back() += beyondMark(system_.tables(), peak.speed);
     }
     page_.part(fmt::format("Amplification factors and separation margins at {:.5g} rad/s", speed_));
     if (rows.empty()) {

@@ -64,11 +64,17 @@ std::vector<RotorSystem> rotorSystems(const BuiltScene& scene,
   return rotors;
 }
 
-WholeRotor wholeRotor(const RotorSystem& system) {
+WholeRotor wholeRotor(const RotorSystem& system, std::optional<std::size_t> pushed) {
   if (!system.shaft) {
     return {system.rotor, system.stations};
   }
-  const RotorAssembly assembly(*system.shaft);
+  FlexibleShaft shaft = *system.shaft;
+  for (int node = 0; pushed && node < shaft.nodes(); ++node) {
+    if (system.stations[*pushed].name == fmt::format("node_{}", node)) {
+      shaft.pushed.push_back(node);
+    }
+  }
+  const RotorAssembly assembly(shaft);
   WholeRotor whole{assembly.linearRotor(), {}};
   const std::vector<Station> nodes = assembly.stations();
   for (const Station& station : system.stations) {

@@ -23,6 +23,8 @@ struct RotorSystem {
   double lowest_speed = 0.0, highest_speed = 0.0;  ///< [rad/s], that its drive runs through
   std::optional<FlexibleShaft> shaft;              ///< of a flexible_rotor, as its scene gives it
 
+  /// That its tables cover.
+  DataSpeeds tables() const { return dataSpeeds(rotor); }
   /// "NAME (MODEL)"
   std::string title() const { return name + " (" + model + ")"; }
 };
@@ -37,7 +39,9 @@ struct WholeRotor {
   LinearRotor rotor;
   std::vector<Station> stations;  ///< in the order of RotorSystem's
 };
-WholeRotor wholeRotor(const RotorSystem& system);
+/// `pushed`: of its stations the one that something else acts on, whose motion then is not left to
+/// the others' where it has no mass.
+WholeRotor wholeRotor(const RotorSystem& system, std::optional<std::size_t> pushed = std::nullopt);
 
 struct SpeedRange {
   double from = 0.0, to = 0.0;  ///< [rad/s]

@@ -1,5 +1,7 @@
 #include "reports/scene_check.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <map>
@@ -7,7 +9,11 @@
 
 #include "accuracy/step_choice.h"
 #include "accuracy/trajectory.h"
+#include "analysis/rotor_statics.h"
+#include "models/flexible_shaft_settings.h"
 #include "reports/step_cost.h"
+#include "reports/table_speeds.h"
+#include "scene/held_rotor.h"
 #include "scene/part_of_scene.h"
 #include "scene/station_names.h"
 #include "transport/channels.h"
@@ -23,13 +29,37 @@ constexpr double kWholeBudget = 0.02;   // s, to measure the scene
 constexpr double kSystemBudget = 0.01;  // s, to measure one system,
 constexpr double kSystemsBudget = 0.5;  // and all of them one by one
 
-SystemCheck checkSystem(const BuiltSystem& system) {
+std::optional<ShaftSize> shaftSize(const BuiltSystem& system) {
+  if (system.model->name != "flexible_rotor") {
+    return std::nullopt;
+  }
+  FlexibleShaft shaft = flexibleShaft(system.spec.parameters, system.spec.settings,
+                                      system.spec.setup->around.gravity);
+  ShaftSize size{shaft.positions().back(), 0.0, rotorBody(shaft).mass};
+  shaft.discs.clear();
+  size.mass = rotorBody(shaft).mass;
+  return size;
+}
+
+/// That the shaft turns at speeds that the rotor's tables do not cover.
+void warnOfTables(const BuiltScene& scene, const BuiltSystem& system, SystemCheck& check) {
+  const auto [low, high] = scene.driveOf(system).speedRange();
+  const DataSpeeds tables = tableSpeeds(system);
+  if (!system.spec.setup->around.motor && !(tables.covers(low) && tables.covers(high))) {
+    check.warnings.push_back(fmt::format("the shaft turns at {:.6g} to {:.6g} rad/s, in part {}",
+                                         low, high, beyondText(tables)));
+  }
+}
+
+SystemCheck checkSystem(const BuiltScene& scene, const BuiltSystem& system) {
   SystemCheck check;
   const std::string& name = system.spec.name;
   check.name = name;
   check.model = system.model;
   check.coordinates = system.dynamics->coordinates();
   check.note = system.setup().note;
+  check.shaft = shaftSize(system);
+  warnOfTables(scene, system, check);
   check.integrator = system.integrator;
   check.reason = system.integrator_reason.empty() ? "named in the scene" : system.integrator_reason;
   check.substeps = system.spec.substeps;
@@ -107,7 +137,7 @@ SceneCheck checkScene(const Scene& scene, const std::vector<std::size_t>& system
   const double budget =
       std::min(kSystemBudget, kSystemsBudget / static_cast<double>(built.systems.size()));
   for (std::size_t i = 0; i < built.systems.size(); ++i) {
-    check.systems.push_back(checkSystem(*built.systems[i]));
+    check.systems.push_back(checkSystem(built, *built.systems[i]));
     SystemCheck& system = check.systems.back();
     system.accuracy = choices[i].promise;
     const AskedCost steps = costOfSteps(built, i);

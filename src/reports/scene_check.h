@@ -26,6 +26,13 @@ struct Published {
   std::vector<std::string> channels;  ///< LCM
 };
 
+/// Of a shaft of elements.
+struct ShaftSize {
+  double length = 0.0;      ///< [m]
+  double mass = 0.0;        ///< [kg], of its elements and sleeves
+  double rotor_mass = 0.0;  ///< [kg], with the discs
+};
+
 /// An input that the scene sets.
 struct InputCheck {
   InputInfo input;
@@ -36,7 +43,9 @@ struct SystemCheck {
   std::string name;
   const ModelInfo* model = nullptr;
   std::vector<CoordinateInfo> coordinates;
-  std::string note;  ///< what the model says of how it was set up; may be empty
+  std::string note;                   ///< what the model says of how it was set up; may be empty
+  std::optional<ShaftSize> shaft;     ///< of a flexible_rotor
+  std::vector<std::string> warnings;  ///< what makes results a guess, in words
   std::string integrator;
   std::string reason;  ///< why this one
   int substeps = 1;

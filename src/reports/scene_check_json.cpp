@@ -97,6 +97,12 @@ Json systemJson(const SystemCheck& system) {
   json["states"] = 2 * system.coordinates.size();
   json["drive"] = system.drive ? Json(*system.drive) : Json();
   json["speed"] = system.speed ? Json(*system.speed) : Json();
+  if (system.shaft) {
+    json["shaft"] = {{"length", system.shaft->length},
+                     {"mass", system.shaft->mass},
+                     {"rotor_mass", system.shaft->rotor_mass}};
+  }
+  json["warnings"] = system.warnings;
   for (const InputCheck& input : system.inputs) {
     json["inputs"][input.input.name] = inputJson(input);
   }

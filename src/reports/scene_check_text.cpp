@@ -116,6 +116,13 @@ std::string checkedSystemText(const SystemCheck& system) {
   } else if (system.speed) {
     out += fmt::format("    shaft         {:g} rad/s, constant\n", *system.speed);
   }
+  if (system.shaft) {
+    out += fmt::format("    its length    {:.6g} m, mass {:.6g} kg, with its discs {:.6g} kg\n",
+                       system.shaft->length, system.shaft->mass, system.shaft->rotor_mass);
+  }
+  for (const std::string& warning : system.warnings) {
+    out += fmt::format("    warning       {}\n", warning);
+  }
   for (const InputCheck& input : system.inputs) {
     out += fmt::format("    input         {}: {}\n", input.input.name, inputText(input));
   }

@@ -100,6 +100,7 @@ SystemAnalysis analyzeSystem(const BuiltScene& scene, const BuiltSystem& system,
   const CriticalSpeedSearch critical_speeds = searchCriticalSpeeds(*heldDynamics(system));
   a.critical_speeds_beyond = critical_speeds.beyond;
   a.highest_speed = critical_speeds.highest_speed;
+  a.tables = tableSpeeds(system);
   a.critical_speeds_to = critical_speeds.searched_to;
   for (const CriticalSpeed& critical : critical_speeds.found) {
     a.critical_speeds.push_back(criticalSpeedMargin(shaft.speed, critical.speed,

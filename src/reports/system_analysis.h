@@ -12,6 +12,7 @@
 #include "analysis/equilibria.h"
 #include "analysis/stability.h"
 #include "mechanics/dynamics.h"
+#include "mechanics/rotors/rotor_assembly.h"
 #include "messages/stability_margin.h"
 #include "monitoring/parameter_margins.h"
 #include "monitoring/spread_margin.h"
@@ -53,6 +54,7 @@ struct SystemAnalysis {
   double critical_speeds_to = 0.0;                          ///< [rad/s], looked for; infinity: all
   std::size_t critical_speeds_beyond = 0;  ///< that its equations have, where they do not hold
   double highest_speed = 0.0;              ///< [rad/s], that a reduced rotor holds to
+  DataSpeeds tables = {};                  ///< of its bearings and pedestals
   std::optional<CrossCouplingMargin> cross_coupling;  ///< at the initial speed
   std::vector<SteadySpeed> steady_speeds;             ///< on its motor
   /// Of a stable motion, the nearest first; nothing where it was not looked for.

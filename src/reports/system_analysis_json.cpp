@@ -1,5 +1,6 @@
 #include "reports/matrix_json.h"
 #include "reports/system_analysis.h"
+#include "reports/table_speeds.h"
 
 namespace whirl_twin {
 
@@ -148,9 +149,10 @@ CsvTables tables(const SystemAnalysis& a) {
   }
   CsvTable critical_speeds{"critical_speeds",
                            {"speed", "direction", "amplification_factor", "separation_margin",
-                            "required_separation_margin"}};
+                            "required_separation_margin", "beyond_tables"}};
   for (const auto& critical : a.critical_speeds) {
     critical_speeds.rows.push_back(criticalSpeedJson(critical));
+    critical_speeds.rows.back()["beyond_tables"] = !a.tables.covers(critical.speed);
   }
   CsvTable parameters{"parameters",
                       {"parameter", "value", "lost_at", "change", "loss", "frequency"}};
@@ -173,6 +175,8 @@ Json json(const SystemAnalysis& a) {
   }
   json["time"] = a.moment.time;
   json["speed"] = a.speed ? Json(*a.speed) : Json();
+  json["table_speeds"] = tableSpeedsJson(a.tables);  // null: every speed
+  json["beyond_tables"] = a.speed && !a.tables.covers(*a.speed);
   json["state"] = stateJson(a, a.q, a.v);
   json["acceleration"] = byCoordinate(a, a.acceleration);
   json["energy"] = {{"kinetic", a.energies.kinetic},
@@ -226,6 +230,7 @@ Json json(const SystemAnalysis& a) {
   json["critical_speeds"] = Json::array();
   for (const auto& critical : a.critical_speeds) {
     json["critical_speeds"].push_back(criticalSpeedJson(critical));
+    json["critical_speeds"].back()["beyond_tables"] = !a.tables.covers(critical.speed);
   }
   json["critical_speeds_beyond_reduction"] = a.critical_speeds_beyond;
   json["critical_speeds_searched_to"] = a.critical_speeds_to;  // infinite, and so null: all

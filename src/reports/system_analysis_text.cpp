@@ -8,6 +8,7 @@
 #include "analysis/stability_margins.h"
 #include "reports/matrix_text.h"
 #include "reports/system_analysis.h"
+#include "reports/table_speeds.h"
 #include "reports/verdict_text.h"
 
 namespace whirl_twin {
@@ -64,7 +65,9 @@ std::string startText(const SystemAnalysis& a) {
   if (a.speed) {
     out += fmt::format(", shaft at {:g} rad/s ({:.4g} rpm)", *a.speed, *a.speed * 30.0 / kPi);
   }
-  out += fmt::format("\n    position        {}\n", values(a, a.q, 0));
+  out += fmt::format("\n{}    position        {}\n",
+                     a.speed ? beyondLine(a.tables, *a.speed, *a.speed) : std::string(),
+                     values(a, a.q, 0));
   out += fmt::format("    velocity        {}\n", values(a, a.v, 1));
   out += fmt::format("    acceleration    {}\n", values(a, a.acceleration, 2));
   out += fmt::format("    energy          kinetic {:.6g} J, potential {:.6g} J, Jacobi {:.6g} J\n",
@@ -207,7 +210,8 @@ std::string stabilityText(const SystemAnalysis& a) {
   out += decrementText(a);
   if (a.speed) {
     out += fmt::format("    unstable above  {}\n",
-                       a.instability_speed ? fmt::format("{:.6g} rad/s", *a.instability_speed)
+                       a.instability_speed ? fmt::format("{:.6g} rad/s{}", *a.instability_speed,
+                                                         beyondMark(a.tables, *a.instability_speed))
                                            : std::string("no speed found"));
   }
   return out;
@@ -232,14 +236,18 @@ std::string criticalSpeedsText(const SystemAnalysis& a) {
   for (const auto& c : a.critical_speeds) {
     const bool too_near = c.separation_margin < c.required_separation_margin;
     out += fmt::format(
-        "    {:>12.6g} {:>11.6g}  {:<9} {:>15} {:>9} % {:>9.4g} %{}\n", c.speed,
+        "    {:>12.6g} {:>11.6g}  {:<9} {:>15} {:>9} % {:>9.4g} %{}{}\n", c.speed,
         c.speed * 30.0 / kPi, c.direction,
         std::isinf(c.amplification_factor) ? "undamped" : defined(c.amplification_factor, "-"),
         defined(c.separation_margin, "-"), c.required_separation_margin,
-        too_near ? "  too near" : "");
+        too_near ? "  too near" : "", beyondMark(a.tables, c.speed));
   }
   for (const std::string& condition : separationConditions()) {
     out += fmt::format("      {}\n", condition);
+  }
+  if (std::any_of(a.critical_speeds.begin(), a.critical_speeds.end(),
+                  [&](const auto& c) { return !a.tables.covers(c.speed); })) {
+    out += "    some " + beyondText(a.tables) + "\n";
   }
   return out + beyond;
 }

@@ -1,5 +1,6 @@
 #include "scene/held_rotor.h"
 
+#include "mechanics/locally_forced_rotor.h"
 #include "models/model_registry.h"
 #include "scene/system_setup.h"
 
@@ -40,6 +41,14 @@ std::optional<RotorOnMotor> rotorOnMotor(const BuiltSystem& system) {
 std::shared_ptr<const Dynamics> heldDynamics(const BuiltSystem& system) {
   const std::optional<RotorOnMotor> driven = rotorOnMotor(system);
   return driven ? driven->held : system.dynamics;
+}
+
+DataSpeeds tableSpeeds(const BuiltSystem& system) {
+  const std::shared_ptr<const Dynamics> held = heldDynamics(system);
+  const bool linear = held->linear() && held->isRotor() && held->hasShaft();
+  return linear || dynamic_cast<const LocallyForcedRotor*>(held.get()) != nullptr
+             ? dataSpeeds(held->linearRotor())
+             : DataSpeeds{};
 }
 
 }  // namespace whirl_twin

@@ -8,6 +8,7 @@
 
 #include "control/motor.h"
 #include "mechanics/dynamics.h"
+#include "mechanics/rotors/rotor_assembly.h"
 #include "scene/built_system.h"
 
 namespace whirl_twin {
@@ -23,5 +24,8 @@ std::optional<RotorOnMotor> rotorOnMotor(const BuiltSystem& system);
 
 /// The dynamics that have the system's critical speeds: with the shaft held, of a rotor on a motor.
 std::shared_ptr<const Dynamics> heldDynamics(const BuiltSystem& system);
+
+/// That its tables of bearings and pedestals cover; of another system every speed.
+DataSpeeds tableSpeeds(const BuiltSystem& system);
 
 }  // namespace whirl_twin

@@ -86,6 +86,9 @@ SpeedBearing tabulatedBearing(int node, const std::vector<BearingRow>& rows) {
   bearing.coefficients = [knots = knotsOf(rows)](double speed) {
     return interpolated(knots, speed);
   };
+  if (rows.size() > 1) {
+    bearing.data = {rows.front().speed, rows.back().speed};
+  }
   return bearing;
 }
 

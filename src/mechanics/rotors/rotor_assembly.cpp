@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -68,6 +69,9 @@ void requireNodes(const FlexibleShaft& shaft) {
   }
   for (const RotorPedestal& pedestal : shaft.pedestals) {
     require(pedestal.node, "pedestal");
+  }
+  for (const RigidSupport& support : shaft.rigid_supports) {
+    require(support.node, "rigid support");
   }
 }
 
@@ -151,7 +155,41 @@ int FlexibleShaft::pedestalsOf(int node) const {
                     [node](const RotorPedestal& pedestal) { return pedestal.node == node; }));
 }
 
+std::vector<HeldCoordinate> heldCoordinates(const FlexibleShaft& shaft) {
+  std::vector<HeldCoordinate> held;
+  for (const RigidSupport& support : shaft.rigid_supports) {
+    const Index x = shaft.firstOf(support.node);
+    const bool grounded = shaft.pedestalsOf(support.node) == 0;
+    for (const Index axis : {0, 1}) {
+      held.push_back({x + axis, grounded ? HeldCoordinate::kGround : x + kNodeCoordinates + axis});
+    }
+    for (const Index slope : {2, 3}) {
+      if (support.clamps) {
+        held.push_back({x + slope, HeldCoordinate::kGround});
+      }
+    }
+  }
+  return held;
+}
+
 RotorAssembly::RotorAssembly(const FlexibleShaft& shaft) {
+  assemble(shaft);
+  reduce(shaft);
+  if (!shaft.modal_damping.empty()) {
+    const Linearization at_rest = matrices(0.0);
+    constant_.damping += modalDamping(at_rest.mass, at_rest.stiffness, shaft.modal_damping);
+  }
+  makeBands();
+}
+
+RotorAssembly RotorAssembly::unsupported(const FlexibleShaft& shaft) {
+  RotorAssembly all;
+  all.assemble(shaft);
+  all.makeBands();
+  return all;
+}
+
+void RotorAssembly::assemble(const FlexibleShaft& shaft) {
   requireNodes(shaft);
   const Index n = shaft.coordinates();
   const MatrixXd zero = MatrixXd::Zero(n, n);
@@ -198,11 +236,58 @@ RotorAssembly::RotorAssembly(const FlexibleShaft& shaft) {
   }
   load_ = -shaft.gravity * (constant_.mass * along_y);
   addSupports(shaft);
-  if (!shaft.modal_damping.empty()) {
-    const Linearization at_rest = matrices(0.0);
-    constant_.damping += modalDamping(at_rest.mass, at_rest.stiffness, shaft.modal_damping);
+}
+
+void RotorAssembly::reduce(const FlexibleShaft& shaft) {
+  const Index n = shaft.coordinates();
+  moving_.resize(static_cast<std::size_t>(n));
+  std::iota(moving_.begin(), moving_.end(), 0);
+  const Eigen::VectorXd own = constant_.mass.diagonal();
+  if (shaft.rigid_supports.empty() && (own.array() != 0.0).all()) {
+    return;
   }
-  makeBands();
+  std::vector<bool> acted(static_cast<std::size_t>(n), false);
+  for (const ShaftForce& force : forces_) {
+    for (Index i = 0; i < n; ++i) {
+      acted[static_cast<std::size_t>(i)] =
+          acted[static_cast<std::size_t>(i)] || force.amplitude[i] != 0.0;
+    }
+  }
+  for (const PlacedBearing& placed : speed_bearings_) {
+    for (Index i = 0; i < n; ++i) {
+      acted[static_cast<std::size_t>(i)] =
+          acted[static_cast<std::size_t>(i)] || !placed.place.row(i).isZero(0.0);
+    }
+  }
+  for (const int node : shaft.pushed) {
+    for (const Index axis : {0, 1}) {
+      acted[static_cast<std::size_t>(shaft.firstOf(node) + axis)] = true;
+    }
+  }
+  const MovingCoordinates kept =
+      movingCoordinates(constant_.mass, constant_.stiffness,
+                        {constant_.damping, constant_.gyroscopic, constant_.circulatory,
+                         gyroscopic_per_speed_, circulatory_per_speed_},
+                        acted, heldCoordinates(shaft));
+  // The largest masses and inertias of nodes, which are in proportion to the rotor's.
+  double mass = 0.0;
+  for (Index i = 0; i < n; i += 2) {
+    mass = std::max(mass, own[i]);
+  }
+  const double length = shaft.positions().back() / static_cast<double>(shaft.nodes());
+  std::vector<bool> is_slope(static_cast<std::size_t>(n), false);
+  for (int node = 0; node < shaft.nodes(); ++node) {
+    for (const Index slope : {2, 3}) {
+      is_slope[static_cast<std::size_t>(shaft.firstOf(node) + slope)] = true;
+    }
+  }
+  for (const Index i : kept.massive) {
+    const double arm = is_slope[static_cast<std::size_t>(i)] ? length : 1.0;
+    constant_.mass(i, i) = kNegligible * mass * arm * arm;
+  }
+  *this = in(kept.shapes);
+  moving_ = kept.moving;
+  massive_ = kept.massive;
 }
 
 MatrixXd RotorAssembly::addElements(const FlexibleShaft& shaft) {
@@ -268,7 +353,8 @@ void RotorAssembly::addSupports(const FlexibleShaft& shaft) {
     const MatrixXd below = place(x, pedestal.node, above[node]);
     add(pedestal.coefficients, below, constant_);
     if (pedestal.over_speed) {
-      speed_bearings_.push_back({{pedestal.node, pedestal.over_speed, pedestal.knots}, below});
+      speed_bearings_.push_back(
+          {{pedestal.node, pedestal.over_speed, pedestal.knots, pedestal.data}, below});
     }
     pedestals_.push_back({"pedestal_" + std::to_string(pedestals_.size()), z[node],
                           Eigen::VectorXd::Unit(n, x), Eigen::VectorXd::Unit(n, x + 1)});
@@ -299,6 +385,20 @@ BandedLinearization RotorAssembly::bandedMatrices(double speed) const {
     addBearing(placed.bearing.coefficients(speed), placed.place, l);
   }
   return l;
+}
+
+DataSpeeds RotorAssembly::dataSpeeds() const {
+  DataSpeeds all;
+  for (const PlacedBearing& placed : speed_bearings_) {
+    all.from = std::max(all.from, placed.bearing.data.from);
+    all.to = std::min(all.to, placed.bearing.data.to);
+  }
+  return all;
+}
+
+DataSpeeds dataSpeeds(const LinearRotor& rotor) {
+  const auto* assembled = rotor.matrices.target<AssembledMatrices>();
+  return assembled ? assembled->assembly->dataSpeeds() : DataSpeeds{};
 }
 
 Station RotorAssembly::station(int node) const {

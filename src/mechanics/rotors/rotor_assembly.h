@@ -16,12 +16,14 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <vector>
 
 #include "mechanics/banded_linearization.h"
 #include "mechanics/linear_rotor.h"
 #include "mechanics/rotors/modal_damping.h"
+#include "mechanics/rotors/moving_coordinates.h"
 #include "mechanics/rotors/shaft_element.h"
 #include "mechanics/rotors/short_journal_bearing.h"
 
@@ -49,11 +51,27 @@ struct RotorBearing {
   BearingCoefficients coefficients;
 };
 
+/// Between the shaft and what a bearing of its node would stand on.
+struct RigidSupport {
+  int node = 0;
+  bool clamps = false;  ///< it holds the slope, too, as the ground does
+};
+
+/// [rad/s], that data of a rotor cover: beyond them its coefficients are a guess.
+struct DataSpeeds {
+  double from = -std::numeric_limits<double>::infinity();
+  double to = std::numeric_limits<double>::infinity();
+
+  bool covers(double speed) const { return !(speed < from || speed > to); }
+  bool everywhere() const { return !(from > -std::numeric_limits<double>::infinity()); }
+};
+
 /// A bearing whose coefficients follow the shaft's speed [rad/s].
 struct SpeedBearing {
   int node = 0;
   std::function<BearingCoefficients(double speed)> coefficients;
   std::vector<double> knots;  ///< [rad/s], ascending: speeds between which they are smooth
+  DataSpeeds data = {};       ///< of its table
 };
 
 /// A body that moves across the shaft without turning. The bearings of its node stand on it, or a
@@ -65,6 +83,7 @@ struct RotorPedestal {
   /// Besides, where they follow the shaft's speed [rad/s]; none: they do not.
   std::function<BearingCoefficients(double speed)> over_speed = {};
   std::vector<double> knots = {};  ///< [rad/s], of those, as a SpeedBearing's
+  DataSpeeds data = {};            ///< of those
 };
 
 struct NodeUnbalance {
@@ -87,6 +106,8 @@ struct FlexibleShaft {
   double mass_damping = 0.0;       ///< [1/s], of the elements: C = this * M
   double stiffness_damping = 0.0;  ///< [s], of the elements: C = this * K
   std::vector<DampingRatio> modal_damping = {};
+  std::vector<RigidSupport> rigid_supports = {};
+  std::vector<int> pushed = {};  ///< nodes that forces act on which are not among these
 
   int nodes() const { return static_cast<int>(elements.size()) + 1; }
   /// Of an element, the shaft first.
@@ -107,8 +128,11 @@ void addBearing(const BearingCoefficients& bearing, const Eigen::MatrixXd& place
 /// The parts of a rotor's equations, in all coordinates or in the amplitudes of shapes.
 class RotorAssembly {
  public:
-  /// Throws std::logic_error for a node that does not exist.
+  /// In the coordinates that move (moving_coordinates.h). Throws std::logic_error for a node that
+  /// does not exist, Refusal for a part without mass that is not held.
   explicit RotorAssembly(const FlexibleShaft& shaft);
+  /// In all, as if its rigid supports were not there; those without mass have none.
+  static RotorAssembly unsupported(const FlexibleShaft& shaft);
 
   Eigen::Index dof() const { return constant_.mass.rows(); }
   /// At a constant speed [rad/s]: only adds the parts up.
@@ -121,6 +145,12 @@ class RotorAssembly {
   /// Of the shaft's pedestals, in their order.
   std::vector<Station> pedestals() const { return pedestals_; }
   const std::vector<ShaftForce>& forces() const { return forces_; }
+  /// Of all coordinates of the shaft, those that are left.
+  const std::vector<Eigen::Index>& moving() const { return moving_; }
+  /// Of those, the ones that have a mass of kNegligible instead of none.
+  const std::vector<Eigen::Index>& massive() const { return massive_; }
+  /// That the tables of all bearings and pedestals have.
+  DataSpeeds dataSpeeds() const;
   /// f_0 [N] or [N m].
   const Eigen::VectorXd& load() const { return load_; }
   /// Of what turns with the shaft (spin_coupling.h): N_1, and its damping there.
@@ -132,6 +162,8 @@ class RotorAssembly {
   LinearRotor linearRotor(std::shared_ptr<const UnreducedRotor> unreduced = nullptr) const;
 
  private:
+  RotorAssembly() = default;
+
   struct PlacedBearing {
     SpeedBearing bearing;
     Eigen::MatrixXd place;  ///< [dof x 2], of x and y
@@ -140,6 +172,9 @@ class RotorAssembly {
   /// Returns what the elements damp while they turn.
   Eigen::MatrixXd addElements(const FlexibleShaft& shaft);
   void addSupports(const FlexibleShaft& shaft);
+  void assemble(const FlexibleShaft& shaft);
+  /// Leaves the coordinates that move.
+  void reduce(const FlexibleShaft& shaft);
   void makeBands();
 
   Linearization constant_;
@@ -147,6 +182,7 @@ class RotorAssembly {
   std::vector<PlacedBearing> speed_bearings_;
   std::vector<ShaftForce> forces_;
   Eigen::VectorXd load_;
+  std::vector<Eigen::Index> moving_, massive_;
   std::vector<Station> stations_, pedestals_;
   BandedLinearization banded_;  // constant_ and both per speed
   BandedMatrix<double> banded_gyroscopic_, banded_circulatory_;
@@ -160,5 +196,11 @@ struct AssembledMatrices {
   std::shared_ptr<const UnreducedRotor> unreduced = nullptr;  ///< none: it has all coordinates
   Linearization operator()(double speed) const { return assembly->matrices(speed); }
 };
+
+/// Of the rotor that a scene's drawing was made into; of any other everywhere.
+DataSpeeds dataSpeeds(const LinearRotor& rotor);
+
+/// The rigid supports as coordinates of the shaft.
+std::vector<HeldCoordinate> heldCoordinates(const FlexibleShaft& shaft);
 
 }  // namespace whirl_twin

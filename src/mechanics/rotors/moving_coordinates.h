@@ -1,0 +1,46 @@
+// Which of a shaft's coordinates move as coordinates of their own. Those that a rigid support holds
+// do not: they are struck out, or go along with the pedestal that the support stands on. Those
+// without inertia follow the others at once where nothing but springs acts on them,
+//
+//   K_cc q_c + K_ch q_h = 0,   q_c = -K_cc^-1 K_ch q_h   (J. Guyan, AIAA J. 3, 1965),
+//
+// which is exact there. Damping, bearings that follow the speed, turning forces and films give such
+// a coordinate a rate of its own: it stays, with a mass of kNegligible of the rotor's.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "mechanics/linearization.h"
+
+namespace whirl_twin {
+
+/// The mass that a coordinate without any is given where it cannot follow the others. [-]
+constexpr double kNegligible = 1.0e-9;
+
+/// What a rigid support does to one coordinate.
+struct HeldCoordinate {
+  static constexpr Eigen::Index kGround = -1;
+
+  Eigen::Index held = 0;
+  Eigen::Index to = kGround;  ///< it moves as this one does
+};
+
+struct MovingCoordinates {
+  std::vector<Eigen::Index> moving;   ///< of all, ascending
+  std::vector<Eigen::Index> massive;  ///< of `moving`, those that need a negligible mass
+  Eigen::MatrixXd shapes;             ///< q = shapes * q of those that move [n x moving]
+};
+
+/// q = shapes * q of those that are not held, ascending. [n x free]
+Eigen::MatrixXd supportedShapes(Eigen::Index n, const std::vector<HeldCoordinate>& held);
+
+/// `mass` and `stiffness` [n x n] at rest; `rates`: matrices [n x n] of all forces besides;
+/// `acted`: the coordinates that other forces act on. Throws Refusal where a part without mass is
+/// not held, and where nothing is left that moves.
+MovingCoordinates movingCoordinates(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& stiffness,
+                                    const std::vector<Eigen::MatrixXd>& rates,
+                                    const std::vector<bool>& acted,
+                                    const std::vector<HeldCoordinate>& held);
+
+}  // namespace whirl_twin

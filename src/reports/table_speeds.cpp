@@ -1,0 +1,54 @@
+#include "reports/table_speeds.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "algebra/constants.h"
+
+namespace whirl_twin {
+
+std::string beyondMark(const DataSpeeds& tables, double speed) {
+  return tables.covers(speed) ? "" : "  beyond the tables";
+}
+
+std::string beyondText(const DataSpeeds& tables) {
+  return fmt::format(
+      "beyond the tables of bearings and pedestals, which cover {:.5g} to {:.5g} rad/s ({:.5g} to "
+      "{:.5g} rpm): the nearest row is held, a guess",
+      tables.from, tables.to, tables.from / kRpm, tables.to / kRpm);
+}
+
+std::string beyondLine(const DataSpeeds& tables, double from, double to) {
+  if (tables.covers(from) && tables.covers(to)) {
+    return "";
+  }
+  return from == to ? fmt::format("  {}\n", beyondText(tables))
+                    : fmt::format("  in part {}\n", beyondText(tables));
+}
+
+Json tableSpeedsJson(const DataSpeeds& tables) {
+  return tables.everywhere() ? Json() : Json{tables.from, tables.to};
+}
+
+Json beyondJson(const DataSpeeds& tables, const std::vector<double>& speeds) {
+  Json all = Json::array();
+  for (const double speed : speeds) {
+    all.push_back(!tables.covers(speed));
+  }
+  return all;
+}
+
+void shadeBeyond(const DataSpeeds& tables, double from, double to, bool named, Chart& chart) {
+  const auto shade = [&](double low, double high) {
+    if (low < high) {
+      chart.bands.push_back(
+          {named ? "beyond the tables" : "", low, high, paler(ink::kBlack, 0.85)});
+      named = false;
+    }
+  };
+  shade(from, std::min(to, tables.from));
+  shade(std::max(from, tables.to), to);
+}
+
+}  // namespace whirl_twin
