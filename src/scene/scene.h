@@ -55,6 +55,12 @@ struct EnsembleSpec {
   Eigen::MatrixXd factor = {};
 };
 
+/// A start at the equilibrium of the parameters there are.
+struct EquilibriumStart {
+  double speed = 0.0;  ///< [rad/s], of the shaft
+  bool asked = false;  ///< by the scene; else by default
+};
+
 struct SystemSpec {
   std::string name;
   std::string model;
@@ -72,6 +78,7 @@ struct SystemSpec {
   Settings settings;                          ///< parameters that are not one number
   std::vector<double> q;                      ///< initial coordinates, [rad] or [m]
   std::vector<double> v;                      ///< initial rates, [rad/s] or [m/s]
+  std::optional<EquilibriumStart> rest;       ///< q and v are an equilibrium; else as given
   std::map<std::string, InputSignal> inputs;  ///< what acts on it, by the names of its model
   EnsembleSpec ensemble;
   /// What reading set up of the above, for build() to take over (system_setup.h).

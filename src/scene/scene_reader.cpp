@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <new>
 #include <set>
+#include <utility>
 
 #include "analysis/mass_matrix.h"
 #include "analysis/validity.h"
@@ -16,6 +17,7 @@
 #include "scene/controller_reader.h"
 #include "scene/drive_reader.h"
 #include "scene/ensemble_reader.h"
+#include "scene/equilibrium_start.h"
 #include "scene/input_reader.h"
 #include "scene/node_reader.h"
 #include "scene/parameter_reader.h"
@@ -30,6 +32,8 @@
 namespace whirl_twin {
 
 namespace {
+
+constexpr const char* kEquilibrium = "equilibrium";
 
 void checkNames(const MapReader& map, const std::string& what, Complaints& complaints) {
   std::set<std::string> channels;
@@ -62,20 +66,79 @@ std::int64_t nanoseconds(const MapReader& map, const std::string& name, double s
   return static_cast<std::int64_t>(whole);
 }
 
-void readInitial(const MapReader& system, const Scene& scene, const Dynamics& dynamics,
-                 SystemSpec& spec, Complaints& complaints) {
+/// Whether a controller of the scene acts on an input of the system: what holds it in place then is
+/// no matter of its own.
+bool isActedOn(const YAML::Node& controllers, const std::string& system) {
+  if (!controllers.IsMap()) {
+    return false;
+  }
+  for (const auto& controller : controllers) {
+    const YAML::Node inputs =
+        controller.second.IsMap() ? controller.second["acts_on"] : YAML::Node();
+    for (std::size_t i = 0; inputs.IsSequence() && i < inputs.size(); ++i) {
+      if (inputs[i].IsScalar() && inputs[i].Scalar().rfind(system + ".", 0) == 0) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Puts the start at the equilibrium at the initial speed of the shaft; false: there is none, and
+/// nothing is changed.
+bool putAtEquilibrium(const ModelInfo& model, EquilibriumStart rest, SystemSpec& spec) {
+  std::optional<StartingState> start;
+  try {
+    start = equilibriumStart(model, spec, spec.setup->made, spec.setup->around, rest.speed);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {
+    // Numbers beyond the range of double, or a singular mass: it rests nowhere.
+  }
+  if (start) {
+    spec.q = std::move(start->q);
+    spec.v = std::move(start->v);
+    spec.rest = rest;
+  }
+  return start.has_value();
+}
+
+void readInitial(const MapReader& system, const Scene& scene, const ModelInfo& model,
+                 bool controlled, SystemSpec& spec, Complaints& complaints) {
+  const Dynamics& dynamics = *spec.setup->made.dynamics;
   const std::vector<CoordinateInfo> coordinates = dynamics.coordinates();
+  const bool given = system.has("initial");
+  const bool asked = given && system.at("initial").IsScalar();
+  if (asked && system.at("initial").Scalar() != kEquilibrium) {
+    complaints.add(system.key("initial"),
+                   fmt::format("must be a map of coordinates and their values, or {}, found {}",
+                               kEquilibrium, shown(system.at("initial"))));
+  }
   std::vector<std::string> known;
   for (const CoordinateInfo& c : coordinates) {
     known.push_back(c.name);
     known.push_back(c.name + "_rate");
   }
-  const MapReader map(
-      system.has("initial") ? system.at("initial") : YAML::Node(YAML::NodeType::Map),
-      system.key("initial"), known, "coordinate of " + spec.model, complaints);
+  const MapReader map(given && !asked ? system.at("initial") : YAML::Node(YAML::NodeType::Map),
+                      system.key("initial"), known, "coordinate of " + spec.model, complaints);
   for (const CoordinateInfo& c : coordinates) {
     spec.q.push_back(map.number(c.name, Range::kAny, c.unit, 0.0));
     spec.v.push_back(map.number(c.name + "_rate", Range::kAny, c.unit + "/s", 0.0));
+  }
+  const std::size_t drive = scene.driveOf(spec);
+  const EquilibriumStart rest{
+      drive < scene.drives.size() ? scene.drives[drive].speed : spec.speed.value_or(0.0), asked};
+  const bool by_default =
+      !given && !controlled && startsAtEquilibrium(spec, spec.setup->made, spec.setup->around);
+  if ((asked || by_default) && complaints.all().empty() && !putAtEquilibrium(model, rest, spec) &&
+      asked) {
+    complaints.add(
+        system.key("initial"),
+        fmt::format("no equilibrium was found{} to start at: give coordinates and their "
+                    "values",
+                    dynamics.hasShaft() || model.has_shaft
+                        ? fmt::format(" at the initial {:g} rad/s of its shaft", rest.speed)
+                        : ""));
   }
   startSpin(map, scene, spec, complaints);
 }
@@ -170,7 +233,8 @@ void checkControllerNames(const Scene& scene, const MapReader& controllers,
 }
 
 SystemSpec readSystem(const YAML::Node& node, const std::string& key, const std::string& name,
-                      const Scene& scene, const DrivePlaces& places, Complaints& complaints) {
+                      const Scene& scene, const DrivePlaces& places, bool controlled,
+                      Complaints& complaints) {
   SystemSpec spec;
   spec.name = name;
   const MapReader map(node, key,
@@ -198,7 +262,7 @@ SystemSpec readSystem(const YAML::Node& node, const std::string& key, const std:
   try {
     spec.setup = setUp(*model, spec, surroundingsOf(scene, spec));
     const ModelSetup& setup = spec.setup->made;
-    readInitial(map, scene, *setup.dynamics, spec, complaints);
+    readInitial(map, scene, *model, controlled, spec, complaints);
     spec.inputs = readInputs(map, setup.dynamics->inputs(), folderOf(scene.source), complaints);
     readIntegrator(map, setup, spec, complaints);
     readEnsemble(map, *model, setup.dynamics->coordinates(), spec, complaints);
@@ -265,8 +329,9 @@ Scene readTree(const YAML::Node& tree, const std::string& source, Complaints& co
   }
   checkNames(systems, "system", complaints);
   for (const std::string& name : systems.names()) {
-    scene.systems.push_back(
-        readSystem(systems.at(name), systems.key(name), name, scene, places, complaints));
+    const bool controlled = map.has("controllers") && isActedOn(map.at("controllers"), name);
+    scene.systems.push_back(readSystem(systems.at(name), systems.key(name), name, scene, places,
+                                       controlled, complaints));
   }
   checkMotors(scene, complaints);
   readAvoided(map, scene, complaints);

@@ -110,6 +110,7 @@ BlockEvaluator::Quick::Quick(const Study& study, const BuiltScene& scene)
     : model(*scene.systems[0]->model), spec(scene.scene.systems[0]) {
   const YAML::Node tree = readYamlText(study.scene_text, study.scene_path, "a scene", "a step");
   const YAML::Node given = tree["systems"][spec.name]["parameters"];
+  possible = !spec.rest;  // the equilibrium is that of each point
   for (const Variation& variation : study.vary) {
     const SceneNumber& place = variation.places.front();
     possible = possible && variation.places.size() == 1 && place.size() == 4 &&

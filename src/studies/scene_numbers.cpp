@@ -89,6 +89,9 @@ void addSystem(const SystemSpec& spec, std::size_t place, Numbers& all) {
     all.emplace(spec.name + ".speed",
                 NamedNumber{{below(root, "parameters.speed")}, *spec.speed, "rad/s", "", place});
   }
+  if (spec.rest && spec.rest->asked) {
+    return;  // its start is no number of the scene
+  }
   const std::vector<CoordinateInfo> coordinates = spec.setup->made.dynamics->coordinates();
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
     const std::string& name = coordinates[i].name;

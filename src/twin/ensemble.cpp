@@ -10,6 +10,7 @@
 #include "messages/refusal.h"
 #include "models/model_registry.h"
 #include "scene/ensemble_draw.h"
+#include "scene/equilibrium_start.h"
 #include "twin/ensemble_members.h"
 
 namespace whirl_twin {
@@ -74,6 +75,7 @@ Ensemble::Ensemble(const Scene& scene, const BuiltSystem& system, const Excitati
       ModelSetup setup = system.model->setUp(member.spec.parameters, member.spec.settings,
                                              system.spec.setup->around);
       requireSameKind(*system.dynamics, setup, member.spec, system.integrator);
+      moveToEquilibrium(*system.model, system.spec, setup, system.spec.setup->around, member.spec);
       drawn_.push_back(std::move(member.values));
       members.push_back({std::move(member.spec), std::move(setup)});
     } catch (const Refusal& error) {

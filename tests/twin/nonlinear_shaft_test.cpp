@@ -111,8 +111,8 @@ TEST(LocalElements, SettleInFilmsAsAJeffcottRotorDoes) {
       "j: {model: jeffcott_rotor, drive: shaft, integrator: gauss_legendre_6, parameters: {mass: "
       "2.0, stiffness: 20000.0, eccentricity: 5.0e-6, gravity_on_shaft: true, bearing_length: "
       "0.01, bearing_diameter: 0.025, bearing_clearance: 1.0e-4, bearing_viscosity: 0.1, "
-      "journal_mass: 0.2}}, f: " +
-          filmsOf("modes: 0}")));
+      "journal_mass: 0.2}, initial: {}}, f: " +
+          filmsOf("modes: 0}, initial: {}")));
   run(twin, 1.0e-4, 0.1);
   const Eigen::Vector2d jeffcott = placeOf(twin, 0, "disc");
   EXPECT_LT((placeOf(twin, 1, "node_1") - jeffcott).norm(), 2e-6 * jeffcott.norm());
@@ -211,10 +211,10 @@ TEST(LocalElements, SwingOnACubicSpringWithDuffingsPeriod) {
   }
 }
 
-// Whirling in films, to the fifth order.
+// Dropped into films and whirling there, to the fifth order.
 TEST(LocalElements, AreSteppedToTheFifthOrder) {
   const auto after = [](double step) {
-    Twin twin(sceneWith(step, "speed: 300.0", "f: " + filmsOf("modes: auto}")));
+    Twin twin(sceneWith(step, "speed: 300.0", "f: " + filmsOf("modes: auto}, initial: {}")));
     run(twin, step, 0.064);
     return placeOf(twin, 0, "node_0");
   };
@@ -234,7 +234,7 @@ TEST(LocalElements, CloseTheEnergyBalanceAtConstantSpeedAndInARunUp) {
     Twin twin(sceneWith(
         step, drive,
         "f: " + filmsOf("rubs: [{node: 1, clearance: 1.0e-3, stiffness: 2.0e+4, damping: 10.0, "
-                        "friction: 0.1, radius: 0.1}], modes: auto}")));
+                        "friction: 0.1, radius: 0.1}], modes: auto}, initial: {}")));
     Observer observer(twin);
     std::vector<double> record(twin.layout().size);
     open = 0.0;
