@@ -7,10 +7,10 @@
 // lengths and angles each by themselves; of an angle that is larger than one radian, in radians.
 //
 // A motion from rest is small at first. So the first 64 steps count relative to the sizes at the
-// 64th, which before it are extrapolated at the present acceleration; and their rates relative to
-// sqrt(a q) at least, a the acceleration at the start, which is the largest rate of a harmonic
-// motion that starts from rest at q (a = w^2 q, v = w q). Where a size more than doubles from one
-// sample to the next the motion starts again, after a rest: a force or a drive sets in.
+// 64th, or the present ones before; and their rates relative to sqrt(a q) at least, a the
+// acceleration at the start, which is the largest rate of a harmonic motion that starts from rest
+// at q (a = w^2 q, v = w q). Where a size more than doubles from one sample to the next the motion
+// starts again, after a rest: a force or a drive sets in.
 #pragma once
 
 #include <array>
@@ -63,8 +63,7 @@ class StepErrorSum {
         early_[unit].q += steps() * errors[unit].q;
         early_[unit].v += steps() * errors[unit].v;
       }
-      const int left = starts_again ? every_ : every_ - (taken_ + gap_);
-      early_sum_ = relative(early_, extrapolated(left * h, accelerations));
+      early_sum_ = relative(early_, harmonicSizes());
     } else {
       sum_ += steps() * relative(errors, sizes_);
     }
@@ -107,17 +106,14 @@ class StepErrorSum {
     return unit == 1 ? std::fmin(sizes[unit].q, 1.0) : sizes[unit].q;
   }
 
-  /// The sizes of a motion from rest, a time [s] later.
-  std::array<Size, 2> extrapolated(double time,
-                                   const std::array<double, 2>& accelerations) const noexcept {
-    std::array<Size, 2> then = sizes_;
+  /// The sizes of the motion, its rates those of a harmonic one at least.
+  std::array<Size, 2> harmonicSizes() const noexcept {
+    std::array<Size, 2> sizes = sizes_;
     for (std::size_t unit = 0; unit < 2; ++unit) {
-      const double q = positionSize(then, unit);
-      then[unit].q += time * (sizes_[unit].v + 0.5 * time * accelerations[unit]);
-      then[unit].v = std::fmax(then[unit].v + time * accelerations[unit],
-                               std::sqrt(start_accelerations_[unit] * q));
+      sizes[unit].v = std::fmax(sizes[unit].v,
+                                std::sqrt(start_accelerations_[unit] * positionSize(sizes, unit)));
     }
-    return then;
+    return sizes;
   }
 
   static double relative(const std::array<Size, 2>& errors,

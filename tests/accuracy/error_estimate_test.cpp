@@ -43,12 +43,6 @@ constexpr const char* kWhirl =
     "model: jeffcott_rotor, parameters: {mass: 1, stiffness: 100, damping: 0.4, speed: 8, "
     "eccentricity: 0.001}, initial: {x: 0.01}";
 
-constexpr const char* kRubbing =
-    "model: pendulum, parameters: {mass: 1, length: 0.5, coulomb: 0.05}, initial: {theta: 0.75}";
-constexpr const char* kRubbingRods =
-    "model: double_pendulum, parameters: {mass1: 1, mass2: 1, length1: 1, length2: 1, coulomb1: "
-    "0.05, coulomb2: 0.05}, initial: {theta1: 0.8, theta2: 0.4}";
-
 class ErrorEstimate : public testing::TestWithParam<Case> {
  protected:
   Scene scene() const {
@@ -93,10 +87,6 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"SpinByStoermer6", kSpin, "stoermer_6", "0.01", 200.0},
                     Case{"SpinByStoermer", kSpin, "stoermer", "0.02", 200.0},
                     Case{"SpinAhead", kSpin, "stoermer_ahead, substeps: 5", "0.004", 200.0},
-                    // From rest, through the friction's turn: most of the error is of the start.
-                    Case{"RubbingByRungeKutta", kRubbing, "runge_kutta_4", "0.001"},
-                    Case{"RubbingRodsByRungeKutta", kRubbingRods, "runge_kutta_4", "0.001"},
-                    Case{"RubbingRodsByGaussLegendre", kRubbingRods, "gauss_legendre_6", "0.004"},
                     Case{"SpinByVerlet", kSpin, "velocity_verlet", "0.004"},
                     Case{"SpinByRungeKutta", kSpin, "runge_kutta_4", "0.004"},
                     Case{"SpinByGaussLegendre4", kSpin, "gauss_legendre_4", "0.004"},
