@@ -88,15 +88,12 @@ std::vector<Station> publishedFirst(std::vector<Station> stations, int node,
 
 /// The nodes whose displacements are coordinates. A force on another one would have to bend the
 /// shaft there at once, or does nothing.
-std::vector<std::size_t> pushableNodes(const RotorAssembly& assembly) {
+std::vector<std::size_t> pushableNodes(const FlexibleShaft& shaft, const RotorAssembly& assembly) {
   std::vector<std::size_t> nodes;
-  const auto isCoordinate = [](const Eigen::VectorXd& along) {
-    return (along.array() == 1.0).count() == 1 && (along.array() != 0.0).count() == 1;
-  };
-  for (std::size_t node = 0; node < assembly.stations().size(); ++node) {
-    const Station& station = assembly.stations()[node];
-    if (isCoordinate(station.along_x) && isCoordinate(station.along_y)) {
-      nodes.push_back(node);
+  const std::vector<Index>& moving = assembly.moving();
+  for (int node = 0; node < shaft.nodes(); ++node) {
+    if (std::binary_search(moving.begin(), moving.end(), shaft.firstOf(node))) {
+      nodes.push_back(static_cast<std::size_t>(node));
     }
   }
   return nodes;
@@ -256,7 +253,7 @@ std::shared_ptr<const UnreducedRotor> unreducedRotor(const RotorAssembly& assemb
   const auto magnets = placed(nodeMagnets(settings, shaft.nodes()), assembly.stations());
   return std::make_shared<const UnreducedRotor>(UnreducedRotor{
       std::make_shared<const RotorAssembly>(assembly), shapes,
-      allForcesOf(magnets, pushableNodes(assembly).size(), elements, shaft, assembly)});
+      allForcesOf(magnets, pushableNodes(shaft, assembly).size(), elements, shaft, assembly)});
 }
 
 ModelSetup setUpFlexibleRotor(const ParameterValues& values, const Settings& settings,
@@ -266,7 +263,7 @@ ModelSetup setUpFlexibleRotor(const ParameterValues& values, const Settings& set
   shaft.pushed.push_back(probe);  // analyses put a cross-coupling there
   const std::vector<NodeElement> elements = nodeElements(settings, shaft.nodes());
   RotorAssembly assembly = assembled(withDamping(shaft, elements));
-  const std::vector<std::size_t> pushable = pushableNodes(assembly);
+  const std::vector<std::size_t> pushable = pushableNodes(shaft, assembly);
   requireFinite(assembly.linearRotor());
 
   RotorDescription description;

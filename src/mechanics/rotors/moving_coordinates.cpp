@@ -12,6 +12,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
+constexpr double kFreePivot = 1.0e-12;  // a pivot of the stiffness scaled to unit diagonal
 constexpr double kNoForce = 1.0e-9;  // of what the parts of a sum of forces come to
 
 std::vector<Index> freeOf(Index n, const std::vector<HeldCoordinate>& held) {
@@ -39,7 +40,8 @@ MatrixXd followingShapes(const MatrixXd& stiffness, const std::vector<Index>& li
   const MatrixXd own = stiffness(light, light);
   const Eigen::VectorXd unit = own.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
   const Cholesky factor(unit.asDiagonal() * own * unit.asDiagonal());
-  if (!unit.allFinite() || !factor.succeeded()) {
+  if (!unit.allFinite() || !factor.succeeded() ||
+      !(factor.lower().diagonal().cwiseAbs2().minCoeff() > kFreePivot)) {
     throw Refusal("a part of the rotor without mass is not held by springs");
   }
   const MatrixXd pulled = unit.asDiagonal() * MatrixXd(stiffness(light, moving));
