@@ -97,6 +97,8 @@ Json systemJson(const SystemCheck& system) {
   json["states"] = 2 * system.coordinates.size();
   json["drive"] = system.drive ? Json(*system.drive) : Json();
   json["speed"] = system.speed ? Json(*system.speed) : Json();
+  json["starts_at_equilibrium"] = system.starts_at_rest;
+  json["sag"] = whirl_twin::json(system.sag);
   for (const InputCheck& input : system.inputs) {
     json["inputs"][input.input.name] = inputJson(input);
   }

@@ -116,6 +116,10 @@ std::string checkedSystemText(const SystemCheck& system) {
   } else if (system.speed) {
     out += fmt::format("    shaft         {:g} rad/s, constant\n", *system.speed);
   }
+  if (system.starts_at_rest) {
+    out += fmt::format("    start         at its equilibrium{}\n",
+                       system.sag ? ", sag " + text(*system.sag) : "");
+  }
   for (const InputCheck& input : system.inputs) {
     out += fmt::format("    input         {}: {}\n", input.input.name, inputText(input));
   }

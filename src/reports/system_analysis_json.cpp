@@ -182,6 +182,7 @@ Json json(const SystemAnalysis& a) {
     }
     json["equilibria"].push_back(entry);
   }
+  json["sag"] = whirl_twin::json(a.sag);
   json["linearization"] = linearizationJson(a);
   json["eigenvalues"] = Json::array();
   for (const auto& root : a.stability.eigenvalues) {
@@ -195,6 +196,7 @@ Json json(const SystemAnalysis& a) {
   if (a.cyclic.any()) {
     json["reduced"] = reducedJson(a);
   }
+  json["uncertain_because"] = a.uncertain_because.empty() ? Json() : Json(a.uncertain_because);
   json["margins"] = {
       {"decay_rate", a.reduced_stability.decay_rate},
       {"damping_ratio", a.reduced_stability.damping_ratio},
