@@ -137,7 +137,7 @@ TEST(Films, TheSagIsReportedApartFromTheVibration) {
   EXPECT_TRUE(rotor["uncertain_because"].is_null());
   const Ending check = twin({"check", path, "--json"});
   ASSERT_EQ(check.status, 0) << check.err;
-  const Json& checked = check.json()["systems"]["rotor"];
+  const Json checked = check.json()["systems"]["rotor"];
   EXPECT_EQ(checked["starts_at_equilibrium"], true);
   EXPECT_EQ(checked["sag"], rotor["sag"]);
   EXPECT_NE(twin({"check", path}).out.find("at its equilibrium, sag 0.0002"), std::string::npos);
