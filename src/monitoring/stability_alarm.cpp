@@ -87,8 +87,8 @@ std::string unstableText(const std::string& system, const state::StabilityMargin
       return fmt::format("{}: repeated imaginary roots, the motion may grow with time: {}", where,
                          wayOut(margin));
     default:
-      return fmt::format("{}: verdict uncertain, the alert stays until stability is certain",
-                         where);
+      return fmt::format("{}: verdict uncertain{}, the alert stays until stability is certain",
+                         where, std::isnan(margin.decay_rate) ? ", no equilibrium was found" : "");
   }
 }
 

@@ -14,6 +14,7 @@
 #include "messages/refusal.h"
 #include "monitoring/twin_monitor.h"
 #include "monitoring/watched_kinds.h"
+#include "monitoring/whirl_vibration.h"
 #include "transport/logged_messages.h"
 
 namespace whirl_twin {
@@ -40,6 +41,7 @@ class Replay {
     }
     peaks_.assign(run_.systems.size(), 0.0);
     cascades_.resize(run_.systems.size());
+    vibrations_.resize(run_.systems.size());
   }
 
   /// Of the stamp of an event [us].
@@ -130,9 +132,9 @@ class Replay {
       }
       cascades_[place].take({whirl.at.step, time, 0, 0.0, whirl.speed, whirl.x, whirl.y});
       double& peak = peaks_[place];
-      peak = std::max(peak, whirl.radius);
+      peak = std::fmax(peak, vibrations_[place].take(whirl));
       if (sample(*course, time, whirl.speed)) {
-        course->radius.push_back(peak);
+        course->vibration.push_back(peak);
         peak = 0.0;
       }
     }
@@ -209,7 +211,7 @@ class Replay {
       drawOrders(measured, course);
       if (course != nullptr && !course->modelled &&
           sample(*course, measured.at.time, measured.speed)) {
-        course->radius.push_back(0.5 * measured.peak_to_peak);
+        course->vibration.push_back(0.5 * measured.peak_to_peak);
       }
     }
     if (const std::optional<TwinRun> run = monitor_.run()) {
@@ -280,6 +282,7 @@ class Replay {
   std::map<std::string, double> speeds_;
   std::vector<double> peaks_;  ///< [m], of each system since its last sample
   std::vector<SpectrumCascade> cascades_;
+  std::vector<WhirlVibration> vibrations_;
   bool started_ = false, spanned_ = false, paused_ = false;
   double newest_stamp_ = 0.0;  ///< [s]
   double stray_stamp_ = 0.0;   ///< [s], of the last event that was out of order

@@ -48,8 +48,9 @@ struct SystemCourse {
   std::optional<WindowSpectrum> spectrum;   ///< at the end, or where it was asked for
   std::vector<state::CriticalSpeedMargin> critical_speeds;  ///< by the model, as told last
   std::vector<double> time;                                 ///< [s], simulated
-  std::vector<double> speed;        ///< [rad/s], of its shaft; NaN without one
-  std::vector<double> radius;       ///< [m], the largest since the value before; of rotors
+  std::vector<double> speed;  ///< [rad/s], of its shaft; NaN without one
+  /// [m], the largest distance from the middle of the orbit since the value before; of rotors.
+  std::vector<double> vibration;
   std::vector<double> margin_time;  ///< [s]
   std::vector<double> decay_rate;   ///< [1/s], of the slowest motion
   std::uint64_t states = 0;

@@ -166,7 +166,7 @@ Figure figure(const MonitoredLog& run, const SystemCourse& system) {
     figure.charts.push_back(chart);
   };
   add("speed of the shaft (rad/s)", system.time, system.speed);
-  add("whirl radius (m)", system.time, system.radius);
+  add("vibration about the mean (m)", system.time, system.vibration);
   add("1X amplitude (m)", system.orders.time, system.orders.amplitude);
   if (!system.orders.line_time.empty()) {
     add("largest line of no order (rad/s)", system.orders.line_time, system.orders.line_frequency);

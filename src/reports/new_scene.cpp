@@ -110,21 +110,33 @@ void addDrive(Lines& lines, const YAML::Node& drive) {
   }
 }
 
+bool feelsGravity(const ModelInfo& model) {
+  return std::any_of(model.settings.begin(), model.settings.end(),
+                     [](const SettingInfo& setting) { return setting.name == "gravity_on_shaft"; });
+}
+
 void addInitial(Lines& lines, const ModelInfo& model, const YAML::Node& given) {
+  const std::string fallback = feelsGravity(model)
+                                   ? "or: equilibrium, the default with gravity; else all 0"
+                                   : "or: equilibrium; default: all 0";
+  if (given.IsScalar()) {
+    lines.add(4, "initial: " + flow(given), fallback);
+    return;
+  }
   if (model.variants.front().coordinates.empty()) {  // as many as the parameters give
     if (given.IsMap()) {
-      lines.add(4, "initial: " + flow(given), "rad or m, and their rates; default: all 0");
+      lines.add(4, "initial: " + flow(given), "rad or m, and their rates; " + fallback);
     } else {
-      lines.off(4, "initial: {q1: 0.0, q1_rate: 0.0}", "rad or m, and their rates; default: all 0");
+      lines.off(4, "initial: {q1: 0.0, q1_rate: 0.0}", "rad or m, and their rates; " + fallback);
     }
     lines.off(4, "", model.coordinates_meaning);
     return;
   }
   const bool any = given.IsMap() && given.size() > 0;
   if (any) {
-    lines.add(4, "initial:", "default: all 0");
+    lines.add(4, "initial:", fallback);
   } else {
-    lines.off(4, "initial:", "default: all 0");
+    lines.off(4, "initial:", fallback);
   }
   for (const CoordinateInfo& c : model.variants.front().coordinates) {
     const std::string meaning = c.meaning.empty() ? c.unit : c.unit + ": " + c.meaning;

@@ -67,6 +67,12 @@ SystemCheck checkSystem(const BuiltScene& scene, const BuiltSystem& system) {
   check.horizon = system.spec.horizon;
   check.drive = system.spec.drive;
   check.speed = system.spec.speed;
+  if (system.spec.rest) {
+    check.starts_at_rest = true;
+    check.sag = largestSag(*system.dynamics, Eigen::Map<const Eigen::VectorXd>(
+                                                 system.spec.q.data(),
+                                                 static_cast<Eigen::Index>(system.spec.q.size())));
+  }
   for (const InputInfo& input : system.dynamics->inputs()) {
     const auto given = system.spec.inputs.find(input.name);
     if (given != system.spec.inputs.end()) {

@@ -9,6 +9,7 @@
 
 #include "accuracy/promise.h"
 #include "reports/asked_cost.h"
+#include "reports/largest_sag.h"
 #include "reports/output.h"
 #include "twin/twin.h"
 
@@ -53,7 +54,9 @@ struct SystemCheck {
   double horizon = 0.0;    ///< [s], over which
   Promise accuracy;
   std::optional<std::string> drive;
-  std::optional<double> speed;  ///< [rad/s], constant
+  std::optional<double> speed;    ///< [rad/s], constant
+  bool starts_at_rest = false;    ///< at its equilibrium
+  std::optional<LargestSag> sag;  ///< of that
   std::vector<InputCheck> inputs;
   Published published;
   double step_cost = 0.0;    ///< [ns]; NaN: it stops at once, or was too dear to prepare

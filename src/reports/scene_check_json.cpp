@@ -103,6 +103,8 @@ Json systemJson(const SystemCheck& system) {
                      {"rotor_mass", system.shaft->rotor_mass}};
   }
   json["warnings"] = system.warnings;
+  json["starts_at_equilibrium"] = system.starts_at_rest;
+  json["sag"] = whirl_twin::json(system.sag);
   for (const InputCheck& input : system.inputs) {
     json["inputs"][input.input.name] = inputJson(input);
   }

@@ -123,6 +123,10 @@ std::string checkedSystemText(const SystemCheck& system) {
   for (const std::string& warning : system.warnings) {
     out += fmt::format("    warning       {}\n", warning);
   }
+  if (system.starts_at_rest) {
+    out += fmt::format("    start         at its equilibrium{}\n",
+                       system.sag ? ", sag " + text(*system.sag) : "");
+  }
   for (const InputCheck& input : system.inputs) {
     out += fmt::format("    input         {}: {}\n", input.input.name, inputText(input));
   }

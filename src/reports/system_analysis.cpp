@@ -32,11 +32,23 @@ void linearize(const Dynamics& dynamics, double speed, SystemAnalysis& a,
     a.linearization = linearizationAbout(dynamics, a.about, a.about_v, speed);
     a.periodic = point->periodic;
     judged = point->stability;
+    a.sag = largestSag(dynamics, a.about);
   } else {
     a.about = a.q;
     a.about_v = a.v;
     a.linearization = dynamics.linearization(a.q, a.v, a.acceleration, a.moment);
   }
+}
+
+std::string doubtAbout(const SystemAnalysis& a) {
+  if (a.reduced_stability.routh.verdict != Verdict::kUncertain) {
+    return "";
+  }
+  if (!a.at_equilibrium && isJudgedOnlyAtRest(*a.dynamics)) {
+    return "no equilibrium was found at this speed";
+  }
+  return a.reduced_stability.omitted > 0 ? "not proved that no omitted mode grows"
+                                         : "too near the boundary for the numbers at hand";
 }
 
 /// The generalized force of the inputs at the scene's start.
@@ -97,6 +109,7 @@ SystemAnalysis analyzeSystem(const BuiltScene& scene, const BuiltSystem& system,
   } else {
     a.stability = a.reduced_stability = unjudged();
   }
+  a.uncertain_because = doubtAbout(a);
   const CriticalSpeedSearch critical_speeds = searchCriticalSpeeds(*heldDynamics(system));
   a.critical_speeds_beyond = critical_speeds.beyond;
   a.highest_speed = critical_speeds.highest_speed;

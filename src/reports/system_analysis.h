@@ -17,6 +17,7 @@
 #include "monitoring/parameter_margins.h"
 #include "monitoring/spread_margin.h"
 #include "reports/csv_table.h"
+#include "reports/largest_sag.h"
 #include "reports/rotor_sheet.h"
 #include "reports/steady_speeds.h"
 #include "scene/built_scene.h"
@@ -37,6 +38,7 @@ struct SystemAnalysis {
 
   bool at_equilibrium = false;     ///< linearized about an equilibrium, not the initial state
   Eigen::VectorXd about, about_v;  ///< the state linearized about
+  std::optional<LargestSag> sag;   ///< there, of a rotor
   Linearization linearization;
   Stability stability;  ///< of all coordinates
 
@@ -49,6 +51,7 @@ struct SystemAnalysis {
   Eigen::VectorXd momenta;                  ///< generalized, of the initial state
   Stability reduced_stability;              ///< of the shape with its momenta as they are
   std::optional<RotorSheet> sheet;          ///< of a flexible rotor
+  std::string uncertain_because;            ///< the verdict on that; "": it is certain
   std::optional<double> instability_speed;  ///< [rad/s]
   std::vector<state::CriticalSpeedMargin> critical_speeds;  ///< seen from the initial speed
   double critical_speeds_to = 0.0;                          ///< [rad/s], looked for; infinity: all

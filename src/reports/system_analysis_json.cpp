@@ -199,6 +199,7 @@ Json json(const SystemAnalysis& a) {
     }
     json["equilibria"].push_back(entry);
   }
+  json["sag"] = whirl_twin::json(a.sag);
   json["linearization"] = linearizationJson(a);
   json["judged_about"] = a.periodic         ? "periodic_motion"
                          : a.of_mean_loads  ? "mean_motion"
@@ -217,6 +218,7 @@ Json json(const SystemAnalysis& a) {
   if (a.cyclic.any()) {
     json["reduced"] = reducedJson(a);
   }
+  json["uncertain_because"] = a.uncertain_because.empty() ? Json() : Json(a.uncertain_because);
   json["margins"] = {
       {"decay_rate", a.reduced_stability.decay_rate},
       {"damping_ratio", a.reduced_stability.damping_ratio},

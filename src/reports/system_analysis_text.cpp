@@ -178,9 +178,11 @@ std::string decrementText(const SystemAnalysis& a) {
 std::string stabilityText(const SystemAnalysis& a) {
   const Stability& s = a.reduced_stability;
   if (!a.at_equilibrium && isJudgedOnlyAtRest(*a.dynamics)) {
-    return "  stability: uncertain: no equilibrium was found at this speed\n";
+    return fmt::format("  stability: uncertain: {}\n", a.uncertain_because);
   }
-  std::string out = fmt::format("  stability: {}\n", verdictText(s.routh.verdict));
+  std::string out = a.uncertain_because.empty()
+                        ? fmt::format("  stability: {}\n", verdictText(s.routh.verdict))
+                        : fmt::format("  stability: uncertain: {}\n", a.uncertain_because);
   if (a.of_mean_loads) {
     out += "    of the motion under mean loads: what alternates is left out\n";
   }
@@ -342,6 +344,7 @@ std::string text(const SystemAnalysis& a) {
                      a.at_equilibrium ? "the operating point" : "the initial state",
                      values(a, a.about, 0),
                      a.at_equilibrium ? steadyRates(a, a.about_v) : ", " + values(a, a.about_v, 1));
+  out += a.sag ? fmt::format("  sag             {}\n", text(*a.sag)) : "";
   out += a.coordinates.size() <= kFewCoordinates
              ? matrixText("mass", a.linearization.mass) +
                    matrixText("damping", a.linearization.damping) +

@@ -112,9 +112,35 @@ TEST(Films, WithoutAnEquilibriumTheVerdictIsUncertain) {
   const std::string path = folder.write("still.yaml", scene);
   const Json rotor = analysed(path);
   EXPECT_EQ(rotor["routh"]["verdict"], "uncertain");
+  EXPECT_EQ(rotor["uncertain_because"], "no equilibrium was found at this speed");
+  EXPECT_TRUE(rotor["sag"].is_null());
   EXPECT_TRUE(rotor["margins"]["decay_rate"].is_null());
   EXPECT_TRUE(rotor["margins"]["instability_speed"].is_null());
   EXPECT_NE(twin({"analyze", path}).out.find("no equilibrium was found"), std::string::npos);
+}
+
+// The journals hang 14.4 um low, and the shaft between them sags as a beam in pins under the weight
+// of the disc in its middle and its own, by bending and by shear (Timoshenko; Cowper's 0.886).
+TEST(Films, TheSagIsReportedApartFromTheVibration) {
+  const std::string path = caseOf("films_at_rest");
+  const Json rotor = analysed(path);
+  const double length = 0.8;
+  const double area = 0.25 * M_PI * 9.0e-4;
+  const double bending = 2.1e11 * M_PI * 8.1e-7 / 64.0;
+  const double shear = 0.886 * area * 2.1e11 / 2.6;
+  const double disc = 12.0 * 9.80665;
+  const double shaft = 7850.0 * area * length * 9.80665;
+  const double sag = (disc / 48.0 + 5.0 * shaft / 384.0) * std::pow(length, 3) / bending +
+                     (disc / 4.0 + shaft / 8.0) * length / shear + 14.4e-6;
+  EXPECT_EQ(rotor["sag"]["station"], "node_4");
+  EXPECT_NEAR(rotor["sag"]["y"].get<double>(), -sag, 1.0e-7);
+  EXPECT_TRUE(rotor["uncertain_because"].is_null());
+  const Ending check = twin({"check", path, "--json"});
+  ASSERT_EQ(check.status, 0) << check.err;
+  const Json checked = check.json()["systems"]["rotor"];
+  EXPECT_EQ(checked["starts_at_equilibrium"], true);
+  EXPECT_EQ(checked["sag"], rotor["sag"]);
+  EXPECT_NE(twin({"check", path}).out.find("at its equilibrium, sag 0.0002"), std::string::npos);
 }
 
 TEST(Films, TheShippedOilWhipGrowsAsAboutItsEquilibrium) {
