@@ -7,7 +7,12 @@ namespace whirl_twin {
 
 JudgedSpeeds JudgedSpeeds::of(const BuiltSystem& system) {
   JudgedSpeeds speeds;
-  speeds.critical = criticalSpeeds(*heldDynamics(system));
+  const DataSpeeds tables = tableSpeeds(system);
+  for (const CriticalSpeed& c : criticalSpeeds(*heldDynamics(system))) {
+    if (tables.covers(c.speed)) {
+      speeds.critical.push_back(c);
+    }
+  }
   speeds.captures = captureSpeeds(system, speeds.marginsAt(0.0));
   return speeds;
 }

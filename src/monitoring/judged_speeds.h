@@ -16,7 +16,8 @@ struct JudgedSpeeds {
   ThresholdSpeeds thresholds;
   std::vector<CaptureSpeed> captures;  ///< of a rotor on its motor
 
-  /// Those that follow from its parameters alone.
+  /// Those that follow from its parameters alone. Critical speeds beyond the tables of its bearings
+  /// and pedestals are left out: nobody has measured what would make them.
   static JudgedSpeeds of(const BuiltSystem& system);
 
   /// The critical speeds seen from a running speed [rad/s].

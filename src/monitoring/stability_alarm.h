@@ -27,9 +27,9 @@
 
 namespace whirl_twin {
 
-/// The damping that LOW_DAMPING goes by, [1/s] and [-], of a margin of the twin or of ROS, which have
-/// the same fields: of the machine: where its rotor is reduced, of the one that it was reduced from.
-/// Retained modes have motions of high frequency besides that are none of the rotor's.
+/// The damping that LOW_DAMPING goes by, [1/s] and [-], of a margin of the twin or of ROS, which
+/// have the same fields: of the machine: where its rotor is reduced, of the one that it was reduced
+/// from. Retained modes have motions of high frequency besides that are none of the rotor's.
 template <class Margin>
 double judgedDecayRate(const Margin& margin) {
   return std::isnan(margin.unreduced_decay_rate) ? margin.decay_rate : margin.unreduced_decay_rate;

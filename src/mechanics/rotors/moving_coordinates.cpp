@@ -13,7 +13,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr double kFreePivot = 1.0e-12;  // a pivot of the stiffness scaled to unit diagonal
-constexpr double kNoForce = 1.0e-9;  // of what the parts of a sum of forces come to
+constexpr double kNoForce = 1.0e-9;     // of what the parts of a sum of forces come to
 
 std::vector<Index> freeOf(Index n, const std::vector<HeldCoordinate>& held) {
   std::vector<Index> free;
