@@ -324,6 +324,30 @@ def elastic_pendulum(twin):
             Row("bounces at sqrt(k/m), here twice that", math.sqrt(k / m), bounce, THEORY, "rad/s")]
 
 
+def shaken_upright(length, a, frequency, g, steps=1000):
+    """Half the trace of the transition matrix over a period of Mathieu's equation of an upright pendulum,
+    x'' = (g - a W^2 cos W t) x / l, by Runge-Kutta's method of order 4."""
+    def slope(t, x):
+        return x[1], (g - a * frequency ** 2 * math.cos(frequency * t)) / length * x[0]
+
+    def plus(x, h, rate):
+        return x[0] + h * rate[0], x[1] + h * rate[1]
+
+    h = 2.0 * math.pi / frequency / steps
+    trace = 0.0
+    for column in range(2):
+        x = (1.0 - column, float(column))
+        for i in range(steps):
+            t = i * h
+            k1 = slope(t, x)
+            k2 = slope(t + 0.5 * h, plus(x, 0.5 * h, k1))
+            k3 = slope(t + 0.5 * h, plus(x, 0.5 * h, k2))
+            k4 = slope(t + h, plus(x, h, k3))
+            x = plus(x, h / 6.0, [p + 2.0 * q + 2.0 * r + s for p, q, r, s in zip(k1, k2, k3, k4)])
+        trace += x[column]
+    return 0.5 * trace
+
+
 def kapitza_pendulum(twin):
     length, a, frequency, g = 0.1, 0.01, 300.0, 9.80665
     state = twin.analyze("kapitza_pendulum", {"mass": 0.1, "length": length, "amplitude": a, "frequency": frequency}, g,
@@ -331,11 +355,17 @@ def kapitza_pendulum(twin):
     pull = (frequency * a) ** 2
     barrier = max(e["state"]["theta"] for e in state["equilibria"] if e["verdict"] == "unstable")
     lost = {margin["parameter"]: margin["lost_at"] for margin in state["parameter_margins"]["parameters"]}
-    return [Row("sways about upright at sqrt(a^2 Omega^2/2 l^2 - g/l)",
-                math.sqrt(0.5 * pull / length ** 2 - g / length), state["natural_frequencies"][0], THEORY, "rad/s"),
+    sway = math.acos(shaken_upright(length, a, frequency, g)) * frequency / (2.0 * math.pi)
+    falls, stands = 130.0, 150.0
+    while stands - falls > 1e-9:
+        middle = 0.5 * (falls + stands)
+        if shaken_upright(length, a, middle, g) > 1.0:
+            falls = middle
+        else:
+            stands = middle
+    return [Row("sways about upright as by Mathieu's equation", sway, state["natural_frequencies"][0], THEORY, "rad/s"),
             Row("falls beyond acos(-2 g l / a^2 Omega^2)", math.acos(-2.0 * g * length / pull), barrier, THEORY, "rad"),
-            Row("stands no longer below sqrt(2 g l) / a", math.sqrt(2.0 * g * length) / a, lost["frequency"], THEORY,
-                "rad/s")]
+            Row("stands no longer below, by that equation", stands, lost["frequency"], THEORY, "rad/s")]
 
 
 def foucault_pendulum(twin):

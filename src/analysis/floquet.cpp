@@ -21,11 +21,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kStepAngle = 0.25;  // [rad] of the fastest small motion, in a first step
+constexpr double kStepAngle = 0.15;  // [rad] of the fastest small motion, in a first step
 constexpr int kFewestSteps = 32;     // of a period
 constexpr int kMostSteps = 1 << 17;
-constexpr int kMostShots = 25;
-constexpr double kClosed = 1.0e-11;      // of the motion: what a shot may miss by
+constexpr int kMostShots = 12;
+constexpr double kClosed = 1.0e-11;      // of the motion: what it may be off or miss by
 constexpr double kAgree = 1.0e-11;       // of the largest multiplier, as steps are doubled
 constexpr double kFar = 1.0e6;           // units: no motion of interest is that wide
 constexpr int kMostRepeats = 64;         // of the slowest load in a common period
@@ -110,11 +110,15 @@ std::optional<MatrixXd> shoot(const Dynamics& dynamics, const VectorXd& unit, do
     if (!(missed.norm() < kFar) || !transition.allFinite()) {
       return std::nullopt;
     }
-    if (missed.norm() <= kClosed * (1.0 + x.cwiseQuotient(unit).norm())) {
+    // An unstable motion misses itself by magnified rounding, and next to a multiplier of 1 a
+    // rounding of what it misses is much of the motion.
+    const MatrixXd slope = transition - MatrixXd::Identity(size, size);
+    const VectorXd off = Lu(slope).solve(missed);
+    const double allowed = kClosed * (1.0 + x.cwiseQuotient(unit).norm());
+    if (missed.norm() <= allowed || off.norm() <= allowed) {
       return transition;
     }
-    const MatrixXd slope = transition - MatrixXd::Identity(size, size);
-    x -= unit.cwiseProduct(Lu(slope).solve(missed));
+    x -= unit.cwiseProduct(off);
   }
   return std::nullopt;
 }

@@ -7,6 +7,7 @@
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "algebra/constants.h"
@@ -165,9 +166,13 @@ bool isFiniteAt(const Loci& loci) {
   });
 }
 
+/// On Riemann's sphere: at an undamped pole of the loop an eigenvalue passes through infinity.
 const Complex& nearestTo(const Complex& place, const std::vector<Complex>& values) {
+  const auto distance = [&](const Complex& x) {
+    return std::norm(x - place) / (1.0 + std::norm(x));
+  };
   return *std::min_element(values.begin(), values.end(), [&](const Complex& x, const Complex& y) {
-    return std::norm(x - place) < std::norm(y - place);
+    return distance(x) < distance(y);
   });
 }
 
@@ -181,11 +186,14 @@ void continueLoci(const Loci& a, Loci& b) {
   }
 }
 
-/// Where a function of an eigenvalue, of different signs at a and b, passes through 0.
+/// Where a function of an eigenvalue, of different signs at a and b, passes through 0; nothing
+/// where it changes its sign otherwise.
 template <class Function>
-std::pair<double, Complex> passage(const LoopMatrixResponse& response, const Loci& a, const Loci& b,
-                                   std::size_t i, const Function& of) {
+std::optional<std::pair<double, Complex>> passage(const LoopMatrixResponse& response, const Loci& a,
+                                                  const Loci& b, std::size_t i,
+                                                  const Function& of) {
   constexpr int kBisections = 60;
+  constexpr double kZero = 1e-6;  // of the eigenvalue, or of 1
   std::pair<double, Complex> low{a.frequency, a.values[i]};
   std::pair<double, Complex> high{b.frequency, b.values[i]};
   const bool sign = of(low.second) > 0.0;
@@ -193,6 +201,9 @@ std::pair<double, Complex> passage(const LoopMatrixResponse& response, const Loc
     const double w = 0.5 * (low.first + high.first);
     const Complex value = nearestTo(0.5 * (low.second + high.second), lociAt(response, w).values);
     ((of(value) > 0.0) == sign ? low : high) = {w, value};
+  }
+  if (!(std::fabs(of(high.second)) <= kZero * std::fmax(1.0, std::abs(high.second)))) {
+    return std::nullopt;
   }
   return high;
 }
@@ -272,12 +283,14 @@ LoopMargins simultaneousMargins(const LoopMatrixResponse& response) {
       const Complex& a = before.values[i];
       const Complex& b = now.values[i];
       if ((size(a) > 0.0) != (size(b) > 0.0)) {
-        const auto [at, value] = passage(response, before, now, i, size);
-        takeCrossover(at, value, m);
+        if (const auto found = passage(response, before, now, i, size)) {
+          takeCrossover(found->first, found->second, m);
+        }
       }
       if ((a.imag() > 0.0) != (b.imag() > 0.0) && (a.real() < 0.0 || b.real() < 0.0)) {
-        const auto [at, value] = passage(response, before, now, i, imaginary);
-        takeGain(value.real(), m);
+        if (const auto found = passage(response, before, now, i, imaginary)) {
+          takeGain(found->second.real(), m);
+        }
       }
     }
     before = now;

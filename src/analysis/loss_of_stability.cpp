@@ -56,14 +56,15 @@ class Way {
     const auto motion =
         steadyMotionNear(*system->dynamics, cyclicCoordinates(*system->dynamics, system->speed),
                          from.motion, momenta_, system->speed);
-    return {true, motion ? passed(*system, value, *motion) : std::nullopt};
+    return {true, motion ? passed(*system, value, *motion, from.small.periodic) : std::nullopt};
   }
 
  private:
   static std::optional<Passed> passed(const SystemAtNumber& system, double value,
-                                      const SteadyMotion& motion) {
+                                      const SteadyMotion& motion,
+                                      const std::optional<PeriodicMotion>& near = {}) {
     const CyclicCoordinates cyclic = cyclicCoordinates(*system.dynamics, system.speed);
-    auto small = smallMotionAbout(*system.dynamics, cyclic, motion, system.speed);
+    auto small = smallMotionAbout(*system.dynamics, cyclic, motion, system.speed, near);
     return small ? std::optional<Passed>({value, motion, std::move(*small)}) : std::nullopt;
   }
 

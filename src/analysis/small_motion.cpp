@@ -57,12 +57,14 @@ double growth(const SmallMotion& motion) {
 
 std::optional<SmallMotion> smallMotionAbout(const Dynamics& dynamics,
                                             const CyclicCoordinates& cyclic,
-                                            const SteadyMotion& motion, double speed) {
+                                            const SteadyMotion& motion, double speed,
+                                            const std::optional<PeriodicMotion>& near) {
   const Linearization l = linearizationAbout(dynamics, motion.q, motion.v, speed);
   SmallMotion small = cyclic.any() ? SmallMotion{atFixedMomenta(l, cyclic), cyclic.driven.size()}
                                    : SmallMotion{l, 0};
   if (const auto period = timeDependence(dynamics, speed).period) {
-    small.periodic = periodicMotionNear(dynamics, speed, *period, motion);
+    small.periodic = periodicMotionNear(dynamics, speed, *period,
+                                        near ? SteadyMotion{near->q, near->v} : motion);
     if (!small.periodic) {
       return std::nullopt;
     }

@@ -26,10 +26,11 @@ struct SmallMotion {
 
 /// About a steady motion at a shaft speed [rad/s]: without the rigid-body modes of a linear system,
 /// whose zeros rounding would scatter, and with the conserved momenta of any other as they are.
-/// Nothing where coefficients repeat and no periodic motion was found near by.
-std::optional<SmallMotion> smallMotionAbout(const Dynamics& dynamics,
-                                            const CyclicCoordinates& cyclic,
-                                            const SteadyMotion& motion, double speed);
+/// Nothing where coefficients repeat and no periodic motion was found from `near`, or else from the
+/// steady one, on.
+std::optional<SmallMotion> smallMotionAbout(
+    const Dynamics& dynamics, const CyclicCoordinates& cyclic, const SteadyMotion& motion,
+    double speed, const std::optional<PeriodicMotion>& near = std::nullopt);
 
 /// The root with the largest real part [1/s]; 0 where nothing is left that could move.
 std::complex<double> fastestGrowing(const SmallMotion& motion);

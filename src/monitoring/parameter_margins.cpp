@@ -200,7 +200,9 @@ MarginResolution marginResolution(const Dynamics& dynamics) {
 }
 
 bool isQuickToSearch(const BuiltSystem& system) {
-  return system.dynamics->dof() <= kMostExactCoordinates && system.spec.settings.tables.empty();
+  const bool periodic = !judgedDynamics(system.dynamics, system.spec)->loadFrequencies().empty();
+  return system.dynamics->dof() <= (periodic ? 1 : kMostExactCoordinates) &&
+         system.spec.settings.tables.empty();
 }
 
 std::vector<ParameterMargin> parameterMargins(const BuiltSystem& system, const SteadyMotion& motion,

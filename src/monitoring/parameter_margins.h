@@ -32,9 +32,9 @@ struct MarginResolution {
 };
 MarginResolution marginResolution(const Dynamics& dynamics);
 
-/// Are they a matter of tenths of a second: of up to kMostExactCoordinates coordinates, and of a
-/// model that is not assembled from tables anew for every value? Of a shaft of many elements they
-/// take minutes.
+/// Are they a matter of a second at most: of up to kMostExactCoordinates coordinates, one where
+/// alternating loads drive it, and of a model that is not assembled from tables for every value? Of
+/// a shaft of many elements they take minutes.
 bool isQuickToSearch(const BuiltSystem& system);
 
 /// Of every number that has a loss within reach, the nearest first, those that are zero now last: a

@@ -7,6 +7,7 @@
 
 #include "algebra/dense.h"
 #include "mechanics/held_inputs.h"
+#include "mechanics/locally_forced_rotor.h"
 #include "scene/input_reader.h"
 
 namespace whirl_twin {
@@ -23,7 +24,14 @@ bool alternates(const InputSignal& signal) {
 class DrivenDynamics final : public Dynamics {
  public:
   DrivenDynamics(std::shared_ptr<const Dynamics> dynamics, std::vector<InputSignal> signals)
-      : system_(std::move(dynamics)), signals_(std::move(signals)) {}
+      : system_(std::move(dynamics)), signals_(std::move(signals)) {
+    const std::vector<InputInfo> infos = system_->inputs();
+    for (std::size_t i = 0; i < infos.size(); ++i) {
+      if (alternates(signals_[i])) {
+        acting_.push_back({static_cast<Eigen::Index>(i), infos[i].direction});
+      }
+    }
+  }
 
   std::string model() const override { return system_->model(); }
   int dof() const override { return system_->dof(); }
@@ -48,16 +56,18 @@ class DrivenDynamics final : public Dynamics {
 
   VectorXd acceleration(const VectorXd& q, const VectorXd& v,
                         const Moment<double>& at) const override {
+    const VectorXd force = pushed(q, at);
+    const Eigen::MatrixXd mass = system_->massMatrix(q, v, at);
     return system_->acceleration(q, v, at) +
-           Ldlt(system_->massMatrix(q, v, at)).solve(held(q, at).force);
+           (mass.size() == 1 ? VectorXd(force / mass(0, 0)) : VectorXd(Ldlt(mass).solve(force)));
   }
   VectorXd unbalancedForce(const VectorXd& q, const VectorXd& v,
                            const Moment<double>& at) const override {
-    return system_->unbalancedForce(q, v, at) + held(q, at).force;
+    return system_->unbalancedForce(q, v, at) + pushed(q, at);
   }
   VectorXd appliedForce(const VectorXd& q, const VectorXd& v,
                         const Moment<double>& at) const override {
-    return system_->appliedForce(q, v, at) + held(q, at).force;
+    return system_->appliedForce(q, v, at) + pushed(q, at);
   }
   Eigen::MatrixXd massMatrix(const VectorXd& q, const VectorXd& v,
                              const Moment<double>& at) const override {
@@ -72,6 +82,9 @@ class DrivenDynamics final : public Dynamics {
   Linearization linearization(const VectorXd& q, const VectorXd& v, const VectorXd& a,
                               const Moment<double>& at) const override {
     Linearization l = system_->linearization(q, v, a, at);
+    if (!by_place_) {
+      return l;
+    }
     const Eigen::MatrixXd stiffness = held(q, at).stiffness;
     l.stiffness += 0.5 * (stiffness + stiffness.transpose());
     l.circulatory += 0.5 * (stiffness - stiffness.transpose());
@@ -92,20 +105,39 @@ class DrivenDynamics final : public Dynamics {
   }
 
  private:
+  struct Acting {
+    Eigen::Index input;
+    VectorXd direction;
+  };
+
+  double value(const Acting& acting, double time) const {
+    const InputSignal& signal = signals_[static_cast<std::size_t>(acting.input)];
+    return signal.amplitude * std::cos(signal.frequency * time + signal.phase);
+  }
   HeldInputs held(const VectorXd& q, const Moment<double>& at) const {
     VectorXd values = VectorXd::Zero(static_cast<Eigen::Index>(signals_.size()));
-    for (std::size_t i = 0; i < signals_.size(); ++i) {
-      const InputSignal& signal = signals_[i];
-      if (alternates(signal)) {
-        values[static_cast<Eigen::Index>(i)] =
-            signal.amplitude * std::cos(signal.frequency * at.time + signal.phase);
-      }
+    for (const Acting& acting : acting_) {
+      values[acting.input] = value(acting, at.time);
     }
     return heldInputs(*system_, q, values);
+  }
+  /// The generalized force of the inputs.
+  VectorXd pushed(const VectorXd& q, const Moment<double>& at) const {
+    if (by_place_) {
+      return held(q, at).force;
+    }
+    VectorXd force = VectorXd::Zero(q.size());
+    for (const Acting& acting : acting_) {
+      force += value(acting, at.time) * acting.direction;
+    }
+    return force;
   }
 
   std::shared_ptr<const Dynamics> system_;
   std::vector<InputSignal> signals_;  // of all inputs
+  std::vector<Acting> acting_;
+  /// What inputs do depends on the place, as the currents of magnets do.
+  bool by_place_ = dynamic_cast<const LocallyForcedRotor*>(system_.get()) != nullptr;
 };
 
 }  // namespace

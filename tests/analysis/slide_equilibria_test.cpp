@@ -137,9 +137,9 @@ TEST(Equilibria, aWeightlessSliderRestsAtItsSpringsEnd) {
 
 TEST(Equilibria, aCartsRodHangsOrStands) {
   ParameterValues loaded = cart(30.0);
-  loaded.insert({{"force_amplitude", 4.0},
+  loaded.insert({{"force_amplitude", 0.04},
                  {"force_frequency", 3.0},
-                 {"support_amplitude", 0.2},
+                 {"support_amplitude", 0.002},
                  {"support_frequency", 3.0}});
   // Loads that alternate do not displace it; a cart without a spring stands anywhere: at 0, say.
   for (const ParameterValues& parameters : {cart(30.0), loaded, cart(0.0)}) {
@@ -149,7 +149,10 @@ TEST(Equilibria, aCartsRodHangsOrStands) {
     EXPECT_EQ(all[0].q[1], 0.0);
     EXPECT_EQ(all[1].q[0], 0.0);
     EXPECT_NEAR(all[1].q[1], kPi, 1.0e-14);
-    EXPECT_EQ(verdict(all[1]), Verdict::kUnstable);
+    // About standing no periodic motion need be found: then nothing is known, and never "stable".
+    const bool driven = parameters.count("force_amplitude") != 0;
+    EXPECT_TRUE(verdict(all[1]) == Verdict::kUnstable ||
+                (driven && verdict(all[1]) == Verdict::kUncertain));
     if (parameters.at("stiffness") > 0.0) {
       EXPECT_EQ(verdict(all[0]), Verdict::kMarginal);
     }

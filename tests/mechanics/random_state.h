@@ -50,6 +50,9 @@ inline RandomState anyRandomState(const VariantUnderTest& variant, std::mt19937_
     s.parameters["stiffness_rotation"] = between(1.0, 4.0);
     s.parameters["stiffness_coupling"] = between(-0.9, 0.9);
   }
+  if (s.parameters.count("density") != 0 && s.parameters["density"] == 0.0) {
+    s.parameters["density"] = 1.0;  // else only discs would have a mass
+  }
   if (s.parameters.count("poissons_ratio") != 0) {  // of a material that there is
     s.parameters["poissons_ratio"] = between(0.0, 0.5);
     s.parameters["shear_modulus"] =

@@ -47,6 +47,12 @@ TEST(Analyze, HasEveryKey) {
                                                    "linearization",
                                                    "eigenvalues",
                                                    "omitted",
+                                                   "judged_about",
+                                                   "periodic_motion",
+                                                   "uncertain_because",
+                                                   "sag",
+                                                   "beyond_tables",
+                                                   "table_speeds",
                                                    "natural_frequencies",
                                                    "damping_ratios",
                                                    "characteristic_polynomial",
@@ -62,7 +68,8 @@ TEST(Analyze, HasEveryKey) {
                                                    "methods"}));
     EXPECT_EQ(keys(system["energy"]), (std::set<std::string>{"kinetic", "potential", "jacobi",
                                                              "dissipated_power", "input_power"}));
-    EXPECT_EQ(keys(system["equilibria"][0]), (std::set<std::string>{"state", "verdict"}));
+    EXPECT_EQ(keys(system["equilibria"][0]),
+              (std::set<std::string>{"state", "verdict", "decay_rate"}));
     EXPECT_EQ(keys(system["linearization"]),
               (std::set<std::string>{"about", "mass", "damping", "gyroscopic", "stiffness",
                                      "circulatory"}));
@@ -73,9 +80,10 @@ TEST(Analyze, HasEveryKey) {
                                      "log_decrement_amplitude", "log_decrement_coordinate",
                                      "instability_speed"}));
   }
-  EXPECT_EQ(keys(end.json()["systems"]["rotor"]["critical_speeds"][0]),
-            (std::set<std::string>{"speed", "direction", "amplification_factor",
-                                   "separation_margin", "required_separation_margin"}));
+  EXPECT_EQ(
+      keys(end.json()["systems"]["rotor"]["critical_speeds"][0]),
+      (std::set<std::string>{"speed", "direction", "amplification_factor", "separation_margin",
+                             "required_separation_margin", "beyond_tables"}));
 }
 
 // m = 2 kg, k = 5000 N/m, c = 10 N s/m: p = 50 rad/s, zeta = c / (2 m p) = 0.05.

@@ -100,7 +100,7 @@ TEST_F(RunUpLog, ThePageHoldsItsPicturesAndStandsAlone) {
   const std::string html = contentsOf(page);
   EXPECT_NE(html.find("<svg"), std::string::npos);
   EXPECT_NE(html.find("IN_CRITICAL_BAND"), std::string::npos);
-  EXPECT_NE(html.find("whirl radius"), std::string::npos);
+  EXPECT_NE(html.find("vibration about the mean"), std::string::npos);
   EXPECT_EQ(html.find("src="), std::string::npos) << "a page that needs another file";
   EXPECT_EQ(html.substr(html.size() - 8), "</html>\n");
 }

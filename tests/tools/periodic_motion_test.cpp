@@ -69,7 +69,7 @@ TEST(PeriodicMotion, TheMonitorRaisesUnstableWhileTheShakenPendulumGrows) {
   ASSERT_EQ(monitored.status, 0) << monitored.err;
   const Json alerts = monitored.json()["alerts"];
   EXPECT_TRUE(std::any_of(alerts.begin(), alerts.end(), [](const Json& alert) {
-    return alert["type"] == "UNSTABLE" && alert["raised"] == true;
+    return alert["type"] == "UNSTABLE" && alert["severity"] == "danger";
   })) << alerts;
 }
 
@@ -92,7 +92,7 @@ TEST(PeriodicMotion, AHarmonicInputIsJudgedAboutTheMotionThatItDrives) {
   // A run settles on the motion that was found.
   const Ending run = twin({"simulate", folder.file("driven.yaml"), "--duration", "200", "--json"});
   ASSERT_EQ(run.status, 0) << run.err;
-  const Json& settled = run.json()["systems"]["p"]["state"];
+  const Json settled = run.json()["systems"]["p"]["state"];
   for (const char* name : {"theta", "theta_rate"}) {
     EXPECT_NEAR(settled[name].get<double>(), p["periodic_motion"]["state"][name].get<double>(),
                 1.0e-6);
