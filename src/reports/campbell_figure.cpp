@@ -113,7 +113,6 @@ void addBranches(const CampbellReport& r, const Value& value, bool named, Chart&
 }
 
 void addBands(const CampbellReport& r, bool named, Chart& chart) {
-  shadeBeyond(r.system->tables(), r.range.from, r.range.to, named, chart);
   if (r.system->highest_speed > r.system->lowest_speed) {
     chart.bands.push_back({named ? "running speeds" : "", r.system->lowest_speed,
                            r.system->highest_speed, paler(ink::kGreen, 0.88)});
@@ -127,6 +126,8 @@ void addBands(const CampbellReport& r, bool named, Chart& chart) {
       first = false;
     }
   }
+  // On top: nothing else drawn there is known.
+  shadeBeyond(r.system->tables(), r.range.from, r.range.to, named, chart);
 }
 
 /// The number of each branch that is drawn, beside its last point: the highest first, so that of
