@@ -46,14 +46,14 @@ std::vector<FoundCrossing> CrossingSearch::between(double harmonic, double low, 
       const WhirlModes all = modes(speed);
       const std::size_t still = overdamped(all);
       if (k >= still + all.modes.size()) {
-        return harmonic * speed;  // faster than can be told
+        return harmonic * speed;  // faster than the modes known
       }
       return (k < still ? 0.0 : all.modes[k - still].dampedFrequency()) - harmonic * speed;
     };
     const double speed = bracketedRoot(excess, low, high, excess(low), excess(high));
     const WhirlModes there = modes(speed);
     const std::size_t still = overdamped(there);
-    // A mode that neither vibrates nor stays among those that can be told meets nothing.
+    // A mode that does not vibrate, or leaves the modes known, meets nothing.
     if (k >= still && k - still < there.modes.size() &&
         std::fabs(there.modes[k - still].dampedFrequency() - harmonic * speed) <=
             kMet * harmonic * speed) {

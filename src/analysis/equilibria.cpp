@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "algebra/constants.h"
-#include "analysis/judged_at_rest.h"
 #include "analysis/mass_matrix.h"
 #include "analysis/steady_motion.h"
 

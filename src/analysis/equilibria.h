@@ -61,6 +61,13 @@ std::optional<Equilibrium> operatingPointAmong(const Dynamics& dynamics,
 bool same(const Dynamics& dynamics, const CyclicCoordinates& cyclic, const Equilibrium& a,
           const Equilibrium& b);
 
+/// Whether it can be judged only about an equilibrium: a nonlinear rotor elsewhere, with journals
+/// that no film carries, is in no steady motion, and one that alternating loads drive in no
+/// periodic one. Any other system is linearized where it is.
+bool isJudgedOnlyAtRest(const Dynamics& dynamics);
+/// The verdict kUncertain, without numbers: of one like that for which no equilibrium was found.
+Stability unjudged();
+
 /// Linearization at rest in q at a constant speed [rad/s].
 Linearization linearizationAtRest(const Dynamics& dynamics, const Eigen::VectorXd& q, double speed);
 

@@ -99,8 +99,7 @@ Sides sides(const MatrixXd& a, std::vector<Complex> eigenvalues, int standing, d
 SampledStability delayedStability(const DelayedMatrix& matrix, int standing) {
   const std::optional<LeadingRoots> leading = leadingRoots(matrix);
   if (!leading) {
-    throw RunFailure(
-        "sampled loop: of its eigenvalues not all can be told apart, with delays so long");
+    throw RunFailure("sampled loop: its eigenvalues cannot be separated, with delays so long");
   }
   SampledStability result;
   result.eigenvalues = leading->roots;

@@ -6,7 +6,6 @@
 
 #include "algebra/constants.h"
 #include "analysis/equilibria.h"
-#include "analysis/judged_at_rest.h"
 #include "scene/driven_dynamics.h"
 #include "scene/held_rotor.h"
 

@@ -8,7 +8,6 @@
 #include "algebra/dense.h"
 #include "analysis/critical_speeds.h"
 #include "analysis/instability_speed.h"
-#include "analysis/judged_at_rest.h"
 #include "analysis/separation_margin.h"
 #include "messages/refusal.h"
 #include "scene/driven_dynamics.h"

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "algebra/constants.h"
-#include "analysis/judged_at_rest.h"
 #include "analysis/stability_margins.h"
 #include "reports/matrix_text.h"
 #include "reports/system_analysis.h"

@@ -9,7 +9,6 @@
 #include "analysis/critical_speeds.h"
 #include "analysis/equilibria.h"
 #include "analysis/instability_speed.h"
-#include "analysis/judged_at_rest.h"
 #include "analysis/separation_margin.h"
 #include "scene/driven_dynamics.h"
 #include "scene/held_rotor.h"
