@@ -87,12 +87,14 @@ TEST(TwoBarLinkageSketch, BarsKeepTheirLengthAndTheRollerItsLevel) {
 TEST(CartPendulumSketch, ArrowsFollowForceAndSupport) {
   std::mt19937_64 random(7);
   RandomState s = randomState("cart_pendulum", random);
+  s.parameters["stiffness"] = 10.0;  // without a spring neither it nor its wall is drawn
   s.parameters["force_amplitude"] = 1.0;
   s.parameters["force_frequency"] = 2.0;
   s.parameters["support_amplitude"] = 0.1;
   s.parameters["support_frequency"] = 3.0;
   const auto dynamics = findModel("cart_pendulum")->setUp(s.parameters, {}, s.gravity).dynamics;
   const Sketch rest = dynamics->sketch(s.q, {});
+  ASSERT_EQ(rest.springs.size(), 1u);
   for (const double time : {0.3, 0.9, 2.0}) {
     const Sketch sketch = dynamics->sketch(s.q, {time, 0.0, 0.0, 0.0});
     const double force = sketch.arrows[0].to.x - sketch.arrows[0].from.x;
