@@ -128,10 +128,13 @@ bool StepSearch::soundAtLongerSteps(const StepSetting& setting, int times, const
 
 /// A method with a past does not lose digits beyond its limit but the motion, and the limit is
 /// low where much is damped: it has to have shown many steps of its own, on its own, and to be
-/// sound at four times the step, by its errors and by its growth of any small deviation.
+/// sound at four times the step, by its errors and by its growth of any small deviation. Where dry
+/// friction can hold every event ends its past.
 bool StepSearch::isProvenWithAPast(const StepSetting& setting, const StepMethod& method,
                                    double excess) {
-  return one_.systems.front().inputs.empty() && hasOwnSteps(setting, method) &&
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(setup_.dynamics->dof());
+  return one_.systems.front().inputs.empty() &&
+         setup_.dynamics->dryHolds(zero, zero, zero, {}).empty() && hasOwnSteps(setting, method) &&
          soundAtLongerSteps(setting, kPastMargin, method, excess) &&
          growsNothing(one_, setup_, judge_.reference().trajectory, setting, kPastMargin);
 }

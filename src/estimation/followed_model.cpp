@@ -18,6 +18,26 @@ constexpr double kDifference = 1.0e-3;
 /// square of it.
 constexpr double kNear = 5.0e-4;
 
+/// Within which a filter rounds dry friction off that can hold: it is linearized at every step, and
+/// what jumps has no slope.
+constexpr std::pair<const char*, double> kFilterWidths[] = {
+    {"coulomb_rate", 1.0e-2}, {"friction_width", 1.0e-3}, {"regularization", 5.0e-3}};
+
+SharedSystem withoutSticking(SharedSystem system) {
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(system->dynamics->dof());
+  if (system->dynamics->dryHolds(zero, zero, zero, {}).empty()) {
+    return system;
+  }
+  for (const auto& [name, width] : kFilterWidths) {
+    const auto& known = system->model->parameters;
+    if (std::any_of(known.begin(), known.end(),
+                    [name = name](const ParameterInfo& p) { return p.name == name; })) {
+      return system->with({name}, {width}, system->spec.name);
+    }
+  }
+  return system;
+}
+
 }  // namespace
 
 double FollowedParameter::value(double number) const {
@@ -29,7 +49,7 @@ double FollowedParameter::deviation(double number, double deviation) const {
 }
 
 FollowedModel::FollowedModel(SharedSystem system, std::vector<FollowedParameter> parameters)
-    : scene_system_(std::move(system)),
+    : scene_system_(withoutSticking(std::move(system))),
       parameters_(std::move(parameters)),
       dof_(scene_system_->dynamics->dof()),
       now_(variant(scene_system_)) {

@@ -13,6 +13,7 @@
 #include "integration/driven_equation.h"
 #include "integration/input_force.h"
 #include "integration/motion_state.h"
+#include "mechanics/dry_friction.h"
 #include "mechanics/dynamics.h"
 
 namespace whirl_twin {
@@ -61,6 +62,9 @@ class AnyModel {
   virtual AccelerationJacobian<n> jacobian(const Array& q, const Array& v,
                                            const Array& acceleration,
                                            const Moment<double>& at) const noexcept = 0;
+  /// Dry friction (mechanics/dry_friction.h): where, and the force of the contacts' shares.
+  virtual const DryContacts<n>& dryContacts() const noexcept = 0;
+  virtual Array dryFriction(const Array& q, const ContactNumbers& share) const noexcept = 0;
 
  protected:
   explicit AnyModel(const ModelForm<n>& form) : form_(form) {}
@@ -76,7 +80,8 @@ class ModelByCalls : public AnyModel<Model::kDof> {
   static constexpr std::size_t n = Model::kDof;
   using Array = std::array<double, n>;
 
-  explicit ModelByCalls(const Model& model) : AnyModel<n>(kForm), model_(model) {}
+  explicit ModelByCalls(const Model& model)
+      : AnyModel<n>(kForm), model_(model), contacts_(HasDryContacts<Model>::of(model)) {}
   EquationsOfMotion<double, n> at(const Array& q, const Array& v,
                                   const Moment<double>& at) const noexcept final {
     return equationsAt(model_, q, v, at);
@@ -85,11 +90,16 @@ class ModelByCalls : public AnyModel<Model::kDof> {
                                    const Moment<double>& at) const noexcept final {
     return accelerationJacobian(linearization(model_, q, v, acceleration, at));
   }
+  const DryContacts<n>& dryContacts() const noexcept final { return contacts_; }
+  Array dryFriction(const Array& q, const ContactNumbers& share) const noexcept final {
+    return whirl_twin::dryFriction(model_, contacts_, q, share);
+  }
 
  private:
   static constexpr ModelForm<n> kForm = formOf<Model>();
 
   const Model& model_;
+  DryContacts<n> contacts_;
 };
 
 /// A model that is known by its calls only: what SteppedSystem steps in place of one.
@@ -121,7 +131,8 @@ class CalledModel {
 Moment<double> momentOf(const Drive& drive, bool angle, double time, double offset) noexcept;
 
 /// q'' = a(q, v, t), under inputs in the piece of them that was entered. The power is without that
-/// of held inputs, whose work is Q . dq.
+/// of held inputs, whose work is Q . dq. Dry friction acts as in the state given, however the rates
+/// of a trial may be, so that the equations of a step are smooth.
 template <std::size_t n>
 struct CalledEquation {
   using Array = std::array<double, n>;
@@ -130,6 +141,7 @@ struct CalledEquation {
   const Drive& drive;
   double time;                         ///< [s], simulated, at the start of the step
   const InputForce* inputs = nullptr;  ///< nullptr: nothing acts
+  const DryState<n>* dry = nullptr;    ///< nullptr: no contact, or as the rates say
 
   Moment<double> moment(double offset) const noexcept {
     if (!model.form().has_shaft) {
@@ -143,6 +155,51 @@ struct CalledEquation {
     return {solveMass<double, n>(eom.mass, eom.force), eom.power};
   }
   Derivative<n> operator()(const Array& q, const Array& v, double offset) const noexcept {
+    EquationsOfMotion<double, n> eom = equations(q, v, offset);
+    if (dry != nullptr) {
+      DryState<n> state = *dry;
+      return withFriction(q, v, eom, state);
+    }
+    return {solveMass<double, n>(eom.mass, eom.force), eom.power};
+  }
+  AccelerationJacobian<n> jacobian(const Array& q, const Array& v, double offset) const noexcept {
+    AccelerationJacobian<n> j =
+        model.jacobian(q, v, (*this)(q, v, offset).acceleration, moment(offset));
+    if (dry != nullptr && dry->holdsAny()) {
+      hold(q, v, offset, j);
+    }
+    return j;
+  }
+  /// What the contacts are at a state, from the rates and, of those that do not slide, from what it
+  /// takes to hold them.
+  [[gnu::noinline]] DryState<n> dryStateAt(const Array& q, const Array& v,
+                                           double offset) const noexcept {
+    const DryContacts<n>& contacts = model.dryContacts();
+    DryState<n> sliding;
+    sliding.share = contacts.slidingShares(v);
+    if (sliding.share[0] != 0.0 && (contacts.count < 2 || sliding.share[1] != 0.0)) {
+      return sliding;
+    }
+    EquationsOfMotion<double, n> eom = equations(q, v, offset);
+    withoutFriction(q, v, eom);
+    return dryState(eom.mass, eom.force, model.dryContacts(), v,
+                    [&](const ContactNumbers& share) { return model.dryFriction(q, share); });
+  }
+  /// The shares that it takes to hold what is held.
+  [[gnu::noinline]] ContactNumbers sharesAt(const Array& q, const Array& v,
+                                            double offset) const noexcept {
+    EquationsOfMotion<double, n> eom = equations(q, v, offset);
+    DryState<n> state = *dry;
+    withFriction(q, v, eom, state);
+    return state.share;
+  }
+  bool hasInputs() const { return inputs != nullptr; }
+  /// Of no use but to the exact step, which is reached by calls only with inputs.
+  static constexpr bool constantSpeed(double /*duration*/) { return false; }
+
+ private:
+  EquationsOfMotion<double, n> equations(const Array& q, const Array& v,
+                                         double offset) const noexcept {
     EquationsOfMotion<double, n> eom = model.at(q, v, moment(offset));
     if (hasInputs()) {
       Array all;
@@ -153,14 +210,57 @@ struct CalledEquation {
         eom.power += v[j] * varying[j];
       }
     }
-    return {solveMass<double, n>(eom.mass, eom.force), eom.power};
+    return eom;
   }
-  AccelerationJacobian<n> jacobian(const Array& q, const Array& v, double offset) const noexcept {
-    return model.jacobian(q, v, (*this)(q, v, offset).acceleration, moment(offset));
+  /// Takes out the dry friction that the rates say.
+  void withoutFriction(const Array& q, const Array& v,
+                       EquationsOfMotion<double, n>& eom) const noexcept {
+    const Array said = model.dryFriction(q, model.dryContacts().computedShares(v));
+    for (std::size_t i = 0; i < n; ++i) {
+      eom.force[i] -= said[i];
+      eom.power -= v[i] * said[i];
+    }
   }
-  bool hasInputs() const { return inputs != nullptr; }
-  /// Of no use but to the exact step, which is reached by calls only with inputs.
-  static constexpr bool constantSpeed(double /*duration*/) { return false; }
+  [[gnu::noinline]] Derivative<n> withFriction(const Array& q, const Array& v,
+                                               EquationsOfMotion<double, n>& eom,
+                                               DryState<n>& state) const noexcept {
+    withoutFriction(q, v, eom);
+    const auto friction = [&](const ContactNumbers& share) { return model.dryFriction(q, share); };
+    const Array a =
+        accelerationWithFriction(eom.mass, eom.force, model.dryContacts(), friction, state);
+    const Array acting = friction(state.share);
+    for (std::size_t i = 0; i < n; ++i) {
+      eom.power += v[i] * acting[i];
+    }
+    return {a, eom.power};
+  }
+  /// Held contacts do not give: of the changes of the accelerations only what is across remains.
+  [[gnu::noinline]] void hold(const Array& q, const Array& v, double offset,
+                              AccelerationJacobian<n>& j) const noexcept {
+    const EquationsOfMotion<double, n> eom = model.at(q, v, moment(offset));
+    for (std::size_t k = 0; k < kMostContacts; ++k) {
+      if (!dry->held[k]) {
+        continue;
+      }
+      const Array& direction = model.dryContacts().at[k].direction;
+      const Array moved = solveMass<double, n>(eom.mass, direction);
+      double gives = 0.0;
+      for (std::size_t i = 0; i < n; ++i) {
+        gives += direction[i] * moved[i];
+      }
+      for (auto* const by : {&j.by_q, &j.by_v}) {
+        for (std::size_t column = 0; column < n; ++column) {
+          double along = 0.0;
+          for (std::size_t i = 0; i < n; ++i) {
+            along += direction[i] * (*by)(i, column);
+          }
+          for (std::size_t i = 0; i < n; ++i) {
+            (*by)(i, column) -= moved[i] * along / gives;
+          }
+        }
+      }
+    }
+  }
 };
 
 /// Of `h` [s] from `offset` [s] on.

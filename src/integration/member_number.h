@@ -35,6 +35,8 @@ struct MemberNumber {
     return a.x / b.x;
   }
   friend WHIRL_TWIN_INLINE MemberNumber operator-(MemberNumber a) { return -a.x; }
+  friend WHIRL_TWIN_INLINE bool operator<(MemberNumber a, double b) { return a.x < b; }
+  friend WHIRL_TWIN_INLINE bool operator>(MemberNumber a, double b) { return a.x > b; }
 };
 
 namespace member_number {

@@ -52,14 +52,18 @@ std::vector<std::string> methodNames(MethodList<Methods...>) {
 }
 
 /// One that steps ahead of the twin (stepped_ahead.h), `count` of its steps at once; under inputs,
-/// and where a spin is a coordinate, as the twin does.
+/// with friction that can hold and where a spin is a coordinate, as the twin does.
 template <class Model, class Method>
 std::unique_ptr<Stepper> makeAhead(const Model& model, const Method& method, const Drive& drive,
                                    const InputForce& inputs, double step, int count) {
   using System = SteppedSystem<Model, Method>;
   using Form = SteppedModel<Model>;
   auto near = std::make_unique<System>(model, drive, inputs, step, 1, method.byItself());
-  if (inputs.acts() || Form::hasSpin(model) || count == 1) {
+  bool corners = inputs.acts();
+  if constexpr (Form::kMayStick) {
+    corners = corners || Form::sticks(model);
+  }
+  if (corners || Form::hasSpin(model) || count == 1) {
     return near;
   }
   count = std::min(count, SteppedAhead::kMostSteps);

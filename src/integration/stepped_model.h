@@ -16,6 +16,9 @@ struct SteppedModel {
   using Array = std::array<double, n>;
   using Equation = DrivenEquation<Model>;
 
+  /// One with dry friction that can hold is stepped by calls (model_entry.h).
+  static constexpr bool kMayStick = false;
+
   static constexpr bool hasShaft(const Model&) { return Model::kHasShaft; }
   static constexpr bool hasSpin(const Model&) { return HasSpin<Model>::value; }
   static constexpr bool angular(const Model&, std::size_t i) { return formOf<Model>().angular[i]; }
@@ -33,7 +36,9 @@ struct SteppedModel<CalledModel<n>> {
   using Array = std::array<double, n>;
   using Model = CalledModel<n>;
   using Equation = CalledEquation<n>;
+  static constexpr bool kMayStick = true;
 
+  static bool sticks(const Model& model) { return model.calls().dryContacts().count > 0; }
   static bool hasShaft(const Model& model) { return model.calls().form().has_shaft; }
   static bool hasSpin(const Model& model) { return model.calls().form().has_spin; }
   static bool angular(const Model& model, std::size_t i) { return model.calls().form().angular[i]; }

@@ -12,6 +12,7 @@
 
 #include "control/drive.h"
 #include "control/shaft_angle.h"
+#include "integration/dry_friction_step.h"
 #include "integration/finite.h"
 #include "integration/input_force.h"
 #include "integration/method_step.h"
@@ -29,6 +30,11 @@ template <class Method, class = void>
 struct HasHistory : std::false_type {};
 template <class Method>
 struct HasHistory<Method, std::void_t<decltype(Method::kHasHistory)>> : std::true_type {};
+
+/// In place of a DryFrictionStep.
+struct NoDryFriction {
+  void restart() {}
+};
 
 template <class Model, class Method>
 class SteppedSystem final : public ReadOffStepper {
@@ -52,6 +58,7 @@ class SteppedSystem final : public ReadOffStepper {
     const double length = static_cast<double>(to - from) / 1e9;
     const double count = std::fmax(1.0, std::ceil(length / substep_ - kSliver));
     method_.restart();
+    dry_.restart();
     return take(time, static_cast<double>(from) / 1e9, static_cast<int>(count), length / count);
   }
   double errorSum() const noexcept override { return errors_.sum(); }
@@ -110,10 +117,16 @@ class SteppedSystem final : public ReadOffStepper {
       state_.q[kSpin] = angle.remainder;
     }
     method_.restart();
+    dry_.restart();
     errors_.restart();
   }
   void exchange(StateImage& image) noexcept override {
     image(method_, finer_method_, state_, errors_, turns_);
+    if constexpr (Form::kMayStick) {
+      if (Form::sticks(model_)) {
+        image(dry_);
+      }
+    }
   }
 
  private:
@@ -159,6 +172,7 @@ class SteppedSystem final : public ReadOffStepper {
   [[gnu::noinline, gnu::cold]] StepStatus goBack(const MotionState<n>& start,
                                                  StepStatus why) noexcept {
     state_ = start;
+    dry_.restart();
     if constexpr (kHasHistory) {
       method_.restart();
     }
@@ -206,6 +220,11 @@ class SteppedSystem final : public ReadOffStepper {
   /// corner a method would lose its order.
   WHIRL_TWIN_INLINE StepStatus advance(Method& method, const Equation& equation, double offset,
                                        double h, MotionState<n>& state) noexcept {
+    if constexpr (Form::kMayStick) {
+      if (__builtin_expect(Form::sticks(model_), 0)) {
+        return advanceSticking(method, equation, offset, h, state);
+      }
+    }
     if (Step::kWithInputs && __builtin_expect(inputs_.acts(), 0)) {
       return advanceWithInputs(method, equation, offset, h, state);
     }
@@ -234,6 +253,44 @@ class SteppedSystem final : public ReadOffStepper {
     const StepStatus status = partWithInputs(method, equation, offset, h, state);
     endAtCorner(method, corner, offset + h, h);
     return status;
+  }
+  /// From corner to corner of the inputs, in parts during which nothing begins or ends to slide.
+  [[gnu::noinline]] StepStatus advanceSticking(Method& method, const Equation& equation,
+                                               double offset, double h,
+                                               MotionState<n>& state) noexcept {
+    const double end = offset + h;
+    const double sliver = kSliver * h;
+    DryFrictionStep<n>& dry = &method == &method_ ? dry_ : finer_dry_;
+    Equation acted_on = equation;
+    acted_on.inputs = inputs_.acts() ? &inputs_ : nullptr;
+    while (end - offset > sliver) {
+      double corner = nextCorner(offset);
+      corner = corner < end - sliver ? corner : end;
+      if (corner - offset > sliver) {
+        if (inputs_.acts()) {
+          dry.restart();
+          inputs_.enter(0.5 * (offset + corner));
+        }
+        const auto advance = [&](const Equation& piece, double from, double length,
+                                 MotionState<n>& out, bool past) {
+          if (!past) {
+            method.restart();
+          }
+          return inputs_.acts() ? partWithInputs(method, piece, from, length, out)
+                                : calledStep(method, piece, from, length, out);
+        };
+        const StepStatus status = dry.take(acted_on, offset, corner - offset, state,
+                                           typename DryFrictionStep<n>::Advance(advance));
+        if (status != StepStatus::kOk) {
+          return status;
+        }
+      }
+      offset = corner < end ? std::nextafter(corner, 2.0 * end) : end;
+    }
+    if (!dry.hasPast()) {
+      method.restart();
+    }
+    return StepStatus::kOk;
   }
   /// Beyond a corner a step begins anew, also where the corner is between two steps.
   WHIRL_TWIN_INLINE void endAtCorner([[maybe_unused]] Method& method,
@@ -318,6 +375,7 @@ class SteppedSystem final : public ReadOffStepper {
     }
     const double half = 0.5 * h;
     finer_method_.restart();
+    finer_dry_.restart();
     for (int i = 0; i < 2 * count; ++i) {
       if (advance(finer_method_, equation, offset + i * half, half, finer) != StepStatus::kOk) {
         errors_.passOver();
@@ -342,7 +400,9 @@ class SteppedSystem final : public ReadOffStepper {
   MotionState<n> state_{};
   StepErrorSum errors_;
   std::int64_t turns_ = 0;  ///< of a spin, beyond its coordinate
-  InputForce inputs_;       ///< last: few systems have any
+  /// Nothing in systems that are composed with their model.
+  std::conditional_t<Form::kMayStick, DryFrictionStep<n>, NoDryFriction> dry_, finer_dry_;
+  InputForce inputs_;  ///< last: few systems have any
 };
 
 }  // namespace whirl_twin

@@ -82,6 +82,13 @@ class Dynamics {
   virtual std::vector<Condition> conditions(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                             const Eigen::VectorXd& a,
                                             const Moment<double>& at) const = 0;
+  /// The contacts whose dry friction can hold, at a state under the generalized force `applied`
+  /// from outside. acceleration() has held contacts hold, without that force.
+  virtual std::vector<DryHold> dryHolds(const Eigen::VectorXd& /*q*/, const Eigen::VectorXd& /*v*/,
+                                        const Eigen::VectorXd& /*applied*/,
+                                        const Moment<double>& /*at*/) const {
+    return {};
+  }
   /// Why the mass matrix can become singular; "" where it cannot.
   virtual std::string singularMass() const = 0;
   /// Where along its shaft a rotor's whirl is seen, the place that is published first; empty for

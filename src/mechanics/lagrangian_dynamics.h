@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "mechanics/dry_friction.h"
 #include "mechanics/dynamics.h"
 #include "mechanics/lagrangian.h"
 #include "mechanics/linearization.h"
@@ -162,6 +163,10 @@ class LagrangianDynamics final : public Dynamics {
   Eigen::VectorXd acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                const Moment<double>& at) const override {
     const auto eom = equationsAt(model_, array(q), array(v), at);
+    if constexpr (HasDryContacts<Model>::value) {
+      DryState<n> state;
+      return vector(withFriction(array(q), array(v), eom, state));
+    }
     return vector(solveMass<double, n>(eom.mass, eom.force));
   }
   Eigen::VectorXd unbalancedForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
@@ -217,6 +222,27 @@ class LagrangianDynamics final : public Dynamics {
       return {};
     }
   }
+  std::vector<DryHold> dryHolds([[maybe_unused]] const Eigen::VectorXd& q,
+                                [[maybe_unused]] const Eigen::VectorXd& v,
+                                [[maybe_unused]] const Eigen::VectorXd& applied,
+                                [[maybe_unused]] const Moment<double>& at) const override {
+    std::vector<DryHold> holds;
+    if constexpr (HasDryContacts<Model>::value) {
+      auto eom = equationsAt(model_, array(q), array(v), at);
+      for (std::size_t i = 0; i < n; ++i) {
+        eom.force[i] += applied[static_cast<Eigen::Index>(i)];
+      }
+      DryState<n> state;
+      withFriction(array(q), array(v), eom, state);
+      const DryContacts<n> contacts = model_.dryContacts();
+      for (std::size_t j = 0; j < contacts.count; ++j) {
+        const DryContact<n>& contact = contacts.at[j];
+        holds.push_back({contact.place, contact.unit, contact.level, contact.sliding(array(v)),
+                         state.held[j], state.share[j]});
+      }
+    }
+    return holds;
+  }
   std::string singularMass() const override { return SingularMass<Model>::of(model_); }
   std::vector<Station> stations() const override {
     if constexpr (RotorTraits<Model>::kRotor) {
@@ -235,6 +261,20 @@ class LagrangianDynamics final : public Dynamics {
   }
 
  private:
+  /// q'' with the contacts that do not slide held as far as their friction goes.
+  Array withFriction(const Array& q, const Array& v, EquationsOfMotion<double, n> eom,
+                     DryState<n>& state) const {
+    const DryContacts<n> contacts = HasDryContacts<Model>::of(model_);
+    const auto friction = [&](const ContactNumbers& share) {
+      return whirl_twin::dryFriction(model_, contacts, q, share);
+    };
+    const Array said = friction(contacts.computedShares(v));
+    for (std::size_t i = 0; i < n; ++i) {
+      eom.force[i] -= said[i];
+    }
+    state = dryState(eom.mass, eom.force, contacts, v, friction);
+    return accelerationWithFriction(eom.mass, eom.force, contacts, friction, state);
+  }
   static Array array(const Eigen::VectorXd& x) {
     Array r;
     for (std::size_t i = 0; i < n; ++i) {

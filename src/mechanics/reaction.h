@@ -22,4 +22,14 @@ struct Condition {
   std::string broken;   ///< what it means that it does not hold: "the disc lifts off its plane"
 };
 
+/// A contact whose dry friction can hold (dry_friction.h).
+struct DryHold {
+  std::string place;     ///< "at the pivot"
+  std::string unit;      ///< of the level: "N m", "N"; "-" for a coefficient
+  double level = 0.0;    ///< of the friction
+  double sliding = 0.0;  ///< [rad/s] or [m/s]
+  bool held = false;
+  double share = 0.0;  ///< of the friction that acts, against sliding; 1 or -1 where it slides
+};
+
 }  // namespace whirl_twin

@@ -3,13 +3,18 @@
 #include <cmath>
 
 #include "mechanics/oscillators/regularized_friction_oscillator.h"
+#include "mechanics/oscillators/sticking_friction_oscillator.h"
 #include "models/model_entry.h"
 #include "models/models.h"
 
 namespace whirl_twin {
 
 ModelInfo frictionOscillatorInfo() {
-  ModelInfo info = modelInfo<FrictionOscillator>();
+  ModelInfo info = modelInfo<StickingFrictionOscillator>();
+  addVariant<FrictionOscillator>(
+      info, "friction", "sticking", "sliding",
+      "exact: the plank slides or is held by a roller; or taken to slide "
+      "on both, which is linear");
   addVariant<RegularizedFrictionOscillator>(info, "regularization > 0",
                                             [](const ParameterValues& values, const Settings&) {
                                               return values.at("regularization") > 0.0;

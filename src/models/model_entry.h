@@ -20,6 +20,7 @@
 #include "integration/method_list.h"
 #include "integration/runge_kutta_4.h"
 #include "integration/stoermer.h"
+#include "mechanics/dry_friction.h"
 #include "mechanics/lagrangian_dynamics.h"
 #include "models/exact_stepper.h"
 #include "models/model_info.h"
@@ -86,8 +87,11 @@ ModelSetup setUp(const Model& model) {
           }
         }
         const InputForce inputs(excitation.inputs, dynamics->inputs());
-        auto system =
-            makeStepper(Methods{}, model, integrator, excitation.drive, inputs, step, substeps);
+        std::unique_ptr<Stepper> system;
+        if (HasDryContacts<Model>::of(model).count == 0) {  // else in parts, by calls
+          system =
+              makeStepper(Methods{}, model, integrator, excitation.drive, inputs, step, substeps);
+        }
         if (!system) {
           system = calledSystem(CalledModel<Model::kDof>::of(model), integrator, excitation.drive,
                                 inputs, step, substeps);

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "integration/member_number.h"
+#include "mechanics/dry_friction.h"
 #include "mechanics/lagrangian.h"
 #include "mechanics/lagrangian_dynamics.h"
 #include "mechanics/oscillators/hinged_beam.h"
@@ -135,7 +136,9 @@ std::unique_ptr<MemberEquations> ifAll(const std::vector<const Dynamics*>& membe
   std::vector<const Model*> models;
   for (const Dynamics* member : members) {
     const auto* const dynamics = dynamic_cast<const LagrangianDynamics<Model>*>(member);
-    if (dynamics == nullptr || !Form::fits(dynamics->energyModel())) {
+    // Friction that can hold needs steps of its own for each member.
+    if (dynamics == nullptr || !Form::fits(dynamics->energyModel()) ||
+        HasDryContacts<Model>::of(dynamics->energyModel()).count > 0) {
       return nullptr;
     }
     models.push_back(&dynamics->energyModel());

@@ -82,6 +82,10 @@ SystemAnalysis analyzeSystem(const BuiltScene& scene, const BuiltSystem& system,
     a.acceleration +=
         Ldlt(dynamics.massMatrix(a.q, a.v, a.moment)).solve(inputForce(scene, system));
   }
+  a.dry_friction = system.dynamics->dryHolds(
+      a.q, a.v,
+      system.spec.inputs.empty() ? Eigen::VectorXd::Zero(a.q.size()) : inputForce(scene, system),
+      a.moment);
   a.energies = dynamics.energies(a.q, a.v, a.moment);
   a.momenta = dynamics.momenta(a.q, a.v, a.moment);
   a.cyclic = cyclicCoordinates(dynamics, shaft.speed);

@@ -34,6 +34,7 @@ struct SystemAnalysis {
   Eigen::VectorXd q, v;                 ///< the scene's initial state
   Eigen::VectorXd acceleration;         ///< [rad/s^2] or [m/s^2], there, with what the inputs do
   Energies energies;                    ///< there
+  std::vector<DryHold> dry_friction;    ///< there, with what the inputs do
   std::vector<Equilibrium> equilibria;  ///< at the initial shaft speed
 
   bool at_equilibrium = false;     ///< linearized about an equilibrium, not the initial state

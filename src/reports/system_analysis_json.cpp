@@ -199,6 +199,15 @@ Json json(const SystemAnalysis& a) {
     }
     json["equilibria"].push_back(entry);
   }
+  json["dry_friction"] = Json::array();
+  for (const DryHold& hold : a.dry_friction) {
+    json["dry_friction"].push_back({{"place", hold.place},
+                                    {"level", hold.level},
+                                    {"unit", hold.unit},
+                                    {"sliding", hold.sliding},
+                                    {"held", hold.held},
+                                    {"share", hold.share}});
+  }
   json["sag"] = whirl_twin::json(a.sag);
   json["linearization"] = linearizationJson(a);
   json["judged_about"] = a.periodic         ? "periodic_motion"

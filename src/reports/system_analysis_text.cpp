@@ -113,6 +113,23 @@ std::string steadyRates(const SystemAnalysis& a, const Eigen::VectorXd& v) {
   return out;
 }
 
+std::string dryFrictionText(const SystemAnalysis& a) {
+  std::string out;
+  for (const DryHold& hold : a.dry_friction) {
+    const std::string level = hold.unit == "-" ? fmt::format("coefficient {:.6g}", hold.level)
+                                               : fmt::format("{:.6g} {}", hold.level, hold.unit);
+    out += fmt::format("  dry friction {}: {}, {}\n", hold.place, level,
+                       hold.held             ? fmt::format("holds at the start with {:.3g} % of it",
+                                                           100.0 * std::fabs(hold.share))
+                       : hold.sliding == 0.0 ? std::string("begins to slide at the start")
+                                             : std::string("slides at the start"));
+  }
+  if (!out.empty()) {
+    out += "    left out below where nothing slides: what is said of small motions is without it\n";
+  }
+  return out;
+}
+
 std::string equilibriaText(const SystemAnalysis& a) {
   const bool moving = a.cyclic.any() && !a.dynamics->linear();
   std::string out = a.speed  ? fmt::format("  equilibria at {:g} rad/s\n", *a.speed)
@@ -338,7 +355,8 @@ std::string steadySpeedsText(const SystemAnalysis& a) {
 
 std::string text(const SystemAnalysis& a) {
   std::string out = fmt::format("{}: {}, {}\n", a.name, a.model->name, a.model->summary);
-  out += startText(a) + (a.sheet ? text(*a.sheet) : "") + cyclicText(a) + equilibriaText(a);
+  out += startText(a) + (a.sheet ? text(*a.sheet) : "") + cyclicText(a) + dryFrictionText(a) +
+         equilibriaText(a);
   out += fmt::format("  linearized about {}: {}{}\n",
                      a.at_equilibrium ? "the operating point" : "the initial state",
                      values(a, a.about, 0),

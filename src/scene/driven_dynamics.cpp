@@ -98,6 +98,10 @@ class DrivenDynamics final : public Dynamics {
                                     const Moment<double>& at) const override {
     return system_->conditions(q, v, a, at);
   }
+  std::vector<DryHold> dryHolds(const VectorXd& q, const VectorXd& v, const VectorXd& applied,
+                                const Moment<double>& at) const override {
+    return system_->dryHolds(q, v, applied + pushed(q, at), at);
+  }
   std::string singularMass() const override { return system_->singularMass(); }
   std::vector<Station> stations() const override { return system_->stations(); }
   Sketch sketch(const VectorXd& q, const Moment<double>& at) const override {

@@ -92,11 +92,15 @@ TEST(Validity, ASliderLeavesItsRodAtEitherEnd) {
 // Both rollers carry the plank while |x| < a - mu h, and both slide while |x'| < v_s.
 TEST(Validity, APlankSlidesOnBothRollersWithinLimits) {
   const double a = 0.0762, h = 0.0127, mu = 0.3;
-  const auto plank = dynamicsOf("friction_oscillator", {{"mass", 1.0},
-                                                        {"friction_coefficient", mu},
-                                                        {"half_spacing", a},
-                                                        {"height", h},
-                                                        {"roller_speed", 0.5}});
+  Settings sliding;
+  sliding.choices["friction"] = "sliding";
+  const auto plank = dynamicsOf("friction_oscillator",
+                                {{"mass", 1.0},
+                                 {"friction_coefficient", mu},
+                                 {"half_spacing", a},
+                                 {"height", h},
+                                 {"roller_speed", 0.5}},
+                                9.81, sliding);
   const double reach = a - mu * h;
   for (const double side : {1.0, -1.0}) {
     EXPECT_GT(margin(*plank, "contact", vector({side * 0.999 * reach}), vector({0.0})), 0.0);

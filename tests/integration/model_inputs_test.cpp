@@ -73,6 +73,12 @@ Settings oneMass(double mass, double damping, double stiffness) {
   return settings;
 }
 
+Settings sliding() {
+  Settings settings;
+  settings.choices["friction"] = "sliding";
+  return settings;
+}
+
 class ExactEngine : public testing::TestWithParam<Engine> {
  protected:
   RunningSystem::Setup setup(const InputSignal& signal) const {
@@ -212,7 +218,7 @@ INSTANTIATE_TEST_SUITE_P(
                 {"half_spacing", 0.5},
                 {"height", 0.0},
                 {"roller_speed", 1.0}},
-               {}}),
+               sliding()}),
     [](const auto& test) { return test.param.name; });
 
 RunningSystem::Setup rotor() {

@@ -1,5 +1,5 @@
 // What the plank on two rollers answers to the lecture notes' reference numbers: exact sliding, and
-// the regularised friction where a case gives its width.
+// the rounded-off friction where a case gives its width.
 #include "note_system.h"
 
 namespace whirl_twin {
@@ -14,7 +14,8 @@ NoteSystem plank(const NoteCase& c, double mu, double width) {
            {"half_spacing", c.at("a")},
            {"height", c.at("h")},
            {"roller_speed", c.at("vs", 1.0)},
-           {"regularization", width}}};
+           {"regularization", width}},
+          choice("friction", "sliding")};
 }
 
 /// Coefficient of x' where the friction coefficient is mu at the rollers' speed of 1 m/s and rises

@@ -51,6 +51,7 @@ TEST(Analyze, HasEveryKey) {
                                                    "periodic_motion",
                                                    "uncertain_because",
                                                    "sag",
+                                                   "dry_friction",
                                                    "beyond_tables",
                                                    "table_speeds",
                                                    "natural_frequencies",

@@ -43,8 +43,8 @@ struct MassSpringDamper {
           0.0},
          {"friction_force", "N", Range::kNotNegative, &MassSpringDamper::friction_force,
           "Coulomb friction between body and ground", 0.0},
-         {"friction_width", "m/s", Range::kPositive, &MassSpringDamper::friction_width,
-          "speed below which that friction is regularised", 1e-3},
+         {"friction_width", "m/s", Range::kNotNegative, &MassSpringDamper::friction_width,
+          "speed within which that friction is rounded off; 0: it can hold", 0.0},
          {"free_length", "m", Range::kPositive, &MassSpringDamper::free_length,
           "of the spring: the wall is so far from the body", 1.0}}};
   }

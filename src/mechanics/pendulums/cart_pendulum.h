@@ -3,7 +3,7 @@
 //
 //   T = (m1 + m2) x'^2 / 2 + m2 l x' theta' cos(theta) / 2 + m2 l^2 theta'^2 / 6
 //   V = k (x - y(t))^2 / 2 + m2 g (l/2) (1 - cos theta),     y = Y sin(Omega t)
-//   D = c x'^2 / 2,   Q = F cos(Omega t) (1, l cos theta)    horizontal, at the rod's tip
+//   D = c x'^2 / 2 + R |x'|,   Q = F cos(Omega t) (1, l cos theta)    horizontal, at the rod's tip
 #pragma once
 
 #include <array>
@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "mechanics/dry_friction.h"
 #include "mechanics/elementary.h"
 #include "mechanics/force_inline.h"
 #include "mechanics/model_description.h"
@@ -39,9 +40,11 @@ struct CartPendulum {
   double force_frequency = 0.0;    ///< [rad/s], of that force
   double support_amplitude = 0.0;  ///< [m], of the support's motion
   double support_frequency = 0.0;  ///< [rad/s], of that motion
+  double friction_force = 0.0;     ///< [N], Coulomb friction on the track
+  double friction_width = 0.0;     ///< [m/s], within which it is rounded off; 0: it can hold
   double gravity = 0.0;            ///< [m/s^2], of the scene
 
-  static constexpr std::array<Parameter<CartPendulum>, 9> parameters() {
+  static constexpr std::array<Parameter<CartPendulum>, 11> parameters() {
     return {{{"cart_mass", "kg", Range::kPositive, &CartPendulum::cart_mass, "of the cart"},
              {"rod_mass", "kg", Range::kPositive, &CartPendulum::rod_mass, "of the uniform rod"},
              {"rod_length", "m", Range::kPositive, &CartPendulum::rod_length, "of the rod"},
@@ -54,7 +57,11 @@ struct CartPendulum {
              {"support_amplitude", "m", Range::kAny, &CartPendulum::support_amplitude,
               "of the support's motion", 0.0},
              {"support_frequency", "rad/s", Range::kNotNegative, &CartPendulum::support_frequency,
-              "of that motion", 0.0}}};
+              "of that motion", 0.0},
+             {"friction_force", "N", Range::kNotNegative, &CartPendulum::friction_force,
+              "Coulomb friction between cart and track", 0.0},
+             {"friction_width", "m/s", Range::kNotNegative, &CartPendulum::friction_width,
+              "speed within which that friction is rounded off; 0: it can hold", 0.0}}};
   }
 
   double naturalLength() const { return rod_length; }
@@ -97,7 +104,16 @@ struct CartPendulum {
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, kDof>&, const std::array<S, kDof>& v,
                                   const Moment<S>&) const {
-    return (0.5 * damping) * (v[0] * v[0]);
+    S d = (0.5 * damping) * (v[0] * v[0]);
+    if (friction_force != 0.0) {
+      d = d + dryDissipation(friction_force, friction_width, v[0]);
+    }
+    return d;
+  }
+  DryContacts<kDof> dryContacts() const {
+    DryContacts<kDof> contacts;
+    contacts.add({"on the track", "N", {1.0, 0.0}, friction_force}, friction_width);
+    return contacts;
   }
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, kDof> force(const std::array<S, kDof>& q,

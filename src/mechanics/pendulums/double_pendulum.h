@@ -12,11 +12,12 @@
 // (l1 theta1')^2 + (lc2 theta2')^2 + 2 l1 lc2 theta1' theta2' cos(theta1 - theta2), the last cosine
 // from the sines and cosines that the weights need anyway.
 //
-// Coulomb friction in the joints is regularised: s(w) = sqrt(w^2 + w0^2) makes of the jump at w = 0
-// a moment Mc w / sqrt(w^2 + w0^2), short of Mc by the share (w0 / w)^2 / 2; w0 is `coulomb_rate`.
-// A joint that would stick creeps, at w0 M / sqrt(Mc^2 - M^2) under a moment M < Mc, so in the long
-// run a stuck arm sinks to where it hangs. Near standstill the joint is a damper Mc / w0: explicit
-// methods need steps below about 2 I w0 / Mc, I the inertia that it moves.
+// Coulomb friction in the joints can hold them, s(w) = |w| (dry_friction.h). With a `coulomb_rate`
+// w0 > 0 it is rounded off: s(w) = sqrt(w^2 + w0^2) makes of the jump at w = 0 a moment
+// Mc w / sqrt(w^2 + w0^2), short of Mc by the share (w0 / w)^2 / 2. A joint that would stick then
+// creeps, at w0 M / sqrt(Mc^2 - M^2) under a moment M < Mc, so in the long run a stuck arm sinks to
+// where it hangs. Near standstill the joint is a damper Mc / w0: explicit methods need steps below
+// about 2 I w0 / Mc, I the inertia that it moves.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,6 +28,7 @@
 #include <string>
 #include <vector>
 
+#include "mechanics/dry_friction.h"
 #include "mechanics/elementary.h"
 #include "mechanics/force_inline.h"
 #include "mechanics/model_description.h"
@@ -58,7 +60,7 @@ struct DoublePendulum {
   double damping2 = 0.0;      ///< [N m s/rad], at the lower joint
   double coulomb1 = 0.0;      ///< [N m], at the upper joint
   double coulomb2 = 0.0;      ///< [N m], at the lower joint
-  double coulomb_rate = 0.0;  ///< [rad/s], w0: below it Coulomb friction is regularised
+  double coulomb_rate = 0.0;  ///< [rad/s], w0: within it Coulomb friction is rounded off
   // Of motors at the joints, which are a form of their own (motor_double_pendulum.h).
   double motor_inertia1 = 0.0;  ///< [kg m^2], J1, of the rotor at the upper joint
   double motor_inertia2 = 0.0;  ///< [kg m^2], J2
@@ -92,8 +94,8 @@ struct DoublePendulum {
               "Coulomb friction at the upper joint", 0.0},
              {"coulomb2", "N m", Range::kNotNegative, &DoublePendulum::coulomb2,
               "Coulomb friction at the lower joint", 0.0},
-             {"coulomb_rate", "rad/s", Range::kPositive, &DoublePendulum::coulomb_rate,
-              "width of the Coulomb friction's change of sign", 0.01},
+             {"coulomb_rate", "rad/s", Range::kNotNegative, &DoublePendulum::coulomb_rate,
+              "width of the Coulomb friction's change of sign; 0: the joints can stick", 0.0},
              {"motor_inertia1", "kg m^2", Range::kNotNegative, &DoublePendulum::motor_inertia1,
               "of the rotor of a motor at the upper joint", 0.0},
              {"motor_inertia2", "kg m^2", Range::kNotNegative, &DoublePendulum::motor_inertia2,
@@ -148,16 +150,9 @@ struct DoublePendulum {
   template <class S>
   WHIRL_TWIN_INLINE S dissipation(const std::array<S, 2>&, const std::array<S, 2>& v,
                                   const Moment<S>&) const {
-    const S relative = v[1] - v[0];
-    S d = (0.5 * damping1) * (v[0] * v[0]) + (0.5 * damping2) * (relative * relative);
-    if (coulomb1 != 0.0) {
-      d = d + coulomb1 * sqrt(v[0] * v[0] + coulomb_rate * coulomb_rate);
-    }
-    if (coulomb2 != 0.0) {
-      d = d + coulomb2 * sqrt(relative * relative + coulomb_rate * coulomb_rate);
-    }
-    return d;
+    return jointDissipation(v[0], v[1] - v[0]);
   }
+  DryContacts<kDof> dryContacts() const { return jointContacts({-1.0, 1.0}); }
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, 2> force(const std::array<S, 2>&, const std::array<S, 2>&,
                                            const Moment<S>&) const {
@@ -202,6 +197,27 @@ struct DoublePendulum {
     s.tracer = end;
     s.has_tracer = true;
     return s;
+  }
+
+ protected:
+  /// At these rates of the joints.
+  template <class S>
+  WHIRL_TWIN_INLINE S jointDissipation(const S& upper, const S& lower) const {
+    S d = (0.5 * damping1) * (upper * upper) + (0.5 * damping2) * (lower * lower);
+    if (coulomb1 != 0.0) {
+      d = d + dryDissipation(coulomb1, coulomb_rate, upper);
+    }
+    if (coulomb2 != 0.0) {
+      d = d + dryDissipation(coulomb2, coulomb_rate, lower);
+    }
+    return d;
+  }
+  /// The rate of the lower joint is `lower` times the coordinates' rates.
+  DryContacts<kDof> jointContacts(const std::array<double, kDof>& lower) const {
+    DryContacts<kDof> contacts;
+    contacts.add({"at the upper joint", "N m", {1.0, 0.0}, coulomb1}, coulomb_rate);
+    contacts.add({"at the lower joint", "N m", lower, coulomb2}, coulomb_rate);
+    return contacts;
   }
 
  private:

@@ -5,12 +5,13 @@
 //   T = (I + m l^2) theta'^2 / 2,   V = m g l (1 - cos theta),
 //   D = c theta'^2 / 2 + Mc s(theta'),   s(w) = sqrt(w^2 + w0^2)
 //
-// Coulomb friction is regularised as in double_pendulum.h; w0 is `coulomb_rate`.
+// w0 is `coulomb_rate`; with 0 the Coulomb friction can hold (dry_friction.h).
 #pragma once
 
 #include <array>
 #include <cstddef>
 
+#include "mechanics/dry_friction.h"
 #include "mechanics/elementary.h"
 #include "mechanics/force_inline.h"
 #include "mechanics/model_description.h"
@@ -33,7 +34,7 @@ struct Pendulum {
   double inertia = 0.0;       ///< [kg m^2], about the mass centre, and of a motor's rotor
   double damping = 0.0;       ///< [N m s/rad]
   double coulomb = 0.0;       ///< [N m]
-  double coulomb_rate = 0.0;  ///< [rad/s], w0: below it Coulomb friction is regularised
+  double coulomb_rate = 0.0;  ///< [rad/s], w0: within it Coulomb friction is rounded off
   double gravity = 0.0;       ///< [m/s^2], of the scene
 
   static constexpr std::array<Parameter<Pendulum>, 6> parameters() {
@@ -45,8 +46,8 @@ struct Pendulum {
               "viscous, at the pivot", 0.0},
              {"coulomb", "N m", Range::kNotNegative, &Pendulum::coulomb,
               "Coulomb friction at the pivot", 0.0},
-             {"coulomb_rate", "rad/s", Range::kPositive, &Pendulum::coulomb_rate,
-              "width of the Coulomb friction's change of sign", 0.01}}};
+             {"coulomb_rate", "rad/s", Range::kNotNegative, &Pendulum::coulomb_rate,
+              "width of the Coulomb friction's change of sign; 0: the joint can stick", 0.0}}};
   }
 
   std::array<Input<kDof>, 1> inputs() const {
@@ -67,9 +68,14 @@ struct Pendulum {
                                   const Moment<S>&) const {
     S d = (0.5 * damping) * (v[0] * v[0]);
     if (coulomb != 0.0) {
-      d = d + coulomb * sqrt(v[0] * v[0] + coulomb_rate * coulomb_rate);
+      d = d + dryDissipation(coulomb, coulomb_rate, v[0]);
     }
     return d;
+  }
+  DryContacts<kDof> dryContacts() const {
+    DryContacts<kDof> contacts;
+    contacts.add({"at the pivot", "N m", {1.0}, coulomb}, coulomb_rate);
+    return contacts;
   }
   template <class S>
   WHIRL_TWIN_INLINE std::array<S, 1> force(const std::array<S, 1>&, const std::array<S, 1>&,

@@ -36,10 +36,11 @@ struct RelativeDoublePendulum : DoublePendulum {
     return DoublePendulum::potential(absolute(q), at);
   }
   template <class S>
-  WHIRL_TWIN_INLINE S dissipation(const std::array<S, 2>& q, const std::array<S, 2>& v,
-                                  const Moment<S>& at) const {
-    return DoublePendulum::dissipation(absolute(q), absolute(v), at);
+  WHIRL_TWIN_INLINE S dissipation(const std::array<S, 2>&, const std::array<S, 2>& v,
+                                  const Moment<S>&) const {
+    return jointDissipation(v[0], v[1]);
   }
+  DryContacts<kDof> dryContacts() const { return jointContacts({0.0, 1.0}); }
 
   std::vector<Reaction> reactions(const std::array<double, 2>& q, const std::array<double, 2>& v,
                                   const std::array<double, 2>& a, const Moment<double>& at) const {
