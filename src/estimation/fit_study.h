@@ -32,6 +32,9 @@ struct MeasuredChannel {
   GivenOrFitted scale{1.0};
   /// Standard deviation [unit] that residuals are weighed by: all alike where none is given.
   double deviation = 1.0;
+  /// Of an angle: whether it counts within a turn; where that is not said the rows show it
+  /// (turns.h).
+  std::optional<bool> wrap = std::nullopt;
 };
 
 /// A column that says what acted on an input: input(t) = scale * column(t - delay) + offset.

@@ -212,12 +212,19 @@ class StudyReader {
       channel.name = name;
       channel.state = static_cast<std::size_t>(place - known.begin());
       channel.unit = units[channel.state];
-      if (const auto entry =
-              column(measured, name, {"column", "offset", "scale", "deviation"}, channel.column)) {
+      if (const auto entry = column(
+              measured, name, {"column", "offset", "scale", "deviation", "wrap"}, channel.column)) {
         channel.offset = givenOrFitted(*entry, "offset", channel.unit, 0.0);
         channel.scale = givenOrFitted(*entry, "scale", "-", 1.0);
         requireScale(*entry, channel.scale);
         channel.deviation = entry->number("deviation", Range::kPositive, channel.unit, 1.0);
+        if (entry->has("wrap")) {
+          channel.wrap = entry->choice("wrap", {"true", "false"}, "whether it counts within a turn",
+                                       "true") == "true";
+          if (channel.unit != "rad") {
+            complaints_.add(entry->key("wrap"), "only angles have turns");
+          }
+        }
       }
       add(columns, channel.column);
       run.measured.push_back(channel);

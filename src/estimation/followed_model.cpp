@@ -1,6 +1,5 @@
 #include "estimation/followed_model.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -53,19 +52,6 @@ FollowedModel::FollowedModel(SharedSystem system, std::vector<FollowedParameter>
       parameters_(std::move(parameters)),
       dof_(scene_system_->dynamics->dof()),
       now_(variant(scene_system_)) {
-  along_.resize(parameters_.size());
-  for (const ParameterInfo& p : scene_system_->model->parameters) {
-    const auto is = [](const std::string& path) {
-      return [&path](const FollowedParameter& followed) { return followed.path == path; };
-    };
-    const auto source =
-        std::find_if(parameters_.begin(), parameters_.end(), is(p.fallback_parameter));
-    if (source != parameters_.end() &&
-        std::none_of(parameters_.begin(), parameters_.end(), is(p.name)) &&
-        scene_system_->parameter(p.name) == source->start) {
-      along_[static_cast<std::size_t>(source - parameters_.begin())].push_back(p.name);
-    }
-  }
   numbers_ = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(parameters_.size()),
                                        std::numeric_limits<double>::infinity());
   if (!parameters_.empty() && !follow(Eigen::VectorXd::Zero(numbers_.size()))) {
@@ -90,10 +76,6 @@ FollowedModel::Variant FollowedModel::at(const Eigen::VectorXd& numbers) const {
   for (std::size_t i = 0; i < parameters_.size(); ++i) {
     paths.push_back(parameters_[i].path);
     values.push_back(parameters_[i].value(numbers[static_cast<Eigen::Index>(i)]));
-    for (const std::string& path : along_[i]) {
-      paths.push_back(path);
-      values.push_back(values.back());
-    }
   }
   return variant(scene_system_->with(paths, values, scene_system_->spec.name));
 }

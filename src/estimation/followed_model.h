@@ -68,8 +68,6 @@ class FollowedModel {
 
   SharedSystem scene_system_;
   std::vector<FollowedParameter> parameters_;
-  /// Of each: parameters whose default it is, and that have its value (`stiffness_y`).
-  std::vector<std::vector<std::string>> along_;
   Eigen::Index dof_;
   Variant now_;
   std::int64_t version_ = 0;

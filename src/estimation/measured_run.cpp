@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 
@@ -22,6 +23,7 @@ constexpr double kUneven = 0.2;         // of the usual step
 constexpr double kStuckSeconds = 0.25;  // at a value while the column moves elsewhere
 constexpr std::size_t kStuckRows = 20;  // likewise
 constexpr double kCoarse = 1.0e-3;      // of the range
+constexpr double kAlternating = 3.0;    // times the variation of the rows as they are
 constexpr double kLatest = 4.2e9;       // s: stamps end in 2106
 
 double median(std::vector<double> x) {
@@ -38,20 +40,74 @@ std::vector<double> stepsOf(const std::vector<double>& time) {
   return steps;
 }
 
+/// Sum of the differences between rows that follow each other where the later one is later in time.
+double variation(const MeasuredColumn& column, const std::vector<double>& time) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < time.size(); ++i) {
+    sum += time[i] > time[i - 1] ? std::fabs(column.values[i] - column.values[i - 1]) : 0.0;
+  }
+  return sum;
+}
+
+/// Brings rows into the order of their instants. Throws Refusal where that cannot be one run: where
+/// an instant has two rows that differ, or values alternate between those of two motions.
+void sortByTime(MeasuredRun& run, std::vector<std::size_t>& rows) {
+  std::size_t back = 0, first_back = 0;
+  for (std::size_t i = 0; i < run.time.size(); ++i) {
+    if (!(std::fabs(run.time[i]) <= kLatest)) {
+      throw Refusal(fmt::format("row {}: the time must be within {:g} s of 0, found {:g}", rows[i],
+                                kLatest, run.time[i]));
+    }
+    if (i > 0 && run.time[i] < run.time[i - 1]) {
+      first_back = back++ == 0 ? i : first_back;
+    }
+  }
+  if (back == 0) {
+    return;
+  }
+  const std::string where =
+      fmt::format("row {}: the time goes back, from {:.9g} s to {:.9g} s, and ", rows[first_back],
+                  run.time[first_back - 1], run.time[first_back]);
+  const MeasuredRun of_file = run;
+  std::vector<std::size_t> order(rows.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return of_file.time[a] < of_file.time[b]; });
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    run.time[i] = of_file.time[order[i]];
+    rows[i] = order[i] + 1;
+    for (std::size_t c = 0; c < run.columns.size(); ++c) {
+      run.columns[c].values[i] = of_file.columns[c].values[order[i]];
+    }
+  }
+  for (const MeasuredColumn& column : run.columns) {
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+      if (run.time[i] == run.time[i - 1] && column.values[i] != column.values[i - 1]) {
+        throw Refusal(fmt::format(
+            "{}rows {} and {} have different values of {} at {:.9g} s: expected one run, found two",
+            where, rows[i - 1], rows[i], quoted(column.name), run.time[i]));
+      }
+    }
+  }
+  for (std::size_t c = 0; c < run.columns.size(); ++c) {
+    if (variation(run.columns[c], run.time) >
+        kAlternating * variation(of_file.columns[c], of_file.time)) {
+      throw Refusal(fmt::format(
+          "{}in the order of time {} alternates between two motions: expected one run, found two",
+          where, quoted(run.columns[c].name)));
+    }
+  }
+  run.remarks.push_back(
+      fmt::format("the time goes back at {} {}, the first is row {}: taken in the order of time",
+                  back, back == 1 ? "row" : "rows", first_back + 1));
+}
+
 /// Rows whose instants are later than all before; `rows` are those they stand on.
 void keepAscending(MeasuredRun& run, std::vector<std::size_t>& rows) {
   std::size_t kept = 0;
   std::size_t repeated = 0;
   std::size_t first_repeated = 0;
   for (std::size_t i = 0; i < run.time.size(); ++i) {
-    if (!(std::fabs(run.time[i]) <= kLatest)) {
-      throw Refusal(fmt::format("row {}: the time must be within {:g} s of 0, found {:g}", rows[i],
-                                kLatest, run.time[i]));
-    }
-    if (kept > 0 && run.time[i] < run.time[kept - 1]) {
-      throw Refusal(fmt::format("row {}: the time must not go back, found {:.9g} s after {:.9g} s",
-                                rows[i], run.time[i], run.time[kept - 1]));
-    }
     if (kept > 0 && run.time[i] == run.time[kept - 1]) {
       first_repeated = repeated++ == 0 ? rows[i] : first_repeated;
       continue;
@@ -173,6 +229,7 @@ MeasuredRun measuredRun(std::vector<double> time, std::vector<MeasuredColumn> co
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i] = i + 1;
   }
+  sortByTime(run, rows);
   keepAscending(run, rows);
   if (run.time.size() < kFewestRows) {
     throw Refusal(fmt::format("must have {} rows of different instants, found {}", kFewestRows,

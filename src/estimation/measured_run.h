@@ -24,10 +24,10 @@ struct MeasuredRun {
   double usualStep() const;  ///< [s], the median
 };
 
-/// A run of columns as they came. Rows that repeat the instant [s] of the one before are left out,
-/// and that is remarked, as are gaps, uneven steps, and columns that stand still, stay at an end of
-/// their range, or come in coarse steps. Throws Refusal with what is wrong and where: a time that
-/// goes back, fewer than five rows.
+/// A run of columns as they came, in the order of their instants. Rows that repeat the instant [s]
+/// of the one before are left out, and that is remarked, as are a time that goes back, gaps, uneven
+/// steps, and columns that stand still, stay at an end of their range, or come in coarse steps.
+/// Throws Refusal with what is wrong and where: rows of two runs, fewer than five rows.
 MeasuredRun measuredRun(std::vector<double> time, std::vector<MeasuredColumn> columns);
 
 /// The same of columns in a file of comma-separated values with a line of names. Throws Refusal

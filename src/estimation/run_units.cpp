@@ -8,6 +8,7 @@
 #include <set>
 
 #include "algebra/constants.h"
+#include "estimation/turns.h"
 #include "messages/names.h"
 #include "messages/refusal.h"
 #include "messages/units.h"
@@ -119,6 +120,7 @@ void settleUnits(StudyRun& run, const std::string& time, const std::vector<Input
     columns.bring(input.column, input.name, inputs[input.place].unit);
   }
   for (const MeasuredChannel& channel : run.measured) {
+    unwrapTurns(run.data, channel);
     judgeChannel(run.data, channel);
   }
   const double usual = run.data.usualStep();

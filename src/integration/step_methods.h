@@ -39,6 +39,10 @@
 //     energies, linear, any of the above              any other        SteppedSystem<Model, Method>
 //         As asked for: comparison, `twin tradeoff`.
 //
+//     energies, with dry friction that can hold       any              SteppedSystem<CalledModel,
+//                                                                                    Method>
+//         In parts between beginning and end of sliding (dry_friction_step.h); never ahead.
+//
 //     matrices as functions of speed, of any size:    exponential,     LinearRotorStepper
 //     flexible_rotor; any rotor on magnets            no other         (RotorStep)
 //         Fixed sizes at compile time end at a few coordinates. linearRotorSetup(). Forces at

@@ -27,19 +27,13 @@ struct Candidate {
   SystemOfNumber system;
 };
 
-/// With one number changed, and those that go with it.
+/// With one number changed, and those that follow it.
 SystemOfNumber withNumber(const BuiltSystem& system, const std::string& path, double speed) {
   return [&system, path, speed](double value) -> std::optional<SystemAtNumber> {
     SystemSpec spec = system.spec;
     Complaints complaints("");
     if (!setParameter(path, value, *system.model, spec, complaints)) {
       return std::nullopt;
-    }
-    for (const ParameterInfo& p : system.model->parameters) {
-      if (p.fallback_parameter == path &&
-          system.spec.parameters.at(p.name) == system.spec.parameters.at(path)) {
-        spec.parameters[p.name] = value;
-      }
     }
     try {
       auto dynamics = judgedDynamics(

@@ -189,6 +189,7 @@ Json json(const FollowedLog& run) {
               {"rejected", run.file.rejected},
               {"damaged", run.file.damaged},
               {"first_damage", run.file.first_damage},
+              {"remarks", run.file.remarks},
               {"restarts", run.restarts},
               {"systems", Json::object()}};
   for (const FollowedSystem& s : run.systems) {

@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <variant>
 
 #include "estimation/measured_run.h"
 #include "messages/refusal.h"
+#include "messages/units.h"
 #include "transport/logged_messages.h"
 
 namespace whirl_twin {
@@ -16,6 +19,86 @@ namespace whirl_twin {
 namespace {
 
 constexpr std::size_t kRowsOfBlock = 100;  // of a table
+
+/// What channels there are, and of which there are samples.
+class ChannelsFound {
+ public:
+  void take(const state::Measurement& block) {
+    Source& source = sources_[block.source];
+    const std::size_t count = block.channel.size();
+    for (std::size_t c = 0; c < count; ++c) {
+      auto& units = source.units[block.channel[c]];
+      for (std::size_t i = c; i < block.value.size(); i += count) {
+        if (block.valid[i] != 0 && std::isfinite(block.value[i])) {
+          units.insert(block.unit[c]);
+          break;
+        }
+      }
+    }
+    state::Measurement& last = source.last;
+    const bool differs = last.channel == block.channel && last.instantOf(0) == block.instantOf(0) &&
+                         last.samples == block.samples && last.valid == block.valid &&
+                         last.value != block.value;
+    if (differs && contradiction_.empty()) {
+      contradiction_ = fmt::format("{} has two different messages of {:.9g} s", block.source,
+                                   1.0e-9 * static_cast<double>(block.instantOf(0)));
+    }
+    last = block;
+  }
+
+  /// Of messages that are out of order: throws Refusal where they cannot be of one run.
+  void requireOneRun(const std::string& path) const {
+    if (!contradiction_.empty()) {
+      throw Refusal(fmt::format(
+          "{}: its messages are not in the order of their recorded times, and {}: expected one "
+          "run, found two",
+          path, contradiction_));
+    }
+  }
+
+  /// Throws Refusal for an input of which there is no sample in its unit.
+  void requireInputs(const std::string& path, const std::vector<FollowedSource>& sources) const {
+    for (const FollowedSource& source : sources) {
+      for (const FollowedSource::Channel& channel : source.channels) {
+        if (channel.input && !hasSample(source.name, channel)) {
+          throw Refusal(fmt::format(
+              "{}: {}/{}, which the settings name for an input, has no valid sample in {}; there "
+              "are: {}",
+              path, source.name, channel.name, channel.unit, fmt::join(all(), ", ")));
+        }
+      }
+    }
+  }
+
+ private:
+  struct Source {
+    std::map<std::string, std::set<std::string>> units;  // of the valid samples of each channel
+    state::Measurement last;
+  };
+
+  bool hasSample(const std::string& source, const FollowedSource::Channel& channel) const {
+    const auto found = sources_.find(source);
+    if (found == sources_.end() || found->second.units.count(channel.name) == 0) {
+      return false;
+    }
+    const std::set<std::string>& units = found->second.units.at(channel.name);
+    return std::any_of(units.begin(), units.end(), [&](const std::string& unit) {
+      return unitScale(unit, channel.unit) != 0.0;
+    });
+  }
+  std::vector<std::string> all() const {
+    std::vector<std::string> names;
+    for (const auto& [name, source] : sources_) {
+      for (const auto& [channel, units] : source.units) {
+        names.push_back(fmt::format("{}/{}{}", name, channel, units.empty() ? " (no sample)" : ""));
+      }
+    }
+    return names;
+  }
+
+  std::map<std::string, Source> sources_;
+  std::string contradiction_;
+};
 
 MeasuredFile readMeasuredMessages(const std::string& path, const std::string& scene,
                                   const std::vector<FollowedSource>& sources,
@@ -27,10 +110,12 @@ MeasuredFile readMeasuredMessages(const std::string& path, const std::string& sc
     names.insert(source.name);
   }
   MeasuredFile file;
+  ChannelsFound channels;
   const LoggedMessages log = readLoggedMessages(
       path, prefix, {&state::Measurement::kKind},
       [&](const Message& message, std::int64_t) {
         const auto& measurement = std::get<state::Measurement>(message);
+        channels.take(measurement);
         if (names.count(measurement.source) > 0) {
           ++file.messages;
           take(measurement);
@@ -43,6 +128,11 @@ MeasuredFile readMeasuredMessages(const std::string& path, const std::string& sc
                     "begin with {} (--lcm-prefix), {}",
                     path, scene, prefix, foundElsewhere(log)));
   }
+  if (log.out_of_order > 0) {
+    channels.requireOneRun(path);
+    file.remarks.push_back(outOfOrder(log));
+  }
+  channels.requireInputs(path, sources);
   file.rejected = log.rejected;
   file.damaged = log.damaged;
   file.first_damage = log.first_damage;

@@ -148,6 +148,7 @@ ModesReport modesReport(const RotorSystem& system, const RotorRecord& record,
   report.speed = speed.value_or(record.steadySpeed());
   report.model = whirlsFirst(whirlModes(system.rotor, system.stations, report.speed).modes);
   report.log = record.log();
+  report.notes = record.notes();
   std::vector<std::size_t> places;
   std::vector<double> directions;
   for (const RecordedProbe& probe : record.probes()) {

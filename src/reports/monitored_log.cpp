@@ -306,7 +306,7 @@ MonitoredLog monitorLog(const BuiltScene& scene, const AlarmSettings& settings,
         replay.passTo(stamp);
         replay.take(message);
       },
-      advanced);
+      advanced, LogOrder::kOfFile);
   run.damaged = read.damaged;
   run.first_damage = read.first_damage;
   run.rejected += read.rejected;

@@ -89,8 +89,10 @@ MeasuredRun readMeasuredLog(const std::string& path, const std::string& prefix,
   const SourceRows& rows = sources.begin()->second;
   std::vector<double> time;
   std::vector<MeasuredColumn> read;
+  const std::int64_t first =
+      rows.instants.empty() ? 0 : *std::min_element(rows.instants.begin(), rows.instants.end());
   for (const std::int64_t instant : rows.instants) {
-    time.push_back(1.0e-9 * static_cast<double>(instant - rows.instants.front()));
+    time.push_back(1.0e-9 * static_cast<double>(instant - first));
   }
   for (std::size_t k = 0; k < columns.size(); ++k) {
     read.push_back({columns[k], {}});
@@ -99,6 +101,9 @@ MeasuredRun readMeasuredLog(const std::string& path, const std::string& prefix,
     }
   }
   MeasuredRun run = measuredRun(std::move(time), std::move(read));
+  if (log.out_of_order > 0) {
+    run.remarks.push_back(outOfOrder(log));
+  }
   if (rows.not_valid > 0) {
     run.remarks.push_back(fmt::format("{} {} that the sensor says are not valid, left out",
                                       rows.not_valid, rows.not_valid == 1 ? "row" : "rows"));

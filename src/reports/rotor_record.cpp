@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "algebra/constants.h"
+#include "estimation/measured_queue.h"
 #include "messages/refusal.h"
 #include "messages/units.h"
 #include "scene/station_names.h"
@@ -22,6 +23,8 @@ namespace {
 constexpr double kHalfPi = 0.5 * kPi;
 constexpr double kSteady = 0.01;          // of a speed
 constexpr double kSurelyKnown = 0.1;      // rad, deviation of the shaft's angle
+constexpr double kTogether = 1.0e-3;      // of a period: samples of one instant
+constexpr double kPatience = 600.0;       // s, that samples wait for those of other sources
 constexpr double kLargestAngle = 1.0e15;  // rad; beyond, a double has no phase
 
 /// The speed about which the most time was spent, of speeds above 0 and the times [s] spent at
@@ -52,6 +55,16 @@ struct Source {
   std::int64_t samples = 0;                      // each later than all before
   std::int64_t first = 0, last = 0;              // [ns]
   std::map<std::string, double> deviation = {};  // of its channels, as the first message says
+
+  double period() const {  // [s]
+    return static_cast<double>(last - first) * kNanosecond / static_cast<double>(samples - 1);
+  }
+  bool isAtInstantsOf(const Source& other) const {
+    const double slack = kTogether * other.period() / kNanosecond;
+    return samples == other.samples &&
+           std::fabs(static_cast<double>(first - other.first)) < slack &&
+           std::fabs(static_cast<double>(last - other.last)) < slack;
+  }
 };
 
 /// The shaft between pulses, at instants in order.
@@ -100,9 +113,9 @@ std::vector<RecordedProbe> probesOf(const SensorSpec& sensor, std::size_t system
 }  // namespace
 
 RotorRecord::RotorRecord(const BuiltScene& scene, const RotorSystem& system, const std::string& log,
-                         const std::string& prefix)
+                         const std::string& prefix, ProbesRead probes)
     : log_(log), prefix_(prefix) {
-  findProbes(scene, system);
+  findProbes(scene, system, probes);
   if (probes_.empty()) {
     findWhirl(system);
   }
@@ -125,8 +138,8 @@ LoggedMessages RotorRecord::eachMessage(const std::function<void(const Message&)
       [](std::uint64_t, std::uint64_t) {});
 }
 
-/// The source with the most probes at the rotor of those that the log has, and a keyphasor.
-void RotorRecord::findProbes(const BuiltScene& scene, const RotorSystem& system) {
+/// Sources of probes at the rotor of which the log has samples, and a keyphasor.
+void RotorRecord::findProbes(const BuiltScene& scene, const RotorSystem& system, ProbesRead which) {
   std::map<std::string, Source> sources, keyphasors;
   std::size_t place = 0;
   for (std::size_t i = 0; i < scene.systems.size(); ++i) {
@@ -181,7 +194,6 @@ void RotorRecord::findProbes(const BuiltScene& scene, const RotorSystem& system)
     if (source.samples > 1 && (best == nullptr || probesOf(*source.spec, place).size() >
                                                       probesOf(*best->spec, place).size())) {
       best = &source;
-      source_ = name;
     }
   }
   const auto most = std::max_element(
@@ -190,15 +202,36 @@ void RotorRecord::findProbes(const BuiltScene& scene, const RotorSystem& system)
   if (best == nullptr || most == pulses.end()) {
     return;
   }
-  probes_ = probesOf(*best->spec, place);
-  for (RecordedProbe& probe : probes_) {
-    const auto said = best->deviation.find(probe.name);
-    probe.deviation = said != best->deviation.end() && said->second > 0.0 ? said->second : 0.0;
+  period_ = best->period();
+  std::vector<const Source*> used;
+  for (const SensorSpec& sensor : scene.scene.sensors) {
+    const auto found = sources.find(sensor.name);
+    if (found == sources.end()) {
+      continue;
+    }
+    if (found->second.samples < 2) {
+      notes_.push_back(fmt::format("the log has no samples of {}", sensor.name));
+    } else if (which == ProbesRead::kAtSameInstants && !found->second.isAtInstantsOf(*best)) {
+      notes_.push_back(fmt::format("{} is not used: its samples are not of the instants of {}",
+                                   sensor.name, best->spec->name));
+    } else {
+      used.push_back(&found->second);
+    }
+  }
+  for (const Source* source : used) {
+    sources_.push_back({source->spec->name, {}, probes_.size()});
+    for (RecordedProbe& probe : probesOf(*source->spec, place)) {
+      const auto said = source->deviation.find(probe.name);
+      probe.deviation = said != source->deviation.end() && said->second > 0.0 ? said->second : 0.0;
+      sources_.back().channels.push_back(probe.name);
+      if (used.size() > 1) {
+        probe.name = source->spec->name + "/" + probe.name;
+      }
+      probes_.push_back(std::move(probe));
+    }
   }
   keyphasor_ = *keyphasors[most->first].spec->keyphasor;
   pulses_ = most->second;
-  period_ = static_cast<double>(best->last - best->first) * kNanosecond /
-            static_cast<double>(best->samples - 1);
   std::vector<std::pair<double, double>> dwells;
   for (std::size_t i = 1; i < pulses_.size(); ++i) {
     const double time = static_cast<double>(pulses_[i] - pulses_[i - 1]) * kNanosecond;
@@ -251,52 +284,77 @@ RecordCounts RotorRecord::read(const std::function<void(const ProbeReading&)>& t
 RecordCounts RotorRecord::readProbes(const std::function<void(const ProbeReading&)>& take) const {
   RecordCounts counts;
   TrackedShaft shaft(keyphasor_, pulses_);
-  std::optional<std::int64_t> origin;
-  std::int64_t last = std::numeric_limits<std::int64_t>::min();
+  const auto newQueue = [&] {
+    MeasuredQueue queue(kPatience);
+    for (const ProbeSource& source : sources_) {
+      queue.addSource(source.name, source.channels,
+                      std::vector<std::string>(source.channels.size(), "m"));
+    }
+    return queue;
+  };
+  MeasuredQueue queue = newQueue();
+  std::optional<std::int64_t> origin, row;
+  std::int64_t newest = std::numeric_limits<std::int64_t>::min();
+  const auto together = std::llround(kTogether * period_ / kNanosecond);
   ProbeReading reading;
-  reading.values.resize(static_cast<Eigen::Index>(probes_.size()));
+  reading.values = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(probes_.size()), kNaN);
+  std::vector<bool> there(probes_.size(), false);
+  const auto finishRow = [&] {
+    if (row) {
+      const ShaftEstimate at = shaft.at(*row);
+      if (at.known) {
+        reading.time = static_cast<double>(*row - *origin) * kNanosecond;
+        reading.index = std::llround(reading.time / period_);
+        reading.turns = at.angle.turns;
+        reading.remainder = at.angle.remainder;
+        reading.speed = at.speed;
+        for (std::size_t c = 0; c < there.size(); ++c) {
+          counts.not_valid +=
+              there[c] && std::isnan(reading.values[static_cast<Eigen::Index>(c)]) ? 1 : 0;
+        }
+        ++counts.samples;
+        take(reading);
+      } else {
+        ++counts.no_angle;
+      }
+    }
+    reading.values.setConstant(kNaN);
+    there.assign(there.size(), false);
+    row = std::nullopt;
+  };
+  const auto drain = [&] {
+    while (const std::optional<MeasuredSample> sample = queue.next()) {
+      const std::size_t probe = sources_[sample->source].first + sample->channel;
+      if (row && (sample->time - *row > together || there[probe])) {
+        finishRow();
+      }
+      if (!row && sample->time <= newest) {
+        continue;
+      }
+      origin = origin.value_or(sample->time);
+      row = row.value_or(sample->time);
+      newest = std::max(newest, sample->time);
+      there[probe] = true;
+      reading.values[static_cast<Eigen::Index>(probe)] = sample->valid ? sample->value : kNaN;
+    }
+  };
   eachMessage([&](const Message& message) {
     const auto* const measured = std::get_if<state::Measurement>(&message);
-    if (measured == nullptr || measured->source != source_) {
+    if (measured == nullptr) {
       return;
     }
-    const std::size_t channels = measured->channel.size();
-    std::vector<std::size_t> columns;
-    std::vector<double> scales;  // to metres; 0: not valid
-    for (const RecordedProbe& probe : probes_) {
-      const auto found = std::find(measured->channel.begin(), measured->channel.end(), probe.name);
-      columns.push_back(static_cast<std::size_t>(found - measured->channel.begin()));
-      scales.push_back(columns.back() < channels ? unitScale(measured->unit[columns.back()], "m")
-                                                 : 0.0);
+    // Over a long gap the queue would take the clock for set, and lose what waits.
+    if (origin && measured->instantOf(0) - newest > kClockJump / 2) {
+      queue.finish();
+      drain();
+      queue = newQueue();
     }
-    for (std::int64_t i = 0; i < measured->samples; ++i) {
-      const std::int64_t instant = measured->instantOf(i);
-      if (instant <= last) {
-        continue;
-      }
-      last = instant;
-      origin = origin.value_or(instant);
-      const ShaftEstimate at = shaft.at(instant);
-      if (!at.known) {
-        ++counts.no_angle;
-        continue;
-      }
-      reading.time = static_cast<double>(instant - *origin) * kNanosecond;
-      reading.index = std::llround(reading.time / period_);
-      reading.turns = at.angle.turns;
-      reading.remainder = at.angle.remainder;
-      reading.speed = at.speed;
-      for (std::size_t c = 0; c < columns.size(); ++c) {
-        const std::size_t value = static_cast<std::size_t>(i) * channels + columns[c];
-        const bool valid = scales[c] != 0.0 && measured->valid[value] != 0;
-        counts.not_valid += valid ? 0 : 1;
-        reading.values[static_cast<Eigen::Index>(c)] =
-            valid ? scales[c] * measured->value[value] : kNaN;
-      }
-      ++counts.samples;
-      take(reading);
-    }
+    queue.take(*measured);
+    drain();
   });
+  queue.finish();
+  drain();
+  finishRow();
   counts.pulses = shaft.counts().taken;
   counts.false_pulses = shaft.counts().refused;
   counts.missing_pulses = shaft.counts().missed;

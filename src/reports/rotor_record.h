@@ -20,7 +20,7 @@ namespace whirl_twin {
 
 /// A displacement probe at a station of the rotor.
 struct RecordedProbe {
-  std::string name;
+  std::string name;                ///< of its channel; of several sources SOURCE/CHANNEL
   std::size_t station = 0;         ///< of the rotor's stations
   double direction = 0.0;          ///< [rad], across the shaft, from +x towards +y
   double deviation = 0.0;          ///< [m], of its noise, as the messages say; 0: they do not
@@ -38,18 +38,23 @@ struct RecordCounts {
   std::int64_t false_pulses = 0, missing_pulses = 0;
 };
 
+/// Which sources of probes are read: all, so that a reading has the probes of one or more of them,
+/// or those with samples at the instants of the one with the most probes, so that it has them all.
+enum class ProbesRead { kAll, kAtSameInstants };
+
 class RotorRecord {
  public:
   /// Looks through the log. Throws Refusal where it holds nothing of the rotor that could be used,
   /// with what was expected, and as readLoggedMessages() does.
   RotorRecord(const BuiltScene& scene, const RotorSystem& system, const std::string& log,
-              const std::string& prefix);
+              const std::string& prefix, ProbesRead probes = ProbesRead::kAll);
 
   const std::string& log() const { return log_; }
-  /// Of the messages; "" where it is the whirl that a twin told.
-  const std::string& source() const { return source_; }
   const std::vector<RecordedProbe>& probes() const { return probes_; }
-  double period() const { return period_; }  ///< [s], from sample to sample
+  /// Of sources of the scene that are not read, and why.
+  const std::vector<std::string>& notes() const { return notes_; }
+  /// [s], from sample to sample of the source with the most probes.
+  double period() const { return period_; }
   /// [rad/s], about which the shaft kept within 1 % for the longest time.
   double steadySpeed() const { return steady_speed_; }
 
@@ -57,14 +62,22 @@ class RotorRecord {
   RecordCounts read(const std::function<void(const ProbeReading&)>& take) const;
 
  private:
-  void findProbes(const BuiltScene& scene, const RotorSystem& system);
+  void findProbes(const BuiltScene& scene, const RotorSystem& system, ProbesRead which);
   void findWhirl(const RotorSystem& system);
   RecordCounts readProbes(const std::function<void(const ProbeReading&)>& take) const;
   RecordCounts readWhirl(const std::function<void(const ProbeReading&)>& take) const;
   LoggedMessages eachMessage(const std::function<void(const Message&)>& take) const;
 
-  std::string log_, prefix_, source_;
+  struct ProbeSource {
+    std::string name;
+    std::vector<std::string> channels;
+    std::size_t first = 0;  // of probes_
+  };
+
+  std::string log_, prefix_;
   std::vector<RecordedProbe> probes_;
+  std::vector<ProbeSource> sources_;
+  std::vector<std::string> notes_;
   KeyphasorSettings keyphasor_;
   std::vector<std::int64_t> pulses_;  // [ns]
   std::vector<std::string> whirls_;   // systems, as published, of two probes each

@@ -188,6 +188,7 @@ UnbalanceReport unbalanceReport(const RotorSystem& system, const RotorRecord& re
         record.log(), request.from, request.to, report.counts.samples + report.counts.no_angle));
   }
   report.estimate = fit.told();
+  report.notes = record.notes();
   addUnbalanceNotes(report);
   return report;
 }

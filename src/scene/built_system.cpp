@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "models/model_registry.h"
@@ -106,8 +107,22 @@ SharedSystem BuiltSystem::with(const state::ParameterChange& set) const {
   if (set.values == known.values) {  // told again
     return std::make_shared<const BuiltSystem>(*this);
   }
+  // What follows another there, too, goes on following it.
+  std::vector<std::string> paths;
+  std::vector<double> values;
+  for (std::size_t i = 0; i < set.names.size(); ++i) {
+    const auto followed = spec.following.find(set.names[i]);
+    if (followed != spec.following.end()) {
+      const auto source = std::find(set.names.begin(), set.names.end(), followed->second);
+      if (set.values[static_cast<std::size_t>(source - set.names.begin())] == set.values[i]) {
+        continue;
+      }
+    }
+    paths.push_back(set.names[i]);
+    values.push_back(set.values[i]);
+  }
   try {
-    return with(set.names, set.values, "parameters");
+    return with(paths, values, "parameters");
   } catch (const Refusal&) {
     return nullptr;
   }

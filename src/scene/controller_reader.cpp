@@ -298,7 +298,8 @@ ControllerSpec readController(const YAML::Node& node, const std::string& key,
     checkSystems(map, scene, controller, complaints);
   } else if (info != nullptr) {
     readParameterValues(map, info->name, info->parameters, info->settings, {},
-                        controller.parameters, controller.settings, complaints);
+                        controller.parameters, controller.following, controller.settings,
+                        complaints);
     checkSystems(map, scene, controller, complaints);
     const bool speed = info->name == "speed";
     if (speed && complaints.all().size() == before) {

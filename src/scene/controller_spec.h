@@ -44,6 +44,7 @@ struct ControllerSpec {
   std::uint32_t seed = 1;
   ActuatorSettings actuator;  ///< of everything it acts on
   ParameterValues parameters;
+  std::map<std::string, std::string> following;  ///< as SystemSpec::following
   Settings settings;
 
   // Of one that brings a shaft to a speed.

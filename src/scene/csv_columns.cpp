@@ -83,6 +83,19 @@ void requireDifferent(const std::vector<std::string>& header) {
   }
 }
 
+/// A value without a name makes it doubtful which value belongs to which name. A comma at the end
+/// of a line is none.
+void requireNames(std::size_t names, const std::vector<std::string>& values, std::size_t line) {
+  const auto extra =
+      std::find_if(values.begin() + static_cast<std::ptrdiff_t>(std::min(names, values.size())),
+                   values.end(), [](const std::string& value) { return !value.empty(); });
+  if (extra != values.end()) {
+    throw Refusal(
+        fmt::format("line {}: expected at most {} {}, as many as line 1 has names, found {}", line,
+                    names, names == 1 ? "value" : "values", values.size()));
+  }
+}
+
 void requireFile(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) {
@@ -122,6 +135,7 @@ std::vector<std::vector<double>> csvColumns(const std::string& path,
       continue;
     }
     const std::vector<std::string> values = fields(line);
+    requireNames(header.size(), values, row);
     for (std::size_t i = 0; i < names.size(); ++i) {
       const std::optional<double> value =
           places[i] < values.size() ? parseNumber(values[places[i]]) : std::nullopt;

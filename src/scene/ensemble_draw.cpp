@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <boost/random/normal_distribution.hpp>
 #include <boost/random/uniform_real_distribution.hpp>
 #include <cmath>
@@ -26,11 +25,6 @@ double deviation(const Spread& spread, std::mt19937_64& random) {
   return boost::random::uniform_real_distribution<double>(-spread.width, spread.width)(random);
 }
 
-bool isSpread(const SystemSpec& spec, const std::string& path) {
-  return std::any_of(spec.ensemble.spread.begin(), spec.ensemble.spread.end(),
-                     [&](const Spread& s) { return s.path == path; });
-}
-
 /// Puts one number into `member`; false: it is out of range.
 bool put(const Spread& spread, double value, const ModelInfo& model, SystemSpec& member) {
   if (spread.kind != Spread::Kind::kParameter) {
@@ -39,16 +33,6 @@ bool put(const Spread& spread, double value, const ModelInfo& model, SystemSpec&
   }
   Complaints complaints("");
   return setParameter(spread.path, value, model, member, complaints);
-}
-
-void putWhatGoesAlong(const SystemSpec& spec, const ModelInfo& model, SystemSpec& member) {
-  for (const ParameterInfo& p : model.parameters) {
-    const std::string& source = p.fallback_parameter;
-    if (!source.empty() && !isSpread(spec, p.name) &&
-        spec.parameters.at(p.name) == spec.parameters.at(source)) {
-      member.parameters[p.name] = member.parameters.at(source);
-    }
-  }
 }
 
 [[noreturn]] void refuseDraws(const std::string& what) {
@@ -121,7 +105,6 @@ DrawnMember drawnMember(const SystemSpec& spec, const ModelInfo& model, std::siz
   } else {
     drawTogether(spec, model, random, member);
   }
-  putWhatGoesAlong(spec, model, member.spec);
   return member;
 }
 
@@ -134,7 +117,6 @@ std::optional<SystemSpec> memberAt(const SystemSpec& spec, const ModelInfo& mode
       return std::nullopt;
     }
   }
-  putWhatGoesAlong(spec, model, member);
   return member;
 }
 

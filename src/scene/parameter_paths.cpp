@@ -76,7 +76,7 @@ struct Place {
   std::string unit = "-";
   std::string path;  ///< as complaints have it
   std::string objection;
-  Row* row = nullptr;  ///< of a table
+  Row* row = nullptr;  ///< of a table; else a parameter or an entry of a matrix
   std::string column = "";
 };
 
@@ -230,8 +230,15 @@ bool setNumber(const std::string& path, double value, const Info& info, Spec& sp
   }
   if (place.row != nullptr) {
     place.row->set(place.column, value);
-  } else {
-    *place.number = value;
+    return true;
+  }
+  *place.number = value;
+  spec.following.erase(path);
+  for (const ParameterInfo& p : info.parameters) {  // in their order: one may follow a follower
+    const auto followed = spec.following.find(p.name);
+    if (followed != spec.following.end()) {
+      spec.parameters.at(p.name) = spec.parameters.at(followed->second);
+    }
   }
   return true;
 }

@@ -31,9 +31,10 @@ std::optional<double> parameterAt(const std::string& path, const ControllerInfo&
 /// The unit of the number at a path, "-" without; "" if there is none of that path.
 std::string unitAt(const std::string& path, const ModelInfo& model, const SystemSpec& spec);
 
-/// Sets a number. Complains in the words of a scene file under the key systems.NAME.parameters or
-/// controllers.NAME.parameters, and changes nothing, if there is none of that path or it is out of
-/// range: false.
+/// Sets a number and those that follow it (SystemSpec::following, TableRow::following); it follows
+/// no other any more. Complains in the words of a scene file under the key systems.NAME.parameters
+/// or controllers.NAME.parameters, and changes nothing, if there is none of that path or it is out
+/// of range: false.
 bool setParameter(const std::string& path, double value, const ModelInfo& model, SystemSpec& spec,
                   Complaints& complaints);
 bool setParameter(const std::string& path, double value, const ControllerInfo& info,

@@ -205,7 +205,8 @@ MapReader readParameterValues(const MapReader& owner, const std::string& of,
                               const std::vector<ParameterInfo>& parameters,
                               const std::vector<SettingInfo>& settings,
                               const std::vector<std::string>& further, ParameterValues& values,
-                              Settings& given, Complaints& complaints) {
+                              std::map<std::string, std::string>& following, Settings& given,
+                              Complaints& complaints) {
   std::vector<std::string> known;
   for (const ParameterInfo& parameter : parameters) {
     known.push_back(parameter.name);
@@ -221,6 +222,9 @@ MapReader readParameterValues(const MapReader& owner, const std::string& of,
     std::optional<double> fallback = p.fallback;
     if (!p.fallback_parameter.empty()) {
       fallback = values.at(p.fallback_parameter);
+      if (!map.has(p.name)) {
+        following[p.name] = p.fallback_parameter;
+      }
     }
     values[p.name] = map.number(p.name, p.range, p.unit, fallback);
   }
@@ -234,8 +238,9 @@ void readParameters(const MapReader& system, const ModelInfo& model, SystemSpec&
                     Complaints& complaints) {
   const std::vector<std::string> further =
       model.has_shaft ? std::vector<std::string>{"speed"} : std::vector<std::string>{};
-  const MapReader map = readParameterValues(system, model.name, model.parameters, model.settings,
-                                            further, spec.parameters, spec.settings, complaints);
+  const MapReader map =
+      readParameterValues(system, model.name, model.parameters, model.settings, further,
+                          spec.parameters, spec.following, spec.settings, complaints);
   if (map.has("speed")) {
     spec.speed = map.numberBetween("speed", -kLargestSpeed, kLargestSpeed, "rad/s", std::nullopt);
   }

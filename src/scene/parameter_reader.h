@@ -2,6 +2,7 @@
 // numbers with units and ranges, words, matrices, names and tables.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -16,11 +17,13 @@ void readParameters(const MapReader& system, const ModelInfo& model, SystemSpec&
                     Complaints& complaints);
 
 /// The `parameters` of `owner`, whose values are `of` a model or a law by this name; `further` keys
-/// may stand among them. Complains likewise.
+/// may stand among them; `following` gets those that are not given and follow another. Complains
+/// likewise.
 MapReader readParameterValues(const MapReader& owner, const std::string& of,
                               const std::vector<ParameterInfo>& parameters,
                               const std::vector<SettingInfo>& settings,
                               const std::vector<std::string>& further, ParameterValues& values,
-                              Settings& given, Complaints& complaints);
+                              std::map<std::string, std::string>& following, Settings& given,
+                              Complaints& complaints);
 
 }  // namespace whirl_twin

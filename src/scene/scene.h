@@ -74,7 +74,10 @@ struct SystemSpec {
   /// What `auto` stands for, as far as a calibration has found out (step_choice.h), and why.
   std::string chosen_integrator = "";
   std::string choice_reason = "";
-  std::map<std::string, double> parameters;   ///< complete: defaults filled in
+  std::map<std::string, double> parameters;  ///< complete: defaults filled in
+  /// Parameters that are not given and have the value of another by default: stiffness_y its
+  /// stiffness. setParameter() changes them along.
+  std::map<std::string, std::string> following;
   Settings settings;                          ///< parameters that are not one number
   std::vector<double> q;                      ///< initial coordinates, [rad] or [m]
   std::vector<double> v;                      ///< initial rates, [rad/s] or [m/s]

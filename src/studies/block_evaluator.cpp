@@ -7,7 +7,6 @@
 #include "messages/refusal.h"
 #include "realtime/denormals.h"
 #include "scene/parameter_paths.h"
-#include "scene/yaml_file.h"
 #include "twin/ensemble_members.h"
 
 namespace whirl_twin {
@@ -108,20 +107,12 @@ Outcome BlockEvaluator::at(std::uint64_t point) {
 
 BlockEvaluator::Quick::Quick(const Study& study, const BuiltScene& scene)
     : model(*scene.systems[0]->model), spec(scene.scene.systems[0]) {
-  const YAML::Node tree = readYamlText(study.scene_text, study.scene_path, "a scene", "a step");
-  const YAML::Node given = tree["systems"][spec.name]["parameters"];
   possible = !spec.rest;  // the equilibrium is that of each point
   for (const Variation& variation : study.vary) {
     const SceneNumber& place = variation.places.front();
     possible = possible && variation.places.size() == 1 && place.size() == 4 &&
                isNamed(place, 2, "parameters") && std::holds_alternative<std::string>(place[3]);
     names.push_back(possible ? std::get<std::string>(place[3]) : "");
-  }
-  for (const ParameterInfo& p : model.parameters) {
-    if (!p.fallback_parameter.empty() && !(given && given[p.name]) &&
-        std::find(names.begin(), names.end(), p.name) == names.end()) {
-      followers.emplace_back(p.name, p.fallback_parameter);
-    }
   }
 }
 
@@ -131,9 +122,6 @@ bool BlockEvaluator::Quick::put(const std::vector<double>& values) {
     if (!setParameter(names[j], values[j], model, spec, complaints)) {
       return false;
     }
-  }
-  for (const auto& [name, source] : followers) {
-    spec.parameters[name] = spec.parameters.at(source);
   }
   return true;
 }

@@ -42,8 +42,7 @@ class BlockEvaluator {
     bool possible = true;
     const ModelInfo& model;
     SystemSpec spec;
-    std::vector<std::string> names;                              // of what varies
-    std::vector<std::pair<std::string, std::string>> followers;  // parameters, and of which
+    std::vector<std::string> names;  // of what varies
   };
 
   bool mayGoTogether() const;

@@ -45,6 +45,8 @@ constexpr const char* kFitFooter =
     "columns.\n"
     "A coordinate, or its rate as theta1_rate, is scale * state + offset:\n"
     "  measured: {theta1: {column: q1, offset: fit, scale: 1.0, deviation: 0.001}}\n"
+    "An angle that counts within a turn is unwrapped, and that is said; `wrap: false` takes it as "
+    "it is.\n"
     "  inputs: {torque1: {column: tau, scale: fit, offset: fit, delay: fit, hold: true}}\n"
     "A number that is `fit` is one for all runs; `each_run`: another in each, validated ones, "
     "too.\n"

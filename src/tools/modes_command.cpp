@@ -72,10 +72,11 @@ int showModes(const ModesRequest& request) {
   CsvTables csv;
   for (const RotorSystem& system : systems) {
     const ModesReport report =
-        request.measured
-            ? modesReport(system, RotorRecord(scene, system, *request.measured, request.lcm_prefix),
-                          request.speed, request.limit)
-            : modesReport(system, request.speed.value_or(system.highest_speed));
+        request.measured ? modesReport(system,
+                                       RotorRecord(scene, system, *request.measured,
+                                                   request.lcm_prefix, ProbesRead::kAtSameInstants),
+                                       request.speed, request.limit)
+                         : modesReport(system, request.speed.value_or(system.highest_speed));
     all["systems"][system.name] = json(report);
     append(csv, system.name, tables(report));
     words += (words.empty() ? "" : "\n") + text(report);

@@ -11,6 +11,7 @@
 #include "transport/event_scan.h"
 #include "transport/lcm_decode.h"
 #include "transport/ros_encode.h"
+#include "transport/time_order.h"
 
 namespace whirl_twin {
 namespace {
@@ -64,6 +65,23 @@ void exportLcmLog(const std::string& path, const std::string& prefix, const Sele
   EventScan scan(path);
   log.size = scan.size();
   RosEncoder encoder(namespaceOfPrefix(prefix));
+  const auto wanted = [&](const RawEvent& event) {
+    return parseChannel(event.channel, prefix) && selects(event.channel);
+  };
+  TimeOrder<RawEvent> in_order(
+      largestDelay<EventScan, RawEvent>(path, wanted),
+      [&](const RawEvent& event, std::uint64_t offset) {
+        exporter.message(offset, event.channel, [&](RecordingWriter& to) {
+          if (event.data == nullptr) {
+            rejectTooLong(event.size);
+          }
+          requireRange("timestamp", event.timestamp, 0, kMaxStamp / kMicrosecond);
+          const LittleEndian& bytes =
+              encoder.encode(decodeEvent(event.channel, event.data, event.size, prefix));
+          to.write(encoder.topic(), event.timestamp * kMicrosecond, bytes.data(), bytes.size());
+          return encoder.topic().topic;
+        });
+      });
   RawEvent event;
   for (auto found = scan.next(event); found != EventScan::Found::kEnd; found = scan.next(event)) {
     exporter.pass(scan.offset());
@@ -74,24 +92,28 @@ void exportLcmLog(const std::string& path, const std::string& prefix, const Sele
     } else if (!selects(event.channel)) {
       ++log.not_selected;
     } else {
-      exporter.message(event.offset, event.channel, [&](RecordingWriter& to) {
-        if (event.data == nullptr) {
-          rejectTooLong(event.size);
-        }
-        requireRange("timestamp", event.timestamp, 0, kMaxStamp / kMicrosecond);
-        const LittleEndian& bytes =
-            encoder.encode(decodeEvent(event.channel, event.data, event.size, prefix));
-        to.write(encoder.topic(), event.timestamp * kMicrosecond, bytes.data(), bytes.size());
-        return encoder.topic().topic;
-      });
+      in_order.add(event, event.offset);
     }
   }
+  in_order.finish();
 }
 
 void exportBag(const std::string& path, const Selects& selects, LogExport& log,
                Exporter& exporter) {
   BagScan scan(path);
   log.size = scan.size();
+  TimeOrder<BagMessage> in_order(
+      largestDelay<BagScan, BagMessage>(
+          path, [&](const BagMessage& message) { return selects(message.connection->topic); }),
+      [&](const BagMessage& message, std::uint64_t offset) {
+        exporter.message(offset, message.connection->topic, [&](RecordingWriter& to) {
+          if (message.data == nullptr) {
+            rejectTooLong(message.size);
+          }
+          to.write(*message.connection, message.time, message.data, message.size);
+          return message.connection->topic;
+        });
+      });
   BagMessage message;
   for (auto found = scan.next(message); found != BagScan::Found::kEnd; found = scan.next(message)) {
     exporter.pass(scan.offset());
@@ -100,15 +122,10 @@ void exportBag(const std::string& path, const Selects& selects, LogExport& log,
     } else if (!selects(message.connection->topic)) {
       ++log.not_selected;
     } else {
-      exporter.message(scan.offset(), message.connection->topic, [&](RecordingWriter& to) {
-        if (message.data == nullptr) {
-          rejectTooLong(message.size);
-        }
-        to.write(*message.connection, message.time, message.data, message.size);
-        return message.connection->topic;
-      });
+      in_order.add(message, scan.offset());
     }
   }
+  in_order.finish();
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // A recording, an LCM log or a rosbag, into a file of ROS messages: message by message in the order
-// of the file, with what cannot be passed on counted and its first places named.
+// of their times (time_order.h), with what cannot be passed on counted and its first places named.
 #pragma once
 
 #include <cstdint>

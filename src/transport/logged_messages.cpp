@@ -11,6 +11,7 @@
 #include "transport/bag_scan.h"
 #include "transport/event_scan.h"
 #include "transport/lcm_decode.h"
+#include "transport/time_order.h"
 
 namespace whirl_twin {
 
@@ -55,26 +56,72 @@ class Tally {
 };
 
 LoggedMessages readLcmLog(const std::string& path, const std::string& prefix, const Kinds& kinds,
-                          const TakeLogged& take, const LogProgress& advanced) {
+                          const TakeLogged& take, const LogProgress& advanced, LogOrder order) {
+  const auto wanted = [&](const RawEvent& event) {
+    const auto channel = parseChannel(event.channel, prefix);
+    return event.data != nullptr && channel && isOneOf(kinds, channel->kind);
+  };
   EventScan scan(path);
   LoggedMessages log;
   log.size = scan.size();
   Tally tally(log, take, advanced);
+  TimeOrder<RawEvent> in_order(
+      order == LogOrder::kOfFile ? 0 : largestDelay<EventScan, RawEvent>(path, wanted),
+      [&](const RawEvent& event, std::uint64_t) {
+        tally.message(event.timestamp,
+                      [&] { return decodeEvent(event.channel, event.data, event.size, prefix); });
+      });
   RawEvent event;
   for (auto found = scan.next(event); found != EventScan::Found::kEnd; found = scan.next(event)) {
     tally.pass(scan.offset());
-    if (found != EventScan::Found::kEvent) {
+    if (!isFound(found)) {
       tally.damage(scan.damageOffset(), scan.damage());
-      continue;
-    }
-    const auto channel = parseChannel(event.channel, prefix);
-    if (event.data != nullptr && channel && isOneOf(kinds, channel->kind)) {
-      tally.message(event.timestamp,
-                    [&] { return decodeEvent(event.channel, event.data, event.size, prefix); });
+    } else if (wanted(event)) {
+      in_order.add(event, event.offset);
     }
   }
+  in_order.finish();
+  log.out_of_order = in_order.outOfOrder();
   return log;
 }
+
+/// Decoders of the connections of a bag, each made at its first message.
+class BagDecoders {
+ public:
+  BagDecoders(const std::string& prefix, const Kinds& kinds) : prefix_(prefix), kinds_(kinds) {}
+
+  /// None: of a definition that cannot be read.
+  std::optional<BagDecoder>& of(const BagConnection* connection) {
+    const auto [place, is_new] = decoders_.try_emplace(connection);
+    std::optional<BagDecoder>& decoder = place->second;
+    if (is_new) {
+      try {
+        decoder.emplace(*connection);
+      } catch (const RejectedMessage&) {
+        // None: its messages are rejected.
+      }
+      if (decoder && decoder->kind() != nullptr && decoder->prefix() != prefix_ &&
+          !decoder->prefix().empty() && isOneOf(kinds_, decoder->kind())) {
+        elsewhere_.insert(decoder->prefix());
+      }
+    }
+    return decoder;
+  }
+  bool wants(const BagMessage& message) {
+    const std::optional<BagDecoder>& decoder = of(message.connection);
+    return message.data != nullptr &&
+           (!decoder || (isOneOf(kinds_, decoder->kind()) &&
+                         (decoder->prefix() == prefix_ ||
+                          (decoder->isJointState() && decoder->prefix().empty()))));
+  }
+  const std::set<std::string>& elsewhere() const { return elsewhere_; }
+
+ private:
+  const std::string& prefix_;
+  const Kinds& kinds_;
+  std::map<const BagConnection*, std::optional<BagDecoder>> decoders_;
+  std::set<std::string> elsewhere_;
+};
 
 LoggedMessages readBag(const std::string& path, const std::string& prefix, const Kinds& kinds,
                        const TakeLogged& take, const LogProgress& advanced) {
@@ -82,40 +129,34 @@ LoggedMessages readBag(const std::string& path, const std::string& prefix, const
   LoggedMessages log;
   log.size = scan.size();
   Tally tally(log, take, advanced);
-  std::map<const BagConnection*, std::optional<BagDecoder>> decoders;
+  BagDecoders decoders(prefix, kinds);
+  TimeOrder<BagMessage> in_order(
+      [&] {
+        BagDecoders first_pass(prefix, kinds);
+        return largestDelay<BagScan, BagMessage>(
+            path, [&](const BagMessage& message) { return first_pass.wants(message); });
+      }(),
+      [&](const BagMessage& message, std::uint64_t) {
+        tally.message(message.time / kMicrosecond, [&]() -> Message {
+          std::optional<BagDecoder>& decoder = decoders.of(message.connection);
+          if (!decoder) {
+            throw RejectedMessage("a definition that cannot be read");
+          }
+          return decoder->decode(message);
+        });
+      });
   BagMessage message;
   for (auto found = scan.next(message); found != BagScan::Found::kEnd; found = scan.next(message)) {
     tally.pass(scan.offset());
-    if (found != BagScan::Found::kMessage) {
+    if (!isFound(found)) {
       tally.damage(scan.damageOffset(), scan.damage());
-      continue;
-    }
-    const auto [place, is_new] = decoders.try_emplace(message.connection);
-    std::optional<BagDecoder>& decoder = place->second;
-    if (is_new) {
-      try {
-        decoder.emplace(*message.connection);
-      } catch (const RejectedMessage&) {
-        // None: its messages are rejected.
-      }
-      if (decoder && decoder->kind() != nullptr && decoder->prefix() != prefix &&
-          !decoder->prefix().empty() && isOneOf(kinds, decoder->kind())) {
-        log.elsewhere.insert(decoder->prefix());
-      }
-    }
-    const bool wanted =
-        !decoder ||
-        (isOneOf(kinds, decoder->kind()) &&
-         (decoder->prefix() == prefix || (decoder->isJointState() && decoder->prefix().empty())));
-    if (wanted && message.data != nullptr) {
-      tally.message(message.time / kMicrosecond, [&]() -> Message {
-        if (!decoder) {
-          throw RejectedMessage("a definition that cannot be read");
-        }
-        return decoder->decode(message);
-      });
+    } else if (decoders.wants(message)) {
+      in_order.add(message, scan.offset());
     }
   }
+  in_order.finish();
+  log.elsewhere = decoders.elsewhere();
+  log.out_of_order = in_order.outOfOrder();
   return log;
 }
 
@@ -123,8 +164,15 @@ LoggedMessages readBag(const std::string& path, const std::string& prefix, const
 
 LoggedMessages readLoggedMessages(const std::string& path, const std::string& prefix,
                                   const Kinds& kinds, const TakeLogged& take,
-                                  const LogProgress& advanced) {
-  return (BagScan::isBag(path) ? readBag : readLcmLog)(path, prefix, kinds, take, advanced);
+                                  const LogProgress& advanced, LogOrder order) {
+  return BagScan::isBag(path) ? readBag(path, prefix, kinds, take, advanced)
+                              : readLcmLog(path, prefix, kinds, take, advanced, order);
+}
+
+std::string outOfOrder(const LoggedMessages& log) {
+  return fmt::format(
+      "{} of {} messages lie after a later one: taken in the order of their recorded times",
+      log.out_of_order, log.taken + log.rejected);
 }
 
 std::string foundElsewhere(const LoggedMessages& log) {

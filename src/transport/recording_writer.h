@@ -16,8 +16,10 @@ struct RecordedTopic {
   std::string callerid{};  ///< of the node that sent it; "": not known
   bool latching = false;   ///< who comes later gets the newest
 
-  /// Topics whose messages can stand in one place.
-  std::string key() const { return topic + '\n' + md5sum + '\n' + callerid; }
+  /// Topics whose messages can be in one connection.
+  std::string key() const { return tableKey() + '\n' + callerid; }
+  /// Those whose messages can be in one table, whoever published them.
+  std::string tableKey() const { return topic + '\n' + md5sum; }
 };
 
 /// [bytes] of records that are written as one chunk, about.

@@ -52,12 +52,12 @@ std::string fileNameOf(const std::string& topic) {
 
 void TableShapes::write(const RecordedTopic& topic, std::int64_t, const std::uint8_t* data,
                         std::size_t size) {
-  auto place = shapes_.find(topic.key());
+  auto place = shapes_.find(topic.tableKey());
   if (place == shapes_.end()) {
     TableShape shape{RosLayout(topic.definition), {}, {}};
     shape.names = shape.layout.names();
     shape.most.assign(shape.names.size(), 0);
-    place = shapes_.emplace(topic.key(), std::move(shape)).first;
+    place = shapes_.emplace(topic.tableKey(), std::move(shape)).first;
   }
   TableShape& shape = place->second;
   const RosValues values = shape.layout.read(data, size);
@@ -75,7 +75,7 @@ OutputFile& TableFolder::begin(const RecordedTopic& topic, const TableShape& sha
   for (int i = 2; std::find(files_.begin(), files_.end(), file) != files_.end(); ++i) {
     file = fmt::format("{}-{}.csv", name, i);
   }
-  auto& table = tables_[topic.key()];
+  auto& table = tables_[topic.tableKey()];
   table = std::make_unique<OutputFile>(folder_ + "/" + file);
   files_.push_back(file);
   std::string head = "recorded";
@@ -95,13 +95,13 @@ OutputFile& TableFolder::begin(const RecordedTopic& topic, const TableShape& sha
 void TableFolder::write(const RecordedTopic& topic, std::int64_t time, const std::uint8_t* data,
                         std::size_t size) {
   constexpr std::int64_t kSecond = 1'000'000'000;  // ns
-  const auto known = shapes_.find(topic.key());
+  const auto known = shapes_.find(topic.tableKey());
   if (known == shapes_.end()) {
     throw RejectedMessage("a definition that cannot be read");
   }
   const TableShape& shape = known->second;
   const RosValues values = shape.layout.read(data, size);
-  const auto table = tables_.find(topic.key());
+  const auto table = tables_.find(topic.tableKey());
   OutputFile& to = table == tables_.end() ? begin(topic, shape) : *table->second;
   std::string row = fmt::format("{}.{:09}", time / kSecond, time % kSecond);
   for (std::size_t i = 0; i < shape.names.size(); ++i) {

@@ -31,7 +31,7 @@ class TableShapes final : public RecordingWriter {
              std::size_t size) override;
   void finish() override {}
 
-  /// By RecordedTopic::key().
+  /// By RecordedTopic::tableKey().
   const std::map<std::string, TableShape>& shapes() const { return shapes_; }
 
  private:

@@ -89,8 +89,9 @@ TEST(MeasuredRun, NamesCoarseSteps) {
 }
 
 TEST(MeasuredRun, RefusesWhatCannotBeMeant) {
-  EXPECT_THAT(refusal("t,a\n0,1\n2,2\n1,3\n3,4\n4,5\n5,6\n"),
-              HasSubstr("row 3: the time must not go back"));
+  EXPECT_THAT(refusal("t,a\n0,1\n2,2\n1,3\n3,4\n2,5\n5,6\n"),
+              HasSubstr("rows 2 and 5 have different values of 'a' at 2 s"));
+  EXPECT_THAT(refusal("t,a\n0,1\n1,2,7\n"), HasSubstr("line 3: expected at most 2 values"));
   EXPECT_THAT(refusal("t,a\n0,1\n1,2\n"), HasSubstr("must have 5 rows of different instants"));
   EXPECT_THAT(refusal("t,b\n0,1\n1,2\n"), HasSubstr("no column 'a'"));
   EXPECT_THAT(refusal("t,a\n0,1\n1,nan\n"), HasSubstr("line 3"));

@@ -198,6 +198,62 @@ TEST(BalanceMeasured, FindsWhatTheShippedSceneHidesFromItsRunUp) {
   expectHiddenUnbalances(known.json());
 }
 
+/// The probes of the shipped scene on two acquisition units.
+std::string onTwoUnits(const TemporaryDirectory& folder, const std::string& rate) {
+  std::string text = contentsOf(kBalancing);
+  const std::size_t second = text.find("      x_5: {");
+  text.insert(second, "  drive_end:\n    rate: " + rate + "\n    channels:\n");
+  return folder.write("two_units.yaml", text);
+}
+
+// The reference are the four probes on one unit: the same unknowns from as many samples.
+TEST(BalanceMeasured, UsesTheProbesOfAllSources) {
+  const TemporaryDirectory folder;
+  const auto told = [](const std::string& scene, const std::string& log) {
+    const Ending end = twin({"balance", scene, "--measured", log, "--json"});
+    EXPECT_EQ(end.status, 0) << end.err;
+    return end.json();
+  };
+  const auto one = told(kBalancing, logOf(folder, kBalancing, 14.0));
+  for (const std::string rate : {"2000.0", "1250.0"}) {
+    const std::string scene = onTwoUnits(folder, rate);
+    const auto two = told(scene, logOf(folder, scene, 14.0));
+    expectHiddenUnbalances(two);
+    ASSERT_EQ(two["run_out"].size(), 4u) << two.dump(1);
+    EXPECT_TRUE(two["run_out"].contains("probes/x_1")) << two.dump(1);
+    EXPECT_TRUE(two["run_out"].contains("drive_end/x_5")) << two.dump(1);
+    for (const char* plane : {"node_2", "node_4"}) {
+      EXPECT_NEAR(two["unbalance"][plane]["mass_radius_deviation"].get<double>(),
+                  one["unbalance"][plane]["mass_radius_deviation"].get<double>(),
+                  0.4 * one["unbalance"][plane]["mass_radius_deviation"].get<double>());
+    }
+  }
+  // Of one that the log has not, that is said.
+  std::string text = contentsOf(onTwoUnits(folder, "2000.0"));
+  text.replace(text.find("drive_end:"), 10, "other_end:");
+  const auto half = told(folder.write("other.yaml", text), folder.file("run.lcmlog"));
+  EXPECT_EQ(half["run_out"].size(), 2u);
+  EXPECT_NE(half["notes"].dump().find("the log has no samples of other_end"), std::string::npos);
+}
+
+// x and y of a station on two units are one whirl where they are sampled together.
+TEST(Modes, OfProbesOnTwoUnits) {
+  const TemporaryDirectory folder;
+  std::string text = contentsOf(shakenRotor(folder, 60.0));
+  const std::string second = "  unit:\n    rate: 500.0\n    channels:\n";
+  text.insert(text.find("      slant:"), second);
+  const std::string scene = folder.write("units.yaml", text);
+  const Ending end = twin({"modes", scene, "--measured", logOf(folder, scene, 60.0), "--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  EXPECT_EQ(end.json()["systems"]["rotor"]["modes"].size(), 2u) << end.out;
+  text.replace(text.find(second), second.size(), "  unit:\n    rate: 250.0\n    channels:\n");
+  const std::string slower = folder.write("slower.yaml", text);
+  const Ending left = twin({"modes", slower, "--measured", logOf(folder, slower, 60.0), "--json"});
+  ASSERT_EQ(left.status, 0) << left.err;
+  EXPECT_NE(left.out.find("is not used: its samples are not of the instants of"), std::string::npos)
+      << left.out;
+}
+
 TEST(BalanceMeasured, RefusesPlanesThatAreNotThereAndOptionsWithoutALog) {
   const TemporaryDirectory folder;
   const std::string log = logOf(folder, kBalancing, 2.0);
