@@ -203,7 +203,7 @@ class Export(unittest.TestCase):
         self.assertEqual((told['messages'], mcap.messages[0][2]), (1, 5000))
         told, mcap = self.mcap(self.file('backwards.lcmlog',
                                          b''.join(event(i, 9000 - 1000 * i, whirl[2], whirl[3]) for i in range(10))))
-        self.assertEqual([m[2] for m in mcap.messages], [10**6 * (9 - i) for i in range(10)])
+        self.assertEqual([m[2] for m in mcap.messages], [10**6 * i for i in range(10)], 'in the order of time')
         told, _ = self.mcap(self.file('before.lcmlog', event(0, -1, whirl[2], whirl[3]) + event(1, 1, whirl[2], whirl[3])))
         self.assertEqual((told['messages'], told['rejected'], told['defects'][0]['offset']), (1, 1, 0))
         told, _ = self.mcap(self.file('others.lcmlog', event(0, 1, b'CAMERA', b'x' * 10) + event(1, 1, whirl[2], whirl[3])))

@@ -215,7 +215,7 @@ TEST(BalanceMeasured, UsesTheProbesOfAllSources) {
     return end.json();
   };
   const auto one = told(kBalancing, logOf(folder, kBalancing, 14.0));
-  for (const std::string rate : {"2000.0", "1250.0"}) {
+  for (const char* rate : {"2000.0", "1250.0"}) {
     const std::string scene = onTwoUnits(folder, rate);
     const auto two = told(scene, logOf(folder, scene, 14.0));
     expectHiddenUnbalances(two);
