@@ -12,6 +12,7 @@ namespace whirl_twin {
 namespace {
 
 constexpr double kAboveRest = 1.0e-3;  // of the next speed
+constexpr double kMeets = 1.0e-6;      // of a frequency: as near as one comes that meets it
 constexpr double kSameSpeed = 1.0e-8;  // of a critical speed
 
 /// Where between two neighbouring speeds a branch meets h w, if it does.
@@ -37,63 +38,69 @@ void addCrossings(const ModeTracker& tracker, const CampbellRequest& request, st
         return mode->dampedFrequency() - harmonic * speed;
       };
       const double speed = bracketedRoot(excess, low, high, f_low, f_high);
-      excess(speed);
+      if (!(std::fabs(excess(speed)) <= kMeets * harmonic * speed)) {
+        continue;  // between them another mode was taken for it
+      }
       diagram.crossings.push_back({i, harmonic, speed, campbellPoint(mode), f_low >= 0.0});
     }
   }
 }
 
-/// Adds the crossings that following has missed, between speeds that are neighbours where `last` is
-/// `first` + 1, and the branches they are of from there on.
+/// Adds the crossings that following has missed, and the branches they are of from there on.
 class MissedCrossings {
  public:
   MissedCrossings(const LinearRotor& rotor, const std::vector<Station>& stations,
-                  const ModeTracker& tracker, CampbellDiagram& diagram)
-      : search_(rotor.matrices, stations), tracker_(tracker), diagram_(diagram) {}
+                  const ModeTracker& tracker, double harmonic, CampbellDiagram& diagram)
+      : search_(rotor, stations, harmonic),
+        tracker_(tracker),
+        harmonic_(harmonic),
+        diagram_(diagram) {}
 
-  void add(double harmonic, std::size_t first, std::size_t last) {
-    const double low = speedOf(first);
-    const double high = speedOf(last);
-    const auto net = search_.net(harmonic, low, high);
-    if (!net || *net == followed(harmonic, low, high)) {
-      return;
-    }
-    if (last > first + 1) {
-      const std::size_t middle = first + (last - first) / 2;
-      add(harmonic, first, middle);
-      add(harmonic, middle, last);
-      return;
-    }
-    for (const FoundCrossing& one : search_.between(harmonic, low, high)) {
-      if (one.rank < diagram_.branches.size() && !known(harmonic, one)) {
-        const std::size_t branch = lostBranch(one, last);
-        diagram_.crossings.push_back(
-            {branch, harmonic, one.speed, campbellPoint(one.mode), *net > 0});
-        follow(one, branch, last);
+  void add() {
+    const std::vector<double>& speeds = diagram_.speeds;
+    std::vector<MetSpeed> followed;
+    for (const CampbellCrossing& one : diagram_.crossings) {
+      if (one.harmonic == harmonic_) {
+        followed.push_back({one.speed, one.mode.decay_rate / one.mode.frequency, one.slows});
       }
+    }
+    const double first = speeds.front() > 0.0 ? (1.0 + kBeside) * speeds.front()
+                                              : kAboveRest * speeds[1];  // at rest all are faster
+    const double last = (1.0 - kBeside) * speeds.back();
+    double low = first;
+    for (int k = 1; k <= kSearches; ++k) {
+      const double part = static_cast<double>(k) / kSearches;
+      const double high = first + (last - first) * std::pow(part, kMoreAtLow);
+      for (const FoundCrossing& one :
+           search_.missing(followed, low, high, diagram_.branches.size())) {
+        add(one);
+      }
+      low = high;
     }
   }
 
  private:
-  /// At rest no mode is slower than it turns: a little above.
-  double speedOf(std::size_t place) const {
-    const std::vector<double>& speeds = diagram_.speeds;
-    return speeds[place] > 0.0 ? speeds[place] : kAboveRest * speeds[place + 1];
-  }
-  int followed(double harmonic, double low, double high) const {
-    int net = 0;
-    for (const CampbellCrossing& one : diagram_.crossings) {
-      if (one.harmonic == harmonic && one.speed >= low && one.speed < high) {
-        net += one.slows ? 1 : -1;
-      }
+  static constexpr int kSearches = 32;
+  static constexpr double kMoreAtLow = 1.877;  // more at low speeds, and none at a round one
+  static constexpr double kBeside = 1.0e-9;    // of a speed at which a mode may meet it exactly
+
+  void add(const FoundCrossing& one) {
+    if (one.rank >= diagram_.branches.size() || known(one)) {
+      return;
     }
-    return net;
+    const std::vector<double>& speeds = diagram_.speeds;
+    const auto place = static_cast<std::size_t>(
+        std::lower_bound(speeds.begin(), speeds.end(), one.at.speed) - speeds.begin());
+    const std::size_t branch = lostBranch(one, place);
+    diagram_.crossings.push_back(
+        {branch, harmonic_, one.at.speed, campbellPoint(one.mode), one.at.slows});
+    follow(one, branch, place);
   }
-  bool known(double harmonic, const FoundCrossing& one) const {
+  bool known(const FoundCrossing& one) const {
     return std::any_of(diagram_.crossings.begin(), diagram_.crossings.end(),
                        [&](const CampbellCrossing& other) {
-                         return other.harmonic == harmonic && other.mode.whirl == one.mode.whirl &&
-                                std::fabs(other.speed - one.speed) <= kSameSpeed * one.speed;
+                         return other.harmonic == harmonic_ && other.mode.whirl == one.mode.whirl &&
+                                std::fabs(other.speed - one.at.speed) <= kSameSpeed * one.at.speed;
                        });
   }
   /// The one whose frequency was nearest when it was last known; none: a new one.
@@ -123,7 +130,7 @@ class MissedCrossings {
   }
   void follow(const FoundCrossing& one, std::size_t branch, std::size_t from) {
     ModeTracker::Modes modes{one.mode};
-    double before = one.speed;
+    double before = one.at.speed;
     for (std::size_t k = from; k < diagram_.speeds.size(); ++k) {
       modes = tracker_.follow(modes, before, diagram_.speeds[k]);
       diagram_.branches[branch][k] = campbellPoint(modes.front());
@@ -133,6 +140,7 @@ class MissedCrossings {
 
   CrossingSearch search_;
   const ModeTracker& tracker_;
+  double harmonic_;
   CampbellDiagram& diagram_;
 };
 
@@ -170,9 +178,8 @@ CampbellDiagram campbell(const LinearRotor& rotor, const std::vector<Station>& s
     }
   }
   if (request.speeds.size() > 1) {
-    MissedCrossings missed(rotor, stations, tracker, diagram);
     for (const double harmonic : request.harmonics) {
-      missed.add(harmonic, 0, request.speeds.size() - 1);
+      MissedCrossings(rotor, stations, tracker, harmonic, diagram).add();
     }
   }
   std::sort(diagram.crossings.begin(), diagram.crossings.end(),

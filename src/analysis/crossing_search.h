@@ -1,44 +1,73 @@
-// Where whirl modes meet a multiple of the speed, without following any of them. In the order of
-// their damped frequencies, the overdamped first as of frequency zero, the k-th of all modes has a
-// frequency f_k(w) that is continuous in the speed whichever modes cross or veer. As many more
-// modes are slower than h w at a higher speed as have met it on the way.
+// Where whirl modes meet a multiple of the speed, without following any of them. An eigenvalue s of
+// decay rate d meets h w where
+//
+//   det D(i h w - d; w) = 0,   D(s; w) = s^2 M + s (C + G) + K + N:
+//
+// two real equations for d and w. Along the border of a rectangle of the plane of d / (h w) and w
+// the phase of the determinant turns once more for each mode within that outruns h w than for each
+// that falls behind it (the degree of a map of the plane). A rectangle whose turns are not those of
+// the crossings known is halved until what is missing is alone in one, where Newton's method finds
+// it. Heavily damped pairs that begin or cease to vibrate, and light nodes whose roots have no
+// digits, disturb no such count.
 #pragma once
 
-#include <cstddef>
-#include <functional>
+#include <array>
+#include <complex>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "analysis/banded_rotor.h"
 #include "analysis/whirl_modes.h"
 
 namespace whirl_twin {
 
+struct MetSpeed {
+  double speed = 0.0;  ///< [rad/s]
+  double decay = 0.0;  ///< [-], -Re s / (h w)
+  bool slows = true;   ///< slower than h w beyond; false: it outruns h w
+};
+
 struct FoundCrossing {
-  double speed = 0.0;    ///< [rad/s]
+  MetSpeed at;
   WhirlMode mode;        ///< there
   std::size_t rank = 0;  ///< how many modes vibrate slower there
 };
 
 class CrossingSearch {
  public:
-  /// `system`: the matrices at a speed [rad/s].
-  CrossingSearch(std::function<Linearization(double)> system, std::vector<Station> stations)
-      : system_(std::move(system)), stations_(std::move(stations)) {}
+  CrossingSearch(const LinearRotor& rotor, std::vector<Station> stations, double harmonic)
+      : rotor_(rotor), stations_(std::move(stations)), harmonic_(harmonic) {}
 
-  /// By how much the modes slower than harmonic times the speed are more at `high` than at `low`
-  /// [rad/s]: those that have met it, less those that have outrun it again. Nothing of a rotor of
-  /// more than kMostCompleteCoordinates.
-  std::optional<int> net(double harmonic, double low, double high) const;
-  /// The crossings that this takes, one each.
-  std::vector<FoundCrossing> between(double harmonic, double low, double high) const;
+  /// The crossings between two speeds [rad/s] that `known` lacks, of modes that decay or grow by
+  /// less than 30 h w: the others are gone within a small part of a radian. Two that are not known,
+  /// of about one speed and damping, one of them slowing and the other not, are not noticed. `rank`
+  /// counts those of the lowest `modes`.
+  std::vector<FoundCrossing> missing(const std::vector<MetSpeed>& known, double low, double high,
+                                     std::size_t modes) const;
 
  private:
-  WhirlModes modes(double speed) const;
-  std::size_t slower(double harmonic, double speed) const;
+  /// In asinh(d / (h w)) and w.
+  struct Rectangle {
+    double left, right, low, high;
+  };
+  using Edge = std::array<double, 4>;  // from (x, w) to (x, w)
+  struct Search;
 
-  std::function<Linearization(double)> system_;
+  std::complex<double> phase(const BandedLinearization& l, double x, double speed) const;
+  double turn(const Edge& edge) const;
+  double turnOnce(const Edge& edge) const;
+  std::optional<int> slowed(const Rectangle& r) const;
+  void look(const Rectangle& r, int halvings, Search& search) const;
+  std::optional<FoundCrossing> refined(const Rectangle& r, bool slows) const;
+  void addRepeated(const Rectangle& r, bool slows, Search& search) const;
+  WhirlModes lowestAt(double speed, std::size_t modes) const;
+
+  BandedRotor rotor_;
   std::vector<Station> stations_;
+  double harmonic_;
+  mutable std::map<Edge, double> turns_;
 };
 
 }  // namespace whirl_twin
