@@ -71,8 +71,8 @@ std::string refusal(const std::vector<Row>& rows, std::optional<bool> wrap = std
   return "";
 }
 
-/// The motion, whole turns aside that all rows have. In a gap turns may be missed where no row shows
-/// that the column counts within a turn.
+/// The motion, whole turns aside that all rows have. In a gap turns may be missed where no row
+/// shows that the column counts within a turn.
 void expectMotion(const MeasuredRun& run, const Motion& motion, std::size_t rows) {
   ASSERT_EQ(run.time.size(), rows);
   const std::vector<double>& x = run.column("q");
