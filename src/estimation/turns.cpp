@@ -27,7 +27,7 @@ double withoutTurns(double step) {
   return step - kTwoPi * std::round(step / kTwoPi);
 }
 
-/// AngleSteps of a column from row to row.
+/// The steps of a column from row to row.
 class AngleSteps {
  public:
   AngleSteps(const std::vector<double>& time, const std::vector<double>& x, double usual)
