@@ -299,7 +299,7 @@ TEST_F(ChangedSwing, ThatHardlyCanBeMeantIsRemarked) {
   EXPECT_THAT(remark(), HasSubstr("turns: is it in degrees?"));
   write("time,q",
         [](double t, double theta) { return row(t, theta < 0.0 ? theta + 6.28 : theta); });
-  EXPECT_THAT(remark(), HasSubstr("wrapped at a turn, or in degrees?"));
+  EXPECT_THAT(remark(), HasSubstr("counts within a turn: 5 jumps of whole turns unwrapped"));
   write("time,q", [](double t, double theta) { return row(1000.0 * t, theta); });
   EXPECT_THAT(remark(),
               HasSubstr("rows are 5 s apart, 5e+03 steps of the scene: is the time in s?"));

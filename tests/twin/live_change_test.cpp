@@ -99,6 +99,7 @@ TEST(LiveChange, TheMotionGoesOnAsATwinThatStartsThereWithTheNewParameters) {
   Scene scene = sceneOf(kTwoSystems);
   scene.time = step * scene.step;
   scene.systems[0].parameters["stiffness"] = 1.3e4;
+  scene.systems[0].parameters["stiffness_y"] = 1.3e4;  // which the scene leaves to follow it
   scene.systems[1].parameters["length"] = 0.25;
   for (std::size_t i = 0; i < 2; ++i) {
     const std::vector<double> state = twin.state(i);
