@@ -114,7 +114,8 @@ SharedSystem BuiltSystem::with(const state::ParameterChange& set) const {
     const auto followed = spec.following.find(set.names[i]);
     if (followed != spec.following.end()) {
       const auto source = std::find(set.names.begin(), set.names.end(), followed->second);
-      if (set.values[static_cast<std::size_t>(source - set.names.begin())] == set.values[i]) {
+      if (source != set.names.end() &&
+          set.values[static_cast<std::size_t>(source - set.names.begin())] == set.values[i]) {
         continue;
       }
     }

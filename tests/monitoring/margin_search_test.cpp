@@ -80,7 +80,8 @@ TEST(MarginSearch, TellsNothingOfOtherParametersThanItHasSearched) {
   MarginSearch search(1, Judging::Mode::kBeside);
   found(search, scene.systems[0], 1.0, 150.0);
   // With 6 N s/m along x it is unstable where (6 + 10) (10 + 10) = (10 w / 100)^2.
-  const SharedSystem changed = scene.systems[0]->with({"damping"}, {6.0}, "test");
+  const SharedSystem changed =
+      scene.systems[0]->with({"damping", "damping_y"}, {6.0, 10.0}, "test");
   Judgement first = judged(changed, 1.1, 150.0);
   search.take(first, 0.0);
   EXPECT_TRUE(first.margin.nearest_parameter.empty() || first.margin.nearest_time == 1.1);

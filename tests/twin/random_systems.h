@@ -221,10 +221,14 @@ class RandomSystems {
 
   double cartPendulum(SystemSpec& spec) {
     spec.parameters = {
-        {"cart_mass", between(0.5, 5.0)},         {"rod_mass", between(0.5, 2.0)},
-        {"rod_length", between(0.5, 2.0)},        {"stiffness", between(0.0, 100.0)},
-        {"damping", between(0.0, 1.0)},           {"force_amplitude", between(-5.0, 5.0)},
-        {"force_frequency", between(0.0, 10.0)},  {"support_amplitude", between(-0.05, 0.05)},
+        {"cart_mass", between(0.5, 5.0)},
+        {"rod_mass", between(0.5, 2.0)},
+        {"rod_length", between(0.5, 2.0)},
+        {"stiffness", between(0.0, 100.0)},
+        {"damping", between(0.0, 1.0)},
+        {"force_amplitude", between(-5.0, 5.0)},
+        {"force_frequency", between(0.0, 10.0)},
+        {"support_amplitude", between(-0.05, 0.05)},
         {"support_frequency", between(0.0, 10.0)},
         {"friction_force", maybe() ? between(0.0, 5.0) : 0.0},  // which can hold the cart
         {"friction_width", 0.0}};
