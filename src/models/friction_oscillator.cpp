@@ -13,8 +13,7 @@ ModelInfo frictionOscillatorInfo() {
   ModelInfo info = modelInfo<StickingFrictionOscillator>();
   addVariant<FrictionOscillator>(
       info, "friction", "sticking", "sliding",
-      "exact: the plank slides or is held by a roller; or taken to slide "
-      "on both, which is linear");
+      "whether a roller can hold the plank, or it slides on both at any speed, which is linear");
   addVariant<RegularizedFrictionOscillator>(info, "regularization > 0",
                                             [](const ParameterValues& values, const Settings&) {
                                               return values.at("regularization") > 0.0;

@@ -11,11 +11,10 @@
 // outwards (roller_speed < 0) have mu -> -mu and drive the plank away. Rollers at rest
 // (roller_speed = 0) leave no direction of sliding: no friction here, and `sliding` is broken.
 //
-// Not regularised, so any step that resolves sqrt(K/m) will do. It does not know of sticking: where
-// |x'| reaches |roller_speed| the condition `sliding` is broken and the motion computed goes on as
-// if the plank still slid; a positive regularization gives the form that sticks. Likewise a plank
-// that has left a roller (`contact`) or tips over it (`no_tipping`: a < mu h, K < 0) is computed
-// on.
+// Any step that resolves sqrt(K/m) will do. It does not know of sticking: where |x'| reaches
+// |roller_speed| the condition `sliding` is broken and the motion computed goes on as if the plank
+// still slid; sticking_friction_oscillator.h is the form that sticks. Likewise a plank that has
+// left a roller (`contact`) or tips over it (`no_tipping`: a < mu h, K < 0) is computed on.
 #pragma once
 
 #include <algorithm>
@@ -61,7 +60,7 @@ struct FrictionOscillator {
              {"roller_speed", "m/s", Range::kAny, &FrictionOscillator::roller_speed,
               "of the rollers' rims; > 0: tops move inwards, < 0: outwards"},
              {"regularization", "m/s", Range::kNotNegative, &FrictionOscillator::regularization,
-              "width of the friction law about zero slip; 0: exact, while sliding", 0.0}}};
+              "width within which the friction law is rounded off; 0: exact", 0.0}}};
   }
 
   double naturalLength() const { return half_spacing; }

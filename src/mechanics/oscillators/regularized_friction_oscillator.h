@@ -1,4 +1,4 @@
-// The plank on two rollers with Coulomb friction regularised, so that it can also stick.
+// The plank on two rollers with Coulomb friction rounded off, so that it sticks by creeping.
 //
 //   T = m x'^2 / 2,   Q = t1 R1 + t2 R2
 //   t1 = mu tanh((vs - x') / eps),   t2 = -mu tanh((vs + x') / eps)
