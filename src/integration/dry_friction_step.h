@@ -307,4 +307,9 @@ class DryFrictionStep {
   bool has_past_ = false;
 };
 
+/// In place of one, in systems that are composed with their model and do not stick.
+struct NoDryFriction {
+  void restart() {}
+};
+
 }  // namespace whirl_twin

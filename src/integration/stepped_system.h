@@ -31,11 +31,6 @@ struct HasHistory : std::false_type {};
 template <class Method>
 struct HasHistory<Method, std::void_t<decltype(Method::kHasHistory)>> : std::true_type {};
 
-/// In place of a DryFrictionStep.
-struct NoDryFriction {
-  void restart() {}
-};
-
 template <class Model, class Method>
 class SteppedSystem final : public ReadOffStepper {
  public:
@@ -258,14 +253,12 @@ class SteppedSystem final : public ReadOffStepper {
   [[gnu::noinline]] StepStatus advanceSticking(Method& method, const Equation& equation,
                                                double offset, double h,
                                                MotionState<n>& state) noexcept {
-    const double end = offset + h;
-    const double sliver = kSliver * h;
+    const double end = offset + h, sliver = kSliver * h;
     DryFrictionStep<n>& dry = &method == &method_ ? dry_ : finer_dry_;
     Equation acted_on = equation;
     acted_on.inputs = inputs_.acts() ? &inputs_ : nullptr;
     while (end - offset > sliver) {
-      double corner = nextCorner(offset);
-      corner = corner < end - sliver ? corner : end;
+      const double next = nextCorner(offset), corner = next < end - sliver ? next : end;
       if (corner - offset > sliver) {
         if (inputs_.acts()) {
           dry.restart();
@@ -400,7 +393,6 @@ class SteppedSystem final : public ReadOffStepper {
   MotionState<n> state_{};
   StepErrorSum errors_;
   std::int64_t turns_ = 0;  ///< of a spin, beyond its coordinate
-  /// Nothing in systems that are composed with their model.
   std::conditional_t<Form::kMayStick, DryFrictionStep<n>, NoDryFriction> dry_, finer_dry_;
   InputForce inputs_;  ///< last: few systems have any
 };

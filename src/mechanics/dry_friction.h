@@ -165,9 +165,12 @@ std::array<double, n> accelerationWithFriction(const std::array<double, n*(n + 1
     return sum;
   };
   std::array<double, n> a = solve(state.share);
-  constexpr int kMostRounds = 6;  // a level that does not depend on the shares takes one
+  // A level that does not depend on the shares takes one round. Where it does each round takes the
+  // error down by about the difference: a share of 1 - 1e-9 for 1 would hold what slides.
+  constexpr int kMostRounds = 6;
+  constexpr double kDifference = 1.0e-3;
   for (int round = 0; state.holdsAny() && round < kMostRounds; ++round) {
-    // Newton's method; the slopes are differences over a whole share.
+    // Newton's method; the slopes are differences.
     ContactNumbers residual{};
     std::array<ContactNumbers, kMostContacts> slope{};  // [contact][by the share of]
     for (std::size_t k = 0; k < kMostContacts; ++k) {
@@ -177,7 +180,7 @@ std::array<double, n> accelerationWithFriction(const std::array<double, n*(n + 1
       }
       residual[k] = along(k, a);
       ContactNumbers other = state.share;
-      const double step = other[k] > 0.0 ? -1.0 : 1.0;
+      const double step = other[k] > 0.0 ? -kDifference : kDifference;
       other[k] += step;
       const std::array<double, n> changed = solve(other);
       for (std::size_t j = 0; j < kMostContacts; ++j) {

@@ -136,7 +136,7 @@ std::unique_ptr<MemberEquations> ifAll(const std::vector<const Dynamics*>& membe
   std::vector<const Model*> models;
   for (const Dynamics* member : members) {
     const auto* const dynamics = dynamic_cast<const LagrangianDynamics<Model>*>(member);
-    // Friction that can hold needs steps of its own for each member.
+    // Where friction can hold, members have their events at different instants.
     if (dynamics == nullptr || !Form::fits(dynamics->energyModel()) ||
         HasDryContacts<Model>::of(dynamics->energyModel()).count > 0) {
       return nullptr;

@@ -125,7 +125,8 @@ std::string dryFrictionText(const SystemAnalysis& a) {
                                              : std::string("slides at the start"));
   }
   if (!out.empty()) {
-    out += "    left out below where nothing slides: what is said of small motions is without it\n";
+    out +=
+        "    the verdict on small motions leaves out the friction of contacts that do not slide\n";
   }
   return out;
 }

@@ -217,6 +217,26 @@ TEST(DryFriction, ARollerCarriesThePlankUntilItIsInTheMiddle) {
   }
 }
 
+TEST(DryFriction, APlankThatIsAsFastAsARollerInTheMiddleSlidesFromThere) {
+  // There the share that would hold it is 1, and beyond it would have to be more.
+  Given s;
+  s.model = "friction_oscillator";
+  s.parameters = {{"mass", 1.0},
+                  {"friction_coefficient", 0.3},
+                  {"half_spacing", 0.0762},
+                  {"height", 0.0127},
+                  {"roller_speed", 0.2}};
+  const double p = std::sqrt(0.3 * 9.81 / (0.0762 - 0.3 * 0.0127));
+  for (const double side : {1.0, -1.0}) {
+    s.v = {side * 0.2};
+    RunningSystem system(s, "gauss_legendre_6", kMillisecond);
+    for (int i = 0; i < 3000; ++i) {
+      ASSERT_EQ(system.run(1), StepStatus::kOk) << i;
+      ASSERT_NEAR(system.q(0), side * 0.2 / p * std::sin(p * system.time()), 1e-9) << i;
+    }
+  }
+}
+
 TEST(DryFriction, APlankOnAFloorIsHeldByItsWeight) {
   Given s;
   s.model = "friction_oscillator";
