@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 
@@ -58,6 +60,48 @@ BalanceCorrection balance(const Eigen::MatrixXcd& influence, const Eigen::Vector
   correction.condition = singular.minCoeff() > 0.0 ? singular.maxCoeff() / singular.minCoeff()
                                                    : std::numeric_limits<double>::infinity();
   return correction;
+}
+
+std::optional<CorrectionSpread> correctionSpread(const Eigen::MatrixXcd& influence,
+                                                 const std::vector<TrialRun>& runs,
+                                                 const Eigen::VectorXd& weights,
+                                                 const BalanceCorrection& correction,
+                                                 double deviation) {
+  constexpr double kSame = 1.0e12;  // condition number from which planes do the same
+  const Eigen::Index planes = influence.cols();
+  const Eigen::Index spare = (weights.array() > 0.0).count() - planes;
+  if (!(correction.condition < kSame) || (deviation == 0.0 && spare < 1)) {
+    return std::nullopt;
+  }
+  const Eigen::MatrixXcd weighted = weights.cast<std::complex<double>>().asDiagonal() * influence;
+  const Eigen::MatrixXcd inverse = (influence.adjoint() * weighted).inverse();
+  CorrectionSpread spread;
+  if (deviation == 0.0) {
+    // The residual has the errors of the first run and of A u together, as the correction has.
+    const double squares = weights.dot(correction.residual.cwiseAbs2());
+    const auto free = static_cast<double>(2 * spare);
+    spread.deviation = (squares / free * inverse.diagonal().real()).cwiseSqrt();
+    spread.within95 = boost::math::quantile(boost::math::students_t(free), 0.975);
+    return spread;
+  }
+  // du = -inverse A* W (dv_0 + dA u), in which run k has the part u_j conj(t_k) / sum |t|^2.
+  Eigen::VectorXd masses = Eigen::VectorXd::Zero(planes);
+  for (const TrialRun& run : runs) {
+    masses[run.plane] += std::norm(run.mass_radius);
+  }
+  std::complex<double> first = 1.0;
+  double others = 0.0;
+  for (const TrialRun& run : runs) {
+    const std::complex<double> part =
+        correction.mass_radius[run.plane] * std::conj(run.mass_radius) / masses[run.plane];
+    first -= part;
+    others += std::norm(part);
+  }
+  const Eigen::MatrixXcd covariance = inverse * (weighted.adjoint() * weighted) * inverse.adjoint();
+  spread.deviation =
+      deviation * ((std::norm(first) + others) * covariance.diagonal().real()).cwiseSqrt();
+  spread.within95 = 1.959963984540054;
+  return spread;
 }
 
 }  // namespace whirl_twin

@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 #include <complex>
+#include <optional>
 #include <vector>
 
 namespace whirl_twin {
@@ -38,5 +39,21 @@ struct BalanceCorrection {
 /// Refusal for sizes that do not fit.
 BalanceCorrection balance(const Eigen::MatrixXcd& influence, const Eigen::VectorXcd& initial,
                           const Eigen::VectorXd& weights);
+
+/// How well a correction is known, where readings have independent errors of one size.
+struct CorrectionSpread {
+  /// [kg m], standard deviation of either component of each plane's mass times radius.
+  Eigen::VectorXd deviation;
+  double within95 = 0.0;  ///< deviations that hold 95 %: Student's distribution, or the normal one
+};
+
+/// By the propagation of the errors of all runs, those in A among them, to first order. deviation:
+/// of either component of a reading, in its unit; 0: as the residual shows, where there are more
+/// readings than planes. None where it is not known, or where planes do the same.
+std::optional<CorrectionSpread> correctionSpread(const Eigen::MatrixXcd& influence,
+                                                 const std::vector<TrialRun>& runs,
+                                                 const Eigen::VectorXd& weights,
+                                                 const BalanceCorrection& correction,
+                                                 double deviation);
 
 }  // namespace whirl_twin

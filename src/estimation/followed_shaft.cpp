@@ -6,12 +6,7 @@
 namespace whirl_twin {
 
 void FollowedShaft::listenTo(const KeyphasorSettings& keyphasor) {
-  ShaftTrackerSettings settings;
-  settings.mark = shaftAngle(keyphasor.mark).remainder;
-  // A value anywhere within a step of the clock has its length over the root of 12 for a deviation.
-  settings.jitter = std::max(settings.jitter,
-                             std::hypot(keyphasor.jitter, keyphasor.resolution / std::sqrt(12.0)));
-  tracker_.emplace(settings);
+  tracker_.emplace(trackerOf(keyphasor, 0.0, 1.0e-6));
 }
 
 void FollowedShaft::restart() {

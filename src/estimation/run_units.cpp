@@ -12,6 +12,7 @@
 #include "messages/names.h"
 #include "messages/refusal.h"
 #include "messages/units.h"
+#include "signal/wild_samples.h"
 
 namespace whirl_twin {
 
@@ -103,6 +104,33 @@ bool standsStill(const StudyRun& run) {
   });
 }
 
+/// Puts the mean of the rows beside it in the place of a wild sample (wild_samples.h).
+void replaceWildSamples(MeasuredRun& run, const std::string& name) {
+  std::vector<double>& x =
+      std::find_if(run.columns.begin(), run.columns.end(), [&](const MeasuredColumn& column) {
+        return column.name == name;
+      })->values;
+  WildSampleDetector detector;
+  std::vector<std::size_t> wild;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (const auto row = detector.take(static_cast<std::int64_t>(i), x[i])) {
+      wild.push_back(static_cast<std::size_t>(*row));
+    }
+  }
+  if (wild.empty()) {
+    return;
+  }
+  run.remarks.push_back(fmt::format(
+      "{}: {} wild {}, the first of {:.4g} at {:.9g} s: replaced by the mean of the rows beside it",
+      quoted(name), wild.size(), wild.size() == 1 ? "sample" : "samples", x[wild.front()],
+      run.time[wild.front()]));
+  for (const std::size_t i : wild) {
+    const double after = x[i + 1];
+    const bool jumps = std::fabs(after - x[i - 1]) > kPi;  // of an angle, to the next turn
+    x[i] = jumps ? x[i - 1] : 0.5 * (x[i - 1] + after);
+  }
+}
+
 }  // namespace
 
 void settleUnits(StudyRun& run, const std::string& time, const std::vector<InputInfo>& inputs,
@@ -120,6 +148,7 @@ void settleUnits(StudyRun& run, const std::string& time, const std::vector<Input
     columns.bring(input.column, input.name, inputs[input.place].unit);
   }
   for (const MeasuredChannel& channel : run.measured) {
+    replaceWildSamples(run.data, channel.column);
     unwrapTurns(run.data, channel);
     judgeChannel(run.data, channel);
   }

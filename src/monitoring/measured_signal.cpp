@@ -14,10 +14,10 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kTelling = 0.05;        // [s], of orders
-constexpr double kLeastJitter = 1.0e-7;  // [s], of a keyphasor that is said to have none
-constexpr double kFewTurns = 5.0;        // without a pulse: it is missing
-constexpr double kStandsSoon = 10.0;     // [rad/s], a slower shaft may stop within a turn
+constexpr double kTelling = 0.05;  // [s], of orders
+constexpr double kFewTurns = 5.0;  // without a pulse: it is missing
+constexpr int kManyRejected = ShaftTracker::kLately / 2;
+constexpr double kStandsSoon = 10.0;  // [rad/s], a slower shaft may stop within a turn
 
 /// Slow roll is what stands still in the shaft: of a vector less sure than this part it is not.
 constexpr double kSure = 0.03;
@@ -38,10 +38,7 @@ std::optional<MeasuredOrbitSettings> measuredOrbitOf(const BuiltScene& scene, st
   }
   MeasuredOrbitSettings orbit;
   orbit.keyphasor = keyphasor->name;
-  orbit.shaft.mark = std::fmod(keyphasor->keyphasor->mark + dynamics.phaseMark(), kTwoPi);
-  orbit.shaft.jitter = std::max(
-      kLeastJitter,
-      std::hypot(keyphasor->keyphasor->jitter, keyphasor->keyphasor->resolution / std::sqrt(12.0)));
+  orbit.shaft = trackerOf(*keyphasor->keyphasor, dynamics.phaseMark());
   for (std::size_t station = 0; station < dynamics.stations().size(); ++station) {
     bool first = false;
     for (const SensorSpec& sensor : sensors) {
@@ -231,6 +228,11 @@ std::string MeasuredSignal::notOk(double wall_time, bool paused) const {
   if (!paused && turning_ > kStandsSoon &&
       silence > std::max(timeout_, kFewTurns * kTwoPi / turning_)) {
     return fmt::format("no pulses: {} for {:.1f} s", settings_.keyphasor, silence);
+  }
+  const int rejected = orbit_.shaft().refusedLately();
+  if (rejected >= kManyRejected && orbit_.shaft().counts().refused > 0) {
+    return fmt::format("pulses rejected: {} of the last {} of {}", rejected, ShaftTracker::kLately,
+                       settings_.keyphasor);
   }
   return beyond_;
 }

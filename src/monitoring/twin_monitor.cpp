@@ -146,6 +146,18 @@ bool TwinMonitor::measures(const std::string& system) const {
   });
 }
 
+std::vector<state::WhirlState> TwinMonitor::measuredMotion(const std::string& system,
+                                                           const std::string& source,
+                                                           double wall_time) const {
+  for (const SystemWatch& watch : watches_) {
+    if (watch.name == system && watch.isMeasured() && watch.measured->listensTo(source) &&
+        watch.measured->isFit(wall_time)) {
+      return watch.measured->motion();
+    }
+  }
+  return {};
+}
+
 std::optional<OrderVector> TwinMonitor::slowRoll(const std::string& system) const {
   for (const SystemWatch& watch : watches_) {
     if (watch.name == system && watch.isMeasured()) {

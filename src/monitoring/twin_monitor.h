@@ -72,6 +72,10 @@ class TwinMonitor {
   /// Orders of what was measured, since last asked; of each system as SYSTEM_measured.
   std::vector<state::OrderState> takeOrders() { return std::exchange(orders_, {}); }
   bool measures(const std::string& system) const;
+  /// What the last message, of a source, has completed of a measured system's motion, without its
+  /// slow roll; empty where it cannot be judged at that time [s].
+  std::vector<state::WhirlState> measuredMotion(const std::string& system,
+                                                const std::string& source, double wall_time) const;
   /// What is taken off what a system measures.
   std::optional<OrderVector> slowRoll(const std::string& system) const;
   /// Something is being judged: it is worth asking soon.

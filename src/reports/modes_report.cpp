@@ -75,6 +75,9 @@ std::vector<ComparedMode> compared(const std::vector<AmbientMode>& measured,
 
 void addModesNotes(ModesReport& report) {
   std::vector<std::string>& notes = report.notes;
+  if (std::string pulses = report.counts.pulseNote(); !pulses.empty()) {
+    notes.push_back(std::move(pulses));
+  }
   if (!report.record) {
     notes.push_back(fmt::format(
         "the record is too short at {:.5g} rad/s: {} samples with a known angle at a speed within "

@@ -188,6 +188,7 @@ Json json(const ModesReport& report) {
   json["values_not_valid"] = report.counts.not_valid;
   json["false_pulses"] = report.counts.false_pulses;
   json["missing_pulses"] = report.counts.missing_pulses;
+  json["pulse_jitter"] = report.counts.jitter;
   json["duration"] = report.record ? report.record->duration : 0.0;
   json["limit"] = report.record ? Json(report.record->limit) : Json();
   json["vibration"] = report.record ? Json(report.record->vibration) : Json();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <map>
 #include <optional>
@@ -27,6 +28,45 @@ constexpr double kSample = 0.1;          // s, simulated, of what is drawn
 constexpr double kSilence = 600.0;   // s: a longer one is a clock that was set, or two recordings
 constexpr int kBelievedAstray = 10;  // events
 
+/// The last turns of a whirl.
+class LastTurns {
+ public:
+  void take(const state::WhirlState& whirl) {
+    const double turns = kDrawnTurns * kTwoPi;
+    if (!kept_.empty() && !(whirl.at.time > kept_.back().at.time)) {
+      kept_.clear();
+    }
+    kept_.push_back(whirl);
+    while (kept_.size() > kMostDrawn || whirl.shaft_angle - kept_.front().shaft_angle > turns) {
+      kept_.pop_front();
+    }
+  }
+
+  /// Less its mean; empty where the shaft has not turned once, or samples are too far apart.
+  std::vector<state::WhirlState> orbit() const {
+    if (kept_.empty() || !(kept_.back().shaft_angle - kept_.front().shaft_angle >= kTwoPi) ||
+        kept_.size() < kFewestDrawn) {
+      return {};
+    }
+    std::vector<state::WhirlState> orbit(kept_.begin(), kept_.end());
+    double x = 0.0, y = 0.0;
+    for (const state::WhirlState& whirl : orbit) {
+      x += whirl.x / static_cast<double>(orbit.size());
+      y += whirl.y / static_cast<double>(orbit.size());
+    }
+    for (state::WhirlState& whirl : orbit) {
+      whirl.x -= x;
+      whirl.y -= y;
+    }
+    return orbit;
+  }
+
+ private:
+  static constexpr double kDrawnTurns = 5.0;
+  static constexpr std::size_t kMostDrawn = 4096, kFewestDrawn = 32;
+  std::deque<state::WhirlState> kept_;
+};
+
 class Replay {
  public:
   Replay(const BuiltScene& scene, const AlarmSettings& settings, std::optional<double> spectrum_at,
@@ -42,6 +82,7 @@ class Replay {
     peaks_.assign(run_.systems.size(), 0.0);
     cascades_.resize(run_.systems.size());
     vibrations_.resize(run_.systems.size());
+    turns_.resize(run_.systems.size());
   }
 
   /// Of the stamp of an event [us].
@@ -84,6 +125,7 @@ class Replay {
       course.spectra = cascades_[i].spectra();
       if (!spectrum_at_) {
         course.spectrum = cascades_[i].latest();
+        course.orbit = turns_[i].orbit();
       }
       course.slow_roll = monitor_.slowRoll(course.name);
       course.resonances = passedResonances(course.orders, course.critical_speeds);
@@ -125,18 +167,23 @@ class Replay {
   void draw(const state::WhirlState& whirl) {
     if (SystemCourse* course = courseOf(whirl.system)) {
       course->modelled = true;
-      const auto place = static_cast<std::size_t>(course - run_.systems.data());
-      const double time = whirl.at.time;
-      if (spectrum_at_ && time > *spectrum_at_ && !course->spectrum) {
-        course->spectrum = cascades_[place].latest();
-      }
-      cascades_[place].take({whirl.at.step, time, 0, 0.0, whirl.speed, whirl.x, whirl.y});
-      double& peak = peaks_[place];
-      peak = std::fmax(peak, vibrations_[place].take(whirl));
-      if (sample(*course, time, whirl.speed)) {
-        course->vibration.push_back(peak);
-        peak = 0.0;
-      }
+      drawMotion(*course, whirl);
+    }
+  }
+  void drawMotion(SystemCourse& course, const state::WhirlState& whirl) {
+    const auto place = static_cast<std::size_t>(&course - run_.systems.data());
+    const double time = whirl.at.time;
+    if (spectrum_at_ && time > *spectrum_at_ && !course.spectrum) {
+      course.spectrum = cascades_[place].latest();
+      course.orbit = turns_[place].orbit();
+    }
+    turns_[place].take(whirl);
+    cascades_[place].take({whirl.at.step, time, 0, 0.0, whirl.speed, whirl.x, whirl.y});
+    double& peak = peaks_[place];
+    peak = std::fmax(peak, vibrations_[place].take(whirl));
+    if (sample(course, time, whirl.speed)) {
+      course.vibration.push_back(peak);
+      peak = 0.0;
     }
   }
   void draw(const state::PendulumState& pendulum) {
@@ -144,7 +191,17 @@ class Replay {
       sample(*course, pendulum.at.time, speedOf(*course));
     }
   }
-  void draw(const state::Measurement&) {}  // its orders are drawn
+  /// What is measured is drawn where no twin runs beside it; beside one, its orders are.
+  void draw(const state::Measurement& measurement) {
+    for (SystemCourse& course : run_.systems) {
+      if (!course.modelled) {
+        for (const state::WhirlState& whirl :
+             monitor_.measuredMotion(course.name, measurement.source, wall_)) {
+          drawMotion(course, whirl);
+        }
+      }
+    }
+  }
   void draw(const state::OrderState& told) {
     if (!monitor_.measures(told.system)) {
       drawOrders(told, courseOf(told.system));
@@ -206,13 +263,7 @@ class Replay {
       keepEvent(event);
     }
     for (const state::OrderState& measured : monitor_.takeOrders()) {
-      SystemCourse* const course =
-          courseOf(measured.system.substr(0, measured.system.rfind("_measured")));
-      drawOrders(measured, course);
-      if (course != nullptr && !course->modelled &&
-          sample(*course, measured.at.time, measured.speed)) {
-        course->vibration.push_back(0.5 * measured.peak_to_peak);
-      }
+      drawOrders(measured, courseOf(measured.system.substr(0, measured.system.rfind("_measured"))));
     }
     if (const std::optional<TwinRun> run = monitor_.run()) {
       run_.resets = std::max(run_.resets, run->second);
@@ -283,6 +334,7 @@ class Replay {
   std::vector<double> peaks_;  ///< [m], of each system since its last sample
   std::vector<SpectrumCascade> cascades_;
   std::vector<WhirlVibration> vibrations_;
+  std::vector<LastTurns> turns_;
   bool started_ = false, spanned_ = false, paused_ = false;
   double newest_stamp_ = 0.0;  ///< [s]
   double stray_stamp_ = 0.0;   ///< [s], of the last event that was out of order

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "messages/alert.h"
+#include "messages/states.h"
 #include "monitoring/alarm_settings.h"
 #include "plots/chart.h"
 #include "reports/csv_table.h"
@@ -46,6 +47,8 @@ struct SystemCourse {
   std::vector<PassedResonance> resonances;  ///< that its run-ups and run-downs have passed
   std::vector<WindowSpectrum> spectra;      ///< as time went on
   std::optional<WindowSpectrum> spectrum;   ///< at the end, or where it was asked for
+  /// The last turns of that window, of the shaft's middle less its mean in them; at most five.
+  std::vector<state::WhirlState> orbit;
   std::vector<state::CriticalSpeedMargin> critical_speeds;  ///< by the model, as told last
   std::vector<double> time;                                 ///< [s], simulated
   std::vector<double> speed;  ///< [rad/s], of its shaft; NaN without one

@@ -89,8 +89,31 @@ std::string resonancesPart(const SystemCourse& system) {
   return out + "</table>\n";
 }
 
-/// Cascade and full spectrum, and what their lines are; "" where the states are too few. Counts
-/// the pictures of the page.
+/// The last turns, with a dot wherever the phase mark of the shaft passes the x axis.
+Chart orbitOfLastTurns(const SystemCourse& system) {
+  Chart chart;
+  chart.title = fmt::format("orbit, last turns up to t = {:.4g} s", system.orbit.back().at.time);
+  chart.x.label = "x (m), less its mean";
+  chart.y.label = "y (m), less its mean";
+  chart.equal_aspect = true;
+  Series path{"", {}, {}, Pen{ink::kBlue, 1.2}};
+  Series marks{"", {}, {}, Pen{ink::kBlack, 1.2}, false, Marks::kDots};
+  double before = system.orbit.front().shaft_angle;
+  for (const state::WhirlState& whirl : system.orbit) {
+    path.x.push_back(whirl.x);
+    path.y.push_back(whirl.y);
+    if (std::floor(whirl.shaft_angle / kTwoPi) > std::floor(before / kTwoPi)) {
+      marks.x.push_back(whirl.x);
+      marks.y.push_back(whirl.y);
+    }
+    before = whirl.shaft_angle;
+  }
+  chart.series = {path, marks};
+  return chart;
+}
+
+/// Cascade, full spectrum and orbit, and what their lines are; "" where the states are too few.
+/// Counts the pictures of the page.
 std::string spectraPart(const SystemCourse& system, int& pictures) {
   Figure figure;
   figure.width = 940;
@@ -100,6 +123,9 @@ std::string spectraPart(const SystemCourse& system, int& pictures) {
   }
   if (system.spectrum) {
     figure.charts.push_back(spectrumChart(*system.spectrum));
+  }
+  if (!system.orbit.empty()) {
+    figure.charts.push_back(orbitOfLastTurns(system));
   }
   if (figure.charts.empty()) {
     return "";

@@ -11,9 +11,8 @@
 #include "algebra/constants.h"
 #include "estimation/measured_queue.h"
 #include "messages/refusal.h"
-#include "messages/units.h"
+#include "reports/recorded_source.h"
 #include "scene/station_names.h"
-#include "signal/shaft_tracker.h"
 #include "transport/logged_messages.h"
 
 namespace whirl_twin {
@@ -22,8 +21,6 @@ namespace {
 
 constexpr double kHalfPi = 0.5 * kPi;
 constexpr double kSteady = 0.01;          // of a speed
-constexpr double kSurelyKnown = 0.1;      // rad, deviation of the shaft's angle
-constexpr double kTogether = 1.0e-3;      // of a period: samples of one instant
 constexpr double kPatience = 600.0;       // s, that samples wait for those of other sources
 constexpr double kLargestAngle = 1.0e15;  // rad; beyond, a double has no phase
 
@@ -49,53 +46,6 @@ double longestKept(std::vector<std::pair<double, double>> dwells) {
   return speed;
 }
 
-/// A source of probes, or a keyphasor, and what the log has of it.
-struct Source {
-  const SensorSpec* spec = nullptr;
-  std::int64_t samples = 0;                      // each later than all before
-  std::int64_t first = 0, last = 0;              // [ns]
-  std::map<std::string, double> deviation = {};  // of its channels, as the first message says
-
-  double period() const {  // [s]
-    return static_cast<double>(last - first) * kNanosecond / static_cast<double>(samples - 1);
-  }
-  bool isAtInstantsOf(const Source& other) const {
-    const double slack = kTogether * other.period() / kNanosecond;
-    return samples == other.samples &&
-           std::fabs(static_cast<double>(first - other.first)) < slack &&
-           std::fabs(static_cast<double>(last - other.last)) < slack;
-  }
-};
-
-/// The shaft between pulses, at instants in order.
-class TrackedShaft {
- public:
-  TrackedShaft(const KeyphasorSettings& keyphasor, const std::vector<std::int64_t>& pulses)
-      : tracker_(settingsOf(keyphasor)), pulses_(pulses) {}
-
-  ShaftEstimate at(std::int64_t instant) {
-    while (next_ < pulses_.size() && (!tracker_.locked() || tracker_.newest() <= instant)) {
-      tracker_.take(pulses_[next_++]);
-    }
-    ShaftEstimate shaft = tracker_.at(instant);
-    shaft.known = shaft.known && shaft.deviation < kSurelyKnown;
-    return shaft;
-  }
-  const PulseCounts& counts() const { return tracker_.counts(); }
-
- private:
-  static ShaftTrackerSettings settingsOf(const KeyphasorSettings& keyphasor) {
-    ShaftTrackerSettings settings;
-    settings.mark = keyphasor.mark - kTwoPi * std::floor(keyphasor.mark / kTwoPi);
-    settings.jitter = std::max(1.0e-9, keyphasor.jitter);
-    return settings;
-  }
-
-  ShaftTracker tracker_;
-  const std::vector<std::int64_t>& pulses_;
-  std::size_t next_ = 0;
-};
-
 std::vector<RecordedProbe> probesOf(const SensorSpec& sensor, std::size_t system) {
   std::vector<RecordedProbe> probes;
   for (const SensorChannelSpec& channel : sensor.channels) {
@@ -111,6 +61,19 @@ std::vector<RecordedProbe> probesOf(const SensorSpec& sensor, std::size_t system
 }
 
 }  // namespace
+
+std::string RecordCounts::pulseNote() const {
+  std::string note;
+  if (!stated) {
+    note = fmt::format("the keyphasor's pulses scatter by {:.2g} s, more than the scene states",
+                       jitter);
+  }
+  if (false_pulses > 0) {
+    note += fmt::format("{}{} of {} pulses of the keyphasor are rejected", note.empty() ? "" : "; ",
+                        false_pulses, pulses + false_pulses);
+  }
+  return note;
+}
 
 RotorRecord::RotorRecord(const BuiltScene& scene, const RotorSystem& system, const std::string& log,
                          const std::string& prefix, ProbesRead probes)
@@ -140,7 +103,7 @@ LoggedMessages RotorRecord::eachMessage(const std::function<void(const Message&)
 
 /// Sources of probes at the rotor of which the log has samples, and a keyphasor.
 void RotorRecord::findProbes(const BuiltScene& scene, const RotorSystem& system, ProbesRead which) {
-  std::map<std::string, Source> sources, keyphasors;
+  std::map<std::string, RecordedSource> sources, keyphasors;
   std::size_t place = 0;
   for (std::size_t i = 0; i < scene.systems.size(); ++i) {
     place = scene.systems[i]->spec.name == system.name ? i : place;
@@ -174,22 +137,9 @@ void RotorRecord::findProbes(const BuiltScene& scene, const RotorSystem& system,
     if (found == sources.end()) {
       return;
     }
-    Source& source = found->second;
-    if (source.samples == 0) {
-      source.first = source.last = measured->instantOf(0);
-      source.samples = 1;
-      for (std::size_t c = 0; c < measured->channel.size(); ++c) {
-        source.deviation[measured->channel[c]] =
-            unitScale(measured->unit[c], "m") * measured->deviation[c];
-      }
-    }
-    for (std::int64_t i = 0; i < measured->samples; ++i) {
-      const std::int64_t instant = measured->instantOf(i);
-      source.samples += instant > source.last ? 1 : 0;
-      source.last = std::max(source.last, instant);
-    }
+    found->second.take(*measured);
   });
-  const Source* best = nullptr;
+  const RecordedSource* best = nullptr;
   for (const auto& [name, source] : sources) {
     if (source.samples > 1 && (best == nullptr || probesOf(*source.spec, place).size() >
                                                       probesOf(*best->spec, place).size())) {
@@ -203,7 +153,7 @@ void RotorRecord::findProbes(const BuiltScene& scene, const RotorSystem& system,
     return;
   }
   period_ = best->period();
-  std::vector<const Source*> used;
+  std::vector<const RecordedSource*> used;
   for (const SensorSpec& sensor : scene.scene.sensors) {
     const auto found = sources.find(sensor.name);
     if (found == sources.end()) {
@@ -218,14 +168,21 @@ void RotorRecord::findProbes(const BuiltScene& scene, const RotorSystem& system,
       used.push_back(&found->second);
     }
   }
-  for (const Source* source : used) {
+  for (const RecordedSource* source : used) {
     sources_.push_back({source->spec->name, {}, probes_.size()});
     for (RecordedProbe& probe : probesOf(*source->spec, place)) {
       const auto said = source->deviation.find(probe.name);
       probe.deviation = said != source->deviation.end() && said->second > 0.0 ? said->second : 0.0;
       sources_.back().channels.push_back(probe.name);
+      const auto found = source->wild.find(probe.name);
       if (used.size() > 1) {
         probe.name = source->spec->name + "/" + probe.name;
+      }
+      if (found != source->wild.end() && !found->second.instants.empty()) {
+        notes_.push_back(found->second.note(probe.name, source->first));
+        for (const std::int64_t instant : found->second.instants) {
+          wild_.emplace(probe.name, instant);
+        }
       }
       probes_.push_back(std::move(probe));
     }
@@ -335,7 +292,9 @@ RecordCounts RotorRecord::readProbes(const std::function<void(const ProbeReading
       row = row.value_or(sample->time);
       newest = std::max(newest, sample->time);
       there[probe] = true;
-      reading.values[static_cast<Eigen::Index>(probe)] = sample->valid ? sample->value : kNaN;
+      const bool wild = !wild_.empty() && wild_.count({probes_[probe].name, sample->time}) > 0;
+      reading.values[static_cast<Eigen::Index>(probe)] =
+          sample->valid && !wild ? sample->value : kNaN;
     }
   };
   eachMessage([&](const Message& message) {
@@ -358,6 +317,8 @@ RecordCounts RotorRecord::readProbes(const std::function<void(const ProbeReading
   counts.pulses = shaft.counts().taken;
   counts.false_pulses = shaft.counts().refused;
   counts.missing_pulses = shaft.counts().missed;
+  counts.jitter = shaft.jitter();
+  counts.stated = shaft.scattersAsStated();
   return counts;
 }
 

@@ -7,6 +7,7 @@
 #include <complex>
 #include <cstdint>
 #include <functional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,6 +37,11 @@ struct RecordCounts {
   std::int64_t not_valid = 0;  ///< values of probes
   std::int64_t pulses = 0;     ///< that were taken
   std::int64_t false_pulses = 0, missing_pulses = 0;
+  double jitter = 0.0;  ///< [s], standard deviation of a pulse's instant at the end of the log
+  bool stated = true;   ///< that is the one that the scene states
+
+  /// What a reader should know of the pulses; "": nothing.
+  std::string pulseNote() const;
 };
 
 /// Which sources of probes are read: all, so that a reading has the probes of one or more of them,
@@ -79,8 +85,9 @@ class RotorRecord {
   std::vector<ProbeSource> sources_;
   std::vector<std::string> notes_;
   KeyphasorSettings keyphasor_;
-  std::vector<std::int64_t> pulses_;  // [ns]
-  std::vector<std::string> whirls_;   // systems, as published, of two probes each
+  std::vector<std::int64_t> pulses_;                     // [ns]
+  std::set<std::pair<std::string, std::int64_t>> wild_;  // name of a probe, instant [ns]
+  std::vector<std::string> whirls_;  // systems, as published, of two probes each
   double period_ = 0.0;
   double steady_speed_ = 0.0;
 };

@@ -47,6 +47,12 @@ std::string studyCell(double value) {
   return std::isfinite(value) ? fmt::format(" {:11.5g}", value) : fmt::format(" {:>11}", "-");
 }
 
+/// "[1.2, 1.4]"; "-": the points are too few to bound it there.
+std::string intervalText(const std::array<double, 2>& interval) {
+  const auto bound = [](double x) { return std::isfinite(x) ? fmt::format("{:.5g}", x) : "-"; };
+  return fmt::format("[{}, {}]", bound(interval[0]), bound(interval[1]));
+}
+
 std::string yieldText(const Yield& yield) {
   return fmt::format("{} of {} pass, {:.4g} % [{:.4g}, {:.4g}]", yield.passed, yield.of,
                      100.0 * yield.part(), 100.0 * yield.low, 100.0 * yield.high);
@@ -103,6 +109,10 @@ Json distributedJson(const Distributed& d) {
             {"smallest", d.smallest}, {"largest", d.largest}};
   for (std::size_t k = 0; k < kPercentiles.size(); ++k) {
     json["percentiles"][fmt::format("{:g}", kPercentiles[k])] = d.percentiles[k];
+    if (!d.intervals.empty()) {
+      json["percentile_intervals"][fmt::format("{:g}", kPercentiles[k])] = {d.intervals[k][0],
+                                                                            d.intervals[k][1]};
+    }
   }
   return json;
 }
@@ -138,6 +148,11 @@ std::string text(const Study& study, const Answers& answers) {
       text += studyCell(value);
     }
     text += d.undefined > 0 ? fmt::format("  undefined at {}\n", d.undefined) : "\n";
+    if (!d.intervals.empty()) {
+      text += fmt::format("{:{}} 95 % intervals: 5 % {}, median {}, 95 % {}\n", "", width,
+                          intervalText(d.intervals[1]), intervalText(d.intervals[3]),
+                          intervalText(d.intervals[5]));
+    }
   }
   if (answers.yield) {
     text += "\n";

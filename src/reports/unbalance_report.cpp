@@ -189,6 +189,9 @@ UnbalanceReport unbalanceReport(const RotorSystem& system, const RotorRecord& re
   }
   report.estimate = fit.told();
   report.notes = record.notes();
+  if (const std::string pulses = report.counts.pulseNote(); !pulses.empty()) {
+    report.notes.push_back(pulses);
+  }
   addUnbalanceNotes(report);
   return report;
 }
@@ -223,6 +226,7 @@ Json json(const UnbalanceReport& report) {
   json["values_not_valid"] = report.counts.not_valid;
   json["false_pulses"] = report.counts.false_pulses;
   json["missing_pulses"] = report.counts.missing_pulses;
+  json["pulse_jitter"] = report.counts.jitter;
   json["synchronous_rms"] = found.synchronous;
   json["residual_rms"] = found.noise;
   json["residual_beyond_noise"] = found.beyond_noise > 0.0 ? Json(found.beyond_noise) : Json();

@@ -45,6 +45,7 @@ MeasuredOrbit::MeasuredOrbit(const MeasuredOrbitSettings& settings)
 
 void MeasuredOrbit::clear() {
   shaft_.clear();
+  wild_ = {};
   for (auto& readings : readings_) {
     readings.clear();
   }
@@ -99,7 +100,24 @@ void MeasuredOrbit::takeProbe(std::size_t probe, const state::Measurement& messa
       ++samples_.not_finite;
     } else {
       readings_[probe].push_back({instant, period, scale * message.value[at]});
+      leaveOutWild(probe);
     }
+  }
+}
+
+/// Of the readings that still wait; none waits so short that its shaft angle is known from one
+/// side.
+void MeasuredOrbit::leaveOutWild(std::size_t probe) {
+  std::deque<Reading>& waiting = readings_[probe];
+  const auto wild = wild_[probe].take(waiting.back().instant, waiting.back().value);
+  if (!wild) {
+    return;
+  }
+  ++samples_.wild;
+  const auto found = std::find_if(waiting.rbegin(), waiting.rend(),
+                                  [&](const Reading& r) { return r.instant == *wild; });
+  if (found != waiting.rend()) {
+    waiting.erase(std::next(found).base());
   }
 }
 

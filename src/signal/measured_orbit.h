@@ -16,6 +16,7 @@
 #include "messages/measurement.h"
 #include "signal/orbit_window.h"
 #include "signal/shaft_tracker.h"
+#include "signal/wild_samples.h"
 
 namespace whirl_twin {
 
@@ -40,6 +41,7 @@ struct SampleCounts {
   std::int64_t repeated = 0;  ///< of the same instant as the one before
   std::int64_t late = 0;      ///< of an instant before that of one that was taken
   std::int64_t alone = 0;     ///< the other probe has none of that instant
+  std::int64_t wild = 0;      ///< wild_samples.h
 };
 
 class MeasuredOrbit {
@@ -59,7 +61,7 @@ class MeasuredOrbit {
   void clear();
 
   const SampleCounts& samples() const { return samples_; }
-  const PulseCounts& pulses() const { return shaft_.counts(); }
+  const ShaftTracker& shaft() const { return shaft_; }
   ShaftEstimate shaftAt(std::int64_t instant) const { return shaft_.at(instant); }
   /// [ns], from which OrbitSample::time counts: 0, or where instants are those of a clock the first
   /// sample's, as a double does not resolve those.
@@ -73,6 +75,7 @@ class MeasuredOrbit {
   };
 
   void takeProbe(std::size_t probe, const state::Measurement& message);
+  void leaveOutWild(std::size_t probe);
   void takePulses(const state::Measurement& message);
   void advance(std::vector<OrbitSample>& out, double longest_wait);
   bool paired();
@@ -81,7 +84,8 @@ class MeasuredOrbit {
   MeasuredOrbitSettings settings_;
   std::array<std::array<double, 2>, 2> inverse_{};  // x and y of the two readings
   ShaftTracker shaft_;
-  std::array<std::deque<Reading>, 2> readings_;   // that wait
+  std::array<std::deque<Reading>, 2> readings_;  // that wait
+  std::array<WildSampleDetector, 2> wild_;
   std::array<std::int64_t, 2> newest_reading_{};  // [ns]
   std::deque<std::int64_t> pulses_;               // [ns], that wait for samples
   std::int64_t newest_ = 0;                       // [ns], of anything

@@ -24,6 +24,16 @@ constexpr double kMostChange = 1.4;        // of intervals, from one to the next
 constexpr double kMisfit = 0.01 * kTwoPi;  // [rad], besides jitter
 constexpr double kMostMisfit = 0.05 * kTwoPi;
 
+// Seven of eight normal deviates are less, in standard deviations. Fewer would not see a clock
+// whose steps are nearly a part of the period: most pulses are then off by the same.
+constexpr double kSevenOfEight = 1.534;
+// As stated, unless the pulses scatter this many times more.
+constexpr double kClearlyMore = 1.5;
+constexpr std::ptrdiff_t kFewestMisfits = 8;
+// Variance that white jerk of density 1 leaves over four instants a second apart, in angle: that of
+// a third difference, 11/20, over the sum of its squared weights, 20.
+constexpr double kWanderOfFour = 11.0 / 400.0;
+
 double seconds(std::int64_t from, std::int64_t to) {
   return 1.0e-9 * static_cast<double>(to - from);
 }
@@ -47,10 +57,20 @@ Eigen::Matrix3d wandered(double t) {
 
 }  // namespace
 
-ShaftTracker::ShaftTracker(const ShaftTrackerSettings& settings) : settings_(settings) {}
+ShaftTrackerSettings trackerOf(const KeyphasorSettings& keyphasor, double phase, double least) {
+  ShaftTrackerSettings settings;
+  settings.mark = shaftAngle(keyphasor.mark + phase).remainder;
+  settings.jitter =
+      std::max(least, std::hypot(keyphasor.jitter, keyphasor.resolution / std::sqrt(12.0)));
+  return settings;
+}
+
+ShaftTracker::ShaftTracker(const ShaftTrackerSettings& settings)
+    : settings_(settings), jitter_(settings.jitter) {}
 
 void ShaftTracker::clear() {
   kept_ = 0;
+  refused_.reset();
   doubt_ = 0;
   lost_ = {};
   after_.reset();
@@ -61,7 +81,7 @@ double ShaftTracker::deviationOf(const State& state) {
 }
 
 double ShaftTracker::pulseVariance(double speed) const {
-  const double deviation = settings_.jitter * speed;
+  const double deviation = jitter_ * speed;
   return deviation * deviation;
 }
 
@@ -95,6 +115,13 @@ ShaftTracker::State ShaftTracker::corrected(const State& predicted, double innov
 }
 
 bool ShaftTracker::take(std::int64_t instant) {
+  const bool taken = judge(instant);
+  refused_ <<= 1;
+  refused_[0] = !taken;
+  return taken;
+}
+
+bool ShaftTracker::judge(std::int64_t instant) {
   if (kept_ > 0 && instant <= pulses_.back()) {
     ++counts_.refused;
     return false;
@@ -102,6 +129,7 @@ bool ShaftTracker::take(std::int64_t instant) {
   std::rotate(pulses_.begin(), pulses_.begin() + 1, pulses_.end());
   pulses_.back() = instant;
   kept_ = std::min(kept_ + 1, static_cast<int>(pulses_.size()));
+  learnJitter();
   if (!after_) {
     return lock();
   }
@@ -142,22 +170,20 @@ bool ShaftTracker::refuse() {
   return doubt_ >= kMostDoubt && lock();
 }
 
-bool ShaftTracker::lock() {
-  if (after_) {
-    lost_ = {after_->time, after_->turns};
-    after_.reset();
-  }
+/// Instants [s] of the last four pulses from the first of them, and the angle [rad] by which they
+/// miss a constant acceleration, as one standard deviation of a pulse would have it; infinite where
+/// they are not those of four turns in a row.
+double ShaftTracker::intervals(std::array<double, 4>& t) const {
   if (kept_ < static_cast<int>(pulses_.size())) {
-    return false;
+    return std::numeric_limits<double>::infinity();
   }
-  std::array<double, 4> t{};
   for (std::size_t i = 0; i < 4; ++i) {
     t[i] = seconds(pulses_[0], pulses_[i]);
   }
   for (std::size_t i = 2; i < 4; ++i) {
     const double change = (t[i] - t[i - 1]) / (t[i - 1] - t[i - 2]);
     if (change > kMostChange || change * kMostChange < 1.0) {
-      return false;
+      return std::numeric_limits<double>::infinity();
     }
   }
   // Third divided difference of the angle over time: nothing but noise is in it.
@@ -170,7 +196,40 @@ bool ShaftTracker::lock() {
     difference += static_cast<double>(i) * kTwoPi / product;
     squares += 1.0 / (product * product);
   }
-  const double misfit = std::fabs(difference) / std::sqrt(squares);
+  return std::fabs(difference) / std::sqrt(squares);
+}
+
+void ShaftTracker::learnJitter() {
+  std::array<double, 4> t{};
+  const double misfit = intervals(t);
+  if (misfit > kMostMisfit) {
+    return;
+  }
+  const double wander = kWanderOfFour * settings_.white_jerk * std::pow(t[3] / 3.0, 5);
+  const double speed = 3.0 * kTwoPi / t[3];
+  misfits_[misfits_taken_++ % misfits_.size()] =
+      std::sqrt(std::max(0.0, misfit * misfit - wander)) / speed;
+  std::array<double, 64> sorted = misfits_;
+  const auto count = static_cast<std::ptrdiff_t>(std::min(misfits_taken_, misfits_.size()));
+  if (count < kFewestMisfits) {
+    return;
+  }
+  const std::ptrdiff_t place = count * 7 / 8;
+  std::nth_element(sorted.begin(), sorted.begin() + place, sorted.begin() + count);
+  const double shown = sorted[static_cast<std::size_t>(place)] / kSevenOfEight;
+  jitter_ = shown > kClearlyMore * settings_.jitter ? shown : settings_.jitter;
+}
+
+bool ShaftTracker::lock() {
+  if (after_) {
+    lost_ = {after_->time, after_->turns};
+    after_.reset();
+  }
+  std::array<double, 4> t{};
+  const double misfit = intervals(t);
+  if (misfit > kMostMisfit) {
+    return false;
+  }
   const double speed = 3.0 * kTwoPi / t[3];
   const double wander = std::sqrt(settings_.white_jerk * wandered(t[1])(0, 0));
   const double noise = std::sqrt(pulseVariance(speed)) + wander;

@@ -1,6 +1,7 @@
 #include "studies/answers.h"
 
 #include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
 #include <cmath>
 
 #include "algebra/constants.h"
@@ -11,9 +12,30 @@ namespace {
 
 constexpr double kWithin95 = 1.959963984540054;  // standard deviations of a normal distribution
 
+/// Of the part p, of values in their order: the r-th lies below it unless less than r of them do.
+std::array<double, 2> intervalOf(const std::vector<double>& sorted, double p) {
+  using boost::math::complement;
+  const boost::math::binomial_distribution<double> below(static_cast<double>(sorted.size()), p);
+  // The largest with a chance of at most 2.5 % that fewer lie below; near the quantile, whose
+  // rounding is Boost's affair.
+  constexpr double kPart = 0.025;
+  const auto n = static_cast<double>(sorted.size());
+  auto low = static_cast<std::size_t>(std::fmax(0.0, quantile(below, kPart) - 2.0));
+  while (low < sorted.size() && cdf(below, static_cast<double>(low)) <= kPart) {
+    ++low;
+  }
+  auto high = static_cast<std::size_t>(std::fmin(n, quantile(complement(below, kPart)) + 3.0));
+  while (high > 0 && cdf(complement(below, static_cast<double>(high) - 1.0)) <= kPart) {
+    --high;
+  }
+  return {low == 0 ? -kInfinity : sorted[low - 1],
+          high == sorted.size() ? kInfinity : sorted[high]};
+}
+
 }  // namespace
 
-Distributed distributed(const std::vector<double>& values, const std::vector<bool>& failed) {
+Distributed distributed(const std::vector<double>& values, const std::vector<bool>& failed,
+                        bool drawn) {
   Distributed found;
   std::vector<double> finite;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -47,6 +69,11 @@ Distributed distributed(const std::vector<double>& values, const std::vector<boo
     found.percentiles[k] =
         finite[below] + (at - static_cast<double>(below)) * (finite[above] - finite[below]);
   }
+  if (drawn) {
+    for (const double percentile : kPercentiles) {
+      found.intervals.push_back(intervalOf(finite, percentile / 100.0));
+    }
+  }
   return found;
 }
 
@@ -68,9 +95,9 @@ Answers answersOf(const Study& study, const StudyTable& table) {
   answers.points = study.points();
   answers.failures = table.failures;
   for (const std::vector<double>& measure : table.measures) {
-    answers.measures.push_back(distributed(measure, table.failed));
+    answers.measures.push_back(distributed(measure, table.failed, study.design.drawn()));
     if (study.design.kind == Design::Kind::kSobolIndices) {
-      answers.sobol.push_back(sobolIndices(study.design, study.seed, measure));
+      answers.sobol.push_back(sobolIndices(study.design, measure));
     } else if (study.design.kind == Design::Kind::kMorris) {
       answers.morris.push_back(morrisEffects(study.design, study.seed, measure));
     }

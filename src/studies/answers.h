@@ -24,8 +24,15 @@ struct Distributed {
   double smallest = 0.0, largest = 0.0;
   /// Linear between the values in their order (Hyndman & Fan's type 7).
   std::array<double, kPercentiles.size()> percentiles{};
+  /// 95 % intervals of them, as of independent draws: between order statistics whose ranks a
+  /// binomial distribution gives (Hahn & Meeker, Statistical Intervals, 1991, section 5.2). Empty
+  /// where the points are no draws (grid, list, one_at_a_time, morris), infinite where the draws
+  /// are too few to bound the percentile on that side. Of latin_hypercube and sobol, whose points
+  /// are spread more evenly, they are wider than need be.
+  std::vector<std::array<double, 2>> intervals;
 };
-Distributed distributed(const std::vector<double>& values, const std::vector<bool>& failed);
+Distributed distributed(const std::vector<double>& values, const std::vector<bool>& failed,
+                        bool drawn = true);
 
 /// Of all points: one that failed, and a measure that is not a number, meet nothing.
 struct Yield {

@@ -14,7 +14,7 @@ namespace {
 constexpr double kPer53Bits = 1.0 / 9007199254740992.0;  // 2^-53
 
 /// What draws are for: no two uses share a stream.
-enum Stream : std::uint32_t { kValues, kWithin, kStrata, kOrder };
+enum Stream : std::uint32_t { kValues, kWithin, kStrata, kOrder, kScrambling };
 
 /// 64 random bits, of the seed, the use, a number's place and a point's.
 std::uint64_t bits(std::uint32_t seed, Stream stream, std::size_t number, std::uint64_t point) {
@@ -40,6 +40,34 @@ unsigned widthOf(std::uint64_t count) {
   return width;
 }
 
+/// Owen's scrambling of a coordinate: each bit is turned or not, as a random number says that is
+/// another one for every value of the bits above it. Six bits at a time, whose 63 random numbers
+/// are the bits of one draw, numbered as the nodes of a binary tree from 1 on. Sequences of up to
+/// 2^36 points have the same bits after these: there they are random.
+std::uint64_t scrambled(std::uint64_t x, std::uint32_t seed, std::size_t number,
+                        std::uint32_t replicate) {
+  constexpr unsigned kGroup = 6, kGroups = 6;
+  const auto drawn = [&](std::uint64_t above, unsigned group) {
+    const r123::Philox4x32::ctr_type words = r123::Philox4x32{}(
+        r123::Philox4x32::ctr_type{{static_cast<std::uint32_t>(above),
+                                    static_cast<std::uint32_t>(above >> 32U) | group << 8U,
+                                    static_cast<std::uint32_t>(number), replicate}},
+        r123::Philox4x32::key_type{{seed, kScrambling}});
+    return (static_cast<std::uint64_t>(words[0]) << 32U) | words[1];
+  };
+  std::uint64_t out = 0;
+  for (unsigned group = 0; group < kGroups; ++group) {
+    const std::uint64_t turned = drawn(group == 0 ? 0 : x >> (64 - kGroup * group), group);
+    std::uint64_t node = 1;
+    for (unsigned k = kGroup * group; k < kGroup * (group + 1); ++k) {
+      const std::uint64_t bit = x >> (63 - k) & 1U;
+      out |= (bit ^ (turned >> node & 1U)) << (63 - k);
+      node = 2 * node + bit;
+    }
+  }
+  return out | drawn(x >> (64 - kGroup * kGroups), kGroups) >> (kGroup * kGroups);
+}
+
 std::vector<double> latinHypercube(const Design& design, std::uint32_t seed, std::uint64_t point) {
   std::vector<double> u(design.dimensions);
   const auto strata = static_cast<double>(design.points);
@@ -62,11 +90,13 @@ std::vector<double> monteCarlo(const Design& design, std::uint32_t seed, std::ui
 }
 
 /// Row of A, of B, or of A with one number from B.
-std::vector<double> sobolIndices(const Design& design, std::uint64_t point) {
+std::vector<double> sobolIndices(const Design& design, std::uint32_t seed, std::uint64_t point) {
   const std::size_t d = design.dimensions;
   const std::uint64_t row = point / (d + 2);
   const std::uint64_t which = point % (d + 2);
-  const std::vector<double> both = sobolPoint(2 * d, row);
+  const std::uint64_t parts = replicates(design.base);
+  const std::vector<double> both =
+      sobolPoint(2 * d, row / parts, seed, static_cast<std::uint32_t>(row % parts));
   const auto half = both.begin() + static_cast<std::ptrdiff_t>(d);
   std::vector<double> u(which == 1 ? half : both.begin(), which == 1 ? both.end() : half);
   if (which >= 2) {
@@ -136,23 +166,30 @@ std::uint64_t permuted(std::uint64_t place, std::uint64_t count, std::uint64_t k
   return place;
 }
 
-std::vector<double> sobolPoint(std::size_t dimensions, std::uint64_t point) {
-  // Its table of direction numbers takes longer than a thousand points.
+std::vector<double> sobolPoint(std::size_t dimensions, std::uint64_t point, std::uint32_t seed,
+                               std::uint32_t replicate) {
+  // Its table of direction numbers takes longer than a thousand points. Boost's sequence begins
+  // after the origin.
   thread_local std::unique_ptr<boost::random::sobol> sequence;
   thread_local std::uint64_t next = 0;
   if (!sequence || sequence->dimension() != dimensions) {
     sequence = std::make_unique<boost::random::sobol>(dimensions);
-    next = 0;
+    next = 1;
   }
-  if (point != next) {
-    sequence->seed(point);
+  if (point > 0 && point != next) {
+    sequence->seed(point - 1);
   }
-  next = point + 1;
+  next = point > 0 ? point + 1 : next;
   std::vector<double> u(dimensions);
-  for (double& x : u) {
-    x = static_cast<double>((*sequence)() >> 11U) * kPer53Bits;
+  for (std::size_t j = 0; j < dimensions; ++j) {
+    u[j] = uniform(scrambled(point > 0 ? (*sequence)() : 0, seed, j, replicate));
   }
   return u;
+}
+
+std::uint64_t replicates(std::uint64_t base) {
+  constexpr std::uint64_t kMost = 16, kFewestPoints = 16;
+  return std::clamp<std::uint64_t>(base / kFewestPoints, 2, kMost);
 }
 
 double morrisStride(const Design& design) {
@@ -180,9 +217,9 @@ std::vector<double> quantilesAt(const Design& design, std::uint32_t seed, std::u
     case Design::Kind::kLatinHypercube:
       return latinHypercube(design, seed, point);
     case Design::Kind::kSobol:
-      return sobolPoint(design.dimensions, point);
+      return sobolPoint(design.dimensions, point, seed);
     case Design::Kind::kSobolIndices:
-      return sobolIndices(design, point);
+      return sobolIndices(design, seed, point);
     case Design::Kind::kMorris:
       return morris(design, seed, point);
     default:

@@ -9,11 +9,14 @@
 //   latin_hypercube    each number once in each of n equal strata (McKay, Beckman & Conover,
 //                      Technometrics 21, 1979); strata by a permutation of 0..n-1 that is a
 //                      function of i (a Feistel network, walked until it is below n)
-//   sobol              Sobol' sequence, without its first point 0 (Boost.Random, direction numbers
-//                      of Joe & Kuo, SIAM J. Sci. Comput. 30, 2008)
-//   sobol_indices      for n base points of a Sobol' sequence of 2 d dimensions, A and B:
+//   sobol              Sobol' sequence from its first point on (Boost.Random, direction numbers of
+//                      Joe & Kuo, SIAM J. Sci. Comput. 30, 2008), scrambled by the seed (Owen,
+//                      Randomly permuted (t,m,s)-nets and (t,s)-sequences, 1995): of 2^k points
+//                      one is in each of 2^k strata of every number
+//   sobol_indices      for n base points of Sobol' sequences of 2 d dimensions, A and B:
 //                      A, B, and A with number j from B for each j: n (d + 2) points (Saltelli et
-//                      al., Comput. Phys. Comm. 181, 2010)
+//                      al., Comput. Phys. Comm. 181, 2010). Base point i is of replicate i modulo
+//                      replicates(), each a sequence with a scrambling of its own
 //   morris             trajectories of d + 1 points, each of d steps of half the range in one
 //                      number after another (Morris, Technometrics 33, 1991), on levels in the
 //                      middles of p equal parts, (k + 1/2) / p
@@ -43,6 +46,11 @@ struct Design {
   std::uint64_t base = 0;           ///< n of sobol_indices, trajectories of morris
   std::size_t dimensions = 0;       ///< numbers that vary
   std::vector<std::size_t> levels;  ///< of each number: grid, one_at_a_time; p of morris
+
+  /// Its points are draws from the distributions of what varies.
+  bool drawn() const {
+    return kind == Kind::kMonteCarlo || kind == Kind::kLatinHypercube || kind == Kind::kSobol;
+  }
 };
 
 /// "latin_hypercube", …
@@ -71,8 +79,12 @@ double morrisStride(const Design& design);
 /// A permutation of 0..count-1, another for each key: where `place` goes.
 std::uint64_t permuted(std::uint64_t place, std::uint64_t count, std::uint64_t key);
 
-/// The point of a Sobol' sequence, 0 the first that is not the origin. [dimensions], 0 < u < 1.
-std::vector<double> sobolPoint(std::size_t dimensions, std::uint64_t point);
+/// The point of a Sobol' sequence, 0 the origin, scrambled by the seed and a replicate's number.
+/// [dimensions], 0 < u < 1.
+std::vector<double> sobolPoint(std::size_t dimensions, std::uint64_t point, std::uint32_t seed,
+                               std::uint32_t replicate = 0);
+/// Independent replicates that n base points of sobol_indices are parted into: 2 to 16.
+std::uint64_t replicates(std::uint64_t base);
 /// Of a Sobol' sequence.
 constexpr std::size_t kMostSobolDimensions = 1000;
 

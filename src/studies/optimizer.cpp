@@ -7,6 +7,7 @@
 #include <exception>
 #include <limits>
 #include <nlopt.hpp>
+#include <random>
 #include <utility>
 
 #include "algebra/constants.h"
@@ -17,6 +18,8 @@ namespace whirl_twin {
 namespace {
 
 constexpr double kFirstStep = 0.2;  // of each range
+constexpr int kMostRestarts = 20;
+constexpr double kGain = 1.0e-6;  // of the spread of what was seen: less is no better point
 
 nlopt::algorithm algorithmOf(const std::string& method) {
   return method == "bobyqa"   ? nlopt::LN_BOBYQA
@@ -51,14 +54,22 @@ class Search {
       constraints.push_back({this, requirement});
       search.add_inequality_constraint(constraint, &constraints.back(), 0.0);
     }
-    double least = 0.0;
     try {
       at(parts);
       requireStart();
-      endedWith(search.optimize(parts, least));
-    } catch (const nlopt::roundoff_limited&) {
-      found_.converged = true;
-      found_.ended = "no step improves it any more";
+      endWith(search, parts);
+      const bool local = asked_.method == "bobyqa" || asked_.method == "cobyla";
+      for (int k = 0; local && findsBetter(parts); ++k) {
+        if (k == kMostRestarts) {
+          found_.converged = false;
+          found_.ended = fmt::format(
+              "better points were found beside each of the {} places where it ended: the optimum "
+              "lies along a ridge (`method: crs`)",
+              kMostRestarts + 1);
+          break;
+        }
+        endWith(search, parts);
+      }
     } catch (const nlopt::forced_stop&) {  // why, has been said
     }
     if (error_) {
@@ -154,6 +165,7 @@ class Search {
         [&](const Requirement& r) { return r.holds(seen.outcome.measures[r.measure]); });
     if (meets && (found_.values.empty() || cost < best_allowed_)) {
       best_allowed_ = cost;
+      best_parts_ = parts;
       found_.values = values;
       found_.measures = seen.outcome.measures;
       if (std::isinf(cost)) {
@@ -199,17 +211,57 @@ class Search {
     throw nlopt::forced_stop();
   }
 
-  void endedWith(nlopt::result result) {
-    found_.converged = result > 0 && result != nlopt::MAXEVAL_REACHED;
-    found_.ended = fmt::format("steps are below {:g} of each range", asked_.tolerance);
+  void endWith(nlopt::opt& search, std::vector<double>& parts) {
+    double least = 0.0;
+    try {
+      const nlopt::result result = search.optimize(parts, least);
+      found_.converged = result > 0 && result != nlopt::MAXEVAL_REACHED;
+      found_.ended = fmt::format("steps are below {:g} of each range", asked_.tolerance);
+    } catch (const nlopt::roundoff_limited&) {
+      found_.converged = true;
+      found_.ended = "no step improves it any more";
+    }
+  }
+
+  /// Methods that model the measure by a plane or a quadratic stop on a ridge, as where two roots
+  /// meet: from there only few directions lead up. Looks along random ones from the best point, and
+  /// goes where it is better.
+  bool findsBetter(std::vector<double>& parts) {
+    if (best_parts_.empty()) {
+      return false;
+    }
+    const std::vector<double> from = best_parts_;
+    const double needed = best_allowed_ - kGain * (worst_ - best_);
+    for (const double radius : {0.1, 0.03, 0.01, 0.003}) {
+      for (std::size_t k = 0; k < 2 * from.size() + 2; ++k) {
+        std::vector<double> trial(from.size());
+        double length = 0.0;
+        for (double& x : trial) {
+          x = normal_(random_);
+          length = std::hypot(length, x);
+        }
+        for (std::size_t i = 0; i < trial.size(); ++i) {
+          trial[i] = std::clamp(from[i] + radius * trial[i] / length, 0.0, 1.0);
+        }
+        at(trial);
+        if (best_allowed_ < needed) {
+          parts = best_parts_;
+          return true;
+        }
+      }
+    }
+    return false;
   }
 
   const Study& study_;
   const Optimization& asked_;
   PointEvaluator evaluator_;
   const std::function<void(std::uint64_t)>& done_;
-  std::vector<double> last_;  // where it looked last
-  Seen seen_;                 // what was there
+  std::vector<double> last_;        // where it looked last
+  std::vector<double> best_parts_;  // of the best that meets what is required
+  std::mt19937_64 random_{study_.seed};
+  std::normal_distribution<double> normal_;
+  Seen seen_;  // what was there
   Optimum found_;
   double best_ = 0.0, worst_ = 0.0, best_allowed_ = 0.0;
   bool any_ = false;

@@ -1,7 +1,10 @@
 #include "studies/sensitivity.h"
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 #include <random>
 
 #include "algebra/constants.h"
@@ -48,18 +51,58 @@ void bootstrap(std::uint64_t count, std::uint32_t seed, std::size_t numbers,
   }
 }
 
-/// The rows of `width` points whose measures are all finite. [rows * width]
-std::vector<double> knownRows(const std::vector<double>& measure, std::uint64_t rows,
-                              std::size_t width) {
-  std::vector<double> known;
+/// Rows of `width` points whose measures are all finite, and the number of each.
+struct KnownRows {
+  std::vector<double> values;  // [rows * width]
+  std::vector<std::uint64_t> number;
+};
+
+KnownRows knownRows(const std::vector<double>& measure, std::uint64_t rows, std::size_t width) {
+  KnownRows known;
   for (std::uint64_t row = 0; row < rows; ++row) {
     const auto begin = measure.begin() + static_cast<std::ptrdiff_t>(row * width);
     const auto end = begin + static_cast<std::ptrdiff_t>(width);
     if (std::all_of(begin, end, [](double x) { return std::isfinite(x); })) {
-      known.insert(known.end(), begin, end);
+      known.values.insert(known.values.end(), begin, end);
+      known.number.push_back(row);
     }
   }
   return known;
+}
+
+/// What an estimator gives of all rows, and its 95 % interval: the jackknife over replicates, of
+/// which row i is in `part[i]`. [value, low, high of each number]
+template <class Estimator>
+std::vector<Estimate> jackknife(const std::vector<std::uint64_t>& part, std::uint64_t parts,
+                                const Estimator& estimator) {
+  std::vector<std::uint64_t> rows(part.size());
+  std::iota(rows.begin(), rows.end(), 0);
+  const std::vector<double> values = estimator(rows);
+  std::vector<std::vector<double>> without;
+  for (std::uint64_t left_out = 0; left_out < parts; ++left_out) {
+    std::vector<std::uint64_t> others;
+    std::copy_if(rows.begin(), rows.end(), std::back_inserter(others),
+                 [&](std::uint64_t row) { return part[row] != left_out; });
+    if (!others.empty() && others.size() < rows.size()) {
+      without.push_back(estimator(others));
+    }
+  }
+  const auto count = static_cast<double>(without.size());
+  const double within =
+      count < 2.0 ? kNaN : boost::math::quantile(boost::math::students_t(count - 1.0), 0.975);
+  std::vector<Estimate> estimates;
+  for (std::size_t j = 0; j < values.size(); ++j) {
+    double mean = 0.0, squares = 0.0;
+    for (const std::vector<double>& one : without) {
+      mean += one[j] / count;
+    }
+    for (const std::vector<double>& one : without) {
+      squares += (one[j] - mean) * (one[j] - mean);
+    }
+    const double half = within * std::sqrt((count - 1.0) / count * squares);
+    estimates.push_back({values[j], values[j] - half, values[j] + half});
+  }
+  return estimates;
 }
 
 bool isConstant(const std::vector<double>& values) {
@@ -74,11 +117,11 @@ Estimate unknown() {
 
 }  // namespace
 
-SobolIndices sobolIndices(const Design& design, std::uint32_t seed,
-                          const std::vector<double>& measure) {
+SobolIndices sobolIndices(const Design& design, const std::vector<double>& measure) {
   const std::size_t d = design.dimensions;
   const std::size_t width = d + 2;
-  std::vector<double> f = knownRows(measure, design.base, width);
+  KnownRows known = knownRows(measure, design.base, width);
+  std::vector<double>& f = known.values;
   SobolIndices indices;
   indices.rows = f.size() / width;
   indices.left_out = design.base - indices.rows;
@@ -116,8 +159,12 @@ SobolIndices sobolIndices(const Design& design, std::uint32_t seed,
     }
     return both;
   };
-  std::vector<Estimate> both;
-  bootstrap(indices.rows, seed, 2 * d, estimator, both);
+  const std::uint64_t parts = replicates(design.base);
+  std::vector<std::uint64_t> part = known.number;
+  for (std::uint64_t& row : part) {
+    row %= parts;
+  }
+  const std::vector<Estimate> both = jackknife(part, parts, estimator);
   const auto half = both.begin() + static_cast<std::ptrdiff_t>(d);
   indices.first.assign(both.begin(), half);
   indices.total.assign(half, both.end());

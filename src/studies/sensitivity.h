@@ -11,7 +11,10 @@
 // it: their mean, the mean of their magnitudes (mu*, Campolongo, Cariboni & Saltelli 2007) and
 // their standard deviation, which tells of curvature or of other numbers.
 //
-// Intervals: 95 %, by 1000 bootstrap samples of rows, or of trajectories, with a seed.
+// Intervals: 95 %. Of Sobol' indices by the jackknife over the design's independent replicates and
+// Student's distribution: rows of one sequence are no independent draws, and a bootstrap of them
+// would be several times too wide. Of Morris's effects by 1000 bootstrap samples of trajectories,
+// with a seed.
 #pragma once
 
 #include <cstddef>
@@ -42,8 +45,7 @@ struct MorrisEffects {
 };
 
 /// Of a measure at every point of the design; what is not finite is not known.
-SobolIndices sobolIndices(const Design& design, std::uint32_t seed,
-                          const std::vector<double>& measure);
+SobolIndices sobolIndices(const Design& design, const std::vector<double>& measure);
 MorrisEffects morrisEffects(const Design& design, std::uint32_t seed,
                             const std::vector<double>& measure);
 

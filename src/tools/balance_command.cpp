@@ -34,6 +34,11 @@ constexpr const char* kBalanceFooter =
     "    - {plane: disc_1, mass_radius: 1e-4, angle: 0, readings: [[8e-6, 55], [7e-6, 120]]}\n"
     "    - {plane: disc_2, mass_radius: 1e-4, angle: 90, readings: [[10e-6, 20], [5e-6, 150]]}\n"
     "  weights: [1, 1]                             of the probes; may be left out\n"
+    "  deviation: 0.2e-6                           standard deviation of either component of a "
+    "reading;\n"
+    "                                              left out: as the residual shows, where there "
+    "are more\n"
+    "                                              probes than planes\n"
     "mass_radius in kg m; angles in degrees from the shaft's mark in the direction of rotation.\n"
     "The correction is to be added, with the trial masses taken out.\n"
     "\n"
@@ -62,12 +67,33 @@ double degrees(const std::complex<double>& z) {
   return std::arg(z) / kDegree + 0.0;
 }
 
-Json balanceJson(const BalancingRuns& runs, const BalanceCorrection& c) {
+using Spread = std::optional<CorrectionSpread>;
+
+/// [deg], of the angle of a mass whose components have a deviation.
+double angleDeviation(const std::complex<double>& mass, double deviation) {
+  return std::atan2(deviation, std::abs(mass)) / kDegree;
+}
+
+/// 95 % of either side of a value; null where that is not known.
+Json aside(double value, const Spread& spread, double deviation) {
+  return spread ? Json{value - spread->within95 * deviation, value + spread->within95 * deviation}
+                : Json();
+}
+
+Json balanceJson(const BalancingRuns& runs, const BalanceCorrection& c, const Spread& spread) {
   Json json;
   for (std::size_t i = 0; i < runs.planes.size(); ++i) {
-    const auto mass = c.mass_radius[static_cast<Eigen::Index>(i)];
-    json["correction"][runs.planes[i]] = {{"mass_radius", std::abs(mass)},
-                                          {"angle", degrees(mass)}};
+    const auto k = static_cast<Eigen::Index>(i);
+    const std::complex<double> mass = c.mass_radius[k];
+    const double size = spread ? spread->deviation[k] : 0.0;
+    const double turn = angleDeviation(mass, size);
+    json["correction"][runs.planes[i]] = {
+        {"mass_radius", std::abs(mass)},
+        {"angle", degrees(mass)},
+        {"mass_radius_deviation", spread ? Json(size) : Json()},
+        {"angle_deviation", spread ? Json(turn) : Json()},
+        {"mass_radius_interval", aside(std::abs(mass), spread, size)},
+        {"angle_interval", aside(degrees(mass), spread, turn)}};
   }
   for (std::size_t i = 0; i < runs.probes.size(); ++i) {
     const auto left = c.residual[static_cast<Eigen::Index>(i)];
@@ -97,12 +123,22 @@ CsvTables balanceTables(const BalancingRuns& runs, const BalanceCorrection& c) {
   return {planes, probes};
 }
 
-std::string balanceText(const BalancingRuns& runs, const BalanceCorrection& c) {
-  std::string out = "add                mass x radius, kg m   angle, deg\n";
+std::string balanceText(const BalancingRuns& runs, const BalanceCorrection& c,
+                        const Spread& spread) {
+  std::string out = fmt::format("add                mass x radius, kg m   angle, deg{}\n",
+                                spread ? "   (half width of the 95 % interval: kg m, deg)" : "");
   for (std::size_t i = 0; i < runs.planes.size(); ++i) {
-    const auto mass = c.mass_radius[static_cast<Eigen::Index>(i)];
-    out += fmt::format("  {:<18} {:>18.6g} {:>12.4f}\n", printable(runs.planes[i]), std::abs(mass),
+    const auto k = static_cast<Eigen::Index>(i);
+    const std::complex<double> mass = c.mass_radius[k];
+    out += fmt::format("  {:<18} {:>18.6g} {:>12.4f}", printable(runs.planes[i]), std::abs(mass),
                        degrees(mass));
+    out += spread ? fmt::format("   ({:.2g}, {:.2g})", spread->within95 * spread->deviation[k],
+                                spread->within95 * angleDeviation(mass, spread->deviation[k]))
+                  : "";
+    out += "\n";
+  }
+  if (!spread) {
+    out += "  how well they are known: give `deviation`, or more probes than planes\n";
   }
   out += "vibration                      before        after\n";
   for (std::size_t i = 0; i < runs.probes.size(); ++i) {
@@ -117,16 +153,18 @@ std::string balanceText(const BalancingRuns& runs, const BalanceCorrection& c) {
 
 int balanceRuns(const BalanceRequest& request) {
   const BalancingRuns runs = readBalancingRuns(request.file);
-  const BalanceCorrection correction = balance(
-      influenceOfPlanes(runs.initial, runs.trials, static_cast<Eigen::Index>(runs.planes.size())),
-      runs.initial, runs.weights);
+  const Eigen::MatrixXcd influence =
+      influenceOfPlanes(runs.initial, runs.trials, static_cast<Eigen::Index>(runs.planes.size()));
+  const BalanceCorrection correction = balance(influence, runs.initial, runs.weights);
+  const Spread spread =
+      correctionSpread(influence, runs.trials, runs.weights, correction, runs.deviation);
   if (request.csv) {
     writeCsv(*request.csv, balanceTables(runs, correction));
   }
   if (request.json) {
-    printJson(balanceJson(runs, correction));
+    printJson(balanceJson(runs, correction, spread));
   } else {
-    printText(balanceText(runs, correction));
+    printText(balanceText(runs, correction, spread));
   }
   return kDone;
 }

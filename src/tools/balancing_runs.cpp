@@ -26,7 +26,7 @@ class RunsReader {
   explicit RunsReader(const std::string& path) : complaints_(path) {}
 
   BalancingRuns read(const YAML::Node& tree) {
-    const MapReader map(tree, "", {"probes", "planes", "initial", "trials", "weights"},
+    const MapReader map(tree, "", {"probes", "planes", "initial", "trials", "weights", "deviation"},
                         "key of balancing runs", complaints_);
     if (map.usable()) {
       runs_.probes = names(map, "probes");
@@ -34,6 +34,10 @@ class RunsReader {
       runs_.initial = readings(map, "initial");
       readWeights(map);
       readTrials(map);
+      if (map.has("deviation")) {
+        runs_.deviation = number(map.at("deviation"), map.key("deviation"), kLeastMass, kLargest,
+                                 "a standard deviation");
+      }
     }
     if (!complaints_.all().empty()) {
       throw Refusal(fmt::format("{}", fmt::join(complaints_.all(), "\ntwin: ")));

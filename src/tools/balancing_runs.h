@@ -14,6 +14,8 @@ struct BalancingRuns {
   Eigen::VectorXcd initial;                 ///< of each probe: amplitude e^(-i lag), any unit
   Eigen::VectorXd weights;                  ///< of each probe, >= 0 and not all 0
   std::vector<TrialRun> trials;             ///< at least one for each plane
+  /// Standard deviation of either component of a reading, in its unit; 0: not stated.
+  double deviation = 0.0;
 };
 
 /// Reads them from a YAML file. Throws Refusal with everything that is wrong with it. The sizes

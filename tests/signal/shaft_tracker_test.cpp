@@ -165,6 +165,78 @@ TEST(ShaftTracker, FollowsARunUpWithJitterMissingAndDoublePulses) {
   EXPECT_EQ(tracker.counts().locked, 1);
 }
 
+// Converters of 10 to 1,000 us under a scene that states 1 us, steady and in run-ups through a wide
+// range: the pulses are kept, and the angle is as good as with the right number stated.
+TEST(ShaftTracker, LearnsTheJitterThatNobodyStated) {
+  for (const double step : {1.0e-5, 3.9e-5, 1.0e-4, 3.0e-4}) {
+    for (const double acceleration : {0.0, 10.0}) {
+      KnownShaft shaft{
+          [acceleration](double t) { return 0.3 + 60.0 * t + 0.5 * acceleration * t * t; }};
+      const auto pulsesOf = [&] {
+        std::vector<std::int64_t> pulses = shaft.pulses(20.0);
+        for (std::int64_t& pulse : pulses) {
+          const double steps = std::round(static_cast<double>(pulse) * kNanosecond / step);
+          pulse = std::llround(steps * step / kNanosecond);
+        }
+        return pulses;
+      };
+      const double right = step / std::sqrt(12.0);
+      ShaftTracker tracker({0.0, 1.0e-6, 10.0}), stated({0.0, right, 10.0});
+      double worst = 0.0, worst_stated = 0.0;
+      for (const std::int64_t pulse : pulsesOf()) {
+        tracker.take(pulse);
+        stated.take(pulse);
+        const double t = static_cast<double>(pulse) * kNanosecond;
+        if (t > 2.0) {
+          ASSERT_TRUE(tracker.at(pulse).known) << step << ", " << acceleration << ", at " << t;
+          const auto error = [&](const ShaftTracker& of) {
+            return std::fabs(std::remainder(of.at(pulse).angle.total() - shaft.angle(t), kTurn));
+          };
+          worst = std::max(worst, error(tracker));
+          worst_stated = std::max(worst_stated, error(stated));
+        }
+      }
+      SCOPED_TRACE(testing::Message() << "step " << step << " s, " << acceleration << " rad/s^2");
+      EXPECT_LT(tracker.counts().refused, tracker.counts().taken / 25 + 8);
+      EXPECT_LT(tracker.refusedLately(), 4);
+      EXPECT_LT(worst, 2.0 * worst_stated + 5.0e-3);
+      if (right > 3.0e-5) {  // a finer one shows at some speeds only
+        EXPECT_NEAR(tracker.jitter() / right, 1.0, 0.7);
+      }
+    }
+  }
+}
+
+TEST(ShaftTracker, AStatedJitterHoldsWhereThePulsesDoNotContradictIt) {
+  KnownShaft shaft = steadyShaft(150.0);
+  shaft.jitter = 2.0e-5;
+  ShaftTracker tracker({0.0, 2.0e-5, 10.0});
+  int other = 0, all = 0;
+  for (const std::int64_t pulse : shaft.pulses(60.0)) {
+    tracker.take(pulse);
+    ++all;
+    other += tracker.jitter() != 2.0e-5 ? 1 : 0;
+  }
+  EXPECT_LT(other, all / 20);
+}
+
+TEST(ShaftTracker, CountsWhatWasRefusedLately) {
+  ShaftTracker tracker({0.0, 1.0e-6, 1.0});
+  std::int64_t last = 0;
+  for (const std::int64_t pulse : steadyShaft(100.0).pulses(5.0)) {
+    tracker.take(pulse);
+    last = pulse;
+  }
+  EXPECT_EQ(tracker.refusedLately(), 0);
+  std::mt19937_64 random(7);  // a broken pick-up: pulses at random
+  std::exponential_distribution<double> wait(60.0);
+  for (int i = 0; i < 40; ++i) {
+    last += std::llround(wait(random) / kNanosecond) + 1;
+    tracker.take(last);
+  }
+  EXPECT_GT(tracker.refusedLately(), ShaftTracker::kLately / 2);
+}
+
 TEST(ShaftTracker, RefusesPulsesThatAreNone) {
   KnownShaft shaft = steadyShaft(120.0);
   shaft.jitter = kTurn / 4096.0 / 120.0;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <utility>
 
 namespace whirl_twin {
 namespace design_test {
@@ -73,34 +74,64 @@ TEST(Permutation, ComesEverywhereOnce) {
   }
 }
 
-// Sobol' 1967; the sequence without its first point, the origin.
-TEST(Sobol, BeginsAsItIsKnownTo) {
-  EXPECT_EQ(sobolPoint(2, 0), (std::vector<double>{0.5, 0.5}));
-  EXPECT_EQ(sobolPoint(2, 1), (std::vector<double>{0.75, 0.25}));
-  EXPECT_EQ(sobolPoint(2, 2), (std::vector<double>{0.25, 0.75}));
+// Of 2^m points there is one in each of 2^m strata of every number, the first point among them, and
+// scrambling keeps that (Owen 1995).
+TEST(Sobol, FillsDyadicStrataEvenly) {
+  for (const std::uint64_t points : {8U, 256U}) {
+    for (const std::uint32_t seed : {1U, 2U, 3U}) {
+      for (std::size_t j = 0; j < 8; ++j) {
+        std::set<std::uint64_t> strata;
+        for (std::uint64_t i = 0; i < points; ++i) {
+          const double u = sobolPoint(8, i, seed)[j];
+          ASSERT_GT(u, 0.0);
+          ASSERT_LT(u, 1.0);
+          strata.insert(static_cast<std::uint64_t>(u * static_cast<double>(points)));
+        }
+        EXPECT_EQ(strata.size(), points) << "number " << j << ", seed " << seed;
+      }
+    }
+  }
 }
 
-// With the origin, every 2^m points have one in each of 2^m strata of every number.
-TEST(Sobol, FillsDyadicStrataEvenly) {
-  constexpr std::uint64_t kPoints = 256;
-  for (std::size_t j = 0; j < 8; ++j) {
-    std::set<std::uint64_t> strata{0};  // the origin's
-    for (std::uint64_t i = 0; i + 1 < kPoints; ++i) {
-      strata.insert(static_cast<std::uint64_t>(sobolPoint(8, i)[j] * kPoints));
+// In two dimensions the first 2^m points are a (0, m, 2)-net: one in every elementary rectangle.
+TEST(Sobol, ScramblingKeepsTheNet) {
+  constexpr std::uint64_t kPoints = 64;
+  for (unsigned k = 0; k <= 6; ++k) {
+    std::set<std::pair<std::uint64_t, std::uint64_t>> boxes;
+    for (std::uint64_t i = 0; i < kPoints; ++i) {
+      const std::vector<double> u = sobolPoint(2, i, 5);
+      boxes.emplace(static_cast<std::uint64_t>(u[0] * static_cast<double>(1U << k)),
+                    static_cast<std::uint64_t>(u[1] * static_cast<double>(1U << (6 - k))));
     }
-    EXPECT_EQ(strata.size(), kPoints);
+    EXPECT_EQ(boxes.size(), kPoints) << "2^" << k << " columns";
   }
+}
+
+// Scrambled, each point alone is distributed evenly over the cube: its mean over seeds is 1/2, its
+// variance 1/12, and seeds and replicates differ.
+TEST(Sobol, TheSeedMovesEveryPoint) {
+  constexpr int kSeeds = 2000;
+  double sum = 0.0, squares = 0.0;
+  for (std::uint32_t seed = 0; seed < kSeeds; ++seed) {
+    const double u = sobolPoint(3, 0, seed)[2];
+    sum += u;
+    squares += (u - 0.5) * (u - 0.5);
+  }
+  EXPECT_NEAR(sum / kSeeds, 0.5, 4.0 * std::sqrt(1.0 / 12.0 / kSeeds));
+  EXPECT_NEAR(squares / kSeeds, 1.0 / 12.0, 4.0 * std::sqrt(1.0 / 180.0 / kSeeds));
+  EXPECT_NE(sobolPoint(2, 7, 1), sobolPoint(2, 7, 2));
+  EXPECT_NE(sobolPoint(2, 7, 1, 0), sobolPoint(2, 7, 1, 1));
 }
 
 TEST(Sobol, AnyOrderGivesTheSamePoints) {
-  const std::vector<double> late = sobolPoint(5, 12345);
-  static_cast<void>(sobolPoint(5, 0));
-  static_cast<void>(sobolPoint(3, 12345));
-  EXPECT_EQ(sobolPoint(5, 12345), late);
+  const std::vector<double> late = sobolPoint(5, 12345, 9);
+  static_cast<void>(sobolPoint(5, 0, 9));
+  static_cast<void>(sobolPoint(3, 12345, 9));
+  EXPECT_EQ(sobolPoint(5, 12345, 9), late);
   for (std::uint64_t i = 12340; i < 12345; ++i) {
-    static_cast<void>(sobolPoint(5, i));
+    static_cast<void>(sobolPoint(5, i, 9));
   }
-  EXPECT_EQ(sobolPoint(5, 12345), late);
+  EXPECT_EQ(sobolPoint(5, 12345, 9), late);
 }
 
 TEST(SobolIndices, RowsDifferInTheOneNumber) {

@@ -45,6 +45,26 @@ optimize: {maximize: decay, tolerance: 1.0e-5, evaluations: 3000, method: )" +
   }
 }
 
+// Over damping and stiffness that rate is sqrt(k/m) at best, along c = 2 sqrt(k m), a ridge on
+// which a quadratic or a plane has no direction to go. Either the search gets to its end, 100 1/s
+// at k = 1e4 N/m, or it does not claim to have converged.
+TEST(Optimizer, OnARidgeItDoesNotClaimToHaveConverged) {
+  const StudyFiles files;
+  for (const std::string method : {"bobyqa", "cobyla"}) {
+    const Study study = readStudy(files.study(R"(
+vary: {rotor.damping: {uniform: [1.0, 500.0]}, rotor.stiffness: {uniform: [1.0e+3, 1.0e+4]}}
+run: {analyze: true, speed: 0.0}
+measure: {decay: margins.decay_rate}
+optimize: {maximize: decay, evaluations: 3000, method: )" +
+                                              method + "}\n"));
+    const Optimum optimum = optimumOf(study);
+    ASSERT_FALSE(optimum.values.empty()) << method << ": " << optimum.ended;
+    EXPECT_TRUE(!optimum.converged || optimum.measures[0] > 98.0)
+        << method << ": " << optimum.measures[0] << ", " << optimum.ended;
+    EXPECT_GT(optimum.measures[0], 80.0) << method;
+  }
+}
+
 // The slowest run-up that keeps an amplitude: the requirement is met to its edge, and a run-up a
 // little slower does not meet it.
 TEST(Optimizer, TheSlowestRunUpWithinAnAmplitudeIsAtItsEdge) {
