@@ -45,6 +45,9 @@ class Controller {
   /// How small changes of what it measures come out, without limits and at a shaft speed [rad/s];
   /// nothing where that is not linear.
   virtual std::optional<DiscreteStateSpace> linear(double shaft_speed) const = 0;
+  /// At this shaft speed [rad/s], while it changes by an acceleration [rad/s^2], what is put before
+  /// law() goes on as it is and does not follow what is measured: small changes are those of law().
+  virtual bool holds(double /*shaft_speed*/, double /*acceleration*/) const { return false; }
   /// From where linear() counts what is measured: there, and with no past, its outputs are 0.
   /// Empty: from 0.
   virtual std::vector<double> setpoint() const { return {}; }

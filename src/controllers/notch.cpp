@@ -72,6 +72,9 @@ class NotchedController final : public Controller {
   }
 
   std::vector<double> setpoint() const override { return controller_->setpoint(); }
+  bool holds(double speed, double acceleration) const override {
+    return !learnsAt(speed, acceleration) || controller_->holds(speed, acceleration);
+  }
 
   /// States: of each pair or probe real and imaginary part of c e^(j theta), then the controller's.
   std::optional<DiscreteStateSpace> linear(double speed) const override {
@@ -98,9 +101,13 @@ class NotchedController final : public Controller {
  private:
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
+  bool learnsAt(double speed, double acceleration) const noexcept {
+    return std::abs(acceleration) <= notch_.hold * notch_.rate * std::abs(speed);
+  }
+
   /// Slow enough to learn: not so at the first sample with a speed, which may come from anywhere.
   bool steady(double speed) const noexcept {
-    return std::abs(speed - last_speed_) * rate_ <= notch_.hold * notch_.rate * std::abs(speed);
+    return learnsAt(speed, (speed - last_speed_) * rate_);
   }
 
   void takeOff(const ControlSample& sample, bool learn) noexcept {

@@ -85,8 +85,8 @@ Judgement Judging::judge(const Waiting& waiting, bool complete) {
   judgement.built = request.built;
   judgement.speed = request.speed;
   judgement.of_loop = seat.loop != nullptr;
-  judgement.margin =
-      seat.judge->judge(request.at, request.q, request.v, request.speed, request.beside);
+  judgement.margin = seat.judge->judge(request.at, request.q, request.v, request.speed,
+                                       request.beside, request.acceleration);
   judgement.motion = seat.judge->motion();
   if (complete && seat.judge->isPartial()) {
     seat.judge->complete(request.speed, judgement.margin);

@@ -30,6 +30,7 @@ struct JudgementRequest {
   /// What its controllers close around it, with their parameters as they are; nullptr: none do.
   std::shared_ptr<const ClosedLoop> loop = nullptr;
   SystemMotions beside = nullptr;  ///< the other systems of that loop, as they came last
+  double acceleration = 0.0;       ///< [rad/s^2], of its shaft
 };
 
 struct Judgement {

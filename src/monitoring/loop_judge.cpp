@@ -113,8 +113,8 @@ Stability LoopJudge::judgeOrSayWhy(double time, const SystemMotion& present,
   const SampledLoop sampled = sampledLoop(parts->plant, parts->controllers);
   const SampledStability loop = sampledStability(sampled);
   parts_ = std::move(parts);
-  last_ = {time, speed, motion, loop.verdict};
-  if (!found_ || found_->verdict != loop.verdict) {
+  last_ = {time, speed, motion, loop.verdict, parts_->holding};
+  if (!found_ || found_->verdict != loop.verdict || found_->holding != last_.holding) {
     found_.reset();
     margins_.clear();
     for (std::size_t i = 0; i < loop_->controllers().size(); ++i) {

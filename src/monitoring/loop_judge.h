@@ -45,6 +45,7 @@ class LoopJudge {
     double speed = 0.0;     ///< [rad/s], that the laws follow
     Eigen::VectorXd about;  ///< places, then rates, of each system
     Verdict verdict = Verdict::kUncertain;
+    std::vector<bool> holding;  ///< ClosedLoop::Parts
   };
 
   Stability judgeOrSayWhy(double time, const SystemMotion& present, const SystemMotions& beside,

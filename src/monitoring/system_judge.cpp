@@ -132,7 +132,7 @@ ReducedMargins SystemJudge::unreducedMargins(const Eigen::VectorXd& about, doubl
 
 state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::vector<double>& q,
                                           const std::vector<double>& v, double speed,
-                                          const SystemMotions& beside) {
+                                          const SystemMotions& beside, double acceleration) {
   const Dynamics& dynamics = *system_->dynamics;
   const double shaft_speed = shaftSpeed(speed);
   const auto n = static_cast<Eigen::Index>(q.size());
@@ -144,7 +144,8 @@ state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::v
   motion_.reset();
   lacks_thresholds_ = false;
   try {
-    s = loop_ ? loop_->judge(at.time, {&dynamics, present, rates, shaft_speed}, beside, about)
+    s = loop_ ? loop_->judge(at.time, {&dynamics, present, rates, shaft_speed, acceleration},
+                             beside, about)
               : openStability(at, present, rates, shaft_speed, about);
     if (unreduced_ && (motion_ || !isJudgedOnlyAtRest(dynamics))) {
       reduction = unreducedMargins(

@@ -35,10 +35,11 @@ class SystemJudge {
   /// The verdict with coordinates q and rates v at shaft speed [rad/s] (ignored without a shaft):
   /// of the equilibrium or steady motion it operates about, its conserved momenta as they are.
   /// With the speeds and margins of loops that are known: those that are to be looked for take a
-  /// hundred times as long. beside: the other systems of a loop that goes through several.
+  /// hundred times as long. beside: the other systems of a loop that goes through several;
+  /// acceleration: of the shaft [rad/s^2].
   state::StabilityMargin judge(const state::Instant& at, const std::vector<double>& q,
                                const std::vector<double>& v, double speed,
-                               const SystemMotions& beside = nullptr);
+                               const SystemMotions& beside = nullptr, double acceleration = 0.0);
   /// Something is to be looked for: critical speeds before the first time, thresholds where the
   /// last verdict was not that which they foretold, margins of its loop.
   bool isPartial() const { return loop_ ? loop_->lacksMargins() : !speeds_ || lacks_thresholds_; }

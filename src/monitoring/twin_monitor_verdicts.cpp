@@ -82,8 +82,8 @@ void TwinMonitor::askFor(SystemWatch& watch) {
   watch.judged_at = watch.last.at.time;
   watch.judged_speed = watch.speed;
   const auto place = static_cast<std::size_t>(&watch - watches_.data());
-  judging_.ask({place, watch.system, watch.last.at, watch.last.q, watch.last.v, watch.speed, run_,
-                watch.last.arrived_at, loops_[place], motionsBeside(place)});
+  judging_.ask({place, watch.system, watch.last.at, watch.last.q, watch.last.v, watch.speed, run_, watch.last.arrived_at, loops_[place],
+                motionsBeside(place), watch.acceleration});
   takeJudgements();
 }
 
@@ -100,10 +100,11 @@ SystemMotions TwinMonitor::motionsBeside(std::size_t place) const {
     const SystemWatch& watch = watches_[i];
     const Dynamics& dynamics = *watch.system->dynamics;
     const auto n = static_cast<Eigen::Index>(watch.last.q.size());
-    all[i] = {watch.system,
-              {&dynamics, Eigen::Map<const Eigen::VectorXd>(watch.last.q.data(), n),
-               Eigen::Map<const Eigen::VectorXd>(watch.last.v.data(), n),
-               dynamics.hasShaft() ? watch.speed : 0.0}};
+    all[i] = {
+        watch.system,
+        {&dynamics, Eigen::Map<const Eigen::VectorXd>(watch.last.q.data(), n),
+         Eigen::Map<const Eigen::VectorXd>(watch.last.v.data(), n),
+         dynamics.hasShaft() ? watch.speed : 0.0, dynamics.hasShaft() ? watch.acceleration : 0.0}};
   }
   return [all = std::move(all)](std::size_t system) { return all.at(system).motion; };
 }

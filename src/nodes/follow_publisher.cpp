@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "transport/master_watch.h"
+
 namespace whirl_twin {
 
 FollowPublisher::FollowPublisher(Twin& twin, std::shared_ptr<SystemGenerations> generations,
@@ -19,7 +21,7 @@ FollowPublisher::FollowPublisher(Twin& twin, std::shared_ptr<SystemGenerations> 
   for (const std::string& source : sources) {
     states_.advertise<state::Measurement>(source);
   }
-  scene_.at.stamp = static_cast<std::int64_t>(ros::Time::now().toNSec());
+  scene_.at.stamp = stampNow();
   states_.tell(scene_);
 }
 

@@ -28,6 +28,7 @@
 #include "transport/lcm_connection.h"
 #include "transport/lcm_publisher.h"
 #include "transport/lcm_receiver.h"
+#include "transport/master_watch.h"
 #include "transport/ros_parameters.h"
 #include "transport/ros_topics.h"
 #include "twin/step_messages.h"
@@ -319,15 +320,12 @@ class MonitorNode {
   /// That it is there. Wall time: in a pause, too.
   void beat() {
     state::MonitorStatus status = monitor_.status(wallTime(), paused_);
-    status.at.stamp = static_cast<std::int64_t>(ros::Time::now().toNSec());
+    status.at.stamp = stampNow();
     topics_.publish(status);
     lcm_.publish(status);
   }
 
-  void publishAlerts() {
-    topics_.publishAlerts(monitor_.alerts().active(),
-                          static_cast<std::int64_t>(ros::Time::now().toNSec()));
-  }
+  void publishAlerts() { topics_.publishAlerts(monitor_.alerts().active(), stampNow()); }
 
   void summarize(diagnostic_updater::DiagnosticStatusWrapper& status) {
     using diagnostic_msgs::DiagnosticStatus;

@@ -13,6 +13,7 @@
 #include "nodes/loop_report.h"
 #include "nodes/rival_report.h"
 #include "realtime/monotonic_clock.h"
+#include "transport/master_watch.h"
 
 namespace whirl_twin {
 
@@ -98,7 +99,7 @@ void RecordPublisher::run() {
   auto next_clock = next_report;
   auto next_again = next_report + kAgainPeriod;
   auto next_scene = next_again;
-  scene_.at.stamp = static_cast<std::int64_t>(ros::Time::now().toNSec());
+  scene_.at.stamp = stampNow();
   states_.tell(scene_);
   std::chrono::microseconds idle = kIdle;
   while (true) {
@@ -250,7 +251,7 @@ void RecordPublisher::measureAnew() {
 void RecordPublisher::publishReport() {
   state::LoopStatistics report = loopStatistics(live_.twin(), observer_, loop_.status(),
                                                 loop_.timing(), live_.paused(), dropped());
-  report.at.stamp = static_cast<std::int64_t>(ros::Time::now().toNSec());
+  report.at.stamp = stampNow();
   report.started = started_;
   report.sender = nameOfThisProcess();
   report.epoch = live_.resets();

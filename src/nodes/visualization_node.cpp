@@ -231,7 +231,7 @@ class VisualizationNode {
       markers.markers.push_back(deleteAllMarkers());
       drawn_ = names;
     }
-    const ros::Time now = ros::Time::now();
+    const ros::Time now = ros::Time().fromNSec(static_cast<std::uint64_t>(stampNow()));
     std::vector<geometry_msgs::TransformStamped> transforms;
     const Layout layout = layoutOf(displays.size());
     for (std::size_t i = 0; i < displays.size(); ++i) {

@@ -110,13 +110,17 @@ std::optional<ClosedLoop::Parts> ClosedLoop::parts(const SystemMotions& present,
   std::vector<SignalSpec> measures;
   std::vector<ActedInput> acts_on;
   std::vector<HoldingLaw> holding;
+  const double acceleration = present(leadingSystem()).acceleration;
   Parts parts;
   for (std::size_t i = 0; i < controllers_.size(); ++i) {
     const ControllerSpec& spec = scene_.controllers[controllers_[i]];
-    const std::optional<DiscreteStateSpace> law = laws_[i]->linear(shaft_speed);
+    const bool holds = laws_[i]->holds(shaft_speed, acceleration);
+    const std::optional<DiscreteStateSpace> law =
+        (holds ? laws_[i]->law() : *laws_[i]).linear(shaft_speed);
     if (!law) {
       return std::nullopt;
     }
+    parts.holding.push_back(holds);
     LoopController controller;
     controller.name = spec.name;
     controller.rate = spec.rate;

@@ -42,11 +42,12 @@ class ClosedLoop {
     std::vector<LoopController> controllers;  ///< as controllers()
     HeldMotions about;                        ///< what the plant's motions are small about
     std::vector<Eigen::VectorXd> outputs;     ///< of each controller there; none: it holds nothing
+    std::vector<bool> holding;                ///< of each controller: Controller::holds()
   };
   /// For small motions about those that the laws hold the systems in, from where these are at
   /// present; where nothing is held, about the rests near by. Laws are those of a shaft speed
-  /// [rad/s]. Nothing where a law is not linear. Throws RunFailure where an actuator's limit is
-  /// less than what it takes to hold them.
+  /// [rad/s] and the present acceleration of the leading system's shaft. Nothing where a law is not
+  /// linear. Throws RunFailure where an actuator's limit is less than what it takes to hold them.
   std::optional<Parts> parts(const SystemMotions& present, double shaft_speed) const;
 
  private:

@@ -19,7 +19,8 @@ namespace whirl_twin {
 struct SystemMotion {
   const Dynamics* dynamics;
   Eigen::VectorXd q, v;
-  double speed = 0.0;  ///< [rad/s], of its shaft
+  double speed = 0.0;         ///< [rad/s], of its shaft
+  double acceleration = 0.0;  ///< [rad/s^2], likewise
 };
 /// Of a system, by its place in the scene.
 using SystemMotions = std::function<SystemMotion(std::size_t system)>;

@@ -167,7 +167,10 @@ void ShaftTracker::take(const State& predicted, double innovation, double varian
 bool ShaftTracker::refuse() {
   ++counts_.refused;
   doubt_ += kByRefused;
-  return doubt_ >= kMostDoubt && lock();
+  // The one before this and the two before that: of four, with this one, two were refused.
+  const bool surprising = refused_[0] || refused_[1] || refused_[2];
+  const bool moves_otherwise = surprising && agreement();
+  return (moves_otherwise || doubt_ >= kMostDoubt) && lock();
 }
 
 /// Instants [s] of the last four pulses from the first of them, and the angle [rad] by which they
@@ -220,29 +223,36 @@ void ShaftTracker::learnJitter() {
   jitter_ = shown > kClearlyMore * settings_.jitter ? shown : settings_.jitter;
 }
 
+/// The misfit of the last four pulses [rad], where that is noise.
+std::optional<double> ShaftTracker::agreement() const {
+  std::array<double, 4> t{};
+  const double misfit = intervals(t);
+  if (misfit > kMostMisfit) {
+    return std::nullopt;
+  }
+  const double wander = std::sqrt(settings_.white_jerk * wandered(t[1])(0, 0));
+  const double noise = std::sqrt(pulseVariance(3.0 * kTwoPi / t[3])) + wander;
+  return misfit <= kMisfit + kGate * noise ? std::optional<double>(misfit) : std::nullopt;
+}
+
 bool ShaftTracker::lock() {
   if (after_) {
     lost_ = {after_->time, after_->turns};
     after_.reset();
   }
-  std::array<double, 4> t{};
-  const double misfit = intervals(t);
-  if (misfit > kMostMisfit) {
+  const std::optional<double> agreed = agreement();
+  if (!agreed) {
     return false;
   }
-  const double speed = 3.0 * kTwoPi / t[3];
-  const double wander = std::sqrt(settings_.white_jerk * wandered(t[1])(0, 0));
-  const double noise = std::sqrt(pulseVariance(speed)) + wander;
-  if (misfit > std::min(kMisfit + kGate * noise, kMostMisfit)) {
-    return false;
-  }
+  const double misfit = *agreed;
+  const double speed = 3.0 * kTwoPi / seconds(pulses_[0], pulses_[3]);
   const double variance = pulseVariance(speed) + misfit * misfit;
   State first;
   first.time = pulses_[0];
   // Turns without a pulse are not known to have been; those counted before are not counted again.
   const auto counted = std::find(pulses_.begin(), pulses_.end(), lost_.time);
   first.turns = lost_.turns + (counted == pulses_.end() ? 1 : pulses_.begin() - counted);
-  first.mean = {0.0, kTwoPi / t[1], 0.0};
+  first.mean = {0.0, kTwoPi / seconds(pulses_[0], pulses_[1]), 0.0};
   // Of speed and acceleration nothing is known but their size.
   first.covariance.diagonal() << variance, speed * speed, std::pow(speed * speed / kTwoPi, 2);
   after_ = first;

@@ -7,6 +7,10 @@
 // pulses the angle is that of the smoother (Rauch, Tung, Striebel, "Maximum likelihood estimates of
 // linear dynamic systems", AIAA J. 3 (1965)), after them that of the prediction.
 //
+// Where the acceleration jumps, as at the start of a fast run-up, the first pulses are refused.
+// Four pulses in a row that agree on another constant acceleration, of which two were refused,
+// begin it again.
+//
 // How much the instants of pulses scatter is estimated, too: four pulses in a row leave one number
 // that neither angle, speed nor a constant acceleration explains, and what seven of eight of the
 // last 64 of these stay below is compared with the scatter stated. Where it is clearly larger, it
@@ -104,6 +108,7 @@ class ShaftTracker {
   bool refuse();
   bool lock();
   double intervals(std::array<double, 4>& t) const;
+  std::optional<double> agreement() const;
   void learnJitter();
 
   ShaftTrackerSettings settings_;

@@ -55,6 +55,13 @@ void connectTo(const std::string& topic, const XmlRpc::XmlRpcValue& publishers) 
 
 }  // namespace
 
+std::int64_t stampNow() {
+  const ros::Time now = ros::Time::now();
+  const bool no_clock = ros::Time::isSimTime() && now.isZero();
+  return no_clock ? static_cast<std::int64_t>(ros::WallTime::now().toNSec())
+                  : static_cast<std::int64_t>(now.toNSec());
+}
+
 MasterWatch::MasterWatch(std::vector<std::string> parameters)
     : parameter_names_(std::move(parameters)) {
   parameter_names_.push_back(ros::this_node::getName());
@@ -75,7 +82,7 @@ void MasterWatch::stop() {
 
 std::string MasterWatch::trouble() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return trouble_;
+  return trouble_.empty() ? clock_trouble_ : trouble_;
 }
 
 XmlRpc::XmlRpcValue MasterWatch::ownParameters() const {
@@ -125,6 +132,7 @@ void MasterWatch::look() {
   }
   answered_ = true;
   reportRivals(now);
+  reportClocks(now);
 }
 
 MasterWatch::Registered MasterWatch::registered(XmlRpc::XmlRpcValue& state) const {
@@ -137,6 +145,9 @@ MasterWatch::Registered MasterWatch::registered(XmlRpc::XmlRpcValue& state) cons
     const std::string topic = publishers[i][0];
     for (int k = 0; k < publishers[i][1].size(); ++k) {
       const std::string node = publishers[i][1][k];
+      if (topic == "/clock") {
+        r.clocks.insert(node);
+      }
       if (node == self) {
         r.topics.insert(topic);
       } else if (topic.compare(0, twin.size(), twin) == 0) {
@@ -229,6 +240,26 @@ void MasterWatch::reportRivals(const Registered& now) {
   rivals_ = rivals;
   const std::lock_guard<std::mutex> lock(mutex_);
   trouble_ = trouble;
+}
+
+void MasterWatch::reportClocks(const Registered& now) {
+  constexpr int kPatience = 2;  // looks, as a clock may come a moment after the node
+  std::string trouble;
+  looks_without_clock_ =
+      ros::Time::isSimTime() && now.clocks.empty() ? looks_without_clock_ + 1 : 0;
+  if (looks_without_clock_ >= kPatience) {
+    trouble =
+        "/use_sim_time is set and nobody publishes /clock: stamps are wall-clock time (rosparam "
+        "delete /use_sim_time, or clock:=true)";
+  } else if (now.clocks.size() > 1) {
+    trouble = fmt::format("{} publish /clock: expected one, time goes back and forth",
+                          fmt::join(now.clocks, " and "));
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!trouble.empty() && trouble != clock_trouble_) {
+    ROS_WARN("%s", trouble.c_str());
+  }
+  clock_trouble_ = trouble;
 }
 
 }  // namespace whirl_twin

@@ -1,11 +1,13 @@
-// What a node does about its ROS master: when the master has been restarted it is told again of the
-// node's topics, services and parameters, so that the node is found as before; and another node
-// that publishes on the topics of this node's twin is named.
+// What a node does about its ROS master: when the master has been restarted the node registers its
+// topics, services and parameters again, so that it is found as before. Another node that publishes
+// on the topics of this node's twin is named, and so are clocks: /use_sim_time without a publisher
+// of /clock, and several publishers of it.
 #pragma once
 
 #include <ros/ros.h>
 
 #include <atomic>
+#include <cstdint>
 #include <map>
 #include <mutex>
 #include <set>
@@ -14,6 +16,10 @@
 #include <vector>
 
 namespace whirl_twin {
+
+/// The time for stamps [ns]: ROS's, but of the wall while /use_sim_time is set and no /clock has
+/// come, as states have it. All nodes of a twin take stamps from here.
+std::int64_t stampNow();
 
 class MasterWatch {
  public:
@@ -34,6 +40,7 @@ class MasterWatch {
     std::set<std::string> topics;                                   // this node publishes
     std::set<std::string> services;                                 // this node gives
     std::map<std::string, std::set<std::string>> other_publishers;  // of topics
+    std::set<std::string> clocks;                                   // that publish /clock
   };
 
   void run();
@@ -42,6 +49,7 @@ class MasterWatch {
   void rememberParameters();
   void tellAll() const;
   void reportRivals(const Registered& now);
+  void reportClocks(const Registered& now);
 
   std::vector<std::string> parameter_names_;
   std::map<std::string, XmlRpc::XmlRpcValue> parameters_;
@@ -49,6 +57,8 @@ class MasterWatch {
   std::set<std::string> services_;  // ever registered
   bool answered_ = true;
   std::set<std::string> rivals_;
+  int looks_without_clock_ = 0;
+  std::string clock_trouble_;
   mutable std::mutex mutex_;
   std::string trouble_;
   std::atomic<bool> ending_{false};

@@ -1,11 +1,13 @@
 """/clock goes at the rate asked for, and a reset, which begins the twin's own time anew, does not turn it back. States that
 leave together are all there, each as it would be alone."""
 import os
+import time
 
+import rospy
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
-from whirl_twin.msg import WhirlState
+from whirl_twin.msg import MonitorStatus, WhirlState
 
 from node_trial import SCENES, NodeTrial, call, load_scene, wait_until
 
@@ -44,3 +46,27 @@ class ClockOfTheTwin(NodeTrial):
         for heard in (whirls, joints):
             counted = [message.header.seq for message in heard]
             self.assertEqual(counted, list(range(counted[0], counted[0] + len(counted))))
+
+    def test_simulated_time_without_a_clock_is_reported_and_all_stamps_are_of_the_wall(self):
+        """As a session with a bag leaves it behind (ros_comm #2111, #354)."""
+        load_scene(os.path.join(SCENES, 'demo.yaml'))
+        whirls, beats = [], []
+        self.listen('/twin/rotor/whirl', WhirlState, whirls.append)
+        self.listen('/twin/monitor', MonitorStatus, beats.append)
+        rospy.set_param('/use_sim_time', True)
+        nodes = [self.start('simulation_node', '_realtime:=ignore', '_lcm_url:='), self.start('monitor_node', '_lcm_url:=')]
+        self.assertTrue(wait_until(lambda: whirls and beats))
+        for message in (whirls[-1], beats[-1]):
+            self.assertAlmostEqual(message.header.stamp.to_sec(), time.time(), delta=30.0)
+        for node in nodes:
+            self.assertTrue(wait_until(lambda: 'nobody publishes /clock' in self.log(node)))
+            self.assertEqual(self.log(node).count('nobody publishes /clock'), 1)
+
+    def test_two_publishers_of_the_clock_are_named(self):
+        load_scene(os.path.join(SCENES, 'demo.yaml'))
+        self.publisher('/clock', Clock)
+        node = self.start('simulation_node', '_realtime:=ignore', '_lcm_url:=', '_clock:=true')
+        self.assertTrue(wait_until(lambda: 'publish /clock: expected one' in self.log(node)))
+        said, = [line for line in self.log(node).splitlines() if 'publish /clock' in line]
+        self.assertIn('/simulation_node', said)
+        self.assertIn(rospy.get_name(), said)

@@ -319,6 +319,32 @@ TEST(ShaftTracker, FollowsAShaftWhoseAccelerationJumps) {
   EXPECT_LT(errors.largest_total, 0.02);
 }
 
+// From a steady speed into run-ups that no filter of a steady shaft expects: four pulses later it
+// follows them, with the acceleration to 2 %.
+TEST(ShaftTracker, FollowsAFastRunUpFromItsFourthPulseOn) {
+  for (const double acceleration : {20.0, 90.0, 300.0, 900.0}) {
+    KnownShaft shaft{[acceleration](double t) {
+      const double late = std::max(0.0, t - 3.0);
+      return 0.3 + 24.0 * t + 0.5 * acceleration * late * late;
+    }};
+    ShaftTracker tracker({0.0, 1.0e-6, 10.0});
+    int after = 0;
+    for (const std::int64_t pulse : shaft.pulses(5.0)) {
+      tracker.take(pulse);
+      const double t = static_cast<double>(pulse) * kNanosecond;
+      after += t > 3.0 ? 1 : 0;
+      if (after >= 5) {
+        const ShaftEstimate found = tracker.at(pulse);
+        ASSERT_TRUE(found.known) << acceleration << ", pulse " << after;
+        EXPECT_NEAR(found.speed, 24.0 + acceleration * (t - 3.0), 0.02 * found.speed);
+        EXPECT_NEAR(found.acceleration, acceleration, 0.02 * acceleration)
+            << acceleration << ", pulse " << after;
+      }
+    }
+    ASSERT_GT(after, 8);
+  }
+}
+
 TEST(ShaftTracker, FindsTheSpeedAfterHavingSeenEverySecondPulseOnly) {
   const KnownShaft shaft = steadyShaft(100.0);
   const std::vector<std::int64_t> pulses = shaft.pulses(10.0);
