@@ -34,6 +34,10 @@ class AlarmServices {
   /// Commands by topic and LCM; a service tells who calls it.
   std::uint64_t taken() const { return taken_; }
   std::uint64_t refused() const;
+  /// Those that came by LCM and were no messages; null where it does not listen there.
+  const RefusedPayloads* refusedPayloads() const {
+    return receiver_ ? &receiver_->refused() : nullptr;
+  }
 
  private:
   bool acknowledge(Acknowledge::Request& request, Acknowledge::Response& response);

@@ -20,6 +20,7 @@
 #include "nodes/alert_events.h"
 #include "nodes/changed_parameters.h"
 #include "nodes/private_parameter.h"
+#include "nodes/refusal_report.h"
 #include "nodes/rival_report.h"
 #include "nodes/run_node.h"
 #include "plugins/plugins.h"
@@ -142,6 +143,9 @@ class MonitorNode {
     if (receiver_) {
       rivals_.report(diagnostics_);
     }
+    refused_payloads_.emplace(diagnostics_, std::vector<const RefusedPayloads*>{
+                                                services_.refusedPayloads(),
+                                                receiver_ ? &receiver_->refused() : nullptr});
   }
 
   void spinOnce() {
@@ -374,6 +378,7 @@ class MonitorNode {
   ChangedParameters parameters_{
       master_, atStart(), [this](const YAML::Node& all) { return settings_service_.obey(all); }};
   diagnostic_updater::Updater diagnostics_;
+  std::optional<RefusalReport> refused_payloads_;
   std::uint64_t rejected_ = 0;
   bool paused_ = false;          // the simulation says so
   double newest_arrival_ = 0.0;  // [s], wall time

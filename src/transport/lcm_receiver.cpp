@@ -63,8 +63,7 @@ void LcmReceiver::take(const std::string& channel, const void* data, std::size_t
     }
     handler_(message);
   } catch (const RejectedMessage& why) {
-    ++rejected_;
-    last_rejection_ = fmt::format("{}: {}", channel, why.what());
+    refused_.add(channel, why.what());
   }
 }
 
