@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "display/status_text.h"
+#include "messages/names.h"
 
 namespace whirl_twin {
 namespace {
@@ -66,10 +67,11 @@ std::vector<std::string> alertChanges(const std::vector<Alert>& before,
 }
 
 std::string fitted(const std::string& line, std::size_t columns) {
-  if (line.size() <= columns) {
-    return line;
+  const std::string shown = printable(line, line.size());
+  if (shown.size() <= columns) {
+    return shown;
   }
-  return columns < 3 ? line.substr(0, columns) : line.substr(0, columns - 3) + "...";
+  return columns < 3 ? shown.substr(0, columns) : printable(shown, columns - 3);
 }
 
 }  // namespace whirl_twin
