@@ -110,7 +110,8 @@ class BridgeDiagnostics {
                  static_cast<double>(states.latency().percentile(percent)) * 1.0e-9);
     }
     for (const auto& [name, count] : receiver.channels()) {
-      status.add(name, fmt::format("{} received, {} lost", count.received, count.steps.lost()));
+      status.add(name, fmt::format("{} received, {} lost, {} out of order", count.received,
+                                   count.steps.lost(), count.steps.late()));
     }
   }
 
