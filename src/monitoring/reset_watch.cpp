@@ -1,27 +1,75 @@
 #include "monitoring/reset_watch.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
 #include "monitoring/source_clock.h"
 
 namespace whirl_twin {
+namespace {
+
+/// [s], wall time: statistics come once a second, and some may be lost. A simulation that is silent
+/// longer has ended.
+constexpr double kSilence = 2.5;
+/// [s], wall time that a rival counts after it was heard.
+constexpr double kMemory = 5.0;
+constexpr std::size_t kMostRivals = 16;
+/// A simulation that ends while the next one begins returns once.
+constexpr int kTurns = 2;
+/// [s], simulated: clocks that are further apart are told apart by SourceClock.
+constexpr double kNear = 2.0;
+
+}  // namespace
+
+bool ResetWatch::isOfPresent(const state::LoopStatistics& loop) const {
+  return !present_ || present_->simulation == Simulation(loop.started, loop.sender);
+}
 
 bool ResetWatch::take(const state::LoopStatistics& loop, double wall_time) {
-  const Announcement said{loop.started, loop.epoch, loop.at.time, loop.at.stamp, wall_time};
-  if (loop.started == 0) {  // it does not tell
+  if (loop.started == 0 && !present_) {  // it does not tell
     return false;
   }
+  const Announcement said{
+      {loop.started, loop.sender}, loop.epoch, loop.at.time, loop.at.stamp, wall_time};
   if (!present_) {
     present_ = said;
-    return false;
   }
-  if (said.run() <= present_->run()) {
-    if (said.run() == present_->run()) {
+  if (said.simulation != present_->simulation) {
+    takeOfRival(said);
+    return wall_time - heard_at_ > kSilence && announce(said);
+  }
+  returns_ += rival_was_last_ ? 1 : 0;
+  rival_was_last_ = false;
+  heard_at_ = wall_time;
+  heard_time_ = said.time;
+  if (said.epoch <= present_->epoch) {
+    if (said.epoch == present_->epoch) {
       next_.reset();
     }
     return false;
   }
-  const bool again = next_ && next_->run() == said.run() && next_->stamp != said.stamp;
+  return announce(said);
+}
+
+bool ResetWatch::announce(const Announcement& said) {
+  const bool again = next_ && next_->isSameRun(said) && next_->stamp != said.stamp;
   next_ = said;
   return again;
+}
+
+void ResetWatch::takeOfRival(const Announcement& said) {
+  ++of_others_;
+  for (auto one = rivals_.begin(); one != rivals_.end();) {
+    one = said.wall_time - one->second.wall_time > kMemory ? rivals_.erase(one) : std::next(one);
+  }
+  returns_ = rivals_.empty() ? 0 : returns_;
+  if (rivals_.size() < kMostRivals || rivals_.count(said.simulation) > 0) {
+    rivals_[said.simulation] = {said.time, said.wall_time};
+  }
+  rival_was_last_ = true;
 }
 
 bool ResetWatch::confirmedBy(double time, double wall_time) const {
@@ -34,8 +82,48 @@ bool ResetWatch::confirmedBy(double time, double wall_time) const {
 }
 
 void ResetWatch::begin() {
+  if (next_) {
+    rivals_.erase(next_->simulation);
+    heard_at_ = next_->wall_time;
+    heard_time_ = next_->time;
+  }
+  returns_ = 0;
+  rival_was_last_ = false;
   present_ = next_;
   next_.reset();
+}
+
+bool ResetWatch::hasRival(double wall_time) const {
+  return std::any_of(rivals_.begin(), rivals_.end(), [&](const auto& rival) {
+    return wall_time - rival.second.wall_time <= kMemory;
+  });
+}
+
+bool ResetWatch::isOfRival(double time, double wall_time) const {
+  const double own = std::fabs(time - heard_time_ - (wall_time - heard_at_));
+  return std::any_of(rivals_.begin(), rivals_.end(), [&](const auto& rival) {
+    const double since = wall_time - rival.second.wall_time;
+    return since <= kMemory && std::fabs(time - rival.second.time - since) < own;
+  });
+}
+
+bool ResetWatch::isAmbiguous(double wall_time) const {
+  return std::any_of(rivals_.begin(), rivals_.end(), [&](const auto& rival) {
+    const double apart = (rival.second.time - heard_time_) - (rival.second.wall_time - heard_at_);
+    return wall_time - rival.second.wall_time <= kMemory && std::fabs(apart) < kNear;
+  });
+}
+
+std::string ResetWatch::duplicate(double wall_time) const {
+  if (returns_ < kTurns || !hasRival(wall_time)) {
+    return "";
+  }
+  std::string names;
+  for (const auto& [simulation, rival] : rivals_) {
+    names += (names.empty() ? "" : " and ") +
+             (simulation.second.empty() ? "one that does not tell its name" : simulation.second);
+  }
+  return fmt::format("{} sends as this twin, too, beside {}", names, sender());
 }
 
 }  // namespace whirl_twin

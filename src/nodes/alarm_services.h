@@ -40,13 +40,17 @@ class AlarmServices {
   }
 
  private:
-  bool acknowledge(Acknowledge::Request& request, Acknowledge::Response& response);
-  bool reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
-  bool inhibit(Inhibit::Request& request, Inhibit::Response& response);
-  void take(const state::AlarmCommand& command);
+  template <class Event>
+  ros::ServiceServer advertise(ros::NodeHandle& node, const std::string& name,
+                               bool (AlarmServices::*serve)(Event&));
+  // With who calls.
+  bool acknowledge(ros::ServiceEvent<Acknowledge::Request, Acknowledge::Response>& call);
+  bool reset(ros::ServiceEvent<std_srvs::Trigger::Request, std_srvs::Trigger::Response>& call);
+  bool inhibit(ros::ServiceEvent<Inhibit::Request, Inhibit::Response>& call);
+  void take(const state::AlarmCommand& command, const std::string& by);
   void refuse(const std::string& why);
   /// Carries it out; what others have to know of it is logged and kept.
-  CommandAnswer answer(const state::AlarmCommand& command);
+  CommandAnswer answer(const state::AlarmCommand& command, const std::string& by);
 
   TwinMonitor& monitor_;
   std::function<double()> wall_time_;

@@ -58,8 +58,12 @@ class TerminalDisplay {
     if (readouts.empty()) {
       return;
     }
-    const std::string time =
+    std::string time =
         fmt::format("{:.3f} s{}{}", listener_.time(), silence.empty() ? "" : " | ", silence);
+    if (listener_.monitor()) {
+      const std::string held = heldBackText(*listener_.monitor());
+      time += held.empty() ? "" : " | " + held;
+    }
     if (is_terminal_) {
       erase();
       show(time);

@@ -5,10 +5,11 @@ import socket
 import struct
 
 import rospy
-from whirl_twin.msg import Alert, AlertArray, LoopStatistics
-from whirl_twin_lcm.whirl_twin import controller_command_t
+from whirl_twin.msg import Alert, AlertArray, LoopStatistics, MonitorStatus
+from whirl_twin.srv import Inhibit
+from whirl_twin_lcm.whirl_twin import alarm_command_t, controller_command_t
 
-from node_trial import WARN, NodeTrial, load_scene, wait_until
+from node_trial import ERROR, OK, WARN, NodeTrial, call, load_scene, wait_until
 
 GROUP = ('239.255.76.67', 7667)
 SCENE = """
@@ -81,3 +82,48 @@ class Hostile(NodeTrial):
         self.expect(lambda: self.says(terminal, r'cleared: ro\\x0ator UNSTABLE'), terminal)
         with open(terminal[1], 'rb') as log:
             self.assertNotRegex(log.read(), b'[\x00-\x09\x0b-\x1f]|\xe2\x80\xae')
+
+    def test_what_silences_is_seen(self):
+        self.begin(SLOW)
+        self.start('monitor_node')
+        terminal = self.start('terminal_node')
+        watch = self.start_program(os.environ['WHIRL_TWIN_PROGRAM'], 'watch')
+        monitors = []
+        self.listen('/twin/monitor', MonitorStatus, monitors.append)
+        self.expect(lambda: monitors and self.says(terminal, 'rotor:') and self.says(watch, 'monitor: 0 alerts'), watch)
+        command = alarm_command_t()
+        command.command, command.duration = 3, 3600.0
+        self.datagram('TWIN_ALARM_COMMANDS', command.encode())
+        self.expect(lambda: self.diagnosed('monitor_node: monitor', WARN, 'inhibited by a message on LCM since .* until'))
+        self.expect(lambda: ('INHIBITED', 'rotor') in self.alerts)
+        self.expect(lambda: monitors[-1].inhibited and 800 < monitors[-1].inhibited[0] <= 900)
+        for process in (terminal, watch):
+            self.expect(lambda: self.says(process, 'alerts of rotor are inhibited by a message on LCM'), process)
+        self.expect(lambda: self.says(terminal, 'ALERTS OF 2 SYSTEMS INHIBITED'), terminal)
+        self.assertTrue(call('/monitor_node/inhibit', Inhibit, '', 0.0).success)
+        self.expect(lambda: not self.alerts)
+        self.expect(lambda: self.says(terminal, 'cleared: rotor INHIBITED'), terminal)
+
+    def test_one_run_of_one_scene_is_watched(self):
+        simulation = self.begin(UNSTABLE)
+        monitor = self.start('monitor_node', '_source:=lcm')
+        self.expect(lambda: self.alerts.get(('UNSTABLE', 'rotor')), monitor)
+        raised = self.alerts['UNSTABLE', 'rotor'].id
+        self.scene(SLOW, '/other')
+        other = self.start('simulation_node', '_realtime:=ignore', '_lcm_prefix:=TWIN_', '__ns:=/other')
+        self.expect(lambda: ('DUPLICATE_TWIN', 'twin') in self.alerts, monitor)
+        self.assertIn('/other/simulation_node on', self.alerts['DUPLICATE_TWIN', 'twin'].text)
+        self.end(other)
+        self.expect(lambda: ('DUPLICATE_TWIN', 'twin') not in self.alerts, monitor)
+        self.assertEqual(self.alerts['UNSTABLE', 'rotor'].id, raised)
+        self.scene(SLOW)  # and nobody starts a simulation with it
+        monitor[0].kill()
+        monitor[0].wait()
+        self.status.clear()
+        monitor = self.start('monitor_node')
+        self.expect(lambda: self.diagnosed('monitor_node: monitor', ERROR, r'runs another scene .*shaft\.speed is 58 there, 8 here'),
+                    monitor)
+        self.end(simulation)
+        self.begin(SLOW)  # another run, whose scene it has
+        self.expect(lambda: self.says(monitor, 'another run is watched from now on'), monitor)
+        self.expect(lambda: self.diagnosed('monitor_node: monitor', OK, 'no alerts'), monitor)
