@@ -21,6 +21,9 @@ constexpr std::size_t kMostRivals = 16;
 constexpr int kTurns = 2;
 /// [s], simulated: clocks that are further apart are told apart by SourceClock.
 constexpr double kNear = 2.0;
+constexpr std::int64_t kStampSlack = 2'000'000'000;  // ns
+/// A latched message, or one that was late, is no log.
+constexpr int kFew = 20;
 
 }  // namespace
 
@@ -45,6 +48,7 @@ bool ResetWatch::take(const state::LoopStatistics& loop, double wall_time) {
   rival_was_last_ = false;
   heard_at_ = wall_time;
   heard_time_ = said.time;
+  heard_stamp_ = said.stamp;
   if (said.epoch <= present_->epoch) {
     if (said.epoch == present_->epoch) {
       next_.reset();
@@ -86,17 +90,36 @@ void ResetWatch::begin() {
     rivals_.erase(next_->simulation);
     heard_at_ = next_->wall_time;
     heard_time_ = next_->time;
+    heard_stamp_ = next_->stamp;
   }
   returns_ = 0;
-  rival_was_last_ = false;
+  rival_was_last_ = wall_stamps_ = false;
   present_ = next_;
   next_.reset();
 }
 
 bool ResetWatch::hasRival(double wall_time) const {
-  return std::any_of(rivals_.begin(), rivals_.end(), [&](const auto& rival) {
-    return wall_time - rival.second.wall_time <= kMemory;
-  });
+  return playsEarlier(wall_time) ||
+         std::any_of(rivals_.begin(), rivals_.end(), [&](const auto& rival) {
+           return wall_time - rival.second.wall_time <= kMemory;
+         });
+}
+
+bool ResetWatch::isOfEarlier(std::int64_t stamp) const {
+  // A wall clock that was set back to before the start tells nothing.
+  return wall_stamps_ && present_ && heard_stamp_ >= present_->simulation.first &&
+         stamp < present_->simulation.first - kStampSlack;
+}
+
+bool ResetWatch::takeStamp(std::int64_t stamp, double wall_time) {
+  wall_stamps_ = wall_stamps_ || (present_ && stamp >= present_->simulation.first);
+  if (!isOfEarlier(stamp)) {
+    return false;
+  }
+  earlier_ = wall_time - earlier_at_ > kMemory ? 1 : std::min(earlier_ + 1, kFew);
+  earlier_at_ = wall_time;
+  ++of_others_;
+  return true;
 }
 
 bool ResetWatch::isOfRival(double time, double wall_time) const {
@@ -114,7 +137,15 @@ bool ResetWatch::isAmbiguous(double wall_time) const {
   });
 }
 
+bool ResetWatch::playsEarlier(double wall_time) const {
+  return earlier_ >= kFew && wall_time - earlier_at_ <= kMemory;
+}
+
 std::string ResetWatch::duplicate(double wall_time) const {
+  if (playsEarlier(wall_time)) {
+    return fmt::format("states of an earlier run come beside those of {}: of a log that is played",
+                       sender());
+  }
   if (returns_ < kTurns || !hasRival(wall_time)) {
     return "";
   }

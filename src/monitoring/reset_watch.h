@@ -26,6 +26,11 @@ class ResetWatch {
   bool take(const state::LoopStatistics& loop, double wall_time);
   /// Whether statistics are of the simulation that is watched.
   bool isOfPresent(const state::LoopStatistics& loop) const;
+  /// Whether a message stamped [ns] so is older than the simulation that is watched, where that
+  /// has stamps of the wall clock: of a log that is played beside it.
+  bool isOfEarlier(std::int64_t stamp) const;
+  /// A state with this stamp came, at wall_time [s]; returns isOfEarlier().
+  bool takeStamp(std::int64_t stamp, double wall_time);
   /// Whether a state at time [s, simulated] belongs to the run of time that was announced, if one
   /// was.
   bool confirmedBy(double time, double wall_time) const;
@@ -51,7 +56,7 @@ class ResetWatch {
   bool isAmbiguous(double wall_time) const;
   /// "simulation_node on ... sends, too", while two take turns; "" with one alone.
   std::string duplicate(double wall_time) const;
-  /// Statistics of others so far.
+  /// Statistics and states of others so far.
   std::uint64_t ofOthers() const { return of_others_; }
 
  private:
@@ -73,15 +78,20 @@ class ResetWatch {
   };
   bool announce(const Announcement& said);
   void takeOfRival(const Announcement& said);
+  bool playsEarlier(double wall_time) const;
 
   std::optional<Announcement> present_;  ///< as first said
   double heard_at_ = 0.0;                ///< [s], wall time of its newest statistics
   double heard_time_ = 0.0;              ///< [s], simulated, of the same
+  std::int64_t heard_stamp_ = 0;         ///< [ns], of the same
   std::optional<Announcement> next_;
   std::map<Simulation, Rival> rivals_;  ///< heard within kMemory
   int returns_ = 0;                     ///< of the present one, after a rival
   bool rival_was_last_ = false;
   std::uint64_t of_others_ = 0;
+  bool wall_stamps_ = false;  ///< of its states
+  int earlier_ = 0;           ///< states of an earlier run, without a pause between
+  double earlier_at_ = 0.0;   ///< [s], wall time of the last
 };
 
 }  // namespace whirl_twin

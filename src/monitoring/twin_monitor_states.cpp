@@ -23,6 +23,11 @@ bool TwinMonitor::votes(const std::string& source) const {
 
 bool TwinMonitor::arrived(const std::string& source, const state::Instant& at, double wall_time) {
   wall_time_ = wall_time;
+  // What sensors and followers tell has the stamps of their machine.
+  const bool of_twin = source.rfind("measured/", 0) != 0 && source.rfind("follow/", 0) != 0;
+  if (of_twin && resets_.takeStamp(at.stamp, wall_time)) {
+    return false;
+  }
   if (resets_.isOfRival(at.time, wall_time)) {
     if (!resets_.confirmedBy(at.time, wall_time)) {
       return false;

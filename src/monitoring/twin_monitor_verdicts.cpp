@@ -17,7 +17,8 @@ constexpr double kOfAnotherTwin = 2.5;
 }  // namespace
 
 bool TwinMonitor::take(const state::ParameterChange& change) {
-  if (resets_.hasRival(wall_time_)) {  // nobody knows whose they are, and they are told again
+  if (resets_.isOfEarlier(change.at.stamp) ||
+      resets_.hasRival(wall_time_)) {  // nobody knows whose they are, and they are told again
     return true;
   }
   const auto known = parameters_.find(change.system);

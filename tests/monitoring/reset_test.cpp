@@ -197,6 +197,49 @@ TEST_F(Beside, TwinsAtTheSameSimulatedTimeCannotBeToldApart) {
             std::string::npos);
 }
 
+// A log of twin simulate tells no run: its stamps are of before the start. Played fast it passes
+// the twin's own time.
+TEST_F(Beside, ALogThatIsPlayedClearsNothingAndIsNamed) {
+  watched.announcements = 10'000'000'000;  // stamps of the wall clock
+  watched.loop.started = 9'000'000'000;
+  const auto own = [&](double seconds) {
+    for (int i = 0; i < std::lround(1000.0 * seconds); ++i) {
+      watched.observer.setStamp(10'000'000'000);
+      watched.run(0.001);
+    }
+    watched.announce();
+    watched.monitor.tick(watched.wall, false);
+  };
+  for (int i = 0; i < 8; ++i) {  // that run is watched from now on, and in danger
+    own(1.0);
+  }
+  watched.events.clear();
+  const std::uint32_t id = only().id;
+  watched.observer.setStamp(0);
+  for (double played = watched.monitor.time() - 5.0; played < watched.monitor.time() + 5.0;
+       played += 0.01) {
+    watched.observer.setStamp(10'000'000'000);
+    watched.run(0.001);
+    state::WhirlState whirl = watched.observer.whirl(0);
+    state::DriveState drive = watched.observer.drive(0);
+    whirl.at.time = drive.at.time = played;
+    whirl.at.stamp = drive.at.stamp = std::llround(1.0e9 * played) % 6'000'000'000;
+    drive.speed = drive.target_speed = whirl.speed = 10.0;
+    watched.monitor.take(drive, watched.wall);
+    watched.monitor.take(whirl, watched.wall);
+  }
+  own(1.0);
+  EXPECT_EQ(danger()->id, id);
+  EXPECT_EQ(danger()->severity, state::Severity::kDanger);
+  EXPECT_EQ(watched.count("IN_CRITICAL_BAND", false), 0u);
+  ASSERT_NE(duplicate(), nullptr);
+  EXPECT_NE(duplicate()->text.find("of a log that is played"), std::string::npos);
+  for (int i = 0; i < 7; ++i) {
+    own(1.0);
+  }
+  EXPECT_EQ(duplicate(), nullptr);
+}
+
 // One datagram, or one message that was late, is no second twin.
 TEST_F(Beside, OneMessageOfAnotherRunIsNone) {
   watched.monitor.take(other, watched.wall);

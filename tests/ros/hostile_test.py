@@ -5,7 +5,8 @@ import socket
 import struct
 
 import rospy
-from whirl_twin.msg import Alert, AlertArray, LoopStatistics, MonitorStatus
+from std_srvs.srv import Trigger
+from whirl_twin.msg import Alert, AlertArray, LoopStatistics, MonitorStatus, OrderState
 from whirl_twin.srv import Inhibit
 from whirl_twin_lcm.whirl_twin import alarm_command_t, controller_command_t
 
@@ -127,3 +128,16 @@ class Hostile(NodeTrial):
         self.begin(SLOW)  # another run, whose scene it has
         self.expect(lambda: self.says(monitor, 'another run is watched from now on'), monitor)
         self.expect(lambda: self.diagnosed('monitor_node: monitor', OK, 'no alerts'), monitor)
+
+    def test_arrays_of_different_lengths(self):
+        self.begin(SLOW)
+        terminal = self.start('terminal_node')
+        publisher = rospy.Publisher('/twin/rotor/orders', OrderState, queue_size=1, latch=True)
+        self.addCleanup(publisher.unregister)
+        self.expect(lambda: self.says(terminal, 'rotor:') and publisher.get_num_connections() > 0, terminal)
+        call('/simulation_node/pause', Trigger)  # its own do not take the place of this one
+        orders = OrderState(valid=True, order=[1.0], line_frequency=[40.0])
+        orders.header.frame_id = 'rotor'
+        publisher.publish(orders)
+        self.expect(lambda: self.says(terminal, '/twin/rotor/orders: rejected'), terminal)
+        self.assertIsNone(terminal[0].poll())
