@@ -173,7 +173,7 @@ void MarkerCanvas::text(const std::string& part, const Eigen::Vector3d& centre, 
   pose.translation() = centre;
   auto& marker =
       add(part, visualization_msgs::Marker::TEXT_VIEW_FACING, pose, {0.0, 0.0, height}, color);
-  marker.text = lines;
+  marker.text = printableLines(lines);
   if (lines.empty()) {
     marker.action = visualization_msgs::Marker::DELETE;
   }

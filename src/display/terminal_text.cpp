@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "display/status_text.h"
+#include "messages/names.h"
 
 namespace whirl_twin {
 namespace {
@@ -54,6 +55,9 @@ std::vector<std::string> alertChanges(const std::vector<Alert>& before,
     if (known == nullptr || known->severity != alert.severity) {
       lines.push_back(fmt::format("[{:.3f} s] {} {}: {}", alert.time, severityName(alert.severity),
                                   known == nullptr ? "raised" : "now", alert.text));
+    } else if (known->acknowledged == 0 && alert.acknowledged != 0) {
+      lines.push_back(fmt::format("[{:.3f} s] {} acknowledged: {} {}", time,
+                                  severityName(alert.severity), alert.system, alert.type));
     }
   }
   for (const auto& alert : before) {
@@ -65,11 +69,22 @@ std::vector<std::string> alertChanges(const std::vector<Alert>& before,
   return lines;
 }
 
+std::string heldBackText(const MonitorStatus& monitor) {
+  const auto held = std::count_if(monitor.inhibited.begin(), monitor.inhibited.end(),
+                                  [](double left) { return left > 0.0; });
+  return held == 0
+             ? ""
+             : fmt::format("ALERTS OF {} SYSTEM{} INHIBITED for {:.0f} s yet", held,
+                           held == 1 ? "" : "S",
+                           *std::max_element(monitor.inhibited.begin(), monitor.inhibited.end()));
+}
+
 std::string fitted(const std::string& line, std::size_t columns) {
-  if (line.size() <= columns) {
-    return line;
+  const std::string shown = printable(line, line.size());
+  if (shown.size() <= columns) {
+    return shown;
   }
-  return columns < 3 ? line.substr(0, columns) : line.substr(0, columns - 3) + "...";
+  return columns < 3 ? shown.substr(0, columns) : printable(shown, columns - 3);
 }
 
 }  // namespace whirl_twin

@@ -17,6 +17,9 @@ std::string readoutText(const std::string& system, const SystemReadout& readout)
 std::vector<std::string> alertChanges(const std::vector<Alert>& before,
                                       const std::vector<Alert>& now, double time);
 
+/// "ALERTS OF 2 SYSTEMS INHIBITED for 840 s yet"; "" where none are.
+std::string heldBackText(const MonitorStatus& monitor);
+
 /// The first `columns` characters of a line, with "..." where something was cut off.
 std::string fitted(const std::string& line, std::size_t columns);
 

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
+#include <type_traits>
 
+#include "messages/message_check.h"
+#include "transport/ros_converters.h"
 #include "transport/twin_namespace.h"
 
 namespace whirl_twin {
@@ -83,7 +86,19 @@ void TwinListener::discover() {
 template <class Message>
 ros::Subscriber TwinListener::listen(const TwinTopic& topic,
                                      std::function<void(const typename Message::ConstPtr&)> take) {
-  return node_.subscribe<Message>(topic.topic, kQueue, take, ros::VoidConstPtr(),
+  const std::function<void(const typename Message::ConstPtr&)> checked =
+      [take = std::move(take), name = topic.topic](const typename Message::ConstPtr& message) {
+        if constexpr (!std::is_same_v<Message, AlertArray>) {  // of which all is text
+          try {
+            fromRos(*message);
+          } catch (const RejectedMessage& why) {
+            ROS_WARN_THROTTLE(5.0, "%s: rejected: %s", name.c_str(), why.what());
+            return;
+          }
+        }
+        take(message);
+      };
+  return node_.subscribe<Message>(topic.topic, kQueue, checked, ros::VoidConstPtr(),
                                   ros::TransportHints().tcpNoDelay());
 }
 

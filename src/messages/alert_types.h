@@ -29,6 +29,9 @@ inline constexpr char kActuatorSaturated[] = "ACTUATOR_SATURATED";
 inline constexpr char kResonanceNotPassed[] = "RESONANCE_NOT_PASSED";
 inline constexpr char kDataLost[] = "DATA_LOST";
 inline constexpr char kLcmLost[] = "LCM_LOST";
+inline constexpr char kDuplicateTwin[] = "DUPLICATE_TWIN";
+inline constexpr char kInhibited[] = "INHIBITED";
+inline constexpr char kTripMultiplied[] = "TRIP_MULTIPLIED";
 
 inline constexpr const char* kAll[] = {kCriticalSpeedApproach,
                                        kInCriticalBand,
@@ -55,7 +58,10 @@ inline constexpr const char* kAll[] = {kCriticalSpeedApproach,
                                        kActuatorSaturated,
                                        kResonanceNotPassed,
                                        kDataLost,
-                                       kLcmLost};
+                                       kLcmLost,
+                                       kDuplicateTwin,
+                                       kInhibited,
+                                       kTripMultiplied};
 
 /// The system of an alert about all of the twin.
 inline constexpr char kEverybody[] = "twin";

@@ -39,7 +39,11 @@ bool isObeyed(unsigned code) {
 }
 
 void takeCharacter(std::string_view text, std::size_t& at, std::size_t length, std::string& clean) {
-  clean += length > 0 ? text.substr(at, length) : "?";
+  if (length > 0) {
+    clean += text.substr(at, length);
+  } else {
+    clean += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[at]));
+  }
   at += std::max<std::size_t>(length, 1);
 }
 

@@ -33,7 +33,7 @@ std::size_t printableLength(std::string_view text, std::size_t at);
 /// Bytes of a text from elsewhere that a message shows.
 inline constexpr std::size_t kLongestShown = 60;
 
-/// The first bytes of a text on one line, with ? for every byte that printableLength() refuses.
+/// The first bytes of a text on one line, with \x1b for a byte that printableLength() refuses.
 std::string printable(const std::string& text, std::size_t longest = kLongestShown);
 /// The same in quotes.
 std::string quoted(const std::string& text);

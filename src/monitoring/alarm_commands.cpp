@@ -66,21 +66,27 @@ CommandAnswer reset(TwinMonitor& monitor) {
           fmt::format("{} cleared, {} have their cause still", cleared, alerts.active().size())};
 }
 
-CommandAnswer inhibit(const AlarmCommand& command, TwinMonitor& monitor, double wall_time) {
+CommandAnswer inhibit(const AlarmCommand& command, TwinMonitor& monitor, double wall_time,
+                      const std::string& by) {
   if (!(command.duration >= 0.0 && command.duration <= AlarmCommand::kLongest)) {
     return refused(fmt::format("duration: must be from 0 to {:g} s, found {:g}",
                                AlarmCommand::kLongest, command.duration));
   }
-  monitor.inhibit(command.system, command.duration, wall_time);
-  return {true, command.duration > 0.0
-                    ? fmt::format("alerts of {} are held back for {:g} s",
-                                  systemText(command.system), command.duration)
-                    : fmt::format("alerts of {} are raised", systemText(command.system))};
+  const double lasts = monitor.inhibit(command.system, command.duration, wall_time, by).value();
+  if (!(lasts > 0.0)) {
+    return {true, fmt::format("alerts of {} are raised", systemText(command.system))};
+  }
+  const std::string most = lasts < command.duration
+                               ? fmt::format(" (max_inhibition), not {:g} s", command.duration)
+                               : "";
+  return {true, fmt::format("alerts of {} are held back for {:g} s{}", systemText(command.system),
+                            lasts, most)};
 }
 
 }  // namespace
 
-CommandAnswer carryOut(const AlarmCommand& command, TwinMonitor& monitor, double wall_time) {
+CommandAnswer carryOut(const AlarmCommand& command, TwinMonitor& monitor, double wall_time,
+                       const std::string& by) {
   const std::string wrong = objectionToTarget(command, monitor);
   if (!wrong.empty()) {
     return refused(wrong);
@@ -103,7 +109,7 @@ CommandAnswer carryOut(const AlarmCommand& command, TwinMonitor& monitor, double
                                        "found {}",
                                        command.system));
     case AlarmCommand::kInhibit:
-      return inhibit(command, monitor, wall_time);
+      return inhibit(command, monitor, wall_time, by);
     default:
       return refused(fmt::format("command: must be 1, 2 or 3, found {}", command.command));
   }

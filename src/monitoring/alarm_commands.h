@@ -14,7 +14,8 @@ struct CommandAnswer {
   std::string text;  ///< what was done, or why it was not
 };
 
-/// wall_time [s]: now, of the clock the monitor is told.
-CommandAnswer carryOut(const state::AlarmCommand& command, TwinMonitor& monitor, double wall_time);
+/// wall_time [s]: now, of the clock the monitor is told; by: who commands, as people find them.
+CommandAnswer carryOut(const state::AlarmCommand& command, TwinMonitor& monitor, double wall_time,
+                       const std::string& by = "an unknown sender");
 
 }  // namespace whirl_twin

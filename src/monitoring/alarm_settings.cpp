@@ -73,6 +73,8 @@ std::vector<std::string> settingErrors(const AlarmSettings& settings) {
         settings.trip_multiply >= 1.0 && settings.trip_multiply <= 10.0,
         "from 1 to 10 (dimensionless)");
   not_negative("start_up_acceleration", settings.start_up_acceleration, ">= 0 rad/s^2");
+  check("max_inhibition", settings.max_inhibition,
+        settings.max_inhibition > 0.0 && settings.max_inhibition <= 3600.0, "> 0 and <= 3600 s");
   return errors;
 }
 

@@ -99,6 +99,8 @@ struct AlarmSettings {
   double trip_multiply =
       1.0;  ///< [-], of the levels of amplitude and zones while a shaft starts up
   double start_up_acceleration = 0.5;  ///< [rad/s^2], it starts up when it gains speed faster
+  /// [s], the most that an inhibition lasts (wall time), or a start-up's levels (simulated).
+  double max_inhibition = 900.0;
 
   AlarmDelays delaysOf(const std::string& type) const;
 };

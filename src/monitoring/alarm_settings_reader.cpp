@@ -176,7 +176,8 @@ AlarmSettings readAlarmSettings(const YAML::Node& tree, const std::string& sourc
       {"clock_offset", &s.clock_offset},
       {"clock_drift", &s.clock_drift},
       {"trip_multiply", &s.trip_multiply},
-      {"start_up_acceleration", &s.start_up_acceleration}};
+      {"start_up_acceleration", &s.start_up_acceleration},
+      {"max_inhibition", &s.max_inhibition}};
   std::vector<std::string> known{"latch", "delays",         "amplitude", "voting",
                                  "zones", "subsynchronous", "rub",       "slow_roll"};
   for (const auto& number : numbers) {

@@ -4,10 +4,17 @@
 #include <cmath>
 #include <utility>
 
+#include "messages/alert_types.h"
+
 namespace whirl_twin {
 namespace {
 
 constexpr double kCountdownPeriod = 0.2;  // s
+
+/// That other alerts are held back or levels raised: no state of the machine.
+bool isNotice(const state::Alert& alert) {
+  return alert.type == alert_type::kInhibited || alert.type == alert_type::kTripMultiplied;
+}
 
 }  // namespace
 
@@ -16,7 +23,7 @@ void AlertList::raise(state::Alert alert, const std::string& decision) {
   const auto entry = locate(alert.system, alert.type);
   if (entry != entries_.end()) {
     bringUpToDate(*entry, std::move(alert), decision);
-  } else if (inhibited_.count(alert.system) == 0) {
+  } else if (inhibited_.count(alert.system) == 0 || isNotice(alert)) {
     add(std::move(alert), decision);
   }
 }
@@ -26,7 +33,7 @@ void AlertList::add(state::Alert alert, const std::string& decision) {
   alert.raised_time = alert.time;
   alert.repeats = counts_[{alert.system, alert.type}]++;
   alert.first_out = std::none_of(entries_.begin(), entries_.end(), [&](const Entry& other) {
-    return other.alert.system == alert.system;
+    return other.alert.system == alert.system && !isNotice(other.alert);
   });
   tell(alert);
   const double time = alert.time;
@@ -72,8 +79,10 @@ void AlertList::clear(const std::string& system, const std::string& type, double
   if (entry == entries_.end() || entry->alert.latched) {
     return;
   }
-  const bool latches = latch_ == Latch::kAll || (latch_ == Latch::kDanger &&
-                                                 entry->alert.severity == state::Severity::kDanger);
+  const bool latches =
+      !isNotice(entry->alert) &&
+      (latch_ == Latch::kAll ||
+       (latch_ == Latch::kDanger && entry->alert.severity == state::Severity::kDanger));
   state::Alert& alert = entry->alert;
   alert.time = time;
   alert.text = reason;

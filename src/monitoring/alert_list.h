@@ -5,8 +5,8 @@
 // As protection systems have it: an alert is acknowledged by who has seen it, and is not any more
 // when it grows worse or its cause comes back; one that latches stays, marked as such, when its
 // cause has gone, until the alarms are reset; while a system is inhibited none of its alerts is
-// raised, and those that are there stay. First out is the alert that was raised when no other of
-// its system was there.
+// raised but those that report what silences (INHIBITED, TRIP_MULTIPLIED), and those that are there
+// stay. First out is the alert that was raised when no other of its system was there.
 #pragma once
 
 #include <cstddef>

@@ -18,26 +18,32 @@ class StartUp {
     multiply_ = settings.trip_multiply;
     acceleration_ = settings.start_up_acceleration;
     tail_ = settings.clear_delay;
+    longest_ = settings.max_inhibition;
   }
 
   /// What levels are to be multiplied by [-] at time [s, simulated], with the speed [rad/s] and
   /// acceleration [rad/s^2] of the shaft.
   double multiplier(double time, double speed, double acceleration) {
-    if (started_up_ && time < *started_up_) {  // time was set back
+    if (started_up_ && (time < *started_up_ || time < begun_)) {  // time was set back
       started_up_.reset();
     }
     const bool gains = std::copysign(1.0, speed) * acceleration > acceleration_ ||
                        (speed == 0.0 && std::abs(acceleration) > acceleration_);
     if (gains) {
+      if (!started_up_ || time - *started_up_ >= tail_) {
+        begun_ = time;
+      }
       started_up_ = time;
     }
-    return started_up_ && time - *started_up_ < tail_ ? multiply_ : 1.0;
+    return started_up_ && time - *started_up_ < tail_ && time - begun_ < longest_ ? multiply_ : 1.0;
   }
 
  private:
   double multiply_ = 1.0;
   double acceleration_ = 0.0;
   double tail_ = 0.0;                 ///< [s], that the multiplied levels stay
+  double longest_ = 0.0;              ///< [s], that one start-up multiplies levels
+  double begun_ = 0.0;                ///< [s], when it began to gain speed
   std::optional<double> started_up_;  ///< [s], when it last gained speed
 };
 

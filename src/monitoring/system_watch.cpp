@@ -24,6 +24,14 @@ AlarmSettings settingsFor(const Dynamics& dynamics, AlarmSettings settings) {
   return settings;
 }
 
+/// That a start-up multiplies.
+bool hasLevels(const std::string& system, const AlarmSettings& settings) {
+  return settings.trip_multiply > 1.0 && settings.amplitude.count(system) +
+                                                 settings.zones.count(system) +
+                                                 settings.voting.count(system) >
+                                             0;
+}
+
 /// On a drive, or on a motor: either way what follows it has to know its angle.
 bool hasShaft(const BuiltSystem& system) {
   return system.dynamics->hasShaft() ||
@@ -48,6 +56,8 @@ SystemWatch::SystemWatch(SharedSystem built, JudgedSpeeds first, const AlarmSett
       quality(built->spec.name, settings),
       amplitude_alarm(built->spec.name, settings),
       voted_alarm(built->spec.name, settings),
+      start_up(settings),
+      has_levels(hasLevels(built->spec.name, settings)),
       order_alarm(built->spec.name, settings),
       decay_alarm(built->spec.name, settings),
       following_alarm(built->spec.name, hasShaft(*built), settings),
@@ -101,6 +111,8 @@ void SystemWatch::set(const AlarmSettings& settings) {
   }
   amplitude_alarm.set(settings);
   voted_alarm.set(settings);
+  start_up.set(settings);
+  has_levels = hasLevels(name, settings);
   order_alarm.set(settings);
   decay_alarm.set(settings);
   following_alarm.set(settings);
@@ -120,6 +132,7 @@ void SystemWatch::restart(const AlarmSettings& settings) {
   vibration = {};
   amplitude_alarm = AmplitudeAlarm(name, settings);
   voted_alarm = VotedAlarm(name, settings);
+  start_up = StartUp(settings);
   order_alarm = OrderAlarm(name, settings);
   decay_alarm = DecayAlarm(name, settings);
   following_alarm = FollowingAlarm(name, hasShaft(*system), settings);

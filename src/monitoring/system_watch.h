@@ -20,6 +20,7 @@
 #include "monitoring/measured_signal.h"
 #include "monitoring/order_alarm.h"
 #include "monitoring/stability_alarm.h"
+#include "monitoring/start_up.h"
 #include "monitoring/state_alarm.h"
 #include "monitoring/validity_alarm.h"
 #include "monitoring/voted_alarm.h"
@@ -67,6 +68,8 @@ struct SystemWatch {
   WhirlVibration vibration;
   AmplitudeAlarm amplitude_alarm;
   VotedAlarm voted_alarm;
+  StartUp start_up;
+  bool has_levels;  ///< that a start-up multiplies
   OrderAlarm order_alarm;
   DecayAlarm decay_alarm;
   FollowingAlarm following_alarm;

@@ -1,6 +1,14 @@
 #include "monitoring/twin_monitor.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <chrono>
+#include <ctime>
+
+#include "messages/alert_types.h"
+#include "messages/names.h"
 
 namespace whirl_twin {
 
@@ -24,6 +32,19 @@ std::vector<std::shared_ptr<const ClosedLoop>> loopsOf(const Scene& scene) {
     }
   }
   return loops;
+}
+
+constexpr std::size_t kLongestDuplicate = 500;  // bytes that an alert shows
+
+/// Of the wall clock: "2026-03-01 14:03:12 UTC", in so many seconds.
+std::string clockText(double from_now) {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  const auto then =
+      static_cast<std::time_t>(std::chrono::duration<double>(now).count() + from_now + 0.5);
+  std::tm parts{};
+  gmtime_r(&then, &parts);
+  return fmt::format("{:04}-{:02}-{:02} {:02}:{:02}:{:02} UTC", parts.tm_year + 1900,
+                     parts.tm_mon + 1, parts.tm_mday, parts.tm_hour, parts.tm_min, parts.tm_sec);
 }
 
 }  // namespace
@@ -64,6 +85,7 @@ void TwinMonitor::restart(double time, double wall_time) {
   loop_clock_.restartAt(time, wall_time);
   resets_.begin();
   restored_.restart();
+  replaced_.clear();
 }
 
 void TwinMonitor::set(const AlarmSettings& settings) {
@@ -87,6 +109,10 @@ SystemWatch* TwinMonitor::find(const std::string& system) {
 std::vector<std::string> TwinMonitor::notOk(double wall_time, bool paused) const {
   std::vector<std::string> why;
   for (const SystemWatch& watch : watches_) {
+    if (const std::string all = uncertainty(wall_time); !all.empty()) {
+      why.push_back(all);
+      continue;
+    }
     std::string own = watch.isMeasured() ? watch.measured->notOk(wall_time, paused) : "";
     if (own.empty() && (!watch.isMeasured() || watch.quality.heard())) {
       own = watch.quality.notOk(wall_time, paused);
@@ -96,8 +122,36 @@ std::vector<std::string> TwinMonitor::notOk(double wall_time, bool paused) const
   return why;
 }
 
+std::string TwinMonitor::uncertainty(double wall_time) const {
+  if (!uncertain_.empty()) {
+    return uncertain_;
+  }
+  return resets_.isAmbiguous(wall_time)
+             ? "two twins send at the same simulated time: which is which cannot be told"
+             : "";
+}
+
+void TwinMonitor::reportDuplicate(double wall_time) {
+  const std::string found = resets_.duplicate(wall_time);
+  const bool known = alerts_.find(alert_type::kEverybody, alert_type::kDuplicateTwin) != nullptr;
+  if (!found.empty()) {
+    state::Alert alert;
+    alert.system = alert_type::kEverybody;
+    alert.type = alert_type::kDuplicateTwin;
+    alert.severity = state::Severity::kWarning;
+    alert.time = time_;
+    alert.text = printable(found, kLongestDuplicate);
+    alerts_.raise(std::move(alert), found);
+  } else if (known && !resets_.hasRival(wall_time)) {
+    alerts_.clear(alert_type::kEverybody, alert_type::kDuplicateTwin, time_,
+                  "one twin at most is left");
+  }
+}
+
 void TwinMonitor::tick(double wall_time, bool paused) {
   takeJudgements();
+  wall_time_ = wall_time;
+  reportDuplicate(wall_time);
   for (SystemWatch& watch : watches_) {
     if (paused) {
       continue;
@@ -115,29 +169,81 @@ void TwinMonitor::tick(double wall_time, bool paused) {
   liftInhibitions(wall_time);
 }
 
-void TwinMonitor::liftInhibitions(double wall_time) {
-  for (auto held = inhibited_until_.begin(); held != inhibited_until_.end();) {
-    if (wall_time >= held->second) {
-      alerts_.setInhibited(held->first, false);
-      held = inhibited_until_.erase(held);
-    } else {
-      ++held;
+void TwinMonitor::remember(const AlarmMemory& memory) {
+  restored_.begin(memory, alerts_);
+  for (const state::Alert& alert : memory.alerts) {
+    if (alert.type == alert_type::kInhibited || alert.type == alert_type::kTripMultiplied) {
+      alerts_.clear(alert.system, alert.type, alert.time,
+                    fmt::format("{}: ended when the monitor was started again", alert.system));
     }
   }
 }
 
-bool TwinMonitor::inhibit(const std::string& system, double duration, double wall_time) {
-  if (!system.empty() && find(system) == nullptr) {
-    return false;
+void TwinMonitor::liftInhibitions(double wall_time) {
+  for (auto held = inhibitions_.begin(); held != inhibitions_.end();) {
+    if (wall_time >= held->second.until) {
+      alerts_.setInhibited(held->first, false);
+      alerts_.clear(held->first, alert_type::kInhibited, time_,
+                    fmt::format("alerts of {} are raised again: inhibited by {} {}", held->first,
+                                held->second.by, held->second.times));
+      held = inhibitions_.erase(held);
+    } else {
+      ++held;
+    }
   }
+  reportInhibitions();
+}
+
+void TwinMonitor::reportInhibitions() {
+  for (const auto& [system, held] : inhibitions_) {
+    const std::string text =
+        fmt::format("alerts of {} are inhibited by {} {}", system, held.by, held.times);
+    const state::Alert* const known = alerts_.find(system, alert_type::kInhibited);
+    if (known == nullptr || known->text != text) {
+      state::Alert alert;
+      alert.type = alert_type::kInhibited;
+      alert.system = system;
+      alert.severity = state::Severity::kWarning;
+      alert.time = time_;
+      alert.text = text;
+      alerts_.raise(alert, text);
+    }
+  }
+}
+
+std::optional<double> TwinMonitor::inhibit(const std::string& system, double duration,
+                                           double wall_time, const std::string& by) {
+  if (!system.empty() && find(system) == nullptr) {
+    return std::nullopt;
+  }
+  const double lasts = std::min(duration, settings_.max_inhibition);
+  const std::string times =
+      lasts > 0.0 ? fmt::format("since {} until {}", clockText(0.0), clockText(lasts)) : "";
   for (const SystemWatch& watch : watches_) {
-    if (system.empty() || watch.name == system) {
-      inhibited_until_[watch.name] = wall_time + duration;
+    const bool held = inhibitions_.count(watch.name) > 0;
+    if ((system.empty() || watch.name == system) && (lasts > 0.0 || held)) {
+      if (lasts > 0.0) {
+        inhibitions_[watch.name] = {wall_time + lasts, by, times};
+      } else {
+        inhibitions_[watch.name].until = wall_time;
+        inhibitions_[watch.name].times += fmt::format(", ended by {} at {}", by, clockText(0.0));
+      }
       alerts_.setInhibited(watch.name, true);
     }
   }
   liftInhibitions(wall_time);  // a duration of 0 ends now
-  return true;
+  return lasts;
+}
+
+std::string TwinMonitor::heldBack() const {
+  std::vector<std::string> systems;
+  for (const auto& [system, held] : inhibitions_) {
+    systems.push_back(system);
+  }
+  return systems.empty()
+             ? ""
+             : fmt::format("alerts of {} are inhibited by {} {}", fmt::join(systems, ", "),
+                           inhibitions_.begin()->second.by, inhibitions_.begin()->second.times);
 }
 
 bool TwinMonitor::measures(const std::string& system) const {
@@ -195,8 +301,8 @@ state::MonitorStatus TwinMonitor::status(double wall_time, bool paused) {
   for (const SystemWatch& watch : watches_) {
     status.system.push_back(watch.name);
     status.verdict_age.push_back(wall_time - watch.verdict_of);
-    const auto held = inhibited_until_.find(watch.name);
-    status.inhibited.push_back(held == inhibited_until_.end() ? 0.0 : held->second - wall_time);
+    const auto held = inhibitions_.find(watch.name);
+    status.inhibited.push_back(held == inhibitions_.end() ? 0.0 : held->second.until - wall_time);
   }
   return status;
 }

@@ -57,8 +57,15 @@ class TwinMonitor {
   void tick(double wall_time, bool paused);
   /// The simulation says how its systems fare: whether one has stopped, and why; how accurate it
   /// is. And whether it was reset: then all alerts clear and the alarms begin anew. False for
-  /// statistics out of step, which are ignored.
+  /// statistics out of step, or of another simulation than the one watched, which are ignored.
   bool take(const state::LoopStatistics& loop, double wall_time);
+  /// Why nothing that comes can be judged, from now on; "": it can. Meanwhile nothing is raised or
+  /// cleared by it.
+  void setUncertain(const std::string& why) { uncertain_ = why; }
+  /// The simulation that is watched, and what other one sends in its name; "" with one alone.
+  std::string watched() const { return resets_.sender(); }
+  std::string duplicate(double wall_time) const { return resets_.duplicate(wall_time); }
+  std::uint64_t ofOthers() const { return resets_.ofOthers(); }
 
   /// Margins judged since last asked: ten a second of simulated time for each system; at once where
   /// a rotor passes its threshold speed and where parameters change; and where its speed has
@@ -87,12 +94,16 @@ class TwinMonitor {
   void set(const AlarmSettings& settings);
   const AlarmSettings& settings() const { return settings_; }
   /// It was here before: to be said before anything arrives.
-  void remember(const AlarmMemory& memory) { restored_.begin(memory, alerts_); }
+  void remember(const AlarmMemory& memory);
   /// The run of simulated time; none before the simulation has told.
   std::optional<TwinRun> run() const { return resets_.present(); }
-  /// Holds back what a system ("": every one) would raise for a duration [s, wall]; 0 ends it.
-  /// What is there stays. False for a system that the scene does not have.
-  bool inhibit(const std::string& system, double duration, double wall_time);
+  /// Holds back what a system ("": every one) would raise for a duration [s, wall], max_inhibition
+  /// at most; 0 ends it. What is there stays; an alert INHIBITED reports by whom, since when and
+  /// until when, and its end. Returns the duration; none for a system that the scene does not have.
+  std::optional<double> inhibit(const std::string& system, double duration, double wall_time,
+                                const std::string& by);
+  /// What is held back at present, a sentence; "": nothing.
+  std::string heldBack() const;
   /// That it is there, at wall_time [s], to be told about once a second; without a stamp.
   state::MonitorStatus status(double wall_time, bool paused);
   std::vector<std::string> systemNames() const;
@@ -109,6 +120,13 @@ class TwinMonitor {
   /// False for a state that is not to be believed.
   bool arrived(const std::string& source, const state::Instant& at, double wall_time);
   void liftInhibitions(double wall_time);
+  void reportDuplicate(double wall_time);
+  /// Why nothing can be judged; "": it can.
+  std::string uncertainty(double wall_time) const;
+  void putBackParameters();
+  bool apply(const state::ParameterChange& change);
+  void reportInhibitions();
+  void reportStartUp(SystemWatch& watch, const state::DriveState& shaft);
   /// What came can be judged, or holds the alarms.
   bool isFit(SystemWatch& watch, bool fit, double time);
   void takeJudgements();
@@ -136,7 +154,12 @@ class TwinMonitor {
   ControllerAlarms controller_alarms_;
   AlertList alerts_;
   RestoredAlerts restored_;
-  std::map<std::string, double> inhibited_until_;  ///< [s, wall]
+  struct Inhibition {
+    double until;       ///< [s, wall]
+    std::string by;     ///< who commanded it
+    std::string times;  ///< "since ... until ...", for people
+  };
+  std::map<std::string, Inhibition> inhibitions_;  ///< of systems
   std::vector<state::StabilityMargin> margins_;
   std::vector<state::ControllerMargins> loop_margins_;
   std::vector<state::OrderState> orders_;
@@ -145,6 +168,16 @@ class TwinMonitor {
   double pace_ = 1.0;       ///< [-], of simulated time, where it goes faster than the clock
   double loop_time_ = 0.0;  ///< [s], simulated, of the newest statistics
   ResetWatch resets_;
+  std::string uncertain_;
+  /// What parameters were before the changes of the last seconds: those of a twin that turns out
+  /// to be another are put back.
+  struct Replaced {
+    state::ParameterChange before;
+    double wall_time;  ///< [s]
+  };
+  std::vector<Replaced> replaced_;
+  std::map<std::string, state::ParameterChange> parameters_;  ///< as last told, of each subject
+  double wall_time_ = 0.0;                                    ///< [s], newest that was told
   double time_ = 0.0;
   std::int64_t step_ = 0;     ///< of the newest state
   double status_at_ = 0.0;    ///< [s], wall time of the last status

@@ -1,7 +1,10 @@
 // What the monitor does with states as they arrive.
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 
+#include "messages/alert_types.h"
 #include "monitoring/twin_monitor.h"
 
 namespace whirl_twin {
@@ -19,6 +22,18 @@ bool TwinMonitor::votes(const std::string& source) const {
 }
 
 bool TwinMonitor::arrived(const std::string& source, const state::Instant& at, double wall_time) {
+  wall_time_ = wall_time;
+  // What sensors and followers tell has the stamps of their machine.
+  const bool of_twin = source.rfind("measured/", 0) != 0 && source.rfind("follow/", 0) != 0;
+  if (of_twin && resets_.takeStamp(at.stamp, wall_time)) {
+    return false;
+  }
+  if (resets_.isOfRival(at.time, wall_time)) {
+    if (!resets_.confirmedBy(at.time, wall_time)) {
+      return false;
+    }
+    restart(at.time, wall_time);
+  }
   // Each source against itself: one may be seconds ahead of another when the monitor was held up.
   const auto [known, first] = clocks_.try_emplace(source);
   SourceClock& clock = known->second;
@@ -36,17 +51,40 @@ bool TwinMonitor::arrived(const std::string& source, const state::Instant& at, d
     step_ = at.step;
   }
   data_lost_alarm_.received(source, wall_time, time_, alerts_);
-  return true;
+  return uncertainty(wall_time).empty();
 }
 
 void TwinMonitor::watchShaft(SystemWatch& watch, state::DriveState shaft) {
   watch.speed = shaft.speed;
   watch.acceleration = shaft.acceleration;
+  reportStartUp(watch, shaft);
   if (watch.spin >= 0) {  // a motor has no target: it goes on as it accelerates
     shaft.target_speed = std::numeric_limits<double>::quiet_NaN();
   }
   watch.capture_alarm.update(shaft, watch.speeds.captures, alerts_);
   watch.critical_speed_alarm.update(shaft, watch.speeds.marginsAt(shaft.speed), alerts_);
+}
+
+void TwinMonitor::reportStartUp(SystemWatch& watch, const state::DriveState& shaft) {
+  const double times = watch.start_up.multiplier(shaft.at.time, shaft.speed, shaft.acceleration);
+  const bool known = alerts_.find(watch.name, alert_type::kTripMultiplied) != nullptr;
+  if (times > 1.0 && watch.has_levels && !known) {
+    state::Alert alert;
+    alert.type = alert_type::kTripMultiplied;
+    alert.system = watch.name;
+    alert.time = shaft.at.time;
+    alert.stamp = shaft.at.stamp;
+    alert.speed = shaft.speed;
+    alert.acceleration = shaft.acceleration;
+    alert.text = fmt::format(
+        "{}: levels of amplitude and zones are {:g} times as large while its shaft starts up, for "
+        "{:g} s at most",
+        watch.name, times, settings_.max_inhibition);
+    alerts_.raise(alert, alert.text);
+  } else if (known && !(times > 1.0)) {
+    alerts_.clear(watch.name, alert_type::kTripMultiplied, shaft.at.time,
+                  fmt::format("{}: levels of amplitude and zones are as set again", watch.name));
+  }
 }
 
 bool TwinMonitor::isFit(SystemWatch& watch, bool fit, double time) {
@@ -135,7 +173,7 @@ void TwinMonitor::take(const state::OrderState& orders, double wall_time) {
   // By the clock of the states, not one of their own: a gap in orders is no loss of data.
   if (watch != nullptr && watch->rotor && !watch->isMeasured() &&
       watch->quality.notOk(wall_time, false).empty() &&
-      std::fabs(orders.at.time - time_) < kOrdersLate) {
+      std::fabs(orders.at.time - time_) < kOrdersLate && uncertainty(wall_time).empty()) {
     watch->order_alarm.update(orders, watch->acceleration, alerts_);
   }
 }
@@ -209,8 +247,16 @@ void TwinMonitor::takeMeasured(SystemWatch& watch, double wall_time) {
 }
 
 bool TwinMonitor::take(const state::LoopStatistics& loop, double wall_time) {
+  wall_time_ = wall_time;
+  const bool had_rival = resets_.hasRival(wall_time);
   if (resets_.take(loop, wall_time)) {
     restart(loop.at.time, wall_time);
+  }
+  if (!resets_.isOfPresent(loop)) {
+    if (!had_rival) {
+      putBackParameters();
+    }
+    return false;
   }
   // In a pause time stands still, and the statistics go on.
   const double time = loop.at.time;
@@ -221,7 +267,7 @@ bool TwinMonitor::take(const state::LoopStatistics& loop, double wall_time) {
   }
   pace_ = pace;
   loop_time_ = time;
-  for (std::size_t i = 0; i < loop.system.size(); ++i) {
+  for (std::size_t i = 0; uncertain_.empty() && i < loop.system.size(); ++i) {
     if (SystemWatch* watch = find(loop.system[i])) {
       watch->state_alarm.updateStopped(time, static_cast<StepStatus>(loop.stopped[i]),
                                        loop.stopped_why[i], alerts_);

@@ -11,10 +11,44 @@ namespace whirl_twin {
 namespace {
 
 constexpr double kJudgingPeriod = 0.1;  // s, simulated
+/// [s], wall time: a second twin tells its parameters before its loop statistics.
+constexpr double kOfAnotherTwin = 2.5;
 
 }  // namespace
 
 bool TwinMonitor::take(const state::ParameterChange& change) {
+  if (resets_.isOfEarlier(change.at.stamp) ||
+      resets_.hasRival(wall_time_)) {  // nobody knows whose they are, and they are told again
+    return true;
+  }
+  const auto known = parameters_.find(change.system);
+  const bool same = known != parameters_.end() && known->second.names == change.names &&
+                    known->second.values == change.values;
+  if (!apply(change)) {
+    return false;
+  }
+  replaced_.erase(std::remove_if(replaced_.begin(), replaced_.end(),
+                                 [&](const Replaced& one) {
+                                   return wall_time_ - one.wall_time > kOfAnotherTwin;
+                                 }),
+                  replaced_.end());
+  if (!same && known != parameters_.end()) {
+    replaced_.push_back({known->second, wall_time_});
+  }
+  parameters_[change.system] = change;
+  return true;
+}
+
+void TwinMonitor::putBackParameters() {
+  for (auto one = replaced_.rbegin(); one != replaced_.rend(); ++one) {
+    if (wall_time_ - one->wall_time <= kOfAnotherTwin && apply(one->before)) {
+      parameters_[one->before.system] = one->before;
+    }
+  }
+  replaced_.clear();
+}
+
+bool TwinMonitor::apply(const state::ParameterChange& change) {
   SystemWatch* watch = find(change.system);
   if (watch == nullptr) {
     return takeOfController(change);

@@ -34,15 +34,23 @@ class AlarmServices {
   /// Commands by topic and LCM; a service tells who calls it.
   std::uint64_t taken() const { return taken_; }
   std::uint64_t refused() const;
+  /// Those that came by LCM and were no messages; null where it does not listen there.
+  const RefusedPayloads* refusedPayloads() const {
+    return receiver_ ? &receiver_->refused() : nullptr;
+  }
 
  private:
-  bool acknowledge(Acknowledge::Request& request, Acknowledge::Response& response);
-  bool reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
-  bool inhibit(Inhibit::Request& request, Inhibit::Response& response);
-  void take(const state::AlarmCommand& command);
+  template <class Event>
+  ros::ServiceServer advertise(ros::NodeHandle& node, const std::string& name,
+                               bool (AlarmServices::*serve)(Event&));
+  // With who calls.
+  bool acknowledge(ros::ServiceEvent<Acknowledge::Request, Acknowledge::Response>& call);
+  bool reset(ros::ServiceEvent<std_srvs::Trigger::Request, std_srvs::Trigger::Response>& call);
+  bool inhibit(ros::ServiceEvent<Inhibit::Request, Inhibit::Response>& call);
+  void take(const state::AlarmCommand& command, const std::string& by);
   void refuse(const std::string& why);
   /// Carries it out; what others have to know of it is logged and kept.
-  CommandAnswer answer(const state::AlarmCommand& command);
+  CommandAnswer answer(const state::AlarmCommand& command, const std::string& by);
 
   TwinMonitor& monitor_;
   std::function<double()> wall_time_;

@@ -15,6 +15,7 @@
 #include "nodes/command_sender.h"
 #include "nodes/command_taker.h"
 #include "nodes/private_parameter.h"
+#include "nodes/refusal_report.h"
 #include "nodes/rising_count.h"
 #include "nodes/rival_report.h"
 #include "nodes/run_node.h"
@@ -91,11 +92,6 @@ void addLatency(const TimingHistogram& latency, Status& status) {
   }
 }
 
-void addMalformed(const CommandChannels& channels, Status& status) {
-  status.add("malformed", channels.malformed());
-  status.add("last malformed", channels.lastFault());
-}
-
 void run() {
   const BridgeSettings settings = readSettings();
   CommandChannels channels(settings.lcm_url, settings.lcm_prefix);
@@ -118,7 +114,7 @@ void run() {
       const CommandCounts counts = taker->counts();
       status.summary(DiagnosticStatus::OK,
                      counts.holder.empty() ? "nobody commands" : counts.holder + " commands");
-      if (refused.roseLately(counts.refused + channels.malformed(), now)) {
+      if (refused.roseLately(counts.refused + channels.malformed().total(), now)) {
         status.mergeSummary(DiagnosticStatus::WARN, "commands are refused");
       }
       if (const auto others = taker->others(); !others.empty()) {
@@ -141,8 +137,10 @@ void run() {
       status.add("not answered", sender->unanswered());
       addLatency(sender->latency(), status);
     }
-    addMalformed(channels, status);
+    status.add("malformed", channels.malformed().total());
+    status.add("last malformed", channels.malformed().last());
   });
+  const RefusalReport refused_payloads(diagnostics, {&channels.malformed()});
   reportMaster(master, diagnostics);
   ChangedParameters parameters(master);
   parameters.report(diagnostics);

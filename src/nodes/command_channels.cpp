@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "messages/message_check.h"
 #include "transport/command_channel.h"
 #include "transport/lcm_connection.h"
 #include "transport/payload_layout.h"
@@ -11,9 +10,6 @@ namespace whirl_twin {
 
 namespace {
 
-// As requireLayout() has them.
-constexpr const char* kCommandLayout = "lslssnSDd";
-constexpr const char* kAnswerLayout = "lslbslnSD";
 constexpr int kMostMessagesAtOnce = 100;
 
 }  // namespace
@@ -41,17 +37,17 @@ void CommandChannels::send(command_answer_t answer) {
 
 void CommandChannels::take(std::function<void(const twin_command_t&)> handler) {
   take_command_ = std::move(handler);
-  listen(commands_, [](const lcm_recv_buf_t* buffer, const char*, void* self) {
+  listen(commands_, [](const lcm_recv_buf_t* buffer, const char* channel, void* self) {
     auto* channels = static_cast<CommandChannels*>(self);
-    channels->decode(buffer, kCommandLayout, channels->take_command_);
+    channels->pass(buffer, channel, kCommandLayout, channels->take_command_);
   });
 }
 
 void CommandChannels::take(std::function<void(const command_answer_t&)> handler) {
   take_answer_ = std::move(handler);
-  listen(answers_, [](const lcm_recv_buf_t* buffer, const char*, void* self) {
+  listen(answers_, [](const lcm_recv_buf_t* buffer, const char* channel, void* self) {
     auto* channels = static_cast<CommandChannels*>(self);
-    channels->decode(buffer, kAnswerLayout, channels->take_answer_);
+    channels->pass(buffer, channel, kAnswerLayout, channels->take_answer_);
   });
 }
 
@@ -67,20 +63,13 @@ void CommandChannels::receive(std::chrono::milliseconds timeout) {
 }
 
 template <class Type>
-void CommandChannels::decode(const lcm_recv_buf_t* buffer, const char* layout,
-                             const std::function<void(const Type&)>& handler) {
+void CommandChannels::pass(const lcm_recv_buf_t* buffer, const char* channel, const char* layout,
+                           const std::function<void(const Type&)>& handler) {
   // Called from C: nothing may be thrown through it.
   try {
-    requireLayout(layout, buffer->data, buffer->data_size);
-    Type message;
-    if (message.decode(buffer->data, 0, static_cast<int>(buffer->data_size)) !=
-        static_cast<int>(buffer->data_size)) {
-      throw RejectedMessage(std::string("payload: not a ") + Type::getTypeName());
-    }
-    handler(message);
+    handler(decodePayload<Type>(layout, buffer->data, buffer->data_size));
   } catch (const RejectedMessage& why) {
-    ++malformed_;
-    last_fault_ = why.what();
+    malformed_.add(channel, why.what());
   }
 }
 

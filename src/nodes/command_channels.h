@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 
+#include "transport/refused_payloads.h"
 #include "whirl_twin/command_answer_t.hpp"
 #include "whirl_twin/twin_command_t.hpp"
 
@@ -33,21 +34,19 @@ class CommandChannels {
   void take(std::function<void(const command_answer_t&)> handler);
   void receive(std::chrono::milliseconds timeout);
   /// What was no such message.
-  std::uint64_t malformed() const { return malformed_; }
-  const std::string& lastFault() const { return last_fault_; }
+  const RefusedPayloads& malformed() const { return malformed_; }
 
  private:
   void listen(const std::string& channel, lcm_msg_handler_t handler);
   template <class Type>
-  void decode(const lcm_recv_buf_t* buffer, const char* layout,
-              const std::function<void(const Type&)>& handler);
+  void pass(const lcm_recv_buf_t* buffer, const char* channel, const char* layout,
+            const std::function<void(const Type&)>& handler);
 
   std::shared_ptr<lcm::LCM> lcm_;
   std::string commands_, answers_;  // channels
   std::function<void(const twin_command_t&)> take_command_;
   std::function<void(const command_answer_t&)> take_answer_;
-  std::uint64_t malformed_ = 0;
-  std::string last_fault_;
+  RefusedPayloads malformed_;
 };
 
 }  // namespace whirl_twin

@@ -8,6 +8,8 @@
 
 #include "controllers/external.h"
 #include "std_msgs/Float64.h"
+#include "transport/lcm_connection.h"
+#include "transport/payload_layout.h"
 #include "whirl_twin/ControllerCommand.h"
 #include "whirl_twin/ControllerMeasurement.h"
 #include "whirl_twin/controller_measurement_t.hpp"
@@ -93,23 +95,30 @@ void ExternalControllers::advertiseValue(Connection& connection, ros::NodeHandle
 void ExternalControllers::listenOnLcm(const std::string& lcm_url) {
   try {
     lcm_ = openLcm(lcm_url);
+    tapCommands();
   } catch (const LcmNotAvailable& problem) {
     ROS_WARN("%s; controllers in other processes are heard on ROS only", problem.what());
-    return;
-  }
-  for (const auto& connection : controllers_) {
-    lcm_->subscribe(connection->lcm_channel + kCommandEnding, &ExternalControllers::takeFromLcm,
-                    this)
-        ->setQueueCapacity(kControllerQueue);
   }
 }
 
-void ExternalControllers::takeFromLcm(const lcm::ReceiveBuffer*, const std::string& channel,
-                                      const controller_command_t* message) {
+void ExternalControllers::tapCommands() {
   for (const auto& connection : controllers_) {
-    if (connection->lcm_channel + kCommandEnding == channel) {
-      take(*connection, {message->run, message->sample, message->time, message->values});
-    }
+    const auto take = [this, &connection = *connection](
+                          const std::string& channel, std::int64_t, const std::uint8_t* data,
+                          std::size_t size) { takeFromLcm(connection, channel, data, size); };
+    taps_.push_back(std::make_unique<ChannelTap>(lcm_, connection->lcm_channel + kCommandEnding,
+                                                 take, static_cast<int>(kControllerQueue)));
+  }
+}
+
+void ExternalControllers::takeFromLcm(const Connection& connection, const std::string& channel,
+                                      const void* data, std::size_t size) {
+  try {
+    const auto message =
+        decodePayload<controller_command_t>(layoutOf<state::ControllerCommand>(), data, size);
+    take(connection, {message.run, message.sample, message.time, message.values});
+  } catch (const RejectedMessage& why) {
+    malformed_.add(channel, why.what());
   }
 }
 

@@ -12,9 +12,9 @@
 #include <thread>
 #include <vector>
 
-#include "transport/lcm_connection.h"
+#include "transport/channel_tap.h"
+#include "transport/refused_payloads.h"
 #include "twin/live_twin.h"
-#include "whirl_twin/controller_command_t.hpp"
 
 namespace whirl_twin {
 
@@ -29,6 +29,8 @@ class ExternalControllers {
   bool any() const { return !controllers_.empty(); }
   /// Commands that were of another length than its outputs, or found no room.
   std::uint64_t refused() const { return refused_.load(std::memory_order_relaxed); }
+  /// Commands by LCM that were no such message.
+  const RefusedPayloads& malformed() const { return malformed_; }
 
  private:
   struct Connection {
@@ -43,8 +45,9 @@ class ExternalControllers {
   void advertise(Connection& connection, ros::NodeHandle& node);
   void advertiseValue(Connection& connection, ros::NodeHandle& node);
   void listenOnLcm(const std::string& lcm_url);
-  void takeFromLcm(const lcm::ReceiveBuffer* buffer, const std::string& channel,
-                   const controller_command_t* message);
+  void tapCommands();
+  void takeFromLcm(const Connection& connection, const std::string& channel, const void* data,
+                   std::size_t size);
   void run();
   void take(const Connection& connection, const ExternalSample& command);
   void tell(Connection& connection, const ExternalSample& sample);
@@ -52,6 +55,8 @@ class ExternalControllers {
   std::vector<std::unique_ptr<Connection>> controllers_;
   ros::CallbackQueue queue_;  // that answers wait for no service
   std::shared_ptr<lcm::LCM> lcm_;
+  std::vector<std::unique_ptr<ChannelTap>> taps_;
+  RefusedPayloads malformed_;
   std::atomic<std::uint64_t> refused_{0};
   std::atomic<bool> ending_{false};
   std::thread thread_;

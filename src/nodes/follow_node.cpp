@@ -22,6 +22,7 @@
 #include "nodes/machine_input.h"
 #include "nodes/private_parameter.h"
 #include "nodes/publish_rate.h"
+#include "nodes/refusal_report.h"
 #include "nodes/rival_report.h"
 #include "nodes/run_node.h"
 #include "plugins/plugins.h"
@@ -162,6 +163,8 @@ void run() {
   diagnostics.add("measurements", [&](diagnostic_updater::DiagnosticStatusWrapper& status) {
     report(*measurements, publisher, follower, status);
   });
+  const RefusalReport refused_payloads(diagnostics,
+                                       {measurements ? measurements->refusedPayloads() : nullptr});
   reportMaster(master, diagnostics);
   ChangedParameters parameters(master);
   parameters.report(diagnostics);

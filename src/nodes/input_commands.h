@@ -31,6 +31,10 @@ class InputCommands {
 
   std::uint64_t taken() const { return taken_; }
   std::uint64_t refused() const;
+  /// Those that came by LCM and were no messages; null where it does not listen there.
+  const RefusedPayloads* refusedPayloads() const {
+    return receiver_ ? &receiver_->refused() : nullptr;
+  }
   const std::string& lastRefusal() const { return last_refusal_; }
 
  private:

@@ -22,6 +22,7 @@
 #include "nodes/lcm_bridge.h"
 #include "nodes/newest_states.h"
 #include "nodes/private_parameter.h"
+#include "nodes/refusal_report.h"
 #include "nodes/rising_count.h"
 #include "nodes/rival_report.h"
 #include "nodes/run_node.h"
@@ -101,7 +102,7 @@ class BridgeDiagnostics {
     status.add("received", receiver.received());
     status.add("lost", receiver.lost());
     status.add("rejected", receiver.rejected());
-    status.add("last rejection", receiver.lastRejection());
+    status.add("last rejection", receiver.refused().last());
     status.add("messages lost by slow subscribers", topics.lost());
     status.add("left out for newer ones", states.leftOut());
     for (const double percent : {50.0, 99.0, 100.0}) {
@@ -109,7 +110,8 @@ class BridgeDiagnostics {
                  static_cast<double>(states.latency().percentile(percent)) * 1.0e-9);
     }
     for (const auto& [name, count] : receiver.channels()) {
-      status.add(name, fmt::format("{} received, {} lost", count.received, count.steps.lost()));
+      status.add(name, fmt::format("{} received, {} lost, {} out of order", count.received,
+                                   count.steps.lost(), count.steps.late()));
     }
   }
 
@@ -152,6 +154,7 @@ void run() {
   diagnostics.add("received from LCM", [&](diagnostic_updater::DiagnosticStatusWrapper& status) {
     counts.summarize(*receiver, bridge.topics(), states, status);
   });
+  const RefusalReport refused_payloads(diagnostics, {&receiver->refused()});
   reportMaster(master, diagnostics);
   rivals.report(diagnostics);
   ChangedParameters parameters(master);

@@ -64,8 +64,8 @@ std::uint64_t MachineInput::rejected() const {
   return rejected_ + (receiver_ ? receiver_->rejected() : 0);
 }
 
-const std::string& MachineInput::lastRejection() const {
-  return receiver_ ? receiver_->lastRejection() : last_rejection_;
+std::string MachineInput::lastRejection() const {
+  return receiver_ ? receiver_->refused().last() : last_rejection_;
 }
 
 }  // namespace whirl_twin

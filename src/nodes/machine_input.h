@@ -31,7 +31,11 @@ class MachineInput {
   void receive();
   std::uint64_t taken() const { return taken_; }
   std::uint64_t rejected() const;  ///< messages that were not sound
-  const std::string& lastRejection() const;
+  std::string lastRejection() const;
+  /// Those that came by LCM and were no messages; null where it does not listen there.
+  const RefusedPayloads* refusedPayloads() const {
+    return receiver_ ? &receiver_->refused() : nullptr;
+  }
 
  private:
   void take(const state::Measurement& message);

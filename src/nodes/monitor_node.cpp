@@ -5,7 +5,9 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 
+#include <algorithm>
 #include <chrono>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -15,11 +17,13 @@
 #include "monitoring/live_alarm_settings.h"
 #include "monitoring/twin_monitor.h"
 #include "monitoring/watched_kinds.h"
+#include "monitoring/watched_scene.h"
 #include "nodes/alarm_services.h"
 #include "nodes/alarm_settings_service.h"
 #include "nodes/alert_events.h"
 #include "nodes/changed_parameters.h"
 #include "nodes/private_parameter.h"
+#include "nodes/refusal_report.h"
 #include "nodes/rival_report.h"
 #include "nodes/run_node.h"
 #include "plugins/plugins.h"
@@ -57,6 +61,9 @@ constexpr std::uint32_t kQueue = 5000;        // some seconds at 1 kHz
 constexpr std::uint32_t kPublishQueue = 100;  // ten seconds of margins
 constexpr std::chrono::microseconds kGather{1000};
 constexpr double kReportPeriod = 1.0;  // s, wall time
+/// [s], wall time that the scene of a twin is waited for, which is told every two; logs of before
+/// have none.
+constexpr double kScenePatience = 3.0;
 
 double wallTime() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -87,15 +94,13 @@ LiveAlarmSettings alarmSettings(const BuiltScene& scene) {
                            std::move(rotors), atStart(), std::move(stations));
 }
 
-BuiltScene sceneOf(const ParameterTree& given) {
-  return build(readScene(given.tree, given.source));
-}
-
 class MonitorNode {
  public:
   explicit MonitorNode(ros::NodeHandle node)
       : node_(node),
-        scene_(sceneOf(parameterTree(node, "scene"))),
+        given_(parameterTree(node, "scene")),
+        scene_(build(readScene(given_.tree, given_.source))),
+        watched_scene_(sceneLines(given_.tree), given_.source),
         settings_(alarmSettings(scene_)),
         monitor_(scene_, settings_.settings(), Judging::Mode::kBeside),
         url_(privateParameter<std::string>("lcm_url", "an LCM url, or nothing", kDefaultLcmUrl)),
@@ -143,6 +148,9 @@ class MonitorNode {
     if (receiver_) {
       rivals_.report(diagnostics_);
     }
+    refused_payloads_.emplace(diagnostics_, std::vector<const RefusedPayloads*>{
+                                                services_.refusedPayloads(),
+                                                receiver_ ? &receiver_->refused() : nullptr});
   }
 
   void spinOnce() {
@@ -158,6 +166,7 @@ class MonitorNode {
       std::this_thread::sleep_for(kGather);
     }
     services_.receive();
+    askForScene();
     monitor_.tick(wallTime(), paused_);
     publish();
     // Wall time: simulated time stands still in a pause and goes back in a reset.
@@ -177,7 +186,7 @@ class MonitorNode {
   template <class Message>
   void feed(const Message& message) {
     try {
-      takeState(fromRos(message));
+      takeMessage(fromRos(message));
     } catch (const RejectedMessage& error) {
       ++rejected_;
       ROS_WARN_THROTTLE(5.0, "rejected: %s", error.what());
@@ -208,10 +217,11 @@ class MonitorNode {
       subscribeTo<state::Measurement>(sensor.name);
     }
     subscribeTo<state::LoopStatistics>();
+    subscribeTo<state::SceneText>();
   }
 
   void receive(const std::string& url) {
-    Kinds kinds;
+    Kinds kinds{&state::SceneText::kKind};
     eachKind([&kinds](auto kind) {
       using State = typename decltype(kind)::State;
       if (isWatched<State>()) {
@@ -222,7 +232,7 @@ class MonitorNode {
       if (const auto* loop = std::get_if<state::LoopStatistics>(&message)) {
         rivals_.take(*loop);
       }
-      std::visit([this](const auto& state) { takeState(state); }, message);
+      std::visit([this](const auto& state) { takeMessage(state); }, message);
     };
     receiver_ = std::make_unique<LcmReceiver>(openLcm(url), kinds, take, lcm_.prefix());
   }
@@ -245,6 +255,34 @@ class MonitorNode {
     if (monitor_.take(loop, wallTime())) {
       paused_ = loop.paused;
     }
+    if (monitor_.run() && simulation_ != monitor_.run()->first) {
+      if (simulation_) {
+        ROS_WARN("another run is watched from now on, of %s", monitor_.watched().c_str());
+      }
+      simulation_ = monitor_.run()->first;
+      watched_scene_.follow(simulation_);
+    }
+  }
+  void takeState(const state::SceneText& scene) {
+    const std::string before = watched_scene_.mismatch();
+    watched_scene_.take(scene, simulation_);
+    if (watched_scene_.mismatch() != before) {
+      ROS_WARN("%s", before.empty() ? watched_scene_.mismatch().c_str()
+                                    : "the twin runs the scene of the monitor");
+    }
+  }
+  /// Before anything is judged.
+  void askForScene() {
+    const double heard_for = wallTime() - first_arrival_;
+    const bool waits = !watched_scene_.told() && heard_for >= 0.0 && heard_for < kScenePatience;
+    monitor_.setUncertain(waits ? "the scene of the twin has not come yet"
+                                : watched_scene_.mismatch());
+  }
+  template <class State>
+  void takeMessage(const State& state) {
+    first_arrival_ = std::min(first_arrival_, wallTime());
+    askForScene();
+    takeState(state);
   }
 
   void openHistory() {
@@ -336,6 +374,14 @@ class MonitorNode {
                                                                          : DiagnosticStatus::WARN,
                      active.front().text);
     }
+    if (!watched_scene_.mismatch().empty()) {
+      status.mergeSummary(DiagnosticStatus::ERROR, watched_scene_.mismatch());
+    }
+    if (const std::string held = monitor_.heldBack(); !held.empty()) {
+      status.mergeSummary(DiagnosticStatus::WARN, held);
+    }
+    const auto acknowledged = std::count_if(
+        active.begin(), active.end(), [](const state::Alert& alert) { return alert.acknowledged; });
     if (!paused_ && wallTime() - newest_arrival_ > monitor_.settings().data_timeout) {
       status.mergeSummary(DiagnosticStatus::WARN, "no states arrive: nothing is being watched");
     }
@@ -347,14 +393,19 @@ class MonitorNode {
       }
     }
     status.add("active alerts", active.size());
+    status.add("acknowledged alerts", acknowledged);
     status.add("simulated time [s]", monitor_.time());
+    status.add("watches", monitor_.watched());
+    status.add("statistics of other twins", monitor_.ofOthers());
     status.add("commands about alarms", services_.taken());
     status.add("refused commands about alarms", services_.refused());
     status.add("rejected messages", rejected_ + (receiver_ ? receiver_->rejected() : 0));
   }
 
   ros::NodeHandle node_;
+  ParameterTree given_;
   BuiltScene scene_;
+  WatchedScene watched_scene_;
   LiveAlarmSettings settings_;
   TwinMonitor monitor_;
   std::string url_;
@@ -372,10 +423,13 @@ class MonitorNode {
   ChangedParameters parameters_{
       master_, atStart(), [this](const YAML::Node& all) { return settings_service_.obey(all); }};
   diagnostic_updater::Updater diagnostics_;
+  std::optional<RefusalReport> refused_payloads_;
   std::uint64_t rejected_ = 0;
-  bool paused_ = false;          // the simulation says so
-  double newest_arrival_ = 0.0;  // [s], wall time
-  double next_report_ = 0.0;     // [s], wall time
+  bool paused_ = false;                     // the simulation says so
+  std::optional<std::int64_t> simulation_;  // when the one that is watched was started
+  double newest_arrival_ = 0.0;             // [s], wall time
+  double first_arrival_ = std::numeric_limits<double>::infinity();  // [s], wall time
+  double next_report_ = 0.0;                                        // [s], wall time
 };
 
 void run() {

@@ -22,6 +22,7 @@ namespace {
 constexpr auto kClockPausePeriod = std::chrono::milliseconds(100);
 constexpr auto kLoopReportPeriod = std::chrono::seconds(1);
 constexpr auto kAgainPeriod = std::chrono::seconds(10);
+constexpr auto kScenePeriod = std::chrono::seconds(2);  // a monitor waits for it
 constexpr auto kLongestSaving = std::chrono::seconds(1);
 constexpr std::chrono::microseconds kIdle{500};         // between looks at the ring
 constexpr std::chrono::microseconds kShortestIdle{25};  // where somebody waits for every step
@@ -98,7 +99,7 @@ void RecordPublisher::run() {
   auto next_report = std::chrono::steady_clock::now();
   auto next_clock = next_report;
   auto next_again = next_report + kAgainPeriod;
-  auto next_scene = next_again;
+  auto next_scene = next_report + kScenePeriod;
   scene_.at.stamp = stampNow();
   states_.tell(scene_);
   std::chrono::microseconds idle = kIdle;
@@ -127,7 +128,7 @@ void RecordPublisher::run() {
     }
     if (now >= next_scene) {
       states_.tellAgain(scene_);
-      next_scene = now + kAgainPeriod;
+      next_scene = now + kScenePeriod;
     }
     if (taken > 0 || !live_.paused()) {
       next_again = now + kAgainPeriod;

@@ -61,11 +61,12 @@ void LcmRivals::receive() {
     if (!payload) {
       return;
     }
+    const std::string channel = channelName(state::LoopStatistics::kKind, "", prefix_);
     try {
       take(std::get<state::LoopStatistics>(
-          decodeEvent(channelName(state::LoopStatistics::kKind, "", prefix_), payload->data(),
-                      payload->size(), prefix_)));
-    } catch (const RejectedMessage&) {  // who listens for them counts those
+          decodeEvent(channel, payload->data(), payload->size(), prefix_)));
+    } catch (const RejectedMessage& why) {
+      refused_.add(channel, why.what());
     }
   }
 }

@@ -9,6 +9,7 @@
 
 #include "transport/channel_listener.h"
 #include "transport/master_watch.h"
+#include "transport/refused_payloads.h"
 #include "transport/twin_senders.h"
 
 namespace whirl_twin {
@@ -29,6 +30,9 @@ class LcmRivals {
   /// Takes what has arrived since; to be called several times a second.
   void receive();
 
+  /// Payloads that it has received itself and that were no statistics.
+  const RefusedPayloads& refused() const { return refused_; }
+
   /// Statistics that have arrived by LCM.
   void take(const state::LoopStatistics& loop);
 
@@ -41,6 +45,7 @@ class LcmRivals {
   TwinSenders senders_;
   std::string prefix_;
   std::unique_ptr<ChannelListener> listener_;
+  RefusedPayloads refused_;
   std::string told_;
 };
 

@@ -11,6 +11,7 @@
 #include <mutex>
 #include <thread>
 
+#include "messages/names.h"
 #include "messages/refusal.h"
 #include "nodes/node_help.h"
 
@@ -104,10 +105,10 @@ int runNode(int argc, char** argv, const char* name, const char* help,
       run();
     }
   } catch (const RunFailure& failure) {
-    std::fprintf(stderr, "%s: failed:\n%s\n", name, failure.what());
+    std::fprintf(stderr, "%s: failed:\n%s\n", name, printableLines(failure.what()).c_str());
     return 1;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s: cannot run:\n%s\n", name, error.what());
+    std::fprintf(stderr, "%s: cannot run:\n%s\n", name, printableLines(error.what()).c_str());
     return 2;
   }
   return 0;

@@ -25,6 +25,7 @@
 #include "nodes/private_parameter.h"
 #include "nodes/publish_rate.h"
 #include "nodes/record_publisher.h"
+#include "nodes/refusal_report.h"
 #include "nodes/rival_report.h"
 #include "nodes/run_node.h"
 #include "nodes/state_publisher.h"
@@ -281,6 +282,8 @@ void run() {
     rivals.listen(settings.lcm_url);
     rivals.report(diagnostics);
   }
+  const RefusalReport refused_payloads(
+      diagnostics, {commands.refusedPayloads(), &external.malformed(), &rivals.refused()});
 
   for (const SharedSystem& system : live.twin().systems()) {
     ROS_INFO("%s: %s with %s%s%s%s", system->spec.name.c_str(), system->model->name.c_str(),

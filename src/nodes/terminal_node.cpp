@@ -11,6 +11,7 @@
 
 #include "display/terminal_text.h"
 #include "display/twin_listener.h"
+#include "messages/names.h"
 #include "nodes/node_help.h"
 #include "transport/master_watch.h"
 
@@ -57,8 +58,12 @@ class TerminalDisplay {
     if (readouts.empty()) {
       return;
     }
-    const std::string time =
+    std::string time =
         fmt::format("{:.3f} s{}{}", listener_.time(), silence.empty() ? "" : " | ", silence);
+    if (listener_.monitor()) {
+      const std::string held = heldBackText(*listener_.monitor());
+      time += held.empty() ? "" : " | " + held;
+    }
     if (is_terminal_) {
       erase();
       show(time);
@@ -66,7 +71,7 @@ class TerminalDisplay {
         show("  " + readout);
       }
     } else {
-      std::puts(fmt::format("{} | {}", time, fmt::join(readouts, " | ")).c_str());
+      put(fmt::format("{} | {}", time, fmt::join(readouts, " | ")));
     }
     flush();
   }
@@ -74,16 +79,19 @@ class TerminalDisplay {
   void printAlerts(const std::vector<Alert>& alerts) {
     erase();
     for (const auto& line : alertChanges(alerts_, alerts, listener_.time())) {
-      std::puts(line.c_str());
+      put(line);
     }
     alerts_ = alerts;
     flush();
   }
 
   void show(const std::string& line) {
-    std::puts(fitted(line, columns()).c_str());
+    put(fitted(line, columns()));
     ++shown_;
   }
+
+  /// Names and texts come from whoever publishes.
+  static void put(const std::string& line) { std::puts(printable(line, line.size()).c_str()); }
 
   // Takes back the lines that are to be rewritten: up, to the first column, clear what is below.
   void erase() {

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "algebra/constants.h"
+#include "messages/names.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {
@@ -25,7 +26,7 @@ double rounded(double pixels) {
 
 std::string escaped(const std::string& text) {
   std::string out;
-  for (const char c : text) {
+  for (const char c : printableLines(text)) {
     out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
   }
   return out;

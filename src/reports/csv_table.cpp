@@ -9,7 +9,7 @@
 #include <fstream>
 #include <utility>
 
-#include "messages/names.h"
+#include "messages/csv_cell.h"
 #include "messages/refusal.h"
 
 namespace whirl_twin {
@@ -27,15 +27,7 @@ std::string cellText(const Json& row, const std::string& column) {
   if (!cell.is_string()) {
     return cell.dump();
   }
-  const std::string text = printable(cell.get<std::string>(), cell.get<std::string>().size());
-  if (text.find_first_of(",\"") == std::string::npos) {
-    return text;
-  }
-  std::string quoted = "\"";
-  for (const char letter : text) {
-    quoted += letter == '"' ? "\"\"" : std::string(1, letter);
-  }
-  return quoted + "\"";
+  return csvCell(cell.get<std::string>());
 }
 
 }  // namespace
@@ -71,7 +63,11 @@ std::string csvName(const std::string& path, const std::string& table) {
 }
 
 std::string csvText(const CsvTable& table) {
-  std::string out = fmt::format("{}\n", fmt::join(table.columns, ","));
+  std::string out;
+  for (const std::string& column : table.columns) {
+    out += (out.empty() ? "" : ",") + csvCell(column);
+  }
+  out += "\n";
   for (const Json& row : table.rows) {
     std::string line;
     for (const std::string& column : table.columns) {

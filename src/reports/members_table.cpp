@@ -7,6 +7,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "messages/csv_cell.h"
 #include "messages/refusal.h"
 #include "reports/output.h"
 
@@ -19,7 +20,7 @@ void writeMembers(const Twin& twin, const std::vector<std::size_t>& systems,
   const Ensemble& ensemble = *twin.ensemble(*system);
   std::string text = "member";
   for (const Spread& spread : twin.systems()[*system]->spec.ensemble.spread) {
-    text += "," + spread.path;
+    text += "," + csvCell(spread.path);
   }
   for (const EnsembleQuantity& q : ensemble.quantities()) {
     text += fmt::format(",{0},{0}_peak", q.name);

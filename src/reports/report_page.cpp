@@ -5,6 +5,8 @@
 #include <array>
 #include <utility>
 
+#include "messages/names.h"
+
 namespace whirl_twin {
 
 namespace {
@@ -35,7 +37,7 @@ void replaceAll(std::string& text, const std::string& from, const std::string& t
 
 std::string escapedForHtml(const std::string& text) {
   std::string out;
-  for (const char c : text) {
+  for (const char c : printableLines(text)) {
     switch (c) {
       case '&':
         out += "&amp;";
@@ -45,6 +47,9 @@ std::string escapedForHtml(const std::string& text) {
         break;
       case '>':
         out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
         break;
       default:
         out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "messages/names.h"
 #include "messages/refusal.h"
 #include "reports/output.h"
 #include "tools/arguments.h"
@@ -38,6 +39,8 @@ constexpr const char* kExportFooter =
     "Examples:\n"
     "  twin export night.lcmlog --mcap night.mcap\n"
     "  twin export night.bag --csv night --channel '/twin/rotor/*'";
+
+constexpr std::size_t kLongestTopic = 255;  // bytes that are shown
 
 struct ExportRequest {
   std::string file;
@@ -84,7 +87,7 @@ std::string exportText(const ExportRequest& request, const LogExport& log,
   std::string out = fmt::format("{}: {} messages of {} topics written to {}\n", request.file,
                                 log.messages, log.topics.size(), output);
   for (const auto& [topic, count] : log.topics) {
-    out += fmt::format("  {:<40} {:>9}\n", topic, count);
+    out += fmt::format("  {:<40} {:>9}\n", printable(topic, kLongestTopic), count);
   }
   if (log.not_selected > 0) {
     out += fmt::format("{} not selected\n", log.not_selected);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -45,6 +46,7 @@ Json channelJson(const ChannelSummary& channel) {
   json["gaps"] = channel.gaps;
   json["lost"] = channel.lost;
   json["repeated"] = channel.repeated;
+  json["late"] = channel.late;
   json["backward"] = channel.backward;
   return json;
 }
@@ -75,7 +77,7 @@ Json logJson(const LogSummary& log) {
 CsvTable channelTable(const LogSummary& log) {
   CsvTable table{"",
                  {"channel", "kind", "events", "bytes", "rejected", "first_time", "last_time",
-                  "stride", "gaps", "lost", "repeated", "backward"}};
+                  "stride", "gaps", "lost", "repeated", "late", "backward"}};
   for (const ChannelSummary& channel : log.channels) {
     Json row = channelJson(channel);
     row["channel"] = channel.channel;
@@ -100,8 +102,12 @@ std::string channelText(const ChannelSummary& channel) {
   if (channel.repeated > 0) {
     out += fmt::format(", {} repeated", channel.repeated);
   }
+  if (channel.late > 0) {
+    out += fmt::format(", {} out of order", channel.late);
+  }
   if (channel.backward > 0) {
-    out += fmt::format(", {} out of order", channel.backward);
+    out +=
+        fmt::format(", begun anew {} time{}", channel.backward, channel.backward == 1 ? "" : "s");
   }
   if (channel.rejected > 0) {
     out += fmt::format(", {} corrupt", channel.rejected);
@@ -115,7 +121,13 @@ std::string logText(const LogSummary& log) {
   for (const ChannelSummary& channel : log.channels) {
     out += channelText(channel);
   }
-  out += log.continuous() ? "no gaps, nothing repeated or out of order\n" : "not continuous\n";
+  const bool complete =
+      std::all_of(log.channels.begin(), log.channels.end(), [](const ChannelSummary& channel) {
+        return channel.gaps == 0 && channel.repeated == 0 && channel.backward == 0;
+      });
+  out += log.continuous() ? "no gaps, nothing repeated or out of order\n"
+         : complete       ? "nothing lost or repeated, but out of order\n"
+                          : "not continuous\n";
   if (log.defect_count == 0) {
     return out + "no corrupt events\n";
   }

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "messages/message_check.h"
+#include "messages/names.h"
 #include "messages/refusal.h"
 #include "reports/output.h"
 #include "tools/arguments.h"
@@ -244,8 +245,8 @@ std::string recordText(const Recorder& recorder) {
   out += fmt::format("{} events, {} lost, {} corrupt\n", counts.events(), counts.lost(),
                      counts.rejected());
   for (const auto& [channel, count] : counts.channels()) {
-    out += fmt::format("  {:<32} {:<10} {:>9} events, {} lost\n", channel, count.kind, count.events,
-                       count.steps.lost());
+    out += fmt::format("  {:<32} {:<10} {:>9} events, {} lost\n", printable(channel), count.kind,
+                       count.events, count.steps.lost());
   }
   return out;
 }

@@ -216,6 +216,12 @@ class Watch {
             ? fmt::format("monitor: {} alerts stand, {} of them DANGER; {:.1f} % of a core",
                           monitor.alerts, monitor.dangers, 100.0 * monitor.load)
             : "monitor: " + silence + ", nothing is being watched");
+    for (std::size_t i = 0; i < monitor.system.size(); ++i) {
+      if (monitor.inhibited[i] > 0.0) {
+        lines.push_back(fmt::format("  alerts of {} are inhibited for {:.0f} s yet",
+                                    monitor.system[i], monitor.inhibited[i]));
+      }
+    }
     for (const auto& [id, alert] : alerts_) {
       lines.push_back(alertLine(alert));
     }

@@ -8,7 +8,8 @@
 
 namespace whirl_twin {
 
-ChannelTap::ChannelTap(std::shared_ptr<lcm::LCM> lcm, const std::string& pattern, Take take)
+ChannelTap::ChannelTap(std::shared_ptr<lcm::LCM> lcm, const std::string& pattern, Take take,
+                       int most_waiting)
     : lcm_(std::move(lcm)),
       take_(std::move(take)),
       subscription_(
@@ -16,7 +17,7 @@ ChannelTap::ChannelTap(std::shared_ptr<lcm::LCM> lcm, const std::string& pattern
   if (subscription_ == nullptr) {
     throw LcmNotAvailable(fmt::format("LCM cannot receive {} (is multicast on?)", pattern));
   }
-  lcm_subscription_set_queue_capacity(subscription_, 0);
+  lcm_subscription_set_queue_capacity(subscription_, most_waiting);
 }
 
 ChannelTap::~ChannelTap() {

@@ -1,5 +1,6 @@
 // Every event on some LCM channels, as it is and in the order of arrival. LCM's own queues keep at
-// most 30 that nobody has looked at and lose the rest in silence; here there is no such limit.
+// most 30 that nobody has looked at and lose the rest in silence; here there is no such limit,
+// or the one that is asked for.
 #pragma once
 
 #include <chrono>
@@ -19,8 +20,10 @@ class ChannelTap {
   using Take = std::function<void(const std::string& channel, std::int64_t received,
                                   const std::uint8_t* data, std::size_t size)>;
 
-  /// pattern: a regular expression. Throws LcmNotAvailable if LCM cannot receive.
-  ChannelTap(std::shared_ptr<lcm::LCM> lcm, const std::string& pattern, Take take);
+  /// pattern: a regular expression; most_waiting: events that wait to be taken, the latest are
+  /// lost where there are more; 0: no limit. Throws LcmNotAvailable if LCM cannot receive.
+  ChannelTap(std::shared_ptr<lcm::LCM> lcm, const std::string& pattern, Take take,
+             int most_waiting = 0);
   ~ChannelTap();
   ChannelTap(const ChannelTap&) = delete;
   ChannelTap& operator=(const ChannelTap&) = delete;

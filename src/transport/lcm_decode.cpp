@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <limits>
-
 #include "transport/earlier_forms.h"
 #include "transport/lcm_encode.h"
 #include "transport/payload_layout.h"
@@ -11,16 +9,7 @@
 namespace whirl_twin {
 namespace {
 
-constexpr std::size_t kFingerprintSize = 8;
-/// No message is near this, so that a few fields more fit an int, too.
-constexpr std::size_t kLongestPayload = std::numeric_limits<int>::max() / 2;
-
-bool hasFingerprint(std::uint64_t expected, const void* data, std::size_t size) {
-  std::int64_t fingerprint = 0;
-  return size >= kFingerprintSize &&
-         __int64_t_decode_array(data, 0, kFingerprintSize, &fingerprint, 1) == kFingerprintSize &&
-         static_cast<std::uint64_t>(fingerprint) == expected;
-}
+constexpr std::size_t kHead = 8;
 
 template <class State>
 bool hasFingerprintOf(const void* data, std::size_t size) {
@@ -47,8 +36,8 @@ std::vector<std::uint8_t> inTodaysForm(const EarlierForm& form, const void* data
   std::vector<std::uint8_t> unset;
   encode(State{}, unset);
   const auto* bytes = static_cast<const std::uint8_t*>(data);
-  std::vector<std::uint8_t> payload(unset.begin(), unset.begin() + kFingerprintSize);
-  payload.insert(payload.end(), bytes + kFingerprintSize, bytes + size);
+  std::vector<std::uint8_t> payload(unset.begin(), unset.begin() + kHead);
+  payload.insert(payload.end(), bytes + kHead, bytes + size);
   payload.insert(payload.end(), unset.end() - static_cast<std::ptrdiff_t>(sizeUnset(form.later)),
                  unset.end());
   return payload;
@@ -56,24 +45,12 @@ std::vector<std::uint8_t> inTodaysForm(const EarlierForm& form, const void* data
 
 template <class State>
 State decode(const void* data, std::size_t size) {
-  using Type = LcmType<State>;
-  if (size > kLongestPayload) {
-    throw RejectedMessage(fmt::format("payload: too long: {} bytes", size));
-  }
-  if (const EarlierForm* form = earlierFormOf<State>(data, size)) {
+  const EarlierForm* form = size > kLongestPayload ? nullptr : earlierFormOf<State>(data, size);
+  if (form != nullptr) {
     const std::vector<std::uint8_t> payload = inTodaysForm<State>(*form, data, size);
     return decode<State>(payload.data(), payload.size());
   }
-  if (!hasFingerprintOf<State>(data, size)) {
-    throw RejectedMessage(
-        fmt::format("expected the fingerprint of {}, found another type", Type::getTypeName()));
-  }
-  requireLayout(layoutOf<State>(), data, size);
-  Type message;
-  if (message.decode(data, 0, static_cast<int>(size)) != static_cast<int>(size)) {
-    throw RejectedMessage(fmt::format("payload: not a {}", Type::getTypeName()));
-  }
-  return fromLcm<State>(message);
+  return fromLcm<State>(decodePayload<LcmType<State>>(layoutOf<State>(), data, size));
 }
 
 }  // namespace

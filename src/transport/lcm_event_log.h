@@ -31,6 +31,7 @@ struct ChannelSummary {
   std::uint64_t gaps = 0;
   std::uint64_t lost = 0;
   std::uint64_t repeated = 0;
+  std::uint64_t late = 0;
   std::uint64_t backward = 0;
 };
 

@@ -172,6 +172,7 @@ void LogJudge::finish() {
     summary.gaps = trace.steps.gaps();
     summary.lost = trace.steps.lost();
     summary.repeated = trace.steps.repeated();
+    summary.late = trace.steps.late();
     summary.backward = trace.steps.backward();
     summary_.channels.push_back(std::move(summary));
   }
@@ -181,7 +182,7 @@ void LogJudge::finish() {
 
 bool LogSummary::continuous() const {
   return std::all_of(channels.begin(), channels.end(), [](const ChannelSummary& channel) {
-    return channel.gaps == 0 && channel.repeated == 0 && channel.backward == 0;
+    return channel.gaps == 0 && channel.repeated == 0 && channel.late == 0 && channel.backward == 0;
   });
 }
 

@@ -9,6 +9,12 @@
 
 namespace whirl_twin {
 
+namespace {
+
+constexpr std::size_t kMostChannels = 10'000;  // whoever sends chooses their names
+
+}  // namespace
+
 LcmReceiver::LcmReceiver(std::shared_ptr<lcm::LCM> lcm, const Kinds& kinds, Handler handler,
                          std::string prefix)
     : lcm_(std::move(lcm)), handler_(std::move(handler)), prefix_(std::move(prefix)) {
@@ -56,6 +62,9 @@ void LcmReceiver::take(const std::string& channel, const void* data, std::size_t
   // Called from C: nothing may be thrown through it.
   try {
     const Message message = decodeEvent(channel, data, size, prefix_);
+    if (channels_.size() >= kMostChannels && channels_.count(channel) == 0) {
+      throw RejectedMessage(fmt::format("more than {} channels", kMostChannels));
+    }
     auto& count = channels_[channel];
     ++count.received;
     if (const auto step = seriesStep(message)) {
@@ -63,8 +72,7 @@ void LcmReceiver::take(const std::string& channel, const void* data, std::size_t
     }
     handler_(message);
   } catch (const RejectedMessage& why) {
-    ++rejected_;
-    last_rejection_ = fmt::format("{}: {}", channel, why.what());
+    refused_.add(channel, why.what());
   }
 }
 

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "transport/lcm_decode.h"
+#include "transport/refused_payloads.h"
 #include "transport/step_continuity.h"
 
 namespace whirl_twin {
@@ -43,9 +44,8 @@ class LcmReceiver {
   /// Over all channels: states accepted, missing by their steps, and rejected.
   std::uint64_t received() const;
   std::uint64_t lost() const;
-  std::uint64_t rejected() const { return rejected_; }
-  /// Channel and reason of the latest rejection; empty without one.
-  const std::string& lastRejection() const { return last_rejection_; }
+  std::uint64_t rejected() const { return refused_.total(); }
+  const RefusedPayloads& refused() const { return refused_; }
 
  private:
   static void take(const lcm_recv_buf_t* buffer, const char* channel, void* receiver);
@@ -57,8 +57,7 @@ class LcmReceiver {
   lcm_subscription_t* subscription_ = nullptr;
   std::map<std::string, ChannelCount> channels_;
   std::int64_t arrived_ = 0;  // [us], wall clock
-  std::uint64_t rejected_ = 0;
-  std::string last_rejection_;
+  RefusedPayloads refused_;
 };
 
 }  // namespace whirl_twin

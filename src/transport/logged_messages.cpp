@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "messages/message_check.h"
+#include "messages/names.h"
 #include "transport/bag_decode.h"
 #include "transport/bag_scan.h"
 #include "transport/event_scan.h"
@@ -183,7 +184,8 @@ std::string foundElsewhere(const LoggedMessages& log) {
   }
   return log.elsewhere.empty()
              ? found
-             : fmt::format("{}, but with {}", found, fmt::join(log.elsewhere, ", "));
+             : fmt::format("{}, but with {}", found,
+                           printable(fmt::format("{}", fmt::join(log.elsewhere, ", "))));
 }
 
 }  // namespace whirl_twin

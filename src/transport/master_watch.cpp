@@ -12,11 +12,14 @@
 #include <chrono>
 #include <utility>
 
+#include "messages/names.h"
 #include "transport/twin_namespace.h"
 
 namespace whirl_twin {
 
 namespace {
+
+constexpr std::size_t kLongestTrouble = 500;  // bytes of names
 
 constexpr auto kPeriod = std::chrono::seconds(2);
 constexpr auto kPoll = std::chrono::milliseconds(100);  // how soon the thread ends
@@ -230,9 +233,9 @@ void MasterWatch::reportRivals(const Registered& now) {
   }
   std::string trouble;
   if (!rivals.empty()) {
-    trouble =
-        fmt::format("{} publishes on topics of this node, such as {}: two twins in one namespace",
-                    fmt::join(rivals, ", "), example);
+    trouble = fmt::format(
+        "{} publishes on topics of this node, such as {}: two twins in one namespace",
+        printable(fmt::format("{}", fmt::join(rivals, ", ")), kLongestTrouble), printable(example));
     if (rivals != rivals_) {
       ROS_ERROR("%s; start one of them in a namespace of its own", trouble.c_str());
     }

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <cstdint>
-
-#include "messages/message_check.h"
+#include <algorithm>
 
 namespace whirl_twin {
 namespace {
+
+constexpr std::size_t kFingerprintSize = 8;
 
 class PayloadWalk {
  public:
@@ -33,15 +33,16 @@ class PayloadWalk {
     return static_cast<std::size_t>(length);
   }
 
-  /// Its length counts the zero that closes it.
+  /// Its length counts the zero that closes it; another would end it for whoever passes it on.
   void skipString() {
     const std::int64_t length = readLength();
     if (length < 1 || static_cast<std::size_t>(length) > size_ - at_) {
       throw RejectedMessage(
           fmt::format("payload: a string of {} bytes with {} bytes left", length, size_ - at_));
     }
+    const auto* const begin = data_ + at_;
     skip(static_cast<std::size_t>(length));
-    if (data_[at_ - 1] != 0) {
+    if (std::find(begin, data_ + at_, 0) != data_ + at_ - 1) {
       throw RejectedMessage(fmt::format("payload: a string not closed at byte {}", at_ - 1));
     }
   }
@@ -67,9 +68,30 @@ class PayloadWalk {
 
 }  // namespace
 
+bool hasFingerprint(std::uint64_t expected, const void* data, std::size_t size) {
+  const auto* bytes = static_cast<const std::uint8_t*>(data);
+  std::uint64_t found = 0;
+  for (std::size_t i = 0; i < kFingerprintSize && i < size; ++i) {
+    found = found << 8u | bytes[i];
+  }
+  return size >= kFingerprintSize && found == expected;
+}
+
+void requirePayload(std::int64_t fingerprint, const char* name, const std::string& layout,
+                    const void* data, std::size_t size) {
+  if (size > kLongestPayload) {
+    throw RejectedMessage(
+        fmt::format("payload: expected at most {} bytes, found {}", kLongestPayload, size));
+  }
+  if (!hasFingerprint(static_cast<std::uint64_t>(fingerprint), data, size)) {
+    throw RejectedMessage(fmt::format("expected the fingerprint of {}, found another type", name));
+  }
+  requireLayout(layout, data, size);
+}
+
 void requireLayout(const std::string& layout, const void* data, std::size_t size) {
   PayloadWalk walk(data, size);
-  walk.skip(8);
+  walk.skip(kFingerprintSize);
   std::size_t length = 0;
   for (const char field : layout) {
     switch (field) {

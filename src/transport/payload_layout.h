@@ -1,6 +1,9 @@
 // The layouts of the twin's LCM types, and a walk through a payload that proves it has one: every
 // length within the payload, every string closed, nothing left over. The fields follow one another
 // without padding, big-endian (LCM type specification, "Data encoding").
+//
+// LCM's generated decoders believe the lengths they read, and its typed subscriptions call them:
+// decodePayload() is the one place that does (tests/house/check_decoders).
 #pragma once
 
 #include <cstddef>
@@ -9,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "messages/message_check.h"
 #include "transport/lcm_types.h"
 
 namespace whirl_twin {
@@ -76,8 +80,29 @@ const std::string& layoutOf() {
   return layout;
 }
 
+/// [bytes] A payload that is longer is refused: the longest message of a twin has some megabytes.
+inline constexpr std::size_t kLongestPayload = std::size_t{1} << 24u;
+
+bool hasFingerprint(std::uint64_t expected, const void* data, std::size_t size);
+
 /// Throws RejectedMessage unless the fields of `layout` fill data[0..size) exactly, after the
 /// fingerprint [8 bytes] it begins with.
 void requireLayout(const std::string& layout, const void* data, std::size_t size);
+
+/// Throws RejectedMessage unless the payload is no longer than kLongestPayload, begins with the
+/// fingerprint of the type called `name`, and has its layout.
+void requirePayload(std::int64_t fingerprint, const char* name, const std::string& layout,
+                    const void* data, std::size_t size);
+
+/// A payload as the LCM type that has this layout. Throws RejectedMessage if it is none.
+template <class Type>
+Type decodePayload(const std::string& layout, const void* data, std::size_t size) {
+  requirePayload(Type::getHash(), Type::getTypeName(), layout, data, size);
+  Type message;
+  if (message.decode(data, 0, static_cast<int>(size)) != static_cast<int>(size)) {
+    throw RejectedMessage(std::string("payload: not a ") + Type::getTypeName());
+  }
+  return message;
+}
 
 }  // namespace whirl_twin

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "messages/csv_cell.h"
 #include "messages/message_check.h"
 
 namespace whirl_twin {
@@ -12,18 +13,6 @@ namespace {
 
 std::size_t entriesOf(const RosValue& value) {
   return value.whole.size() + value.real.size() + value.text.size();
-}
-
-/// With quotation marks where a reader would take it for more than one cell.
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) {
-    return text;
-  }
-  std::string quoted = "\"";
-  for (const char c : text) {
-    quoted += c == '"' ? "\"\"" : std::string(1, c);
-  }
-  return quoted + '"';
 }
 
 /// Numbers as short as they can be without being others.
@@ -34,7 +23,7 @@ std::string cellOf(const RosValue& value, std::size_t i) {
   if (i < value.whole.size()) {
     return fmt::format("{}", value.whole[i]);
   }
-  return i < value.text.size() ? cell(value.text[i]) : "";
+  return i < value.text.size() ? csvCell(value.text[i]) : "";
 }
 
 /// "/twin/rotor/whirl" -> "twin.rotor.whirl": no topic leads out of the folder.
@@ -81,11 +70,11 @@ OutputFile& TableFolder::begin(const RecordedTopic& topic, const TableShape& sha
   std::string head = "recorded";
   for (std::size_t i = 0; i < shape.names.size(); ++i) {
     if (!shape.names[i].is_array) {
-      head += ',' + shape.names[i].name;
+      head += ',' + csvCell(shape.names[i].name);
       continue;
     }
     for (std::size_t k = 0; k < shape.most[i]; ++k) {
-      head += fmt::format(",{}[{}]", shape.names[i].name, k);
+      head += ',' + csvCell(fmt::format("{}[{}]", shape.names[i].name, k));
     }
   }
   table->write(head + '\n');

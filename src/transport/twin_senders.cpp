@@ -13,6 +13,7 @@ namespace {
 constexpr double kMemory = 5.0;
 /// A twin that is started again in its place may overlap with the one that ends: that returns once.
 constexpr std::size_t kTurns = 3;
+constexpr std::size_t kMostSenders = 64;  // at a time
 
 }  // namespace
 
@@ -23,19 +24,22 @@ void TwinSenders::take(const state::LoopStatistics& loop, double now) {
   if (loop.started == 0) {
     return;  // of before runs were told apart
   }
-  const Run run{loop.started, loop.sender};
-  const auto known = heard_.find(run);
-  if (known != heard_.end() && run != last_) {
-    returns_.push_back(now);
-  }
-  heard_[run] = now;
-  last_ = run;
   while (!returns_.empty() && now - returns_.front() > kMemory) {
     returns_.pop_front();
   }
   for (auto one = heard_.begin(); one != heard_.end();) {
     one = now - one->second > kMemory ? heard_.erase(one) : std::next(one);
   }
+  const Run run{loop.started, loop.sender};
+  const bool known = heard_.count(run) > 0;
+  if (!known && heard_.size() >= kMostSenders) {
+    return;
+  }
+  if (known && run != last_ && returns_.size() < kMostSenders) {
+    returns_.push_back(now);
+  }
+  heard_[run] = now;
+  last_ = run;
 }
 
 std::string TwinSenders::trouble(double now) const {

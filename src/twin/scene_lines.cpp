@@ -45,9 +45,14 @@ std::string described(const InputSignal& table) {
 
 }  // namespace
 
-SceneLines sceneLines(const YAML::Node& tree, const Twin& twin) {
+SceneLines sceneLines(const YAML::Node& tree) {
   SceneLines lines;
   gather(tree, "", lines);
+  return lines;
+}
+
+SceneLines sceneLines(const YAML::Node& tree, const Twin& twin) {
+  SceneLines lines = sceneLines(tree);
   lines["step"] = fmt::format("{} ns", twin.scene().step);
   std::string& order = lines["order"];
   for (const DriveSpec& drive : twin.scene().drives) {

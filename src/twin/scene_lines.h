@@ -15,6 +15,9 @@ namespace whirl_twin {
 /// whatever way they were written.
 using SceneLines = std::map<std::string, std::string>;
 
+/// Of a scene's YAML tree alone.
+SceneLines sceneLines(const YAML::Node& tree);
+
 /// Of a scene's YAML tree, and of the twin that it made: its step, the order of what is in it, the
 /// methods chosen, the tables of files that it names.
 SceneLines sceneLines(const YAML::Node& tree, const Twin& twin);

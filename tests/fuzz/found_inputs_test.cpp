@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 #include <malloc.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "../tools/twin_program.h"
 
@@ -116,16 +118,26 @@ TEST(FoundInputs, ANameIsShownAndNotObeyed) {
   const Ending end = twin({"check", kCorpus + "name_escapes.yaml"});
   EXPECT_EQ(end.status, 0) << end.err;
   EXPECT_FALSE(hasControls(end.out));
-  EXPECT_TRUE(contains(linesOf(end.out).front(),
-                       "scene 'x?[2J?[31mred?sound.yaml: scene 'other' is sound' is sound"))
+  EXPECT_TRUE(
+      contains(linesOf(end.out).front(),
+               "scene 'x\\x1b[2J\\x1b[31mred\\x0asound.yaml: scene 'other' is sound' is sound"))
       << end.out;
+}
+
+TEST(FoundInputs, ATopicIsShownOnOneLine) {
+  const std::string folder = testing::TempDir() + "found_topic_" + std::to_string(::getpid());
+  const Ending end = twin({"export", "--csv", folder, kCorpus + "topic_with_a_line_break.bag"});
+  EXPECT_EQ(end.status, 0) << end.err;
+  EXPECT_EQ(linesOf(end.out).size(), 2u) << end.out;
+  EXPECT_TRUE(contains(end.out, "  /a\\x0a/twin/rotor/whirl  1000 messages, all sound")) << end.out;
+  std::filesystem::remove_all(folder);
 }
 
 TEST(FoundInputs, ACommentIsShownAndNotObeyed) {
   const Ending end = twin({"scenes", kCorpus + "comment_escapes"});
   EXPECT_EQ(end.status, 0) << end.err;
   EXPECT_FALSE(hasControls(end.out));
-  EXPECT_TRUE(contains(end.out, "What ?[2J?[31m to watch")) << end.out;
+  EXPECT_TRUE(contains(end.out, "What \\x1b[2J\\x1b[31m to watch")) << end.out;
 }
 
 // The eigenvalues decide where they can; exact numbers only near the boundary.

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "messages/csv_cell.h"
+
 namespace whirl_twin {
 namespace names_test {
 
@@ -12,18 +14,19 @@ TEST(Printable, TextIsShownAsItIs) {
   }
 }
 
-TEST(Printable, WhatATerminalObeysIsNot) {
-  EXPECT_EQ(printable("x\x1b[2J\x1b[31mred\nnext\r\t\x7f"), "x?[2J?[31mred?next???");
-  EXPECT_EQ(printable(std::string("a\0b", 3)), "a?b");
+TEST(Printable, WhatATerminalObeysIsShownEscaped) {
+  EXPECT_EQ(printable("x\x1b[2J\x1b[31mred\nnext\r\t\x7f"),
+            R"(x\x1b[2J\x1b[31mred\x0anext\x0d\x09\x7f)");
+  EXPECT_EQ(printable(std::string("a\0b", 3)), R"(a\x00b)");
   // C1, which begin a command like ESC [ does; a mark that turns the rest of a line round.
-  EXPECT_EQ(printable("a\u009b2Jb"), "a??2Jb");
-  EXPECT_EQ(printable("a\u202eb\u2066c\u2028d"), "a???b???c???d");
+  EXPECT_EQ(printable("a\u009b2Jb"), R"(a\xc2\x9b2Jb)");
+  EXPECT_EQ(printable("a\u202eb\u2066c\u2028d"), R"(a\xe2\x80\xaeb\xe2\x81\xa6c\xe2\x80\xa8d)");
 }
 
 TEST(Printable, WhatIsNoUtf8IsNot) {
-  EXPECT_EQ(printable("caf\xe9 \x9b"), "caf? ?");
+  EXPECT_EQ(printable("caf\xe9 \x9b"), R"(caf\xe9 \x9b)");
   EXPECT_EQ(printable("\xc0\x9b|\xe0\x80\x9b|\xed\xa0\x80|\xf4\x90\x80\x80|\xe2\x82"),
-            "??|???|???|????|??");
+            R"(\xc0\x9b|\xe0\x80\x9b|\xed\xa0\x80|\xf4\x90\x80\x80|\xe2\x82)");
 }
 
 TEST(Printable, IsCutBetweenCharacters) {
@@ -34,8 +37,21 @@ TEST(Printable, IsCutBetweenCharacters) {
 }
 
 TEST(PrintableLines, KeepsLinesAndTabs) {
-  EXPECT_EQ(printableLines("a\tb\n\x1b[1mc\r\n"), "a\tb\n?[1mc?\n");
+  EXPECT_EQ(printableLines("a\tb\n\x1b[1mc\r\n"), "a\tb\n\\x1b[1mc\\x0d\n");
   EXPECT_EQ(printableLines(std::string(200, 'a')), std::string(200, 'a'));
+}
+
+// RFC 4180; what a spreadsheet computes as OWASP lists it ("CSV injection").
+TEST(CsvCell, IsOneCellOfTextThatNothingComputes) {
+  EXPECT_EQ(csvCell("rotor"), "rotor");
+  EXPECT_EQ(csvCell("a, \"b\""), "\"a, \"\"b\"\"\"");
+  for (const char* text : {"=1+1", "+1+1", "-2+3", "@SUM(A1)", "=HYPERLINK(x)"}) {
+    EXPECT_EQ(csvCell(text), std::string("'") + text);
+  }
+  EXPECT_EQ(csvCell("=1,2"), "\"'=1,2\"");
+  EXPECT_EQ(csvCell("\t=1+1"), "'\\x09=1+1");
+  EXPECT_EQ(csvCell("-"), "-");
+  EXPECT_EQ(csvCell("two\r\nlines"), "two\\x0d\\x0alines");
 }
 
 }  // namespace names_test

@@ -49,7 +49,7 @@ struct Commanded {
     order.system = system;
     order.type = type;
     order.duration = duration;
-    return carryOut(order, monitor, time);
+    return carryOut(order, monitor, time, "the desk");
   }
   const state::Alert* alertOf(const std::string& system) {
     return monitor.alerts().find(system, alert_type::kWhirlAmplitude);
@@ -95,6 +95,63 @@ TEST(AlarmCommands, AnInhibitionHoldsBackOneSystemUntilItIsEnded) {
   EXPECT_TRUE(twin.command(kInhibit, "rotor").done);
   twin.tell(2.0e-3, 0.4);
   EXPECT_NE(twin.alertOf("rotor"), nullptr);
+}
+
+// What silences is in the list of alerts itself: with its sender and its times, bounded, with an
+// end.
+TEST(AlarmCommands, AnInhibitionIsAnAlertUntilItEnds) {
+  Commanded twin;
+  twin.tell(0.1e-3, 0.4);
+  EXPECT_EQ(twin.command(kInhibit, "", "", 3600.0).text,
+            "alerts of every system are held back for 900 s (max_inhibition), not 3600 s");
+  for (const char* system : {"rotor", "pump"}) {
+    const state::Alert* alert = twin.monitor.alerts().find(system, alert_type::kInhibited);
+    ASSERT_NE(alert, nullptr);
+    EXPECT_EQ(alert->severity, state::Severity::kWarning);
+    EXPECT_NE(alert->text.find("by the desk since 20"), std::string::npos) << alert->text;
+    EXPECT_NE(alert->text.find(" until 20"), std::string::npos) << alert->text;
+  }
+  EXPECT_NE(twin.monitor.heldBack().find("pump, rotor are inhibited by the desk"),
+            std::string::npos);
+  twin.monitor.alerts().takeEvents();
+  twin.time += 899.0;
+  twin.tell(0.1e-3, 0.1);
+  EXPECT_NE(twin.monitor.alerts().find("rotor", alert_type::kInhibited), nullptr);
+  twin.time += 1.0;
+  twin.tell(0.1e-3, 0.1);
+  EXPECT_EQ(twin.monitor.alerts().find("rotor", alert_type::kInhibited), nullptr);
+  EXPECT_EQ(twin.monitor.heldBack(), "");
+  std::size_t ends = 0;
+  for (const state::Alert& event : twin.monitor.alerts().takeEvents()) {
+    ends += event.type == alert_type::kInhibited && !event.raised ? 1 : 0;
+  }
+  EXPECT_EQ(ends, 2u);
+}
+
+// A reset of the simulation clears alerts, and an inhibition goes on: it is raised again.
+TEST(AlarmCommands, AnInhibitionIsStillThereAfterAReset) {
+  Commanded twin;
+  twin.tell(0.1e-3, 0.4);
+  twin.command(kInhibit, "rotor", "", 100.0);
+  twin.monitor.alerts().clear("rotor", alert_type::kInhibited, 0.4, "the simulation was reset");
+  twin.monitor.tick(twin.time, false);
+  EXPECT_NE(twin.monitor.alerts().find("rotor", alert_type::kInhibited), nullptr);
+  twin.command(kInhibit, "rotor");
+  EXPECT_EQ(twin.monitor.alerts().find("rotor", alert_type::kInhibited), nullptr);
+}
+
+// ... nor does it outlive the monitor: one that comes back holds nothing back, and reports that.
+TEST(AlarmCommands, AnInhibitionEndsWithItsMonitor) {
+  Commanded before;
+  before.tell(0.1e-3, 0.4);
+  before.command(kInhibit, "rotor", "", 100.0);
+  AlarmMemory memory;
+  memory.alerts = before.monitor.alerts().active();
+  memory.last_id = memory.alerts.back().id;
+  Commanded after;
+  after.monitor.remember(memory);
+  EXPECT_EQ(after.monitor.alerts().find("rotor", alert_type::kInhibited), nullptr);
+  EXPECT_FALSE(after.monitor.alerts().takeEvents().back().raised);
 }
 
 TEST(AlarmCommands, RefuseWhatCannotBeMeantAndDoNothingOfIt) {

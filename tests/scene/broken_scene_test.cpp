@@ -150,7 +150,7 @@ INSTANTIATE_TEST_SUITE_P(
                {"systems.rotor.initial.x: must be a finite number in m, found 'here'"}},
         Broken{"ControlCharacters",
                rotorScene("mass: \"\\e[31m\", stiffness: 100, speed: 5"),
-               {"systems.rotor.parameters.mass: must be > 0 kg, found '?[31m'"}}),
+               {"systems.rotor.parameters.mass: must be > 0 kg, found '\\x1b[31m'"}}),
     kNames);
 
 INSTANTIATE_TEST_SUITE_P(

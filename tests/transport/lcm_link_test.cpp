@@ -110,7 +110,7 @@ TEST_F(LcmLink, CountsWhatWasLostAndWhatIsRejected) {
   EXPECT_EQ(receiver.lost(), 3u);
   EXPECT_EQ(receiver.rejected(), 2u);
   EXPECT_EQ(arrived_.size(), 5u);
-  EXPECT_EQ(receiver.lastRejection().find("TWIN_ROTOR_WHIRL: "), 0u) << receiver.lastRejection();
+  EXPECT_EQ(receiver.refused().last().find("TWIN_ROTOR_WHIRL: "), 0u) << receiver.refused().last();
 }
 
 TEST_F(LcmLink, RecordsEveryEventOfTheWantedChannels) {

@@ -1,0 +1,29 @@
+// Payloads that a node has refused, for its diagnostics and its log.
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+
+#include <vector>
+
+#include "nodes/rising_count.h"
+#include "transport/refused_payloads.h"
+
+namespace whirl_twin {
+
+class RefusalReport {
+ public:
+  /// Of these, each outliving it; null ones are left out. As the diagnostics "LCM payloads".
+  RefusalReport(diagnostic_updater::Updater& diagnostics, std::vector<const RefusedPayloads*> all);
+  RefusalReport(const RefusalReport&) = delete;
+  RefusalReport& operator=(const RefusalReport&) = delete;
+
+ private:
+  void summarize(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  std::vector<const RefusedPayloads*> all_;
+  std::uint64_t logged_ = 0;
+  double last_line_ = -1.0e9;  // [s], a clock that nobody sets
+  RisingCount rising_;
+};
+
+}  // namespace whirl_twin
