@@ -189,6 +189,29 @@ void Drive::enter(std::int64_t time_nanoseconds) noexcept {
   }
 }
 
+void Drive::findPlace(StateImage& image) noexcept {
+  image.requireWithin(live_count_, std::size_t{0}, live_.size());
+  bool sound = true;
+  for (std::size_t i = 0; i < live_count_; ++i) {
+    const Segment& segment = live_[i];
+    const bool last = i + 1 == live_count_;
+    sound =
+        sound &&
+        (last ? segment.motion.duration == kForever
+              : segment.motion.duration >= 0.0 && segment.motion.duration <= kLongestDuration) &&
+        std::abs(segment.motion.speed) <= kLargestSpeed &&
+        std::abs(segment.angle.remainder) < 7.0 && segment.lead >= 0.0 && segment.lead <= 1.0e-9;
+  }
+  if (!image.require(sound)) {
+    live_count_ = 0;
+  }
+  image.requireWithin(cursor_, std::size_t{0}, segmentCount() - 1);
+  const std::uint64_t piece = piece_;
+  enter(time_);
+  begin(time_);
+  piece_ = piece;
+}
+
 ShaftMotion Drive::beyond(double offset) const noexcept {
   if (within_ == kAngleUnknown) {
     findAngle();

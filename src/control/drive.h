@@ -137,6 +137,9 @@ class Drive {
   void exchange(StateImage& image) noexcept {
     image(live_, live_count_, cursor_, move_duration_, piece_, first_tick_, until_, next_lead_,
           steady_, turn_, time_, angle_, within_, speed_, acceleration_, jerk_, remaining_);
+    if (image.puts()) {
+      findPlace(image);
+    }
   }
 
  private:
@@ -159,6 +162,8 @@ class Drive {
   }
   void beginInProfile() noexcept;
   void enter(std::int64_t time_nanoseconds) noexcept;
+  /// After pieces, time and number of the piece were put back: all that follows from them.
+  void findPlace(StateImage& image) noexcept;
   void findAngle() const noexcept;
   ShaftMotion beyond(double offset) const noexcept;
   double cornerBeyond(double offset) const noexcept;

@@ -116,6 +116,7 @@ class Inputs {
 
     void exchange(StateImage& image) noexcept {
       image(held, lagging, since, command, command_until, phase, passed);
+      image.requireWithin(passed, std::size_t{0}, signal.instants.size());
     }
   };
   std::int64_t cornerAfter(std::int64_t offset) const noexcept;

@@ -70,6 +70,8 @@ class CaptureSupervisor {
   Order look(const Look& at) noexcept;
   void exchange(StateImage& image) noexcept {
     image(phase_, state_, band_, captures_, rested_, window_);
+    image.requireWithin(phase_, Phase::kGoing, Phase::kStaying);
+    image.requireWithin(state_, state::Supervision::kNone, state::Supervision::kRefused);
   }
   bool unloads() const noexcept { return phase_ == Phase::kUnloading; }
   /// Of the band that held it last.

@@ -71,6 +71,8 @@ class SpeedControl final : public Controller {
     image(supervisor_, set_points_.pieces, set_points_.count, set_points_.target,
           set_points_.duration, cursor_, started_, at_limit_, up_, target_, first_, last_, next_,
           integral_);
+    image.requireWithin(set_points_.count, std::size_t{0}, set_points_.pieces.size());
+    image.requireWithin(cursor_.piece, std::size_t{0}, set_points_.count);
   }
 
   void update(const ControlSample& sample, double* outputs) noexcept override {

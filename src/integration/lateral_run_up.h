@@ -47,6 +47,7 @@ class LateralRunUp {
   /// Weights are the same whenever they are prepared.
   void exchange(StateImage& image) noexcept {
     image(phasors_, begun_, next_, piece_, of_set_, turns_left_);
+    image.requireWithin(of_set_, std::size_t{0}, kSets - 1);
   }
 
   /// Where the last step of h ended at the drive's begin(), and its phasors go on: the speed there

@@ -113,6 +113,8 @@ void SteppedAhead::exchange(StateImage& image) noexcept {
   far_->exchange(image);
   near_->exchange(image);
   image(by_far_, near_left_, passed_, piece_, work_before_, errors_before_);
+  image.requireWithin(passed_, by_far_ ? 1 : 0, count_);
+  image.requireWithin(near_left_, 0, kPause * count_);
 }
 
 }  // namespace whirl_twin

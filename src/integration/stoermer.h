@@ -66,6 +66,8 @@ class Stoermer {
     const StoermerScheme* const own = scheme_;
     image.whole(*this);
     scheme_ = own;
+    image.requireWithin(newest_, std::size_t{0}, kLength - 1);
+    image.requireWithin(gathered_, std::size_t{0}, std::size_t{scheme_->terms});
   }
 
   /// Was the last step one of its own, and not one of dormand_prince_8?

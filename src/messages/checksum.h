@@ -1,4 +1,6 @@
-// FNV-1a (Fowler, Noll & Vo): tells bytes from other bytes by accident, and keeps no secret.
+// What bytes are known by again: a checksum for what is read back after it was written, which no
+// changed bit and no missing end may pass, and a fingerprint for what is only compared. Neither
+// keeps a secret.
 #pragma once
 
 #include <cstddef>
@@ -6,11 +8,15 @@
 
 namespace whirl_twin {
 
-inline constexpr std::uint64_t kNoChecksum = 14695981039346656037U;
+/// CRC-32C (Castagnoli, IEEE Trans. Comm. 41, 1993; RFC 3720) of bytes, behind those that `before`
+/// is of. Finds every burst of up to 32 changed bits.
+std::uint32_t crc32c(const void* data, std::size_t size, std::uint32_t before = 0);
 
-/// Of bytes, behind those that `before` is of.
-inline std::uint64_t checksum(const void* data, std::size_t size,
-                              std::uint64_t before = kNoChecksum) noexcept {
+inline constexpr std::uint64_t kNoFingerprint = 14695981039346656037U;
+
+/// FNV-1a (Fowler, Noll & Vo) of bytes, behind those that `before` is of.
+inline std::uint64_t fingerprint(const void* data, std::size_t size,
+                                 std::uint64_t before = kNoFingerprint) noexcept {
   const auto* const bytes = static_cast<const unsigned char*>(data);
   std::uint64_t sum = before;
   for (std::size_t i = 0; i < size; ++i) {

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <utility>
 
 namespace whirl_twin {
 namespace {
+
+constexpr double kRetryPeriod = 10.0;  // s, simulated, after an evaluation that failed
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -18,8 +21,14 @@ Judging::Judging(const std::vector<SharedSystem>& systems, Mode mode,
     : waiting_(systems.size()) {
   loops.resize(systems.size());
   for (std::size_t i = 0; i < systems.size(); ++i) {
-    seats_.push_back({systems[i], loops[i], std::make_unique<SystemJudge>(systems[i], loops[i])});
-    first_speeds_.push_back(seats_.back().judge->speeds());
+    seats_.push_back({systems[i], loops[i], nullptr});
+    first_speeds_.emplace_back();
+    try {
+      seats_.back().judge = std::make_unique<SystemJudge>(systems[i], loops[i]);
+      first_speeds_.back() = seats_.back().judge->speeds();
+    } catch (const std::exception&) {  // the first judgement says why
+      seats_.back().judge.reset();
+    }
   }
   if (mode == Mode::kBeside) {
     thread_ = std::thread([this] { run(); });
@@ -75,8 +84,7 @@ Judgement Judging::judge(const Waiting& waiting, bool complete) {
   const JudgementRequest& request = waiting.request;
   Seat& seat = seats_[request.system];
   if (seat.built != request.built || seat.loop != request.loop) {
-    seat = {request.built, request.loop,
-            std::make_unique<SystemJudge>(request.built, request.loop)};
+    seat = {request.built, request.loop, nullptr};
   }
   Judgement judgement;
   judgement.system = request.system;
@@ -85,8 +93,39 @@ Judgement Judging::judge(const Waiting& waiting, bool complete) {
   judgement.built = request.built;
   judgement.speed = request.speed;
   judgement.of_loop = seat.loop != nullptr;
+  const double since = request.at.time - seat.failed_at;
+  if (seat.failure.empty() || since < 0.0 || since >= kRetryPeriod) {
+    try {
+      evaluate(seat, waiting, complete || !seat.failure.empty(), judgement);
+      seat.failure.clear();
+    } catch (const std::exception& failure) {
+      seat.failure = failure.what();
+      seat.failed_at = request.at.time;
+      seat.judge.reset();
+    }
+  }
+  if (!seat.failure.empty()) {
+    judgement.failure = seat.failure;
+    judgement.motion.reset();
+    judgement.speeds.reset();
+    judgement.loop.clear();
+    judgement.margin = uncertainMargin(*request.built, request.at, request.q, request.speed);
+  }
+  judgement.margin.age = now() - waiting.since;
+  for (state::ControllerMargins& margins : judgement.loop) {
+    margins.age = judgement.margin.age;
+  }
+  return judgement;
+}
+
+void Judging::evaluate(Seat& seat, const Waiting& waiting, bool complete, Judgement& judgement) {
+  const JudgementRequest& request = waiting.request;
+  if (!seat.judge) {
+    seat.judge = std::make_unique<SystemJudge>(request.built, request.loop);
+  }
   judgement.margin = seat.judge->judge(request.at, request.q, request.v, request.speed,
                                        request.beside, request.acceleration);
+  judgement.failure = seat.judge->failure();
   judgement.motion = seat.judge->motion();
   if (complete && seat.judge->isPartial()) {
     seat.judge->complete(request.speed, judgement.margin);
@@ -94,12 +133,7 @@ Judgement Judging::judge(const Waiting& waiting, bool complete) {
   if (!seat.judge->isPartial()) {
     judgement.speeds = seat.judge->speeds();
   }
-  judgement.margin.age = now() - waiting.since;
   judgement.loop = seat.judge->loopMargins(request.at);
-  for (state::ControllerMargins& margins : judgement.loop) {
-    margins.age = judgement.margin.age;
-  }
-  return judgement;
 }
 
 void Judging::run() {
@@ -122,7 +156,9 @@ void Judging::run() {
     judging_ = false;
     busy_ += taken;
     std::optional<Waiting>& newer = waiting_[judgement.system];
-    if (!judgement.speeds) {  // they come with the next turn, about the newest state
+    if (!judgement.speeds &&
+        seats_[judgement.system]
+            .failure.empty()) {  // they come with the next turn, about the newest state
       if (!newer) {
         newer = std::move(waiting);
       }

@@ -4,6 +4,9 @@
 // the newest state there was when it was begun. A verdict takes well below a millisecond for a few
 // coordinates, the critical and threshold speeds of new parameters, or margins of a loop, a hundred
 // times that: there it goes first, without them, and comes again with them.
+//
+// A system whose evaluation throws is uncertain, with the reason, and is evaluated again ten
+// seconds later or with other parameters; the others are judged as if it were not there.
 #pragma once
 
 #include <condition_variable>
@@ -11,6 +14,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -44,6 +48,7 @@ struct Judgement {
   std::optional<JudgedSpeeds> speeds;          ///< not of a verdict that went before them
   bool of_loop = false;                        ///< a system with its controllers
   std::vector<state::ControllerMargins> loop;  ///< of them
+  std::string failure;  ///< why it cannot be evaluated, and is uncertain; "": it can
 };
 
 class Judging {
@@ -72,7 +77,9 @@ class Judging {
   struct Seat {
     SharedSystem built;
     std::shared_ptr<const ClosedLoop> loop;
-    std::unique_ptr<SystemJudge> judge;
+    std::unique_ptr<SystemJudge> judge;  ///< nullptr: it could not be made
+    std::string failure = {};            ///< of the last evaluation
+    double failed_at = 0.0;              ///< [s], simulated
   };
   struct Waiting {
     JudgementRequest request;
@@ -80,8 +87,10 @@ class Judging {
     bool complete = false;  ///< the verdict alone has been given
   };
 
-  /// complete: with what takes long.
+  /// complete: with what takes long. Throws nothing that an evaluation throws.
   Judgement judge(const Waiting& waiting, bool complete);
+  /// Puts verdict, speeds and margins into a judgement.
+  void evaluate(Seat& seat, const Waiting& waiting, bool complete, Judgement& judgement);
   void run();
   std::optional<Waiting> next();  ///< mutex_ is held
 

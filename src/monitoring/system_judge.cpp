@@ -19,7 +19,41 @@ constexpr double kThresholdSearchPeriod = 1.0;
 /// long rotor changes takes ten times as long to judge as the reduced one.
 constexpr double kSame = 1.0e-4;
 
+state::StabilityMargin marginOf(const BuiltSystem& system, const Stability& s,
+                                const state::Instant& at, const std::vector<double>& about,
+                                double speed) {
+  state::StabilityMargin m;
+  m.at = at;
+  m.system = system.spec.name;
+  m.model = system.model->name;
+  m.verdict = static_cast<std::uint8_t>(s.routh.verdict);
+  m.verdict_name = name(s.routh.verdict);
+  for (const CoordinateInfo& c : system.dynamics->coordinates()) {
+    m.coordinate.emplace_back(c.name);
+  }
+  m.operating_point = about;
+  m.speed = system.dynamics->hasShaft() ? speed : kNaN;
+  m.polynomial = s.polynomial;
+  m.first_column = s.routh.first_column;
+  m.right = static_cast<std::uint32_t>(s.routh.right);
+  m.imaginary = static_cast<std::uint32_t>(s.routh.imaginary);
+  m.left = static_cast<std::uint32_t>(s.routh.left);
+  m.decay_rate = s.decay_rate;
+  m.damping_ratio = s.damping_ratio;
+  m.log_decrement = s.log_decrement;
+  m.right_by_eigenvalues = static_cast<std::uint32_t>(s.right_by_eigenvalues);
+  m.routh_disagrees = s.right_by_eigenvalues != s.routh.right;
+  return m;
+}
+
 }  // namespace
+
+state::StabilityMargin uncertainMargin(const BuiltSystem& system, const state::Instant& at,
+                                       const std::vector<double>& q, double speed) {
+  state::StabilityMargin m = marginOf(system, unjudged(), at, q, speed);
+  m.instability_speed = kNaN;
+  return m;
+}
 
 SystemJudge::SystemJudge(SharedSystem system, std::shared_ptr<const ClosedLoop> loop)
     : system_(std::move(system)),
@@ -142,6 +176,7 @@ state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::v
   Stability s = unjudged();
   std::optional<ReducedMargins> reduction;
   motion_.reset();
+  failure_.clear();
   lacks_thresholds_ = false;
   try {
     s = loop_ ? loop_->judge(at.time, {&dynamics, present, rates, shaft_speed, acceleration},
@@ -151,9 +186,10 @@ state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::v
       reduction = unreducedMargins(
           about, dynamics.hasShaft() ? speed : (motion_ ? motion_->v : rates)[n - 1]);
     }
-  } catch (const std::exception&) {
+  } catch (const std::exception& failure) {
     // Numbers beyond the range of double, a singular mass, or a rotor that rests nowhere before its
     // reduction: uncertain. The others are watched on.
+    failure_ = failure.what();
     s = unjudged();
   }
   if (reduction && reduction->disagree()) {
@@ -163,27 +199,8 @@ state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::v
     s.routh.verdict = Verdict::kUncertain;  // of coefficients that nobody has measured
   }
 
-  state::StabilityMargin m;
-  m.at = at;
-  m.system = system_->spec.name;
-  m.model = system_->model->name;
-  m.verdict = static_cast<std::uint8_t>(s.routh.verdict);
-  m.verdict_name = name(s.routh.verdict);
-  for (const CoordinateInfo& c : dynamics.coordinates()) {
-    m.coordinate.emplace_back(c.name);
-  }
-  m.operating_point.assign(about.data(), about.data() + about.size());
-  m.speed = dynamics.hasShaft() ? speed : kNaN;
-  m.polynomial = s.polynomial;
-  m.first_column = s.routh.first_column;
-  m.right = static_cast<std::uint32_t>(s.routh.right);
-  m.imaginary = static_cast<std::uint32_t>(s.routh.imaginary);
-  m.left = static_cast<std::uint32_t>(s.routh.left);
-  m.decay_rate = s.decay_rate;
-  m.damping_ratio = s.damping_ratio;
-  m.log_decrement = s.log_decrement;
-  m.right_by_eigenvalues = static_cast<std::uint32_t>(s.right_by_eigenvalues);
-  m.routh_disagrees = s.right_by_eigenvalues != s.routh.right;
+  state::StabilityMargin m =
+      marginOf(*system_, s, at, {about.data(), about.data() + about.size()}, speed);
   if (reduction) {
     m.unreduced_decay_rate = reduction->unreduced.decay_rate;
     m.unreduced_log_decrement = reduction->unreduced.log_decrement;

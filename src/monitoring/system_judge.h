@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "analysis/equilibria.h"
@@ -26,6 +27,10 @@
 #include "scene/closed_loop.h"
 
 namespace whirl_twin {
+
+/// The verdict on a system that cannot be evaluated: uncertain, with nothing known.
+state::StabilityMargin uncertainMargin(const BuiltSystem& system, const state::Instant& at,
+                                       const std::vector<double>& q, double speed);
 
 class SystemJudge {
  public:
@@ -52,6 +57,8 @@ class SystemJudge {
   const JudgedSpeeds& speeds();
   /// The motion that the last verdict is about; nothing where it operates about none.
   const std::optional<SteadyMotion>& motion() const { return motion_; }
+  /// Why the last verdict could not be reached; "": it was.
+  const std::string& failure() const { return failure_; }
 
  private:
   void checkThresholds(double time, double speed, Verdict verdict);
@@ -81,6 +88,7 @@ class SystemJudge {
   std::optional<UnreducedMargins> unreduced_;
   std::optional<JudgedReduction> reduction_;
   std::optional<SteadyMotion> motion_;
+  std::string failure_;
   bool lacks_thresholds_ = false;
   std::optional<double> searched_at_;   ///< [s], simulated: for thresholds
   std::optional<Equilibrium> settled_;  ///< of a linear system without a shaft: once for all

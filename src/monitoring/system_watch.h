@@ -91,6 +91,14 @@ struct SystemWatch {
   double news_break;          ///< [s], simulated, between verdicts before their turn
   double news_at = -std::numeric_limits<double>::infinity();     ///< [s], simulated, of the last
   double verdict_of = std::numeric_limits<double>::quiet_NaN();  ///< [s], that of the verdict
+  std::string refused;       ///< why the parameters that were reported cannot be its; "": they are
+  std::string failure;       ///< why its last evaluation failed; "": it did not
+  bool speeds_known = true;  ///< those of its parameters as they are
+
+  /// Its critical speeds and captures can be judged.
+  bool knowsSpeeds() const { return refused.empty() && speeds_known; }
+  /// Why its verdict is uncertain, where it could not be evaluated; "": it could.
+  const std::string& uncertainty() const { return refused.empty() ? failure : refused; }
 };
 
 }  // namespace whirl_twin

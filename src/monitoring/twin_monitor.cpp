@@ -10,6 +10,8 @@
 #include "messages/alert_types.h"
 #include "messages/names.h"
 
+#include "messages/names.h"
+
 namespace whirl_twin {
 
 namespace {
@@ -116,6 +118,9 @@ std::vector<std::string> TwinMonitor::notOk(double wall_time, bool paused) const
     std::string own = watch.isMeasured() ? watch.measured->notOk(wall_time, paused) : "";
     if (own.empty() && (!watch.isMeasured() || watch.quality.heard())) {
       own = watch.quality.notOk(wall_time, paused);
+    }
+    if (own.empty() && !watch.uncertainty().empty()) {
+      own = "cannot be evaluated: " + printable(watch.uncertainty());
     }
     why.push_back(own.empty() ? watch.voted_alarm.notOk(wall_time, paused) : own);
   }

@@ -115,6 +115,9 @@ class TwinMonitor {
   void restart(double time, double wall_time);
   SystemWatch* find(const std::string& system);
   bool takeOfController(const state::ParameterChange& change);
+  /// A set that a system cannot have: it is uncertain until it has another.
+  void refuse(const state::ParameterChange& change, SystemWatch& watch);
+  void take(state::StabilityMargin margin, SystemWatch& watch);
   /// A system asks this source, which may be a station of one.
   bool votes(const std::string& source) const;
   /// False for a state that is not to be believed.

@@ -61,6 +61,11 @@ void TwinMonitor::watchShaft(SystemWatch& watch, state::DriveState shaft) {
   if (watch.spin >= 0) {  // a motor has no target: it goes on as it accelerates
     shaft.target_speed = std::numeric_limits<double>::quiet_NaN();
   }
+  if (!watch.knowsSpeeds()) {
+    watch.capture_alarm.hold();
+    watch.critical_speed_alarm.hold();
+    return;
+  }
   watch.capture_alarm.update(shaft, watch.speeds.captures, alerts_);
   watch.critical_speed_alarm.update(shaft, watch.speeds.marginsAt(shaft.speed), alerts_);
 }
@@ -88,10 +93,12 @@ void TwinMonitor::reportStartUp(SystemWatch& watch, const state::DriveState& sha
 }
 
 bool TwinMonitor::isFit(SystemWatch& watch, bool fit, double time) {
-  if (fit) {
+  if (fit && watch.uncertainty().empty()) {
     restored_.heard(watch.name, time, alerts_);
   } else {
     restored_.interrupted(watch.name);
+  }
+  if (!fit) {
     watch.hold();
   }
   return fit;

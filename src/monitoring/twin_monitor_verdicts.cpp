@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "messages/refusal.h"
 #include "monitoring/twin_monitor.h"
 
 namespace whirl_twin {
@@ -55,8 +56,10 @@ bool TwinMonitor::apply(const state::ParameterChange& change) {
   }
   SharedSystem changed = watch->system->with(change);
   if (changed == nullptr) {
+    refuse(change, *watch);
     return false;
   }
+  watch->refused.clear();
   if (changed->dynamics != watch->system->dynamics) {  // else they are what they were
     watch->system = std::move(changed);
     watch->validity_alarm.setDynamics(watch->system->dynamics);
@@ -66,6 +69,21 @@ bool TwinMonitor::apply(const state::ParameterChange& change) {
     }
   }
   return true;
+}
+
+void TwinMonitor::refuse(const state::ParameterChange& change, SystemWatch& watch) {
+  if (change.names != watch.system->parameters().names) {
+    return;  // of another scene
+  }
+  watch.refused = "the parameters that are reported of it cannot be its";
+  try {
+    static_cast<void>(watch.system->with(change.names, change.values, "parameters"));
+  } catch (const Refusal& why) {
+    watch.refused = why.what();
+  }
+  if (watch.judged) {
+    askFor(watch);
+  }
 }
 
 bool TwinMonitor::takeOfController(const state::ParameterChange& change) {
@@ -115,6 +133,10 @@ void TwinMonitor::askFor(SystemWatch& watch) {
   watch.judged = true;
   watch.judged_at = watch.last.at.time;
   watch.judged_speed = watch.speed;
+  if (!watch.refused.empty()) {
+    take(uncertainMargin(*watch.system, watch.last.at, watch.last.q, watch.speed), watch);
+    return;
+  }
   const auto place = static_cast<std::size_t>(&watch - watches_.data());
   judging_.ask({place, watch.system, watch.last.at, watch.last.q, watch.last.v, watch.speed, run_, watch.last.arrived_at, loops_[place],
                 motionsBeside(place), watch.acceleration});
@@ -155,6 +177,8 @@ bool TwinMonitor::loopHasCome(std::size_t place) const {
 void TwinMonitor::takeJudgements() {
   for (Judgement& judgement : judging_.take()) {
     SystemWatch& watch = watches_[judgement.system];
+    watch.failure = judgement.failure;
+    watch.speeds_known = judgement.speeds || judgement.failure.empty();
     if (judgement.speeds) {
       watch.speeds = std::move(*judgement.speeds);
     }
@@ -163,12 +187,16 @@ void TwinMonitor::takeJudgements() {
         margin_search_.take(judgement, watch.stability_alarm.slowestDecay());
       }
       watch.verdict_of = judgement.arrived_at;
-      watch.stability_alarm.update(judgement.margin, alerts_);
-      watch.decay_alarm.update(judgement.margin);
-      margins_.push_back(std::move(judgement.margin));
+      take(std::move(judgement.margin), watch);
       takeLoop(std::move(judgement.loop));
     }
   }
+}
+
+void TwinMonitor::take(state::StabilityMargin margin, SystemWatch& watch) {
+  watch.stability_alarm.update(margin, alerts_);
+  watch.decay_alarm.update(margin);
+  margins_.push_back(std::move(margin));
 }
 
 void TwinMonitor::takeLoop(std::vector<state::ControllerMargins> judged) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <exception>
 #include <utility>
 
 #include "messages/alert_types.h"
@@ -29,7 +30,13 @@ void ValidityAlarm::update(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
   if (!has_conditions_) {
     return;
   }
-  const std::string broken = brokenText(validity(*dynamics_, q, v, at), Margins::kLeftOut);
+  std::string broken;
+  try {
+    broken = brokenText(validity(*dynamics_, q, v, at), Margins::kLeftOut);
+  } catch (const std::exception&) {  // numbers beyond the range of double: nothing is known
+    hold();
+    return;
+  }
   const AlarmCondition condition =
       broken.empty() ? AlarmCondition::kClear : AlarmCondition::kWarning;
   if (alarm_.update(at.time, condition) == ConditionAlarm::Change::kCleared) {

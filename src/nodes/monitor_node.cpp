@@ -300,11 +300,20 @@ class MonitorNode {
     tellHistoryProblem();
   }
 
-  /// Once: the alarms go on without.
+  /// Each once: the alarms go on without.
   void tellHistoryProblem() {
-    if (history_ && !history_->problem().empty()) {
-      ROS_WARN("%s", history_->problem().c_str());
-      history_.reset();
+    if (!history_) {
+      return;
+    }
+    history_->retry();
+    if (history_->problem() == history_problem_) {
+      return;
+    }
+    history_problem_ = history_->problem();
+    if (history_problem_.empty()) {
+      ROS_INFO("the history of the alarms is kept again");
+    } else {
+      ROS_WARN("%s", history_problem_.c_str());
     }
   }
 
@@ -389,8 +398,12 @@ class MonitorNode {
     const std::vector<std::string> systems = monitor_.systemNames();
     for (std::size_t i = 0; i < systems.size(); ++i) {
       if (!not_ok[i].empty()) {
+        status.mergeSummary(DiagnosticStatus::WARN, systems[i] + ": " + not_ok[i]);
         status.add(systems[i] + " not OK", not_ok[i]);
       }
+    }
+    if (history_ && !history_->problem().empty()) {
+      status.mergeSummary(DiagnosticStatus::WARN, history_->problem());
     }
     status.add("active alerts", active.size());
     status.add("acknowledged alerts", acknowledged);
@@ -414,7 +427,8 @@ class MonitorNode {
   LcmRivals rivals_;
   RosTopics topics_;
   std::optional<AlarmHistory> history_;
-  std::optional<TwinRun> run_;  ///< as the history knows it
+  std::string history_problem_;  ///< as it was reported last
+  std::optional<TwinRun> run_;   ///< as the history knows it
   AlarmServices services_;
   AlarmSettingsService settings_service_;
   std::vector<ros::Subscriber> subscribers_;

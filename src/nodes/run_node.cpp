@@ -98,6 +98,7 @@ int runNode(int argc, char** argv, const char* name, const char* help,
     ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
     std::signal(SIGINT, requestStop);
     std::signal(SIGTERM, requestStop);
+    std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is like a disk that is full
     if (waitForMaster(name)) {
       const ros::NodeHandle
           kept;  // with the last one, as that by which a parameter is read, ROS ends

@@ -82,7 +82,6 @@ void FixedRateLoop::start(Cycle cycle) {
 
   Launch launch{this, {}, {}};
   launch.status.kernel = kernelDescription();
-  lockMemory(options_.mode, launch.status);
   std::future<RealtimeStatus> ready = launch.ready.get_future();
 
   pthread_attr_t attributes;
@@ -138,6 +137,7 @@ void* FixedRateLoop::enter(void* launch) noexcept {
   std::promise<RealtimeStatus> ready = std::move(static_cast<Launch*>(launch)->ready);
   RealtimeStatus status = std::move(static_cast<Launch*>(launch)->status);
   try {
+    lockMemory(loop.options_.mode, status);  // here: with the stack of this thread
     keepThisThreadTo(loop.options_.cpu, loop.options_.mode, status);
     scheduleThisThread(loop.options_.mode, loop.options_.priority, status);
     const ProcessorAwake awake(loop.options_.mode, status);

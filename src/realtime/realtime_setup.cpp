@@ -113,7 +113,9 @@ void lockMemory(RealtimeMode mode, RealtimeStatus& status) {
   }
   // The order of the man page of mlockall for real-time: first the heap that exists, then keep what
   // malloc holds instead of giving it back, and take large blocks from the heap, not from mmap.
-  if (mlockall(MCL_CURRENT | MCL_FUTURE) != 0) {
+  // What is allocated later is locked page by page when it is written: the length that a client of
+  // a port announces (ROS allocates it at once) takes no memory before so much arrives.
+  if (mlockall(MCL_CURRENT) != 0 || mlockall(MCL_FUTURE | MCL_ONFAULT) != 0) {
     notObtained(mode, fmt::format("memory is not locked: mlockall: {}", std::strerror(errno)),
                 status);
     return;

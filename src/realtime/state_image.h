@@ -5,6 +5,9 @@
 //
 // so that what is put back is what was taken. What is plain, which owns nothing and refers to
 // nothing, goes as a whole, and no member of it can be forgotten. Real-time safe.
+//
+// A file may say anything: after exchange() a class requires of what was put back what it never
+// violates itself, above all that places lie within what they are places of.
 #pragma once
 
 #include <cstddef>
@@ -48,6 +51,19 @@ class StateImage {
   bool sound() const noexcept { return sound_ && done_ <= size_; }
   /// Something of unknown insides is in it.
   void refuse() noexcept { sound_ = false; }
+  /// Of what was put back: it holds, or the image is not sound(). False: it does not, and the
+  /// caller must not use it.
+  bool require(bool holds) noexcept {
+    sound_ = sound_ && (holds || !puts());
+    return holds || !puts();
+  }
+  /// The same of a number that is to be from `least` to `most`, which it is made to be.
+  template <class Number>
+  void requireWithin(Number& number, Number least, Number most) noexcept {
+    if (!require(number >= least && number <= most)) {
+      number = least;
+    }
+  }
 
   template <class... Parts>
   void operator()(Parts&... parts) noexcept {
@@ -70,6 +86,11 @@ class StateImage {
   void part(Part& one) noexcept {
     if constexpr (Exchanges<Part>::value) {
       one.exchange(*this);
+    } else if constexpr (std::is_same_v<Part, bool>) {
+      auto byte = static_cast<unsigned char>(one ? 1 : 0);
+      whole(byte);
+      one = byte == 1;
+      require(byte <= 1);
     } else if constexpr (IsMatrix<Part>::value) {
       bytes(one.data(), static_cast<std::size_t>(one.size()) * sizeof(*one.data()));
     } else {

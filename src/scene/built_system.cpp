@@ -7,6 +7,7 @@
 
 #include "models/model_registry.h"
 #include "scene/node_reader.h"
+#include "scene/parameter_limits.h"
 #include "scene/parameter_paths.h"
 #include "scene/station_names.h"
 
@@ -82,9 +83,12 @@ SharedSystem BuiltSystem::with(const std::vector<std::string>& paths,
   if (complaints.all().empty()) {
     try {
       next = build(std::move(changed), spec.setup->around, drive);
-      const std::string objection = objectionToReplace(*this, *next);
-      if (!objection.empty()) {
-        complaints.add(key, objection);
+      for (const std::string& objection :
+           {objectionToReplace(*this, *next),
+            objectionToRates(*next->dynamics, next->spec, next->spec.speed.value_or(0.0))}) {
+        if (!objection.empty()) {
+          complaints.add(key, objection);
+        }
       }
     } catch (const SetupError& error) {
       complaints.add(key + "." + error.parameter(), error.what());

@@ -54,6 +54,18 @@ void ControlInstants::start(std::int64_t start) noexcept {
   output_time_ = dueAt(output_);
 }
 
+bool ControlInstants::isAt(std::int64_t time) const noexcept {
+  ControlInstants other = *this;
+  other.start(time);
+  // What is due at `time` itself may have been passed. With jitter outputs wait for those before.
+  const std::int64_t period = instants_.at(other.sample_ + 1) - instants_.at(other.sample_);
+  const std::int64_t apart = 2 + 2 * jitter_ / period;
+  return sample_ >= other.sample_ && sample_ <= other.sample_ + 1 &&
+         sample_time_ == instants_.at(sample_) && output_ >= other.output_ - apart &&
+         output_ <= other.output_ + apart && output_time_ >= time &&
+         output_time_ <= time + apart * period + delay_ + jitter_;
+}
+
 std::int64_t ControlInstants::dueAt(std::int64_t output) const noexcept {
   const std::int64_t due = instants_.at(output) + delay_;
   return jitter_ == 0 ? due

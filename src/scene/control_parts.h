@@ -32,6 +32,8 @@ class ControlInstants {
   std::int64_t next() const noexcept {
     return sample_time_ < output_time_ ? sample_time_ : output_time_;
   }
+  /// Does it come to its next instants from `time` [ns], all before that being passed?
+  bool isAt(std::int64_t time) const noexcept;
   void passSample() noexcept { sample_time_ = instants_.at(++sample_); }
   void passOutput() noexcept {
     const std::int64_t due = dueAt(++output_);

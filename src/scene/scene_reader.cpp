@@ -20,6 +20,7 @@
 #include "scene/equilibrium_start.h"
 #include "scene/input_reader.h"
 #include "scene/node_reader.h"
+#include "scene/parameter_limits.h"
 #include "scene/parameter_reader.h"
 #include "scene/sensor_reader.h"
 #include "scene/shaft_reader.h"
@@ -179,11 +180,24 @@ void checkStart(const MapReader& system, const Dynamics& dynamics, const SystemS
     const std::string reason = dynamics.singularMass();
     complaints.add(system.key("initial"), fmt::format("the mass matrix is singular here{}{}",
                                                       reason.empty() ? "" : ": ", reason));
-  } else if (!dynamics.acceleration(q, v, at).allFinite()) {
+    return;
+  }
+  if (!dynamics.acceleration(q, v, at).allFinite()) {
     const std::string broken = brokenText(validity(dynamics, q, v, at), Margins::kShown);
     if (!broken.empty()) {
       complaints.add(system.key("initial"), "cannot move from here: " + broken);
     }
+  }
+  double speed = std::fabs(spec.speed.value_or(0.0));
+  if (const std::size_t drive = scene.driveOf(spec); spec.drive && drive < scene.drives.size()) {
+    speed = std::fabs(scene.drives[drive].speed);
+    for (const SpeedMove& move : scene.drives[drive].profile) {
+      speed = std::fmax(speed, std::fabs(move.speed));
+    }
+  }
+  const std::string objection = objectionToRates(dynamics, spec, speed);
+  if (!objection.empty()) {
+    complaints.add(system.key("parameters"), objection);
   }
 }
 

@@ -1,10 +1,15 @@
 #include "scene/yaml_file.h"
 
 #include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
 
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <sstream>
+#include <utility>
+#include <vector>
 
 #include "messages/names.h"
 #include "messages/refusal.h"
@@ -14,6 +19,68 @@ namespace whirl_twin {
 namespace {
 
 constexpr std::uintmax_t kMaxYamlSize = 4u << 20;  // bytes; a scene of ten thousand systems is less
+constexpr std::size_t kMaxDepth = 64;
+constexpr std::size_t kMaxNodes = 1'000'000;  // as they are written
+constexpr std::size_t kMaxAliased = 100'000;  // more of them, where each alias is a copy
+
+/// Counts what a text becomes, before any of it is made.
+class YamlBounds : public YAML::EventHandler {
+ public:
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override { leaf(mark, anchor); }
+  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                const std::string&) override {
+    leaf(mark, anchor);
+  }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    const auto found = sizes_.find(anchor);
+    if (found == sizes_.end()) {
+      throw YAML::ParserException(mark, "an alias within what it names");
+    }
+    aliased_ += found->second;
+    if (aliased_ > kMaxAliased) {
+      throw YAML::ParserException(
+          mark, fmt::format("aliases stand for more than {} entries", kMaxAliased));
+    }
+    count_ += found->second;
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    open(mark, anchor);
+  }
+  void OnSequenceEnd() override { close(); }
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
+    open(mark, anchor);
+  }
+  void OnMapEnd() override { close(); }
+
+ private:
+  void leaf(const YAML::Mark& mark, YAML::anchor_t anchor) {
+    if (++count_ > kMaxNodes + kMaxAliased) {
+      throw YAML::ParserException(mark, fmt::format("more than {} entries", kMaxNodes));
+    }
+    sizes_[anchor] = 1;
+  }
+  void open(const YAML::Mark& mark, YAML::anchor_t anchor) {
+    if (open_.size() == kMaxDepth) {
+      throw YAML::ParserException(mark, fmt::format("nested more than {} deep", kMaxDepth));
+    }
+    open_.emplace_back(anchor, count_);
+    leaf(mark, 0);
+  }
+  void close() {
+    const auto [anchor, before] = open_.back();
+    open_.pop_back();
+    sizes_[anchor] = count_ - before;
+  }
+
+  std::map<YAML::anchor_t, std::size_t> sizes_;  // of what is complete; 0: without a name
+  std::vector<std::pair<YAML::anchor_t, std::size_t>> open_;
+  std::size_t count_ = 0;  // with aliases
+  std::size_t aliased_ = 0;
+};
 
 }  // namespace
 
@@ -51,6 +118,9 @@ YAML::Node readYamlText(const std::string& text, const std::string& source, cons
   }
   YAML::Node tree;
   try {
+    std::istringstream events(text);
+    YamlBounds bounds;
+    YAML::Parser(events).HandleNextDocument(bounds);
     tree = YAML::Load(text);
   } catch (const YAML::Exception& e) {
     const std::string why = printable(e.msg);

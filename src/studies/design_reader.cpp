@@ -11,7 +11,7 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kMostPoints = 1.0e12;
+constexpr double kMostPoints = 1.0e9;
 constexpr int kUsualMorrisLevels = 4;
 
 class DesignReader {

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "algebra/constants.h"
+#include "messages/checksum.h"
 #include "messages/refusal.h"
 #include "scene/yaml_file.h"
 #include "twin/durable_file.h"
@@ -20,8 +21,8 @@ namespace whirl_twin {
 
 namespace {
 
-const std::string kEnd = "# end\n";
-const std::string kFailed = "!";  // before the line of a point that failed
+const std::string kEnd = "# end, checksum ";  // CRC-32C of all before, and a line feed
+const std::string kFailed = "!";              // before the line of a point that failed
 
 /// Nothing where it cannot be read.
 std::optional<std::string> fileContents(const std::string& path) {
@@ -30,6 +31,10 @@ std::optional<std::string> fileContents(const std::string& path) {
     return std::nullopt;
   }
   return std::string{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+std::string endOf(std::string_view rows) {
+  return fmt::format("{}{:08x}\n", kEnd, crc32c(rows.data(), rows.size()));
 }
 
 /// RFC 4180.
@@ -204,17 +209,29 @@ std::string ResultFolder::headOf(std::uint64_t block) const {
 
 std::vector<bool> ResultFolder::finished() const {
   std::vector<bool> all(study_.blocks());
-  for (std::uint64_t block = 0; block < all.size(); ++block) {
-    std::ifstream file(fileOf(block), std::ios::binary);
-    const std::string head = headOf(block);
-    std::string begin(head.size(), '\0');
-    std::string end(kEnd.size(), '\0');
-    all[block] = file && file.read(begin.data(), static_cast<std::streamsize>(begin.size())) &&
-                 begin == head &&
-                 file.seekg(-static_cast<std::streamoff>(end.size()), std::ios::end) &&
-                 file.read(end.data(), static_cast<std::streamsize>(end.size())) && end == kEnd;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(path_ + "/blocks", error)) {
+    const std::string name = entry.path().filename();
+    std::uint64_t block = 0;
+    std::from_chars(name.data(), name.data() + name.size(), block);
+    if (block < all.size() && entry.path() == fileOf(block)) {
+      all[block] = rowsOf(block).has_value();
+    }
   }
   return all;
+}
+
+std::optional<std::string> ResultFolder::rowsOf(std::uint64_t block) const {
+  std::optional<std::string> text = fileContents(fileOf(block));
+  const std::string head = headOf(block);
+  if (!text || text->compare(0, head.size(), head) != 0) {
+    return std::nullopt;
+  }
+  const std::size_t end = text->rfind(kEnd);
+  if (end == std::string::npos || text->substr(end) != endOf(text->substr(0, end))) {
+    return std::nullopt;
+  }
+  return text->substr(head.size(), end - head.size());
 }
 
 void ResultFolder::write(const std::string& name, const std::string& text) const {
@@ -224,8 +241,7 @@ void ResultFolder::write(const std::string& name, const std::string& text) const
 }
 
 void ResultFolder::write(std::uint64_t block, const std::vector<Outcome>& outcomes) const {
-  DurableFile file(fileOf(block));
-  file.add(headOf(block));
+  std::string text = headOf(block);
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const std::uint64_t point = study_.firstOf(block) + i;
     const bool failed = !outcomes[i].failure.empty();
@@ -239,27 +255,27 @@ void ResultFolder::write(std::uint64_t block, const std::vector<Outcome>& outcom
     for (const double value : outcomes[i].measures) {
       row += fmt::format(",{}", value);
     }
-    file.add(row + "\n");
+    text += row + "\n";
   }
-  file.add(kEnd);
+  DurableFile file(fileOf(block));
+  file.add(text + endOf(text));
   file.finish();
 }
 
 void ResultFolder::forEachRow(
     const std::function<void(std::uint64_t, bool, std::string_view)>& take) const {
   for (std::uint64_t block = 0; block < study_.blocks(); ++block) {
-    const std::optional<std::string> text = fileContents(fileOf(block));
-    const std::string head = headOf(block);
+    const std::optional<std::string> text = rowsOf(block);
     const auto wrong = [&] {
       return RunFailure(fmt::format("{}: is missing or damaged: remove it and run the study again",
                                     fileOf(block)));
     };
-    if (!text || text->compare(0, head.size(), head) != 0) {
+    if (!text) {
       throw wrong();
     }
     std::uint64_t point = study_.firstOf(block);
     const std::uint64_t end = point + study_.sizeOf(block);
-    std::size_t at = head.size();
+    std::size_t at = 0;
     for (; point < end; ++point) {
       const std::size_t line_end = text->find('\n', at);
       if (line_end == std::string::npos) {
@@ -275,7 +291,7 @@ void ResultFolder::forEachRow(
       }
       take(point, failed, row);
     }
-    if (text->compare(at, std::string::npos, kEnd) != 0) {
+    if (at != text->size()) {
       throw wrong();
     }
   }

@@ -2,7 +2,9 @@
 //
 //   manifest.yaml        the study's hash, its size, and what computed it
 //   study.yaml, scene.yaml  as they were
-//   blocks/000000012.csv  a finished block; it has its name only when it is whole and on the disk
+//   blocks/000000012.csv  a finished block; it has its name only when it is whole and on the disk,
+//   and
+//                        ends with its checksum
 //   results.csv          all points that did not fail, in their order: point, numbers, measures
 //   failed.csv           those that did: point, reason, numbers
 //   results.h5           all of it in one file (studies/hdf5_results.h), where HDF5 is built in
@@ -12,6 +14,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -52,7 +55,7 @@ class ResultFolder {
   const std::string& path() const { return path_; }
   /// As they were chosen when the folder was made.
   const StepsChosen& steps() const { return steps_; }
-  /// Finished blocks, looked for anew.
+  /// Finished blocks, as the folder has them now: those whose checksum is right.
   std::vector<bool> finished() const;
   /// Outcomes of the points of a block, in their order. Throws RunFailure.
   void write(std::uint64_t block, const std::vector<Outcome>& outcomes) const;
@@ -72,6 +75,8 @@ class ResultFolder {
  private:
   std::string fileOf(std::uint64_t block) const;
   std::string headOf(std::uint64_t block) const;
+  /// Of a finished block; nothing where there is none, or where it is another than was written.
+  std::optional<std::string> rowsOf(std::uint64_t block) const;
   /// Its line as it goes into a table, with its end.
   void forEachRow(const std::function<void(std::uint64_t point, bool failed, std::string_view row)>&
                       take) const;

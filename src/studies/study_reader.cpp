@@ -27,6 +27,7 @@ namespace whirl_twin {
 namespace {
 
 constexpr int kMostInBlock = 1000000;
+constexpr std::uint64_t kMostBlocks = 1000000;  // files of one folder
 constexpr std::uint64_t kUsualBlock = 1000;
 constexpr std::uint64_t kUsualBlocks = 64;  // that a small study is divided into
 constexpr int kLargestSeed = 1000000000;
@@ -51,18 +52,27 @@ class StudyReader {
     if (map.usable()) {
       readScene(map);
       readRun(map);
+      const std::size_t before = complaints_.all().size();
       if (built_) {
         study_.vary = readVariations(map, built_->scene, numbers_, complaints_);
       }
-      if (map.has("design") || !map.has("optimize")) {
+      // Of distributions that have an error neither ends nor levels are known.
+      const bool varied = complaints_.all().size() == before;
+      if (varied && (map.has("design") || !map.has("optimize"))) {
         study_.design = readDesign(map, study_.vary, complaints_);
       }
       if (built_) {
         readMeasures(map, *built_, study_, complaints_);
       }
-      if (built_ && map.has("optimize")) {
+      if (built_ && varied && map.has("optimize")) {
         readOptimization(map, study_, complaints_);
       }
+    }
+    if (study_.block > 0 && study_.blocks() > kMostBlocks) {
+      complaints_.add("study.block", fmt::format("must be at least {} for {} points: a study has "
+                                                 "at most {} blocks, found {}",
+                                                 (study_.points() - 1) / kMostBlocks + 1,
+                                                 study_.points(), kMostBlocks, study_.block));
     }
     if (!complaints_.all().empty()) {
       throw Refusal(fmt::format("{}", fmt::join(complaints_.all(), "\ntwin: ")));
@@ -71,9 +81,9 @@ class StudyReader {
       study_.block = std::clamp(study_.points() / kUsualBlocks, std::uint64_t{1}, kUsualBlock);
     }
     study_.text = readText(study_.source);
-    study_.hash = kNoChecksum;
+    study_.hash = kNoFingerprint;
     for (const std::string& text : {study_.text, study_.scene_text, settings_text_}) {
-      study_.hash = checksum(text.data(), text.size(), study_.hash);
+      study_.hash = fingerprint(text.data(), text.size(), study_.hash);
     }
     return study_;
   }

@@ -57,7 +57,7 @@ void Simulation::goOnFrom(const std::string& path) {
   for (std::size_t i = 0; i < stopped_.size(); ++i) {
     if (twin_.status(i) != StepStatus::kOk) {
       const YAML::Node stopped = from.live["stopped"][plan_.scene.systems[i].name];
-      stopped_[i] = stopped ? stopped.as<std::int64_t>() : from.step;
+      stopped_[i] = stopped ? stopped.as<std::int64_t>(from.step) : from.step;
     }
   }
 }

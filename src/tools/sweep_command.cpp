@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "messages/refusal.h"
+#include "reports/asked_cost.h"
 #include "reports/optimum_report.h"
 #include "reports/output.h"
 #include "reports/study_report.h"
@@ -290,6 +291,10 @@ int sweepStudy(const SweepRequest& request) {
       !std::filesystem::exists(*request.output + "/manifest.yaml")) {
     throw Refusal(fmt::format("--output: {} has no results of a study", *request.output));
   }
+  const auto points = static_cast<double>(study.points());
+  const auto columns = static_cast<double>(study.measures.size() + 1);  // one is sorted beside
+  tell({0.0, sizeof(double) * points * columns, fmt::format("{} points", study.points())},
+       request.insist || request.status);
   const ResultFolder folder(*request.output, study, request.mixed);
   if (request.status) {
     print(request, study, statusOf(study, folder));

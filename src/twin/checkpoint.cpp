@@ -13,6 +13,7 @@
 
 #include "messages/checksum.h"
 #include "messages/refusal.h"
+#include "scene/yaml_file.h"
 #include "twin/durable_file.h"
 
 namespace whirl_twin {
@@ -20,7 +21,8 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kKind = "whirl_twin checkpoint ";
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
+constexpr int kFormerFormat = 1;      // with another checksum
 constexpr std::size_t kMostTold = 5;  // differences
 
 /// What the bits of a step hang on besides.
@@ -51,26 +53,31 @@ std::string lineAt(const std::string& bytes, std::size_t& at) {
   return line;
 }
 
-void requireFormat(const std::string& line, const std::string& source) {
+/// The format that a line states.
+int requireFormat(const std::string& line, const std::string& source) {
   const std::string kind = kKind;
   if (line.compare(0, kind.size(), kind) != 0) {
     refuse(source, "must be a checkpoint of a twin, found another file");
   }
   const std::string format = line.substr(kind.size());
-  if (format != std::to_string(kFormat)) {
-    refuse(source,
-           fmt::format("must be a checkpoint of format {}, found format {:.20}", kFormat, format));
+  for (const int known : {kFormat, kFormerFormat}) {
+    if (format == std::to_string(known)) {
+      return known;
+    }
   }
+  refuse(source,
+         fmt::format("must be a checkpoint of format {}, found format {:.20}", kFormat, format));
 }
 
-void requireWhole(const std::string& bytes, std::size_t at, const std::string& promise,
+void requireWhole(const std::string& bytes, std::size_t at, int format, const std::string& promise,
                   const std::string& source) {
+  const std::ptrdiff_t digits = format == kFormat ? 8 : 16;
   unsigned long long size = 0;
   unsigned long long sum = 0;
   const char* const end = promise.data() + promise.size();
   const auto first = std::from_chars(promise.data(), end, size);
   const bool read = first.ec == std::errc() && first.ptr != end && *first.ptr == ' ' &&
-                    end - first.ptr == 17 &&
+                    end - first.ptr == 1 + digits &&
                     std::from_chars(first.ptr + 1, end, sum, 16).ptr == end;
   if (!read) {
     refuse(source, "is damaged: its second line is not a size and a checksum");
@@ -79,10 +86,12 @@ void requireWhole(const std::string& bytes, std::size_t at, const std::string& p
     refuse(source, fmt::format("is torn: must have {} bytes behind its second line, found {}", size,
                                bytes.size() - at));
   }
-  const std::uint64_t found = checksum(bytes.data() + at, bytes.size() - at);
+  const char* const rest = bytes.data() + at;
+  const std::uint64_t found = format == kFormat ? std::uint64_t{crc32c(rest, bytes.size() - at)}
+                                                : fingerprint(rest, bytes.size() - at);
   if (found != sum) {
-    refuse(source,
-           fmt::format("is damaged: must have the checksum {:016x}, found {:016x}", sum, found));
+    refuse(source, fmt::format("is damaged: must have the checksum {:0{}x}, found {:0{}x}", sum,
+                               digits, found, digits));
   }
 }
 
@@ -132,31 +141,39 @@ std::string bytesOf(const Checkpoint& checkpoint) {
   head["step"] = checkpoint.step;
   head["scene"] = checkpoint.scene;
   if (checkpoint.live.IsDefined()) {
-    head["live"] = checkpoint.live;
+    // A tree that is put into another leaves the memory of both with each: with one checkpoint
+    // after another that would grow without end.
+    head["live"] = YAML::Clone(checkpoint.live);
   }
   head["twin"] = checkpoint.twin.size();
   std::string rest = YAML::Dump(head) + "\n";
   rest.push_back('\0');
   rest += checkpoint.twin;
   rest += checkpoint.observer;
-  return fmt::format("{}{}\n{} {:016x}\n", kKind, kFormat, rest.size(),
-                     checksum(rest.data(), rest.size())) +
+  return fmt::format("{}{}\n{} {:08x}\n", kKind, kFormat, rest.size(),
+                     crc32c(rest.data(), rest.size())) +
          rest;
 }
 
 Checkpoint checkpointOf(const std::string& bytes, const std::string& source) {
   std::size_t at = 0;
-  requireFormat(lineAt(bytes, at), source);
+  const int format = requireFormat(lineAt(bytes, at), source);
   const std::string promise = lineAt(bytes, at);
-  requireWhole(bytes, at, promise, source);
+  requireWhole(bytes, at, format, promise, source);
   try {
     const std::size_t end = std::min(bytes.find('\0', at), bytes.size() - 1);
-    const YAML::Node head = YAML::Load(bytes.substr(at, end - at));
+    const YAML::Node head =
+        readYamlText(bytes.substr(at, end - at), source, "a checkpoint", "a scene and a step");
     requireOrigin(head, source);
     Checkpoint checkpoint;
     checkpoint.scene = head["scene"].as<SceneLines>();
     checkpoint.step = head["step"].as<std::int64_t>();
-    checkpoint.live = head["live"];
+    if (head["live"]) {
+      checkpoint.live.reset(head["live"]);
+    }
+    if (checkpoint.live.IsDefined() && !checkpoint.live.IsMap() && !checkpoint.live.IsNull()) {
+      refuse(source, "is damaged: what was changed live cannot be read");
+    }
     const auto size = head["twin"].as<std::size_t>();
     checkpoint.twin = bytes.substr(end + 1, size);
     checkpoint.observer = bytes.substr(std::min(end + 1 + size, bytes.size()));
@@ -228,6 +245,10 @@ std::string imageOf(Observer& observer) {
 
 void putBack(const Checkpoint& checkpoint, Twin& twin, const std::string& source) {
   put(checkpoint.twin, twin, source);
+  if (twin.stepCount() != checkpoint.step) {
+    refuse(source, fmt::format("is damaged: must be of step {}, found {}", checkpoint.step,
+                               twin.stepCount()));
+  }
 }
 
 void putBack(const Checkpoint& checkpoint, Observer& observer, const std::string& source) {

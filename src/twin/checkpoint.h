@@ -1,7 +1,7 @@
 // A checkpoint: all that a twin needs to go on from where it was, to the bit, in a file.
 //
-//   whirl_twin checkpoint 1
-//   BYTES CHECKSUM                of all that follows
+//   whirl_twin checkpoint 2
+//   BYTES CHECKSUM                of all that follows: CRC-32C (format 1: FNV-1a, still read)
 //   YAML                          version, machine, scene, what was changed live
 //   a zero byte, then the states of the twin and of its observer (realtime/state_image.h)
 //

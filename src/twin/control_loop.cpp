@@ -77,8 +77,12 @@ void RunningController::start(std::int64_t time, const std::vector<Stepper*>& ru
   followed_ = time;
 }
 
-void RunningController::exchange(StateImage& image) noexcept {
-  image(generation_, instants_, channels_, acted_, followed_, first_, shown_, outputs_, count_);
+void RunningController::exchange(StateImage& image, std::int64_t time) noexcept {
+  const std::int64_t own = generation_;
+  image(generation_);
+  image.requireWithin(generation_, own, own);
+  image(instants_, channels_, acted_, followed_, first_, shown_, outputs_, count_);
+  image.require(followed_ <= time && first_ <= instants_.sample() && instants_.isAt(time));
   law_->exchange(image);
   if (running_ != law_.get()) {
     running_->exchange(image);

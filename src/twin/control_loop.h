@@ -57,8 +57,9 @@ class RunningController {
   /// The state has gone on to an instant: what is between samples passes the sensors' filters.
   void follow(std::int64_t time, const std::vector<Stepper*>& running) noexcept;
 
-  /// All but what it was made of; a law that replace() has put in its place has to be there.
-  void exchange(StateImage& image) noexcept;
+  /// All but what it was made of, at a simulated time [ns]; a law that replace() has put in its
+  /// place has to be there.
+  void exchange(StateImage& image, std::int64_t time) noexcept;
 
   /// Another law of the same kind goes on in the place of its own, known from now on by a
   /// generation > 0, until the next start(). Returns the one it has no more use for.
@@ -146,7 +147,11 @@ class ControlLoop {
                                       std::int64_t generation) noexcept {
     return controllers_[controller].replace(std::move(next), generation);
   }
-  void exchange(StateImage& image) noexcept { image(controllers_); }
+  void exchange(StateImage& image, std::int64_t time) noexcept {
+    for (RunningController& controller : controllers_) {
+      controller.exchange(image, time);
+    }
+  }
   std::int64_t nextInstant() const noexcept;  ///< [ns], simulated
   /// Everything that is due at an instant, `offset` [s] after the start of the step.
   void act(std::int64_t time, double offset, const std::vector<Stepper*>& running,

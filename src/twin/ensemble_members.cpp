@@ -181,6 +181,7 @@ class OneByOne final : public EnsembleSteps {
 
     void exchange(StateImage& image) noexcept {
       image(status);
+      image.requireWithin(status, StepStatus::kOk, StepStatus::kNoGap);
       system->exchange(image);
     }
   };

@@ -24,7 +24,7 @@ bool takeCheckpoint(LiveTwin& twin, const LiveParameters& parameters,
     }
     if (twin.answer().done && image.size() == out.twin.size()) {
       out.step = twin.answer().step;
-      out.live = parameters.saved();
+      out.live.reset(parameters.saved());
       return true;
     }
     out.twin.resize(image.size());
@@ -35,7 +35,7 @@ bool takeCheckpoint(LiveTwin& twin, const LiveParameters& parameters,
 void takeAtRest(LiveTwin& twin, const LiveParameters& parameters, Checkpoint& out) {
   out.twin = imageOf(twin.atRest());
   out.step = twin.twin().stepCount();
-  out.live = parameters.saved();
+  out.live.reset(parameters.saved());
 }
 
 void resume(const Checkpoint& checkpoint, LiveTwin& twin, LiveParameters& parameters,

@@ -2,11 +2,27 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
+#include "control/speed_profile.h"
 #include "messages/refusal.h"
 #include "twin/live_parameters.h"
 
 namespace whirl_twin {
+
+namespace {
+
+/// [rad/s]
+std::pair<double, double> speedsOf(const YAML::Node& from, const YAML::Node& to) {
+  const std::pair<double, double> speeds{from.as<double>(), to.as<double>()};
+  if (!(std::fabs(speeds.first) <= kLargestSpeed) || !(std::fabs(speeds.second) <= kLargestSpeed)) {
+    throw YAML::Exception(from.Mark(), "no speed of a drive");
+  }
+  return speeds;
+}
+
+}  // namespace
 
 YAML::Node LiveParameters::saved() const {
   const auto number = [](double value) { return fmt::format("{}", value); };
@@ -75,6 +91,9 @@ void LiveParameters::resumeChange(const YAML::Node& saved) {
   set.system = saved["which"].as<std::string>();
   set.names = saved["names"].as<std::vector<std::string>>();
   set.values = saved["values"].as<std::vector<double>>();
+  if (set.values.size() != set.names.size() || generation <= 0) {
+    throw YAML::Exception(saved.Mark(), "not what was changed");
+  }
   if (isSystem(which)) {
     const SharedSystem system = twin_.twin().systems()[which]->with(set);
     if (!system) {
@@ -83,7 +102,7 @@ void LiveParameters::resumeChange(const YAML::Node& saved) {
     }
     std::unique_ptr<Stepper> stepper = twin_.twin().stepperOf(*system);
     for (const YAML::Node& range : saved["made_ready"]) {
-      const SpeedRange speeds{range[0].as<double>(), range[1].as<double>()};
+      const SpeedRange speeds = speedsOf(range[0], range[1]);
       made_ready_[which].push_back(speeds);
       if (std::unique_ptr<Stepper> ready = stepper->readyFor(speeds.first, speeds.second)) {
         stepper = std::move(ready);
@@ -114,9 +133,9 @@ void LiveParameters::resume(const YAML::Node& saved) {
   }
   for (std::size_t i = 0; i < speed_ranges_.size(); ++i) {
     const YAML::Node drive = saved["drives"][i];
-    speed_ranges_[i] = {drive["from"].as<double>(), drive["to"].as<double>()};
+    speed_ranges_[i] = speedsOf(drive["from"], drive["to"]);
     if (drive["target"]) {
-      targets_[i] = drive["target"].as<double>();
+      targets_[i] = speedsOf(drive["target"], drive["target"]).first;
     }
   }
   for (const YAML::Node& ramp : saved["ramps"]) {

@@ -35,10 +35,10 @@ void gather(const YAML::Node& node, const std::string& path, SceneLines& lines) 
 }
 
 std::string described(const InputSignal& table) {
-  std::uint64_t sum = kNoChecksum;
+  std::uint64_t sum = kNoFingerprint;
   for (std::size_t i = 0; i < table.instants.size(); ++i) {
-    sum = checksum(&table.instants[i], sizeof table.instants[i], sum);
-    sum = checksum(&table.values[i], sizeof table.values[i], sum);
+    sum = fingerprint(&table.instants[i], sizeof table.instants[i], sum);
+    sum = fingerprint(&table.values[i], sizeof table.values[i], sum);
   }
   return fmt::format("a table of {} rows, checksum {:016x}", table.instants.size(), sum);
 }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <limits>
 
 #include "messages/refusal.h"
 #include "scene/scene_error.h"
@@ -229,7 +231,22 @@ void Twin::reset() noexcept {
 }
 
 void Twin::exchange(StateImage& image) noexcept {
-  image(steps_, drives_, inputs_, generation_, status_);
+  image(steps_);
+  image.requireWithin(
+      steps_, std::int64_t{0},
+      (std::numeric_limits<std::int64_t>::max() / 2 - std::abs(scene().time)) / scene().step);
+  const std::vector<std::int64_t> own =  // of what is in each place
+      image.puts() ? generation_ : std::vector<std::int64_t>();
+  image(drives_, inputs_, generation_, status_);
+  if (image.puts() && !image.require(generation_ == own)) {
+    generation_ = own;
+  }
+  for (StepStatus& status : status_) {
+    image.requireWithin(status, StepStatus::kOk, StepStatus::kNoGap);
+  }
+  for (const Drive& drive : drives_) {
+    image.require(drive.nanoseconds() == now());
+  }
   for (Stepper* const stepper : running_) {
     stepper->exchange(image);
   }
@@ -239,7 +256,7 @@ void Twin::exchange(StateImage& image) noexcept {
       ensemble->publish(steps_);
     }
   }
-  image(control_);
+  control_.exchange(image, now());
 }
 
 std::unique_ptr<Stepper> Twin::replace(std::size_t system, std::unique_ptr<Stepper> next,

@@ -45,6 +45,33 @@ TEST_F(SceneFile, IsRead) {
   EXPECT_EQ(complaint("\xEF\xBB\xBF" + std::string(kThreeSystems)), "") << "with a byte order mark";
 }
 
+// 10 levels of 9 aliases each are 9^10 entries; what names itself has no end.
+TEST_F(SceneFile, BeyondItsBoundsIsRefusedBeforeAnythingIsMadeOfIt) {
+  std::string laughs = "a0: &a0 [x, x, x, x, x, x, x, x, x]\n";
+  for (int i = 1; i < 10; ++i) {
+    laughs += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [";
+    for (int k = 0; k < 9; ++k) {
+      laughs += (k == 0 ? "*a" : ", *a") + std::to_string(i - 1);
+    }
+    laughs += "]\n";
+  }
+  EXPECT_NE(complaint(laughs).find("aliases stand for more than 100000 entries"), std::string::npos)
+      << complaint(laughs);
+  EXPECT_NE(complaint("step: &a [*a]\n").find("an alias within what it names"), std::string::npos);
+  const std::string deep = "step: " + std::string(65, '[') + std::string(65, ']');
+  EXPECT_NE(complaint(deep).find("nested more than 64 deep"), std::string::npos) << complaint(deep);
+  const std::string flat = "step: [" + std::string(2'000'000, ',') + "]";
+  EXPECT_NE(complaint(flat).find("not YAML"), std::string::npos) << complaint(flat);
+  EXPECT_NE(complaint("step: " + std::string(1'000'000, '[')).find("nested more than 64 deep"),
+            std::string::npos);
+  std::string shared =
+      "step: 0.001\nsystems:\n  a: {model: pendulum, parameters: &p {mass: 1, length: 1}}\n";
+  for (int i = 0; i < 100; ++i) {
+    shared += "  b" + std::to_string(i) + ": {model: pendulum, parameters: *p}\n";
+  }
+  EXPECT_EQ(complaint(shared), "");
+}
+
 TEST_F(SceneFile, ThatIsNotOneIsRefused) {
   EXPECT_EQ(complaintOf(path()), "no such file");
   EXPECT_EQ(complaintOf(directory_.string()), "not a file");

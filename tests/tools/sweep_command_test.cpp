@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -92,6 +93,78 @@ TEST(Sweep, ADamagedBlockIsRunAgain) {
   std::ofstream(block, std::ios::binary) << text.substr(0, text.size() / 2);
   ASSERT_EQ(files.sweep("r").status, 0);
   EXPECT_EQ(files.results("r"), all);
+}
+
+// Any digit of it, with the same number of bytes.
+TEST(Sweep, ABlockWithAnotherDigitIsRunAgain) {
+  const StudyFiles files;
+  ASSERT_EQ(files.sweep("r").status, 0);
+  const std::string all = files.results("r");
+  const std::string block = files.file("r") + "/blocks/000000003.csv";
+  const std::string text = contentsOf(block);
+  for (const std::size_t at : {text.find('.') + 1, text.size() / 2, text.rfind('.') + 1}) {
+    std::string other = text;
+    other[at] = other[at] == '7' ? '3' : '7';
+    std::ofstream(block, std::ios::binary) << other;
+    ASSERT_EQ(files.sweep("r").status, 0);
+    EXPECT_EQ(files.results("r"), all);
+    EXPECT_EQ(contentsOf(block), text);
+  }
+}
+
+TEST(Sweep, DistributionsAndListsAreCheckedBeforeTheyAreUsed) {
+  for (const char* const values :
+       {"{list: []}", "{list: [x]}", "{list: [[1]]}", "{list: {a: 1}}", "{list: [1, x]}",
+        "{grid: []}", "{uniform: []}", "{}", "[]", "{uniform: [2, 1]}", "{normal: [1]}",
+        "{log_uniform: [0, 1]}", "{relative_half_width: x}", "{relative_half_width: 1e308}"}) {
+    for (const char* const what : {"optimize: {minimize: p}", "design: grid", "design: list",
+                                   "design: {morris: 2}", "design: {sobol_indices: 2}"}) {
+      const StudyFiles files(std::string("study: {scene: scene.yaml}\nvary: {rotor.stiffness: ") +
+                             values + "}\n" + what +
+                             "\nrun: {duration: 0.1}\nmeasure: {p: max(rotor.whirl.radius)}\n");
+      const Ending ending = files.sweep("r");
+      EXPECT_EQ(ending.status, 2) << values << ", " << what;
+      EXPECT_NE(ending.err.find("rotor.stiffness"), std::string::npos) << ending.err;
+    }
+  }
+}
+
+TEST(Sweep, WhatNoMachineCanRunIsRefusedAtOnce) {
+  const auto study = [](const std::string& block, const std::string& points) {
+    return "study: {scene: scene.yaml" + block +
+           "}\nvary: {rotor.stiffness: {uniform: [0.9e4, 1.1e4]}}\ndesign: {monte_carlo: " +
+           points + "}\nrun: analyze\nmeasure: {f: \"natural_frequencies[0]\"}\n";
+  };
+  const auto begun = std::chrono::steady_clock::now();
+  const Ending many = StudyFiles(study("", "1000000000000")).sweep("r");
+  EXPECT_EQ(many.status, 2);
+  EXPECT_NE(many.err.find("from 1 to 1e+09"), std::string::npos) << many.err;
+  const Ending blocks = StudyFiles(study(", block: 1", "2000000")).sweep("r");
+  EXPECT_EQ(blocks.status, 2);
+  EXPECT_NE(blocks.err.find("study.block: must be at least 2"), std::string::npos) << blocks.err;
+  EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(2));
+}
+
+// Where nothing looks for the signal, in one long step of the work, the program ends all the same.
+TEST(Sweep, EndsWithinASecondOfASignal) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const StudyFiles files(R"(
+study: {scene: scene.yaml, block: 1}
+vary: {rotor.stiffness: {uniform: [0.9e4, 1.1e4]}}
+design: {monte_carlo: 100000}
+run: {duration: 2.0, analyze: true}
+measure: {peak: max(rotor.whirl.radius), f: "natural_frequencies[0]"}
+)");
+    const pid_t child = startTwin({"sweep", files.study, "--output", files.file("r"), "--insist"},
+                                  files.file("out"), files.file("err"));
+    std::this_thread::sleep_for(std::chrono::milliseconds(700));
+    const auto begun = std::chrono::steady_clock::now();
+    ::kill(child, signal);
+    EXPECT_EQ(statusOf(child), 1);
+    EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(1));
+    EXPECT_NE(contentsOf(files.file("err")).find("interrupted"), std::string::npos);
+    EXPECT_FALSE(files.blocks("r").empty());
+  }
 }
 
 TEST(Sweep, FailedPointsAreRecordedAndRunAlone) {

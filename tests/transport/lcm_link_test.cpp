@@ -1,5 +1,7 @@
 // Publisher and receiver joined by memq://, LCM's link within a process: no network is touched.
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
 
 #include <lcm/lcm-cpp.hpp>
 #include <memory>
@@ -45,6 +47,32 @@ TEST_F(LcmLink, CarriesEveryKindInOrder) {
   EXPECT_EQ(publisher_.failed(), 0u);
   EXPECT_EQ(receiver.received(), sent.size());
   EXPECT_EQ(receiver.lost() + receiver.rejected(), 0u);
+}
+
+// Whatever the routing table says, now or later (liblcm itself goes by it).
+TEST_F(LcmLink, WithATtlOf0MulticastIsSentByTheLoopbackInterface) {
+  std::shared_ptr<lcm::LCM> multicast;
+  try {
+    multicast = openLcm("udpm://239.255.76.67:7667?ttl=0");
+  } catch (const LcmNotAvailable&) {
+    GTEST_SKIP() << "no route for multicast";
+  }
+  int senders = 0;
+  for (int socket = 3; socket < 256; ++socket) {
+    unsigned char ttl = 1;
+    in_addr interface {};
+    socklen_t size = sizeof ttl;
+    int type = 0;
+    socklen_t type_size = sizeof type;
+    socklen_t interface_size = sizeof interface;
+    if (::getsockopt(socket, SOL_SOCKET, SO_TYPE, &type, &type_size) == 0 && type == SOCK_DGRAM &&
+        ::getsockopt(socket, IPPROTO_IP, IP_MULTICAST_TTL, &ttl, &size) == 0 && ttl == 0) {
+      ASSERT_EQ(::getsockopt(socket, IPPROTO_IP, IP_MULTICAST_IF, &interface, &interface_size), 0);
+      EXPECT_EQ(interface.s_addr, htonl(INADDR_LOOPBACK));
+      ++senders;
+    }
+  }
+  EXPECT_GE(senders, 1);
 }
 
 TEST_F(LcmLink, TwinsWithOtherPrefixesDoNotHearEachOther) {

@@ -4,9 +4,14 @@
 #include "twin/checkpoint.h"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <random>
@@ -247,6 +252,25 @@ TEST_F(LiveCheckpoint, WhatWasChangedGoesOnToTheBit) {
   EXPECT_TRUE(same(recordOf(unbroken.live.twin()), recordOf(resumed.live.twin())));
 }
 
+// Memory of 200 checkpoints of a twin whose parameters were changed live.
+TEST_F(LiveCheckpoint, TakesNoMemoryForGood) {
+  Running running(sceneOf(kChanged));
+  running.cycle(10);
+  change(running);
+  Checkpoint checkpoint;
+  std::string bytes;
+  const auto take = [&](int times) {
+    for (int i = 0; i < times; ++i) {
+      takeAtRest(running.live, running.parameters, checkpoint);
+      checkpoint.live["clock_steps"] = i;
+      bytes = bytesOf(checkpoint);
+    }
+    return static_cast<double>(::mallinfo2().uordblks);
+  };
+  const double before = take(20);
+  EXPECT_LT((take(200) - before) / 200, 1000.0) << "bytes a checkpoint";
+}
+
 struct Remembering {
   static constexpr const char* kName = "remembering";
   static constexpr const char* kSummary = "the value before";
@@ -288,6 +312,56 @@ TEST_F(LiveCheckpoint, AStateOfAnotherTwinIsRefused) {
   }
 }
 
+/// Puts a damaged state into a twin, and takes a few steps where it is not refused.
+void tryDamaged(const Checkpoint& damaged, Observed& observed) {
+  try {
+    observed.putBack(damaged);
+    observed.step(3);
+  } catch (const Refusal&) {
+  }
+}
+
+// Bytes of each number of a state with bits changed, behind a checksum that fits: refused, or
+// another state that a twin can be in; no crash, and no loop without end. In a process of its own.
+// Every byte with WHIRL_TWIN_EXTREMES=full.
+TEST(ADamagedState, NeitherCrashesNorHangs) {
+  std::vector<Scene> scenes{sceneOf(kChanged)};
+  for (const char* const name : {"demo", "levitation", "sommerfeld"}) {
+    scenes.push_back(
+        readSceneFile(std::string(WHIRL_TWIN_SOURCE "/config/scenes/") + name + ".yaml"));
+  }
+  const char* const extremes = std::getenv("WHIRL_TWIN_EXTREMES");
+  const std::size_t stride = extremes != nullptr && std::string(extremes) == "full" ? 1 : 3;
+  auto* const at = static_cast<std::size_t*>(
+      ::mmap(nullptr, 4096, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
+  for (const Scene& scene : scenes) {
+    for (const bool of_observer : {false, true}) {
+      const pid_t child = ::fork();
+      if (child == 0) {
+        Observed observed(scene);
+        observed.step(150);
+        const Checkpoint saved = observed.saved();
+        std::string Checkpoint::*const image =
+            of_observer ? &Checkpoint::observer : &Checkpoint::twin;
+        for (at[0] = 0; at[0] < (saved.*image).size(); at[0] += stride) {
+          ::alarm(20);
+          Checkpoint damaged = saved;
+          constexpr std::array<int, 4> kBits{0x01, 0x40, 0x80, 0xff};
+          at[1] = static_cast<std::size_t>(kBits[at[0] / stride % kBits.size()]);
+          (damaged.*image)[at[0]] ^= static_cast<char>(at[1]);
+          tryDamaged(damaged, observed);
+        }
+        ::_exit(0);
+      }
+      int status = 0;
+      ::waitpid(child, &status, 0);
+      EXPECT_EQ(status, 0) << scene.name << (of_observer ? ", observer" : "") << ": byte " << at[0]
+                           << ", bits " << at[1];
+    }
+  }
+  ::munmap(at, 4096);
+}
+
 /// Of three systems, as a file.
 class File : public testing::Test {
  protected:
@@ -314,8 +388,8 @@ class File : public testing::Test {
     EXPECT_NE(at, std::string::npos) << text;
     rest.replace(at, text.size(), other);
     char promise[64];
-    std::snprintf(promise, sizeof promise, "%zu %016llx\n", rest.size(),
-                  static_cast<unsigned long long>(checksum(rest.data(), rest.size())));
+    std::snprintf(promise, sizeof promise, "%zu %08x\n", rest.size(),
+                  crc32c(rest.data(), rest.size()));
     return bytes.substr(0, bytes.find('\n') + 1) + promise + rest;
   }
 
@@ -364,8 +438,13 @@ TEST_F(File, OfAnotherOriginItIsRefusedInWords) {
   EXPECT_NE(whyNot(with("machine: ", "machine: 36 bits # ")).find("found 36 bits"),
             std::string::npos);
   std::string later = bytes;
-  later.replace(later.find("checkpoint 1"), 12, "checkpoint 2");
-  EXPECT_EQ(whyNot(later), "run.checkpoint: must be a checkpoint of format 1, found format 2");
+  later.replace(later.find("checkpoint 2"), 12, "checkpoint 3");
+  EXPECT_EQ(whyNot(later), "run.checkpoint: must be a checkpoint of format 2, found format 3");
+  const std::string rest = bytes.substr(bytes.find('\n', bytes.find('\n') + 1) + 1);
+  char former[80];  // with FNV-1a
+  std::snprintf(former, sizeof former, "whirl_twin checkpoint 1\n%zu %016llx\n", rest.size(),
+                static_cast<unsigned long long>(fingerprint(rest.data(), rest.size())));
+  EXPECT_EQ(whyNot(former + rest), "");
   EXPECT_EQ(whyNot("time,rotor.x\n0,0\n"),
             "run.checkpoint: must be a checkpoint of a twin, found another file");
   EXPECT_NE(whyNot(with("version", "vorsion")), "");

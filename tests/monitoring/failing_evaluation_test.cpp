@@ -1,0 +1,174 @@
+// A system that cannot be evaluated is uncertain, with the reason: its alarms stay, and those of
+// others act. References: the limits of damping within a shaft, w = p (1 + c_e / c_i), and the band
+// of a critical speed.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "messages/alert_types.h"
+#include "watched_twin.h"
+
+namespace whirl_twin {
+namespace failing_evaluation_test {
+
+/// As another system, but for its small deviations.
+class Failing final : public Dynamics {
+ public:
+  explicit Failing(std::shared_ptr<const Dynamics> system) : system_(std::move(system)) {}
+
+  std::string model() const override { return system_->model(); }
+  int dof() const override { return system_->dof(); }
+  std::vector<CoordinateInfo> coordinates() const override { return system_->coordinates(); }
+  bool linear() const override { return false; }
+  bool hasShaft() const override { return system_->hasShaft(); }
+  bool isRotor() const override { return system_->isRotor(); }
+  bool speedDependent() const override { return system_->speedDependent(); }
+  double phaseMark() const override { return system_->phaseMark(); }
+  double naturalLength() const override { return system_->naturalLength(); }
+  const Dynamics& atMeanLoad() const override { return *this; }
+  std::string singularMass() const override { return ""; }
+  std::vector<Station> stations() const override { return system_->stations(); }
+  Eigen::VectorXd acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                               const Moment<double>& at) const override {
+    return system_->acceleration(q, v, at);
+  }
+  Eigen::VectorXd unbalancedForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                  const Moment<double>& at) const override {
+    return system_->unbalancedForce(q, v, at);
+  }
+  Eigen::VectorXd appliedForce(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                               const Moment<double>& at) const override {
+    return system_->appliedForce(q, v, at);
+  }
+  Eigen::MatrixXd massMatrix(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                             const Moment<double>& at) const override {
+    return system_->massMatrix(q, v, at);
+  }
+  Eigen::VectorXd momenta(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                          const Moment<double>& at) const override {
+    return system_->momenta(q, v, at);
+  }
+  Energies energies(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                    const Moment<double>& at) const override {
+    return system_->energies(q, v, at);
+  }
+  Linearization linearization(const Eigen::VectorXd&, const Eigen::VectorXd&,
+                              const Eigen::VectorXd&, const Moment<double>&) const override {
+    throw std::runtime_error("no convergence");
+  }
+  std::vector<Reaction> reactions(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                  const Eigen::VectorXd& a,
+                                  const Moment<double>& at) const override {
+    return system_->reactions(q, v, a, at);
+  }
+  std::vector<Condition> conditions(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                    const Eigen::VectorXd& a,
+                                    const Moment<double>& at) const override {
+    return system_->conditions(q, v, a, at);
+  }
+  Sketch sketch(const Eigen::VectorXd& q, const Moment<double>& at) const override {
+    return system_->sketch(q, at);
+  }
+
+ private:
+  std::shared_ptr<const Dynamics> system_;
+};
+
+/// Within its critical band; above its threshold speed of 20 (1 + 8/8) rad/s; a pendulum.
+constexpr char kDanger[] = R"(
+step: 0.001
+drives: {shaft: {speed: 58.0}}
+systems:
+  rotor:
+    model: jeffcott_rotor
+    drive: shaft
+    parameters: {mass: 2.0, stiffness: 7200.0, damping: 12.0, eccentricity: 1.0e-4}
+  unstable:
+    model: jeffcott_rotor
+    drive: shaft
+    parameters: {mass: 2.0, stiffness: 800.0, damping: 8.0, internal_damping: 8.0}
+  pendulum: {model: pendulum, parameters: {mass: 1.0, length: 0.5, damping: 0.3}}
+)";
+
+Judgement lastOf(Judging& judging) {
+  Judgement last;
+  while (judging.pending()) {
+    for (Judgement& judgement : judging.take()) {
+      last = std::move(judgement);
+    }
+    std::this_thread::yield();
+  }
+  return last;
+}
+
+TEST(AFailingEvaluation, IsUncertainWithItsReasonAndTheOthersAreJudged) {
+  const BuiltScene scene = build(sceneOf(kDanger));
+  auto failing = std::make_shared<BuiltSystem>(*scene.systems[0]);
+  failing->dynamics = std::make_shared<Failing>(failing->dynamics);
+  for (const Judging::Mode mode : {Judging::Mode::kAtOnce, Judging::Mode::kBeside}) {
+    Judging judging({failing, scene.systems[1]}, mode);
+    judging.ask({0, failing, {1, 0.001, 0}, {0.0, 0.0}, {0.0, 0.0}, 58.0, 0});
+    const Judgement uncertain = lastOf(judging);
+    EXPECT_EQ(uncertain.failure, "no convergence");
+    EXPECT_EQ(uncertain.margin.verdict_name, "uncertain");
+    EXPECT_EQ(uncertain.margin.system, "rotor");
+    judging.ask({1, scene.systems[1], {1, 0.001, 0}, {0.0, 0.0}, {0.0, 0.0}, 58.0, 0});
+    const Judgement judged = lastOf(judging);
+    EXPECT_EQ(judged.failure, "");
+    EXPECT_EQ(judged.margin.verdict_name, "unstable");
+    ASSERT_TRUE(judged.speeds);
+    EXPECT_NEAR(judged.speeds->thresholds.lowest(), 40.0, 1.0e-6);
+    // With other parameters it is evaluated again.
+    judging.ask({0, scene.systems[0], {2, 0.002, 0}, {0.0, 0.0}, {0.0, 0.0}, 58.0, 0});
+    EXPECT_EQ(lastOf(judging).margin.verdict_name, "asymptotically_stable");
+  }
+}
+
+bool isActive(WatchedTwin& watched, const std::string& system, const std::string& type) {
+  for (const state::Alert& alert : watched.monitor.alerts().active()) {
+    if (alert.system == system && alert.type == type) {
+      return true;
+    }
+  }
+  return false;
+}
+
+TEST(ParametersThatOverflow, LeaveTheAlarmsOfTheirSystemAndOfAllOthers) {
+  for (const auto& [name, value] :
+       {std::pair("internal_damping", 1e308), {"stiffness", 1e308}, {"mass", 5e-324}}) {
+    WatchedTwin watched(sceneOf(kDanger));
+    watched.run(7.0);
+    ASSERT_TRUE(isActive(watched, "rotor", alert_type::kInCriticalBand));
+    ASSERT_TRUE(isActive(watched, "unstable", alert_type::kUnstable));
+    for (const std::size_t system : {0U, 1U}) {
+      state::ParameterChange change = watched.twin.systems()[system]->parameters();
+      for (std::size_t i = 0; i < change.names.size(); ++i) {
+        change.values[i] = change.names[i] == name ? value : change.values[i];
+      }
+      EXPECT_FALSE(watched.monitor.take(change)) << name;
+    }
+    watched.margins.clear();
+    watched.run(5.0);
+    EXPECT_TRUE(isActive(watched, "rotor", alert_type::kInCriticalBand)) << name;
+    EXPECT_TRUE(isActive(watched, "unstable", alert_type::kUnstable)) << name;
+    for (const state::StabilityMargin& margin : watched.margins) {
+      EXPECT_EQ(margin.verdict_name == "uncertain", margin.system != "pendulum") << margin.system;
+    }
+    const std::vector<std::string> why = watched.monitor.notOk(watched.wall, false);
+    EXPECT_NE(why[0].find("cannot be evaluated: parameters: systems.rotor.parameters"),
+              std::string::npos)
+        << why[0];
+    EXPECT_EQ(why[2], "");
+    // What it was before is believed again.
+    EXPECT_TRUE(watched.monitor.take(watched.twin.systems()[0]->parameters()));
+    watched.run(0.5);
+    EXPECT_EQ(watched.monitor.notOk(watched.wall, false)[0], "");
+  }
+}
+
+}  // namespace failing_evaluation_test
+}  // namespace whirl_twin
