@@ -20,6 +20,7 @@
 #include "messages/checksum.h"
 #include "messages/names.h"
 #include "messages/refusal.h"
+#include "messages/wall_clock.h"
 #include "twin/durable_file.h"
 
 namespace whirl_twin {
@@ -46,6 +47,9 @@ std::string fieldName(const char* field) {
 
 std::string lineOf(const state::Alert& alert) {
   std::string line = R"({"event": "alert")";
+  if (isOfWallClock(alert.stamp)) {
+    line += fmt::format(R"(, "wall": "{}")", isoTime(alert.stamp));
+  }
   eachMember(alert, [&line](const char* field, const auto& value, Stays) {
     using Value = std::decay_t<decltype(value)>;
     std::string text;

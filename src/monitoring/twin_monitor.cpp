@@ -4,13 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <chrono>
-#include <ctime>
+#include <cmath>
 
 #include "messages/alert_types.h"
 #include "messages/names.h"
-
-#include "messages/names.h"
+#include "messages/wall_clock.h"
 
 namespace whirl_twin {
 
@@ -38,15 +36,9 @@ std::vector<std::shared_ptr<const ClosedLoop>> loopsOf(const Scene& scene) {
 
 constexpr std::size_t kLongestDuplicate = 500;  // bytes that an alert shows
 
-/// Of the wall clock: "2026-03-01 14:03:12 UTC", in so many seconds.
+/// Of the wall clock, in so many seconds.
 std::string clockText(double from_now) {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  const auto then =
-      static_cast<std::time_t>(std::chrono::duration<double>(now).count() + from_now + 0.5);
-  std::tm parts{};
-  gmtime_r(&then, &parts);
-  return fmt::format("{:04}-{:02}-{:02} {:02}:{:02}:{:02} UTC", parts.tm_year + 1900,
-                     parts.tm_mon + 1, parts.tm_mday, parts.tm_hour, parts.tm_min, parts.tm_sec);
+  return isoTime(wallClock() + std::llround(1.0e9 * from_now));
 }
 
 }  // namespace

@@ -138,8 +138,8 @@ void TwinMonitor::askFor(SystemWatch& watch) {
     return;
   }
   const auto place = static_cast<std::size_t>(&watch - watches_.data());
-  judging_.ask({place, watch.system, watch.last.at, watch.last.q, watch.last.v, watch.speed, run_, watch.last.arrived_at, loops_[place],
-                motionsBeside(place), watch.acceleration});
+  judging_.ask({place, watch.system, watch.last.at, watch.last.q, watch.last.v, watch.speed, run_,
+                watch.last.arrived_at, loops_[place], motionsBeside(place), watch.acceleration});
   takeJudgements();
 }
 

@@ -5,6 +5,8 @@
 #include "messages/names.h"
 #include "messages/refusal.h"
 #include "scene/node_reader.h"
+#include "scene/station_names.h"
+#include "transport/ros_parameters.h"
 
 namespace whirl_twin {
 
@@ -31,6 +33,29 @@ XmlRpc::XmlRpcValue toParameter(const YAML::Node& node) {
 }
 
 }  // namespace
+
+std::vector<std::string> parametersAtStart() {
+  std::vector<std::string> names{"lcm_url", "lcm_prefix", "source", "history", "await_scene"};
+  names.insert(names.end(), kParametersOfRos.begin(), kParametersOfRos.end());
+  return names;
+}
+
+LiveAlarmSettings alarmSettingsOf(const BuiltScene& scene) {
+  std::vector<std::string> rotors;
+  std::vector<std::string> stations;
+  for (const SharedSystem& system : scene.systems) {
+    if (system->dynamics->isRotor()) {
+      rotors.push_back(system->spec.name);
+      const auto names = publishedStations(system->spec.name, *system->dynamics);
+      stations.insert(stations.end(), names.begin() + 1, names.end());
+    }
+  }
+  XmlRpc::XmlRpcValue all;
+  const std::string node = ros::this_node::getName();
+  const bool any = ros::param::get(node, all) && all.getType() == XmlRpc::XmlRpcValue::TypeStruct;
+  return LiveAlarmSettings(any ? toYaml(all) : YAML::Node(YAML::NodeType::Map), node,
+                           std::move(rotors), parametersAtStart(), std::move(stations));
+}
 
 AlarmSettingsService::AlarmSettingsService(TwinMonitor& monitor, LiveAlarmSettings& settings,
                                            ros::NodeHandle own,

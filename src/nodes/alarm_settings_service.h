@@ -8,11 +8,18 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "monitoring/live_alarm_settings.h"
 #include "monitoring/twin_monitor.h"
 
 namespace whirl_twin {
+
+/// Parameters of the node that are no settings of the alarms.
+std::vector<std::string> parametersAtStart();
+/// The settings that the node's parameters have. Throws Refusal for parameters of the node that are
+/// unknown, or out of range.
+LiveAlarmSettings alarmSettingsOf(const BuiltScene& scene);
 
 class AlarmSettingsService {
  public:

@@ -13,7 +13,6 @@
 #include <thread>
 #include <utility>
 
-#include "monitoring/alarm_history.h"
 #include "monitoring/live_alarm_settings.h"
 #include "monitoring/twin_monitor.h"
 #include "monitoring/watched_kinds.h"
@@ -22,13 +21,13 @@
 #include "nodes/alarm_settings_service.h"
 #include "nodes/alert_events.h"
 #include "nodes/changed_parameters.h"
+#include "nodes/kept_history.h"
 #include "nodes/private_parameter.h"
 #include "nodes/refusal_report.h"
 #include "nodes/rival_report.h"
 #include "nodes/run_node.h"
 #include "plugins/plugins.h"
 #include "scene/scene_reader.h"
-#include "scene/station_names.h"
 #include "transport/lcm_connection.h"
 #include "transport/lcm_publisher.h"
 #include "transport/lcm_receiver.h"
@@ -54,6 +53,7 @@ constexpr const char* kHelp =
     "capitals\n"
     "  ~history     a file: every change of its alarms is kept there, and read when it starts; "
     "default: none\n"
+    "  ~await_scene  s, that it waits for the scene, which a log that is played brings; default 0\n"
     "The limits of its alarms are those of config/monitor.yaml, where each is explained:\n"
     "  <rosparam command=\"load\" file=\"$(find whirl_twin)/config/monitor.yaml\"/>\n";
 
@@ -69,48 +69,32 @@ double wallTime() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Parameters that are no settings of the alarms.
-std::vector<std::string> atStart() {
-  std::vector<std::string> names{"lcm_url", "lcm_prefix", "source", "history"};
-  names.insert(names.end(), kParametersOfRos.begin(), kParametersOfRos.end());
-  return names;
-}
-
-/// Throws Refusal for parameters of the node that are unknown, or out of range.
-LiveAlarmSettings alarmSettings(const BuiltScene& scene) {
-  std::vector<std::string> rotors;
-  std::vector<std::string> stations;
-  for (const SharedSystem& system : scene.systems) {
-    if (system->dynamics->isRotor()) {
-      rotors.push_back(system->spec.name);
-      const auto names = publishedStations(system->spec.name, *system->dynamics);
-      stations.insert(stations.end(), names.begin() + 1, names.end());
-    }
+/// The scene of a log that is played comes a moment after the monitor: ~await_scene [s].
+const ros::NodeHandle& awaitScene(const ros::NodeHandle& node) {
+  const auto patience = privateParameter<double>("await_scene", "a time in s", 0.0);
+  const double end = wallTime() + patience;
+  while (!node.hasParam("scene") && wallTime() < end && !stopRequested()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
-  XmlRpc::XmlRpcValue all;
-  const std::string node = ros::this_node::getName();
-  const bool any = ros::param::get(node, all) && all.getType() == XmlRpc::XmlRpcValue::TypeStruct;
-  return LiveAlarmSettings(any ? toYaml(all) : YAML::Node(YAML::NodeType::Map), node,
-                           std::move(rotors), atStart(), std::move(stations));
+  return node;
 }
 
 class MonitorNode {
  public:
   explicit MonitorNode(ros::NodeHandle node)
       : node_(node),
-        given_(parameterTree(node, "scene")),
+        given_(parameterTree(awaitScene(node), "scene")),
         scene_(build(readScene(given_.tree, given_.source))),
         watched_scene_(sceneLines(given_.tree), given_.source),
-        settings_(alarmSettings(scene_)),
+        settings_(alarmSettingsOf(scene_)),
         monitor_(scene_, settings_.settings(), Judging::Mode::kBeside),
         url_(privateParameter<std::string>("lcm_url", "an LCM url, or nothing", kDefaultLcmUrl)),
         lcm_(url_, lcmPrefixParameter()),
         rivals_(lcm_.prefix()),
         topics_(node, kPublishQueue),
-        services_(monitor_, ros::NodeHandle("~"), node, wallTime, [this] { wasReset(); }),
+        services_(monitor_, ros::NodeHandle("~"), node, wallTime, [this] { history_.keepReset(); }),
         settings_service_(monitor_, settings_, ros::NodeHandle("~"),
-                          [this](const std::string& text) { keepSettings(text); }) {
-    openHistory();
+                          [this](const std::string& text) { history_.keepSettings(text); }) {
     if (!lcm_.warning().empty()) {
       ROS_WARN("%s", lcm_.warning().c_str());
     } else if (lcm_.on()) {
@@ -285,61 +269,6 @@ class MonitorNode {
     takeState(state);
   }
 
-  void openHistory() {
-    const auto path =
-        privateParameter<std::string>("history", "the path of a file, or nothing", "");
-    if (path.empty()) {
-      return;
-    }
-    history_.emplace(path);
-    monitor_.remember(history_->memory());
-    if (const std::size_t lines = history_->unreadableLines(); lines > 0) {
-      ROS_WARN("%s: %zu lines cannot be read and are left out", path.c_str(), lines);
-    }
-    run_ = history_->memory().run;
-    tellHistoryProblem();
-  }
-
-  /// Each once: the alarms go on without.
-  void tellHistoryProblem() {
-    if (!history_) {
-      return;
-    }
-    history_->retry();
-    if (history_->problem() == history_problem_) {
-      return;
-    }
-    history_problem_ = history_->problem();
-    if (history_problem_.empty()) {
-      ROS_INFO("the history of the alarms is kept again");
-    } else {
-      ROS_WARN("%s", history_problem_.c_str());
-    }
-  }
-
-  void wasReset() {
-    keepEvents();
-    if (history_) {
-      history_->writeReset();
-    }
-  }
-
-  void keepSettings(const std::string& text) {
-    keepEvents();
-    if (history_) {
-      history_->writeSettings(text);
-    }
-  }
-
-  void keepEvents() {
-    for (const state::Alert& event : monitor_.alerts().takeEvents()) {
-      if (history_) {
-        history_->write(event);
-      }
-      events_.tell(event);
-    }
-  }
-
   void publish() {
     for (const state::StabilityMargin& margin : monitor_.takeMargins()) {
       lcm_.publish(margin);
@@ -353,12 +282,7 @@ class MonitorNode {
       lcm_.publish(orders);
       topics_.publish(orders);
     }
-    keepEvents();
-    if (history_ && monitor_.run() && monitor_.run() != run_) {
-      run_ = monitor_.run();
-      history_->writeRun(*run_);
-    }
-    tellHistoryProblem();
+    history_.keep();
     if (monitor_.alerts().takeChanged()) {
       publishAlerts();
     }
@@ -402,8 +326,8 @@ class MonitorNode {
         status.add(systems[i] + " not OK", not_ok[i]);
       }
     }
-    if (history_ && !history_->problem().empty()) {
-      status.mergeSummary(DiagnosticStatus::WARN, history_->problem());
+    if (const std::string problem = history_.problem(); !problem.empty()) {
+      status.mergeSummary(DiagnosticStatus::WARN, problem);
     }
     status.add("active alerts", active.size());
     status.add("acknowledged alerts", acknowledged);
@@ -426,16 +350,15 @@ class MonitorNode {
   AlertEvents events_{lcm_};
   LcmRivals rivals_;
   RosTopics topics_;
-  std::optional<AlarmHistory> history_;
-  std::string history_problem_;  ///< as it was reported last
-  std::optional<TwinRun> run_;   ///< as the history knows it
+  KeptHistory history_{monitor_, events_};
   AlarmServices services_;
   AlarmSettingsService settings_service_;
   std::vector<ros::Subscriber> subscribers_;
   std::unique_ptr<LcmReceiver> receiver_;
   MasterWatch master_;
-  ChangedParameters parameters_{
-      master_, atStart(), [this](const YAML::Node& all) { return settings_service_.obey(all); }};
+  ChangedParameters parameters_{master_, parametersAtStart(), [this](const YAML::Node& all) {
+                                  return settings_service_.obey(all);
+                                }};
   diagnostic_updater::Updater diagnostics_;
   std::optional<RefusalReport> refused_payloads_;
   std::uint64_t rejected_ = 0;

@@ -13,6 +13,7 @@
 
 #include "algebra/constants.h"
 #include "messages/refusal.h"
+#include "messages/wall_clock.h"
 #include "monitoring/twin_monitor.h"
 #include "monitoring/watched_kinds.h"
 #include "monitoring/whirl_vibration.h"
@@ -312,14 +313,20 @@ class Replay {
     }
   }
 
+  std::string wallTimeText() const {
+    const std::int64_t stamp = std::llround(1.0e9 * newest_stamp_);
+    return isOfWallClock(stamp) ? isoTime(stamp) : "";
+  }
+
   void keepEvent(const state::Alert& event) {
     const auto same = std::find_if(run_.alerts.rbegin(), run_.alerts.rend(),
                                    [&](const AlertCourse& a) { return a.worst.id == event.id; });
     if (same == run_.alerts.rend()) {
-      run_.alerts.push_back(
-          {event, event.raised_time, std::numeric_limits<double>::quiet_NaN(), ""});
+      run_.alerts.push_back({event, event.raised_time, std::numeric_limits<double>::quiet_NaN(), "",
+                             wallTimeText(), ""});
     } else if (!event.raised) {
       same->cleared = event.time;
+      same->cleared_at = wallTimeText();
       same->why_cleared = event.text;
     } else if (event.severity > same->worst.severity) {
       same->worst = event;

@@ -26,6 +26,7 @@ struct AlertCourse {
   double raised = 0.0;                                        ///< [s], simulated
   double cleared = std::numeric_limits<double>::quiet_NaN();  ///< [s]; NaN: it stood at the end
   std::string why_cleared;
+  std::string raised_at, cleared_at;  ///< ISO 8601, of a log that was recorded live; else ""
 };
 
 /// For how long what came from a system could not be judged.

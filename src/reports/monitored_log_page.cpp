@@ -89,6 +89,10 @@ std::string resonancesPart(const SystemCourse& system) {
   return out + "</table>\n";
 }
 
+std::string onNextLine(const std::string& text) {
+  return text.empty() ? "" : "<br>" + text;
+}
+
 /// The last turns, with a dot wherever the phase mark of the shaft passes the x axis.
 Chart orbitOfLastTurns(const SystemCourse& system) {
   Chart chart;
@@ -243,12 +247,13 @@ std::string page(const MonitoredLog& run) {
         "<th>system</th><th>what was said</th></tr>\n";
     for (const AlertCourse& alert : run.alerts) {
       out += fmt::format(
-          "<tr><td class=\"n\">{:.3f}</td><td class=\"n\">{}</td><td class=\"{}\">{}</td>"
+          "<tr><td class=\"n\">{:.3f}{}</td><td class=\"n\">{}{}</td><td class=\"{}\">{}</td>"
           "<td>{}</td><td>{}</td><td>{}</td></tr>\n",
-          alert.raised, std::isnan(alert.cleared) ? "–" : fmt::format("{:.3f}", alert.cleared),
-          className(alert.worst.severity), className(alert.worst.severity),
-          escapedForHtml(alert.worst.type), escapedForHtml(alert.worst.system),
-          escapedForHtml(alert.worst.text));
+          alert.raised, onNextLine(alert.raised_at),
+          std::isnan(alert.cleared) ? "–" : fmt::format("{:.3f}", alert.cleared),
+          onNextLine(alert.cleared_at), className(alert.worst.severity),
+          className(alert.worst.severity), escapedForHtml(alert.worst.type),
+          escapedForHtml(alert.worst.system), escapedForHtml(alert.worst.text));
     }
     out += "</table>\n";
   }

@@ -120,6 +120,10 @@ const char* severityName(state::Severity severity) {
   }
 }
 
+Json textOrNull(const std::string& text) {
+  return text.empty() ? Json() : Json(text);
+}
+
 }  // namespace
 
 std::string text(const MonitoredLog& run) {
@@ -155,10 +159,11 @@ std::string text(const MonitoredLog& run) {
   out += fmt::format("\n  {:>10} {:>10}  {:<8} {:<26} {}\n", "raised, s", "cleared, s", "severity",
                      "alert", "system");
   for (const AlertCourse& alert : run.alerts) {
-    out += fmt::format("  {:>10.3f} {:>10}  {:<8} {:<26} {}\n    {}\n", alert.raised,
+    const std::string when = alert.raised_at.empty() ? "" : alert.raised_at + "  ";
+    out += fmt::format("  {:>10.3f} {:>10}  {:<8} {:<26} {}\n    {}{}\n", alert.raised,
                        std::isnan(alert.cleared) ? "-" : fmt::format("{:.3f}", alert.cleared),
                        severityName(alert.worst.severity), alert.worst.type, alert.worst.system,
-                       alert.worst.text);
+                       when, alert.worst.text);
   }
   return out;
 }
@@ -207,6 +212,8 @@ Json json(const MonitoredLog& run) {
                               {"severity", severityName(alert.worst.severity)},
                               {"raised", alert.raised},
                               {"cleared", alert.cleared},
+                              {"raised_at", textOrNull(alert.raised_at)},
+                              {"cleared_at", textOrNull(alert.cleared_at)},
                               {"first_out", alert.worst.first_out},
                               {"repeats", alert.worst.repeats},
                               {"text", alert.worst.text},
@@ -228,8 +235,8 @@ CsvTables tables(const MonitoredLog& run) {
     }
   }
   return {{"",
-           {"id", "type", "system", "severity", "raised", "cleared", "first_out", "repeats", "text",
-            "why_cleared"},
+           {"id", "type", "system", "severity", "raised", "cleared", "raised_at", "cleared_at",
+            "first_out", "repeats", "text", "why_cleared"},
            json(run)["alerts"]},
           resonances};
 }

@@ -10,7 +10,8 @@ import threading
 import time
 
 import rospy
-from whirl_twin.msg import AlertArray
+from whirl_twin.msg import AlertArray, StabilityMargin
+from whirl_twin_lcm.whirl_twin.scene_text_t import scene_text_t
 
 from node_trial import PATIENCE, SCENES, NodeTrial, load_scene, wait_until
 
@@ -113,3 +114,27 @@ class Playback(NodeTrial):
         self.assertGreater(len(replayed.messages['/twin/rotor/whirl']), ENOUGH)
         time.sleep(5.0)  # in which silence would be an alarm
         self.assertNotIn('DATA_LOST', alerts)
+
+    def test_playback_launch_takes_the_scene_of_the_log(self):
+        """A log of another scene than `demo`, which says so: the monitor judges by that one."""
+        scene = self.path('small.yaml')
+        with open(scene, 'w') as out:
+            out.write('name: small\nstep: 0.002\ndrives: {shaft: {speed: 20.0}}\nsystems:\n  wheel:\n'
+                      '    {model: jeffcott_rotor, drive: shaft, parameters: {mass: 1.0, stiffness: 900.0, damping: 1.0}}\n')
+        subprocess.check_call([os.environ['WHIRL_TWIN_PROGRAM'], 'simulate', scene, '--duration', '8', '--output',
+                               self.recorded, '--json'], stdout=subprocess.DEVNULL)
+        text = scene_text_t()
+        text.source, text.line = 'small.yaml', open(scene).read().splitlines()
+        text.lines = len(text.line)
+        payload, channel = text.encode(), b'TWIN_SCENE'
+        with open(self.recorded, 'rb') as log:
+            rest = log.read()
+        with open(self.recorded, 'wb') as log:
+            log.write(struct.pack('>IqqII', 0xEDA1DA01, 0, 0, len(channel), len(payload)) + channel + payload + rest)
+        margins = []
+        self.listen('/twin/wheel/stability', StabilityMargin, margins.append)
+        self.start_program('roslaunch', 'whirl_twin', 'playback.launch', 'log:=' + self.recorded, 'rviz:=false',
+                           'lcm_url:=' + URL)
+        self.assertTrue(wait_until(lambda: margins))
+        self.assertAlmostEqual(margins[0].decay_rate, 0.5)  # c / 2m
+        self.assertEqual(rospy.get_param('/twin/scene/name'), 'small')

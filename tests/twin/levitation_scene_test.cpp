@@ -40,9 +40,9 @@ SampledMargins toldMargins(const Scene& scene, double speed) {
   return sampledMargins(parts.plant, parts.controllers, 0, verdict)[1];
 }
 
-// In its run-up the notch holds what it has learnt: the loop is that without it, and the shaft hangs
-// stably at every speed of the run-up, as it does in the simulation. With a notch that learns at
-// 0.6 rad/s, where it follows in tenths of a second what turns once in ten, it would not.
+// In its run-up the notch holds what it has learnt: the loop is that without it, and the shaft
+// hangs stably at every speed of the run-up, as it does in the simulation. With a notch that learns
+// at 0.6 rad/s, where it follows in tenths of a second what turns once in ten, it would not.
 TEST(LevitationScene, ANotchThatHoldsIsNoPartOfTheLoop) {
   const Scene scene = readSceneFile(kScene);
   YAML::Node without = YAML::LoadFile(kScene);
