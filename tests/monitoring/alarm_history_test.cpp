@@ -101,6 +101,22 @@ TEST_F(AlarmHistoryTest, AnAlertComesBackAsItWas) {
   EXPECT_EQ(history.memory().run->second, 3u);
 }
 
+TEST_F(AlarmHistoryTest, AnEventHasTheWallClockBesideSimulatedTime) {
+  state::Alert alert;
+  alert.id = 1;
+  alert.type = "UNSTABLE";
+  alert.system = "rotor";
+  alert.time = 12.5;
+  alert.stamp = 1'772'373'792'345'678'901;  // as `date -u -d @1772373792` has it
+  AlarmHistory(path_).write(alert);
+  std::ifstream file(path_);
+  std::string line;
+  std::getline(file, line);
+  EXPECT_NE(line.find(R"("wall": "2026-03-01T14:03:12.345Z")"), std::string::npos) << line;
+  EXPECT_NE(line.find(R"("stamp": 1772373792345678901)"), std::string::npos) << line;
+  EXPECT_NE(line.find(R"("time": 12.5)"), std::string::npos) << line;
+}
+
 TEST_F(AlarmHistoryTest, ALineThatIsTornIsLeftOutAndTheNextStandsApart) {
   state::Alert alert;
   alert.id = 1;
