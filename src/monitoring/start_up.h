@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cmath>
-#include <optional>
+#include <limits>
 
 #include "monitoring/alarm_settings.h"
 
@@ -24,27 +24,27 @@ class StartUp {
   /// What levels are to be multiplied by [-] at time [s, simulated], with the speed [rad/s] and
   /// acceleration [rad/s^2] of the shaft.
   double multiplier(double time, double speed, double acceleration) {
-    if (started_up_ && (time < *started_up_ || time < begun_)) {  // time was set back
-      started_up_.reset();
+    if (time < gained_at_) {  // time was set back
+      gained_at_ = kNeverGained;
     }
     const bool gains = std::copysign(1.0, speed) * acceleration > acceleration_ ||
                        (speed == 0.0 && std::abs(acceleration) > acceleration_);
     if (gains) {
-      if (!started_up_ || time - *started_up_ >= tail_) {
-        begun_ = time;
-      }
-      started_up_ = time;
+      begun_ = time - gained_at_ >= tail_ ? time : begun_;
+      gained_at_ = time;
     }
-    return started_up_ && time - *started_up_ < tail_ && time - begun_ < longest_ ? multiply_ : 1.0;
+    return time - gained_at_ < tail_ && time - begun_ < longest_ ? multiply_ : 1.0;
   }
 
  private:
+  static constexpr double kNeverGained = -std::numeric_limits<double>::infinity();
+
   double multiply_ = 1.0;
   double acceleration_ = 0.0;
-  double tail_ = 0.0;                 ///< [s], that the multiplied levels stay
-  double longest_ = 0.0;              ///< [s], that one start-up multiplies levels
-  double begun_ = 0.0;                ///< [s], when it began to gain speed
-  std::optional<double> started_up_;  ///< [s], when it last gained speed
+  double tail_ = 0.0;                ///< [s], that the multiplied levels stay
+  double longest_ = 0.0;             ///< [s], that one start-up multiplies levels
+  double begun_ = 0.0;               ///< [s], when it began to gain speed
+  double gained_at_ = kNeverGained;  ///< [s], when it last gained speed
 };
 
 }  // namespace whirl_twin

@@ -56,14 +56,14 @@ class StudyReader {
       if (built_) {
         study_.vary = readVariations(map, built_->scene, numbers_, complaints_);
       }
-      // Of distributions that have an error neither ends nor levels are known.
       const bool varied = complaints_.all().size() == before;
-      if (varied && (map.has("design") || !map.has("optimize"))) {
+      if (map.has("design") || !map.has("optimize")) {
         study_.design = readDesign(map, study_.vary, complaints_);
       }
       if (built_) {
         readMeasures(map, *built_, study_, complaints_);
       }
+      // A distribution that has an error has no ends.
       if (built_ && varied && map.has("optimize")) {
         readOptimization(map, study_, complaints_);
       }

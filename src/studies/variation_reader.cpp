@@ -166,6 +166,7 @@ class VariationReader {
           complaints_.add(map.key(kind),
                           fmt::format("the standard deviation must be > 0, found {}", pair[1]));
         }
+        checkWidth(map.key(kind), d.mean, d.deviation);
       }
     } else if (kind == "grid" || kind == "list") {
       d.kind = Distribution::Kind::kList;
@@ -175,6 +176,14 @@ class VariationReader {
       readRelative(map, kind, variation);
     }
     return complaints_.all().size() == before;
+  }
+
+  /// A normal distribution comes to 8.3 deviations from its mean, an interval to one width.
+  void checkWidth(const std::string& key, double middle, double width) {
+    if (!std::isfinite(10.0 * width) || !std::isfinite(middle + 10.0 * width)) {
+      complaints_.add(key,
+                      fmt::format("is beyond the range of numbers: {} about {}", width, middle));
+    }
   }
 
   void readInterval(const YAML::Node& node, const std::string& key, Distribution& d) {
@@ -201,6 +210,9 @@ class VariationReader {
     if (variation.places.size() > 1) {
       complaints_.add(map.key(kind),
                       "is one number for all moves: give the values, or name one move");
+    }
+    if (std::isfinite(part) && !std::isnan(variation.nominal)) {
+      checkWidth(map.key(kind), variation.nominal, width);
     }
     if (kind == "relative_half_width") {
       d.kind = Distribution::Kind::kUniform;

@@ -88,8 +88,12 @@ class Outside(NodeTrial):
         values = list(message.values)
         values[message.names.index('internal_damping')] = 1e308
         message.values = values
-        self.publisher('/twin/rotor/parameters', ParameterChange).publish(message)
-        self.assertTrue(wait_until(lambda: 'rotor: cannot be evaluated' in self.problems()))
+        publisher = self.publisher('/twin/rotor/parameters', ParameterChange)
+
+        def reported():
+            publisher.publish(message)  # the monitor may have yet to connect
+            return 'rotor: cannot be evaluated' in self.problems()
+        self.assertTrue(wait_until(reported))
         self.assertIsNone(monitor.poll())
         self.assertTrue(self.in_danger())
 

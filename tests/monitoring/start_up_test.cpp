@@ -1,0 +1,72 @@
+// Levels that are larger while a shaft starts up are an alert of their own, for so long and no
+// longer.
+#include "monitoring/start_up.h"
+
+#include <gtest/gtest.h>
+
+#include "messages/alert_types.h"
+#include "watched_twin.h"
+
+namespace whirl_twin {
+namespace start_up_test {
+
+constexpr char kRotor[] = R"(
+name: starting
+step: 0.001
+drives: {shaft: {speed: 10.0}}
+systems:
+  rotor:
+    model: jeffcott_rotor
+    drive: shaft
+    parameters: {mass: 1.0, stiffness: 1.0e4, damping: 30.0, eccentricity: 1.0e-5}
+)";
+
+AlarmSettings multiplied() {
+  AlarmSettings settings;
+  settings.trip_multiply = 3.0;
+  settings.clear_delay = 0.5;
+  settings.amplitude["rotor"].alert = {1.0e-3};
+  return settings;
+}
+
+const state::Alert* noticeOf(WatchedTwin& watched) {
+  return watched.monitor.alerts().find("rotor", alert_type::kTripMultiplied);
+}
+
+TEST(StartUp, MultipliedLevelsAreAnAlertWhileTheShaftGainsSpeed) {
+  WatchedTwin watched(sceneOf(kRotor), multiplied());
+  watched.run(0.5);
+  EXPECT_EQ(noticeOf(watched), nullptr);
+  watched.twin.setSpeed(0, 30.0, 10.0, 0.0);  // two seconds
+  watched.run(1.0);
+  ASSERT_NE(noticeOf(watched), nullptr);
+  EXPECT_EQ(noticeOf(watched)->severity, state::Severity::kInfo);
+  EXPECT_NE(noticeOf(watched)->text.find("3 times as large"), std::string::npos);
+  watched.run(2.0);
+  EXPECT_EQ(noticeOf(watched), nullptr);
+  EXPECT_EQ(watched.count(alert_type::kTripMultiplied, false), 1u);
+}
+
+TEST(StartUp, WithoutLevelsThereIsNothingToReport) {
+  AlarmSettings settings = multiplied();
+  settings.amplitude.clear();
+  WatchedTwin watched(sceneOf(kRotor), settings);
+  watched.twin.setSpeed(0, 30.0, 10.0, 0.0);
+  watched.run(1.0);
+  EXPECT_EQ(noticeOf(watched), nullptr);
+}
+
+TEST(StartUp, OneThatDoesNotEndMultipliesForSoLongOnly) {
+  AlarmSettings settings = multiplied();
+  settings.max_inhibition = 5.0;
+  StartUp start_up(settings);
+  for (int i = 0; i < 100; ++i) {
+    const double time = 0.1 * i;
+    EXPECT_EQ(start_up.multiplier(time, 10.0 + time, 1.0), time < 5.0 - 1e-9 ? 3.0 : 1.0) << time;
+  }
+  EXPECT_EQ(start_up.multiplier(11.0, 20.0, 0.0), 1.0);
+  EXPECT_EQ(start_up.multiplier(12.0, 20.0, 1.0), 3.0) << "another start-up";
+}
+
+}  // namespace start_up_test
+}  // namespace whirl_twin
