@@ -213,6 +213,19 @@ Eigen::VectorXd SystemFilter::rowOf(std::size_t channel) const {
   return h;
 }
 
+/// An encoder that counts within a turn: where the angle is known, the one of its angles that is
+/// next to what is expected.
+double SystemFilter::nearTo(std::size_t channel, double value,
+                            const KalmanFilter::Expected& expected) const {
+  constexpr double kKnown = 0.1 * kTwoPi;
+  const SignalSpec& signal = channels_[channel].signal;
+  const bool angle = signal.kind == SignalSpec::Kind::kCoordinate &&
+                     angles_[static_cast<Eigen::Index>(signal.coordinate)] > 0.0;
+  return angle && expected.deviation < kKnown
+             ? value - kTwoPi * std::round((value - expected.value) / kTwoPi)
+             : value;
+}
+
 Innovation SystemFilter::take(std::size_t channel, double value, double deviation) {
   const Eigen::VectorXd h = rowOf(channel);
   double by_shaft = 0.0;
@@ -225,6 +238,7 @@ Innovation SystemFilter::take(std::size_t channel, double value, double deviatio
     noise = std::hypot(noise, by_shaft);
   }
   const KalmanFilter::Expected expected = filter_.expect(h, noise);
+  value = nearTo(channel, value, expected);
   Innovation innovation{value - expected.value, expected.deviation, false};
   innovation.surest = std::sqrt((expected.deviation - by_shaft) * (expected.deviation + by_shaft));
   if (!(std::fabs(innovation.value) <= kGate * innovation.deviation)) {

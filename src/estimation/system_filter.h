@@ -142,6 +142,7 @@ class SystemFilter {
   /// Accelerations by unbalances, on the way [n x 2 stations].
   Eigen::MatrixXd unbalanceColumns(const ShaftPath& path, double part) const;
   Eigen::VectorXd rowOf(std::size_t channel) const;
+  double nearTo(std::size_t channel, double value, const KalmanFilter::Expected& expected) const;
   double derivativeDoubt() const;
 
   std::vector<FollowedChannel> channels_;

@@ -1,6 +1,7 @@
 // `twin follow`: a log or a table of measurements, followed.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <string>
@@ -91,6 +92,36 @@ TEST_F(FollowedArm, ATableIsFollowedAsWell) {
   ASSERT_EQ(end.status, 0) << end.err;
   EXPECT_LT(end.json()["systems"]["arm"]["channels"]["encoder/theta"]["residual_rms"].get<double>(),
             1.0e-3);
+}
+
+// A pendulum that goes over the top for two seconds, its encoder counting within a turn.
+TEST_F(FollowedArm, AnEncoderThatCountsWithinATurnIsFollowedOverTheTop) {
+  std::string text = kArm;
+  text.replace(text.find("{theta: 1.2}"), 12, "{theta: 1.2, theta_rate: 16.0}");
+  const std::string machine = directory_.write("machine.yaml", text);
+  const std::string motion = directory_.file("over.csv");
+  ASSERT_EQ(twin({"simulate", machine, "--duration", "10", "--sample", "0.005", "--output", motion})
+                .status,
+            0);
+  std::ifstream file(motion);
+  std::string line, table = "time,theta\n";
+  std::getline(file, line);
+  double farthest = 0.0;
+  while (std::getline(file, line)) {
+    const double time = std::stod(line), theta = std::stod(line.substr(line.find(',') + 1));
+    farthest = std::max(farthest, std::fabs(theta));
+    table += std::to_string(time) + "," + std::to_string(std::remainder(theta, 6.283185307179586)) +
+             "\n";
+  }
+  ASSERT_GT(farthest, 12.0);  // two turns at least
+  const std::string settings =
+      directory_.write("follow.yaml", "systems: {arm: {parameters: {length: 0.05}}}\n");
+  const Ending end = twin({"follow", other(), directory_.write("wrapped.csv", table), "--settings",
+                           settings, "--json"});
+  ASSERT_EQ(end.status, 0) << end.err;
+  const Json arm = end.json()["systems"]["arm"];
+  EXPECT_NEAR(arm["parameters"]["length"]["value"].get<double>(), 0.3, 1.0e-3);
+  EXPECT_LT(arm["samples"]["refused"].get<int>(), 20);
 }
 
 TEST_F(FollowedArm, ATableWithTwoColumnsOfOneNameIsRefused) {
