@@ -59,7 +59,12 @@ void OrbitWindow::take(const OrbitSample& sample) {
   }
   last_ = sample.index;
   last_time_ = sample.time;
-  kept_.reserve(kMaxWindowSamples);  // once: growing step by step leaves as much behind again
+  if (kept_.capacity() < kMaxWindowSamples) {
+    // Once, and written: memory that is touched as a run goes on looks like a leak for a minute,
+    // and growing step by step leaves as much behind again.
+    kept_.resize(kMaxWindowSamples);
+    kept_.clear();
+  }
   if (kept_.empty() || sample.index % stride_ == 0) {
     if (kept_.size() == kMaxWindowSamples) {
       kept_.erase(kept_.begin(), kept_.begin() + kMaxWindowSamples / 4);

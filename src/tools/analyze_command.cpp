@@ -55,9 +55,9 @@ constexpr const char* kAnalyzeFooter =
     "simulate` has it, with the shafts held at their speeds of then.\n"
     "\n"
     "Examples:\n"
-    "  twin analyze demo.yaml\n"
+    "  twin analyze demo\n"
     "  twin analyze oil_whip --speed 200\n"
-    "  twin analyze demo.yaml --system rotor --json";
+    "  twin analyze demo --system rotor --json";
 
 struct AnalyzeRequest {
   std::string scene;

@@ -28,8 +28,8 @@ constexpr const char* kCampbellFooter =
     "wants no running speed.\n"
     "\n"
     "Examples:\n"
-    "  twin campbell demo.yaml --to 120 --plot campbell.svg\n"
-    "  twin campbell demo.yaml --system rotor --harmonic 1 2 --csv campbell.csv";
+    "  twin campbell demo --to 120 --plot campbell.svg\n"
+    "  twin campbell demo --system rotor --harmonic 1 2 --csv campbell.csv";
 
 struct CampbellCommandRequest {
   std::string scene;

@@ -21,8 +21,8 @@ constexpr const char* kCheckFooter =
     "the file, the key, what was expected with its unit, and what was found. Exit status 2.\n"
     "\n"
     "Examples:\n"
-    "  twin check demo.yaml\n"
-    "  twin check demo.yaml --system rotor --json";
+    "  twin check demo\n"
+    "  twin check demo --system rotor --json";
 
 struct CheckRequest {
   std::string scene;

@@ -25,7 +25,7 @@ constexpr const char* kLogFooter =
     "1 there are damaged events, 2 the file cannot be read or holds no event at all.\n"
     "\n"
     "Examples:\n"
-    "  twin simulate demo.yaml --output demo.lcmlog && twin log demo.lcmlog\n"
+    "  twin simulate demo --output demo.lcmlog && twin log demo.lcmlog\n"
     "  twin log recorded.lcmlog --json";
 
 /// [s]; in double, for a damaged log may hold any 64 bits.

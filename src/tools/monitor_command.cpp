@@ -31,7 +31,7 @@ constexpr const char* kMonitorFooter =
     "scene, a\nlog or settings that cannot be used.\n"
     "\n"
     "Examples:\n"
-    "  twin simulate demo.yaml --output demo.lcmlog && twin monitor demo.yaml demo.lcmlog\n"
+    "  twin simulate demo --output demo.lcmlog && twin monitor demo demo.lcmlog\n"
     "  twin monitor pump.yaml night.lcmlog --settings monitor.yaml --output night.html";
 
 struct MonitorRequest {

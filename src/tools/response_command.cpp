@@ -29,15 +29,15 @@ constexpr const char* kResponseFooter =
     "count, however few it is stepped with.\n"
     "\n"
     "Examples:\n"
-    "  twin response demo.yaml --to 120 --plot bode.svg\n"
-    "  twin response demo.yaml --system rotor --station disc --csv response.csv\n"
+    "  twin response demo --to 120 --plot bode.svg\n"
+    "  twin response demo --system rotor --station disc --csv response.csv\n"
     "  twin response friswell_rotor --force node_2 --at node_2 node_4 --speed 100 --plot frf.svg";
 
 constexpr const char* kOrbitFooter =
     "In the picture a dot shows where each station is when the shaft's mark passes the x axis.\n"
     "\n"
     "Example:\n"
-    "  twin orbit demo.yaml --speed 55 --plot orbit.svg";
+    "  twin orbit demo --speed 55 --plot orbit.svg";
 
 struct ResponseRequest {
   std::string scene;

@@ -35,11 +35,11 @@ constexpr const char* kSimulateFooter =
     "on to the end, and the exit status is 1.\n"
     "\n"
     "Examples:\n"
-    "  twin simulate demo.yaml --sample 0.01 --output demo.csv\n"
-    "  twin simulate demo.yaml --duration 60 --output demo.lcmlog     for twin play\n"
-    "  twin simulate demo.yaml --duration 60 --output demo.mcap       for PlotJuggler, Lichtblick\n"
-    "  twin simulate demo.yaml --duration 1e4 --checkpoint run.checkpoint --json\n"
-    "  twin simulate demo.yaml --system pendulum --integrator runge_kutta_4 --step 0.0005 --json";
+    "  twin simulate demo --sample 0.01 --output demo.csv\n"
+    "  twin simulate demo --duration 60 --output demo.lcmlog     for twin play\n"
+    "  twin simulate demo --duration 60 --output demo.mcap       for PlotJuggler, Lichtblick\n"
+    "  twin simulate demo --duration 1e4 --checkpoint run.checkpoint --json\n"
+    "  twin simulate demo --system pendulum --integrator runge_kutta_4 --step 0.0005 --json";
 
 /// ".csv", ".lcmlog" or ".mcap". Throws Refusal.
 std::string extensionOf(const std::string& output) {

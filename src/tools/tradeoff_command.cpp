@@ -33,7 +33,7 @@ constexpr const char* kTradeoffFooter =
     "spread.\n"
     "\n"
     "Examples:\n"
-    "  twin tradeoff demo.yaml --plot tradeoff.svg\n"
+    "  twin tradeoff demo --plot tradeoff.svg\n"
     "  twin tradeoff double_pendulum.yaml --system rods --duration 30 --json";
 
 struct TradeoffRequest {

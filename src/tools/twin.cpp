@@ -29,11 +29,11 @@ constexpr const char* kTwinDescription =
 
 constexpr const char* kTwinFooter =
     "First steps:\n"
-    "  twin check config/scenes/demo.yaml        is the scene sound, and what will be modelled\n"
-    "  twin analyze config/scenes/demo.yaml      equilibria, frequencies, stability, criticals\n"
-    "  twin simulate config/scenes/demo.yaml --sample 0.01 --output demo.csv\n"
-    "  twin plot config/scenes/demo.yaml         its systems and their motions, as pictures\n"
-    "  twin routh 1 2 3 4                        is s^3 + 2 s^2 + 3 s + 4 stable\n"
+    "  twin check demo           is the scene sound, and what will be modelled\n"
+    "  twin analyze demo         equilibria, frequencies, stability, criticals\n"
+    "  twin simulate demo --sample 0.01 --output demo.csv\n"
+    "  twin plot demo            its systems and their motions, as pictures\n"
+    "  twin routh 1 2 3 4        is s^3 + 2 s^2 + 3 s + 4 stable\n"
     "`twin COMMAND --help` tells more. Everything is in SI units: m, kg, s, rad, N.\n"
     "\n"
     "Results go to standard output, messages to standard error.\n"
