@@ -14,6 +14,7 @@
 #include "analysis/sampled_stability.h"
 #include "analysis/stability.h"
 #include "messages/controller_margins.h"
+#include "messages/refusal.h"
 #include "scene/built_system.h"
 #include "scene/closed_loop.h"
 
@@ -21,6 +22,12 @@ namespace whirl_twin {
 
 /// Of a speed: after a larger change a system is judged before its turn [-].
 inline constexpr double kSpeedNews = 0.01;
+
+/// A loop that has no small motions of a linear law: its verdict is uncertain by its nature, and
+/// nothing has failed.
+struct LoopNotLinear : RunFailure {
+  using RunFailure::RunFailure;
+};
 
 class LoopJudge {
  public:

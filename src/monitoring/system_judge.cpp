@@ -186,6 +186,8 @@ state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::v
       reduction = unreducedMargins(
           about, dynamics.hasShaft() ? speed : (motion_ ? motion_->v : rates)[n - 1]);
     }
+  } catch (const LoopNotLinear&) {
+    s = unjudged();
   } catch (const std::exception& failure) {
     // Numbers beyond the range of double, a singular mass, or a rotor that rests nowhere before its
     // reduction: uncertain. The others are watched on.

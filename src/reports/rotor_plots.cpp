@@ -173,11 +173,61 @@ std::vector<std::size_t> startsOfTurns(const PlotHistory& history,
   return starts;
 }
 
+/// The whirl about its middle, as the sag of a shaft or the load of its bearings moves that aside:
+/// there radius and lag of the position would be bands. Of each sample the mean over eight turns.
+struct CentredWhirl {
+  PlotHistory about;          // as the history, radius and lag from the middle
+  std::vector<double> aside;  // [m], of the middle from the axis; empty: it is on the axis
+};
+
+CentredWhirl centred(const PlotHistory& history) {
+  constexpr double kTurns = 8.0, kAside = 0.2;
+  constexpr std::size_t kFewest = 64;  // samples
+  CentredWhirl whirl{history, {}};
+  const std::vector<double> angle = turned(history);
+  const std::size_t count = angle.size();
+  const double wide = std::min(kTurns * kTwoPi, angle.back());
+  if (count < kFewest || angle.back() < kTwoPi || !std::isfinite(history.whirl_radius.back())) {
+    return whirl;
+  }
+  std::vector<double> x{0.0}, y{0.0};  // sums of the samples before
+  for (std::size_t i = 0; i < count; ++i) {
+    x.push_back(x.back() + history.whirl_x[i]);
+    y.push_back(y.back() + history.whirl_y[i]);
+  }
+  double most_aside = 0.0, widest = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double start = std::clamp(angle[i] - 0.5 * wide, 0.0, angle.back() - wide);
+    const auto from = std::lower_bound(angle.begin(), angle.end(), start) - angle.begin();
+    const auto to = std::upper_bound(angle.begin(), angle.end(), start + wide) - angle.begin();
+    const auto a = static_cast<std::size_t>(from), b = static_cast<std::size_t>(to);
+    const double samples = static_cast<double>(b - a);
+    const double middle_x = (x[b] - x[a]) / samples, middle_y = (y[b] - y[a]) / samples;
+    const double now_x = history.whirl_x[i], now_y = history.whirl_y[i];
+    const double own_x = now_x - middle_x, own_y = now_y - middle_y;
+    whirl.about.whirl_radius[i] = std::hypot(own_x, own_y);
+    whirl.about.whirl_phase[i] += std::atan2(now_y, now_x) - std::atan2(own_y, own_x);
+    whirl.aside.push_back(std::hypot(middle_x, middle_y));
+    if (i >= count / 2) {
+      most_aside = std::max(most_aside, whirl.aside.back());
+      widest = std::max(widest, whirl.about.whirl_radius[i]);
+    }
+  }
+  return most_aside > kAside * widest ? whirl : CentredWhirl{history, {}};
+}
+
 }  // namespace
 
 std::vector<Chart> rotorCharts(const PlotHistory& history) {
-  std::vector<Chart> charts{historyChart(history, "whirl radius", "m", history.whirl_radius)};
-  const std::vector<double> lag = phaseLagHistory(history);
+  const CentredWhirl whirl = centred(history);
+  std::vector<Chart> charts{historyChart(history, "whirl radius", "m", whirl.about.whirl_radius)};
+  if (!whirl.aside.empty()) {
+    charts.front().y.label = "whirl radius about its middle (m)";
+    charts.front().series.front().name = "whirl about its middle";
+    charts.front().series.push_back(
+        {"middle of the orbit, from the axis", history.time, whirl.aside, Pen{ink::kGrey, 1.6}});
+  }
+  const std::vector<double> lag = phaseLagHistory(whirl.about);
   if (anyFinite(lag)) {
     charts.push_back(historyChart(history, "whirl phase lag", "deg", lag));
     charts.back().y.degrees = true;

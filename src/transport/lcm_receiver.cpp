@@ -12,6 +12,10 @@ namespace whirl_twin {
 namespace {
 
 constexpr std::size_t kMostChannels = 10'000;  // whoever sends chooses their names
+/// Events that wait: every state counts, through a stall of seconds (of 5 kHz for 20 s), but a
+/// flood that is faster than the reader does not take all memory. What it displaces is lost by its
+/// steps.
+constexpr int kMostWaiting = 100'000;
 
 }  // namespace
 
@@ -25,7 +29,7 @@ LcmReceiver::LcmReceiver(std::shared_ptr<lcm::LCM> lcm, const Kinds& kinds, Hand
   if (subscription_ == nullptr) {
     throw LcmNotAvailable(fmt::format("LCM cannot receive {} (is multicast on?)", pattern));
   }
-  lcm_subscription_set_queue_capacity(subscription_, 0);  // no limit: every state counts
+  lcm_subscription_set_queue_capacity(subscription_, kMostWaiting);
 }
 
 LcmReceiver::~LcmReceiver() {

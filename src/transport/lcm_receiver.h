@@ -1,5 +1,5 @@
-// Messages in from LCM: every event of the wanted kinds, in the order of arrival, none dropped
-// here; what does not decode is rejected and counted.
+// Messages in from LCM: every event of the wanted kinds, in the order of arrival, none dropped here
+// but what more than 100,000 that wait displace; what does not decode is rejected and counted.
 #pragma once
 
 #include <chrono>

@@ -71,8 +71,10 @@ class Survival(NodeTrial):
 
     def test_lcm_without_its_route(self):
         self.listen('/twin/alerts', AlertArray, lambda m: setattr(self, 'alerts', [a.type for a in m.alerts]))
-        twin = self.start('simulation_node', '_realtime:=ignore')
-        self.start('monitor_node')
+        # With ttl=0, the default, it is sent by the loopback interface and needs no route.
+        network = '_lcm_url:=udpm://239.255.76.67:7667?ttl=1'
+        twin = self.start('simulation_node', '_realtime:=ignore', network)
+        self.start('monitor_node', network)
         self.assertTrue(wait_until(lambda: self.loops))
         self.assertEqual(self.loops[-1].lcm_failed, 0)
         route = ['224.0.0.0/4', 'dev', 'lo']
