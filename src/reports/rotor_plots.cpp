@@ -181,7 +181,7 @@ struct CentredWhirl {
 };
 
 CentredWhirl centred(const PlotHistory& history) {
-  constexpr double kTurns = 8.0, kAside = 0.2;
+  constexpr double kTurns = 8.0, kAside = 0.2, kLeast = 1.0e-3;
   constexpr std::size_t kFewest = 64;  // samples
   CentredWhirl whirl{history, {}};
   const std::vector<double> angle = turned(history);
@@ -213,7 +213,16 @@ CentredWhirl centred(const PlotHistory& history) {
       widest = std::max(widest, whirl.about.whirl_radius[i]);
     }
   }
-  return most_aside > kAside * widest ? whirl : CentredWhirl{history, {}};
+  if (!(most_aside > kAside * widest)) {
+    return {history, {}};
+  }
+  // What is left of a motion that has died out has a lag, too, and no meaning.
+  const std::vector<double>& radius = whirl.about.whirl_radius;
+  const double least = kLeast * *std::max_element(radius.begin(), radius.end());
+  for (std::size_t i = 0; i < count; ++i) {
+    whirl.about.whirl_phase[i] = radius[i] > least ? whirl.about.whirl_phase[i] : kNaN;
+  }
+  return whirl;
 }
 
 }  // namespace

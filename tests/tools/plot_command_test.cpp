@@ -108,11 +108,15 @@ TEST(Plot, ShowsTheSpeedOfAShaftInRpmToo) {
   EXPECT_TRUE(has(governor, "theta (rad) over")) << governor;
 }
 
-// Of a shaft that sags the whirl stays where it is while the mark goes round: there is no lag.
+// A shaft that sags and does not whirl has no lag; where one whirls about the place where it hangs,
+// radius and lag are those about that place.
 TEST(Plot, ShowsALagWhereTheWhirlGoesWithTheShaft) {
   const std::string lag = "whirl phase lag (deg)";
   EXPECT_TRUE(has(wordsOf("demo", "rotor", "time"), lag));
   EXPECT_FALSE(has(wordsOf("hysteresis", "sagging", "time"), lag));
+  const std::string hanging = wordsOf("levitation", "rotor", "time", {"--duration", "6"});
+  EXPECT_TRUE(has(hanging, lag)) << hanging;
+  EXPECT_TRUE(has(hanging, "whirl radius about its middle (m)")) << hanging;
 }
 
 // The largest whirl of this run is its last.
