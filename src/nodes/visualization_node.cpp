@@ -282,8 +282,9 @@ class VisualizationNode {
     const SystemReadout& of = judged == listener_.systems().end() ? readout : judged->second;
     status.live =
         liveMargin(of.margin, ros::WallTime::now().toSec() - of.margin_heard, held, silence);
-    status.live.least_decrement = settings_.log_decrement_warning;
-    status.live.least_decay_rate = settings_.decay_rate_alarm;
+    // As the monitor, which requires no damping of what is no rotor.
+    status.live.least_decrement = readout.whirl ? settings_.log_decrement_warning : 0.0;
+    status.live.least_decay_rate = readout.whirl ? settings_.decay_rate_alarm : 0.0;
     status.alerts = listener_.alertsOf(name);
     for (const auto& [controller, live] : controllers_) {
       const std::vector<Command> commands = live.commandsOn(name);
