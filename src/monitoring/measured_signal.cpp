@@ -230,7 +230,7 @@ std::string MeasuredSignal::notOk(double wall_time, bool paused) const {
     return fmt::format("no pulses: {} for {:.1f} s", settings_.keyphasor, silence);
   }
   const int rejected = orbit_.shaft().refusedLately();
-  if (rejected >= kManyRejected && orbit_.shaft().counts().refused > 0) {
+  if (rejected >= kManyRejected) {
     return fmt::format("pulses rejected: {} of the last {} of {}", rejected, ShaftTracker::kLately,
                        settings_.keyphasor);
   }

@@ -105,8 +105,7 @@ void MeasuredOrbit::takeProbe(std::size_t probe, const state::Measurement& messa
   }
 }
 
-/// Of the readings that still wait; none waits so short that its shaft angle is known from one
-/// side.
+/// Judged six samples later, by when a reading nearly always still waits for the next pulse.
 void MeasuredOrbit::leaveOutWild(std::size_t probe) {
   std::deque<Reading>& waiting = readings_[probe];
   const auto wild = wild_[probe].take(waiting.back().instant, waiting.back().value);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "algebra/constants.h"
+#include "signal/robust_scale.h"
 
 namespace whirl_twin {
 
@@ -24,12 +25,9 @@ constexpr double kMostChange = 1.4;        // of intervals, from one to the next
 constexpr double kMisfit = 0.01 * kTwoPi;  // [rad], besides jitter
 constexpr double kMostMisfit = 0.05 * kTwoPi;
 
-// Seven of eight normal deviates are less, in standard deviations. Fewer would not see a clock
-// whose steps are nearly a part of the period: most pulses are then off by the same.
-constexpr double kSevenOfEight = 1.534;
 // As stated, unless the pulses scatter this many times more.
 constexpr double kClearlyMore = 1.5;
-constexpr std::ptrdiff_t kFewestMisfits = 8;
+constexpr std::size_t kFewestMisfits = 8;
 // Variance that white jerk of density 1 leaves over four instants a second apart, in angle: that of
 // a third difference, 11/20, over the sum of its squared weights, 20.
 constexpr double kWanderOfFour = 11.0 / 400.0;
@@ -212,14 +210,11 @@ void ShaftTracker::learnJitter() {
   const double speed = 3.0 * kTwoPi / t[3];
   misfits_[misfits_taken_++ % misfits_.size()] =
       std::sqrt(std::max(0.0, misfit * misfit - wander)) / speed;
-  std::array<double, 64> sorted = misfits_;
-  const auto count = static_cast<std::ptrdiff_t>(std::min(misfits_taken_, misfits_.size()));
+  const std::size_t count = std::min(misfits_taken_, misfits_.size());
   if (count < kFewestMisfits) {
     return;
   }
-  const std::ptrdiff_t place = count * 7 / 8;
-  std::nth_element(sorted.begin(), sorted.begin() + place, sorted.begin() + count);
-  const double shown = sorted[static_cast<std::size_t>(place)] / kSevenOfEight;
+  const double shown = robustScale(misfits_, count);
   jitter_ = shown > kClearlyMore * settings_.jitter ? shown : settings_.jitter;
 }
 

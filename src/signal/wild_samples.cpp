@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "signal/robust_scale.h"
+
 namespace whirl_twin {
 
 namespace {
 
 constexpr double kWild = 12.0;
-constexpr double kSevenOfEight =
-    1.534;                           // standard deviations that seven of eight deviates are below
 constexpr std::size_t kFewest = 24;  // distances, before which nothing is usual
 constexpr double kMostWild = 0.01;
 constexpr double kForgetting = 1.0 / 500.0;
@@ -25,15 +25,6 @@ double WildSampleDetector::distance() const {
   const double value = values_[3];
   return std::fmin(std::fabs(value - medianOfThree(&values_[0])),
                    std::fabs(value - medianOfThree(&values_[4])));
-}
-
-double WildSampleDetector::usual() const {
-  std::array<double, kUsual> sorted = last_distances_;
-  const std::size_t count = std::min(judged_, kUsual);
-  const auto place = static_cast<std::ptrdiff_t>(count * 7 / 8);
-  std::nth_element(sorted.begin(), sorted.begin() + place,
-                   sorted.begin() + static_cast<std::ptrdiff_t>(count));
-  return sorted[static_cast<std::size_t>(place)] / kSevenOfEight;
 }
 
 std::optional<std::int64_t> WildSampleDetector::take(std::int64_t instant, double value) {
@@ -57,9 +48,10 @@ std::optional<std::int64_t> WildSampleDetector::take(std::int64_t instant, doubl
     std::array<double, kBehind> others{distances_[0], distances_[1], distances_[2],
                                        distances_[4], distances_[5], distances_[6]};
     std::nth_element(others.begin(), others.begin() + 3, others.end());
-    // The look at all that is usual is left to the few that stand out from their neighbours.
+    // The scale of all is computed only for the few that differ from their neighbours.
     const double near = std::fmax(others[3], smallest_change_);
-    wild = own > kWild * near && own > kWild * usual();
+    wild =
+        own > kWild * near && own > kWild * robustScale(last_distances_, std::min(judged_, kUsual));
   }
   last_distances_[judged_++ % kUsual] = own;
   rate_ += kForgetting * ((wild ? 1.0 : 0.0) - rate_);

@@ -4,8 +4,7 @@
 // A sample is compared with the median of the three before it and with that of the three after it;
 // the smaller distance counts, so that a step of the signal is none. It is wild where that distance
 // is more than 12 times
-//   - what is usual: the standard deviation for which seven of eight of the last 128 distances are
-//     as small as they are,
+//   - the standard deviation of the last 128 distances (robust_scale.h),
 //   - the median of the distances of its six neighbours, so that the beginning of a motion is none,
 //   - the smallest change that the channel has shown, which is a step of its converter.
 // Where more than one of a hundred samples would be wild, they are the signal (a scratch of the
@@ -35,7 +34,6 @@ class WildSampleDetector {
   static constexpr std::size_t kUsual = 128;
 
   double distance() const;
-  double usual() const;
 
   std::array<std::int64_t, kBehind + 1> instants_{};  // the newest last
   std::array<double, kBehind + 1> values_{};

@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -243,6 +244,27 @@ TEST(MeasuredSignal, WithoutPulsesVibrationIsJudgedOn) {
   };
   machine.run(2.0);
   EXPECT_NE(machine.alert(alert_type::kVibrationZone), nullptr);
+}
+
+// A pick-up that sees anything but the mark, from the start or later on: instants at random.
+TEST(MeasuredSignal, PulsesThatAgreeOnNoShaftAreReported) {
+  for (const double before : {0.0, 1.5}) {
+    MeasuredMachine machine(kMeasured, withZones(150e-6, 300e-6));
+    machine.run(before);
+    std::mt19937_64 random(3);
+    std::exponential_distribution<double> wait(30.0);
+    std::int64_t last = std::llround(1.0e9 * before);
+    machine.spoil = [&](state::Measurement& block) {
+      for (std::int64_t& instant : block.instant) {
+        last += std::llround(1.0e9 * wait(random)) + 1;
+        instant = last;
+      }
+      return true;
+    };
+    machine.run(3.0);
+    EXPECT_EQ(machine.notOk().find("pulses rejected: "), 0u) << before << ": " << machine.notOk();
+    EXPECT_EQ(machine.alert(alert_type::kVibrationZone), nullptr);
+  }
 }
 
 }  // namespace measured_signal_test
