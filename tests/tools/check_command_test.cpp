@@ -215,16 +215,16 @@ TEST(Check, LooksThroughAHundredThousandKeysInTime) {
   EXPECT_EQ(linesOf(end.err).size(), 100000u);
 }
 
-// A scene that README.md shows whole begins with its name.
-TEST(Check, TakesTheScenesOfTheReadme) {
-  const std::string readme = contentsOf(WHIRL_TWIN_SOURCE "/README.md");
+// A scene that docs/scenes.md shows whole begins with its name.
+TEST(Check, AcceptsTheScenesOfTheDocumentation) {
+  const std::string page = contentsOf(WHIRL_TWIN_SOURCE "/docs/scenes.md");
   const TemporaryDirectory folder;
   int scenes = 0;
-  for (std::size_t at = readme.find("```yaml\nname: "); at != std::string::npos;
-       at = readme.find("```yaml\nname: ", at + 1)) {
+  for (std::size_t at = page.find("```yaml\nname: "); at != std::string::npos;
+       at = page.find("```yaml\nname: ", at + 1)) {
     const std::size_t begin = at + std::string("```yaml\n").size();
     const std::string scene =
-        folder.write("scene.yaml", readme.substr(begin, readme.find("```", begin) - begin));
+        folder.write("scene.yaml", page.substr(begin, page.find("```", begin) - begin));
     const Ending end = twin({"check", scene});
     EXPECT_EQ(end.status, 0) << end.err;
     ++scenes;
