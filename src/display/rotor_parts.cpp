@@ -45,11 +45,14 @@ std::vector<std::string> whirlLines(const WhirlState& state, const SystemStatus&
   if (status.live.margin) {
     lines = marginLines(*status.live.margin);
   }
-  std::string whirl = whirlText(state);
-  if (status.orders) {
-    whirl += ", " + ordersText(*status.orders);
+  std::vector<std::string> first{speedText(state.speed)};
+  if (const std::string vibration = vibrationText(status.vibration); !vibration.empty()) {
+    first.push_back(vibration);
   }
-  lines.insert(lines.begin(), {speedText(state.speed), whirl});
+  if (status.orders) {
+    first.push_back(ordersText(*status.orders));
+  }
+  lines.insert(lines.begin(), first.begin(), first.end());
   if (!status.limits.empty()) {
     lines.push_back(limitsText(status.limits));
   }

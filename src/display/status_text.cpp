@@ -32,11 +32,12 @@ std::string speedText(double speed) {
   return fmt::format("speed {:.2f} rad/s ({:.1f} rpm)", speed, speed / kRpm);
 }
 
-std::string whirlText(const WhirlState& state) {
-  return fmt::format("whirl {:.1f} um", state.radius * 1e6);
+std::string vibrationText(double amplitude) {
+  return std::isfinite(amplitude) ? fmt::format("vibration {:.1f} um", amplitude * 1e6) : "";
 }
 
 std::string ordersText(const OrderState& orders) {
+  constexpr double kAside = 0.2;  // of the amplitude, that a middle must be off to be mentioned
   std::vector<std::string> parts;
   double first = 0.0;
   if (orders.valid && !orders.order.empty()) {
@@ -48,6 +49,11 @@ std::string ordersText(const OrderState& orders) {
     }
   }
   parts.emplace_back(orders.forward ? "forward" : "backward");
+  // Sag, or the load of bearings: no part of the vibration.
+  const double aside = std::hypot(orders.mean_x, orders.mean_y);
+  if (orders.valid && aside > kAside * first) {
+    parts.push_back(fmt::format("middle {:.1f} um from the axis", aside * 1e6));
+  }
   if (!orders.line_frequency.empty()) {
     const double line = orders.line_forward[0] + orders.line_backward[0];
     if (line > first) {

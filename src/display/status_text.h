@@ -20,8 +20,9 @@ double wrappedDegrees(double angle);
 /// "speed 100.00 rad/s (954.9 rpm)".
 std::string speedText(double speed);
 
-/// "whirl 123.4 um": how far the centre is out at this instant.
-std::string whirlText(const WhirlState& state);
+/// "vibration 123.4 um", of the amplitude over a revolution [m] that alarms go by; "" of NaN,
+/// before there is a revolution.
+std::string vibrationText(double amplitude);
 
 /// "1X 120.0 um, lag 34.5 deg, forward": the first order, in which sense the whirl runs, and the
 /// largest line if it is larger than the first order; without orders what there is.

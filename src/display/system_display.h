@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -20,7 +21,8 @@ namespace whirl_twin {
 /// What is known of a system at the moment, beside its state.
 struct SystemStatus {
   LiveMargin live;
-  OrderState::ConstPtr orders;         ///< of a rotor, null before the first
+  OrderState::ConstPtr orders;  ///< of a rotor, null before the first
+  double vibration = std::numeric_limits<double>::quiet_NaN();  ///< [m], of a rotor
   FollowState::ConstPtr follow;        ///< of a twin that follows its machine, else null
   std::vector<Alert> alerts;           ///< active, most severe first
   std::vector<VibrationLimit> limits;  ///< of a rotor

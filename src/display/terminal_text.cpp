@@ -25,7 +25,9 @@ std::string readoutText(const std::string& system, const SystemReadout& readout)
   std::vector<std::string> parts;
   if (readout.whirl) {
     parts.push_back(speedText(readout.whirl->speed));
-    parts.push_back(whirlText(*readout.whirl));
+    if (const std::string vibration = vibrationText(readout.vibration); !vibration.empty()) {
+      parts.push_back(vibration);
+    }
   }
   if (readout.orders) {
     parts.push_back(ordersText(*readout.orders));

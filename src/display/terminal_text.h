@@ -9,7 +9,8 @@
 
 namespace whirl_twin {
 
-/// "rotor: speed 100.00 rad/s (954.9 rpm), whirl 123.4 um, lag 87.3 deg, ..." with what is known.
+/// "rotor: speed 100.00 rad/s (954.9 rpm), vibration 123.4 um, lag 87.3 deg, ..." with what is
+/// known.
 std::string readoutText(const std::string& system, const SystemReadout& readout);
 
 /// A line for each alert that is in one list and not in the other, or has changed its severity.

@@ -106,7 +106,9 @@ ros::Subscriber TwinListener::subscribe(const TwinTopic& topic) {
   const std::string subject = topic.subject;
   if (isType<WhirlState>(topic.type)) {
     return listen<WhirlState>(topic, [this, subject](const WhirlState::ConstPtr& state) {
-      systems_[subject].whirl = state;
+      SystemReadout& readout = systems_[subject];
+      readout.whirl = state;
+      readout.vibration = readout.followed.take(fromRos(*state));
       if (whirl_handler_) {
         whirl_handler_(subject, *state);
       }

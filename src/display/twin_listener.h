@@ -5,12 +5,14 @@
 #include <ros/ros.h>
 
 #include <functional>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "messages/monitor_pulse.h"
+#include "monitoring/whirl_vibration.h"
 #include "whirl_twin/AlertArray.h"
 #include "whirl_twin/ControllerMargins.h"
 #include "whirl_twin/ControllerState.h"
@@ -30,6 +32,8 @@ namespace whirl_twin {
 /// The latest that is known of one system; null before the first message.
 struct SystemReadout {
   WhirlState::ConstPtr whirl;
+  WhirlVibration followed;                                      ///< of the whirl
+  double vibration = std::numeric_limits<double>::quiet_NaN();  ///< [m], what that measures
   OrderState::ConstPtr orders;
   PendulumState::ConstPtr pendulum;
   StabilityMargin::ConstPtr margin;

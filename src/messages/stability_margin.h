@@ -2,6 +2,7 @@
 // and the critical speeds around the present speed.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -85,12 +86,18 @@ struct StabilityMargin {
   double unreduced_decay_rate = std::numeric_limits<double>::quiet_NaN();     ///< [1/s]
   double unreduced_log_decrement = std::numeric_limits<double>::quiet_NaN();  ///< [-]
   bool reduction_disagrees = false;  ///< one of them grows and the other does not
+  // Not sent: what alerts add in words.
+  enum class About { kEquilibrium, kPeriodicMotion, kMeanLoads };
+  About judged_about = About::kEquilibrium;
 
   template <class Visit>
   static void fields(Visit& visit) {
-    // A polynomial has one coefficient more than it has roots.
+    // A polynomial has one coefficient more than it has roots. Multipliers of a periodic motion,
+    // and the roots of many coordinates, come without one: two of each coordinate.
     const auto roots = [](const char* name, std::int64_t value, const auto& message) {
-      requireRange(name, value, 0, static_cast<std::int64_t>(message.polynomial.size()));
+      requireRange(name, value, 0,
+                   static_cast<std::int64_t>(
+                       std::max(message.polynomial.size(), 2 * message.operating_point.size())));
     };
     visit.head(TWIN_FIELD(system));
     visit(TWIN_FIELD(model), "", requireName, Stays::kSame);

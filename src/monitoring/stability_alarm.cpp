@@ -32,6 +32,22 @@ AlarmCondition verdictCondition(const state::StabilityMargin& margin) {
   return margin.reduction_disagrees ? AlarmCondition::kWarning : verdictCondition(margin.verdict);
 }
 
+/// Of which motion a verdict is, where that is no equilibrium.
+const char* aboutText(const state::StabilityMargin& margin) {
+  using About = state::StabilityMargin::About;
+  return margin.judged_about == About::kPeriodicMotion ? " (its periodic motion)"
+         : margin.judged_about == About::kMeanLoads    ? " (under its mean loads)"
+                                                       : "";
+}
+
+/// What grows: roots of the characteristic polynomial, or multipliers of a periodic motion.
+std::string growingText(const state::StabilityMargin& margin) {
+  const char* const many = margin.right == 1 ? "" : "s";
+  return margin.judged_about == state::StabilityMargin::About::kPeriodicMotion
+             ? fmt::format("{} Floquet multiplier{} outside the unit circle", margin.right, many)
+             : fmt::format("{} root{} in the right half-plane", margin.right, many);
+}
+
 std::string speedText(double speed) {
   return std::isnan(speed) ? std::string() : fmt::format(" at {:.1f} rad/s", speed);
 }
@@ -71,11 +87,10 @@ std::string wayToStay(const state::StabilityMargin& margin) {
 
 std::string unstableText(const std::string& system, const state::StabilityMargin& margin,
                          AlarmCondition condition) {
-  const std::string where = system + speedText(margin.speed);
+  const std::string where = system + speedText(margin.speed) + aboutText(margin);
   switch (condition) {
     case AlarmCondition::kDanger:
-      return fmt::format("{}: unstable, {} {} in the right half-plane, growth rate {:.3g} 1/s: {}",
-                         where, margin.right, margin.right == 1 ? "root" : "roots",
+      return fmt::format("{}: unstable, {}, growth rate {:.3g} 1/s: {}", where, growingText(margin),
                          -margin.decay_rate, wayOut(margin));
     case AlarmCondition::kWarning:
       if (margin.reduction_disagrees) {
@@ -147,12 +162,13 @@ void StabilityAlarm::updateLowDamping(const state::StabilityMargin& margin, Aler
     alert.type = alert_type::kLowDamping;
     alert.severity = low_damping_alarm_.severity();
     if (judgedLogDecrement(margin) < settings_.log_decrement_warning) {
-      alert.text = fmt::format("{}{}: log decrement {:.3g}, below {:g}: {}", system_,
-                               speedText(margin.speed), judgedLogDecrement(margin),
-                               settings_.log_decrement_warning, wayToStay(margin));
+      alert.text =
+          fmt::format("{}{}{}: log decrement {:.3g}, below {:g}: {}", system_,
+                      speedText(margin.speed), aboutText(margin), judgedLogDecrement(margin),
+                      settings_.log_decrement_warning, wayToStay(margin));
     } else {
-      alert.text = fmt::format("{}{}: decay rate {:.3g} 1/s, below {:g} 1/s: {}", system_,
-                               speedText(margin.speed), judgedDecayRate(margin),
+      alert.text = fmt::format("{}{}{}: decay rate {:.3g} 1/s, below {:g} 1/s: {}", system_,
+                               speedText(margin.speed), aboutText(margin), judgedDecayRate(margin),
                                settings_.decay_rate_alarm, wayToStay(margin));
     }
     alerts.raise(std::move(alert), "low damping");

@@ -136,6 +136,12 @@ Stability SystemJudge::openStability(const state::Instant& at, const Eigen::Vect
   if (dynamics.linear() && !dynamics.hasShaft()) {
     settled_ = point;
   }
+  judged_about_ = state::StabilityMargin::About::kEquilibrium;
+  if (point && point->periodic) {
+    judged_about_ = state::StabilityMargin::About::kPeriodicMotion;
+  } else if (!dynamics.linear() && &dynamics.atMeanLoad() != &dynamics) {
+    judged_about_ = state::StabilityMargin::About::kMeanLoads;
+  }
   if (point) {
     about = point->q;
     motion_ = SteadyMotion{point->q, point->v};
@@ -203,6 +209,7 @@ state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::v
 
   state::StabilityMargin m =
       marginOf(*system_, s, at, {about.data(), about.data() + about.size()}, speed);
+  m.judged_about = judged_about_;
   if (reduction) {
     m.unreduced_decay_rate = reduction->unreduced.decay_rate;
     m.unreduced_log_decrement = reduction->unreduced.log_decrement;

@@ -89,6 +89,7 @@ class SystemJudge {
   std::optional<JudgedReduction> reduction_;
   std::optional<SteadyMotion> motion_;
   std::string failure_;
+  state::StabilityMargin::About judged_about_ = state::StabilityMargin::About::kEquilibrium;
   bool lacks_thresholds_ = false;
   std::optional<double> searched_at_;   ///< [s], simulated: for thresholds
   std::optional<Equilibrium> settled_;  ///< of a linear system without a shaft: once for all

@@ -268,6 +268,7 @@ class VisualizationNode {
     const SystemReadout& readout = listener_.systems().at(name);
     SystemStatus status;
     status.orders = readout.orders;
+    status.vibration = readout.vibration;
     status.follow = readout.follow;
     if (readout.follow) {
       loop_.setFollowing();

@@ -42,6 +42,15 @@ Series area(const std::string& name, const PlotHistory& history, Percentile low,
   return series;
 }
 
+/// [m]
+std::vector<double> whirlAbout(const Eigen::Vector2d& rest, const PlotHistory& history) {
+  std::vector<double> radius;
+  for (std::size_t i = 0; i < history.time.size(); ++i) {
+    radius.push_back(std::hypot(history.whirl_x[i] - rest.x(), history.whirl_y[i] - rest.y()));
+  }
+  return radius;
+}
+
 Chart courseChart(const Ensemble& ensemble, const PlotHistory& history, std::size_t quantity) {
   using State = state::EnsembleState;
   const EnsembleQuantity& q = ensemble.quantities()[quantity];
@@ -55,8 +64,9 @@ Chart courseChart(const Ensemble& ensemble, const PlotHistory& history, std::siz
       curve("largest", history, &State::largest, quantity)};
   chart.series[2].pen = Pen{ink::kBlue, 1.8};
   chart.series[3].pen = Pen{ink::kGrey, 1.0, {4.0, 3.0}};
-  Series given{"as given", history.time,
-               q.name == "radius" ? history.whirl_radius : history.coordinates[quantity]};
+  Series given{
+      "as given", history.time,
+      q.name == "radius" ? whirlAbout(ensemble.rest(), history) : history.coordinates[quantity]};
   given.pen = Pen{ink::kVermilion, 1.4};
   chart.series.push_back(given);
   return chart;

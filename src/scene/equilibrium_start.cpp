@@ -55,15 +55,14 @@ bool startsAtEquilibrium(const SystemSpec& spec, const ModelSetup& setup,
          choice != spec.settings.choices.end() && choice->second == "true";
 }
 
-void moveToEquilibrium(const ModelInfo& model, const SystemSpec& given, const ModelSetup& setup,
+void moveToEquilibrium(const SystemSpec& given, const std::optional<StartingState>& own,
                        const Surroundings& around, SystemSpec& member) {
   if (!given.rest) {
     return;
   }
-  const double speed = given.rest->speed;
-  const auto own = equilibriumStart(model, member, setup, around, speed);
   if (!own && given.rest->asked) {
-    throw Refusal(fmt::format("no equilibrium was found at {:g} rad/s to start at", speed));
+    throw Refusal(
+        fmt::format("no equilibrium was found at {:g} rad/s to start at", given.rest->speed));
   }
   const std::size_t shape = given.q.size() - (around.motor ? 1 : 0);
   for (std::size_t i = 0; i < shape; ++i) {

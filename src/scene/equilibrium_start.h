@@ -27,9 +27,10 @@ std::optional<StartingState> equilibriumStart(const ModelInfo& model, const Syst
 bool startsAtEquilibrium(const SystemSpec& spec, const ModelSetup& setup,
                          const Surroundings& around);
 
-/// A member of an ensemble starts as far from its own equilibrium as it was drawn from that of the
-/// system as given; where it has none, from 0. Throws Refusal where an equilibrium was asked for.
-void moveToEquilibrium(const ModelInfo& model, const SystemSpec& given, const ModelSetup& setup,
+/// A member of an ensemble starts as far from its own equilibrium `own` as it was drawn from that
+/// of the system as given; where it has none, from 0. Throws Refusal where an equilibrium was asked
+/// for.
+void moveToEquilibrium(const SystemSpec& given, const std::optional<StartingState>& own,
                        const Surroundings& around, SystemSpec& member);
 
 }  // namespace whirl_twin

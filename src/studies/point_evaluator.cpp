@@ -131,7 +131,10 @@ void PointEvaluator::simulate(const Scene& scene, std::vector<std::vector<double
                                      scene.systems[f.quantity.owner].name, step, twin.time(),
                                      describe(twin.status(f.quantity.owner))));
       }
-      f.reduction.take(twin.time(), reader.value(f.quantity));
+      const double value = reader.value(f.quantity);
+      if (f.quantity.kind != PublishedQuantity::Kind::kVibration || !std::isnan(value)) {
+        f.reduction.take(twin.time(), value);
+      }
     }
   }
   for (const Followed& f : followed) {

@@ -37,6 +37,8 @@ std::map<std::string, PublishedQuantity> publishedQuantities(const BuiltScene& s
                     PublishedQuantity{QuantityKind::kRadius, i, k, "m"});
         all.emplace(stations[k] + ".whirl_radius",
                     PublishedQuantity{QuantityKind::kRadius, i, k, "m"});
+        all.emplace(stations[k] + ".whirl.vibration",
+                    PublishedQuantity{QuantityKind::kVibration, i, k, "m"});
         all.emplace(stations[k] + ".whirl.x", PublishedQuantity{QuantityKind::kX, i, k, "m"});
         all.emplace(stations[k] + ".whirl.y", PublishedQuantity{QuantityKind::kY, i, k, "m"});
       }
@@ -64,7 +66,7 @@ void QuantityReader::look() {
   twin_.write(record_.data());
 }
 
-double QuantityReader::value(const PublishedQuantity& quantity) const {
+double QuantityReader::value(const PublishedQuantity& quantity) {
   const double* const record = record_.data();
   if (quantity.ofDrive()) {
     const ShaftView shaft = RecordLayout::shaft(record, quantity.owner);
@@ -77,18 +79,38 @@ double QuantityReader::value(const PublishedQuantity& quantity) const {
     case QuantityKind::kRate:
       return view.v()[quantity.place];
     case QuantityKind::kRadius:
+    case QuantityKind::kVibration:
     case QuantityKind::kX:
     case QuantityKind::kY: {
       const Station& station = stations_[quantity.owner][quantity.place];
       const double x = along(station.along_x, view.q());
       const double y = along(station.along_y, view.q());
-      return quantity.kind == QuantityKind::kX   ? x
-             : quantity.kind == QuantityKind::kY ? y
-                                                 : std::hypot(x, y);
+      return quantity.kind == QuantityKind::kX           ? x
+             : quantity.kind == QuantityKind::kY         ? y
+             : quantity.kind == QuantityKind::kVibration ? vibration(quantity, x, y)
+                                                         : std::hypot(x, y);
     }
     default:
       return energy(quantity);
   }
+}
+
+double QuantityReader::vibration(const PublishedQuantity& quantity, double x, double y) {
+  Vibration& vibration = vibrations_[{quantity.owner, quantity.place}];
+  const std::int64_t step = RecordLayout::step(record_.data());
+  if (vibration.step != step) {
+    const double* const record = record_.data();
+    const ShaftView shaft = RecordLayout::shaft(record, twin_.systems()[quantity.owner]->drive);
+    state::WhirlState whirl;
+    whirl.at.time = twin_.time();
+    whirl.speed = shaft.speed();
+    whirl.shaft_angle = shaft.angle().total();
+    whirl.x = x;
+    whirl.y = y;
+    vibration.amplitude = vibration.followed.take(whirl);
+    vibration.step = step;
+  }
+  return vibration.amplitude;
 }
 
 double QuantityReader::energy(const PublishedQuantity& quantity) const {

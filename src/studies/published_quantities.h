@@ -3,15 +3,20 @@
 //   rotor.x, rotor.x_rate                        coordinates and rates of a system
 //   rotor.whirl.radius, rotor.whirl.x, .y        of a rotor, and of its further stations
 //                                                (`rotor_node_3.whirl.radius`) [m]
+//   rotor.whirl.vibration                        likewise: the amplitude over a revolution, without
+//                                                sag, that alarms go by (WhirlVibration) [m]
 //   rotor.kinetic, rotor.potential, rotor.energy [J]
 //   shaft.speed, shaft.acceleration              of a drive [rad/s], [rad/s^2]
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "monitoring/whirl_vibration.h"
 #include "scene/built_scene.h"
 #include "twin/twin.h"
 
@@ -22,6 +27,7 @@ struct PublishedQuantity {
     kCoordinate,
     kRate,
     kRadius,
+    kVibration,
     kX,
     kY,
     kKinetic,
@@ -46,14 +52,23 @@ class QuantityReader {
   explicit QuantityReader(const Twin& twin);
   /// Takes the twin's present state.
   void look();
-  double value(const PublishedQuantity& quantity) const;
+  /// NaN: it is not known yet, as a vibration before the first revolution has ended. To be asked
+  /// for after each look().
+  double value(const PublishedQuantity& quantity);
 
  private:
   double energy(const PublishedQuantity& quantity) const;
+  double vibration(const PublishedQuantity& quantity, double x, double y);
 
   const Twin& twin_;
   std::vector<double> record_;
   std::vector<std::vector<Station>> stations_;  // of each system
+  struct Vibration {
+    WhirlVibration followed;
+    std::int64_t step = -1;  // that it has taken last
+    double amplitude = 0.0;  // [m]
+  };
+  std::map<std::pair<std::size_t, std::size_t>, Vibration> vibrations_;  // by system and station
 };
 
 }  // namespace whirl_twin

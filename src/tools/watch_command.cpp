@@ -10,6 +10,7 @@
 #include "algebra/constants.h"
 #include "messages/refusal.h"
 #include "messages/slowest_part.h"
+#include "monitoring/whirl_vibration.h"
 #include "reports/live_lines.h"
 #include "reports/message_text.h"
 #include "reports/output.h"
@@ -26,11 +27,13 @@ constexpr const char* kWatchDescription =
     "Watches a running twin in the terminal, by LCM: its loop, its systems, its alarms.";
 
 constexpr const char* kWatchFooter =
-    "In a terminal it is drawn anew five times a second, until Ctrl-C; into a file or a pipe it "
-    "goes\n"
-    "every second. The alerts that stand are known within five seconds. Exit status: 0 a twin "
-    "was heard, 1 none,\n"
-    "2 bad input.\n"
+    "It refreshes a terminal five times a second, until Ctrl-C; into a file or a pipe it writes "
+    "every\n"
+    "second. It knows all active alerts within five seconds. The vibration of a rotor is its "
+    "amplitude over\n"
+    "the last revolution, without sag, that alarms go by. Exit status: 0 a twin was heard, 1 "
+    "none, 2 bad\n"
+    "input.\n"
     "\n"
     "Examples:\n"
     "  twin watch\n"
@@ -67,6 +70,8 @@ struct Heard {
 
 struct System {
   std::optional<state::WhirlState> whirl;
+  WhirlVibration followed;  // of the whirl
+  double vibration = kNaN;  // m, what that measures: the amplitude over a revolution
   std::optional<state::PendulumState> pendulum;
   std::optional<state::StabilityMargin> margin;
 };
@@ -75,8 +80,11 @@ std::string systemLine(const System& system) {
   std::string out;
   const auto say = [&out](const std::string& part) { out += (out.empty() ? "" : ", ") + part; };
   if (system.whirl) {
-    say(fmt::format("speed {:.2f} rad/s ({:.1f} rpm), whirl {:.1f} um", system.whirl->speed,
-                    system.whirl->speed / kRpm, 1.0e6 * system.whirl->radius));
+    say(fmt::format("speed {:.2f} rad/s ({:.1f} rpm)", system.whirl->speed,
+                    system.whirl->speed / kRpm));
+    if (std::isfinite(system.vibration)) {
+      say(fmt::format("vibration {:.1f} um", 1.0e6 * system.vibration));
+    }
   }
   if (system.pendulum) {
     for (std::size_t i = 0; i < system.pendulum->name.size(); ++i) {
@@ -138,7 +146,9 @@ class Watch {
     }
   }
   void take(const state::WhirlState& whirl) {
-    systems_[whirl.system].whirl = whirl;
+    System& system = systems_[whirl.system];
+    system.whirl = whirl;
+    system.vibration = system.followed.take(whirl);
     time_ = whirl.at.time;
   }
   void take(const state::PendulumState& pendulum) {
@@ -241,6 +251,9 @@ class Watch {
         }
       };
       add("whirl", system.whirl);
+      if (system.whirl) {
+        one["vibration"] = system.vibration;  // null before a revolution
+      }
       add("pendulum", system.pendulum);
       add("stability", system.margin);
     }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
+#include <optional>
 #include <utility>
 
 #include "analysis/mass_matrix.h"
@@ -61,6 +63,16 @@ void requireSameKind(const Dynamics& given, const ModelSetup& setup, const Syste
   }
 }
 
+/// At the first station [m].
+Eigen::Vector2d restAt(const Dynamics& dynamics, const std::optional<StartingState>& rest) {
+  if (!rest) {
+    return Eigen::Vector2d::Zero();
+  }
+  const Station station = dynamics.stations().front();
+  const Eigen::Map<const Eigen::VectorXd> q(rest->q.data(), station.along_x.size());
+  return {station.along_x.dot(q), station.along_y.dot(q)};
+}
+
 }  // namespace
 
 Ensemble::Ensemble(const Scene& scene, const BuiltSystem& system, const Excitation& excitation)
@@ -68,16 +80,37 @@ Ensemble::Ensemble(const Scene& scene, const BuiltSystem& system, const Excitati
       quantities_(quantitiesOf(*system.dynamics)),
       every_(std::max<std::int64_t>(1, std::llround(kRecordPeriod / scene.stepSeconds()))),
       latest_(recordSize()) {
+  const SystemSpec& given = system.spec;
+  const Surroundings& around = given.setup->around;
+  const double speed = given.rest ? given.rest->speed : excitation.drive.at(0.0).speed;
+  const auto equilibrium = [&](const SystemSpec& spec,
+                               const ModelSetup& setup) -> std::optional<StartingState> {
+    try {
+      if (given.rest || setup.dynamics->isRotor()) {
+        return equilibriumStart(*system.model, spec, setup, around, speed);
+      }
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const std::exception&) {
+      // Numbers beyond the range of double, or a singular mass: it rests nowhere.
+    }
+    return std::nullopt;
+  };
+  if (system.dynamics->isRotor()) {
+    rest_ = restAt(*system.dynamics, equilibrium(given, given.setup->made));
+  }
   std::vector<EnsembleMember> members;
   for (std::size_t i = 0; i < count_; ++i) {
     try {
-      DrawnMember member = drawnMember(system.spec, *system.model, i);
-      ModelSetup setup = system.model->setUp(member.spec.parameters, member.spec.settings,
-                                             system.spec.setup->around);
+      DrawnMember member = drawnMember(given, *system.model, i);
+      ModelSetup setup = system.model->setUp(member.spec.parameters, member.spec.settings, around);
       requireSameKind(*system.dynamics, setup, member.spec, system.integrator);
-      moveToEquilibrium(*system.model, system.spec, setup, system.spec.setup->around, member.spec);
+      const auto own = equilibrium(member.spec, setup);
+      moveToEquilibrium(given, own, around, member.spec);
       drawn_.push_back(std::move(member.values));
-      members.push_back({std::move(member.spec), std::move(setup)});
+      const Eigen::Vector2d rest =
+          setup.dynamics->isRotor() ? restAt(*setup.dynamics, own) : Eigen::Vector2d::Zero();
+      members.push_back({std::move(member.spec), std::move(setup), rest});
     } catch (const Refusal& error) {
       throw refused(i, error);
     }

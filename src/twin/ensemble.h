@@ -6,6 +6,7 @@
 // the audit of their energy. Members that run away stop; the others go on.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -44,9 +45,9 @@ class EnsembleSteps {
   virtual void exchange(StateImage& image) noexcept = 0;
 };
 
-/// A number that is told of each member.
+/// A number that is published of each member.
 struct EnsembleQuantity {
-  std::string name;  ///< "radius", or a coordinate
+  std::string name;  ///< "radius", of the whirl about where the member rests, or a coordinate
   std::string unit;
 };
 
@@ -59,6 +60,9 @@ class Ensemble {
 
   std::size_t count() const { return count_; }
   const std::vector<EnsembleQuantity>& quantities() const { return quantities_; }
+  /// [m]: where the system as given rests, if it is a rotor, at its first station and the speed it
+  /// starts at; (0, 0) where no such place was found.
+  const Eigen::Vector2d& rest() const { return rest_; }
   /// The values drawn of a member, of spec.ensemble.spread in its order.
   const std::vector<double>& drawn(std::size_t member) const { return drawn_[member]; }
   const EnsembleSteps& steps() const { return *steps_; }
@@ -91,6 +95,7 @@ class Ensemble {
 
   std::size_t count_;
   std::vector<EnsembleQuantity> quantities_;
+  Eigen::Vector2d rest_{0.0, 0.0};
   std::vector<std::vector<double>> drawn_;
   std::unique_ptr<EnsembleSteps> steps_;
   std::int64_t every_;  // steps from one record to the next

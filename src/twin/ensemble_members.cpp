@@ -123,6 +123,7 @@ class OneByOne final : public EnsembleSteps {
       Member member;
       member.spec = m.spec;
       member.system = m.setup.system(integrator, excitation, step, m.spec.substeps);
+      member.rest = m.rest;
       if (m.setup.dynamics->isRotor()) {
         member.station = m.setup.dynamics->stations().front();
       }
@@ -177,6 +178,7 @@ class OneByOne final : public EnsembleSteps {
     SystemSpec spec;
     std::unique_ptr<Stepper> system;
     std::optional<Station> station;  // of a rotor
+    Eigen::Vector2d rest{0.0, 0.0};  // [m]
     StepStatus status = StepStatus::kOk;
 
     void exchange(StateImage& image) noexcept {
@@ -199,7 +201,8 @@ class OneByOne final : public EnsembleSteps {
       member.system->write(state_.data());
       if (member.station) {
         const Eigen::Map<const Eigen::VectorXd> q(state_.data(), member.station->along_x.size());
-        values[0] = std::hypot(member.station->along_x.dot(q), member.station->along_y.dot(q));
+        values[0] = std::hypot(member.station->along_x.dot(q) - member.rest.x(),
+                               member.station->along_y.dot(q) - member.rest.y());
       } else {
         std::copy_n(state_.data(), quantities_, values);
       }
@@ -279,7 +282,10 @@ std::unique_ptr<EnsembleSteps> ensembleSteps(const std::vector<EnsembleMember>& 
   if (integrator == Exponential<1>::kName && excitation.inputs == nullptr) {
     std::vector<IsotropicRotor> rotors;
     for (const EnsembleMember& member : members) {
-      if (const auto rotor = isotropicRotor(*member.setup.dynamics, member.spec)) {
+      if (auto rotor = isotropicRotor(*member.setup.dynamics, member.spec)) {
+        // About where its load holds it, an isotropic rotor whirls as one without a load.
+        rotor->start -= rotor->load / rotor->stiffness;
+        rotor->load = 0.0;
         rotors.push_back(*rotor);
       }
     }

@@ -2,6 +2,7 @@
 // it, else one by one.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -18,6 +19,7 @@ namespace whirl_twin {
 struct EnsembleMember {
   SystemSpec spec;
   ModelSetup setup;
+  Eigen::Vector2d rest = Eigen::Vector2d::Zero();  ///< [m], of a rotor: whirl is about this place
 };
 
 constexpr std::size_t kMostSampled = 8;  ///< members, whose errors are measured

@@ -55,6 +55,15 @@ TEST_F(StabilityAlarmTest, AnUnstableVerdictIsDangerAtOnceAndClearsAfterTheDelay
   EXPECT_EQ(unstable()->text,
             "rotor at 100.0 rad/s: unstable, 2 roots in the right half-plane, growth rate 2.5 1/s: "
             "add damping outside the shaft, or take away what drives it");
+  state::StabilityMargin periodic = marginOf(0.15, kUnstable, -0.05, -2.5);
+  periodic.judged_about = state::StabilityMargin::About::kPeriodicMotion;
+  periodic.right = 1;
+  alarm_.update(periodic, list_);
+  EXPECT_EQ(
+      unstable()->text,
+      "rotor at 100.0 rad/s (its periodic motion): unstable, 1 Floquet multiplier outside the "
+      "unit circle, growth rate 2.5 1/s: add damping outside the shaft, or take away what "
+      "drives it");
   alarm_.update(marginOf(0.2, kStable), list_);
   alarm_.update(marginOf(1.0, kStable), list_);
   EXPECT_NE(unstable(), nullptr);

@@ -6,6 +6,7 @@
 #include "display/follow_text.h"
 #include "display/status_text.h"
 #include "display/terminal_text.h"
+#include "transport/ros_converters.h"
 
 namespace whirl_twin {
 namespace display_text_test {
@@ -64,9 +65,8 @@ TEST(StatusText, WrapsAngles) {
 }
 
 TEST(StatusText, GivesWhirlInMicrometresAndTheLagOnlyWhereItExists) {
-  WhirlState state;
-  state.radius = 123.44e-6;
-  EXPECT_EQ(whirlText(state), "whirl 123.4 um");
+  EXPECT_EQ(vibrationText(123.44e-6), "vibration 123.4 um");
+  EXPECT_EQ(vibrationText(NAN), "");
   OrderState orders;
   orders.valid = true;
   orders.forward = true;
@@ -76,6 +76,11 @@ TEST(StatusText, GivesWhirlInMicrometresAndTheLagOnlyWhereItExists) {
   orders.forward_lag = {M_PI / 2};
   orders.deviation = {1.0e-7};
   EXPECT_EQ(ordersText(orders), "1X 120.0 um, lag 90.0 deg, forward");
+  orders.mean_y = -23.0e-6;
+  EXPECT_EQ(ordersText(orders), "1X 120.0 um, lag 90.0 deg, forward");
+  orders.mean_y = -50.0e-6;
+  EXPECT_EQ(ordersText(orders), "1X 120.0 um, lag 90.0 deg, forward, middle 50.0 um from the axis");
+  orders.mean_y = 0.0;
   orders.deviation = {1.0e-3};
   EXPECT_EQ(ordersText(orders), "1X 120.0 um, forward");
   orders.valid = false;
@@ -160,6 +165,25 @@ TEST(TerminalText, ReadoutSaysWhatIsKnown) {
   EXPECT_EQ(readoutText("rotor", readout),
             "rotor: asymptotically stable, decay rate 5 1/s, log decrement 0.315, "
             "critical 140.0 rad/s forward, margin 6.7 % (16.0 % required)");
+}
+
+// A disc that hangs 50 um aside and whirls with 20 um about there, two revolutions of 100 samples.
+TEST(TerminalText, VibrationIsWithoutSag) {
+  SystemReadout readout;
+  auto whirl = boost::make_shared<WhirlState>();
+  whirl->speed = 100.0;
+  for (int i = 0; i <= 200; ++i) {
+    const double angle = 2.0 * M_PI * i / 100.0;
+    whirl->time = angle / whirl->speed;
+    whirl->shaft_angle = angle;
+    whirl->x = 20.0e-6 * std::cos(angle);
+    whirl->y = 20.0e-6 * std::sin(angle) - 50.0e-6;
+    readout.vibration = readout.followed.take(fromRos(*whirl));
+    EXPECT_EQ(std::isnan(readout.vibration), i < 100) << i;
+  }
+  readout.whirl = whirl;
+  EXPECT_EQ(readoutText("rotor", readout),
+            "rotor: speed 100.00 rad/s (954.9 rpm), vibration 20.0 um");
 }
 
 TEST(TerminalText, AlertsAreToldWhenTheyComeChangeAndGo) {

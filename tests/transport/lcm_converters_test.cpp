@@ -233,6 +233,24 @@ TEST(LcmConverters, RejectImpossibleMargins) {
        [](auto& m) { m.band_low.clear(); }, [](auto& m) { m.direction[0] = "sideways"; }});
 }
 
+// Multipliers of a periodic motion have no polynomial: the verdict of a shaken pendulum that falls.
+TEST(LcmConverters, TakeTheMarginOfAPeriodicMotion) {
+  state::StabilityMargin margin;
+  margin.system = "pendulum";
+  margin.model = "kapitza_pendulum";
+  margin.verdict = 3;
+  margin.verdict_name = "unstable";
+  margin.coordinate = {"theta"};
+  margin.operating_point = {0.0};
+  margin.right = margin.right_by_eigenvalues = 1;
+  margin.left = 1;
+  margin.instability_speed = std::nan("");
+  auto message = toLcm(margin);
+  EXPECT_EQ(bitsOf(fromLcm<state::StabilityMargin>(message)), bitsOf(margin));
+  message.right = 3;
+  EXPECT_THROW(fromLcm<state::StabilityMargin>(message), RejectedMessage);
+}
+
 TEST(LcmConverters, RejectLoopStatisticsThatCannotBeMeant) {
   auto loop = StateSamples(6).loop();
   loop.system = {"rotor", "arm"};

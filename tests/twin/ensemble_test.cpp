@@ -361,6 +361,62 @@ TEST(Ensemble, PercentilesLieBetweenTheValues) {
   EXPECT_TRUE(std::isnan(percentile({}, 50.0)));
 }
 
+// A linear rotor that hangs in gravity whirls about where it rests as one without gravity does:
+// side by side (13 of one disc), and one by one (a mesh on unlike springs).
+TEST(Ensemble, WhirlIsAboutWhereEachMemberRests) {
+  const auto disc = [](const std::string& gravity) {
+    return gravity + rotorScene(R"(
+    count: 13
+    spread: {stiffness: {relative_half_width: 0.2}, eccentricity: {half_width: 2.0e-5}})");
+  };
+  const auto mesh = [](const std::string& gravity) {
+    return gravity + R"(
+step: 0.001
+systems:
+  rotor:
+    model: flexible_rotor
+    parameters:
+      youngs_modulus: 2.1e+11
+      density: 7800
+      elements: [{length: 0.25, outer_diameter: 0.04, count: 4}]
+      speed: 80
+      discs: [{node: 2, mass: 10, polar_inertia: 0.1, transverse_inertia: 0.06}]
+      unbalances: [{node: 2, magnitude: 1.0e-4}]
+      bearings:
+        - {node: 0, kxx: 2.0e+6, kyy: 5.0e+6, cxx: 300}
+        - {node: 4, kxx: 2.0e+6, kyy: 5.0e+6, cxx: 300}
+    count: 5
+    spread: {"bearings[0].kyy": {relative_half_width: 0.3}}
+)";
+  };
+  for (const bool meshed : {false, true}) {
+    const auto scene = [&](const std::string& gravity, const std::string& falls) {
+      std::string text = meshed ? mesh(gravity) : disc(gravity);
+      const std::string key = meshed ? "speed: 80" : "eccentricity: 1.0e-4";
+      return text.replace(text.find(key), key.size(),
+                          key + (meshed ? "\n      " : ", ") + "gravity_on_shaft: " + falls);
+    };
+    Twin hanging(sceneOf(scene("gravity: 9.81\n", "true")));
+    Twin weightless(sceneOf(scene("", "false")));
+    hanging.buildEnsembles();
+    weightless.buildEnsembles();
+    EXPECT_STREQ(hanging.ensemble(0)->steps().description(),
+                 meshed ? "one by one" : "side by side in vectors");
+    for (int i = 0; i < 400; ++i) {
+      hanging.step();
+      weightless.step();
+    }
+    const std::vector<double> one = recordOf(hanging), other = recordOf(weightless);
+    ASSERT_EQ(one.size(), other.size());
+    const double largest = *std::max_element(other.begin() + 1, other.end());
+    // Weightless ones start at rest on the axis, as the hanging ones do where they hang.
+    for (std::size_t k = 1; k < one.size(); ++k) {
+      EXPECT_NEAR(one[k], other[k], 1.0e-9 * largest) << meshed << ' ' << k;
+    }
+    EXPECT_GT(hanging.ensemble(0)->rest().norm(), 3.0 * largest) << "the sag is the larger one";
+  }
+}
+
 // semi_implicit_euler is unstable where p h > 2: above 4e6 N/m here. Those members run away, one
 // after the other, and no one else.
 TEST(Ensemble, AMemberThatRunsAwayStopsAlone) {
