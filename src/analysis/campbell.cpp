@@ -38,8 +38,8 @@ void addCrossings(const ModeTracker& tracker, const CampbellRequest& request, st
         return mode->dampedFrequency() - harmonic * speed;
       };
       const double speed = bracketedRoot(excess, low, high, f_low, f_high);
-      if (!(std::fabs(excess(speed)) <= kMeets * harmonic * speed)) {
-        continue;  // between them another mode was taken for it
+      if (!(std::fabs(excess(speed)) <= kMeets * harmonic * speed) || !isWhirl(*mode)) {
+        continue;  // between them another mode was taken for it, or it is overdamped, or nearly
       }
       diagram.crossings.push_back({i, harmonic, speed, campbellPoint(mode), f_low >= 0.0});
     }
@@ -71,8 +71,7 @@ class MissedCrossings {
     for (int k = 1; k <= kSearches; ++k) {
       const double part = static_cast<double>(k) / kSearches;
       const double high = first + (last - first) * std::pow(part, kMoreAtLow);
-      for (const FoundCrossing& one :
-           search_.missing(followed, low, high, diagram_.branches.size())) {
+      for (const FoundCrossing& one : search_.missing(followed, low, high)) {
         add(one);
       }
       low = high;
@@ -85,7 +84,7 @@ class MissedCrossings {
   static constexpr double kBeside = 1.0e-9;    // of a speed at which a mode may meet it exactly
 
   void add(const FoundCrossing& one) {
-    if (one.rank >= diagram_.branches.size() || known(one)) {
+    if (known(one)) {
       return;
     }
     const std::vector<double>& speeds = diagram_.speeds;

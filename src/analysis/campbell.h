@@ -44,8 +44,10 @@ struct CampbellRequest {
   std::function<void(std::size_t)> progress = {};
 };
 
-/// Crossings are refined to the last digits of the eigenvalues, and counted without following the
-/// modes (crossing_search.h): one that following misses is added, on the branch that was lost.
+/// Crossings are those of whirls (isWhirl: damping ratios up to 0.7), refined to the last digits of
+/// the eigenvalues, and counted without following the modes (crossing_search.h): one that following
+/// misses is added, on the branch that was lost or, also of a mode that is not among the lowest, on
+/// one of its own.
 CampbellDiagram campbell(const LinearRotor& rotor, const std::vector<Station>& stations,
                          const CampbellRequest& request);
 

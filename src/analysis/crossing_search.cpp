@@ -15,11 +15,10 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::VectorXcd;
 
-constexpr double kMet = 1.0e-6;        // of a frequency: as near as a mode comes that meets it
-constexpr double kMostDecay = 4.0945;  // asinh(30)
-/// What decays heavily is counted apart, so that a pair that begins to vibrate does not hide a
-/// whirl that is overtaken at about the same speed.
-constexpr std::array<double, 6> kBands{-kMostDecay, -1.1, 1.1, 2.1, 3.1, kMostDecay};
+constexpr double kMet = 1.0e-6;  // of a frequency: as near as a mode comes that meets it
+/// asinh of decay over h w: from a growth of 30 to the most damping of a whirl (isWhirl), 0.7. What
+/// decays hardly is counted apart.
+constexpr std::array<double, 4> kBands{-4.0945, -1.1, 0.3, 0.86730053};
 constexpr double kAside = 0.4877;  // of a rectangle: no round number, where a mode may be
 constexpr double kSame = 1.0e-9;   // of a speed, within which crossings are one
 constexpr int kMostHalvings = 80;
@@ -209,19 +208,26 @@ std::optional<FoundCrossing> CrossingSearch::refined(const Rectangle& r, bool sl
 void CrossingSearch::addRepeated(const Rectangle& r, bool slows, Search& search) const {
   const double speed = 0.5 * (r.low + r.high);
   const double met = harmonic_ * speed;
-  for (const WhirlMode& mode : lowestAt(speed, search.found.size() + 12).modes) {
+  for (const WhirlMode& mode : modesBelow((1.0 + 2.0 * kMet) * met, speed).modes) {
     const double x = std::asinh(-mode.eigenvalue.real() / met);
     if (std::fabs(mode.dampedFrequency() - met) <= kMet * met && x >= r.left && x <= r.right) {
-      search.found.push_back({{speed, ratioOf(x), slows}, mode, 0});
+      search.found.push_back({{speed, ratioOf(x), slows}, mode});
     }
   }
 }
 
-WhirlModes CrossingSearch::lowestAt(double speed, std::size_t modes) const {
+/// Of those of lowest frequency, all below one [rad/s] at least.
+WhirlModes CrossingSearch::modesBelow(double frequency, double speed) const {
   const BandedLinearization l = rotor_.matrices(speed);
   if (l.size() > kMostCompleteCoordinates) {
-    if (auto lowest = lowestWhirlModes(l, stations_, modes)) {
-      return std::move(*lowest);
+    for (std::size_t count = 16; 2 * count < static_cast<std::size_t>(l.size()); count *= 2) {
+      auto lowest = lowestWhirlModes(l, stations_, count);
+      if (!lowest) {
+        break;
+      }
+      if (!lowest->modes.empty() && lowest->modes.back().dampedFrequency() > frequency) {
+        return std::move(*lowest);
+      }
     }
   }
   return whirlModes({l.mass.dense(), l.damping.dense(), l.gyroscopic.dense(), l.stiffness.dense(),
@@ -230,15 +236,10 @@ WhirlModes CrossingSearch::lowestAt(double speed, std::size_t modes) const {
 }
 
 std::vector<FoundCrossing> CrossingSearch::missing(const std::vector<MetSpeed>& known, double low,
-                                                   double high, std::size_t modes) const {
+                                                   double high) const {
   Search search{known, {}};
   for (std::size_t band = 0; band + 1 < kBands.size(); ++band) {
     look({kBands[band], kBands[band + 1], low, high}, 0, search);
-  }
-  for (FoundCrossing& one : search.found) {
-    for (const WhirlMode& mode : lowestAt(one.at.speed, modes).modes) {
-      one.rank += mode.dampedFrequency() < (1.0 - kMet) * harmonic_ * one.at.speed ? 1 : 0;
-    }
   }
   return search.found;
 }

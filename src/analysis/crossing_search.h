@@ -7,8 +7,8 @@
 // the phase of the determinant turns once more for each mode within that outruns h w than for each
 // that falls behind it (the degree of a map of the plane). A rectangle whose turns are not those of
 // the crossings known is halved until what is missing is alone in one, where Newton's method finds
-// it. Heavily damped pairs that begin or cease to vibrate, and light nodes whose roots have no
-// digits, disturb no such count.
+// it. Heavily damped pairs, which begin or cease to vibrate and are no whirls, are outside of the
+// rectangles; light nodes whose roots have no digits disturb no such count.
 #pragma once
 
 #include <array>
@@ -31,8 +31,7 @@ struct MetSpeed {
 
 struct FoundCrossing {
   MetSpeed at;
-  WhirlMode mode;        ///< there
-  std::size_t rank = 0;  ///< how many modes vibrate slower there
+  WhirlMode mode;  ///< there
 };
 
 class CrossingSearch {
@@ -40,12 +39,11 @@ class CrossingSearch {
   CrossingSearch(const LinearRotor& rotor, std::vector<Station> stations, double harmonic)
       : rotor_(rotor), stations_(std::move(stations)), harmonic_(harmonic) {}
 
-  /// The crossings between two speeds [rad/s] that `known` lacks, of modes that decay or grow by
-  /// less than 30 h w: the others are gone within a small part of a radian. Two that are not known,
-  /// of about one speed and damping, one of them slowing and the other not, are not noticed. `rank`
-  /// counts those of the lowest `modes`.
-  std::vector<FoundCrossing> missing(const std::vector<MetSpeed>& known, double low, double high,
-                                     std::size_t modes) const;
+  /// The crossings between two speeds [rad/s] that `known` lacks, of whirls (isWhirl) that grow by
+  /// less than 30 h w. Two that are not known, of about one speed and damping, one of them slowing
+  /// and the other not, are not noticed.
+  std::vector<FoundCrossing> missing(const std::vector<MetSpeed>& known, double low,
+                                     double high) const;
 
  private:
   /// In asinh(d / (h w)) and w.
@@ -62,7 +60,7 @@ class CrossingSearch {
   void look(const Rectangle& r, int halvings, Search& search) const;
   std::optional<FoundCrossing> refined(const Rectangle& r, bool slows) const;
   void addRepeated(const Rectangle& r, bool slows, Search& search) const;
-  WhirlModes lowestAt(double speed, std::size_t modes) const;
+  WhirlModes modesBelow(double frequency, double speed) const;
 
   BandedRotor rotor_;
   std::vector<Station> stations_;

@@ -115,8 +115,8 @@ std::vector<Condition> LinearRotorDynamics::conditions(const Eigen::VectorXd&,
                                                        const Eigen::VectorXd&,
                                                        const Moment<double>& at) const {
   const DataSpeeds data = dataSpeeds(rotor_);
-  if (data.everywhere()) {
-    return {};
+  if (std::isinf(data.to)) {
+    return {};  // of films alone, too: every shaft starts and ends slower than they carry it
   }
   // The first and the last speed of a table are its own.
   const double inside = std::min(at.speed - data.from, data.to - at.speed);

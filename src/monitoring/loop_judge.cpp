@@ -32,11 +32,15 @@ std::vector<double> polynomialOf(const std::vector<std::complex<double>>& roots)
   return real;
 }
 
-void setMargins(const std::vector<SampledMargins>& found, state::ControllerMargins& margins) {
-  const LoopMargins least = leastMargins(found.front(), found);  // of each sensor alone
-  margins.sensitivity_peak = least.sensitivity_peak;
-  margins.peak_frequency = least.peak_frequency;
-  margins.zone = name(least.zone);
+/// Sensitivities are those of each sensor alone, as ISO 14839-3 measures them. What the loop bears
+/// is the least of any sensor alone and of all at once.
+void setMargins(const LoopMargins& at_once, const std::vector<SampledMargins>& found,
+                state::ControllerMargins& margins) {
+  const LoopMargins alone = leastMargins(found.front(), found);
+  margins.sensitivity_peak = alone.sensitivity_peak;
+  margins.peak_frequency = alone.peak_frequency;
+  margins.zone = name(alone.zone);
+  const LoopMargins least = leastMargins(at_once, found);
   margins.gain_margin = least.gain_margin;
   margins.gain_reduction = least.gain_reduction;
   margins.phase_margin = least.phase_margin;
@@ -159,9 +163,14 @@ bool LoopJudge::lacksMargins() const {
 
 void LoopJudge::findMargins() {
   found_ = last_;
+  std::optional<LoopMargins> at_once;  // of all controllers
   for (std::size_t i = 0; i < margins_.size(); ++i) {
     try {
-      setMargins(sampledMargins(parts_->plant, parts_->controllers, i, last_.verdict), margins_[i]);
+      const auto alone = sampledMargins(parts_->plant, parts_->controllers, i, last_.verdict);
+      if (!at_once) {
+        at_once = sampledMarginsAtOnce(parts_->plant, parts_->controllers, last_.verdict);
+      }
+      setMargins(*at_once, alone, margins_[i]);
     } catch (const RunFailure& failure) {
       const state::ControllerMargins verdict = margins_[i];
       margins_[i] = unknownMargins(loop_->controller(i));

@@ -1,11 +1,15 @@
 #include "monitoring/system_judge.h"
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
 #include <exception>
 #include <utility>
+#include <vector>
 
 #include "algebra/constants.h"
 #include "analysis/equilibria.h"
+#include "analysis/stability_margins.h"
 #include "scene/driven_dynamics.h"
 #include "scene/held_rotor.h"
 
@@ -18,6 +22,35 @@ constexpr double kThresholdSearchPeriod = 1.0;
 /// Of a speed, and of the place that is judged: what is hardly another. What the reduction of a
 /// long rotor changes takes ten times as long to judge as the reduced one.
 constexpr double kSame = 1.0e-4;
+
+/// [-], of the motions of a rotor that damping is required of: up to twice the frequency of its
+/// fourth whirl, as a reduction holds (usualHighestSpeed), or what its scene gives as
+/// highest_speed, and up to the speed of its shaft. Beyond are those of its mesh.
+double leastDampingRatio(const BuiltSystem& system, const Stability& s, double speed) {
+  constexpr std::size_t kWhirls = 4;
+  constexpr double kMostDamped = 0.7;        // of a whirl: isWhirl()
+  std::vector<std::complex<double>> whirls;  // by rising |s|
+  for (const std::complex<double>& root : s.eigenvalues) {
+    if (root.imag() > 0.0 && -root.real() <= kMostDamped * std::abs(root)) {
+      whirls.push_back(root);
+    }
+  }
+  if (!system.dynamics->isRotor() || !system.dynamics->hasShaft() || whirls.size() <= kWhirls ||
+      std::isnan(s.damping_ratio)) {
+    return s.damping_ratio;
+  }
+  const auto given = system.spec.parameters.find("highest_speed");
+  const double highest = given != system.spec.parameters.end() && given->second > 0.0
+                             ? given->second
+                             : 2.0 * std::abs(whirls[kWhirls - 1]);
+  double least = -whirls.front().real() / std::abs(whirls.front());
+  for (const std::complex<double>& root : whirls) {
+    if (std::abs(root) <= std::max(highest, std::fabs(speed))) {
+      least = std::min(least, -root.real() / std::abs(root));
+    }
+  }
+  return least;
+}
 
 state::StabilityMargin marginOf(const BuiltSystem& system, const Stability& s,
                                 const state::Instant& at, const std::vector<double>& about,
@@ -210,6 +243,11 @@ state::StabilityMargin SystemJudge::judge(const state::Instant& at, const std::v
   state::StabilityMargin m =
       marginOf(*system_, s, at, {about.data(), about.data() + about.size()}, speed);
   m.judged_about = judged_about_;
+  if (!loop_ && !unreduced_) {
+    m.damping_ratio = leastDampingRatio(*system_, s, speed);
+    m.log_decrement =
+        m.damping_ratio == s.damping_ratio ? s.log_decrement : logDecrement(m.damping_ratio);
+  }
   if (reduction) {
     m.unreduced_decay_rate = reduction->unreduced.decay_rate;
     m.unreduced_log_decrement = reduction->unreduced.log_decrement;

@@ -44,10 +44,11 @@ Json branchJson(const std::vector<CampbellPoint>& branch) {
 
 std::string crossingsText(const CampbellReport& r) {
   if (r.diagram.crossings.empty()) {
-    return "  critical speeds, where a whirl meets the speed: none in the range\n";
+    return "  critical speeds, where a whirl (damping ratio up to 0.7) meets the speed: none in "
+           "the range\n";
   }
   std::string out =
-      "  critical speeds, where a whirl meets the speed\n"
+      "  critical speeds, where a whirl (damping ratio up to 0.7) meets the speed\n"
       "           rad/s         rpm  order  branch  direction   log decrement\n";
   for (const CampbellCrossing& c : r.diagram.crossings) {
     out += fmt::format("    {:>12.6g} {:>11.6g} {:>5g}X {:>7}  {:<9} {:>15}{}\n", c.speed,

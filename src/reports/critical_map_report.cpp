@@ -272,7 +272,7 @@ Figure figure(const CriticalMapReport& r) {
         r, {first ? "kyy" : "", bearing.kyy, r.speeds, Pen{ink::kGreen, 1.8, {6.0, 3.0}}}));
     chart.series.push_back(beyondTables(
         r, {first && !beyondLine(r.system->tables(), r.speeds.front(), r.speeds.back()).empty()
-                ? "beyond the tables"
+                ? beyondName(r.system->tables())
                 : "",
             bearing.kxx, r.speeds, Pen{ink::kBlack, 1.2, {2.0, 4.0}}}));
     chart.notes.push_back(

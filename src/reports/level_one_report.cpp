@@ -87,12 +87,15 @@ std::vector<std::string> LevelOneReport::reasons() const {
   if (margin && *margin < kLeastRatio * *applied) {
     all.push_back(fmt::format("Q_0/Q_A = {:.3g} is below {:g}", *margin / *applied, kLeastRatio));
   }
-  if (!at_applied || at_applied->mode.logDecrement() < kLeastDecrement) {
-    all.push_back(at_applied ? fmt::format("the log. decrement at Q_A, {:.3g}, is below {:g}",
-                                           at_applied->mode.logDecrement(), kLeastDecrement)
-                             : std::string("no mode whirls forward at Q_A"));
+  if (at_applied && at_applied->mode.logDecrement() < kLeastDecrement) {
+    all.push_back(fmt::format("the log. decrement at Q_A, {:.3g}, is below {:g}",
+                              at_applied->mode.logDecrement(), kLeastDecrement));
   }
   return all;
+}
+
+bool LevelOneReport::whirlsUncoupled() const {
+  return rows.front().cross_coupling == 0.0;
 }
 
 LevelOneReport levelOneReport(const RotorSystem& system, const LevelOneRequest& request) {
@@ -104,10 +107,6 @@ LevelOneReport levelOneReport(const RotorSystem& system, const LevelOneRequest& 
   const std::size_t station = stationOrMiddle(system, request.at);
   r.station = system.stations[station].name;
   const WholeRotor whole = wholeRotor(system, station);
-  if (slowestForwardMode(whole.rotor, whole.stations, station, r.speed, {0.0}).empty()) {
-    throw Refusal(fmt::format("{}: expected a rotor with a forward mode at {:g} rad/s, found none",
-                              system.title(), r.speed));
-  }
   r.margin = crossCouplingMargin(whole.rotor, whole.stations, station, r.speed);
   for (const Stage& stage : request.stages) {
     r.expected.push_back(alfordCrossCoupling(stage, r.speed));
@@ -122,6 +121,12 @@ LevelOneReport levelOneReport(const RotorSystem& system, const LevelOneRequest& 
     couplings.push_back(last * i / (kRows - 1));
   }
   r.rows = slowestForwardMode(whole.rotor, whole.stations, station, r.speed, couplings);
+  if (r.rows.empty()) {
+    throw Refusal(fmt::format(
+        "{}: expected a rotor with a forward whirl (damping ratio up to 0.7) at {:g} rad/s, found "
+        "none with cross-coupled stiffnesses up to {:.4g} N/m",
+        system.title(), r.speed, last));
+  }
   if (r.applied) {
     const auto rows =
         slowestForwardMode(whole.rotor, whole.stations, station, r.speed, {*r.applied});
@@ -166,6 +171,7 @@ Json json(const LevelOneReport& r) {
     json["log_decrement"].push_back(row.mode.logDecrement() + 0.0);
     json["frequency"].push_back(row.mode.dampedFrequency());
   }
+  json["forward_whirl_without_cross_coupling"] = r.whirlsUncoupled();
   json["log_decrement_expected"] =
       r.at_applied ? Json(r.at_applied->mode.logDecrement() + 0.0) : Json();
   json["critical_speed_ratio"] = number(r.critical_speed_ratio);
@@ -197,6 +203,11 @@ std::string text(const LevelOneReport& r) {
     out += fmt::format("    {:<15.5g} {:>14.4g} {:>11.5g}\n", row.cross_coupling,
                        row.mode.logDecrement() + 0.0, row.mode.dampedFrequency());
   }
+  if (!r.whirlsUncoupled()) {
+    out +=
+        "  without cross-coupling all that moves forward has a damping ratio above 0.7, and is no "
+        "whirl:\n  the table begins where there is one\n";
+  }
   out += r.margin ? fmt::format("  Q_0, where it stops to decay: {:.5g} N/m\n", *r.margin)
                   : std::string("  Q_0, where it stops to decay: none found\n");
   if (!r.applied) {
@@ -214,6 +225,8 @@ std::string text(const LevelOneReport& r) {
                      *r.applied);
   if (r.at_applied) {
     out += fmt::format("    log. decrement there  {:.4g}\n", r.at_applied->mode.logDecrement());
+  } else {
+    out += "    log. decrement there  none: no forward whirl (damping ratio up to 0.7)\n";
   }
   if (r.margin) {
     out += fmt::format("    Q_0 / Q_A             {:.4g}\n", *r.margin / *r.applied);

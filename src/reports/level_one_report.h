@@ -29,11 +29,13 @@ struct LevelOneReport {
   std::vector<double> expected;        ///< [N/m], of each stage
   std::optional<double> applied;       ///< Q_A [N/m], of all stages
   std::optional<double> margin;        ///< Q_0 [N/m]; none found, no cross-coupling makes it grow
-  std::vector<CrossCouplingRow> rows;  ///< from 0 to beyond Q_0 or Q_A
+  std::vector<CrossCouplingRow> rows;  ///< from 0 to beyond Q_0 or Q_A, where one whirls forward
   std::optional<CrossCouplingRow> at_applied;  ///< the mode at Q_A
   /// Of its speed to the first critical speed on rigid bearings [-].
   std::optional<double> critical_speed_ratio;
 
+  /// Something whirls forward without cross-coupling; else all that does is damped too much.
+  bool whirlsUncoupled() const;
   /// What asks for a level II analysis, in words; empty: nothing that is judged here.
   std::vector<std::string> reasons() const;
 };

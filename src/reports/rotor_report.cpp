@@ -105,7 +105,8 @@ class RotorReport {
       page_.text(fmt::format("{:.5g} rad/s is {}.", speed_, beyondText(data)));
     }
     if (!data.everywhere()) {
-      missing_.push_back("Results marked \"beyond the tables\" or shaded are " + beyondText(data));
+      missing_.push_back("Results marked \"" + beyondName(data) + "\" or shaded are " +
+                         beyondText(data));
     }
   }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "accuracy/step_choice.h"
 #include "accuracy/trajectory.h"
 #include "analysis/rotor_statics.h"
+#include "analysis/sommerfeld_speeds.h"
 #include "models/flexible_shaft_settings.h"
 #include "reports/step_cost.h"
 #include "reports/table_speeds.h"
@@ -41,13 +43,34 @@ std::optional<ShaftSize> shaftSize(const BuiltSystem& system) {
   return size;
 }
 
-/// That the shaft turns at speeds that the rotor's tables do not cover.
+/// That the shaft turns at speeds that the rotor's tables, films or motor do not cover.
 void warnOfTables(const BuiltScene& scene, const BuiltSystem& system, SystemCheck& check) {
   const auto [low, high] = scene.driveOf(system).speedRange();
   const DataSpeeds tables = tableSpeeds(system);
-  if (!system.spec.setup->around.motor && !(tables.covers(low) && tables.covers(high))) {
-    check.warnings.push_back(fmt::format("the shaft turns at {:.6g} to {:.6g} rad/s, in part {}",
-                                         low, high, beyondText(tables)));
+  // Films carry no shaft at the start of its run-up.
+  const auto leaves = [&, from = low](double to) {
+    return !tables.covers(to) || !(tables.covers(from) || std::isinf(tables.to));
+  };
+  if (!system.spec.setup->around.motor) {
+    if (leaves(high)) {
+      check.warnings.push_back(fmt::format("the shaft turns at {:.6g} to {:.6g} rad/s, in part {}",
+                                           low, high, beyondText(tables)));
+    }
+    return;
+  }
+  const Motor& motor = *system.spec.setup->around.motor;
+  const double reached = highestSpeed(motor);
+  if (leaves(reached)) {
+    check.warnings.push_back(
+        fmt::format("the motor can turn the shaft from {:.6g} to {:.6g} rad/s, in part {}", low,
+                    reached, beyondText(tables)));
+  }
+  const bool has_end = !motor.extended && motor.count > 1;
+  if (has_end && reached > motor.points[motor.count - 1].speed) {
+    check.warnings.push_back(fmt::format(
+        "the motor can turn the shaft up to {:.6g} rad/s, beyond its torque table, which ends at "
+        "{:.6g} rad/s: the last torque is held, a guess",
+        reached, motor.points[motor.count - 1].speed));
   }
 }
 

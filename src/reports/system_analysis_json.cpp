@@ -250,8 +250,10 @@ Json json(const SystemAnalysis& a) {
   json["spread_margin"] = spreadMarginJson(a);
   json["steady_speeds"] = Json::array();
   for (const SteadySpeed& steady : a.steady_speeds) {
-    json["steady_speeds"].push_back(
-        {{"speed", steady.speed}, {"torque", steady.torque}, {"stable", steady.stable}});
+    json["steady_speeds"].push_back({{"speed", steady.speed},
+                                     {"torque", steady.torque},
+                                     {"stable", steady.stable},
+                                     {"beyond_tables", !a.tables.covers(steady.speed)}});
   }
   return json;
 }

@@ -345,9 +345,9 @@ std::string spreadMarginText(const SystemAnalysis& a) {
 std::string steadySpeedsText(const SystemAnalysis& a) {
   std::string out = a.steady_speeds.empty() ? "" : "  steady speeds on its motor\n";
   for (const SteadySpeed& steady : a.steady_speeds) {
-    out += fmt::format("    {:.6g} rad/s ({:.4g} rpm), torque {:.4g} N m: {}\n", steady.speed,
+    out += fmt::format("    {:.6g} rad/s ({:.4g} rpm), torque {:.4g} N m: {}{}\n", steady.speed,
                        steady.speed * 30.0 / kPi, steady.torque,
-                       steady.stable ? "stable" : "unstable");
+                       steady.stable ? "stable" : "unstable", beyondMark(a.tables, steady.speed));
   }
   return out;
 }

@@ -3,16 +3,36 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "algebra/constants.h"
 
 namespace whirl_twin {
 
+namespace {
+
+/// Of films alone: they have no highest speed.
+bool areFilms(const DataSpeeds& tables) {
+  return std::isinf(tables.to);
+}
+
+}  // namespace
+
 std::string beyondMark(const DataSpeeds& tables, double speed) {
-  return tables.covers(speed) ? "" : "  beyond the tables";
+  return tables.covers(speed) ? "" : "  " + beyondName(tables);
+}
+
+std::string beyondName(const DataSpeeds& tables) {
+  return areFilms(tables) ? "beyond the films" : "beyond the tables";
 }
 
 std::string beyondText(const DataSpeeds& tables) {
+  if (areFilms(tables)) {
+    return fmt::format(
+        "{}, which carry their loads from {:.5g} rad/s ({:.5g} rpm) on at eccentricities below "
+        "0.95: slower the journals touch, and the coefficients are a guess",
+        beyondName(tables), tables.from, tables.from / kRpm);
+  }
   return fmt::format(
       "beyond the tables of bearings and pedestals, which cover {:.5g} to {:.5g} rad/s ({:.5g} to "
       "{:.5g} rpm): the nearest row is held, a guess",
@@ -42,8 +62,7 @@ Json beyondJson(const DataSpeeds& tables, const std::vector<double>& speeds) {
 void shadeBeyond(const DataSpeeds& tables, double from, double to, bool named, Chart& chart) {
   const auto shade = [&](double low, double high) {
     if (low < high) {
-      chart.bands.push_back(
-          {named ? "beyond the tables" : "", low, high, paler(ink::kBlack, 0.85)});
+      chart.bands.push_back({named ? beyondName(tables) : "", low, high, paler(ink::kBlack, 0.85)});
       named = false;
     }
   };

@@ -1,6 +1,7 @@
-// Which results lie beyond the speeds that a rotor's tables of bearings and pedestals cover. There
-// the nearest row of a table is held, which nobody has measured or computed: such results are a
-// guess, and are marked.
+// Which results lie beyond the speeds that a rotor's tables of bearings and pedestals cover, or are
+// of a shaft too slow for the loads that its films have. There the nearest row of a table is held,
+// or the coefficients of a film at an eccentricity of 0.95, which nobody has measured or computed:
+// such results are a guess, and are marked.
 #pragma once
 
 #include <string>
@@ -15,6 +16,8 @@ namespace whirl_twin {
 /// Behind a row of text: "" within the tables.
 std::string beyondMark(const DataSpeeds& tables, double speed);
 
+/// "beyond the tables" or "beyond the films".
+std::string beyondName(const DataSpeeds& tables);
 /// "beyond the tables of bearings and pedestals, which cover 10 to 90 rad/s (100 to 900 rpm): the
 /// nearest row is held, a guess".
 std::string beyondText(const DataSpeeds& tables);

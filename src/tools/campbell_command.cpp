@@ -108,7 +108,8 @@ void addCampbellCommand(const ProgramCommand& twin, int& status) {
       .type("W");
   command.option("--points", request->range.points, "speeds; default: 200").type("N");
   command.option("--harmonic", request->harmonics, "multiples of the speed; default: 1").type("H");
-  command.option("--modes", request->modes, "how many, the lowest; default: 12").type("N");
+  command.option("--modes", request->modes, "how many are followed, the lowest; default: 12")
+      .type("N");
   command.option("--plot", request->plot, "the diagram, FILE.svg or FILE.png").type("FILE");
   addCsvOption(command, request->csv);
   command.flag("--json", request->json, "print one JSON object");

@@ -212,6 +212,53 @@ TEST(Campbell, CrossingsSolveTheFrequencyEquation) {
   EXPECT_EQ(once, 3);  // Ip > Id: the second forward branch is never met
 }
 
+/// Discs that do not know of each other, each at x_i, y_i on springs p_i^2 [1/s^2] and dampers
+/// 2 zeta p_i [1/s].
+RotorUnderTest discsApart(int discs, double damping_ratio) {
+  RotorUnderTest r;
+  r.rotor.matrices = [=](double) {
+    Linearization l;
+    const Eigen::Index n = 2 * discs;
+    l.mass = Eigen::MatrixXd::Identity(n, n);
+    l.damping = l.gyroscopic = l.stiffness = l.circulatory = Eigen::MatrixXd::Zero(n, n);
+    for (Eigen::Index i = 0; i < discs; ++i) {
+      const double p = 10.0 * (static_cast<double>(i) + 1.0);
+      l.stiffness.diagonal().segment(2 * i, 2) << p * p, 1.0001 * p * p;
+      l.damping.diagonal().segment(2 * i, 2).setConstant(2.0 * damping_ratio * p);
+    }
+    return l;
+  };
+  r.rotor.load = Eigen::VectorXd::Zero(2 * discs);
+  for (Eigen::Index i = 0; i < discs; ++i) {
+    r.stations.push_back({"disc", static_cast<double>(i), Eigen::VectorXd::Unit(2 * discs, 2 * i),
+                          Eigen::VectorXd::Unit(2 * discs, 2 * i + 1)});
+  }
+  return r;
+}
+
+// However few modes are followed, the speed meets all of its range: p sqrt(1 - zeta^2) each.
+TEST(Campbell, FindsTheCriticalSpeedsOfModesThatAreNotFollowed) {
+  const double zeta = 0.1;
+  const RotorUnderTest r = discsApart(9, zeta);
+  const CampbellDiagram diagram =
+      campbell(r.rotor, r.stations, {equallySpaced(0.0, 95.0, 7), {1.0}, 3});
+  ASSERT_EQ(diagram.crossings.size(), 18U);
+  for (std::size_t i = 0; i < 18; i += 2) {
+    const double p = 10.0 * (static_cast<double>(i / 2) + 1.0);
+    EXPECT_NEAR(diagram.crossings[i].speed, p * std::sqrt(1.0 - zeta * zeta), 1.0e-9 * p);
+  }
+}
+
+// Beyond a damping ratio of 0.7 a motion hardly goes round once: no whirl that meets the speed.
+TEST(Campbell, HasCriticalSpeedsOfWhirlsOnly) {
+  const auto crossings = [](double damping_ratio) {
+    const RotorUnderTest r = discsApart(2, damping_ratio);
+    return campbell(r.rotor, r.stations, {equallySpaced(0.0, 40.0, 7)}).crossings.size();
+  };
+  EXPECT_EQ(crossings(0.69), 4U);
+  EXPECT_EQ(crossings(0.71), 0U);
+}
+
 }  // namespace whirl_modes_test
 
 }  // namespace whirl_twin

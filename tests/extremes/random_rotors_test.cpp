@@ -208,11 +208,11 @@ long double turnOf(const Phase& phase, const Root& root) {
   return sum;
 }
 
-/// Of speeds, and of decay rates over the speed: what decays by more than e^25 within a radian is
-/// gone before it turns, and meets no speed.
+/// Of speeds, and of decay rates over the speed, up to a damping ratio of 0.7: what is damped more
+/// hardly goes round once, and is no whirl.
 struct Cells {
-  std::vector<double> speeds;                               ///< [rad/s]
-  std::vector<double> decays{-25.0, -0.7, 0.7, 5.0, 25.0};  ///< [-]
+  std::vector<double> speeds;                                            ///< [rad/s]
+  std::vector<double> decays{-25.0, -0.5, 0.25, 0.7 / std::sqrt(0.51)};  ///< [-]
 };
 
 /// For each cell of speeds, then of decays, how many modes fall behind the speed less those that

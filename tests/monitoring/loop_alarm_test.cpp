@@ -59,6 +59,31 @@ TEST(LoopMargins, TellWhereStabilityIsLost) {
   }
 }
 
+/// x and y as above, tied by 0.5 (y, -x), each with a controller of its own.
+Scene levitatedInPlane(double delay) {
+  const auto axis = [&](char name) {
+    return fmt::format(
+        "p{0}: {{type: pid, rate: 10.0, measures: [s.{0}], acts_on: [s.force_{0}], delay: {1}, "
+        "parameters: {{kp: 2.0, ki: 0.0, kd: {2}}}}}",
+        name, delay, std::sqrt(2.0));
+  };
+  return sceneOf(fmt::format(
+      "{{step: 0.001, systems: {{s: {{model: linear_system, parameters: {{names: [x, y], mass: "
+      "[[1.0, 0.0], [0.0, 1.0]], stiffness: [[-1.0, 0.0], [0.0, -1.0]], circulatory: [[0.0, 0.5], "
+      "[-0.5, 0.0]]}}}}}}, controllers: {{{}, {}}}}}",
+      axis('x'), axis('y')));
+}
+
+// One axis alone bears more delay than both at once, as the loop itself has it when it is later.
+TEST(LoopMargins, AreOfAllSensorsAtOnce) {
+  const state::ControllerMargins margins = judged(levitatedInPlane(0.1));
+  ASSERT_EQ(margins.verdict_name, "asymptotically_stable");
+  for (const double part : {0.97, 1.03}) {
+    EXPECT_EQ(judged(levitatedInPlane(0.1 + part * margins.delay_margin)).verdict_name,
+              part < 1.0 ? "asymptotically_stable" : "unstable");
+  }
+}
+
 TEST(LoopMargins, SayWhyALoopIsNotJudged) {
   const state::ControllerMargins margins = judged(sceneOf(
       "{step: 0.001, systems: {s: {model: linear_system, parameters: {names: [x], mass: [[1.0]], "

@@ -44,6 +44,28 @@ state::StabilityMargin judged(const BuiltScene& scene, double speed) {
   return SystemJudge(scene.systems[0]).judge({1, 0.001, 0}, rest, rest, speed);
 }
 
+// Damping C = alpha M damps a mode w_i by zeta_i = alpha / (2 w_i): the less the higher it is, and
+// least those of the mesh. A uniform shaft between pins has w_i = i^2 w_1; its second modes are the
+// last below twice the fourth whirl, the second in the other plane.
+TEST(RotorJudge, AsksDampingOfTheLowestWhirlsAndNotOfItsMesh) {
+  const double d = 0.02, length = 1.0, alpha = 200.0;
+  const double first = kPi * kPi * std::sqrt(2.1e11 * d * d / 16.0 / 7850.0) / (length * length);
+  const double zeta = alpha / (2.0 * 4.0 * first);
+  const BuiltScene scene = build(sceneOf(fmt::format(
+      "{{step: 0.001, systems: {{r: {{model: flexible_rotor, parameters: {{speed: 10, modes: 0, "
+      "youngs_modulus: 2.1e+11, density: 7850, shear_deformation: false, mass_damping: {}, "
+      "elements: [{{length: {}, outer_diameter: {}, count: 12}}], bearings: [{{node: 0, pin: "
+      "true}}, "
+      "{{node: 12, pin: true}}]}}}}}}}}",
+      alpha, length / 12.0, d)));
+  const state::StabilityMargin margin = judged(scene, 10.0);
+  EXPECT_EQ(margin.verdict_name, "asymptotically_stable");
+  EXPECT_NEAR(margin.damping_ratio, zeta, 0.01 * zeta);
+  EXPECT_NEAR(margin.log_decrement, 2.0 * kPi * zeta / std::sqrt(1.0 - zeta * zeta), 0.01 * zeta);
+  // A shaft that turns faster than the third modes has them asked, too.
+  EXPECT_NEAR(judged(scene, 12.0 * first).damping_ratio, zeta * 4.0 / 9.0, 0.01 * zeta);
+}
+
 /// A speed above which the rotor is unstable.
 double thresholdOf(const BuiltScene& scene) {
   double stable = 50.0;

@@ -107,6 +107,99 @@ TEST(TableSpeeds, AreLeftByARunUpWithAWarning) {
   EXPECT_EQ(twin({"simulate", scene, "--duration", "1"}).err.find("beyond"), std::string::npos);
 }
 
+/// The same shaft in films of a clearance of 0.1 mm under half of its weight each.
+std::string inFilms(const std::string& drive) {
+  std::string scene = kTabulated.substr(0, kTabulated.find("      bearings:")) +
+                      "      journal_bearings:\n"
+                      "        - {node: 0, length: 0.02, diameter: 0.05, clearance: 1.0e-4, "
+                      "viscosity: 0.02, load: 450.0}\n"
+                      "        - {node: 6, length: 0.02, diameter: 0.05, clearance: 1.0e-4, "
+                      "viscosity: 0.02, load: 450.0}\n"
+                      "      unbalances: [{node: 2, magnitude: 1.0e-3}]\n";
+  const auto from = scene.find("  shaft: {"), to = scene.find("systems:");
+  return scene.replace(from, to - from, "  shaft: {" + drive + "}\n");
+}
+
+/// [rad/s], from Ocvirk's eccentricity e = 0.95: (1 - e^2)^4 = S^2 e^2 (pi^2 + (16 - pi^2) e^2),
+/// S = D w mu L^3 / (8 load c^2).
+double slowestInFilms() {
+  const double pi = 30.0 * kRpm, e2 = 0.95 * 0.95;
+  const double s = std::pow(1.0 - e2, 2) / std::sqrt(e2 * (pi * pi + (16.0 - pi * pi) * e2));
+  return s * 8.0 * 450.0 * 1.0e-8 / (0.05 * 0.02 * 8.0e-6);
+}
+
+// Slower than a film carries its load the coefficients are held, at an eccentricity of 0.95.
+TEST(FilmSpeeds, MarkResultsOfAShaftThatTouches) {
+  const TemporaryDirectory folder;
+  const std::string scene = folder.write("scene.yaml", inFilms("speed: 200.0"));
+  const std::string slow = std::to_string(0.5 * slowestInFilms());
+  for (const std::string& speed : {slow, std::string("200")}) {
+    const bool beyond = speed == slow;
+    const auto json = twin({"modes", scene, "--speed", speed, "--json"}).json();
+    EXPECT_EQ(json["systems"]["rotor"]["beyond_tables"], beyond) << speed;
+    const Ending modes = twin({"modes", scene, "--speed", speed});
+    EXPECT_EQ(modes.out.find("beyond the films") != std::string::npos, beyond) << modes.out;
+  }
+  const auto campbell =
+      twin({"campbell", scene, "--to", "300", "--json"}).json()["systems"]["rotor"];
+  EXPECT_NEAR(campbell["table_speeds"][0].get<double>(), slowestInFilms(), 1.0e-6);
+  EXPECT_TRUE(campbell["table_speeds"][1].is_null());
+  EXPECT_TRUE(campbell["beyond_tables"][0]);
+  EXPECT_FALSE(campbell["beyond_tables"].back());
+  EXPECT_EQ(twin({"campbell", scene, "--to", "300", "--plot", folder.file("c.svg")}).status, 0);
+  EXPECT_EQ(twin({"check", scene}).out.find("beyond"), std::string::npos);
+}
+
+TEST(FilmSpeeds, AreLeftWithAWarningWhereTheFilmsNeverCarry) {
+  const TemporaryDirectory folder;
+  const std::string speed = "speed: " + std::to_string(0.5 * slowestInFilms());
+  const Ending slow = twin({"check", folder.write("slow.yaml", inFilms(speed))});
+  EXPECT_NE(slow.out.find("beyond the films"), std::string::npos) << slow.out;
+}
+
+// A motor takes the shaft to where its torque is its drag, T = 8 - 0.02 w: 400 rad/s, beyond the
+// tables. What it finds there is marked.
+TEST(TableSpeeds, AreLeftByAMotorWithAWarning) {
+  const TemporaryDirectory folder;
+  std::string text = kTabulated;
+  const auto from = text.find("  shaft: {"), to = text.find("systems:");
+  text.replace(from, to - from,
+               "  shaft: {motor: {stall_torque: 8.0, no_load_speed: 400.0}, speed: 20.0}\n");
+  const std::string scene = folder.write("scene.yaml", text);
+  const Ending check = twin({"check", scene});
+  EXPECT_NE(check.out.find("the motor can turn the shaft from 20 to 400 rad/s, in part beyond the "
+                           "tables"),
+            std::string::npos)
+      << check.out << check.err;
+  bool any = false;
+  const auto rotor = twin({"analyze", scene, "--json"}).json()["systems"]["rotor"];
+  for (const auto& one : rotor["steady_speeds"]) {
+    EXPECT_EQ(one["beyond_tables"], one["speed"].get<double>() > 900.0 * kRpm) << one;
+    any = any || one["beyond_tables"];
+  }
+  EXPECT_TRUE(any);
+}
+
+// z'' + (c/m) z' + (k - i Q)/m z = 0, critically damped: nothing whirls without Q, and at
+// Q_0 = c sqrt(k/m) the forward motion grows.
+TEST(LevelOne, OfARotorThatWhirlsWithCrossCouplingOnly) {
+  const TemporaryDirectory folder;
+  const std::string scene = folder.write("scene.yaml", R"(
+step: 0.001
+systems:
+  rotor:
+    model: jeffcott_rotor
+    parameters: {speed: 100.0, mass: 2.0, stiffness: 20000.0, damping: 400.0}
+)");
+  const Ending text = twin({"stability", scene});
+  ASSERT_EQ(text.status, 0) << text.err;
+  EXPECT_NE(text.out.find("without cross-coupling all that moves forward"), std::string::npos);
+  const auto rotor = twin({"stability", scene, "--json"}).json()["systems"]["rotor"];
+  EXPECT_NEAR(rotor["threshold_cross_coupling"].get<double>(), 4.0e4, 1.0);
+  EXPECT_FALSE(rotor["forward_whirl_without_cross_coupling"]);
+  EXPECT_GT(rotor["cross_coupling"][0].get<double>(), 0.0);
+}
+
 // 8 times 0.8 m of 50 mm steel: pi d^2 / 4 times length times density.
 TEST(Check, TellsLengthAndMassOfACountedShaft) {
   const TemporaryDirectory folder;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <stdexcept>
 
 namespace whirl_twin {
@@ -96,7 +97,8 @@ SpeedBearing journalBearing(int node, const ShortJournalBearing& bearing, double
   const double slowest = bearing.speedAt(load, ShortJournalBearing::kMostEccentricity);
   return {node,
           [bearing, load](double speed) { return bearing.coefficients(load, speed); },
-          {-slowest, slowest}};
+          {-slowest, slowest},
+          {slowest, std::numeric_limits<double>::infinity()}};
 }
 
 }  // namespace whirl_twin
