@@ -95,6 +95,7 @@ state::LoopStatistics RecordPublisher::report() const {
 }
 
 void RecordPublisher::run() {
+  touchMemory();
   std::vector<double> record(live_.twin().layout().size);
   auto next_report = std::chrono::steady_clock::now();
   auto next_clock = next_report;
