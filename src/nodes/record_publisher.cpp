@@ -90,12 +90,13 @@ state::LoopStatistics RecordPublisher::report() const {
 void RecordPublisher::run() {
   touchMemory();
   std::vector<double> record(live_.twin().layout().size);
-  auto next_report = std::chrono::steady_clock::now();
-  auto next_clock = next_report;
-  auto next_again = next_report + kAgainPeriod;
-  auto next_scene = next_report + kScenePeriod;
+  auto next_clock = std::chrono::steady_clock::now();
+  auto next_report = next_clock + kLoopReportPeriod;
+  auto next_again = next_clock + kAgainPeriod;
+  auto next_scene = next_clock + kScenePeriod;
   scene_.at.stamp = stampNow();
   states_.tell(scene_);
+  publishReport();  // whose states they are, before the first of them
   std::chrono::microseconds idle = kIdle;
   while (true) {
     const bool last_round = ending_.load();

@@ -1,6 +1,7 @@
 // Whatever is in a file that a program reads back or takes from others, it is read, left out or
 // refused in words. Checksums are made right again, so that what is behind them is tried.
-// 2,000 of each kind, a million with WHIRL_TWIN_EXTREMES=full; the rate is a property of the test.
+// 2,000 of each kind, a million with WHIRL_TWIN_EXTREMES=full, or as many as WHIRL_TWIN_FUZZ_SECONDS
+// have room for; how many and how fast are properties of the test.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -34,14 +35,21 @@ std::string damaged(Breaker& breaker, const std::string& text) {
   return {bytes.begin(), bytes.end()};
 }
 
+double secondsSince(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
 /// Tries it often; returns how many were not refused.
 int tried(const std::function<void(Breaker&)>& one, unsigned seed) {
+  const char* const limit = std::getenv("WHIRL_TWIN_FUZZ_SECONDS");
+  const double most = limit == nullptr ? 1.0e9 : std::atof(limit);  // s
   const int wanted = often(kFew, kMany);
   Breaker breaker(seed);
-  int taken = 0;
+  int taken = 0, inputs = 0;
   const auto begin = std::chrono::steady_clock::now();
   double longest = 0.0;
-  for (int i = 0; i < wanted && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < wanted && secondsSince(begin) < most && !testing::Test::HasFailure(); ++i) {
+    ++inputs;
     const auto before = std::chrono::steady_clock::now();
     try {
       one(breaker);
@@ -55,9 +63,9 @@ int tried(const std::function<void(Breaker&)>& one, unsigned seed) {
         longest, std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count());
   }
   EXPECT_LT(longest, 10.0);  // a second, on a machine that has other work
-  const double taken_time =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  testing::Test::RecordProperty("per_second", static_cast<int>(wanted / taken_time));
+  testing::Test::RecordProperty("inputs", inputs);
+  testing::Test::RecordProperty("per_second", static_cast<int>(inputs / secondsSince(begin)));
+  testing::Test::RecordProperty("longest_ms", static_cast<int>(1.0e3 * longest));
   testing::Test::RecordProperty("taken", taken);
   return taken;
 }
