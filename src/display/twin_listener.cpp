@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "messages/message_check.h"
+#include "messages/names.h"
 #include "transport/ros_converters.h"
 #include "transport/twin_namespace.h"
 
@@ -19,6 +20,9 @@ template <class Message>
 bool isType(const std::string& type) {
   return type == ros::message_traits::datatype<Message>();
 }
+
+/// [s] without a message: statistics and the monitor's status come once a second.
+constexpr double kSilence = 2.5;
 
 bool isState(const TwinTopic& topic) {
   return isType<WhirlState>(topic.type) || isType<PendulumState>(topic.type);
@@ -60,6 +64,9 @@ std::vector<TwinTopic> twinTopics(const ros::master::V_TopicInfo& all,
 }
 
 void TwinListener::discover() {
+  if (ros::SteadyTime::now().toSec() - others_at_ > 2.0 * kSilence) {
+    others_.clear();
+  }
   ros::master::V_TopicInfo all;
   if (!ros::master::getTopics(all)) {
     return;
@@ -86,20 +93,40 @@ void TwinListener::discover() {
 template <class Message>
 ros::Subscriber TwinListener::listen(const TwinTopic& topic,
                                      std::function<void(const typename Message::ConstPtr&)> take) {
-  const std::function<void(const typename Message::ConstPtr&)> checked =
-      [take = std::move(take), name = topic.topic](const typename Message::ConstPtr& message) {
-        if constexpr (!std::is_same_v<Message, AlertArray>) {  // of which all is text
-          try {
-            fromRos(*message);
-          } catch (const RejectedMessage& why) {
-            ROS_WARN_THROTTLE(5.0, "%s: rejected: %s", name.c_str(), why.what());
-            return;
-          }
-        }
-        take(message);
-      };
-  return node_.subscribe<Message>(topic.topic, kQueue, checked, ros::VoidConstPtr(),
-                                  ros::TransportHints().tcpNoDelay());
+  using Event = ros::MessageEvent<const Message>;
+  const boost::function<void(const Event&)> checked = [this, take = std::move(take),
+                                                       name = topic.topic](const Event& event) {
+    const typename Message::ConstPtr message = event.getConstMessage();
+    if constexpr (!std::is_same_v<Message, AlertArray>) {  // of which all is text
+      try {
+        fromRos(*message);
+      } catch (const RejectedMessage& why) {
+        ROS_WARN_THROTTLE(5.0, "%s: rejected: %s", name.c_str(), why.what());
+        return;
+      }
+    }
+    if (isOfHolder(name, event.getPublisherName())) {
+      take(message);
+    }
+  };
+  return node_.subscribe<const Event&>(topic.topic, kQueue, checked, ros::VoidConstPtr(),
+                                       ros::TransportHints().tcpNoDelay());
+}
+
+bool TwinListener::isOfHolder(const std::string& topic, const std::string& publisher) {
+  const double now = ros::SteadyTime::now().toSec();
+  std::string& holder = holders_.try_emplace(topic, publisher).first->second;
+  if (holder != publisher && now - heard_[holder] > kSilence) {
+    holder = publisher;
+  }
+  if (holder == publisher) {
+    heard_[publisher] = now;
+    return true;
+  }
+  others_ = printable(publisher) + " publishes as this twin, too, beside " + printable(holder);
+  others_at_ = now;
+  ROS_WARN_THROTTLE(5.0, "%s: what it says is left", others_.c_str());
+  return false;
 }
 
 ros::Subscriber TwinListener::subscribe(const TwinTopic& topic) {

@@ -98,6 +98,9 @@ class TwinListener {
   /// "the monitor is silent ..."; "" while it beats. Then margins are old, and alerts too.
   std::string monitorSilence() const;
 
+  /// Which nodes publish on the same topics beside those that are listened to; "": none do.
+  const std::string& others() const { return others_; }
+
   /// [s], latest simulated time of any system.
   double time() const;
 
@@ -107,6 +110,8 @@ class TwinListener {
   ros::Subscriber listen(const TwinTopic& topic,
                          std::function<void(const typename Message::ConstPtr&)> take);
   void forget(const TwinTopic& topic);
+  /// Each topic is one node's, that which was heard on it first, until it is silent.
+  bool isOfHolder(const std::string& topic, const std::string& publisher);
 
   ros::NodeHandle node_;
   WhirlHandler whirl_handler_;
@@ -127,6 +132,10 @@ class TwinListener {
   AlertArray::ConstPtr alerts_;
   MonitorStatus::ConstPtr monitor_;
   MonitorPulse pulse_;
+  std::map<std::string, std::string> holders_;  // of each topic
+  std::map<std::string, double> heard_;         // [s], when a node was heard last on any
+  std::string others_;
+  double others_at_ = 0.0;  // [s], when one of them was heard
 };
 
 }  // namespace whirl_twin

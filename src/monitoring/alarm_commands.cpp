@@ -9,6 +9,7 @@
 
 #include "messages/alert_types.h"
 #include "messages/names.h"
+#include "messages/wall_clock.h"
 
 namespace whirl_twin {
 
@@ -46,7 +47,11 @@ std::string objectionToTarget(const AlarmCommand& command, const TwinMonitor& mo
   return "";
 }
 
-CommandAnswer acknowledge(const AlarmCommand& command, AlertList& alerts) {
+std::string sinceNow(const std::string& by) {
+  return fmt::format("{} since {}", by, isoTime(wallClock()));
+}
+
+CommandAnswer acknowledge(const AlarmCommand& command, AlertList& alerts, const std::string& by) {
   const std::vector<state::Alert> active = alerts.active();
   const bool any = std::any_of(active.begin(), active.end(), [&](const state::Alert& alert) {
     return (command.system.empty() || command.system == alert.system) &&
@@ -56,12 +61,13 @@ CommandAnswer acknowledge(const AlarmCommand& command, AlertList& alerts) {
   if (!any && !all) {
     return refused(fmt::format("no alert {} of {}", command.type, systemText(command.system)));
   }
-  return {true, fmt::format("{} acknowledged", alerts.acknowledge(command.system, command.type))};
+  return {true, fmt::format("{} acknowledged",
+                            alerts.acknowledge(command.system, command.type, sinceNow(by)))};
 }
 
-CommandAnswer reset(TwinMonitor& monitor) {
+CommandAnswer reset(TwinMonitor& monitor, const std::string& by) {
   AlertList& alerts = monitor.alerts();
-  const std::size_t cleared = alerts.reset(monitor.time());
+  const std::size_t cleared = alerts.reset(monitor.time(), sinceNow(by));
   return {true,
           fmt::format("{} cleared, {} have their cause still", cleared, alerts.active().size())};
 }
@@ -101,10 +107,10 @@ CommandAnswer carryOut(const AlarmCommand& command, TwinMonitor& monitor, double
   }
   switch (command.command) {
     case AlarmCommand::kAcknowledge:
-      return acknowledge(command, monitor.alerts());
+      return acknowledge(command, monitor.alerts(), by);
     case AlarmCommand::kReset:
       return command.system.empty()
-                 ? reset(monitor)
+                 ? reset(monitor, by)
                  : refused(fmt::format("system: must be empty, a reset is one of all alarms, "
                                        "found {}",
                                        command.system));

@@ -10,6 +10,7 @@ namespace whirl_twin {
 namespace {
 
 constexpr double kCountdownPeriod = 0.2;  // s
+const std::string kSeen = " (acknowledged by ";
 
 /// That other alerts are held back or levels raised: no state of the machine.
 bool isNotice(const state::Alert& alert) {
@@ -59,6 +60,11 @@ void AlertList::bringUpToDate(Entry& entry, state::Alert alert, const std::strin
   if (worse || back) {
     alert.acknowledged = false;
   }
+  if (alert.acknowledged) {
+    alert.text += entry.seen;
+  } else {
+    entry.seen.clear();
+  }
   entry.alert = std::move(alert);
   if (same) {
     if (std::isfinite(entry.alert.time_to_entry) &&
@@ -85,7 +91,7 @@ void AlertList::clear(const std::string& system, const std::string& type, double
        (latch_ == Latch::kDanger && entry->alert.severity == state::Severity::kDanger));
   state::Alert& alert = entry->alert;
   alert.time = time;
-  alert.text = reason;
+  alert.text = reason + (latches ? entry->seen : "");
   alert.time_to_entry = state::Alert::kNone;
   alert.latched = latches;
   alert.raised = latches;
@@ -97,13 +103,16 @@ void AlertList::clear(const std::string& system, const std::string& type, double
   }
 }
 
-std::size_t AlertList::acknowledge(const std::string& system, const std::string& type) {
+std::size_t AlertList::acknowledge(const std::string& system, const std::string& type,
+                                   const std::string& by) {
   std::size_t count = 0;
   for (Entry& entry : entries_) {
     state::Alert& alert = entry.alert;
     if (!alert.acknowledged && (system.empty() || system == alert.system) &&
         (type.empty() || type == alert.type)) {
       alert.acknowledged = true;
+      entry.seen = by.empty() ? "" : kSeen + by + ")";
+      alert.text += entry.seen;
       tell(alert);
       ++count;
     }
@@ -111,8 +120,8 @@ std::size_t AlertList::acknowledge(const std::string& system, const std::string&
   return count;
 }
 
-std::size_t AlertList::reset(double time) {
-  acknowledge("", "");
+std::size_t AlertList::reset(double time, const std::string& by) {
+  acknowledge("", "", by);
   counts_.clear();
   for (Entry& entry : entries_) {
     if (entry.alert.latched) {
@@ -142,7 +151,9 @@ void AlertList::setInhibited(const std::string& system, bool inhibited) {
 void AlertList::restore(const std::vector<state::Alert>& alerts, std::uint32_t last_id,
                         Counts counts) {
   for (const state::Alert& alert : alerts) {
-    entries_.push_back({alert, alert.text, alert.time, !alert.latched, alert.severity});
+    const std::size_t seen = alert.acknowledged ? alert.text.rfind(kSeen) : std::string::npos;
+    entries_.push_back({alert, alert.text, alert.time, !alert.latched, alert.severity,
+                        seen == std::string::npos ? "" : alert.text.substr(seen)});
   }
   last_id_ = std::max(last_id_, last_id);
   counts_ = std::move(counts);

@@ -44,11 +44,12 @@ class AlertList {
              const std::string& reason);
 
   /// Somebody has seen the alerts of a system and type, "" for any. Returns how many there were
-  /// that nobody had acknowledged.
-  std::size_t acknowledge(const std::string& system, const std::string& type);
+  /// that nobody had acknowledged. by: who, and since when; it is part of their texts from then on.
+  std::size_t acknowledge(const std::string& system, const std::string& type,
+                          const std::string& by = "");
   /// Takes off the list what is latched, at time [s, simulated]; acknowledges the others; repeats
   /// count from 0. Returns how many were taken off.
-  std::size_t reset(double time);
+  std::size_t reset(double time, const std::string& by = "");
   /// Whether alerts of a system may not be raised.
   void setInhibited(const std::string& system, bool inhibited);
 
@@ -82,6 +83,7 @@ class AlertList {
     double counted_at;      ///< [s], simulated: of the countdown that the list last changed for
     bool in_doubt = false;  ///< restored, and not raised since
     state::Severity restored = state::Severity::kInfo;  ///< severity it had then
+    std::string seen = {};                              ///< " (acknowledged by ...)"
   };
   std::vector<Entry>::iterator locate(const std::string& system, const std::string& type);
   void add(state::Alert alert, const std::string& decision);

@@ -6,7 +6,9 @@
 // times that: there it goes first, without them, and comes again with them.
 //
 // A system whose evaluation throws is uncertain, with the reason, and is evaluated again ten
-// seconds later or with other parameters; the others are judged as if it were not there.
+// seconds later or with other parameters; the others are judged as if it were not there. So is one
+// whose evaluation takes longer than kLongestEvaluation: as soon as one takes longer than others
+// are to wait, another thread goes on with those, and no thread is ever ended from outside.
 #pragma once
 
 #include <condition_variable>
@@ -15,7 +17,6 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "monitoring/system_judge.h"
@@ -51,6 +52,10 @@ struct Judgement {
   std::string failure;  ///< why it cannot be evaluated, and is uncertain; "": it can
 };
 
+/// [s] of an evaluation, after which its system is uncertain. It counts while the monitor runs:
+/// what a process was stopped for is not its evaluation's.
+constexpr double kLongestEvaluation = 5.0;
+
 class Judging {
  public:
   enum class Mode { kAtOnce, kBeside };
@@ -74,37 +79,63 @@ class Judging {
   double busy();
 
  private:
+  /// What is known of a system between evaluations; one thread has it at a time.
   struct Seat {
     SharedSystem built;
     std::shared_ptr<const ClosedLoop> loop;
-    std::unique_ptr<SystemJudge> judge;  ///< nullptr: it could not be made
-    std::string failure = {};            ///< of the last evaluation
-    double failed_at = 0.0;              ///< [s], simulated
+    std::unique_ptr<SystemJudge> judge = nullptr;  ///< nullptr: it could not be made
+    std::string failure = {};                      ///< of the last evaluation
+    double failed_at = 0.0;                        ///< [s], simulated
   };
   struct Waiting {
     JudgementRequest request;
     double since;           ///< [s], of a clock that only goes forward
     bool complete = false;  ///< the verdict alone has been given
   };
+  /// One that is being made.
+  struct Evaluation {
+    std::size_t system;
+    std::shared_ptr<Seat> seat;
+    std::optional<Waiting> of;  ///< none: speeds of the first parameters
+    double taken = 0.0;         ///< [s]
+    bool left = false;          ///< nobody waits for it any more
+  };
+  /// What the threads share, also with one that is still busy when nobody else is there.
+  struct Desk {
+    std::mutex mutex;  ///< what follows
+    std::condition_variable asked, answered;
+    std::vector<std::shared_ptr<Seat>> seats;
+    std::vector<JudgedSpeeds> first_speeds;
+    std::vector<std::size_t> to_prepare;  ///< systems whose first speeds are to be looked for
+    std::vector<std::optional<Waiting>> waiting;  ///< of each system
+    std::vector<std::shared_ptr<Evaluation>> running;
+    std::vector<Judgement> done;
+    std::size_t threads = 0;
+    std::size_t turn = 0;
+    double busy = 0.0;  ///< [s]
+    bool ending = false;
+
+    bool isBusy(std::size_t system) const;
+    std::shared_ptr<Evaluation> next();
+    void finish(const Evaluation& made, Judgement judgement);
+  };
 
   /// complete: with what takes long. Throws nothing that an evaluation throws.
-  Judgement judge(const Waiting& waiting, bool complete);
+  static Judgement judge(Seat& seat, const Waiting& waiting, bool complete);
   /// Puts verdict, speeds and margins into a judgement.
-  void evaluate(Seat& seat, const Waiting& waiting, bool complete, Judgement& judgement);
-  void run();
-  std::optional<Waiting> next();  ///< mutex_ is held
+  static void evaluate(Seat& seat, const Waiting& waiting, bool complete, Judgement& judgement);
+  static JudgedSpeeds firstSpeeds(Seat& seat);
+  static Judgement uncertain(const Waiting& waiting, const std::string& why);
+  static void startThread(const std::shared_ptr<Desk>& desk);
+  static void run(const std::shared_ptr<Desk>& desk);
+  /// Time has passed: whoever takes too long is uncertain, and others do not wait for it. The desk
+  /// is locked.
+  void watch();
 
-  std::vector<Seat> seats_;  ///< the thread's, while there is one
+  std::shared_ptr<Desk> desk_ = std::make_shared<Desk>();
   std::vector<JudgedSpeeds> first_speeds_;
-  std::mutex mutex_;  ///< what follows
-  std::condition_variable asked_;
-  std::vector<std::optional<Waiting>> waiting_;  ///< of each system
-  std::vector<Judgement> done_;
-  std::size_t turn_ = 0;
-  double busy_ = 0.0;  ///< [s]
-  bool judging_ = false;
-  bool ending_ = false;
-  std::thread thread_;
+  bool beside_;
+  double watched_at_;  ///< [s]
 };
 
 }  // namespace whirl_twin

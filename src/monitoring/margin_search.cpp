@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 
+#include <chrono>
 #include <cmath>
 #include <exception>
 #include <utility>
@@ -13,9 +14,10 @@ namespace whirl_twin {
 
 namespace {
 
-constexpr double kShortestBreak = 1.0;  // s, simulated, of a linear system
-constexpr double kLongestBreak = 10.0;  // s, simulated, of any other
-constexpr int kLowestPriority = 19;     // a nice value
+constexpr double kShortestBreak = 1.0;             // s, simulated, of a linear system
+constexpr double kLongestBreak = 10.0;             // s, simulated, of any other
+constexpr std::chrono::minutes kLongestSearch{1};  // others wait for it
+constexpr int kLowestPriority = 19;                // a nice value
 
 }  // namespace
 
@@ -94,7 +96,10 @@ void MarginSearch::take(Judgement& judgement, double slowest) {
 
 std::optional<MarginSearch::Answer> MarginSearch::search(const Question& question) const {
   Answer answer{question, std::nullopt, std::nullopt, std::nullopt, std::nullopt};
-  const auto given_up = [this] { return ending_.load(); };
+  const auto end = std::chrono::steady_clock::now() + kLongestSearch;
+  const auto given_up = [this, end] {
+    return ending_.load() || (thread_.joinable() && std::chrono::steady_clock::now() > end);
+  };
   try {
     if (isQuickToSearch(*question.built)) {
       answer.nearest = nearestLoss(*question.built, question.motion, question.speed, given_up);

@@ -77,6 +77,11 @@ void report(const MachineInput& input, const FollowPublisher& publisher, const F
     status.mergeSummary(DiagnosticStatus::WARN, fmt::format("{} refused", input.rejected()));
     status.add("last refused", input.lastRejection());
   }
+  if (const std::string others = input.runs().duplicate(ros::SteadyTime::now().toSec());
+      !others.empty()) {
+    status.mergeSummary(DiagnosticStatus::WARN, printable(others, others.size()));
+  }
+  status.add("left out, of other machines", input.runs().ofOthers());
   status.add("motion found anew", follower.restarts());
   for (const auto& [system, told] : publisher.told()) {
     status.add(system, fmt::format("{} used, {} refused, {} invalid, {} late, {} lost, {} repeated",

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <variant>
 
+#include "messages/names.h"
 #include "transport/channels.h"
 #include "transport/lcm_connection.h"
 #include "transport/ros_converters.h"
@@ -31,11 +32,11 @@ InputCommands::InputCommands(const LiveTwin& twin, TwinServices& services, ros::
       continue;
     }
     const std::string name = system->spec.name;
-    const boost::function<void(const boost::shared_ptr<const InputCommand>&)> callback =
-        [this, name](const boost::shared_ptr<const InputCommand>& message) {
-          takeMessage(*message, name);
-        };
-    subscribers_.push_back(node.subscribe<InputCommand>(topicName(state::InputCommand::kKind, name),
+    using Event = ros::MessageEvent<const InputCommand>;
+    const boost::function<void(const Event&)> callback = [this, name](const Event& event) {
+      takeMessage(event, name);
+    };
+    subscribers_.push_back(node.subscribe<const Event&>(topicName(state::InputCommand::kKind, name),
                                                         kInputQueue, callback, ros::VoidConstPtr(),
                                                         ros::TransportHints().tcpNoDelay()));
   }
@@ -45,7 +46,9 @@ InputCommands::InputCommands(const LiveTwin& twin, TwinServices& services, ros::
   try {
     receiver_ = std::make_unique<LcmReceiver>(
         openLcm(lcm_url), Kinds{&state::InputCommand::kKind},
-        [this](const Message& message) { take(std::get<state::InputCommand>(message)); },
+        [this](const Message& message) {
+          take(std::get<state::InputCommand>(message), "a message on LCM");
+        },
         lcm_prefix);
   } catch (const LcmNotAvailable& problem) {
     ROS_WARN("%s; inputs are set on ROS only", problem.what());
@@ -62,8 +65,9 @@ std::uint64_t InputCommands::refused() const {
   return refused_ + (receiver_ ? receiver_->rejected() : 0);
 }
 
-void InputCommands::takeMessage(const InputCommand& message, const std::string& system) {
-  InputCommand named = message;
+void InputCommands::takeMessage(const ros::MessageEvent<const InputCommand>& event,
+                                const std::string& system) {
+  InputCommand named = *event.getConstMessage();
   if (named.header.frame_id.empty()) {
     named.header.frame_id = system;
   }
@@ -72,14 +76,14 @@ void InputCommands::takeMessage(const InputCommand& message, const std::string& 
     if (command.system != system) {
       return refuse("header.frame_id: expected " + system + " on its topic");
     }
-    take(command);
+    take(command, printable(event.getPublisherName()));
   } catch (const RejectedMessage& why) {
     refuse(why.what());
   }
 }
 
-void InputCommands::take(const state::InputCommand& command) {
-  const std::string why = services_.take(command);
+void InputCommands::take(const state::InputCommand& command, const std::string& by) {
+  const std::string why = services_.take(command, by);
   if (!why.empty()) {
     return refuse(why);
   }

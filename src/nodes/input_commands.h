@@ -38,8 +38,8 @@ class InputCommands {
   const std::string& lastRefusal() const { return last_refusal_; }
 
  private:
-  void takeMessage(const InputCommand& message, const std::string& system);
-  void take(const state::InputCommand& command);
+  void takeMessage(const ros::MessageEvent<const InputCommand>& event, const std::string& system);
+  void take(const state::InputCommand& command, const std::string& by);
   void refuse(const std::string& why);
 
   TwinServices& services_;

@@ -18,6 +18,7 @@
 #include <variant>
 #include <vector>
 
+#include "monitoring/run_filter.h"
 #include "nodes/changed_parameters.h"
 #include "nodes/lcm_bridge.h"
 #include "nodes/newest_states.h"
@@ -134,6 +135,7 @@ void run() {
       std::chrono::microseconds(newest > 0.0 ? std::llround(1.0e6 / newest) : 0),
       [&bridge](const Message& message) { bridge.publish(message); }, wallMicroseconds);
   LcmRivals rivals(prefix);
+  RunFilter runs;
   std::unique_ptr<LcmReceiver> receiver;
   receiver = std::make_unique<LcmReceiver>(
       openLcm(url), kindsToTell(derived),
@@ -143,7 +145,9 @@ void run() {
         } else if (const auto* scene = std::get_if<state::SceneText>(&message)) {
           keepScene(*scene, ros::NodeHandle(twinNamespace()));
         }
-        states.take(message, receiver->arrived());
+        if (runs.take(message, ros::SteadyTime::now().toSec())) {
+          states.take(message, receiver->arrived());
+        }
       },
       prefix);
 
@@ -153,6 +157,7 @@ void run() {
   BridgeDiagnostics counts;
   diagnostics.add("received from LCM", [&](diagnostic_updater::DiagnosticStatusWrapper& status) {
     counts.summarize(*receiver, bridge.topics(), states, status);
+    status.add("left out, of other runs", runs.ofOthers());
   });
   const RefusalReport refused_payloads(diagnostics, {&receiver->refused()});
   reportMaster(master, diagnostics);

@@ -1,6 +1,7 @@
 #include "nodes/machine_input.h"
 
 #include <ros/callback_queue.h>
+#include <whirl_twin/LoopStatistics.h>
 #include <whirl_twin/Measurement.h>
 
 #include <chrono>
@@ -24,9 +25,11 @@ MachineInput::MachineInput(const std::string& machine, const std::vector<std::st
                            Handler handler)
     : handler_(std::move(handler)) {
   ros::NodeHandle node(machine);
-  for (const std::string& source : sources) {
-    const boost::function<void(const boost::shared_ptr<const Measurement>&)> callback =
-        [this](const boost::shared_ptr<const Measurement>& message) {
+  const auto listen = [&](auto kind, const std::string& source) {
+    using State = typename decltype(kind)::State;
+    using Type = RosType<State>;
+    const boost::function<void(const boost::shared_ptr<const Type>&)> callback =
+        [this](const boost::shared_ptr<const Type>& message) {
           try {
             take(fromRos(*message));
           } catch (const RejectedMessage& why) {
@@ -34,22 +37,38 @@ MachineInput::MachineInput(const std::string& machine, const std::vector<std::st
             last_rejection_ = why.what();
           }
         };
-    subscribers_.push_back(node.subscribe<Measurement>(topicName(state::Measurement::kKind, source),
-                                                       kBlockQueue, callback, ros::VoidConstPtr(),
-                                                       ros::TransportHints().tcpNoDelay()));
+    subscribers_.push_back(node.subscribe<Type>(topicName(State::kKind, source), kBlockQueue,
+                                                callback, ros::VoidConstPtr(),
+                                                ros::TransportHints().tcpNoDelay()));
+  };
+  for (const std::string& source : sources) {
+    listen(KindOf<state::Measurement>{}, source);
   }
+  listen(KindOf<state::LoopStatistics>{}, "");
 }
 
 MachineInput::MachineInput(const std::string& lcm_url, const std::string& prefix, Handler handler)
     : handler_(std::move(handler)),
       receiver_(std::make_unique<LcmReceiver>(
-          openLcm(lcm_url), Kinds{&state::Measurement::kKind},
-          [this](const Message& message) { take(std::get<state::Measurement>(message)); },
+          openLcm(lcm_url), kindsOf<state::Measurement, state::LoopStatistics>(),
+          [this](const Message& message) {
+            if (const auto* loop = std::get_if<state::LoopStatistics>(&message)) {
+              take(*loop);
+            } else {
+              take(std::get<state::Measurement>(message));
+            }
+          },
           prefix)) {}
 
+void MachineInput::take(const state::LoopStatistics& loop) {
+  static_cast<void>(runs_.take(Message(loop), ros::SteadyTime::now().toSec()));
+}
+
 void MachineInput::take(const state::Measurement& message) {
-  ++taken_;
-  handler_(message);
+  if (runs_.take(message.at.stamp, message.at.time, ros::SteadyTime::now().toSec())) {
+    ++taken_;
+    handler_(message);
+  }
 }
 
 void MachineInput::receive() {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "messages/measurement.h"
+#include "monitoring/run_filter.h"
 #include "transport/lcm_receiver.h"
 
 namespace whirl_twin {
@@ -32,6 +33,8 @@ class MachineInput {
   std::uint64_t taken() const { return taken_; }
   std::uint64_t rejected() const;  ///< messages that were not sound
   std::string lastRejection() const;
+  /// Of the run that is followed; what another sends in its place is left and counted.
+  const RunFilter& runs() const { return runs_; }
   /// Those that came by LCM and were no messages; null where it does not listen there.
   const RefusedPayloads* refusedPayloads() const {
     return receiver_ ? &receiver_->refused() : nullptr;
@@ -39,10 +42,13 @@ class MachineInput {
 
  private:
   void take(const state::Measurement& message);
+  /// A simulated machine says which run it is.
+  void take(const state::LoopStatistics& loop);
 
   Handler handler_;
   std::vector<ros::Subscriber> subscribers_;
   std::unique_ptr<LcmReceiver> receiver_;
+  RunFilter runs_;
   std::uint64_t taken_ = 0, rejected_ = 0;
   std::string last_rejection_;
 };

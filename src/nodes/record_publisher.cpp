@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
-#include <ctime>
 #include <utility>
 
+#include "messages/wall_clock.h"
 #include "nodes/loop_report.h"
 #include "nodes/rival_report.h"
 #include "realtime/monotonic_clock.h"
@@ -28,13 +28,6 @@ constexpr std::chrono::microseconds kIdle{500};         // between looks at the 
 constexpr std::chrono::microseconds kShortestIdle{25};  // where somebody waits for every step
 constexpr int kMostRecordsAtOnce = 64;            // records, between looks at what else is due
 constexpr std::int64_t kClockStep = 100'000'000;  // [ns]: more is no slewing
-
-/// [ns]
-std::int64_t wallClock() {
-  timespec now{};
-  clock_gettime(CLOCK_REALTIME, &now);
-  return now.tv_sec * 1'000'000'000LL + now.tv_nsec;
-}
 
 std::int64_t wallClockAtZero() {
   return wallClock() - monotonicNow();
@@ -95,13 +88,15 @@ state::LoopStatistics RecordPublisher::report() const {
 }
 
 void RecordPublisher::run() {
+  touchMemory();
   std::vector<double> record(live_.twin().layout().size);
-  auto next_report = std::chrono::steady_clock::now();
-  auto next_clock = next_report;
-  auto next_again = next_report + kAgainPeriod;
-  auto next_scene = next_report + kScenePeriod;
+  auto next_clock = std::chrono::steady_clock::now();
+  auto next_report = next_clock + kLoopReportPeriod;
+  auto next_again = next_clock + kAgainPeriod;
+  auto next_scene = next_clock + kScenePeriod;
   scene_.at.stamp = stampNow();
   states_.tell(scene_);
+  publishReport();  // whose states they are, before the first of them
   std::chrono::microseconds idle = kIdle;
   while (true) {
     const bool last_round = ending_.load();

@@ -273,6 +273,13 @@ void run() {
     }
   });
 
+  diagnostics.add("inputs", [&](diagnostic_updater::DiagnosticStatusWrapper& status) {
+    using diagnostic_msgs::DiagnosticStatus;
+    const std::string held = services.heldInputs();
+    status.summary(held.empty() ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
+                   held.empty() ? "as in the scene" : held);
+  });
+
   MasterWatch master({node.resolveName("scene"), node.resolveName("scene_file")});
   reportMaster(master, diagnostics);
   ChangedParameters parameters(master);

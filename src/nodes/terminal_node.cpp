@@ -64,6 +64,7 @@ class TerminalDisplay {
       const std::string held = heldBackText(*listener_.monitor());
       time += held.empty() ? "" : " | " + held;
     }
+    time += listener_.others().empty() ? "" : " | " + listener_.others();
     if (is_terminal_) {
       erase();
       show(time);

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "messages/names.h"
+#include "messages/wall_clock.h"
 #include "scene/node_reader.h"
 
 namespace whirl_twin {
@@ -41,9 +42,12 @@ TwinServices::TwinServices(LiveTwin& twin, ros::NodeHandle node, std::function<b
       node.advertiseService("reset", &TwinServices::reset, this),
       node.advertiseService("step", &TwinServices::step, this),
       node.advertiseService("set_speed", &TwinServices::setSpeed, this),
-      node.advertiseService("set_input", &TwinServices::setInput, this),
       node.advertiseService("set_parameter", &TwinServices::setParameter, this),
       node.advertiseService("set_real_time_factor", &TwinServices::setRealTimeFactor, this)};
+  ros::AdvertiseServiceOptions input;
+  input.initBySpecType<ros::ServiceEvent<SetInput::Request, SetInput::Response>>(
+      "set_input", [this](auto& call) { return setInput(call); });
+  servers_.push_back(node.advertiseService(input));
   advertisePause(node);
 }
 
@@ -241,7 +245,29 @@ std::string TwinServices::readInput(const std::string& system_name, const std::s
   return "";
 }
 
-std::string TwinServices::take(const state::InputCommand& given) {
+void TwinServices::noteInput(const std::string& system, const std::string& input, double value,
+                             double duration, const std::string& by) {
+  const double step = twin_.twin().scene().stepSeconds();
+  const std::int64_t since = twin_.stepCount();
+  const std::int64_t until = since + static_cast<std::int64_t>(std::ceil(duration / step));
+  held_inputs_[system + "/" + input] = {
+      fmt::format("{}/{} is {} by {} since {} until t = {:g} s", system, input, value, by,
+                  isoTime(wallClock()), static_cast<double>(until) * step),
+      since, until};
+}
+
+std::string TwinServices::heldInputs() const {
+  const std::int64_t now = twin_.stepCount();
+  std::string all;
+  for (const auto& [name, held] : held_inputs_) {
+    if (now >= held.since && now <= held.until) {  // else it is over, or the twin was reset
+      all += (all.empty() ? "" : "; ") + held.text;
+    }
+  }
+  return all;
+}
+
+std::string TwinServices::take(const state::InputCommand& given, const std::string& by) {
   std::vector<TwinCommand> commands(given.input.size());
   for (std::size_t i = 0; i < commands.size(); ++i) {
     const std::string refused =
@@ -255,10 +281,15 @@ std::string TwinServices::take(const state::InputCommand& given) {
       return "the loop is far behind with earlier commands";
     }
   }
+  for (std::size_t i = 0; i < commands.size(); ++i) {
+    noteInput(given.system, given.input[i], given.value[i], given.duration, by);
+  }
   return "";
 }
 
-bool TwinServices::setInput(SetInput::Request& request, SetInput::Response& response) {
+bool TwinServices::setInput(ros::ServiceEvent<SetInput::Request, SetInput::Response>& call) {
+  const SetInput::Request& request = call.getRequest();
+  SetInput::Response& response = call.getResponse();
   TwinCommand command;
   TwinAnswer answer;
   response.success = false;
@@ -270,6 +301,10 @@ bool TwinServices::setInput(SetInput::Request& request, SetInput::Response& resp
   if (!carryOut(command, answer)) {
     response.message = kEnded;
     return true;
+  }
+  if (answer.done) {
+    noteInput(request.system, request.input, request.value, request.duration,
+              printable(call.getCallerName()));
   }
   response.success = answer.done;
   response.step = answer.step;

@@ -14,6 +14,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -53,7 +54,10 @@ class TwinServices {
   }
 
   /// A command that came by topic or channel. Returns why it is refused; "" if it is on its way.
-  std::string take(const state::InputCommand& command);
+  std::string take(const state::InputCommand& command, const std::string& by);
+  /// Inputs that are not the scene's at present: which, by whom, since when and until when; "": all
+  /// are. What they do to a twin may hide what its machine would do.
+  std::string heldInputs() const;
 
  private:
   using Trigger = std_srvs::Trigger;
@@ -62,7 +66,9 @@ class TwinServices {
   bool reset(Trigger::Request&, Trigger::Response& response);
   bool step(StepN::Request& request, StepN::Response& response);
   bool setSpeed(SetSpeed::Request& request, SetSpeed::Response& response);
-  bool setInput(SetInput::Request& request, SetInput::Response& response);
+  bool setInput(ros::ServiceEvent<SetInput::Request, SetInput::Response>& call);
+  void noteInput(const std::string& system, const std::string& input, double value, double duration,
+                 const std::string& by);
   /// Fills the command that sets an input to a value for a duration [s]; what is wrong, or "".
   std::string readInput(const std::string& system, const std::string& input, double value,
                         double duration, TwinCommand& command) const;
@@ -81,6 +87,11 @@ class TwinServices {
   LiveTwin& twin_;
   std::function<bool()> keep_waiting_;
   LiveParameters parameters_;
+  struct HeldInput {
+    std::string text;
+    std::int64_t since, until;  // steps
+  };
+  std::map<std::string, HeldInput> held_inputs_;
   std::atomic<std::uint64_t> pauses_{0};  // asked for
   // ~pause is not kept waiting by a service that takes long.
   ros::CallbackQueue pause_queue_;

@@ -13,6 +13,7 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -126,6 +127,15 @@ void lockMemory(RealtimeMode mode, RealtimeStatus& status) {
   if (!status.memory_locked) {
     notObtained(mode, "memory is not locked: mlockall succeeded, but VmLck is 0", status);
   }
+}
+
+void touchMemory() {
+  constexpr std::size_t kStack = 256 * 1024;  // bytes
+  constexpr std::size_t kBlock = 64 * 1024;   // bytes, that malloc takes from the heap, not by mmap
+  constexpr std::size_t kBlocks = 24;
+  std::array<char, kStack> stack;  // NOLINT: written next
+  explicit_bzero(stack.data(), kStack);
+  static_cast<void>(std::vector<std::vector<char>>(kBlocks, std::vector<char>(kBlock)));
 }
 
 void scheduleThisThread(RealtimeMode mode, int priority, RealtimeStatus& status) {

@@ -39,6 +39,10 @@ struct RealtimeStatus {
 /// RunFailure in kEnforce, a warning in kWarn; kIgnore only reads back.
 void lockMemory(RealtimeMode mode, RealtimeStatus& status);
 
+/// Writes to the stack and the heap of the calling thread as far as its work is to need them, after
+/// lockMemory(): so much is there from the start, and no growth within it is a leak.
+void touchMemory();
+
 /// Gives the calling thread SCHED_FIFO at `priority` and reads back what it has. A failure is
 /// treated as in lockMemory; kIgnore only reads back.
 void scheduleThisThread(RealtimeMode mode, int priority, RealtimeStatus& status);

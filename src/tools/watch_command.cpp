@@ -8,8 +8,10 @@
 #include <optional>
 
 #include "algebra/constants.h"
+#include "messages/names.h"
 #include "messages/refusal.h"
 #include "messages/slowest_part.h"
+#include "monitoring/run_filter.h"
 #include "monitoring/whirl_vibration.h"
 #include "reports/live_lines.h"
 #include "reports/message_text.h"
@@ -48,6 +50,10 @@ struct WatchRequest {
   std::optional<double> duration;  // s
   bool json = false;
 };
+
+double wallTime() {
+  return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+}
 
 /// The newest of a kind, and when it came.
 template <class State>
@@ -102,8 +108,10 @@ std::string systemLine(const System& system) {
 
 std::string alertLine(const state::Alert& alert) {
   constexpr const char* kSeverities[] = {"INFO", "WARNING", "DANGER"};
+  const bool named = alert.text.find("(acknowledged") != std::string::npos;  // by whom
   return fmt::format("  {} since {:.3f} s: {}{}", kSeverities[static_cast<int>(alert.severity)],
-                     alert.raised_time, alert.text, alert.acknowledged ? " (acknowledged)" : "");
+                     alert.raised_time, alert.text,
+                     alert.acknowledged && !named ? " (acknowledged)" : "");
 }
 
 class Watch {
@@ -115,7 +123,9 @@ class Watch {
             kindsOf<state::LoopStatistics, state::WhirlState, state::PendulumState,
                     state::StabilityMargin, state::Alert, state::MonitorStatus>(),
             [this](const Message& message) {
-              std::visit([this](const auto& state) { take(state); }, message);
+              if (runs_.take(message, wallTime())) {
+                std::visit([this](const auto& state) { take(state); }, message);
+              }
             },
             request.lcm_prefix) {}
 
@@ -171,6 +181,10 @@ class Watch {
       return {fmt::format("nothing heard of {}* on {}", request_.lcm_prefix, request_.url)};
     }
     std::vector<std::string> lines{fmt::format("{:.3f} s", time_)};
+    if (const std::string others = runs_.duplicate(wallTime()); !others.empty()) {
+      lines.push_back(fmt::format("{}: {} messages of others are left out",
+                                  printable(others, others.size()), runs_.ofOthers()));
+    }
     addLoop(lines);
     for (const auto& [name, system] : systems_) {
       lines.push_back(name + ": " + systemLine(system));
@@ -240,6 +254,8 @@ class Watch {
   Json json() const {
     Json json = {{"time", time_},
                  {"loop", loop_.newest ? messageJson(*loop_.newest) : Json()},
+                 {"others", runs_.duplicate(wallTime())},
+                 {"left_out_of_others", runs_.ofOthers()},
                  {"monitor", monitor_.newest ? messageJson(*monitor_.newest) : Json()},
                  {"systems", Json::object()},
                  {"alerts", Json::array()}};
@@ -266,6 +282,7 @@ class Watch {
   const WatchRequest& request_;
   LiveLines lines_;
   double time_ = 0.0;  ///< [s], simulated
+  RunFilter runs_;
   Heard<state::LoopStatistics> loop_;
   Heard<state::MonitorStatus> monitor_;
   std::map<std::string, System> systems_;

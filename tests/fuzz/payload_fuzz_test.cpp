@@ -7,9 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
-#include <random>
 #include <string>
 #include <type_traits>
 #include <variant>
@@ -17,6 +15,7 @@
 
 #include "../transport/event_log_sample.h"
 #include "../transport/state_samples.h"
+#include "breaker.h"
 #include "messages/message_check.h"
 #include "monitoring/twin_monitor.h"
 #include "scene/scene_reader.h"
@@ -25,68 +24,6 @@
 
 namespace whirl_twin {
 namespace payload_fuzz_test {
-
-int often(int few, int many) {
-  const char* length = std::getenv("WHIRL_TWIN_EXTREMES");
-  return length != nullptr && std::string(length) == "full" ? many : few;
-}
-
-/// Damages bytes: single bits, numbers that are lengths or doubles at the ends of their ranges,
-/// pieces that are cut out, doubled or overwritten.
-class Breaker {
- public:
-  explicit Breaker(unsigned seed) : random_(seed) {}
-
-  void damage(Bytes& bytes) {
-    for (std::size_t times = 1 + below(3); times > 0 && !bytes.empty(); --times) {
-      damageOnce(bytes);
-    }
-  }
-  std::size_t below(std::size_t n) { return random_() % n; }
-
- private:
-  void damageOnce(Bytes& bytes) {
-    const std::size_t at = below(bytes.size());
-    const std::size_t length = std::min(bytes.size() - at, 1 + below(24));
-    const auto from = bytes.begin() + static_cast<std::ptrdiff_t>(at);
-    const auto to = from + static_cast<std::ptrdiff_t>(length);
-    switch (below(6)) {
-      case 0:
-        bytes[at] = static_cast<std::uint8_t>(bytes[at] ^ (1u << below(8)));
-        break;
-      case 1:
-        std::generate(from, to, [&] { return static_cast<std::uint8_t>(below(256)); });
-        break;
-      case 2:
-        bytes.erase(from, to);
-        break;
-      case 3: {
-        const Bytes piece(from, to);
-        bytes.insert(from, piece.begin(), piece.end());
-        break;
-      }
-      case 4:
-        put(bytes, at, kWords[below(std::size(kWords))], 4);
-        break;
-      default:
-        put(bytes, at, kNumbers[below(std::size(kNumbers))], 8);
-    }
-  }
-  /// Big-endian, as far as there is room.
-  static void put(Bytes& bytes, std::size_t at, std::uint64_t value, std::size_t size) {
-    for (std::size_t i = 0; i < size && at + i < bytes.size(); ++i) {
-      bytes[at + i] = static_cast<std::uint8_t>(value >> 8 * (size - 1 - i));
-    }
-  }
-
-  static constexpr std::uint64_t kWords[] = {0,          1,          0x7fffffff, 0x80000000,
-                                             0xffffffff, 0x00ffffff, 0x10000};
-  /// Infinity, NaN, the largest double and the smallest, 1e300, the ends of 64 bits.
-  static constexpr std::uint64_t kNumbers[] = {
-      0x7ff0000000000000u, 0x7ff8000000000000u, 0x7fefffffffffffffu, 0x0000000000000001u,
-      0x7e37e43c8800759cu, 0x7fffffffffffffffu, 0x8000000000000000u};
-  std::mt19937_64 random_;
-};
 
 /// What is decoded is what was sent: it encodes and decodes to the same bits once more.
 void expectBelievable(const Message& message) {

@@ -130,6 +130,32 @@ TEST(AlertList, LatchedStaysUntilResetAndIsTheSameAlertWhenItsCauseIsBack) {
   EXPECT_EQ(events[0].id, 1u);
 }
 
+// Who has seen an alert, and since when, is part of it wherever it is shown or kept.
+TEST(AlertList, SaysWhoHasAcknowledgedAnAlertUntilItIsWorse) {
+  constexpr const char* kSeen = "is (acknowledged by the desk since noon)";
+  AlertList list(Latch::kDanger);
+  const auto raise = [&](state::Severity severity) {
+    state::Alert alert = alertOf("a", "X", severity);
+    alert.text = "is";
+    list.raise(alert, "");
+  };
+  raise(state::Severity::kWarning);
+  list.acknowledge("a", "", "the desk since noon");
+  EXPECT_EQ(list.active()[0].text, kSeen);
+  raise(state::Severity::kWarning);
+  EXPECT_EQ(list.active()[0].text, kSeen) << "brought up to date";
+  AlertList restored;
+  restored.restore(list.active(), 1, {});
+  restored.raise(alertOf("a", "X", state::Severity::kWarning), "");
+  EXPECT_NE(restored.active()[0].text.find("(acknowledged by the desk since noon)"),
+            std::string::npos);
+  raise(state::Severity::kDanger);
+  EXPECT_EQ(list.active()[0].text, "is") << "nobody has seen that";
+  list.reset(2.0, "the desk since noon");
+  list.clear("a", "X", 3.0, "is");
+  EXPECT_EQ(list.active()[0].text, kSeen) << "latched";
+}
+
 TEST(AlertList, WorseIsToBeAcknowledgedAgain) {
   AlertList list;
   list.raise(alertOf("a", "X", state::Severity::kWarning), "");

@@ -3,7 +3,10 @@
 // of a critical speed.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <functional>
+#include <future>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -15,10 +18,11 @@
 namespace whirl_twin {
 namespace failing_evaluation_test {
 
-/// As another system, but for its small deviations.
+/// As another system, but for what happens where its small deviations are asked for.
 class Failing final : public Dynamics {
  public:
-  explicit Failing(std::shared_ptr<const Dynamics> system) : system_(std::move(system)) {}
+  Failing(std::shared_ptr<const Dynamics> system, std::function<void()> happens)
+      : system_(std::move(system)), happens_(std::move(happens)) {}
 
   std::string model() const override { return system_->model(); }
   int dof() const override { return system_->dof(); }
@@ -56,9 +60,10 @@ class Failing final : public Dynamics {
                     const Moment<double>& at) const override {
     return system_->energies(q, v, at);
   }
-  Linearization linearization(const Eigen::VectorXd&, const Eigen::VectorXd&,
-                              const Eigen::VectorXd&, const Moment<double>&) const override {
-    throw std::runtime_error("no convergence");
+  Linearization linearization(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                              const Eigen::VectorXd& a, const Moment<double>& at) const override {
+    happens_();
+    return system_->linearization(q, v, a, at);
   }
   std::vector<Reaction> reactions(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                   const Eigen::VectorXd& a,
@@ -76,7 +81,14 @@ class Failing final : public Dynamics {
 
  private:
   std::shared_ptr<const Dynamics> system_;
+  std::function<void()> happens_;
 };
+
+SharedSystem failing(const SharedSystem& system, std::function<void()> happens) {
+  auto other = std::make_shared<BuiltSystem>(*system);
+  other->dynamics = std::make_shared<Failing>(system->dynamics, std::move(happens));
+  return other;
+}
 
 /// Within its critical band; above its threshold speed of 20 (1 + 8/8) rad/s; a pendulum.
 constexpr char kDanger[] = R"(
@@ -107,11 +119,11 @@ Judgement lastOf(Judging& judging) {
 
 TEST(AFailingEvaluation, IsUncertainWithItsReasonAndTheOthersAreJudged) {
   const BuiltScene scene = build(sceneOf(kDanger));
-  auto failing = std::make_shared<BuiltSystem>(*scene.systems[0]);
-  failing->dynamics = std::make_shared<Failing>(failing->dynamics);
+  const SharedSystem rotor =
+      failing(scene.systems[0], [] { throw std::runtime_error("no convergence"); });
   for (const Judging::Mode mode : {Judging::Mode::kAtOnce, Judging::Mode::kBeside}) {
-    Judging judging({failing, scene.systems[1]}, mode);
-    judging.ask({0, failing, {1, 0.001, 0}, {0.0, 0.0}, {0.0, 0.0}, 58.0, 0});
+    Judging judging({rotor, scene.systems[1]}, mode);
+    judging.ask({0, rotor, {1, 0.001, 0}, {0.0, 0.0}, {0.0, 0.0}, 58.0, 0});
     const Judgement uncertain = lastOf(judging);
     EXPECT_EQ(uncertain.failure, "no convergence");
     EXPECT_EQ(uncertain.margin.verdict_name, "uncertain");
@@ -126,6 +138,53 @@ TEST(AFailingEvaluation, IsUncertainWithItsReasonAndTheOthersAreJudged) {
     judging.ask({0, scene.systems[0], {2, 0.002, 0}, {0.0, 0.0}, {0.0, 0.0}, 58.0, 0});
     EXPECT_EQ(lastOf(judging).margin.verdict_name, "asymptotically_stable");
   }
+}
+
+/// Seconds from now.
+double secondsSince(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+TEST(AnEvaluationThatTakesTooLong, IsUncertainAndTheOthersAreJudgedInTime) {
+  const BuiltScene scene = build(sceneOf(kDanger));
+  std::promise<void> end;
+  const std::shared_future<void> ended = end.get_future().share();
+  const SharedSystem slow = failing(scene.systems[0], [ended] { ended.wait(); });
+  const auto begin = std::chrono::steady_clock::now();
+  {
+    Judging judging({slow, scene.systems[1]}, Judging::Mode::kBeside);
+    EXPECT_LT(secondsSince(begin), kLongestEvaluation + 1.0);  // it does not wait for the speeds
+    Judgement uncertain;
+    double longest_wait = 0.0;
+    std::int64_t step = 0;
+    while (uncertain.failure.empty() && secondsSince(begin) < 3.0 * kLongestEvaluation) {
+      ++step;
+      judging.ask({0, slow, {step, 0.1, 0}, {0.0, 0.0}, {0.0, 0.0}, 58.0, 0});
+      judging.ask({1, scene.systems[1], {step, 0.1, 0}, {0.0, 0.0}, {0.0, 0.0}, 58.0, 0});
+      const auto asked = std::chrono::steady_clock::now();
+      bool answered = false;
+      while (!answered && secondsSince(asked) < 3.0) {
+        for (Judgement& judgement : judging.take()) {
+          answered = answered || (judgement.system == 1 && judgement.margin.at.step == step);
+          if (judgement.system == 0) {
+            uncertain = std::move(judgement);
+          } else {
+            EXPECT_EQ(judgement.margin.verdict_name, "unstable");
+          }
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
+      longest_wait = std::max(longest_wait, secondsSince(asked));
+    }
+    EXPECT_EQ(uncertain.failure, "its evaluation takes longer than 5 s");
+    EXPECT_EQ(uncertain.margin.verdict_name, "uncertain");
+    EXPECT_LT(longest_wait, 1.0);  // 0.2 s, and what a busy machine takes
+    // Parameters that can be evaluated are, though the others are still being.
+    judging.ask({0, scene.systems[0], {1, 0.2, 0}, {0.0, 0.0}, {0.0, 0.0}, 58.0, 0});
+    EXPECT_EQ(lastOf(judging).margin.verdict_name, "asymptotically_stable");
+  }
+  EXPECT_LT(secondsSince(begin), 4.0 * kLongestEvaluation);  // nobody has waited for it
+  end.set_value();
 }
 
 bool isActive(WatchedTwin& watched, const std::string& system, const std::string& type) {

@@ -6,8 +6,8 @@ import struct
 
 import rospy
 from std_srvs.srv import Trigger
-from whirl_twin.msg import Alert, AlertArray, LoopStatistics, MonitorStatus, OrderState
-from whirl_twin.srv import Inhibit
+from whirl_twin.msg import Alert, AlertArray, DriveState, LoopStatistics, MonitorStatus, OrderState
+from whirl_twin.srv import Inhibit, SetInput
 from whirl_twin_lcm.whirl_twin import alarm_command_t, controller_command_t
 
 from node_trial import ERROR, OK, WARN, NodeTrial, call, load_scene, wait_until
@@ -22,6 +22,7 @@ systems:
     model: jeffcott_rotor
     drive: shaft
     parameters: {mass: 2.0, stiffness: 800.0, damping: 8.0, eccentricity: 1.0e-6, internal_damping: 8.0}
+    inputs: {force_x: 0.0}
   outside: {model: linear_system, parameters: {names: [x], mass: [[1.0]], stiffness: [[1.0]]}, initial: {x: 1.0e-3}}
 controllers:
   pd: {type: external, rate: 50.0, measures: [outside.x], acts_on: [outside.force_x], delay: 0.04, timeout: 0.5}
@@ -128,6 +129,40 @@ class Hostile(NodeTrial):
         self.begin(SLOW)  # another run, whose scene it has
         self.expect(lambda: self.says(monitor, 'another run is watched from now on'), monitor)
         self.expect(lambda: self.diagnosed('monitor_node: monitor', OK, 'no alerts'), monitor)
+
+    def test_bridge_and_displays_keep_to_one_run(self):
+        simulation = self.begin(SLOW)
+        bridge = self.start('lcm_bridge_node', '_lcm_prefix:=TWIN_', '__ns:=/mirror')
+        watch = self.start_program(os.environ['WHIRL_TWIN_PROGRAM'], 'watch')
+        terminal = self.start('terminal_node')
+        speeds = set()
+        self.listen('/mirror/drives/shaft', DriveState, lambda drive: speeds.add(drive.speed))
+        self.expect(lambda: self.steps > 4000 and speeds and self.says(terminal, 'rotor:'), simulation, bridge)
+        self.scene(UNSTABLE, '/other')
+        other = self.start('simulation_node', '_realtime:=ignore', '_lcm_prefix:=TWIN_', '__ns:=/other')
+        self.expect(lambda: self.says(watch, r'/other/simulation_node on .* sends as this twin, too.* are left out'), watch)
+        self.expect(lambda: self.left_out() > 1000, bridge)
+        self.end(other)
+        intruder = self.start('simulation_node', '_realtime:=ignore', '_lcm_url:=', '__name:=intruder')
+        self.expect(lambda: self.says(terminal, '/intruder publishes as this twin, too, beside /simulation_node'), terminal)
+        self.end(intruder)
+        self.assertEqual(speeds, {SLOW})
+        # One that takes its place is followed.
+        self.end(simulation)
+        speeds.clear()
+        self.begin(UNSTABLE)
+        self.expect(lambda: speeds == {UNSTABLE}, bridge)
+
+    def left_out(self):
+        status = self.status.get('mirror/lcm_bridge_node: received from LCM')
+        return max((int(v.value) for v in status.values if v.key.startswith('left out, of other')), default=0) if status else 0
+
+    def test_an_input_that_is_set_is_shown(self):
+        simulation = self.begin(SLOW)
+        self.expect(lambda: self.diagnosed('simulation_node: inputs', OK), simulation)
+        self.assertTrue(call('/simulation_node/set_input', SetInput, 'rotor', 'force_x', 3.0, 4.0).success)
+        self.expect(lambda: self.diagnosed('simulation_node: inputs', WARN, r'rotor/force_x is 3 by .* since .* until t = '))
+        self.expect(lambda: self.diagnosed('simulation_node: inputs', OK), simulation)
 
     def test_arrays_of_different_lengths(self):
         self.begin(SLOW)
