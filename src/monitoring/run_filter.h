@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "messages/message.h"
@@ -17,8 +18,8 @@ class RunFilter {
   /// that is watched. Commands, measurements and what follows a machine always pass: they have
   /// clocks of their own.
   bool take(const Message& message, double wall_time);
-  /// Whether one with this stamp [ns] and time [s, simulated] is.
-  bool take(std::int64_t stamp, double time, double wall_time);
+  /// Whether one with this stamp [ns], if it has one, and time [s, simulated] is.
+  bool take(std::optional<std::int64_t> stamp, double time, double wall_time);
 
   /// "... sends as this twin, too, beside ..."; "" with one alone.
   std::string duplicate(double wall_time) const { return resets_.duplicate(wall_time); }

@@ -68,6 +68,24 @@ TEST(ARunFilter, LetsALogAndMeasurementsOfNobodyPass) {
   EXPECT_EQ(filter.ofOthers(), 0U);
 }
 
+// The monitor tells active alerts again every 5 s, for those who come late.
+TEST(ARunFilter, LetsAlertsPassThatAreToldAgainWithoutAStamp) {
+  RunFilter filter;
+  Sender watched{"first", 90 * kSecond, 10.0};
+  int passed = 0;
+  for (int tick = 0; tick < 3000; ++tick) {
+    watched.send(filter, tick);
+    if (tick % 100 == 50) {
+      state::Alert alert;
+      alert.time = watched.time + 0.01 * tick;
+      passed += filter.take(Message(alert), 0.01 * tick) ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(passed, 30);
+  EXPECT_EQ(filter.ofOthers(), 0U);
+  EXPECT_EQ(filter.duplicate(30.0), "");
+}
+
 TEST(ARunFilter, LeavesALogThatIsPlayedBesideATwin) {
   RunFilter filter;
   Sender watched{"first", 90 * kSecond, 10.0};
