@@ -220,7 +220,8 @@ TEST(EquilibriumStart, OfAnEnsembleIsThatOfEachMember) {
     member.parameters["stiffness_y"] = stiffness;
     const ModelInfo& model = *built.systems[0]->model;
     const ModelSetup setup = model.setUp(member.parameters, member.settings, {kGravity});
-    moveToEquilibrium(model, given, setup, {kGravity}, member);
+    const auto own = equilibriumStart(model, member, setup, {kGravity}, given.rest->speed);
+    moveToEquilibrium(given, own, {kGravity}, member);
     EXPECT_NEAR(member.q[1], -2.0 * kGravity / stiffness, 1.0e-15);
   }
 }
