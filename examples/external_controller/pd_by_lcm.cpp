@@ -24,7 +24,8 @@ class Pd {
   void take(const lcm::ReceiveBuffer*, const std::string&,
             const whirl_twin::controller_measurement_t* measurement) {
     const std::vector<double>& y = measurement->values;
-    if (measurement->run != run_) {  // the first, or the first after a reset: none before it
+    // The first, or the first after a reset: none before it. A damaged one may have any length.
+    if (measurement->run != run_ || y.size() != last_.size()) {
       run_ = measurement->run;
       last_ = y;
     }

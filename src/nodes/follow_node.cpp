@@ -30,6 +30,7 @@
 #include "transport/lcm_connection.h"
 #include "transport/ros_parameters.h"
 #include "transport/twin_namespace.h"
+#include "twin/scene_lines.h"
 
 namespace whirl_twin {
 namespace {
@@ -123,7 +124,7 @@ void run() {
 
   const auto generations = std::make_shared<SystemGenerations>(twin);
   FollowPublisher publisher(twin, generations, sources, node, LcmPublisher(lcm_url, own_prefix),
-                            sceneTextOf(given));
+                            sceneText(given.tree, given.source));
   std::int64_t ahead = 0;  // [ns], of the wall clock before the machine's
   Follower* following = nullptr;
   FollowerListener listener;

@@ -224,7 +224,7 @@ void run() {
       StatePublisher(live.twin(), live.ensembles(), node,
                      LcmPublisher(settings.lcm_url, settings.lcm_prefix),
                      settings.clock ? std::llround(1.0e9 / settings.clock_rate) : 0),
-      lockstep, sceneTextOf(given), settings.every, settings.batch, settings.clock,
+      lockstep, sceneText(given.tree, given.source), settings.every, settings.batch, settings.clock,
       settings.measure);
   if (resumed) {
     publisher.putBack(*resumed, settings.resume);

@@ -18,14 +18,21 @@ namespace {
 template <class Log>
 class LogWriter final : public SampleWriter {
  public:
-  LogWriter(const Twin& twin, std::vector<std::size_t> systems, const std::string& path)
+  LogWriter(const Twin& twin, std::vector<std::size_t> systems, state::SceneText scene,
+            const std::string& path)
       : twin_(twin),
         messages_(twin.built(), std::move(systems)),
         orders_(twin),
+        scene_(std::move(scene)),
         pending_(path),
         log_(pending_.path()) {}
 
   void write(const Observer& observer) override {
+    if (!scene_.line.empty()) {  // before the first state
+      scene_.at = observer.instant();
+      log_.write(scene_);
+      scene_.line.clear();
+    }
     messages_.tell(observer, true, sinkAt(observer));
     const auto take = [this](std::size_t system, const state::Instant& now,
                              state::EnsembleState& ensemble) {
@@ -85,6 +92,7 @@ class LogWriter final : public SampleWriter {
   const Twin& twin_;
   StepMessages messages_;
   OrderObserver orders_;
+  state::SceneText scene_;  // without lines once it is written
   PendingFile pending_;
   Log log_;
   std::map<std::size_t, std::int64_t> next_ensemble_;  // step, of each system
@@ -94,11 +102,12 @@ class LogWriter final : public SampleWriter {
 }  // namespace
 
 std::unique_ptr<SampleWriter> makeLogWriter(const Twin& twin, std::vector<std::size_t> systems,
-                                            const std::string& path) {
+                                            state::SceneText scene, const std::string& path) {
   if (std::filesystem::path(path).extension() == ".mcap") {
-    return std::make_unique<LogWriter<McapLog>>(twin, std::move(systems), path);
+    return std::make_unique<LogWriter<McapLog>>(twin, std::move(systems), std::move(scene), path);
   }
-  return std::make_unique<LogWriter<EventLogWriter>>(twin, std::move(systems), path);
+  return std::make_unique<LogWriter<EventLogWriter>>(twin, std::move(systems), std::move(scene),
+                                                     path);
 }
 
 }  // namespace whirl_twin

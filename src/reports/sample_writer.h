@@ -9,6 +9,7 @@
 
 #include "messages/follow_state.h"
 #include "messages/measurement.h"
+#include "messages/scene_text.h"
 #include "twin/observer.h"
 
 namespace whirl_twin {
@@ -41,9 +42,9 @@ class SampleWriter {
 std::unique_ptr<SampleWriter> makeTableWriter(const Twin& twin, std::vector<std::size_t> systems,
                                               const std::string& path);
 
-/// The messages the simulation node publishes, of the systems and their drives: an LCM event log,
-/// or an MCAP file where the path ends in .mcap.
+/// The messages the simulation node publishes, of the systems and their drives, after the scene: an
+/// LCM event log, or an MCAP file where the path ends in .mcap.
 std::unique_ptr<SampleWriter> makeLogWriter(const Twin& twin, std::vector<std::size_t> systems,
-                                            const std::string& path);
+                                            state::SceneText scene, const std::string& path);
 
 }  // namespace whirl_twin

@@ -13,6 +13,7 @@
 #include "tools/progress_bar.h"
 #include "tools/shipped_scenes.h"
 #include "transport/channels.h"
+#include "twin/scene_lines.h"
 
 namespace whirl_twin {
 
@@ -70,7 +71,11 @@ std::unique_ptr<SampleWriter> writerOf(const FollowRequest& request, const Twin&
     return makeTableWriter(twin, systems, *request.output);
   }
   if (extension == ".lcmlog") {
-    return makeLogWriter(twin, systems, *request.output);
+    const std::string scene = scenePath(request.scene);
+    return makeLogWriter(twin, systems,
+                         sceneText(readYamlFile(scene, "a scene", "systems"),
+                                   std::filesystem::absolute(scene).string()),
+                         *request.output);
   }
   throw Refusal(fmt::format("--output: must end in .csv or .lcmlog, found '{}'", *request.output));
 }

@@ -7,9 +7,11 @@
 #include "messages/refusal.h"
 #include "reports/members_table.h"
 #include "reports/output.h"
+#include "scene/yaml_file.h"
 #include "tools/arguments.h"
 #include "tools/commands.h"
 #include "tools/simulation.h"
+#include "twin/scene_lines.h"
 
 namespace whirl_twin {
 
@@ -50,13 +52,27 @@ std::string extensionOf(const std::string& output) {
   return extension;
 }
 
-std::unique_ptr<SampleWriter> makeWriter(const SimulationRequest& request, const Twin& twin,
-                                         const std::vector<std::size_t>& systems) {
+/// With what the options replace of the file.
+state::SceneText simulatedScene(const SimulationRequest& request, const SimulationPlan& plan) {
+  YAML::Node tree = readYamlFile(plan.path, "a scene", "systems");
+  if (request.step) {
+    tree["step"] = *request.step;
+  }
+  for (const std::size_t i : request.integrator ? plan.systems : std::vector<std::size_t>{}) {
+    tree["systems"][plan.scene.systems[i].name]["integrator"] = *request.integrator;
+  }
+  return sceneText(tree, std::filesystem::absolute(plan.path).string());
+}
+
+std::unique_ptr<SampleWriter> makeWriter(const SimulationRequest& request,
+                                         const SimulationPlan& plan, const Twin& twin) {
+  const std::vector<std::size_t>& systems = plan.systems;
   if (!request.output) {
     return request.json ? nullptr : makeTableWriter(twin, systems, "");
   }
-  return extensionOf(*request.output) == ".csv" ? makeTableWriter(twin, systems, *request.output)
-                                                : makeLogWriter(twin, systems, *request.output);
+  return extensionOf(*request.output) == ".csv"
+             ? makeTableWriter(twin, systems, *request.output)
+             : makeLogWriter(twin, systems, simulatedScene(request, plan), *request.output);
 }
 
 void requireOneEnsemble(const SimulationPlan& plan) {
@@ -103,7 +119,7 @@ int simulate(const SimulationRequest& request) {
     requireOneEnsemble(plan);
   }
   Simulation simulation(plan);
-  const auto writer = makeWriter(request, simulation.twin(), plan.systems);
+  const auto writer = makeWriter(request, plan, simulation.twin());
   simulation.run(writer.get(), !request.output && !request.json);
   if (writer) {
     writer->finish();

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
-#include <sstream>
 
 #include "messages/refusal.h"
 
@@ -105,16 +104,6 @@ ParameterTree parameterTree(const ros::NodeHandle& node, const std::string& name
         source, name, node.resolveName(name)));
   }
   return {toYaml(tree), source};
-}
-
-state::SceneText sceneTextOf(const ParameterTree& scene) {
-  state::SceneText text;
-  text.source = scene.source;
-  std::istringstream lines(YAML::Dump(scene.tree));
-  for (std::string line; std::getline(lines, line);) {
-    text.line.push_back(line);
-  }
-  return text;
 }
 
 }  // namespace whirl_twin

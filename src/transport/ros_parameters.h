@@ -6,8 +6,6 @@
 
 #include <string>
 
-#include "messages/scene_text.h"
-
 namespace whirl_twin {
 
 struct ParameterTree {
@@ -18,9 +16,6 @@ struct ParameterTree {
 
 /// The tree under the parameter `name`. Throws Refusal if there is none.
 ParameterTree parameterTree(const ros::NodeHandle& node, const std::string& name);
-
-/// A scene, to be told to those who have no parameters.
-state::SceneText sceneTextOf(const ParameterTree& scene);
 
 /// A parameter as YAML.
 YAML::Node toYaml(XmlRpc::XmlRpcValue& value);

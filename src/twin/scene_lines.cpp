@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <optional>
+#include <sstream>
 
 #include "messages/checksum.h"
 #include "scene/node_reader.h"
@@ -49,6 +50,16 @@ SceneLines sceneLines(const YAML::Node& tree) {
   SceneLines lines;
   gather(tree, "", lines);
   return lines;
+}
+
+state::SceneText sceneText(const YAML::Node& tree, const std::string& source) {
+  state::SceneText text;
+  text.source = source;
+  std::istringstream lines(YAML::Dump(tree));
+  for (std::string line; std::getline(lines, line);) {
+    text.line.push_back(line);
+  }
+  return text;
 }
 
 SceneLines sceneLines(const YAML::Node& tree, const Twin& twin) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 
+#include "messages/scene_text.h"
 #include "twin/twin.h"
 
 namespace whirl_twin {
@@ -17,6 +18,9 @@ using SceneLines = std::map<std::string, std::string>;
 
 /// Of a scene's YAML tree alone.
 SceneLines sceneLines(const YAML::Node& tree);
+
+/// A scene's YAML tree as the message that goes with a run; source: its file, for messages.
+state::SceneText sceneText(const YAML::Node& tree, const std::string& source);
 
 /// Of a scene's YAML tree, and of the twin that it made: its step, the order of what is in it, the
 /// methods chosen, the tables of files that it names.

@@ -59,7 +59,7 @@ class CheckpointOfTheTwin(NodeTrial):
                           ROSCONSOLE_STDOUT_LINE_BUFFERED='1')
 
     def newest(self):
-        return max((step for _, step in self.heard), default=0)
+        return max((step for _, step in list(self.heard)), default=0)
 
     def saved(self):
         return os.path.exists(self.file) and os.stat(self.file).st_mtime_ns
@@ -91,7 +91,7 @@ class CheckpointOfTheTwin(NodeTrial):
         self.assertTrue(wait_until(lambda: self.newest() > last + 100), self.log(second))
         self.assertTrue(self.says(second, 'goes on from step [1-9]'), self.log(second))
         for topic, _ in TOPICS:
-            both = [key for key in self.heard if key in lived and key[0] == topic]
+            both = [key for key in list(self.heard) if key in lived and key[0] == topic]
             self.assertGreater(len(both), 50, topic)
             other = [key for key in both if self.heard[key] != lived[key]]
             self.assertEqual(other, [], '%d of %d are other' % (len(other), len(both)))

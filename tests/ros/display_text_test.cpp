@@ -171,6 +171,7 @@ TEST(TerminalText, ReadoutSaysWhatIsKnown) {
 TEST(TerminalText, VibrationIsWithoutSag) {
   SystemReadout readout;
   auto whirl = boost::make_shared<WhirlState>();
+  whirl->header.frame_id = "rotor";
   whirl->speed = 100.0;
   for (int i = 0; i <= 200; ++i) {
     const double angle = 2.0 * M_PI * i / 100.0;

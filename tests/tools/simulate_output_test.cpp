@@ -124,6 +124,22 @@ TEST(Output, FileAndJsonTogether) {
   EXPECT_EQ(linesOf(contentsOf(directory.file("demo.csv"))).size(), 1u + 1001u);
 }
 
+// A log has the scene that was simulated, before its first state, for those who play it.
+TEST(Output, ALogHasTheSceneThatWasSimulated) {
+  const TemporaryDirectory directory;
+  const std::string log = directory.file("demo.lcmlog");
+  ASSERT_EQ(
+      twin({"simulate", kDemo, "--duration", "0.01", "--step", "0.002", "--output", log}).status,
+      0);
+  const std::string bytes = contentsOf(log);
+  const std::size_t scene = bytes.find("TWIN_SCENE");
+  ASSERT_NE(scene, std::string::npos);
+  EXPECT_LT(scene, bytes.find("TWIN_ROTOR_WHIRL"));
+  EXPECT_EQ(bytes.find("TWIN_SCENE", scene + 1), std::string::npos) << "once";
+  EXPECT_NE(bytes.find("step: 0.002", scene), std::string::npos);
+  EXPECT_NE(bytes.find("model: jeffcott_rotor", scene), std::string::npos);
+}
+
 TEST(Output, FileThatCannotBeWrittenFailsTheRun) {
   const TemporaryDirectory directory;
   std::filesystem::create_directory(directory.file("taken.csv"));
