@@ -161,8 +161,7 @@ std::optional<WhirlModes> lowestWhirlModes(const BandedLinearization& at_speed,
 }
 
 bool isWhirl(const WhirlMode& mode) {
-  constexpr double kMostDamped = 0.7;
-  return mode.dampingRatio() <= kMostDamped;
+  return mode.dampingRatio() <= kMaxWhirlDamping;
 }
 
 double WhirlMode::logDecrement() const {

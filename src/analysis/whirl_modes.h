@@ -31,6 +31,8 @@ struct WhirlMode {
   double logDecrement() const;                                                            ///< [-]
 };
 
+constexpr double kMaxWhirlDamping = 0.7;  ///< damping ratio, of a whirl: isWhirl()
+
 /// A motion whose damping ratio is above 0.7 hardly goes round once: an overdamped root, or one
 /// that is nearly so, of a bearing with much damping. No verdict on whirl modes is about it.
 bool isWhirl(const WhirlMode& mode);

@@ -125,7 +125,7 @@ bool TwinListener::isOfHolder(const std::string& topic, const std::string& publi
   }
   others_ = printable(publisher) + " publishes as this twin, too, beside " + printable(holder);
   others_at_ = now;
-  ROS_WARN_THROTTLE(5.0, "%s: what it says is left", others_.c_str());
+  ROS_WARN_THROTTLE(5.0, "%s: its messages are ignored", others_.c_str());
   return false;
 }
 

@@ -24,7 +24,7 @@ bool RunFilter::take(const Message& message, double wall_time) {
         } else if constexpr (kHasOwnClock<State>) {
           return true;
         } else if constexpr (std::is_same_v<State, state::Alert>) {
-          return take(std::nullopt, state.time, wall_time);  // one that is told again has no stamp
+          return take(std::nullopt, state.time, wall_time);  // sent again without a stamp
         } else {
           return take(state.at.stamp, state.at.time, wall_time);
         }
@@ -45,8 +45,8 @@ bool RunFilter::take(std::optional<std::int64_t> stamp, double time, double wall
   if (resets_.confirmedBy(time, wall_time)) {
     resets_.begin();
   }
-  const bool of_other = (stamp && resets_.takeStamp(*stamp, wall_time)) || resets_.isAmbiguous(wall_time) ||
-                        resets_.isOfRival(time, wall_time);
+  const bool of_other = (stamp && resets_.takeStamp(*stamp, wall_time)) ||
+                        resets_.isAmbiguous(wall_time) || resets_.isOfRival(time, wall_time);
   of_others_ += of_other ? 1 : 0;
   return !of_other;
 }

@@ -10,6 +10,7 @@
 #include "algebra/constants.h"
 #include "analysis/equilibria.h"
 #include "analysis/stability_margins.h"
+#include "analysis/whirl_modes.h"
 #include "scene/driven_dynamics.h"
 #include "scene/held_rotor.h"
 
@@ -28,10 +29,9 @@ constexpr double kSame = 1.0e-4;
 /// highest_speed, and up to the speed of its shaft. Beyond are those of its mesh.
 double leastDampingRatio(const BuiltSystem& system, const Stability& s, double speed) {
   constexpr std::size_t kWhirls = 4;
-  constexpr double kMostDamped = 0.7;        // of a whirl: isWhirl()
   std::vector<std::complex<double>> whirls;  // by rising |s|
   for (const std::complex<double>& root : s.eigenvalues) {
-    if (root.imag() > 0.0 && -root.real() <= kMostDamped * std::abs(root)) {
+    if (root.imag() > 0.0 && -root.real() <= kMaxWhirlDamping * std::abs(root)) {
       whirls.push_back(root);
     }
   }

@@ -250,8 +250,9 @@ std::optional<IsotropicRotor> isotropicRotor(const Dynamics& dynamics, const Sys
     // Re[F e^(i theta)] along x and Re[-i F e^(i theta)] along y: a force that turns as it is.
     const std::complex<double> amplitude = force.amplitude[0];
     const std::complex<double> aside = std::complex<double>(0.0, -1.0) * amplitude;
-    if (force.harmonic != 1 ||
-        std::abs(force.amplitude[1] - aside) > 1.0e-12 * std::abs(amplitude)) {
+    // What turns is computed beside the load, whose rounding is in it.
+    const double rounding = 1.0e-12 * std::abs(amplitude) + 1.0e-15 * rotor.load.norm();
+    if (force.harmonic != 1 || std::abs(force.amplitude[1] - aside) > rounding) {
       return std::nullopt;
     }
     (force.inertial ? found.eccentricity : found.bow_force) += amplitude / mass;

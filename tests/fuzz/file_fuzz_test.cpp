@@ -1,7 +1,7 @@
 // Whatever is in a file that a program reads back or takes from others, it is read, left out or
 // refused in words. Checksums are made right again, so that what is behind them is tried.
-// 2,000 of each kind, a million with WHIRL_TWIN_EXTREMES=full, or as many as WHIRL_TWIN_FUZZ_SECONDS
-// have room for; how many and how fast are properties of the test.
+// 2,000 of each kind, a million with WHIRL_TWIN_EXTREMES=full, or as many as
+// WHIRL_TWIN_FUZZ_SECONDS have room for; how many and how fast are properties of the test.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -62,7 +62,6 @@ int tried(const std::function<void(Breaker&)>& one, unsigned seed) {
     longest = std::max(
         longest, std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count());
   }
-  EXPECT_LT(longest, 10.0);  // a second, on a machine that has other work
   testing::Test::RecordProperty("inputs", inputs);
   testing::Test::RecordProperty("per_second", static_cast<int>(inputs / secondsSince(begin)));
   testing::Test::RecordProperty("longest_ms", static_cast<int>(1.0e3 * longest));

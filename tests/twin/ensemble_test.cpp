@@ -400,6 +400,8 @@ systems:
     Twin weightless(sceneOf(scene("", "false")));
     hanging.buildEnsembles();
     weightless.buildEnsembles();
+    EXPECT_STREQ(hanging.ensemble(0)->steps().description(),
+                 meshed ? "one by one" : "side by side in vectors");
     for (int i = 0; i < 400; ++i) {
       hanging.step();
       weightless.step();
