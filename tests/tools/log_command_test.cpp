@@ -23,11 +23,11 @@ TEST_F(DemoLog, IsCompleteAndIntact) {
   const Ending end = twin({"log", path_, "--json"});
   ASSERT_EQ(end.status, 0) << end.err;
   const Json log = end.json();
-  EXPECT_EQ(log["events"], 3 * 1001 + 20 + 2);
+  EXPECT_EQ(log["events"], 3 * 1001 + 20 + 2 + 1);
   EXPECT_DOUBLE_EQ(log["span"], 1.0);
   EXPECT_EQ(log["corrupt"], 0);
   EXPECT_EQ(log["continuous"], true);
-  EXPECT_EQ(log["channels"].size(), 6u);
+  EXPECT_EQ(log["channels"].size(), 7u);
   for (const char* channel : {"TWIN_ROTOR_WHIRL", "TWIN_PENDULUM_PENDULUM", "TWIN_SHAFT_DRIVE"}) {
     const Json& c = log["channels"][channel];
     EXPECT_EQ(c["events"], 1001) << channel;
@@ -36,8 +36,8 @@ TEST_F(DemoLog, IsCompleteAndIntact) {
     EXPECT_EQ(c["stride"], 1);
     EXPECT_EQ(c["gaps"], 0);
   }
-  // At the start; again every 10 s.
-  for (const char* channel : {"TWIN_ROTOR_PARAMETER", "TWIN_PENDULUM_PARAMETER"}) {
+  // At the start; parameters again every 10 s.
+  for (const char* channel : {"TWIN_ROTOR_PARAMETER", "TWIN_PENDULUM_PARAMETER", "TWIN_SCENE"}) {
     EXPECT_EQ(log["channels"][channel]["events"], 1) << channel;
   }
   EXPECT_EQ(directory_.files(), std::vector<std::string>{"demo.lcmlog"});
@@ -68,7 +68,7 @@ TEST_F(DemoLog, OfOneSystemHoldsItAndItsDrive) {
   twin({"simulate", kDemo, "--duration", "1", "--sample", "0.01", "--system", "rotor", "--output",
         one});
   const Json log = twin({"log", one, "--json"}).json();
-  EXPECT_EQ(log["channels"].size(), 4u);
+  EXPECT_EQ(log["channels"].size(), 5u);
   EXPECT_EQ(log["channels"]["TWIN_ROTOR_WHIRL"]["events"], 101);
   EXPECT_EQ(log["channels"]["TWIN_ROTOR_WHIRL"]["stride"], 10);
   EXPECT_TRUE(log["channels"].contains("TWIN_SHAFT_DRIVE"));
@@ -112,7 +112,7 @@ TEST_F(DemoLog, DamageIsFoundAndToldByTheExitStatus) {
 TEST_F(DemoLog, ReportForReaders) {
   const Ending end = twin({"log", path_});
   EXPECT_EQ(end.status, 0);
-  EXPECT_EQ(linesOf(end.out).front().find(path_ + ": 3025 events in 1 s"), 0u) << end.out;
+  EXPECT_EQ(linesOf(end.out).front().find(path_ + ": 3026 events in 1 s"), 0u) << end.out;
   EXPECT_NE(end.out.find("TWIN_ROTOR_WHIRL"), std::string::npos);
   EXPECT_NE(end.out.find("no corrupt events"), std::string::npos);
 }
