@@ -17,8 +17,8 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kScenesDescription =
-    "Lists the scenes that come with the package, or those of a folder: what each shows, what to watch,\n"
-    "and its systems with their models.";
+    "Lists the scenes that come with the package, or those of a folder: what each shows, what to\n"
+    "watch, and its systems with their models.";
 
 constexpr const char* kScenesFooter =
     "Any of them runs by its name:\n"
