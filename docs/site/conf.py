@@ -11,6 +11,8 @@ html_title = "whirl_twin"
 html_copy_source = False
 html_show_sphinx = False
 html_theme_options = {"navigation_with_keys": True}
+html_static_path = ["static"]
+html_css_files = ["wide.css"]
 
 # The anchors of headings that GitHub makes, so that one link serves both.
 myst_heading_anchors = 4
