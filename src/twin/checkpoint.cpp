@@ -76,9 +76,10 @@ void requireWhole(const std::string& bytes, std::size_t at, int format, const st
   unsigned long long sum = 0;
   const char* const end = promise.data() + promise.size();
   const auto first = std::from_chars(promise.data(), end, size);
-  const bool read = first.ec == std::errc() && first.ptr != end && *first.ptr == ' ' &&
-                    end - first.ptr == 1 + digits &&
-                    std::from_chars(first.ptr + 1, end, sum, 16).ptr == end;
+  const bool read =
+      first.ec == std::errc() && first.ptr != end &&
+      std::from_chars(first.ptr + 1, end, sum, 16).ec == std::errc() &&
+      promise == fmt::format("{} {:0{}x}", size, sum, digits);  // capitals are no hex of ours
   if (!read) {
     refuse(source, "is damaged: its second line is not a size and a checksum");
   }
