@@ -18,11 +18,12 @@ constexpr const char* kLoopDescription =
     "as they are, several at once.";
 
 constexpr const char* kLoopFooter =
-    "Small motions about the equilibrium nearest to where each system starts, through the\n"
+    "Small motions about the motion that the loop holds its systems in, with the set-points as\n"
+    "they are (where nothing is held, about the equilibrium nearest to the start), through the\n"
     "transition matrix of one sample (of several rates: of the time after which all samples come\n"
     "again). Its characteristic polynomial goes through Routh's test, exactly, on w with\n"
-    "z = (1 + w)/(1 - w); the eigenvalues stand beside it. What a linear law does not show,\n"
-    "limits, slew and resolution, is not in it.\n"
+    "z = (1 + w)/(1 - w); the eigenvalues are beside it. Limits, slew and resolution are in no\n"
+    "linear law, and not in it.\n"
     "In the picture: Bode and Nyquist diagrams of the loop opened at each sensor, and the\n"
     "sensitivity there over the zones of ISO 14839-3.\n"
     "\n"

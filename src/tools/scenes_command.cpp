@@ -17,8 +17,8 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kScenesDescription =
-    "Lists the scenes that come with the package, or those of a folder: what each shows, and its\n"
-    "systems with their models.";
+    "Lists the scenes that come with the package, or those of a folder: what each shows, what to\n"
+    "watch, and its systems with their models.";
 
 constexpr const char* kScenesFooter =
     "Any of them runs by its name:\n"
@@ -80,7 +80,8 @@ std::string sceneEntryText(const SceneEntry& entry) {
   for (const SystemSpec& system : entry.scene.systems) {
     systems += fmt::format("{}{} ({})", systems.empty() ? "" : ", ", system.name, system.model);
   }
-  return fmt::format("{}\n  {}\n  systems: {}\n", entry.name, entry.about, systems);
+  return fmt::format("{}\n  {}\n{}  systems: {}\n", entry.name, entry.about,
+                     entry.watch.empty() ? "" : "  " + entry.watch + "\n", systems);
 }
 
 Json sceneEntryJson(const SceneEntry& entry) {

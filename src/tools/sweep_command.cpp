@@ -48,7 +48,7 @@ constexpr const char* kSweepDescription =
     "measured goes into a folder; what the points say together is printed.";
 
 constexpr const char* kSweepFooter =
-    "STUDY is YAML (docs/studies.md tells all):\n"
+    "STUDY is YAML; its keys:\n"
     "  study: {scene: rotor.yaml, seed: 7}\n"
     "  vary:\n"
     "    rotor.stiffness: {uniform: [0.9e4, 1.1e4]}\n"
