@@ -47,7 +47,7 @@ void checkLimit(const ControllerSpec& controller, const Eigen::VectorXd& outputs
       const ActedInput& acted = controller.acts_on[i];
       const std::string unit = held.at(acted.system).dynamics->inputs()[acted.input].unit;
       throw RunFailure(fmt::format(
-          "where it is to be held, {} would have to be {:.4g} {}: the actuator of {} gives {:g}",
+          "holding the setpoint needs {} = {:.4g} {}: the actuator of {} is limited to {:g}",
           controller.acted_on[i], output, unit, controller.name, limit));
     }
   }
