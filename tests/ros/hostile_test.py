@@ -123,11 +123,11 @@ class Hostile(NodeTrial):
         monitor[0].wait()
         self.status.clear()
         monitor = self.start('monitor_node')
-        self.expect(lambda: self.diagnosed('monitor_node: monitor', ERROR, r'runs another scene .*shaft\.speed is 58 there, 8 here'),
+        self.expect(lambda: self.diagnosed('monitor_node: monitor', ERROR, r'differs from that of the monitor .*shaft\.speed is 58 there, 8 here'),
                     monitor)
         self.end(simulation)
         self.begin(SLOW)  # another run, whose scene it has
-        self.expect(lambda: self.says(monitor, 'another run is watched from now on'), monitor)
+        self.expect(lambda: self.says(monitor, 'another run is monitored from now on'), monitor)
         self.expect(lambda: self.diagnosed('monitor_node: monitor', OK, 'no alerts'), monitor)
 
     def test_bridge_and_displays_keep_to_one_run(self):
@@ -155,7 +155,7 @@ class Hostile(NodeTrial):
 
     def left_out(self):
         status = self.status.get('mirror/lcm_bridge_node: received from LCM')
-        return max((int(v.value) for v in status.values if v.key.startswith('left out, of other')), default=0) if status else 0
+        return max((int(v.value) for v in status.values if v.key.startswith('ignored, of other')), default=0) if status else 0
 
     def test_an_input_that_is_set_is_shown(self):
         simulation = self.begin(SLOW)

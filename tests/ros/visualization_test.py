@@ -54,4 +54,4 @@ class Visualization(NodeTrial):
         # The verdict is too old first, then its monitor is missed.
         self.assertTrue(wait_until(lambda: self.text('rotor/margin_caption') == 'margin: the monitor is silent'),
                         self.text('rotor/margin_caption'))
-        self.assertTrue(self.text('(twin)/title').startswith('alarms not known'))
+        self.assertTrue(self.text('(twin)/title').startswith('alarms unknown'))
