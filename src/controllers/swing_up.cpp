@@ -83,8 +83,8 @@ std::unique_ptr<Controller> makeSwingUp(const ParameterValues& values, const Set
                                         const ControllerPlan& plan) {
   const Eigen::MatrixXd& gain = settings.matrices.at("gain");
   if (plan.measured < 2 || plan.outputs != 1) {
-    throw SetupError("gain", fmt::format("must have one output, and an angle, its rate and further "
-                                         "measured signals, found {} measured, {} acted on",
+    throw SetupError("gain", fmt::format("must measure an angle, its rate and further signals, and "
+                                         "act on one input, found {} measured, {} acted on",
                                          plan.measured, plan.outputs));
   }
   requireSize("gain", gain, 1, static_cast<Eigen::Index>(plan.measured),

@@ -59,7 +59,8 @@ CommandAnswer acknowledge(const AlarmCommand& command, AlertList& alerts, const 
   });
   const bool all = command.system.empty() && command.type.empty();
   if (!any && !all) {
-    return refused(fmt::format("no alert {} of {}", command.type, systemText(command.system)));
+    return refused(
+        fmt::format("no active alert {} of {}", command.type, systemText(command.system)));
   }
   return {true, fmt::format("{} acknowledged",
                             alerts.acknowledge(command.system, command.type, sinceNow(by)))};

@@ -179,10 +179,9 @@ void readDelay(const MapReader& map, ControllerSpec& controller, Complaints& com
     jitter = given.numberBetween("jitter", 0.0, kMaxSignalDelay, "s", 0.0);
     controller.jitter_seed = static_cast<std::uint32_t>(given.integer("seed", 0, 2147483647, 1));
     if (jitter > delay) {
-      complaints.add(given.key("jitter"),
-                     fmt::format("must be at most the mean, {:g} s: no output comes before its "
-                                 "sample, found {:g}",
-                                 delay, jitter));
+      complaints.add(
+          given.key("jitter"),
+          fmt::format("must be at most the mean delay, {:g} s, found {:g}", delay, jitter));
     }
   } else {
     delay = map.numberBetween("delay", 0.0, kMaxSignalDelay, "s", 0.0);

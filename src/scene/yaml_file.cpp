@@ -98,7 +98,7 @@ YAML::Node readYamlFile(const std::string& path, const std::string& what,
     throw refusal("not a file");
   }
   if (std::filesystem::file_size(path, error) > kMaxYamlSize) {
-    throw refusal(fmt::format("larger than 4 MiB: not {}", what));
+    throw refusal(fmt::format("larger than 4 MiB, the limit of {}", what));
   }
   std::ifstream file(path, std::ios::binary);
   const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());

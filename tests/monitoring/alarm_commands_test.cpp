@@ -165,7 +165,8 @@ TEST(AlarmCommands, RefuseWhatCannotBeMeantAndDoNothingOfIt) {
             "system: must be a system of the scene, found 'roter'; did you mean 'rotor'?");
   EXPECT_EQ(refusal(twin.command(kAcknowledge, "rotor", "UNSTABEL")),
             "type: must be a type of alert, found 'UNSTABEL'; did you mean 'UNSTABLE'?");
-  EXPECT_EQ(refusal(twin.command(kAcknowledge, "rotor", "UNSTABLE")), "no alert UNSTABLE of rotor");
+  EXPECT_EQ(refusal(twin.command(kAcknowledge, "rotor", "UNSTABLE")),
+            "no active alert UNSTABLE of rotor");
   EXPECT_EQ(refusal(twin.command(kAcknowledge, "", "", 5.0)),
             "duration: must be 0 except for command 3 (inhibit), found 5");
   EXPECT_EQ(refusal(twin.command(kReset, "rotor")),

@@ -83,7 +83,7 @@ TEST_F(SceneFile, ThatIsNotOneIsRefused) {
                                   "ELF\0\1\2",
                                   7)),
             "a binary file, not a scene in YAML");
-  EXPECT_EQ(complaint(std::string(5 << 20, ' ')), "larger than 4 MiB: not a scene");
+  EXPECT_EQ(complaint(std::string(5 << 20, ' ')), "larger than 4 MiB, the limit of a scene");
   EXPECT_EQ(complaint("only words"), "must be a map of keys and values, found 'only words'");
 }
 

@@ -121,9 +121,10 @@ systems:
 TEST(Check, SaysWhichResonanceAMotorDoesNotPass) {
   const Ending end = twin({"check", "supervised_speed"});
   ASSERT_EQ(end.status, 0) << end.err;
-  EXPECT_NE(end.out.find("REFUSES the band from 180 to 220 rad/s: at 200 rad/s a steady whirl "
-                         "needs 0.05 N m, but the motor has 0.012 N m"),
-            std::string::npos)
+  EXPECT_NE(
+      end.out.find("REFUSES the band from 180 to 220 rad/s: at 200 rad/s (1910 rpm) a steady whirl "
+                   "needs 0.05 N m, but the motor has 0.012 N m"),
+      std::string::npos)
       << end.out;
   const Json check = twin({"check", "supervised_speed", "--json"}).json();
   const auto weak = [&](const char* name) {
