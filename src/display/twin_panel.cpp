@@ -128,7 +128,7 @@ AlarmList alarmList(const std::vector<Alert>& alerts, std::size_t most) {
                   : alert.severity == Alert::WARNING ? list.warning
                                                      : list.info;
     lines.push_back(fmt::format("{} {} {}{}", severityName(alert.severity), alert.system,
-                                alert.type, alert.acknowledged ? " (seen)" : ""));
+                                alert.type, alert.acknowledged ? " (acknowledged)" : ""));
   }
   if (alerts.size() > shown) {
     list.info.push_back(fmt::format("and {} more", alerts.size() - shown));

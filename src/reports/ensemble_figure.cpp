@@ -87,7 +87,7 @@ Chart peakChart(const Ensemble& ensemble, std::size_t quantity) {
   const EnsembleQuantity& q = ensemble.quantities()[quantity];
   Chart chart;
   chart.x = {fmt::format("largest {} of a sample ({})", q.name, q.unit), false, true};
-  chart.y.label = "members";
+  chart.y.label = "samples";
   if (peaks.empty()) {
     return chart;
   }

@@ -240,7 +240,7 @@ class RotorReport {
            numberOrDash(margin.separation_margin), numberOrDash(margin.required_separation_margin),
            damped ? "critically damped"
            : near ? "too near"
-                  : "kept"});
+                  : "met"});
       rows.back().back() += beyondMark(system_.tables(), peak.speed);
     }
     page_.part(fmt::format("Amplification factors and separation margins at {:.5g} rad/s", speed_));

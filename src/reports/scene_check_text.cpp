@@ -69,7 +69,8 @@ std::string inputText(const InputCheck& check) {
                          signal.frequency, signal.phase < 0.0 ? "-" : "+", std::fabs(signal.phase));
     case InputSignal::Kind::kTable:
       return fmt::format("a table of {} values ({}), {}, from t = {:g} s to {:g} s",
-                         signal.values.size(), unit, signal.hold ? "held" : "linear interpolation",
+                         signal.values.size(), unit,
+                         signal.hold ? "zero-order hold" : "linear interpolation",
                          static_cast<double>(signal.instants.front()) / 1e9,
                          static_cast<double>(signal.instants.back()) / 1e9);
     case InputSignal::Kind::kControlled:

@@ -174,7 +174,7 @@ std::string text(const Study& study, const Answers& answers) {
     text += tableOf(study, study.measures[k].name,
                     {{"mean magnitude of effects", &m.mean_magnitude},
                      {"mean", &m.mean},
-                     {"deviation", &m.deviation}},
+                     {"standard deviation", &m.deviation}},
                     noteOf(m.mean, m.left_out, "trajectories"));
   }
   return text;

@@ -255,7 +255,7 @@ class Player {
     next_show_ = Clock::now() + kOften;
     const std::string rate = rate_ > 0.0 ? fmt::format("x {:g}", rate_) : "max";
     fmt::print(stderr, "\r{:10.3f} of {:.3f} s  {}  {}  \x1b[K{}", inSeconds(at_),
-               inSeconds(*log_.end()), rate, held_ ? "held" : "", last ? "\n" : "");
+               inSeconds(*log_.end()), rate, held_ ? "paused" : "", last ? "\n" : "");
     std::fflush(stderr);
   }
 

@@ -104,7 +104,7 @@ class Commands(NodeTrial):
         answer = self.ask('set_parameter', SetParameter, 'rotor', 'damping', -1.0, 0.0, [], [])
         self.assertFalse(answer.success)
         self.assertIn('must be', answer.message, 'the words of the simulation')
-        self.assertTrue(wait_until(lambda: self.diagnosed('taker: commands', OK, '^/remote on .* commands')))
+        self.assertTrue(wait_until(lambda: self.diagnosed('taker: commands', OK, '^/remote on .* has the command')))
         values = {value.key: value.value for value in self.status['taker: commands'].values}
         self.assertGreater(float(values['time from command to answer, 50 % [s]']), 0.0)
 

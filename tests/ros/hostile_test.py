@@ -140,11 +140,11 @@ class Hostile(NodeTrial):
         self.expect(lambda: self.steps > 4000 and speeds and self.says(terminal, 'rotor:'), simulation, bridge)
         self.scene(UNSTABLE, '/other')
         other = self.start('simulation_node', '_realtime:=ignore', '_lcm_prefix:=TWIN_', '__ns:=/other')
-        self.expect(lambda: self.says(watch, r'/other/simulation_node on .* sends as this twin, too.* are left out'), watch)
+        self.expect(lambda: self.says(watch, r'duplicate publisher: /other/simulation_node on .* ignored'), watch)
         self.expect(lambda: self.left_out() > 1000, bridge)
         self.end(other)
         intruder = self.start('simulation_node', '_realtime:=ignore', '_lcm_url:=', '__name:=intruder')
-        self.expect(lambda: self.says(terminal, '/intruder publishes as this twin, too, beside /simulation_node'), terminal)
+        self.expect(lambda: self.says(terminal, '/intruder also publishes as this twin, beside /simulation_node'), terminal)
         self.end(intruder)
         self.assertEqual(speeds, {SLOW})
         # One that takes its place is followed.

@@ -313,7 +313,7 @@ TEST(AlarmList, IsBySeverityAndCountsWhatItLeavesOut) {
   AlarmList list = alarmList(alerts, 20);
   EXPECT_EQ(list.title, "3 alarms, 1 of them danger");
   EXPECT_EQ(list.danger, std::vector<std::string>{"DANGER fan UNSTABLE"});
-  EXPECT_EQ(list.warning, std::vector<std::string>{"WARNING pump LOW_DAMPING (seen)"});
+  EXPECT_EQ(list.warning, std::vector<std::string>{"WARNING pump LOW_DAMPING (acknowledged)"});
   EXPECT_EQ(list.info, std::vector<std::string>{"INFO twin LCM_LOST"});
   list = alarmList(alerts, 1);
   EXPECT_EQ(list.danger.size(), 1U);
@@ -341,9 +341,9 @@ TEST(LoopHealth, TellsLateStepsTheRealTimeFactorAndSilence) {
   health.take(loopOf(3, 1.0), 10.0);
   EXPECT_EQ(health.severity(10.5), Alert::INFO) << "late long ago, before anybody looked";
   EXPECT_EQ(health.lines(10.5),
-            (std::vector<std::string>{"loop: 1000 steps/s", "  1.00 of real time (1 asked)",
-                                      "  late 3, left out 0", "  unpublished 0",
-                                      "  wakes 12 us late", "  steps in 1.3 ms"}));
+            (std::vector<std::string>{"loop: 1000 steps/s", "  1.00 of real time (1 requested)",
+                                      "  overruns 3, skipped 0", "  unpublished 0",
+                                      "  wake-up latency 12 us", "  step takes 1.3 ms"}));
   health.take(loopOf(5, 1.0), 11.0);
   EXPECT_EQ(health.severity(11.5), Alert::WARNING);
   EXPECT_EQ(health.lines(11.5)[4], "  2 of them recently");
@@ -359,7 +359,7 @@ TEST(LoopHealth, TellsLateStepsTheRealTimeFactorAndSilence) {
   held.paused = true;
   health.take(held, 22.0);
   EXPECT_EQ(health.severity(22.5), Alert::INFO);
-  EXPECT_EQ(health.lines(22.5)[1], "  held");
+  EXPECT_EQ(health.lines(22.5)[1], "  paused");
 }
 
 TEST(TwinPanel, ASilentMonitorsAlarmsAreNotPassedOffAsTheLatest) {
