@@ -179,9 +179,9 @@ std::string newScene(const ModelInfo& model, const YAML::Node& example, const st
   lines.plain(fmt::format("# {}: {}", model.name, model.summary));
   lines.plain("#");
   lines.plain(
-      "# All values are in SI units: m, kg, s, rad, N. Keys behind a # show their defaults: remove "
-      "the");
-  lines.plain("# # to set them. `twin check FILE` prints all errors of the file,");
+      "# All values are in SI units: m, kg, s, rad, N. Keys in comments show their defaults: "
+      "remove the");
+  lines.plain("# comment sign to set them. `twin check FILE` prints all errors of the file,");
   lines.plain("# or what is modelled.");
   lines.plain(fmt::format("name: my_{}", model.name));
   lines.add(0, "step: " + (example["step"] ? flow(example["step"]) : std::string("0.001")),

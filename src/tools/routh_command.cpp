@@ -295,7 +295,7 @@ void addRouthCommand(const ProgramCommand& twin, int& status) {
       .type("");
   command
       .option("--parameter", request->parameter,
-              "NAME: find its values for which the polynomial is stable")
+              "name of a parameter: find its values for which the polynomial is stable")
       .type("K");
   addCsvOption(command, request->csv);
   command.flag("--json", request->json, "print one JSON object");
