@@ -46,10 +46,10 @@ void Simulation::goOnFrom(const std::string& path) {
   requireScene(from, checkpoint_.scene, path);
   if (from.live["changes"]) {
     throw Refusal(
-        fmt::format("{}: parameters were changed live; let simulation_node go on from it", path));
+        fmt::format("{}: parameters were changed live; resume it with simulation_node", path));
   }
   if (from.step >= plan_.steps) {
-    throw Refusal(fmt::format("--duration: must end behind step {}, where {} is, found {} steps",
+    throw Refusal(fmt::format("--duration: must be more than the {} steps of {}, found {} steps",
                               from.step, path, plan_.steps));
   }
   putBack(from, twin_, path);
