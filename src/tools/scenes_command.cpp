@@ -17,7 +17,8 @@ namespace whirl_twin {
 namespace {
 
 constexpr const char* kScenesDescription =
-    "Lists the scenes of the package, or those of a folder: what each shows, what to watch, and its\n"
+    "Lists the scenes of the package, or those of a folder: what each shows, what to watch, and "
+    "its\n"
     "systems with their models.";
 
 constexpr const char* kScenesFooter =
