@@ -54,7 +54,7 @@ TEST(Linear, RefusesWhatDoesNotFitTogether) {
   EXPECT_EQ(refused({{"d", two}}),
             "d: must be 2 x 3, a row per output, a column per measured signal, found 2 x 2");
   EXPECT_EQ(refused({{"a", two_by_three}, {"b", two_by_three}, {"c", two}}),
-            "a: must be 2 x 2, a row and a column a state, found 2 x 3");
+            "a: must be 2 x 2, a row and a column per state, found 2 x 3");
   EXPECT_EQ(refused({{"a", two}, {"b", two}, {"c", two}}),
             "b: must be 2 x 3, a row per state, a column per measured signal, found 2 x 2");
   EXPECT_EQ(refused({{"a", two}, {"b", two_by_three}, {"c", two_by_three}}),

@@ -112,7 +112,7 @@ TEST(Lqr, RefusesAtTheSettingThatIsWrong) {
             "q: an lqr must measure all 4 states, found 3 signals with 3 states; lqg estimates the "
             "others");
   EXPECT_EQ(refused("lqr", with("q", row({1, 1, 1, 1})), planOf(20.0, 4)).substr(0, 47),
-            "q: needs a linear plant: the");
+            "q: needs a linear plant: the systems it acts on");
   EXPECT_EQ(refused("lqg", with("sensor_noise", row({1, 1})), plan),
             "sensor_noise: must be 1 x 4, a number per measured signal, found 1 x 2");
   // Nothing moves the unstable mass: no gain holds it.

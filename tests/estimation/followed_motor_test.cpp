@@ -105,7 +105,7 @@ TEST(FollowedMotor, WhoseSpinIsMeasuredByAnotherSensorIsRefused) {
     readFollowedScene(YAML::Load(scene), "a test");
     FAIL() << "read";
   } catch (const Refusal& refusal) {
-    EXPECT_THAT(refusal.what(), HasSubstr("sensors.probes.y: measures the spin"));
+    EXPECT_THAT(refusal.what(), HasSubstr("sensors.probes.y: must not measure the spin"));
   }
 }
 

@@ -140,7 +140,7 @@ TEST(RecordingOrder, TheTimeThatGoesBackIsRemarked) {
   std::vector<Row> rows = Motion().rows(100, 0.01);
   std::rotate(rows.begin(), rows.begin() + 40, rows.end());
   EXPECT_THAT(settled(rows).data.remarks.front(),
-              HasSubstr("the time goes back at 1 row, the first is row 61: taken in the order"));
+              HasSubstr("the time goes back at 1 row, the first is row 61: sorted by time"));
 }
 
 TEST(RecordingOrder, TwoRunsInOneFileAreRefused) {

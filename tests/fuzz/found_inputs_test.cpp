@@ -120,7 +120,7 @@ TEST(FoundInputs, ANameIsShownAndNotObeyed) {
   EXPECT_FALSE(hasControls(end.out));
   EXPECT_TRUE(
       contains(linesOf(end.out).front(),
-               "scene 'x\\x1b[2J\\x1b[31mred\\x0asound.yaml: scene 'other' is sound' is sound"))
+               "scene 'x\\x1b[2J\\x1b[31mred\\x0asound.yaml: scene 'other' is sound' is valid"))
       << end.out;
 }
 

@@ -143,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "modes: must be a whole number >= 0 or auto, found 'many'"},
         Refusal{withShaft("modes: 2.5"), "modes: must be a whole number >= 0 or auto, found 2.5"},
         Refusal{withShaft("modes: 29"),
-                "modes: must be auto or a whole number from 0 to 28, four a node, found 29"},
+                "modes: must be auto or a whole number from 0 to 28, four per node, found 29"},
         Refusal{withShaft("bearing_tables: [{bearing: 0, speed: 1}]"),
                 "bearing_tables[0].bearing: needs a row in bearings to refer to"},
         Refusal{withShaft("bearings: [{node: 0}], bearing_tables: [{bearing: 1, speed: 1}]"),
@@ -282,7 +282,7 @@ TEST(FlexibleRotorScene, SaysWhatIsUnusual) {
       "youngs_modulus: 2.0e+11, shear_modulus: 1.2e+11, density: 7800, modes: 0, elements: "
       "[{length: 125, outer_diameter: 5, count: 2}]");
   EXPECT_NE(setup.note.find("shear_modulus = 1.2e+11 Pa is outside"), std::string::npos);
-  EXPECT_NE(setup.note.find("a shaft 250 m long; lengths are in m"), std::string::npos)
+  EXPECT_NE(setup.note.find("the shaft is 250 m long; lengths are in m"), std::string::npos)
       << setup.note;
 }
 
@@ -297,7 +297,7 @@ TEST(FlexibleRotorScene, SaysWhatNoShaftAndNoDiscIs) {
         .note;
   };
   EXPECT_EQ(noteOf(0.03, 0.2), "");
-  EXPECT_EQ(noteOf(10.0, 0.2), "a shaft 10 m thick, 0.24 m long; lengths are in m");
+  EXPECT_EQ(noteOf(10.0, 0.2), "the shaft is 10 m thick and 0.24 m long; lengths are in m");
   EXPECT_EQ(
       noteOf(0.03, 1.0),
       "discs[0]: polar_inertia, 1 kg m^2, should be at most twice transverse_inertia, 0.1 kg m^2");

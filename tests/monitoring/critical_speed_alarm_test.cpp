@@ -66,7 +66,7 @@ TEST(CriticalSpeedAlarm, TheApproachSaysWhenWhereAndWhatToDo) {
   rotor.move(200.0, 20.0);
   EXPECT_EQ(rotor.event(kApproach, true).text,
             "rotor: critical speed 100.0 rad/s (955 rpm), band entered in 2.0 s at 20 rad/s^2: "
-            "do not dwell between 80.0 and 120.0 rad/s");
+            "do not dwell between 80.0 rad/s (764 rpm) and 120.0 rad/s (1146 rpm)");
 }
 
 TEST(CriticalSpeedAlarm, AMoveThatStopsBeforeTheBandDoesNotWarn) {

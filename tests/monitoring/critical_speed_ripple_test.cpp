@@ -197,10 +197,9 @@ TEST(CriticalSpeedCountdown, ThatWouldTakeForEverIsNone) {
   rotor.see(79.0, 1.0e-13, kNaN);
   const state::Alert approach = rotor.event(kApproach, true);
   EXPECT_TRUE(std::isnan(approach.time_to_entry));
-  EXPECT_EQ(
-      approach.text,
-      "rotor: critical speed 100.0 rad/s (955 rpm), close to 79.0 rad/s: do not dwell between "
-      "80.0 and 120.0 rad/s");
+  EXPECT_EQ(approach.text,
+            "rotor: critical speed 100.0 rad/s (955 rpm), close to 79.0 rad/s (754 rpm): do not "
+            "dwell between 80.0 rad/s (764 rpm) and 120.0 rad/s (1146 rpm)");
 }
 
 }  // namespace critical_speed_ripple_test

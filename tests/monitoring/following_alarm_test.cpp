@@ -157,8 +157,8 @@ TEST(FollowingAlarm, ADriftTellsWhichFromWhereToWhereAndSinceWhen) {
 }
 
 TEST(FollowingAlarm, AChannelThatIsNotUsedForLongIsNamed) {
-  for (const auto& [status, how] :
-       {std::pair(1, "is silent"), std::pair(2, "is refused"), std::pair(3, "is invalid")}) {
+  for (const auto& [status, how] : {std::pair(1, "has no new samples"), std::pair(2, "is rejected"),
+                                    std::pair(3, "is invalid")}) {
     Told told;
     told.follow.channel_status[1] = static_cast<std::uint8_t>(status);
     told.tell(1.9);
@@ -188,13 +188,13 @@ TEST(FollowingAlarm, ShaftAndClockAreSensorsToo) {
   told.follow.clock_offset = -3600.0;  // somebody has set it by an hour
   told.tell(2.2);
   const std::string text = told.text(alert_type::kSensor);
-  EXPECT_TRUE(has(text, "the shaft's angle is not known")) << text;
+  EXPECT_TRUE(has(text, "the shaft's angle is unknown")) << text;
   EXPECT_TRUE(has(text, "the machine's clock has an offset of -3.6e+03 s")) << text;
   told.follow.shaft_known = true;
   told.follow.clock_offset = 0.0;
   told.follow.clock_drift = 1.0e-3;
   told.tell(4.0);
-  EXPECT_TRUE(has(told.text(alert_type::kSensor), "gains +0.001 s in a second"));
+  EXPECT_TRUE(has(told.text(alert_type::kSensor), "drifts by +0.001 s/s"));
 }
 
 TEST(FollowingAlarm, WhatIsNotThereIsNotMissed) {

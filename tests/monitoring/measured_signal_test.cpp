@@ -200,14 +200,14 @@ TEST(MeasuredSignal, WhatIsNotOkRaisesAndClearsNothing) {
     };
   };
   const std::vector<Fault> faults = {
-      {"not valid: probes/left",
+      {"invalid: probes/left",
        of_left([](state::Measurement& block, std::size_t i) { block.valid[i] = i % 40 != 0; })},
       {"not finite: probes/left", of_left([](state::Measurement& block, std::size_t i) {
          block.value[i] = i % 40 == 0 ? std::numeric_limits<double>::quiet_NaN() : 0.0;
        })},
       {"stuck: probes/left",
        of_left([](state::Measurement& block, std::size_t i) { block.value[i] = 1.0e-6; })},
-      {"silent: probes/left for",
+      {"timeout: no sample of probes/left for",
        [](state::Measurement& block) { return block.source != "probes"; }},
       {"out of range: measured whirl", of_left([](state::Measurement& block, std::size_t i) {
          block.value[i] = 1.0e-3;

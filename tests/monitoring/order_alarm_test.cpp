@@ -157,7 +157,7 @@ TEST(Rub, IsToldByWhatWhirlsBackward) {
   told.circles(60e-6, 500e-6);
   told.tell(0.2);
   EXPECT_EQ(told.rub()->severity, state::Severity::kDanger);
-  EXPECT_NE(told.rub()->text.find("stop it"), std::string::npos) << told.rub()->text;
+  EXPECT_NE(told.rub()->text.find("stop the machine"), std::string::npos) << told.rub()->text;
   told.circles(60e-6, 1e-6);
   told.tell(1.3);
   EXPECT_EQ(told.rub(), nullptr);

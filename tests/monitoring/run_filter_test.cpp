@@ -43,7 +43,8 @@ TEST(ARunFilter, LetsOneOfTwoTwinsPassAndNamesTheOther) {
   EXPECT_EQ(watched.passed, 1000);
   EXPECT_EQ(other.passed, 0);
   EXPECT_EQ(filter.ofOthers(), 707U);  // and seven statistics
-  EXPECT_EQ(filter.duplicate(10.0), "second sends as this twin, too, beside first");
+  EXPECT_EQ(filter.duplicate(10.0),
+            "duplicate publisher: second publishes as this twin beside first");
 }
 
 TEST(ARunFilter, FollowsATwinThatIsStartedAgain) {

@@ -158,8 +158,9 @@ TEST_F(StabilityAlarmTest, SaysWhatToDoAboutIt) {
   margin.nearest_change = -0.25;
   without_threshold.update(margin, near);
   ASSERT_NE(near.find("rotor", alert_type::kLowDamping), nullptr);
-  EXPECT_NE(near.find("rotor", alert_type::kLowDamping)->text.find("; damping changed by -25 %"),
-            std::string::npos);
+  EXPECT_NE(
+      near.find("rotor", alert_type::kLowDamping)->text.find("; unstable if damping falls by 25 %"),
+      std::string::npos);
 
   AlertList falling;
   StabilityAlarm without_shaft("pendulum", AlarmSettings());

@@ -95,8 +95,9 @@ TEST_P(Stopped, IsDangerAndTellsItsCauseInOneSentence) {
   const state::Alert* alert = list.find("rotor", type);
   ASSERT_NE(alert, nullptr);
   EXPECT_EQ(alert->severity, state::Severity::kDanger);
-  EXPECT_EQ(alert->text, std::string("rotor: stopped in step 41 (t = 0.041 s), ") + words +
-                             "; last good state: x = 0 m, x_rate = 0 m/s, y = 0 m, y_rate = 0 m/s");
+  EXPECT_EQ(alert->text,
+            std::string("rotor: stopped in step 41 (t = 0.041 s), ") + words +
+                "; last valid state: x = 0 m, x_rate = 0 m/s, y = 0 m, y_rate = 0 m/s");
   list.takeChanged();
   alarm.updateStopped(2.0, status, why, list);
   EXPECT_FALSE(list.takeChanged());

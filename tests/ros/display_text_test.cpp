@@ -49,7 +49,7 @@ TEST(FollowText, TellsParametersToTheirDeviationsAndWhatIsNotUsed) {
   follow.mismatch = kNan;
   EXPECT_EQ(followLines(follow),
             (std::vector<std::string>{"stiffness 7123 +- 12 N/m", "coulomb1 0.00029 +- 5.9e-05 N m",
-                                      "gone nan", "known 0.25", "probes/y refused"}));
+                                      "gone nan", "known 0.25", "probes/y rejected"}));
   follow.mismatch = 1.21;
   EXPECT_EQ(followLines(follow).back(), "residual 1.10 of that expected");
   follow.parameter_unit.clear();  // no message of ours
@@ -65,7 +65,7 @@ TEST(StatusText, WrapsAngles) {
 }
 
 TEST(StatusText, GivesWhirlInMicrometresAndTheLagOnlyWhereItExists) {
-  EXPECT_EQ(vibrationText(123.44e-6), "vibration 123.4 um");
+  EXPECT_EQ(vibrationText(123.44e-6), "vibration 123.4 um 0-peak");
   EXPECT_EQ(vibrationText(NAN), "");
   OrderState orders;
   orders.valid = true;
@@ -79,7 +79,7 @@ TEST(StatusText, GivesWhirlInMicrometresAndTheLagOnlyWhereItExists) {
   orders.mean_y = -23.0e-6;
   EXPECT_EQ(ordersText(orders), "1X 120.0 um, lag 90.0 deg, forward");
   orders.mean_y = -50.0e-6;
-  EXPECT_EQ(ordersText(orders), "1X 120.0 um, lag 90.0 deg, forward, middle 50.0 um from the axis");
+  EXPECT_EQ(ordersText(orders), "1X 120.0 um, lag 90.0 deg, forward, mean 50.0 um from the axis");
   orders.mean_y = 0.0;
   orders.deviation = {1.0e-3};
   EXPECT_EQ(ordersText(orders), "1X 120.0 um, forward");
@@ -184,7 +184,7 @@ TEST(TerminalText, VibrationIsWithoutSag) {
   }
   readout.whirl = whirl;
   EXPECT_EQ(readoutText("rotor", readout),
-            "rotor: speed 100.00 rad/s (954.9 rpm), vibration 20.0 um");
+            "rotor: speed 100.00 rad/s (954.9 rpm), vibration 20.0 um 0-peak");
 }
 
 TEST(TerminalText, AlertsAreToldWhenTheyComeChangeAndGo) {

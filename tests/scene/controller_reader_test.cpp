@@ -82,8 +82,8 @@ TEST(ControllerReader, SaysAllThatIsWrongAtOnce) {
           testing::HasSubstr("controllers.2x.measures: must be a list of 1 to 64 signals"),
           testing::HasSubstr("controllers.2x.acts_on: must be a list of 1 to 64 inputs, found 0"),
           testing::HasSubstr("controllers.q.parameters.kpp: unknown parameter of pid"),
-          testing::HasSubstr("controllers.w.acts_on[0]: 'r.force_x' is acted on by a controller "
-                             "already"),
+          testing::HasSubstr(
+              "controllers.w.acts_on[0]: 'r.force_x' is already acted on by a controller"),
           testing::HasSubstr("controllers.late.delay: must be at most 10000 samples")));
 }
 
@@ -95,7 +95,8 @@ TEST(ControllerReader, NoneIsNamedAsASystem) {
       testing::ElementsAre(testing::HasSubstr("controllers.S: duplicate: a system or a station has "
                                               "this name, and parameters are published by name")));
   EXPECT_THAT(complaintsOf(withControllers("{drives" + law + "}")),
-              testing::ElementsAre(testing::HasSubstr("controllers.drives: a controller cannot")));
+              testing::ElementsAre(testing::HasSubstr(
+                  "controllers.drives: the name of a controller must not be this")));
 }
 
 TEST(ControllerReader, MembersOfAnEnsembleHaveNone) {
@@ -216,9 +217,10 @@ TEST(ControllerReader, JitterIsNoMoreThanTheMean) {
   EXPECT_THAT(complaintsOf(withControllers(
                   "{pd: {type: pid, rate: 100.0, delay: {mean: 0.01, jitter: 0.02, sed: 1}, "
                   "measures: [s.x], acts_on: [s.force_x], parameters: {kp: 1.0}}}")),
-              testing::ElementsAre(testing::HasSubstr("controllers.pd.delay.sed: unknown key"),
-                                   testing::HasSubstr("controllers.pd.delay.jitter: must be at "
-                                                      "most the mean, 0.01 s")));
+              testing::ElementsAre(
+                  testing::HasSubstr("controllers.pd.delay.sed: unknown key"),
+                  testing::HasSubstr(
+                      "controllers.pd.delay.jitter: must be at most the mean delay, 0.01 s")));
 }
 
 TEST(PartOfAScene, KeepsTheControllersThatHaveToDoWithNothingElse) {

@@ -166,7 +166,7 @@ TEST(StudyReader, RefusesOptimaThatCannotBeLookedFor) {
               "bobyqa needs at least two parameters");
   EXPECT_SAYS(optimized("{minimize: critical, over: [rotor.stiffness], method: crs}",
                         "require: {critical: \"> 1\"}"),
-              "crs knows no requirements");
+              "crs has no requirements");
   EXPECT_SAYS(optimized("{minimize: critical, evaluations: 0, tolerance: 0}"),
               "optimize.evaluations: must be");
   EXPECT_SAYS(optimized("{minimize: critical}", "design: {monte_carlo: 3}"),

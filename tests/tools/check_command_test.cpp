@@ -147,7 +147,7 @@ TEST(Check, ShowsOneSystemOnly) {
 TEST(Check, ReportIsForReaders) {
   const Ending end = twin({"check", kDemo});
   EXPECT_EQ(end.status, 0);
-  for (const char* part : {"scene 'demo' is sound", "rotor: jeffcott_rotor",
+  for (const char* part : {"scene 'demo' is valid", "rotor: jeffcott_rotor",
                            "x (m), y (m): 4 states", "driven by shaft", "/twin/rotor/whirl",
                            "TWIN_ROTOR_WHIRL", "a step costs", "times faster than real time"}) {
     EXPECT_NE(end.out.find(part), std::string::npos) << part << "\n" << end.out;

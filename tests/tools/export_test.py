@@ -237,7 +237,7 @@ class Export(unittest.TestCase):
         self.refused(self.log, '--csv', self.path('tables'))
         self.export(self.log, '--csv', self.path('tables'), '--force')
         self.assertIn('mine.txt', os.listdir(self.path('tables')))
-        self.assertIn('another file', self.refused(self.log, '--mcap', self.log, '--force'))
+        self.assertIn('must differ from', self.refused(self.log, '--mcap', self.log, '--force'))
 
     def test_a_full_disk_is_said(self):
         for option in ('--mcap', '--bag'):

@@ -130,7 +130,7 @@ class MeasuredAlone(unittest.TestCase):
         self.assertTrue(once)
         for mass_radius in found:
             self.assertAlmostEqual(mass_radius / truth, 1.0, delta=0.01)
-        self.assertTrue(any('1 wild sample' in note for note in report['notes']), report['notes'])
+        self.assertTrue(any('1 implausible sample' in note for note in report['notes']), report['notes'])
 
 
 if __name__ == '__main__':

@@ -156,7 +156,7 @@ class Recordings(unittest.TestCase):
             self.assertEqual(other['systems']['p'], in_order)
             self.assertEqual(other['restarts'], 0)
             self.assertAlmostEqual(other['duration'], 3.0, delta=0.02)
-            self.assertIn('taken in the order of their recorded times', other['remarks'][0])
+            self.assertIn('sorted by their recorded times', other['remarks'][0])
 
     def test_a_bag_written_topic_by_topic_is_followed_by_time(self):
         two = (SCENE % (0.21, 0.01)).replace('p: {model', 'a: {model').replace('measures: p', 'measures: a')
@@ -176,7 +176,7 @@ class Recordings(unittest.TestCase):
 
     def test_two_runs_in_one_bag_are_refused(self):
         run = bag(encoder(SWING) + encoder(swing(-0.7, 0.0, 3.0)))
-        self.refused('must be one run, found two', 'follow', self.path('scene.yaml'), self.file('run.bag', run),
+        self.refused('must have one run, found two', 'follow', self.path('scene.yaml'), self.file('run.bag', run),
                      '--lcm-prefix', 'MACHINE_')
 
     def test_an_input_without_a_sample_is_refused(self):
@@ -280,7 +280,7 @@ class Recordings(unittest.TestCase):
                       ''.join('%g,%.9g\n' % (t, scale * q) for t, q in rows))
             told = self.assertRight(self.fitted('run.csv', cells))
             remarks = ' '.join(told['runs']['run.csv']['remarks'])
-            self.assertIn('counts within a turn', remarks)
+            self.assertIn('is a wrapped angle', remarks)
         # As it is: the remark stays, and nothing is changed.
         told = json.loads(self.fitted('run.csv', cells, ', wrap: false').stdout)
         self.assertNotIn('counts within', ' '.join(told['runs']['run.csv']['remarks']))
@@ -289,7 +289,7 @@ class Recordings(unittest.TestCase):
     @unittest.skipUnless(FITS == 'ON', 'without Ceres there is no fit')
     def test_whatever_becomes_of_a_recording_the_result_is_right_or_refused(self):
         dice = random.Random(3)
-        causes = ('gap', 'found two', 'three rows per turn', 'counts within a turn')
+        causes = ('gap', 'found two', 'three rows per turn', 'is a wrapped angle')
         right = 0
         kinds = ('table', 'bag')
         for trial in range(12):

@@ -218,7 +218,7 @@ TEST_F(DivergingScene, NamesTheSystemAndLetsTheOthersGoOn) {
   EXPECT_EQ(end.status, 1);
   ASSERT_EQ(linesOf(end.err).size(), 1u) << end.err;
   for (const char* part : {"twin: wild: stopped in step ", "(t = ", "state not finite",
-                           "last good state: x = ", "y_rate = "}) {
+                           "last valid state: x = ", "y_rate = "}) {
     EXPECT_NE(end.err.find(part), std::string::npos) << end.err;
   }
   const Json wild = end.json()["systems"]["wild"];

@@ -51,7 +51,7 @@ TEST(Resume, RefusesWhatItCannotGoOnFrom) {
                                              checkpoint + " is, found 1000 steps\n");
   EXPECT_EQ(whyNot({"--step", "0.002"})
                 .find("twin: " + checkpoint +
-                      ": was saved of another scene\n"
+                      ": must be saved from the same scene\n"
                       "  step: expected 2000000 ns, found 1000000 ns\n"),
             0U);
   const std::string bytes = contentsOf(checkpoint);

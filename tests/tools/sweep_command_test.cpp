@@ -291,7 +291,7 @@ class SweepOnADisk : public testing::Test {
               0);
     EXPECT_EQ(contentsOf(status), "1\n");
     EXPECT_NE(contentsOf(said).find("cannot be written: " + refusal +
-                                    "; what was finished before is kept"),
+                                    "; the previous file is kept"),
               std::string::npos)
         << contentsOf(said);
     EXPECT_EQ(files_.results("after"), files_.results("whole"));

@@ -469,7 +469,7 @@ TEST_F(File, OfAnotherSceneItIsRefusedByWhatIsOther) {
   EXPECT_EQ(whyNotFor(yaml), "");
   replace("stiffness: 10000", "stiffness: 2.5e4");
   EXPECT_EQ(whyNotFor(yaml),
-            "run.checkpoint: was saved of another scene\n"
+            "run.checkpoint: must be saved from the same scene\n"
             "  systems.rotor.parameters.stiffness: expected 25000, found 10000");
 }
 

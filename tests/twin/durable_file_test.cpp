@@ -76,7 +76,7 @@ TEST_F(DurableFileTest, SaysWhyItCannotBeWritten) {
     FAIL();
   } catch (const RunFailure& error) {
     EXPECT_EQ(error.what(), folder_ + "/none/file: cannot be written: No such file or directory; " +
-                                "what was finished before is kept");
+                                "the previous file is kept");
   }
 }
 

@@ -554,7 +554,7 @@ TEST(Ensemble, MembersThatDoNotFitTogetherAreNamed) {
     twin.buildEnsembles();
     FAIL() << "a clearance without a stator";
   } catch (const SceneError& error) {
-    EXPECT_NE(std::string(error.what()).find("systems.rotor.spread: member 0: "), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("systems.rotor.spread: sample 0: "), std::string::npos)
         << error.what();
   }
 }
