@@ -290,9 +290,9 @@ class SweepOnADisk : public testing::Test {
                               disk_ + "/r " + files_.file("after") + "; }"),
               0);
     EXPECT_EQ(contentsOf(status), "1\n");
-    EXPECT_NE(contentsOf(said).find("cannot be written: " + refusal +
-                                    "; the previous file is kept"),
-              std::string::npos)
+    EXPECT_NE(
+        contentsOf(said).find("cannot be written: " + refusal + "; the previous file is kept"),
+        std::string::npos)
         << contentsOf(said);
     EXPECT_EQ(files_.results("after"), files_.results("whole"));
   }
