@@ -59,10 +59,10 @@ TEST(Times, AreRoundedToWholeStepsAndItIsSaid) {
   for (const Case& c :
        {Case{{"--duration", "0.6666666666666666"},
              "twin: --duration: 0.6666666666666666 s is not a whole number of steps of 0.001 s: "
-             "0.667 s is taken\n",
+             "0.667 s is used\n",
              667},
         Case{{"--duration", "0.0004"},
-             "twin: --duration: 0.0004 s is not a whole number of steps of 0.001 s: 0 s is taken\n",
+             "twin: --duration: 0.0004 s is not a whole number of steps of 0.001 s: 0 s is used\n",
              0},
         Case{{"--duration", "0.1", "--sample", "0.0333333333333"},
              "twin: --sample: 0.0333333333333 s is not a whole number of steps of 0.001 s: 0.033 s "

@@ -72,7 +72,7 @@ TEST(TableSpeeds, MarkEveryResultBeyond) {
   for (const std::vector<std::string>& command : commands) {
     const Ending end = twin(command);
     ASSERT_EQ(end.status, 0) << end.err;
-    EXPECT_NE(end.out.find("beyond the tables"), std::string::npos) << command[0];
+    EXPECT_NE(end.out.find("outside the tables"), std::string::npos) << command[0];
     std::vector<std::string> drawn = command;
     const std::string picture = folder.file(command[0] + ".svg");
     drawn.insert(drawn.end(), {"--plot", picture});
@@ -80,7 +80,7 @@ TEST(TableSpeeds, MarkEveryResultBeyond) {
   }
   const Ending analysis = twin({"analyze", scene, "--at", "6"});
   ASSERT_EQ(analysis.status, 0) << analysis.err;
-  EXPECT_NE(analysis.out.find("beyond the tables"), std::string::npos);
+  EXPECT_NE(analysis.out.find("outside the tables"), std::string::npos);
   for (const char* speed : {"50", "200"}) {
     const Ending modes = twin({"modes", scene, "--speed", speed, "--json"});
     EXPECT_EQ(modes.json()["systems"]["rotor"]["beyond_tables"], std::string(speed) == "200");
@@ -91,7 +91,7 @@ TEST(TableSpeeds, AreLeftByARunUpWithAWarning) {
   const TemporaryDirectory folder;
   const std::string scene = folder.write("scene.yaml", kTabulated);
   const Ending check = twin({"check", scene});
-  EXPECT_NE(check.out.find("warning       the shaft turns at 20 to 300 rad/s, in part beyond the "
+  EXPECT_NE(check.out.find("warning       the shaft turns at 20 to 300 rad/s, in part outside the "
                            "tables"),
             std::string::npos)
       << check.out;
@@ -138,7 +138,7 @@ TEST(FilmSpeeds, MarkResultsOfAShaftThatTouches) {
     const auto json = twin({"modes", scene, "--speed", speed, "--json"}).json();
     EXPECT_EQ(json["systems"]["rotor"]["beyond_tables"], beyond) << speed;
     const Ending modes = twin({"modes", scene, "--speed", speed});
-    EXPECT_EQ(modes.out.find("beyond the films") != std::string::npos, beyond) << modes.out;
+    EXPECT_EQ(modes.out.find("outside the film range") != std::string::npos, beyond) << modes.out;
   }
   const auto campbell =
       twin({"campbell", scene, "--to", "300", "--json"}).json()["systems"]["rotor"];
@@ -154,7 +154,7 @@ TEST(FilmSpeeds, AreLeftWithAWarningWhereTheFilmsNeverCarry) {
   const TemporaryDirectory folder;
   const std::string speed = "speed: " + std::to_string(0.5 * slowestInFilms());
   const Ending slow = twin({"check", folder.write("slow.yaml", inFilms(speed))});
-  EXPECT_NE(slow.out.find("beyond the films"), std::string::npos) << slow.out;
+  EXPECT_NE(slow.out.find("outside the film range"), std::string::npos) << slow.out;
 }
 
 // A motor takes the shaft to where its torque is its drag, T = 8 - 0.02 w: 400 rad/s, beyond the
@@ -167,7 +167,7 @@ TEST(TableSpeeds, AreLeftByAMotorWithAWarning) {
                "  shaft: {motor: {stall_torque: 8.0, no_load_speed: 400.0}, speed: 20.0}\n");
   const std::string scene = folder.write("scene.yaml", text);
   const Ending check = twin({"check", scene});
-  EXPECT_NE(check.out.find("the motor can turn the shaft from 20 to 400 rad/s, in part beyond the "
+  EXPECT_NE(check.out.find("the motor can turn the shaft from 20 to 400 rad/s, in part outside the "
                            "tables"),
             std::string::npos)
       << check.out << check.err;
